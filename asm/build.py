@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Assemble the SKG firmware and say where the bytes went.
+
+    asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] OUT
+
+writes OUT.bin (padded to 8,192 bytes), OUT.hex, OUT.lst and OUT.sym and prints bytes per source file.
+The assembler is z88dk-z80asm when it is on the PATH (or SKG_ASM=z88dk), else asm80 from node_modules; both give the same bytes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ASM = Path(__file__).resolve().parent
+ROOT = ASM.parent
+ROM_SIZE = 8192
+#: Source files in the order in which they stand in the ROM; equ.asm first, since it only names things.
+FILES = ["equ", "start", "io", "calc", "float", "parser", "geom", "cut", "tape", "lexer", "monitor"]
+OPTIONS = {"BRD51": 0, "PTTY": 0}
+
+
+def fail(message: str) -> None:
+    """Print one line and end with exit code 1."""
+    print(f"build: {message}", file=sys.stderr)
+    sys.exit(1)
+
+
+def top_file(files: list[str], options: dict[str, int], include: str) -> str:
+    """The small top file: options, then every source between two labels that measure it."""
+    lines = [f"{name} EQU {value}" for name, value in options.items()]
+    lines.append("        ORG 0")
+    for file in files:
+        lines += [f"ZB{file.upper()}:", include.format(f"{file}.asm")]
+    return "\n".join([*lines, "ZBEND:", ""])
+
+
+def run(command: list[str], cwd: Path) -> str:
+    """Run an assembler; a failure ends the build with what it said."""
+    result = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
+    text = result.stdout + result.stderr
+    if result.returncode or "ERROR" in text:
+        kept = [line for line in text.splitlines() if line.strip() and not line.startswith(("Processing", "npm"))]
+        fail("\n  ".join(["the assembler says", *kept[-12:]]))
+    return text
+
+
+def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[bytes, dict[str, int], str]:
+    """Image, symbols and listing of the given files."""
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    for file in files:
+        shutil.copy(ASM / f"{file}.asm", work)
+    wanted = os.environ.get("SKG_ASM", "")
+    z88dk = next((path for name in ("z88dk-z80asm", "z88dk.z88dk-z80asm") if (path := shutil.which(name))), None)
+    if z88dk and wanted != "asm80":
+        (work / "top.asm").write_text(top_file(files, options, 'INCLUDE "{}"'))
+        run([z88dk, "-m8080_strict", "-b", "-l", "-m", "top.asm"], work)
+        pattern = re.compile(r"^(\w+)\s*=\s*\$([0-9A-F]+)", re.M)
+        symbols = {name.upper(): int(value, 16) for name, value in pattern.findall((work / "top.map").read_text())}
+    else:
+        asm80 = ROOT / "node_modules" / ".bin" / "asm80"
+        if not asm80.exists():
+            fail("no assembler: neither z88dk-z80asm on the PATH nor asm80 in node_modules (make asm80)")
+        (work / "top.asm").write_text(top_file(files, options, "        .include {}"))
+        run([str(asm80), "-m", "I8080", "-t", "bin", "top.asm"], work)
+        pattern = re.compile(r"^([A-Z_]\w*):\s+([0-9A-F]{4}) DEFINED", re.M)
+        symbols = {name: int(value, 16) for name, value in pattern.findall((work / "top.lst").read_text())}
+    return (work / "top.bin").read_bytes()[: symbols["ZBEND"]], symbols, (work / "top.lst").read_text()
+
+
+def intel_hex(image: bytes) -> str:
+    """Intel hex, 16 bytes a record."""
+    records = []
+    for start in range(0, len(image), 16):
+        data = image[start : start + 16]
+        record = bytes([len(data), start >> 8, start & 255, 0]) + data
+        records.append(f":{record.hex().upper()}{-sum(record) & 255:02X}")
+    return "\n".join([*records, ":00000001FF", ""])
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description="assemble the SKG firmware")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE")
+    parser.add_argument("--files", help="other source files, comma separated")
+    parser.add_argument("--limit", type=int, default=ROM_SIZE)
+    parser.add_argument("--quiet", action="store_true", help="no table of bytes")
+    parser.add_argument("out", type=Path)
+    args = parser.parse_args()
+    options = dict(OPTIONS)
+    for item in args.set:
+        name, _, value = item.partition("=")
+        if name not in options or value not in ("0", "1"):
+            fail(f"--set {item}: one of {', '.join(options)} with 0 or 1")
+        options[name] = int(value)
+    files = args.files.split(",") if args.files else FILES
+    image, symbols, listing = assemble(files, options, ROOT / "build" / "asm" / args.out.name)
+    if not args.quiet:
+        marks = [symbols[f"ZB{file.upper()}"] for file in files] + [symbols["ZBEND"]]
+        for file, begin, end in zip(files, marks, marks[1:], strict=False):
+            print(f"  {file + '.asm':12} {end - begin:5}")
+        print(f"  {'used':12} {len(image):5}   left {args.limit - len(image)} of {args.limit}")
+    if len(image) > args.limit:
+        fail(f"{len(image) - args.limit} bytes too many")
+    args.out.parent.mkdir(parents=True, exist_ok=True)
+    padded = image.ljust(ROM_SIZE, b"\xff")
+    args.out.with_suffix(".bin").write_bytes(padded)
+    args.out.with_suffix(".hex").write_text(intel_hex(padded))
+    args.out.with_suffix(".lst").write_text(listing)
+    names = sorted((v, k) for k, v in symbols.items() if not k.startswith("ZB"))
+    args.out.with_suffix(".sym").write_text("".join(f"{v:04X} {k}\n" for v, k in names))
+
+
+if __name__ == "__main__":
+    main()
