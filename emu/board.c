@@ -1,0 +1,383 @@
+/* The SKG board: memory, two serial ports, an operator. See board.h for the programmer's view. */
+#include "board.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PORT_TTY = 0x10,        /* first port of the teletype's pair */
+    PORT_AUX = 0x12,        /* of the punch's and reader's */
+    POLLS_TO_TYPE = 8,
+    POLLS_TO_WAIT = 64,
+    POLL_GAP = 250,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
+    NO_ANSWER = 0xff        /* what an open bus reads */
+};
+
+enum { DC1 = 0x11, DC2 = 0x12, DC3 = 0x13, DC4 = 0x14 };
+
+/* Bits of the 6850's status and control, and of the 8251's status, mode and command. */
+enum { ACIA_RDRF = 0x01, ACIA_TDRE = 0x02, ACIA_RESET = 0x03 };
+enum {
+    USART_TXRDY = 0x01, USART_RXRDY = 0x02, USART_TXE = 0x04, USART_DSR = 0x80,
+    MODE_BAUD = 0x03, MODE_ONE_SYNC = 0x80,
+    COMMAND_TXEN = 0x01, COMMAND_RXEN = 0x04, COMMAND_RESET = 0x40
+};
+
+/* ---- queues ---- */
+
+static bool queue_add(board_queue *q, const uint8_t *bytes, size_t length)
+{
+    if (q->first == q->end) {
+        q->first = q->end = 0;
+    }
+    if (length > q->size - q->end) {
+        size_t size = q->end + length + 256;
+        uint8_t *grown = realloc(q->bytes, size);
+        if (!grown) {
+            return false;
+        }
+        q->bytes = grown;
+        q->size = size;
+    }
+    if (length) {
+        memcpy(q->bytes + q->end, bytes, length);
+    }
+    q->end += length;
+    return true;
+}
+
+static bool queue_empty(const board_queue *q)
+{
+    return q->first == q->end;
+}
+
+static uint8_t queue_take(board_queue *q)
+{
+    return q->bytes[q->first++];
+}
+
+/* ---- the teletype ---- */
+
+/* Keeps the present line as it stands on the paper. */
+static void follow_paper(board *b, uint8_t c)
+{
+    if (c == '\r' || c == '\n') {
+        b->line_length = 0;
+    } else if (c >= ' ' && c < 0x7f) {
+        if (b->line_length == BOARD_LINE) {
+            memmove(b->line, b->line + 1, BOARD_LINE - 1);
+            b->line_length--;
+        }
+        b->line[b->line_length++] = (char)c;
+    }
+    b->line[b->line_length] = '\0';
+    if (b->line_length == 4 && c == ' ' && !strcmp(b->line, "ERR ")) {
+        b->error_lines++;
+    }
+}
+
+static void tty_print(board *b, uint8_t byte)
+{
+    uint8_t c = byte & 0x7f;
+    if (b->punch_tty) {
+        if (c == DC1 || c == DC3) {
+            b->reader_on = c == DC1;
+        }
+        if (c == DC2 || c == DC4) {
+            b->punch_on = c == DC2;
+        } else if (b->punch_on && b->punch) {
+            b->punch(b->user, byte);
+        }
+    }
+    follow_paper(b, c);
+    if (b->paper) {
+        b->paper(b->user, c);
+    }
+}
+
+static uint64_t character_time(const board *b)
+{
+    if (!b->baud) {
+        return 0;
+    }
+    unsigned bits = b->baud <= 110 ? 11 : 10;   /* two stop bits for a mechanical teletype */
+    return (uint64_t)bits * BOARD_HZ / b->baud;
+}
+
+/* Puts the next character of the operator's into the receiver if it is due. */
+static void tty_arrive(board *b)
+{
+    board_uart *u = &b->tty;
+    if (u->full || b->cpu.cycles < u->arrived_at) {
+        return;
+    }
+    board_queue *from = NULL;
+    if (!queue_empty(&b->pressed)) {
+        from = &b->pressed;
+    } else if (b->polls >= POLLS_TO_TYPE) {
+        if (!queue_empty(&b->typed)) {
+            from = &b->typed;
+        } else if (b->punch_tty && b->reader_on && !queue_empty(&b->tape)) {
+            from = &b->tape;
+        }
+    }
+    if (from) {
+        u->received = queue_take(from);
+        u->full = true;
+        u->arrived_at = b->cpu.cycles + character_time(b);
+    }
+}
+
+/* The machine has looked whether there is a character and found none; `idle`: it could have sent one. */
+static void count_poll(board *b, bool idle)
+{
+    uint64_t now = b->cpu.cycles;
+    b->polls = idle && now - b->polled_at <= POLL_GAP ? b->polls + 1 : 0;
+    b->polled_at = now;
+    if (b->polls >= POLLS_TO_WAIT && board_idle(b)
+        && !(b->punch_tty && b->reader_on && !queue_empty(&b->tape))) {
+        b->waiting = true;
+        i8080_stop(&b->cpu);
+    }
+}
+
+/* ---- serial ports ---- */
+
+static bool is_tty(const board *b, const board_uart *u)
+{
+    return u == &b->tty;
+}
+
+/* What the status says of the two directions. */
+static bool can_send(const board *b, const board_uart *u)
+{
+    return u->sends && b->cpu.cycles >= u->sent_at;
+}
+
+static bool has_received(board *b, board_uart *u)
+{
+    if (!u->receives) {
+        return false;
+    }
+    if (is_tty(b, u)) {
+        tty_arrive(b);
+        if (!u->full) {
+            count_poll(b, can_send(b, u));
+        }
+    } else if (!u->full && !b->punch_tty && !queue_empty(&b->tape)) {
+        u->received = queue_take(&b->tape);
+        u->full = true;
+    }
+    return u->full;
+}
+
+static uint8_t read_data(board_uart *u)
+{
+    u->full = false;
+    return u->received;
+}
+
+static void write_data(board *b, board_uart *u, uint8_t byte)
+{
+    if (!can_send(b, u)) {
+        return;                 /* lost, as on the chip */
+    }
+    if (is_tty(b, u)) {
+        u->sent_at = b->cpu.cycles + character_time(b);
+        tty_print(b, byte);
+    } else if (b->punch && !b->punch_tty) {
+        b->punch(b->user, byte);
+    }
+}
+
+static uint8_t read_status(board *b, board_uart *u)
+{
+    bool full = has_received(b, u);
+    bool empty = can_send(b, u);
+    if (b->kind == BOARD_6850) {
+        return (uint8_t)((full ? ACIA_RDRF : 0) | (empty ? ACIA_TDRE : 0));
+    }
+    return (uint8_t)((full ? USART_RXRDY : 0) | (empty ? USART_TXRDY | USART_TXE : 0) | USART_DSR);
+}
+
+static void uart_reset(board *b, board_uart *u)
+{
+    memset(u, 0, sizeof *u);
+    u->state = b->kind == BOARD_6850 ? UART_DEAD : UART_RESET;
+}
+
+static void acia_control(board_uart *u, uint8_t word)
+{
+    if ((word & ACIA_RESET) == ACIA_RESET) {
+        u->state = UART_RESET;
+        u->full = false;
+    } else if (u->state != UART_DEAD) {
+        u->state = UART_READY;
+    }
+    u->sends = u->receives = u->state == UART_READY;
+}
+
+static void usart_control(board *b, board_uart *u, uint8_t word)
+{
+    switch (u->state) {
+    case UART_RESET:
+        u->state = word & MODE_BAUD ? UART_READY : word & MODE_ONE_SYNC ? UART_SYNC1 : UART_SYNC2;
+        break;
+    case UART_SYNC2:
+        u->state = UART_SYNC1;
+        break;
+    case UART_SYNC1:
+        u->state = UART_READY;
+        break;
+    default:
+        if (word & COMMAND_RESET) {
+            uart_reset(b, u);
+        } else {
+            u->sends = word & COMMAND_TXEN;
+            u->receives = word & COMMAND_RXEN;
+        }
+    }
+}
+
+/* The port's chip, and whether it is its control side; NULL where there is none. */
+static board_uart *find_uart(board *b, uint8_t port, bool *control)
+{
+    *control = (port & 1) == (b->kind == BOARD_8251);
+    switch (port & ~1) {
+    case PORT_TTY:
+        return &b->tty;
+    case PORT_AUX:
+        return &b->aux;
+    default:
+        return NULL;
+    }
+}
+
+static uint8_t port_in(void *user, uint8_t port)
+{
+    board *b = user;
+    bool control;
+    board_uart *u = find_uart(b, port, &control);
+    if (!(u && control && is_tty(b, u))) {
+        b->polls = 0;
+    }
+    if (!u) {
+        return NO_ANSWER;
+    }
+    return control ? read_status(b, u) : read_data(u);
+}
+
+static void port_out(void *user, uint8_t port, uint8_t value)
+{
+    board *b = user;
+    bool control;
+    board_uart *u = find_uart(b, port, &control);
+    b->polls = 0;
+    if (!u) {
+        return;
+    }
+    if (!control) {
+        write_data(b, u, value);
+    } else if (b->kind == BOARD_6850) {
+        acia_control(u, value);
+    } else {
+        usart_control(b, u, value);
+    }
+}
+
+/* ---- the board's face ---- */
+
+board *board_new(board_kind kind, unsigned ram_kib)
+{
+    board *b = calloc(1, sizeof *b);
+    if (!b) {
+        return NULL;
+    }
+    b->kind = kind;
+    i8080_init(&b->cpu, port_in, port_out, b);
+    i8080_map(&b->cpu, 0, BOARD_ROM_SIZE - 1, I8080_ROM);
+    unsigned ram_end = BOARD_RAM_START + ram_kib * 1024;
+    if (ram_end < I8080_SPACE) {
+        i8080_map(&b->cpu, (uint16_t)ram_end, 0xffff, I8080_OPEN);
+    }
+    board_rom(b, NULL, 0);
+    board_reset(b);
+    return b;
+}
+
+void board_free(board *b)
+{
+    if (b) {
+        free(b->typed.bytes);
+        free(b->pressed.bytes);
+        free(b->tape.bytes);
+        free(b);
+    }
+}
+
+void board_rom(board *b, const uint8_t *bytes, size_t length)
+{
+    for (size_t i = 0; i < BOARD_ROM_SIZE; i++) {
+        i8080_poke(&b->cpu, (uint16_t)i, i < length ? bytes[i] : 0xff);
+    }
+}
+
+void board_reset(board *b)
+{
+    i8080_reset(&b->cpu);
+    uart_reset(b, &b->tty);
+    uart_reset(b, &b->aux);
+    b->polls = 0;
+    b->waiting = b->reader_on = b->punch_on = false;
+    b->line_length = 0;
+    b->line[0] = '\0';
+}
+
+bool board_type(board *b, const uint8_t *bytes, size_t length)
+{
+    return queue_add(&b->typed, bytes, length);
+}
+
+bool board_press(board *b, uint8_t key)
+{
+    return queue_add(&b->pressed, &key, 1);
+}
+
+bool board_tape(board *b, const uint8_t *bytes, size_t length)
+{
+    return queue_add(&b->tape, bytes, length);
+}
+
+void board_reader(board *b, bool on)
+{
+    b->reader_on = on;
+}
+
+bool board_idle(const board *b)
+{
+    return queue_empty(&b->typed) && queue_empty(&b->pressed);
+}
+
+board_reason board_run(board *b, uint64_t cycles)
+{
+    b->polls = 0;
+    b->waiting = false;
+    i8080_reason reason = i8080_run(&b->cpu, cycles);
+    switch (reason) {
+    case I8080_HALTED:
+        return BOARD_HALT;
+    case I8080_BREAK:
+        return BOARD_BREAK;
+    case I8080_CYCLES:
+        return BOARD_CYCLES;
+    default:
+        break;
+    }
+    if (!strcmp(b->line, ">")) {
+        return BOARD_PROMPT;
+    }
+    if (b->line_length >= 2 && !strcmp(b->line + b->line_length - 2, "? ")) {
+        return BOARD_INPUT;
+    }
+    return BOARD_WAIT;
+}

@@ -1,0 +1,123 @@
+/* The SKG board: 8080A, 8 KiB ROM at 0000, RAM from 2000, two serial ports
+ *
+ *      port    standard board (MITS 88-2SIO)           BOARD=8251
+ *      10H     teletype  6850 status / control         teletype  8251 data
+ *      11H     teletype  6850 data                     teletype  8251 status / mode, command
+ *      12H     punch and reader  6850 status / control punch and reader  8251 data
+ *      13H     punch and reader  6850 data             punch and reader  8251 status / mode, command
+ *
+ *                      b7    b6    b5    b4    b3    b2    b1    b0
+ *      6850 status     IRQ   PE    OVRN  FE    CTS   DCD   TDRE  RDRF      control xxxxxx11: master reset
+ *      8251 status     DSR   SYN   FE    OE    PE    TxE   RxRDY TxRDY     command x1xxxxxx: reset, a mode follows
+ *
+ * A 6850 is dead after power-on until its master reset has been followed by another control word; an 8251 takes a
+ * mode word first (and one or two sync characters when the mode is synchronous), then commands, of which bit 0 lets
+ * it send and bit 2 receive.
+ *
+ * The programmer's view of the outside: a teletype with an operator, a paper tape reader with one tape in it, and a
+ * punch. With `punch_tty` there is the teletype alone: its own punch is on from DC2 to DC4, its own reader from DC1
+ * (or the operator's lever) to DC3, and the reader's characters come in like typed ones.
+ *
+ * The operator types with care: a character arrives when the machine waits for one, that is, when it has asked
+ * POLLS_TO_TYPE times in close succession and could have sent if it had wanted to. Pressed keys (ctrl-C, ctrl-S, ctrl-Q)
+ * arrive at once. The machine counts as waiting for the operator after POLLS_TO_WAIT such questions.
+ *
+ * NOT IMPLEMENTED: interrupts of the 6850 and 8251; errors on the line (parity, framing, overrun: the operator never
+ * types over a character that has not been read); modem lines (CTS, DCD, DSR are always on); synchronous mode's data;
+ * loss of bits that the control word's format leaves out.
+ */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include "i8080.h"
+
+enum {
+    BOARD_ROM_SIZE = 0x2000,
+    BOARD_RAM_START = 0x2000,
+    BOARD_RAM_MIN_KIB = 2,
+    BOARD_RAM_MAX_KIB = 56,
+    BOARD_RAM_KIB = 8,
+    BOARD_HZ = 2000000,
+    BOARD_LINE = 132                /* characters of the paper's present line that are remembered */
+};
+
+/* Why board_run came back. */
+typedef enum {
+    BOARD_CYCLES,       /* the cycles are used up */
+    BOARD_PROMPT,       /* waits at the prompt: the paper's last line is `>` */
+    BOARD_INPUT,        /* waits for the answer to INPUT: the paper's last line ends in `? ` */
+    BOARD_WAIT,         /* waits for a key anywhere else */
+    BOARD_HALT,         /* HLT: nothing but a reset helps */
+    BOARD_BREAK         /* at a breakpoint of the core's */
+} board_reason;
+
+/* A queue of bytes that grows as needed. */
+typedef struct {
+    uint8_t *bytes;
+    size_t first, end, size;
+} board_queue;
+
+typedef enum { BOARD_6850, BOARD_8251 } board_kind;
+
+/* One serial port. */
+typedef struct {
+    enum { UART_DEAD, UART_RESET, UART_SYNC2, UART_SYNC1, UART_READY } state;
+    bool sends, receives;
+    bool full;                      /* a received character has not been read */
+    uint8_t received;
+    uint64_t sent_at, arrived_at;   /* cycle at which the line is free again for the next character */
+} board_uart;
+
+typedef void board_sink(void *user, uint8_t byte);
+
+typedef struct board {
+    i8080 cpu;
+    board_kind kind;
+    /* Set these before the first run. */
+    bool punch_tty;
+    unsigned baud;                  /* the teletype's line, at BOARD_HZ; 0: no time at all */
+    board_sink *paper, *punch;      /* what the teletype prints (7 bits), what the punch punches (8 bits) */
+    void *user;
+
+    board_queue typed, pressed, tape;
+    bool reader_on;                 /* the teletype's own reader (punch_tty) */
+    bool punch_on;                  /* the teletype's own punch (punch_tty) */
+    char line[BOARD_LINE + 1];      /* the paper's present line */
+    size_t line_length;
+    unsigned error_lines;           /* lines on the paper that begin with `ERR ` */
+
+    /* The rest is the board's own. */
+    board_uart tty, aux;
+    unsigned polls;                 /* questions in close succession */
+    uint64_t polled_at;
+    uint64_t end;
+    bool waiting;
+} board;
+
+/* A board with that much RAM (KiB), all of it zero, and nothing in its ROM; NULL without memory. Free with
+ * board_free. */
+board *board_new(board_kind kind, unsigned ram_kib);
+void board_free(board *b);
+
+/* Puts up to BOARD_ROM_SIZE bytes into the ROM; the rest of it reads FF. */
+void board_rom(board *b, const uint8_t *bytes, size_t length);
+
+/* The reset button: processor and serial ports; memory stays. */
+void board_reset(board *b);
+
+/* The operator: types when asked, presses a key now, puts a tape into the reader (behind what is left of the old).
+ * False without memory. */
+bool board_type(board *b, const uint8_t *bytes, size_t length);
+bool board_press(board *b, uint8_t key);
+bool board_tape(board *b, const uint8_t *bytes, size_t length);
+
+/* The operator moves the lever of the teletype's own reader (punch_tty). */
+void board_reader(board *b, bool on);
+
+/* True when everything typed and pressed has been taken by the machine. */
+bool board_idle(const board *b);
+
+/* Runs until the machine waits for the operator, with nothing left that was typed, or the cycles are used up. */
+board_reason board_run(board *b, uint64_t cycles);
+
+#endif

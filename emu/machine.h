@@ -1,0 +1,67 @@
+/* The board as a test sees it: what skg.machine (Python, ctypes) calls in build/libskg80.so
+ *
+ * A board that keeps its paper and its punch tape in memory, and on which single subroutines of the ROM can be called,
+ * one at a time or a million in a row. Functions give counts and reasons; all memory is the machine's own.
+ *
+ * NOT IMPLEMENTED: calls that start in the middle of a run (a call takes over PC and SP).
+ */
+#ifndef MACHINE_H
+#define MACHINE_H
+
+#include "board.h"
+
+typedef struct machine machine;
+
+/* The registers that go in and come out. */
+typedef struct {
+    uint8_t a, f;
+    uint16_t bc, de, hl, sp, pc;
+} machine_registers;
+
+/* What was counted; see i8080_watch and board for the meanings. */
+typedef struct {
+    uint64_t cycles, instructions, fetches_outside;
+    uint32_t lowest_sp, highest_write, first_outside, error_lines;
+} machine_counts;
+
+/* How a call ended. */
+typedef enum {
+    MACHINE_RETURNED,
+    MACHINE_CYCLES,     /* still running after max_cycles */
+    MACHINE_STOP,       /* reached one of the stop addresses */
+    MACHINE_HALT,
+    MACHINE_WAIT        /* waited for the operator */
+} machine_end;
+
+/* One subroutine, called for many records. */
+typedef struct {
+    machine_registers registers;    /* before every call; sp as well, pc = the subroutine */
+    uint32_t max_cycles;            /* for one call */
+    uint32_t in_length, out_length; /* bytes copied to in_address before and from out_address after every call */
+    uint16_t in_address, out_address;
+} machine_job;
+
+machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int kind, bool punch_tty, unsigned baud);
+void machine_free(machine *m);
+board *machine_board(machine *m);
+
+/* Everything printed (`punch` false) or punched since the last machine_clear. */
+size_t machine_output(const machine *m, bool punch, const uint8_t **bytes);
+void machine_clear(machine *m);
+
+void machine_peek(const machine *m, uint16_t address, uint8_t *bytes, size_t length);
+void machine_poke(machine *m, uint16_t address, const uint8_t *bytes, size_t length);
+void machine_get(const machine *m, machine_registers *r);
+void machine_set(machine *m, const machine_registers *r);
+void machine_count(const machine *m, machine_counts *counts);
+void machine_watch(machine *m, bool on, uint16_t first, uint16_t last);
+void machine_interrupt(machine *m, const uint8_t code[3]);
+void machine_break(machine *m, uint16_t address, bool on);
+
+/* Calls job->registers.pc for each of `count` records of job->in_length bytes at `in`, and gives job->out_length bytes at
+ * `out`, the cycles, the end (machine_end) and, unless NULL, the registers of each. A call that reaches a breakpoint set
+ * with machine_break ends there. Returns the number of calls that did not return. */
+size_t machine_batch(machine *m, const machine_job *job, size_t count, const uint8_t *in, uint8_t *out,
+                     uint32_t *cycles, uint8_t *ends, machine_registers *registers);
+
+#endif

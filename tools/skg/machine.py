@@ -1,0 +1,368 @@
+"""The 8080 board of `emu/` in Python: run the firmware, type, read paper and punch, call its subroutines.
+
+Loads `build/libskg80.so`, which `make emu` builds.
+
+    m = Machine(Path("roms/skg.bin"))
+    m.run()                                  # to the first prompt
+    m.type("PRINT 2*3\\r")
+    assert m.run() == "prompt"
+    print(m.tty)
+
+Addresses and cycles are plain integers; a cycle is 0.5 microseconds on the 2 MHz board.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Iterable
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from skg.errors import UserError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+LIBRARY = Path(__file__).resolve().parents[2] / "build" / "libskg80.so"
+
+#: What `run` may return, in the order of `board_reason` (emu/board.h).
+REASONS = ("cycles", "prompt", "input", "wait", "halt", "break")
+#: How a call may end, in the order of `machine_end` (emu/machine.h).
+ENDS = ("returned", "cycles", "stop", "halt", "wait")
+BOARDS = {"6850": 0, "8251": 1}
+
+ROM_SIZE = 0x2000
+RAM_START = 0x2000
+
+#: One call's registers, as `machine_registers` lays them out.
+REGISTERS = np.dtype(
+    [("a", "u1"), ("f", "u1"), ("bc", "u2"), ("de", "u2"), ("hl", "u2"), ("sp", "u2"), ("pc", "u2")]
+)
+
+
+class _Registers(ctypes.Structure):
+    _fields_ = [
+        ("a", ctypes.c_uint8),
+        ("f", ctypes.c_uint8),
+        *((name, ctypes.c_uint16) for name in ("bc", "de", "hl", "sp", "pc")),
+    ]
+
+
+class _Counts(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_uint64) for name in ("cycles", "instructions", "fetches_outside")),
+        *((name, ctypes.c_uint32) for name in ("lowest_sp", "highest_write", "first_outside", "error_lines")),
+    ]
+
+
+class _Job(ctypes.Structure):
+    _fields_ = [
+        ("registers", _Registers),
+        *((name, ctypes.c_uint32) for name in ("max_cycles", "in_length", "out_length")),
+        *((name, ctypes.c_uint16) for name in ("in_address", "out_address")),
+    ]
+
+
+def _load() -> ctypes.CDLL:
+    if not LIBRARY.exists():
+        raise UserError(f"{LIBRARY}: not built; run `make emu`")
+    lib = ctypes.CDLL(str(LIBRARY))
+    address, size, flag, pointer = ctypes.c_uint16, ctypes.c_size_t, ctypes.c_bool, ctypes.c_void_p
+    signatures: dict[str, tuple[object, list[object]]] = {
+        "machine_new": (
+            pointer,
+            [ctypes.c_char_p, size, ctypes.c_uint, ctypes.c_int, flag, ctypes.c_uint],
+        ),
+        "machine_free": (None, [pointer]),
+        "machine_board": (pointer, [pointer]),
+        "machine_output": (size, [pointer, flag, ctypes.POINTER(pointer)]),
+        "machine_clear": (None, [pointer]),
+        "machine_peek": (None, [pointer, address, pointer, size]),
+        "machine_poke": (None, [pointer, address, ctypes.c_char_p, size]),
+        "machine_get": (None, [pointer, ctypes.POINTER(_Registers)]),
+        "machine_set": (None, [pointer, ctypes.POINTER(_Registers)]),
+        "machine_count": (None, [pointer, ctypes.POINTER(_Counts)]),
+        "machine_watch": (None, [pointer, flag, address, address]),
+        "machine_interrupt": (None, [pointer, ctypes.c_char_p]),
+        "machine_break": (None, [pointer, address, flag]),
+        "machine_batch": (
+            size,
+            [pointer, ctypes.POINTER(_Job), size, ctypes.c_char_p, pointer, pointer, pointer, pointer],
+        ),
+        "board_reset": (None, [pointer]),
+        "board_type": (flag, [pointer, ctypes.c_char_p, size]),
+        "board_press": (flag, [pointer, ctypes.c_uint8]),
+        "board_tape": (flag, [pointer, ctypes.c_char_p, size]),
+        "board_reader": (None, [pointer, flag]),
+        "board_run": (ctypes.c_int, [pointer, ctypes.c_uint64]),
+    }
+    for name, (result, arguments) in signatures.items():
+        function = getattr(lib, name)
+        function.restype = result
+        function.argtypes = arguments
+    return lib
+
+
+@dataclass(frozen=True)
+class Batch:
+    """What `Machine.batch` brings back from n calls.
+
+    `outputs`: n * out_len bytes. `cycles`: n of uint32. `ends`: n of uint8, indices into `ENDS` (0 = returned).
+    `registers`: n records with fields a, f, bc, de, hl, sp, pc, as they were when the call ended.
+    """
+
+    outputs: bytes
+    cycles: NDArray[np.uint32]
+    ends: NDArray[np.uint8]
+    registers: NDArray[np.void]
+
+    @property
+    def failures(self) -> list[int]:
+        """Numbers of the calls that did not return."""
+        return [int(i) for i in np.flatnonzero(self.ends)]
+
+
+class Machine:
+    """One board with its operator.
+
+    `rom` is an image of at most 8,192 bytes or the path of one; `ram_kib` 2 to 56; `board` "6850" or "8251";
+    `punch_tty` a board with a teletype alone; `baud` paces the teletype's line at 2 MHz (0: no time at all).
+    """
+
+    def __init__(
+        self,
+        rom: bytes | Path,
+        ram_kib: int = 8,
+        *,
+        board: str = "6850",
+        punch_tty: bool = False,
+        baud: int = 0,
+    ) -> None:
+        image = rom.read_bytes() if isinstance(rom, Path) else bytes(rom)
+        if len(image) > ROM_SIZE:
+            raise ValueError(f"ROM image has {len(image)} bytes, more than {ROM_SIZE}")
+        if not 2 <= ram_kib <= 56:
+            raise ValueError(f"RAM of {ram_kib} KiB: not between 2 and 56")
+        self._lib = _load()
+        self._machine = self._lib.machine_new(image, len(image), ram_kib, BOARDS[board], punch_tty, baud)
+        if not self._machine:
+            raise MemoryError
+        self._board = self._lib.machine_board(self._machine)
+        #: First address past the RAM.
+        self.ram_end = RAM_START + ram_kib * 1024
+
+    def __del__(self) -> None:
+        if getattr(self, "_machine", None):
+            self._lib.machine_free(self._machine)
+
+    # The operator
+
+    def type(self, text: str | bytes) -> None:
+        """Queue text that the operator types, each character when the machine waits for one. CR ends a line."""
+        data = text.encode("ascii") if isinstance(text, str) else text
+        if not self._lib.board_type(self._board, data, len(data)):
+            raise MemoryError
+
+    def press(self, key: int | str) -> None:
+        """Press a key now, whatever the machine is doing (ctrl-C: 3)."""
+        if not self._lib.board_press(self._board, ord(key) if isinstance(key, str) else key):
+            raise MemoryError
+
+    def tape(self, data: str | bytes) -> None:
+        """Put a tape into the reader, behind what is left of the one before."""
+        raw = data.encode("ascii") if isinstance(data, str) else data
+        if not self._lib.board_tape(self._board, raw, len(raw)):
+            raise MemoryError
+
+    def reader(self, on: bool) -> None:
+        """Move the lever of the teletype's own reader (boards with `punch_tty` only)."""
+        self._lib.board_reader(self._board, on)
+
+    def reset(self) -> None:
+        """The reset button; memory stays."""
+        self._lib.board_reset(self._board)
+
+    def interrupt(self, *code: int) -> None:
+        """Raise the interrupt line; the device will put these one to three bytes on the bus."""
+        self._lib.machine_interrupt(self._machine, bytes(code).ljust(3, b"\0"))
+
+    def run(self, max_cycles: int = 1_000_000_000) -> str:
+        """Run until the machine waits for the operator and nothing typed is left, or something else stops it.
+
+        Returns "prompt" (the paper's last line is `>`), "input" (it ends in `? `), "wait" (for a key anywhere else),
+        "cycles" (max_cycles used up), "halt" or "break" (at a breakpoint).
+        """
+        return REASONS[self._lib.board_run(self._board, max_cycles)]
+
+    # What came out
+
+    def _output(self, punch: bool) -> bytes:
+        start = ctypes.c_void_p()
+        length = self._lib.machine_output(self._machine, punch, ctypes.byref(start))
+        return ctypes.string_at(start, length) if length else b""
+
+    @property
+    def tty(self) -> str:
+        """Everything on the teletype's paper since the start or `clear` (7-bit characters)."""
+        return self._output(False).decode("ascii")
+
+    @property
+    def punch(self) -> bytes:
+        """Everything punched since the start or `clear`."""
+        return self._output(True)
+
+    def clear(self) -> None:
+        """Tear off paper and punch tape."""
+        self._lib.machine_clear(self._machine)
+
+    # Inside
+
+    @property
+    def _counts(self) -> _Counts:
+        counts = _Counts()
+        self._lib.machine_count(self._machine, ctypes.byref(counts))
+        return counts
+
+    @property
+    def cycles(self) -> int:
+        """Cycles since power-on."""
+        return self._counts.cycles
+
+    @property
+    def instructions(self) -> int:
+        """Instructions since power-on."""
+        return self._counts.instructions
+
+    @property
+    def error_lines(self) -> int:
+        """Lines on the paper that begin with `ERR `, since power-on."""
+        return self._counts.error_lines
+
+    def watch(self, on: bool = True, first: int = 0, last: int = ROM_SIZE - 1) -> None:
+        """Start or stop watching marks and instruction fetches outside first..last. Starting clears them."""
+        self._lib.machine_watch(self._machine, on, first, last)
+
+    @property
+    def lowest_sp(self) -> int | None:
+        """Lowest stack pointer after a push or call while watched; None without one."""
+        value = self._counts.lowest_sp
+        return None if value == 0xFFFF else value
+
+    @property
+    def highest_write(self) -> int | None:
+        """Highest RAM address written other than by pushes and calls while watched; None without one."""
+        return self._counts.highest_write or None
+
+    @property
+    def fetches_outside(self) -> int:
+        """Instructions fetched outside the watched range."""
+        return self._counts.fetches_outside
+
+    @property
+    def first_outside(self) -> int | None:
+        """Address of the first instruction fetched outside the watched range; None without one."""
+        counts = self._counts
+        return counts.first_outside if counts.fetches_outside else None
+
+    def peek(self, address: int, length: int = 1) -> bytes:
+        """Bytes of memory; nothing is disturbed."""
+        buffer = ctypes.create_string_buffer(length)
+        self._lib.machine_peek(self._machine, address, buffer, length)
+        return buffer.raw
+
+    def poke(self, address: int, data: bytes) -> None:
+        """Write memory, the ROM too; nothing happens on an open bus."""
+        self._lib.machine_poke(self._machine, address, data, len(data))
+
+    def peek16(self, address: int) -> int:
+        """A word, low byte first."""
+        return int.from_bytes(self.peek(address, 2), "little")
+
+    @property
+    def registers(self) -> dict[str, int]:
+        """a, f, bc, de, hl, sp and pc."""
+        r = _Registers()
+        self._lib.machine_get(self._machine, ctypes.byref(r))
+        return {name: getattr(r, name) for name in REGISTERS.names}
+
+    def set_registers(self, **values: int) -> None:
+        """Set any of a, f, bc, de, hl, sp and pc; the others stay."""
+        r = _Registers(**(self.registers | values))
+        self._lib.machine_set(self._machine, ctypes.byref(r))
+
+    def set_break(self, address: int, on: bool = True) -> None:
+        """Set a breakpoint before the instruction at `address`, or take it away."""
+        self._lib.machine_break(self._machine, address, on)
+
+    @contextmanager
+    def _breaks(self, addresses: Iterable[int]) -> Iterator[None]:
+        addresses = list(addresses)
+        for address in addresses:
+            self.set_break(address)
+        try:
+            yield
+        finally:
+            for address in addresses:
+                self.set_break(address, False)
+
+    def call(
+        self,
+        address: int,
+        max_cycles: int = 10_000_000,
+        stops: Iterable[int] = (),
+        **registers: int,
+    ) -> str:
+        """Call a subroutine and come back when it returns: "returned", "cycles", "stop", "halt" or "wait".
+
+        `registers` as in `set_registers`; without `sp` the stack begins at the end of the RAM. Results are in
+        `registers` and memory. "stop": it came to one of the addresses `stops` (the error exit, say).
+        """
+        outcome = self.batch(address, 1, b"", 0, 0, 0, max_cycles=max_cycles, stops=stops, **registers)
+        return ENDS[outcome.ends[0]]
+
+    def batch(
+        self,
+        address: int,
+        n: int,
+        inputs: bytes,
+        in_addr: int,
+        out_addr: int,
+        out_len: int,
+        *,
+        max_cycles: int = 10_000_000,
+        stops: Iterable[int] = (),
+        **registers: int,
+    ) -> Batch:
+        """Call a subroutine n times, at the core's full speed.
+
+        Before each call the next k = len(inputs) / n bytes go to `in_addr` and the registers are set (those not
+        given as they are now; sp: the end of the RAM); after it out_len bytes are taken from `out_addr`. A call may
+        take `max_cycles`. The rest of the memory stays from call to call. Raises ValueError when n does not divide
+        len(inputs).
+        """
+        if n < 1 or len(inputs) % n:
+            raise ValueError(f"{len(inputs)} input bytes for {n} calls")
+        start = _Registers(**(self.registers | {"sp": self.ram_end & 0xFFFF} | registers | {"pc": address}))
+        job = _Job(start, max_cycles, len(inputs) // n, out_len, in_addr, out_addr)
+        outputs = ctypes.create_string_buffer(max(1, n * out_len))
+        cycles = np.zeros(n, np.uint32)
+        ends = np.zeros(n, np.uint8)
+        records = np.zeros(n, REGISTERS)
+        with self._breaks(stops):
+            self._lib.machine_batch(
+                self._machine,
+                ctypes.byref(job),
+                n,
+                inputs,
+                outputs,
+                cycles.ctypes.data,
+                ends.ctypes.data,
+                records.ctypes.data,
+            )
+        return Batch(outputs.raw[: n * out_len], cycles, ends, records)
