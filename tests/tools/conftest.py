@@ -1,0 +1,48 @@
+"""Fixtures of the host tools' tests."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from skg.cli import cli
+
+ROOT = Path(__file__).parents[2]
+
+#: The fixture `run`: call it with the command line's arguments.
+Run = Callable[..., Result]
+
+#: The CAD package's tape of tape-3b.md, and the ISO code that it gave for the same path.
+CAD_TAPE = (b"B9900B0B9900GXL3\r\nB0B70100B70100GYL2\r\nB55000B0B55000GXL3\r\n"
+            b"B50100B100B100000GYNR1\r\nB54900B0B54900GXL3\r\nDD\r\n")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def simulator_library() -> None:
+    """Build the simulator's shared library."""
+    subprocess.run(["make", "-s", "-f", "tools/tools.mk", "tools"], cwd=ROOT, check=True)
+
+
+@pytest.fixture
+def run() -> Run:
+    """Run `skg` with arguments in this process; an exception that is no `UserError` fails the test."""
+
+    def call(*arguments: object, stdin: bytes | str | None = None) -> Result:
+        result = CliRunner().invoke(cli, [str(argument) for argument in arguments], input=stdin)
+        if result.exception is not None and not isinstance(result.exception, SystemExit):
+            raise result.exception
+        return result
+
+    return call
+
+
+@pytest.fixture
+def cad_tape(tmp_path: Path) -> Path:
+    """The CAD package's tape as a file."""
+    path = tmp_path / "cad.3b"
+    path.write_bytes(CAD_TAPE)
+    return path

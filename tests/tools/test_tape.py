@@ -1,0 +1,119 @@
+"""Reading, checking and writing of tapes."""
+
+from __future__ import annotations
+
+import json
+from math import cos, pi, sin
+from pathlib import Path
+
+import pytest
+from conftest import CAD_TAPE, Run
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from skg import tape as tapes
+from skg.errors import UserError
+from skg.tape import Block, Stop, arc_block, line_block
+
+
+@st.composite
+def blocks(draw: st.DrawFn) -> Block:
+    """A sound block of any kind, a few µm to tens of metres long."""
+    size = draw(st.sampled_from((10, 300, 50_000, 10_000_000)))
+    ordinate = st.integers(-size, size)
+    x, y = draw(ordinate), draw(ordinate)
+    if (x, y) == (0, 0):
+        x = size
+    if draw(st.booleans()):
+        return line_block(x, y)
+    angle = draw(st.floats(0, 2 * pi))
+    end = round(x * cos(angle) - y * sin(angle)), round(x * sin(angle) + y * cos(angle))
+    return arc_block((x, y), end, draw(st.sampled_from((1, -1))))
+
+
+@given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0)))))
+@settings(deadline=None)
+def test_round_trip(items: list[Block | Stop]) -> None:
+    data = tapes.to_bytes(items)
+    tape, findings = tapes.scan(data)
+    assert findings == []
+    assert [str(item) for item in tape.blocks] == [str(item) for item in items if isinstance(item, Block)]
+    assert tapes.to_bytes(tape.items) == data
+
+
+@given(blocks())
+@settings(max_examples=400, deadline=None)
+def test_geometry_gives_the_block_again(block: Block) -> None:
+    """The end that a block tells makes the same block again."""
+    again = line_block(*block.move) if block.is_line else arc_block(block.start, block.end, block.sense)
+    assert again == block
+
+
+def test_too_large_to_write() -> None:
+    with pytest.raises(UserError, match="line 1: .* more than 8 digits"):
+        tapes.to_bytes([arc_block((30_000_000, 0), (30_000_000, 0), 1)])
+
+
+def test_cad_tape() -> None:
+    tape = tapes.parse(CAD_TAPE)
+    moves = [block.move for block in tape.blocks]
+    assert moves == [(-9900, 0), (0, 70100), (-55000, 0), (-100200, 0), (-54900, 0)]
+    assert tape.blocks[3].start == (50100, 100)
+
+
+@pytest.mark.parametrize(("text", "message"), [
+    ("B1B1B1GYL1\r\n", "block 2, column 1: expected DD, found the end of the tape"),
+    ("B1B1B1GYL1\r\nDD", "block 2, column 3: expected CR LF, found the end of the tape"),
+    ("B1B1B1GYL1\r\nDD\r\nB1", "block 1, column 1: expected nothing after DD, found 'B'"),
+    ("B1B1B1GYL1\nDD\n", "block 1, column 1: expected CR LF at the line's end, found LF alone (the first)"),
+    ("b1B1B1GYL1\r\nDD\r\n", "block 1, column 1: expected B, found 'b'"),
+    ("BB1B1GYL1\r\nDD\r\n", "block 1, column 2: expected digits of x, found 'B'"),
+    ("B1B123456789B1GYL1\r\nDD\r\n", "block 1, column 4: y has 9 digits, at most 8 fit"),
+    ("B1B1B01GYL1\r\nDD\r\n", "block 1, column 6: J has leading zeros"),
+    ("B1B1B1GZL1\r\nDD\r\n", "block 1, column 8: expected X or Y, found 'Z'"),
+    ("B1B1B1GYL5\r\nDD\r\n", "block 1, column 9: expected L1…L4, NR1…NR4 or SR1…SR4, found 'L'"),
+    ("B1B1B1GYL1 \r\nDD\r\n", "block 1, column 11: expected the end of the block, found ' '"),
+    ("B1B1B1GYL1\x07\r\nDD\r\n", "block 1, column 11: expected the end of the block, found byte 07H"),
+    ("\r\nDD\r\n", "block 1, column 1: expected B, found the end of the line"),
+    ("B0B0B1GYL1\r\nDD\r\n", "block 1, column 1: x and y are both 0"),
+    ("B0B5B5GYL1\r\nDD\r\n", "block 1, column 1: L1 needs x > 0: wrong quadrant for its x and y"),
+    ("B5B0B5GXL2\r\nDD\r\n", "block 1, column 1: L2 needs y > 0: wrong quadrant for its x and y"),
+    ("B7B5B6GXL1\r\nDD\r\n", "block 1, column 1: J = 6 is less than the larger of x and y, 7"),
+    ("B7B5B9GXL1\r\nDD\r\n", "block 1, column 1: J = 9 is more than the larger of x and y, 7"),
+    ("B7B5B7GYL1\r\nDD\r\n", "block 1, column 1: GY counts the wrong axis, expected GX"),
+    ("B5B5B5GXL1\r\nDD\r\n", "block 1, column 1: GX counts the wrong axis, expected GY"),
+    ("B5B5B5GYL2\r\nDD\r\n", "block 1, column 1: GY counts the wrong axis, expected GX"),
+    ("B0B500B9GYNR1\r\nDD\r\n", "block 1, column 1: NR1 needs x > 0: wrong quadrant for its x and y"),
+    ("B500B0B9GYSR1\r\nDD\r\n", "block 1, column 1: SR1 needs y > 0: wrong quadrant for its x and y"),
+    ("B500B0B0GYNR1\r\nDD\r\n", "block 1, column 1: J is 0"),
+    ("B500B0B2001GYNR1\r\nDD\r\n", "block 1, column 1: J = 2001 is more than a full circle, 2000"),
+    ("B500B0B490GYNR1\r\nDD\r\n",
+     "block 1, column 1: J = 490 ends at y = 490, the larger coordinate of the end: expected GX"),
+])
+def test_findings(run: Run, text: str, message: str) -> None:
+    result = run("check", "-", stdin=text.encode("latin-1"))
+    assert result.exit_code == 1
+    assert f"-: {message}\n" in result.output
+    found = json.loads(run("check", "--json", "-", stdin=text.encode("latin-1")).output)
+    assert f"block {found[0]['block']}, column {found[0]['column']}: {found[0]['message']}" in result.output
+
+
+def test_all_findings_at_once(run: Run) -> None:
+    result = run("check", "-", stdin=b"B1B2B9GXL1\r\nB0B5B5GYL1\r\nhello\r\nB5B0B5GXL1\r\n")
+    assert len(result.output.splitlines()) == 5
+
+
+def test_sound_tapes_pass(run: Run, cad_tape: Path) -> None:
+    result = run("check", cad_tape, cad_tape)
+    assert result.exit_code == 0
+    assert result.output.splitlines() == [f"{cad_tape}: 5 blocks, nothing wrong"] * 2
+    assert run("check", "-", stdin=b"\0\0\0" + CAD_TAPE + b"\0\0").exit_code == 0
+
+
+@given(st.binary(max_size=60))
+def test_any_bytes(data: bytes) -> None:
+    for text in (data, CAD_TAPE[:20] + data):
+        try:
+            tapes.parse(text)
+        except UserError as error:
+            assert "\n" not in str(error)

@@ -1,0 +1,114 @@
+"""The 3B controller: point-by-point comparison, stepped in C.
+
+Why C and not numba: the loop is thirty lines of integer additions, the project has a C compiler at hand
+anyway (the emulator needs one), and a shared library loads in a millisecond where numba brings LLVM, 150 MB,
+and a second of compiling at every start. `make tools` builds it into ``build/libskgsim.so``.
+
+How the controller moves (`docs/tools.md` has the same in pictures):
+
+- A line starts with F = 0. F ≥ 0 (on the line or left of it) steps +X in L1, +Y in L2, −X in L3, −Y in L4,
+  and F < 0 steps the axis that comes next counter-clockwise: +Y, −X, −Y, +X.
+- An arc starts with F = 0; F = x² + y² − xs² − ys² about its centre. F ≥ 0 steps towards the inside, F < 0
+  onwards and outwards. It goes over to the next quadrant when the coordinate that shrinks has reached 0.
+- The block ends with the step that brings the count of steps on the G axis to J.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from math import hypot, sqrt
+from pathlib import Path
+
+from skg.errors import UserError
+from skg.tape import Block
+
+#: Steps between two reports of progress.
+CHUNK = 20_000_000
+_STALLED = 2
+
+
+class _State(ctypes.Structure):
+    """`skgsim_block` of native/skgsim.h, member for member."""
+
+    _fields_ = [(name, ctypes.c_int64) for name in (
+        "sense", "quadrant", "x", "y", "j", "axis", "drift_x", "drift_y", "started", "px", "py", "f",
+        "counted", "steps", "f_max", "f_min", "d_max", "d_min")]
+
+
+@cache
+def _library() -> ctypes.CDLL:
+    """Load the shared library: $SKGSIM if set, else build/libskgsim.so of the checkout."""
+    path = Path(os.environ.get("SKGSIM") or Path(__file__).parents[2] / "build" / "libskgsim.so")
+    try:
+        library = ctypes.CDLL(str(path))
+    except OSError:
+        raise UserError(f"{path}: the simulator's library is missing or unfit, run `make tools`") from None
+    library.skgsim_run.argtypes = [ctypes.POINTER(_State), ctypes.c_int64, ctypes.POINTER(ctypes.c_int64)]
+    library.skgsim_run.restype = ctypes.c_int
+    return library
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What the controller made of one block; lengths in µm.
+
+    `move` is where it went (dx, dy), `steps` in how many steps; `off_curve` the largest distance from the
+    line or arc as it starts where the controller stands, `off_path` from where that line or arc should lie.
+    Both are distances from the whole line and the whole circle: `Block.move` − `move` tells the end's miss.
+    """
+
+    move: tuple[int, int]
+    steps: int
+    off_curve: float
+    off_path: float
+
+
+def _state(block: Block, drift: tuple[int, int]) -> _State:
+    return _State(sense=block.sense, quadrant=block.quadrant, x=block.x, y=block.y, j=block.j,
+                  axis=int(block.axis == "Y"), drift_x=drift[0], drift_y=drift[1])
+
+
+def _stalled(block: Block) -> UserError:
+    return UserError(f"block {block.number}: {block} never ends, the controller does not reach J = {block.j}")
+
+
+def _distance(block: Block, highest: int, lowest: int) -> float:
+    """Turn extremes of F into the largest distance from the curve, µm."""
+    radius = hypot(block.x, block.y)
+    if block.is_line:
+        return max(highest, -lowest) / radius
+    square = block.x**2 + block.y**2
+    return max(sqrt(square + highest) - radius, radius - sqrt(max(0, square + lowest)))
+
+
+def run_block(block: Block, drift: tuple[int, int] = (0, 0),
+              progress: Callable[[int], object] = lambda steps: None) -> Outcome:
+    """Follow one block; `drift` is where the controller stands minus where the block should start, µm.
+
+    `progress` is called with the number of steps taken since its last call. A block whose J is never reached
+    (possible on circles of a few µm) is a `UserError`.
+    """
+    run, state, before = _library().skgsim_run, _state(block, drift), 0
+    while (result := run(ctypes.byref(state), CHUNK, None)) == 1:
+        progress(state.steps - before)
+        before = state.steps
+    if result == _STALLED:
+        raise _stalled(block)
+    progress(state.steps - before)
+    start = block.start
+    return Outcome((state.px - start[0], state.py - start[1]), state.steps,
+                   _distance(block, state.f_max, state.f_min), _distance(block, state.d_max, state.d_min))
+
+
+def trace_block(block: Block) -> list[tuple[int, int]]:
+    """Return the controller's position after each step, µm, relative to `block.start`'s origin."""
+    state = _state(block, (0, 0))
+    room = 16 * (block.x + block.y) + 64
+    buffer = (ctypes.c_int64 * (2 * room))()
+    if _library().skgsim_run(ctypes.byref(state), room, buffer) == _STALLED:
+        raise _stalled(block)
+    return [(buffer[2 * k], buffer[2 * k + 1]) for k in range(state.steps)]

@@ -1,0 +1,30 @@
+/* The 3B controller's inner loop: one block, one step of 1 um at a time, integers only. */
+#ifndef SKGSIM_H
+#define SKGSIM_H
+
+#include <stdint.h>
+
+/* Return values of skgsim_run. */
+enum { SKGSIM_DONE = 0, SKGSIM_MORE = 1, SKGSIM_STALLED = 2 };
+
+/* A block on its way. Python lays the same struct out with ctypes: keep every member an int64_t.
+ *
+ * The caller sets sense (0 line, 1 counter-clockwise, -1 clockwise), quadrant (of the code), x and y (of the
+ * block, >= 0, not both 0), j and axis (0 = X, 1 = Y), (drift_x, drift_y) = where the controller stands minus
+ * where the block should start, and 0 elsewhere; skgsim_run does the rest.
+ */
+typedef struct {
+    int64_t sense, quadrant, x, y, j, axis, drift_x, drift_y;
+    int64_t started;
+    int64_t px, py;                   /* position, relative to the line's start or the arc's centre */
+    int64_t f;                        /* deviation F */
+    int64_t counted, steps;
+    int64_t f_max, f_min;             /* extremes of F: against the curve from where the block really started */
+    int64_t d_max, d_min;             /* the same against the curve from where it should have started */
+} skgsim_block;
+
+/* Take at most budget steps. When trace is not null, the position after each of them goes into
+ * trace[2k], trace[2k + 1]. STALLED: the count axis does not move any more, J will never be reached. */
+int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace);
+
+#endif

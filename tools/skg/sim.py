@@ -1,0 +1,187 @@
+"""`skg sim`: follow a tape as the 3B controller does and measure where the wire really goes."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, replace
+
+import click
+from tqdm import tqdm
+
+from skg import tape as tapes
+from skg.controller import Outcome, run_block
+from skg.tape import Block, Stop, Tape
+
+#: A progress bar appears on tapes of more steps than this (about a second's worth).
+_LONG = 50_000_000
+
+
+@dataclass(frozen=True)
+class BlockReport:
+    """One block: where it should end and where it ended, relative to its start; lengths in µm."""
+
+    number: int
+    block: str
+    should: tuple[int, int]
+    really: tuple[int, int]
+    steps: int
+    off_curve: float
+
+
+@dataclass(frozen=True)
+class Route:
+    """The blocks between two stops. `gap` is where the controller ended minus where it started, µm;
+    `programmed_gap` the same summed over the ends that the blocks should have had."""
+
+    first: int
+    last: int
+    gap: tuple[int, int]
+    programmed_gap: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Report:
+    """A whole tape; lengths in µm, times in seconds."""
+
+    name: str
+    blocks: int
+    stops: int
+    travel: float
+    steps: int
+    feed: float
+    time: float
+    gap: tuple[int, int]
+    programmed_gap: tuple[int, int]
+    off_curve: float
+    off_path: float
+    misses: int
+    largest_miss: int
+    largest_drift: int
+    routes: tuple[Route, ...]
+    each: tuple[BlockReport, ...]
+
+    @property
+    def closed(self) -> bool:
+        """True when the controller ends where it began."""
+        return self.gap == (0, 0)
+
+
+def expected_steps(block: Block) -> int:
+    """About how many steps a block takes: those on both axes, from its shape alone."""
+    return block.x + block.y if block.is_line else 2 * block.j
+
+
+def simulate(tape: Tape, feed: float = 5.0, progress: bool = False) -> Report:
+    """Follow every block of `tape`.
+
+    `feed` is in mm/min; `progress` shows a bar on stderr when that is a terminal and the tape long. Where a
+    block should start is the sum of the ends (`Block.end`) that the blocks before it should have had.
+    """
+    each: list[BlockReport] = []
+    routes: list[Route] = []
+    real, programmed = (0, 0), (0, 0)
+    at_stop = real, programmed, 1
+    total = sum(expected_steps(block) for block in tape.blocks)
+    off_curve = off_path = 0.0
+    largest_drift = 0
+    bar = tqdm(total=total, unit="step", unit_scale=True, delay=0.5, leave=False,
+               disable=None if progress and total > _LONG else True)
+
+    def close_route(last: int) -> None:
+        nonlocal at_stop
+        (x, y), (xp, yp), first = at_stop
+        if last >= first:
+            routes.append(Route(first, last, (real[0] - x, real[1] - y),
+                                (programmed[0] - xp, programmed[1] - yp)))
+        at_stop = real, programmed, last + 1
+
+    with bar:
+        for item in tape.items:
+            if isinstance(item, Stop):
+                close_route(item.after)
+                continue
+            drift = real[0] - programmed[0], real[1] - programmed[1]
+            outcome: Outcome = run_block(item, drift, bar.update)
+            should = item.move
+            each.append(BlockReport(item.number, str(item), should, outcome.move, outcome.steps,
+                                    outcome.off_curve))
+            real = real[0] + outcome.move[0], real[1] + outcome.move[1]
+            programmed = programmed[0] + should[0], programmed[1] + should[1]
+            off_curve = max(off_curve, outcome.off_curve)
+            off_path = max(off_path, outcome.off_path)
+            largest_drift = max(largest_drift, abs(real[0] - programmed[0]), abs(real[1] - programmed[1]))
+    close_route(len(each))
+    travel = sum(block.length for block in tape.blocks)
+    missed = [max(abs(one.really[0] - one.should[0]), abs(one.really[1] - one.should[1])) for one in each]
+    return Report(
+        name=tape.name, blocks=len(each), stops=sum(isinstance(item, Stop) for item in tape.items),
+        travel=travel, steps=sum(one.steps for one in each), feed=feed, time=travel / 1000 / feed * 60,
+        gap=real, programmed_gap=programmed, off_curve=off_curve, off_path=off_path,
+        misses=sum(miss > 0 for miss in missed), largest_miss=max(missed, default=0),
+        largest_drift=largest_drift, routes=tuple(routes), each=tuple(each))
+
+
+def closing(gap: tuple[int, int]) -> str:
+    """Say whether a path closes."""
+    return "closes to 0 µm" if gap == (0, 0) else f"open by {gap[0]}, {gap[1]} µm"
+
+
+def duration(seconds: float) -> str:
+    """Write a time as hours, minutes and seconds."""
+    whole = round(seconds)
+    hours, minutes = whole // 3600, whole // 60 % 60
+    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {whole % 60:02d} s"
+
+
+def _text(report: Report, blocks: bool) -> str:
+    lines = []
+    if blocks:
+        head = f"{'block':>5}  {'tape':<40} {'should end at':>20} {'really at':>20} {'miss':>8} {'off':>6}"
+        lines.append(head)
+        for one in report.each:
+            miss = one.really[0] - one.should[0], one.really[1] - one.should[1]
+            lines.append(f"{one.number:>5}  {one.block:<40} {_pair(one.should):>20} {_pair(one.really):>20} "
+                         f"{_pair(miss) if miss != (0, 0) else '-':>8} {one.off_curve:>6.3f}")
+    stops = f", {report.stops} stops" if report.stops else ""
+    as_programmed = f" (as programmed: {closing(report.programmed_gap)})"
+    lines += [
+        f"{report.name}: {report.blocks} blocks{stops}",
+        f"travel      {report.travel / 1000:.3f} mm in {report.steps} steps, "
+        f"{duration(report.time)} at {report.feed:g} mm/min",
+        f"path        {closing(report.gap)}" + as_programmed * (report.gap != report.programmed_gap),
+        f"block ends  {report.misses} miss, by at most {report.largest_miss} µm; "
+        f"drift at most {report.largest_drift} µm",
+        f"distance    {report.off_curve:.3f} µm from the programmed line or arc, "
+        f"{report.off_path:.3f} µm with the drift before it",
+    ]
+    if len(report.routes) > 1:
+        lines += [f"  blocks {route.first}-{route.last}: {closing(route.gap)}" for route in report.routes]
+    return "\n".join(lines)
+
+
+def _pair(point: tuple[int, int]) -> str:
+    return f"{point[0]}, {point[1]}"
+
+
+@click.command(name="sim")
+@click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
+@click.option("--feed", default=5.0, show_default=True, type=click.FloatRange(0, min_open=True),
+              help="Feed in mm/min, for the time.")
+@click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
+@click.option("--json", "as_json", is_flag=True,
+              help="Write the figures as JSON (µm, seconds), one list for all tapes.")
+@click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
+def command(tapes_: tuple[str, ...], feed: float, blocks: bool, as_json: bool, strict_close: bool) -> None:
+    """Follow TAPE step by step as a 3B controller does.
+
+    Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
+    and whether the path closes. TAPE - is the standard input.
+    """
+    reports = [simulate(tapes.read(name), feed, progress=True) for name in tapes_]
+    if as_json:
+        kept = reports if blocks else [replace(report, each=()) for report in reports]
+        click.echo(json.dumps([{**asdict(report), "closed": report.closed} for report in kept], indent=1))
+    else:
+        click.echo("\n".join(_text(report, blocks) for report in reports))
+    if strict_close and not all(report.closed for report in reports):
+        raise SystemExit(1)

@@ -1,0 +1,463 @@
+"""3B tapes: strict reading, writing, and the geometry of a block, all in whole micrometres.
+
+A block is ``B x B y B J G Z``; `docs/tools.md` tells what each field means and how the end of an arc follows
+from J. Everything here is exact integer arithmetic: two tools that read one tape always see the same points.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from math import atan2, hypot, isqrt, pi
+from pathlib import Path
+
+from skg.errors import UserError
+
+#: No x, y or J has more digits.
+MAX_DIGITS = 8
+CODES = tuple(f"{kind}{quadrant}" for kind in ("L", "NR", "SR") for quadrant in range(1, 5))
+#: Signs of x and y in quadrants 1 to 4 (index 0 is unused).
+_SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))
+
+
+def round_sqrt(square: int) -> int:
+    """Return the square root of a non-negative integer, rounded to the nearest integer, exactly."""
+    return (isqrt(4 * square) + 1) // 2
+
+
+def is_decreasing(axis: str, quadrant: int, sense: int) -> bool:
+    """Tell whether the distance from the centre along `axis` shrinks on an arc in `quadrant`.
+
+    Counter-clockwise (sense 1) that is x in the odd quadrants and y in the even ones; clockwise the reverse.
+    """
+    shrinking = "X" if (quadrant % 2 == 1) == (sense > 0) else "Y"
+    return axis == shrinking
+
+
+def next_quadrant(quadrant: int, sense: int) -> int:
+    """Return the quadrant that an arc of the given sense enters when it leaves `quadrant`."""
+    return (quadrant - 1 + sense) % 4 + 1
+
+
+@dataclass(frozen=True)
+class Block:
+    """One block as it stands on the tape.
+
+    `x`, `y`, `j` are micrometres; `axis` is the count direction, "X" or "Y"; `code` one of `CODES`;
+    `number` the block's number on its tape, counted from 1 (0: not on a tape yet).
+    """
+
+    x: int
+    y: int
+    j: int
+    axis: str
+    code: str
+    number: int = field(default=0, compare=False)
+
+    def __str__(self) -> str:
+        return f"B{self.x}B{self.y}B{self.j}G{self.axis}{self.code}"
+
+    @property
+    def is_line(self) -> bool:
+        """True for L1 to L4."""
+        return self.code[0] == "L"
+
+    @property
+    def quadrant(self) -> int:
+        """The quadrant a line points into, or the one an arc moves into from its start."""
+        return int(self.code[-1])
+
+    @property
+    def sense(self) -> int:
+        """0 for a line, 1 for a counter-clockwise arc (NR), −1 for a clockwise one (SR)."""
+        return {"L": 0, "N": 1, "S": -1}[self.code[0]]
+
+    @property
+    def start(self) -> tuple[int, int]:
+        """Where the block starts: a line at (0, 0), an arc relative to its centre."""
+        if self.is_line:
+            return 0, 0
+        sign_x, sign_y = _SIGNS[self.quadrant]
+        return sign_x * self.x, sign_y * self.y
+
+    @property
+    def radius(self) -> int:
+        """An arc's radius rounded to the µm, as J counts it."""
+        return round_sqrt(self.x**2 + self.y**2)
+
+    @property
+    def is_full_circle(self) -> bool:
+        """True for an arc that counts four radii."""
+        return not self.is_line and self.j == 4 * self.radius
+
+    def count_end(self) -> tuple[int, int]:
+        """Return (distance from the centre along the count axis, quadrant) of an arc's end.
+
+        The distance shrinks to 0 or grows to the rounded radius in each quadrant in turn until J is used up.
+        Meaningless past a full circle; `problems` reports that.
+        """
+        distance = self.x if self.axis == "X" else self.y
+        quadrant, left = self.quadrant, self.j
+        while True:
+            shrinks = is_decreasing(self.axis, quadrant, self.sense)
+            room = distance if shrinks else self.radius - distance
+            if left <= room:
+                return distance - left if shrinks else distance + left, quadrant
+            left -= room
+            distance = 0 if shrinks else self.radius
+            quadrant = next_quadrant(quadrant, self.sense)
+
+    @property
+    def end(self) -> tuple[int, int]:
+        """Where the block should end, relative to the same origin as `start`.
+
+        On an arc J gives the coordinate along the count axis exactly; the other one is the nearest µm on the
+        circle, but not so near 0 that the count direction would be the other one (a tape rounds ends off
+        their circle by up to a micrometre, and its rule for G looks at the rounded end).
+        """
+        if self.is_line:
+            sign_x, sign_y = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1)}[self.quadrant]
+            return sign_x * self.x, sign_y * self.y
+        if self.is_full_circle:
+            return self.start
+        distance, quadrant = self.count_end()
+        other = round_sqrt(max(0, self.x**2 + self.y**2 - distance**2))
+        least = distance if self.axis == "X" else distance + 1
+        if least - 2 <= other < least:
+            other = least
+        sign_x, sign_y = _SIGNS[quadrant]
+        x, y = (distance, other) if self.axis == "X" else (other, distance)
+        return sign_x * x, sign_y * y
+
+    @property
+    def move(self) -> tuple[int, int]:
+        """From start to end, (dx, dy)."""
+        (xs, ys), (xe, ye) = self.start, self.end
+        return xe - xs, ye - ys
+
+    @property
+    def sweep(self) -> float:
+        """An arc's signed sweep in radians, 0 for a line; a full circle is ±2π."""
+        if self.is_line:
+            return 0.0
+        if self.is_full_circle:
+            return 2 * pi * self.sense
+        (xs, ys), (xe, ye) = self.start, self.end
+        turn = self.sense * (atan2(ye, xe) - atan2(ys, xs)) % (2 * pi)
+        # An end rounded to just behind the start of a short arc is no full turn, nor is the reverse.
+        quarters = (self.count_end()[1] - self.quadrant) * self.sense % 4
+        if quarters == 0 and turn > 3 * pi / 2 and self.j < 2 * self.radius:
+            turn = 0.0
+        return self.sense * turn
+
+    @property
+    def length(self) -> float:
+        """Length of the programmed line or arc in micrometres."""
+        return hypot(self.x, self.y) * (1 if self.is_line else abs(self.sweep))
+
+    def problems(self) -> list[str]:
+        """Return what a controller would choke on in this block, in words; empty when it is sound."""
+        if self.x == 0 and self.y == 0:
+            return ["x and y are both 0"]
+        return self._line_problems() if self.is_line else self._arc_problems()
+
+    def _line_problems(self) -> list[str]:
+        found = []
+        along = ("x", self.x) if self.quadrant % 2 else ("y", self.y)
+        if along[1] == 0:
+            found.append(f"{self.code} needs {along[0]} > 0: wrong quadrant for its x and y")
+        longer = max(self.x, self.y)
+        if self.j != longer:
+            relation = "less" if self.j < longer else "more"
+            found.append(f"J = {self.j} is {relation} than the larger of x and y, {longer}")
+        axis = _line_axis(self.x, self.y, self.quadrant)
+        if self.axis != axis:
+            found.append(f"G{self.axis} counts the wrong axis, expected G{axis}")
+        return found
+
+    def _arc_problems(self) -> list[str]:
+        found = []
+        # The coordinate that shrinks in a quadrant cannot be 0 at the start: that is the next quadrant.
+        axis = "X" if is_decreasing("X", self.quadrant, self.sense) else "Y"
+        if (self.x if axis == "X" else self.y) == 0:
+            found.append(f"{self.code} needs {axis.lower()} > 0: wrong quadrant for its x and y")
+        if self.j == 0:
+            found.append("J is 0")
+        elif self.j > 4 * self.radius:
+            found.append(f"J = {self.j} is more than a full circle, {4 * self.radius}")
+        elif not self.is_full_circle:
+            distance = self.count_end()[0]
+            other = round_sqrt(max(0, self.x**2 + self.y**2 - distance**2))
+            if distance > other + 2:
+                axis = "Y" if self.axis == "X" else "X"
+                found.append(f"J = {self.j} ends at {self.axis.lower()} = {distance}, the larger coordinate "
+                             f"of the end: expected G{axis}")
+        return found
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something wrong on a tape: block number (from 1), column (from 1) and what was expected."""
+
+    block: int
+    column: int
+    message: str
+
+    def __str__(self) -> str:
+        return f"block {self.block}, column {self.column}: {self.message}"
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A `D`: the controller stops after block number `after`."""
+
+    after: int
+
+
+@dataclass(frozen=True)
+class Tape:
+    """A tape: blocks and stops in order; `name` is where it came from."""
+
+    name: str
+    items: tuple[Block | Stop, ...]
+
+    @property
+    def blocks(self) -> list[Block]:
+        """The blocks alone, in order."""
+        return [item for item in self.items if isinstance(item, Block)]
+
+    def stretches(self) -> list[list[Block]]:
+        """Return the blocks between stops; an empty list where two stops follow each other."""
+        found: list[list[Block]] = [[]]
+        for item in self.items:
+            if isinstance(item, Stop):
+                found.append([])
+            else:
+                found[-1].append(item)
+        return found
+
+
+class _Scanner:
+    """Reads one block's text from left to right; the first thing that does not fit raises `_Unexpected`."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+
+    def take(self, *words: str, expected: str = "") -> str:
+        """Take whichever of `words` stands here."""
+        for word in words:
+            if self.text.startswith(word, self.at):
+                self.at += len(word)
+                return word
+        raise _Unexpected(self.at, f"expected {expected or words[0]}, found {self.found()}")
+
+    def found(self) -> str:
+        """What stands here, for a message."""
+        if self.at >= len(self.text):
+            return "the end of the line"
+        character = self.text[self.at]
+        return repr(character) if character.isprintable() else f"byte {ord(character):02X}H"
+
+    def number(self, name: str) -> int:
+        """Take a whole number of 1 to 8 digits without leading zeros."""
+        first = self.at
+        while self.text[self.at:self.at + 1] in tuple("0123456789"):
+            self.at += 1
+        digits = self.text[first:self.at]
+        if not digits:
+            raise _Unexpected(first, f"expected digits of {name}, found {self.found()}")
+        if len(digits) > MAX_DIGITS:
+            raise _Unexpected(first, f"{name} has {len(digits)} digits, at most {MAX_DIGITS} fit")
+        if digits[0] == "0" and len(digits) > 1:
+            raise _Unexpected(first, f"{name} has leading zeros")
+        return int(digits)
+
+
+class _Unexpected(Exception):
+    def __init__(self, at: int, message: str) -> None:
+        super().__init__(message)
+        self.at = at
+
+
+def parse_block(text: str, number: int = 0) -> Block:
+    """Read one block without its line end; raises `UserError` with the column of what does not fit."""
+    try:
+        return _parse(text, number)
+    except _Unexpected as error:
+        raise UserError(str(Finding(number, error.at + 1, str(error)))) from None
+
+
+def _parse(text: str, number: int) -> Block:
+    scanner = _Scanner(text)
+    values = []
+    for name in ("x", "y", "J"):
+        scanner.take("B")
+        values.append(scanner.number(name))
+    scanner.take("G")
+    axis = scanner.take("X", "Y", expected="X or Y")
+    code = scanner.take(*CODES, expected="L1…L4, NR1…NR4 or SR1…SR4")
+    if scanner.at < len(text):
+        raise _Unexpected(scanner.at, f"expected the end of the block, found {scanner.found()}")
+    return Block(*values, axis, code, number)
+
+
+def scan(data: bytes, name: str = "-") -> tuple[Tape, list[Finding]]:
+    """Read a whole tape and everything that is wrong with it.
+
+    Blocks whose text cannot be read are left out of the tape; blocks that can be read but cannot be right
+    (see `Block.problems`) are in it. NULs before the first block and after `DD` are blank tape.
+    """
+    text = data.decode("latin-1").lstrip("\0")
+    items: list[Block | Stop] = []
+    findings: list[Finding] = []
+    number, ended, bare = 0, False, 0
+    lines = text.split("\n")
+    tail = lines.pop()
+    for raw, whole in [(line, True) for line in lines] + ([(tail, False)] if tail.strip("\0") else []):
+        if ended:
+            rest = raw.removesuffix("\r").strip("\0")
+            if rest:
+                found = _Scanner(rest).found()
+                findings.append(Finding(number, 1, f"expected nothing after DD, found {found}"))
+            continue
+        line = raw.removesuffix("\r")
+        if line == raw and not bare:
+            bare = number + 1
+        if not whole:
+            findings.append(Finding(number + 1, len(line) + 1, "expected CR LF, found the end of the tape"))
+        if line == "D":
+            items.append(Stop(number))
+            continue
+        if line == "DD":
+            ended = True
+            continue
+        number += 1
+        try:
+            block = _parse(line, number)
+        except _Unexpected as error:
+            findings.append(Finding(number, error.at + 1, str(error)))
+            continue
+        items.append(block)
+        findings += [Finding(number, 1, problem) for problem in block.problems()]
+    if bare:
+        findings.append(Finding(bare, 1, "expected CR LF at the line's end, found LF alone (the first)"))
+    if not ended:
+        findings.append(Finding(number + 1, 1, "expected DD, found the end of the tape"))
+    return Tape(name, tuple(items)), findings
+
+
+def read_bytes(path: str) -> bytes:
+    """Return a file's bytes; `-` is the standard input."""
+    return sys.stdin.buffer.read() if path == "-" else Path(path).read_bytes()
+
+
+def write_bytes(path: str, data: bytes) -> None:
+    """Write a file; `-` is the standard output."""
+    if path == "-":
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+    else:
+        Path(path).write_bytes(data)
+
+
+def parse(data: bytes, name: str = "-") -> Tape:
+    """Return the tape in `data`, or raise `UserError` with the first thing that is wrong.
+
+    Line ends of LF alone are let pass here (an editor may have made them); `skg check` reports them.
+    """
+    tape, findings = scan(data, name)
+    serious = [finding for finding in findings if "LF" not in finding.message]
+    if serious:
+        first = min(serious, key=lambda finding: (finding.block, finding.column))
+        raise UserError(f"{name}: {first}")
+    return tape
+
+
+def read(path: str) -> Tape:
+    """Read a tape from a file or, for `-`, the standard input; raises as `parse` does."""
+    return parse(read_bytes(path), path)
+
+
+def to_bytes(items: Iterable[Block | Stop]) -> bytes:
+    """Return the bytes that the punch makes of blocks and stops, `DD` included.
+
+    A number of more than 8 digits does not fit: `UserError`.
+    """
+    lines = ["D" if isinstance(item, Stop) else str(item) for item in items]
+    for number, line in enumerate(lines, 1):
+        if any(len(digits) > MAX_DIGITS for digits in re.findall(r"\d+", line)):
+            raise UserError(f"line {number}: {line} has a number of more than {MAX_DIGITS} digits")
+    return "".join(f"{line}\r\n" for line in [*lines, "DD"]).encode("ascii")
+
+
+def _line_axis(x: int, y: int, quadrant: int) -> str:
+    """The count direction of a line: the longer axis, on a diagonal Y in the odd quadrants, X in the even."""
+    if x == y:
+        return "Y" if quadrant % 2 else "X"
+    return "X" if x > y else "Y"
+
+
+def line_block(dx: int, dy: int) -> Block:
+    """Return the block of a straight move of (dx, dy) µm; (0, 0) is a `ValueError`."""
+    if dx > 0 and dy >= 0:
+        quadrant = 1
+    elif dy > 0:
+        quadrant = 2
+    elif dx < 0:
+        quadrant = 3
+    elif dy < 0:
+        quadrant = 4
+    else:
+        raise ValueError("a line of no length has no block")
+    x, y = abs(dx), abs(dy)
+    return Block(x, y, max(x, y), _line_axis(x, y, quadrant), f"L{quadrant}")
+
+
+def start_quadrant(x: int, y: int, sense: int) -> int:
+    """Return the quadrant that an arc moves into from (x, y), taken relative to its centre."""
+    if sense < 0:
+        # Clockwise is counter-clockwise seen in the mirror x = y, which swaps quadrants 2 and 4.
+        return (0, 1, 4, 3, 2)[start_quadrant(y, x, 1)]
+    if x > 0 and y >= 0:
+        return 1
+    if y > 0:
+        return 2
+    return 3 if x < 0 else 4
+
+
+def arc_block(start: tuple[int, int], end: tuple[int, int], sense: int) -> Block:
+    """Return the block of an arc from `start` to `end`, both relative to its centre, in µm.
+
+    `sense` is 1 counter-clockwise, −1 clockwise; equal ends are a full circle. An arc too short to count
+    (J = 0) goes out as the line between its ends.
+    """
+    (xs, ys), (xe, ye) = start, end
+    axis = "X" if abs(xe) <= abs(ye) else "Y"
+    quadrant = start_quadrant(xs, ys, sense)
+    code = f"{'N' if sense > 0 else 'S'}R{quadrant}"
+    if start == end:
+        return Block(abs(xs), abs(ys), 4 * round_sqrt(xs**2 + ys**2), axis, code)
+    radius = round_sqrt(xs**2 + ys**2)
+    distance, goal = (abs(xs), abs(xe)) if axis == "X" else (abs(ys), abs(ye))
+    # The end belongs to the quadrant that it is moved into against the arc's sense.
+    last = start_quadrant(xe, ye, -sense)
+    ahead = sense * (xs * ye - ys * xe)
+    same = xs * xe + ys * ye
+    near = max(abs(xe - xs), abs(ye - ys)) <= 1
+    if same > 0 and (ahead == 0 or (ahead < 0 and near)):
+        # An end a hair behind the start is a short arc that rounding turned back: it goes out as a line.
+        return line_block(xe - xs, ye - ys)
+    whole_turn = quadrant == last and ahead < 0
+    j = 0
+    while quadrant != last or whole_turn:
+        j += distance if is_decreasing(axis, quadrant, sense) else radius - distance
+        distance = 0 if is_decreasing(axis, quadrant, sense) else radius
+        quadrant = next_quadrant(quadrant, sense)
+        whole_turn = False
+    j += abs(goal - distance)
+    if j == 0:
+        return line_block(xe - xs, ye - ys)
+    return Block(abs(xs), abs(ys), j, axis, code)
