@@ -101,7 +101,7 @@ static uint64_t character_time(const board *b)
         return 0;
     }
     unsigned bits = b->baud <= 110 ? 11 : 10;   /* two stop bits for a mechanical teletype */
-    return (uint64_t)bits * BOARD_HZ / b->baud;
+    return (uint64_t)(bits * b->hz / b->baud);
 }
 
 /* Puts the next character of the operator's into the receiver if it is due. */
@@ -294,6 +294,7 @@ board *board_new(board_kind kind, unsigned ram_kib)
         return NULL;
     }
     b->kind = kind;
+    b->hz = BOARD_HZ;
     i8080_init(&b->cpu, port_in, port_out, b);
     i8080_map(&b->cpu, 0, BOARD_ROM_SIZE - 1, I8080_ROM);
     unsigned ram_end = BOARD_RAM_START + ram_kib * 1024;
@@ -346,6 +347,11 @@ bool board_press(board *b, uint8_t key)
 bool board_tape(board *b, const uint8_t *bytes, size_t length)
 {
     return queue_add(&b->tape, bytes, length);
+}
+
+void board_forget_typed(board *b)
+{
+    b->typed.first = b->typed.end;
 }
 
 void board_reader(board *b, bool on)

@@ -75,7 +75,8 @@ typedef struct board {
     board_kind kind;
     /* Set these before the first run. */
     bool punch_tty;
-    unsigned baud;                  /* the teletype's line, at BOARD_HZ; 0: no time at all */
+    double hz;                      /* the processor's clock */
+    unsigned baud;                  /* the teletype's line; 0: no time at all */
     board_sink *paper, *punch;      /* what the teletype prints (7 bits), what the punch punches (8 bits) */
     void *user;
 
@@ -110,6 +111,9 @@ void board_reset(board *b);
 bool board_type(board *b, const uint8_t *bytes, size_t length);
 bool board_press(board *b, uint8_t key);
 bool board_tape(board *b, const uint8_t *bytes, size_t length);
+
+/* Takes back what was typed and has not arrived yet. */
+void board_forget_typed(board *b);
 
 /* The operator moves the lever of the teletype's own reader (punch_tty). */
 void board_reader(board *b, bool on);

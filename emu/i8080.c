@@ -363,8 +363,8 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 #define SAVE_COUNTS                                                                 \
     (c->cycles = c->slice_end - 1 - (uint64_t)(left >> 24), c->instructions += (uint64_t)(left & 0xffffff), \
      left &= ~(int64_t)0xffffff)
-#define IN (SAVE_COUNTS, a = c->in(c->user, (uint8_t)IMM8))
-#define OUT (SAVE_COUNTS, c->out(c->user, (uint8_t)IMM8, (uint8_t)a))
+#define IN (SAVE_REGISTERS, SAVE_COUNTS, a = c->in(c->user, (uint8_t)IMM8))
+#define OUT (SAVE_REGISTERS, SAVE_COUNTS, c->out(c->user, (uint8_t)IMM8, (uint8_t)a))
 #define EI (c->inte = c->shadow = true)
 #define DI (c->inte = false)
 #define HLT (c->halted = true)

@@ -75,7 +75,7 @@ typedef struct i8080 {
 } i8080;
 
 /* All RAM, zero, at PC 0. `in` and `out` are called with `user`; they may call i8080_stop and i8080_interrupt and
- * read the counters, but must not touch registers. */
+ * read registers, counters and memory, but change none of these. */
 void i8080_init(i8080 *c, i8080_in_fn *in, i8080_out_fn *out, void *user);
 
 /* The RESET line: PC = 0, interrupts off, not halted. Registers and memory stay, as on the chip. */

@@ -1,0 +1,226 @@
+/* The operator's side of the teletype. See terminal.h. */
+#include "terminal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <unistd.h>
+
+enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BRACKET = 0x1d };
+enum { DEAF_AFTER = 1000 };         /* ms; so long a full pseudo-terminal may keep the machine waiting */
+
+/* ---- raw mode ---- */
+
+/* A signal handler has no other way to them. */
+static struct termios cooked, raw;
+static volatile sig_atomic_t is_raw;
+
+static void set_raw(void)
+{
+    if (tcsetattr(STDIN_FILENO, TCSADRAIN, &raw) == 0) {
+        is_raw = 1;
+    }
+}
+
+static void set_cooked(void)
+{
+    if (is_raw) {
+        tcsetattr(STDIN_FILENO, TCSANOW, &cooked);
+        is_raw = 0;
+    }
+}
+
+/* Restores the terminal, then lets the signal do what it does. */
+static void on_fatal(int number)
+{
+    set_cooked();
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+static void on_stop(int number)
+{
+    int saved = errno;
+    (void)number;
+    set_cooked();
+    raise(SIGSTOP);
+    errno = saved;
+}
+
+static void on_continue(int number)
+{
+    int saved = errno;
+    (void)number;
+    set_raw();
+    errno = saved;
+}
+
+static void catch_signals(void)
+{
+    static const int fatal[] = {
+        SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGHUP, SIGILL, SIGINT, SIGPIPE, SIGPROF, SIGQUIT, SIGSEGV,
+        SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+    };
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    sigfillset(&action.sa_mask);
+    action.sa_handler = on_fatal;
+    action.sa_flags = SA_NODEFER;
+    for (size_t i = 0; i < sizeof fatal / sizeof *fatal; i++) {
+        struct sigaction old;
+        if (sigaction(fatal[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL) {
+            sigdelset(&action.sa_mask, fatal[i]);
+            sigaction(fatal[i], &action, NULL);
+            sigaddset(&action.sa_mask, fatal[i]);
+        }
+    }
+    action.sa_flags = SA_RESTART;
+    action.sa_handler = on_stop;
+    sigaction(SIGTSTP, &action, NULL);
+    action.sa_handler = on_continue;
+    sigaction(SIGCONT, &action, NULL);
+}
+
+void terminal_open(terminal *t)
+{
+    memset(t, 0, sizeof *t);
+    t->in = STDIN_FILENO;
+    t->out = STDOUT_FILENO;
+    if (tcgetattr(STDIN_FILENO, &cooked) != 0) {
+        return;
+    }
+    t->keyboard = t->leaves = true;
+    raw = cooked;
+    cfmakeraw(&raw);
+    raw.c_cc[VMIN] = 1;
+    raw.c_cc[VTIME] = 0;
+    catch_signals();
+    atexit(set_cooked);
+    set_raw();
+}
+
+int terminal_open_pty(terminal *t)
+{
+    memset(t, 0, sizeof *t);
+    t->keyboard = true;
+    t->in = t->out = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (t->in < 0 || grantpt(t->in) || unlockpt(t->in)) {
+        return -1;
+    }
+    const char *name = ptsname(t->in);
+    if (!name || strlen(name) >= sizeof t->name) {
+        return -1;
+    }
+    strcpy(t->name, name);
+    /* Our own end of the line stays open, so that it is still there, and still raw, when its user hangs up. */
+    int line = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
+    struct termios settings;
+    if (line < 0 || tcgetattr(line, &settings)) {
+        return -1;
+    }
+    cfmakeraw(&settings);
+    if (tcsetattr(line, TCSANOW, &settings)) {
+        return -1;
+    }
+    return fcntl(t->in, F_SETFL, fcntl(t->in, F_GETFL) | O_NONBLOCK);
+}
+
+/* ---- characters ---- */
+
+void terminal_print(terminal *t, uint8_t c)
+{
+    if (t->copy) {
+        putc(c, t->copy);
+    }
+    while (write(t->out, &c, 1) != 1) {
+        struct pollfd line = { .fd = t->out, .events = POLLOUT };
+        if (errno == EINTR) {
+            continue;
+        }
+        if (errno != EAGAIN || t->deaf) {
+            return;             /* a teletype that is switched off prints nothing */
+        }
+        if (poll(&line, 1, DEAF_AFTER) == 0) {
+            t->deaf = true;
+            return;
+        }
+    }
+    t->deaf = false;
+}
+
+static bool take(terminal *t, board *b, uint8_t c)
+{
+    if (!t->keyboard) {
+        bool crlf = t->after_cr && c == '\n';
+        t->after_cr = c == '\r';
+        if (crlf) {
+            return true;
+        }
+        c = c == '\n' ? '\r' : c;
+        return board_type(b, &c, 1);
+    }
+    switch (c) {
+    case CTRL_BRACKET:
+        if (t->leaves) {
+            t->ended = t->left = true;
+            return true;
+        }
+        break;
+    case CTRL_C:
+        board_forget_typed(b);
+        return board_press(b, c);
+    case CTRL_Q:
+    case CTRL_S:
+        return board_press(b, c);
+    }
+    return board_type(b, &c, 1);
+}
+
+bool terminal_listen(terminal *t, board *b, int milliseconds)
+{
+    struct pollfd line = { .fd = t->in, .events = POLLIN };
+    uint8_t bytes[1024];
+    if (t->ended || poll(&line, 1, milliseconds) <= 0) {
+        return true;
+    }
+    ssize_t count = read(t->in, bytes, sizeof bytes);
+    if (count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN)) {
+        t->ended = true;
+    }
+    for (ssize_t i = 0; i < count && !t->left; i++) {
+        if (!take(t, b, bytes[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* ---- real time ---- */
+
+void pacer_start(pacer *p, double hz, uint64_t cycles)
+{
+    p->hz = hz;
+    p->start_cycles = cycles;
+    clock_gettime(CLOCK_MONOTONIC, &p->start);
+}
+
+void pacer_wait(pacer *p, uint64_t cycles)
+{
+    if (p->hz == 0) {
+        return;
+    }
+    double due = (double)(cycles - p->start_cycles) / p->hz;
+    struct timespec until = p->start;
+    until.tv_sec += (time_t)due;
+    until.tv_nsec += (long)((due - (double)(time_t)due) * 1e9);
+    if (until.tv_nsec >= 1000000000) {
+        until.tv_nsec -= 1000000000;
+        until.tv_sec++;
+    }
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL) == EINTR) {
+    }
+}

@@ -1,0 +1,52 @@
+/* The operator's side of the teletype: this terminal, a pipe, or a pseudo-terminal; and real time
+ *
+ * A terminal is switched to raw mode and put back on exit and on every signal that ends or stops the program. ctrl-]
+ * leaves. ctrl-C, ctrl-S and ctrl-Q reach the machine at once, ctrl-C drops what was typed ahead; everything else is
+ * typed when the machine asks for it. From a pipe all characters are typed in their order, and LF is CR.
+ *
+ * NOT IMPLEMENTED: the modem lines, break and speed of a pseudo-terminal; more than one user of it.
+ */
+#ifndef TERMINAL_H
+#define TERMINAL_H
+
+#include "board.h"
+
+#include <stdio.h>
+#include <time.h>
+
+typedef struct {
+    int in, out;            /* file descriptors */
+    bool keyboard;          /* a person or a program at a line (not a pipe): keys, not text */
+    bool leaves;            /* ctrl-] leaves */
+    bool ended;             /* no more will come, or ctrl-] */
+    bool left;              /* ctrl-] */
+    bool deaf;              /* nobody reads the pseudo-terminal */
+    bool after_cr;
+    FILE *copy;             /* of all that is printed; NULL: none */
+    char name[64];          /* of the pseudo-terminal */
+} terminal;
+
+/* Real time at `hz`; hz = 0: no time at all. */
+typedef struct {
+    double hz;
+    uint64_t start_cycles;
+    struct timespec start;
+} pacer;
+
+/* Takes standard input and output; raw mode when the input is a terminal. */
+void terminal_open(terminal *t);
+
+/* Makes a pseudo-terminal and its name; 0, or -1 with errno. */
+int terminal_open_pty(terminal *t);
+
+/* Prints one character of the paper. */
+void terminal_print(terminal *t, uint8_t c);
+
+/* Waits up to so many milliseconds (-1: for ever) for keys and gives them to the board. False without memory. */
+bool terminal_listen(terminal *t, board *b, int milliseconds);
+
+/* Starts real time now, and sleeps until the processor's cycles are due. */
+void pacer_start(pacer *p, double hz, uint64_t cycles);
+void pacer_wait(pacer *p, uint64_t cycles);
+
+#endif
