@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -36,6 +37,18 @@ def run() -> Run:
         if result.exception is not None and not isinstance(result.exception, SystemExit):
             raise result.exception
         return result
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def run_program() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Run `skg` as a program of its own, as a shell does: for what stands on stderr and the exit code."""
+
+    def call(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[str]:
+        program = Path(sys.executable).with_name("skg")
+        return subprocess.run([program, *map(str, arguments)], input=stdin, capture_output=True, text=True,
+                              timeout=60)
 
     return call
 
