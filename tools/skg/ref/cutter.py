@@ -1,0 +1,165 @@
+"""The wire: everything that the cutting statements do, from drawing to tape."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from skg.ref import near
+from skg.ref.fault import Code, Fault
+from skg.ref.fit import Curve as FittedCurve
+from skg.ref.fit import Node
+from skg.ref.geometry import enlarged
+from skg.ref.real import NEARLY, ONE, Real
+from skg.ref.route import Item, Route, Segment
+from skg.ref.tape import Tape
+from skg.ref.values import ORIGIN, Circle, Line, Point
+
+
+@dataclass(frozen=True)
+class Closed:
+    """A route that BACK has closed, for RECUT: its elements and the fillet that waited for BACK's corner."""
+
+    items: tuple[Item, ...]
+    fillet: Real | None
+
+
+class Cutter:
+    """The state between cutting statements. Places are in mm on the tape, arguments in the drawing's mm."""
+
+    def __init__(self, tape: Tape, path: list[Segment]) -> None:
+        self.tape = tape
+        self.path = path
+        self.line: int | None = None
+        self.wire = ORIGIN
+        self.from_point = ORIGIN
+        self.scale = ONE
+        self.moved = False
+        self.route: Route | None = None
+        self.curve: FittedCurve | None = None
+        self.closed: Closed | None = None
+
+    # Moves ----------------------------------------------------------------------------------------------
+
+    def _emit(self, segment: Segment) -> None:
+        if segment.is_arc:
+            self.tape.arc(segment.end, segment.centre, segment.radius < 0, segment.sweep)
+        else:
+            self.tape.line(segment.end)
+        if segment.is_arc or (segment.end - segment.start).length() > NEARLY:
+            self.path.append(replace(segment, line=self.line))
+        self.wire = segment.end
+
+    def _straight(self, end: Point, role: str) -> None:
+        self._emit(Segment(self.wire, end, role))
+
+    def position(self, p: Point) -> None:
+        """FROM: silent before anything else, then a re-positioning between two stops."""
+        p = enlarged(p, self.scale)
+        if self.moved:
+            self._end_route()
+            self.tape.stop()
+            self._straight(p, "reposition")
+            self.tape.stop()
+        else:
+            self.tape.place(p)
+            self.wire = p
+        self.from_point = p
+        self.moved = True
+
+    # The route ------------------------------------------------------------------------------------------
+
+    def element(self, value: Point | Circle | Line, right: bool, offset: Real) -> None:
+        """An element of CUT."""
+        self._end_curve()
+        self._feed(enlarged(value, self.scale), offset, right)
+
+    def _feed(self, value: Point | Circle | Line, offset: Real, right: bool = False) -> None:
+        self.moved = True
+        self.closed = None
+        if self.route is None:
+            self.route = Route(self.wire, self._emit)
+        self.route.feed(value, offset, right)
+
+    def fillet(self, radius: Real, right: bool) -> None:
+        """A number of CUT."""
+        self._end_curve()
+        if radius <= 0:
+            raise Fault(Code.RANGE)
+        self._open_route().wait_fillet(radius * self.scale, right)
+
+    def node(self, p: Point, tangent: Point | None, offset: Real) -> None:
+        """FIT, `tangent` a unit vector where it is given."""
+        if self.curve is None:
+            self.curve = FittedCurve(self._feed)
+        self.curve.add(Node(enlarged(p, self.scale), tangent, offset))
+
+    def mirror(self, mirror: Line, right: bool, offset: Real) -> None:
+        """SYM."""
+        self._end_curve()
+        self._open_route().mirror(enlarged(mirror, self.scale), offset, right)
+
+    def repeat(self, count: int, angle: Real, about: Point, right: bool, offset: Real) -> None:
+        """REP."""
+        self._end_curve()
+        self._open_route().repeat(count, angle, enlarged(about, self.scale), offset, right)
+
+    def back(self) -> None:
+        """BACK."""
+        self._end_curve()
+        route = self._open_route()
+        closed = Closed(tuple(route.items), route.fillet)
+        route.close()
+        self._straight(self.from_point, "return")
+        self.route = None
+        self.closed = closed
+
+    def recut(self, offset: Real) -> None:
+        """RECUT."""
+        self._end_curve()
+        closed = self.closed
+        if closed is None or self.route is not None:
+            raise Fault(Code.GEOMETRY)
+        self.route = Route(self.wire, self._emit)
+        for item in closed.items:
+            self.route.feed_item(item, offset)
+        if closed.fillet is not None:
+            self.route.wait_fillet(closed.fillet)
+        self.back()
+        self.closed = closed
+
+    def enlarge(self, factor: Real) -> None:
+        """SCALE."""
+        if self.route is not None:
+            raise Fault(Code.GEOMETRY)
+        near.note("scale", factor, 1e-6)
+        if factor <= 0:
+            raise Fault(Code.RANGE)
+        self.scale = factor
+
+    def _open_route(self) -> Route:
+        if self.route is None:
+            raise Fault(Code.GEOMETRY)
+        return self.route
+
+    def _end_curve(self) -> None:
+        if self.curve is not None:
+            curve, self.curve = self.curve, None
+            curve.finish()
+
+    def _end_route(self) -> None:
+        self._end_curve()
+        if self.route is not None:
+            self.route.finish()
+            self.route = None
+
+    def end(self) -> None:
+        """END: the open route and the tape."""
+        self._end_route()
+        self.tape.end()
+
+    def abort(self) -> None:
+        """After an error: a stop if the wire is in the middle of a route."""
+        if self.route is not None:
+            self.tape.stop()
+            self.route = None
+        self.curve = None

@@ -1,0 +1,431 @@
+"""From the text of a line to its syntax tree. The grammar is `skg.lark`; lark makes the parser from it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
+from itertools import pairwise
+
+from lark import Lark, Token, Transformer, UnexpectedInput, v_args
+
+from skg.ref import real
+from skg.ref.fault import Code, Fault
+from skg.ref.real import Real
+
+LAST_LINE = 9999
+LAST_SUBSCRIPT = 999
+#: Which kind the first letter of a name stands for (as in `values.kind`).
+LETTERS = {letter: kind for kind, letters in {"D": "ADRIJ", "P": "POV", "C": "CBT", "S": "SXY"}.items()
+           for letter in letters}  # fmt: skip
+
+
+class LineFault(Fault):
+    """A line that cannot be stored: the error, and the column (from 0) where the line stops making sense."""
+
+    def __init__(self, code: Code, column: int) -> None:
+        super().__init__(code)
+        self.column = column
+
+
+# Expressions
+
+
+@dataclass(frozen=True)
+class Number:
+    """A decimal constant."""
+
+    value: Real
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True)
+class Name:
+    """A variable; its subscript is a constant or an expression in brackets."""
+
+    letter: str
+    subscript: int | Expression
+    column: int = field(compare=False)
+
+
+@dataclass(frozen=True)
+class Minus:
+    """Unary minus."""
+
+    operand: Expression
+
+
+@dataclass(frozen=True)
+class Function:
+    """SQR, SIN, COS, TG, ATG, ABS, INT, K1, K2, K3."""
+
+    name: str
+    argument: Expression
+
+
+@dataclass(frozen=True)
+class Binary:
+    """Two operands and one of `, # : + - * /`."""
+
+    operator: str
+    left: Expression
+    right: Expression
+
+
+Expression = Number | Name | Minus | Function | Binary
+
+# Statements
+
+
+@dataclass(frozen=True)
+class Assign:
+    """name = expression."""
+
+    name: Name
+    value: Expression
+
+
+@dataclass(frozen=True)
+class From:
+    """FROM point."""
+
+    point: Expression
+
+
+@dataclass(frozen=True)
+class Cut:
+    """CUT: each item with whether a `;` stands before it."""
+
+    items: tuple[tuple[bool, Expression], ...]
+
+
+@dataclass(frozen=True)
+class Sym:
+    """SYM line; `right`: the corner it makes turns right."""
+
+    right: bool
+    mirror: Expression
+
+
+@dataclass(frozen=True)
+class Rep:
+    """REP count, turn."""
+
+    right: bool
+    count: Expression
+    turn: Expression
+
+
+@dataclass(frozen=True)
+class Fit:
+    """FIT node[, tangent angle]."""
+
+    node: Expression
+    angle: Expression | None
+
+
+@dataclass(frozen=True)
+class Scale:
+    """SCALE factor."""
+
+    factor: Expression
+
+
+@dataclass(frozen=True)
+class Read:
+    """READ names."""
+
+    names: tuple[Name, ...]
+
+
+@dataclass(frozen=True)
+class Data:
+    """DATA expressions, evaluated when they are read."""
+
+    items: tuple[Expression, ...]
+
+
+@dataclass(frozen=True)
+class Restore:
+    """RESTORE to the first DATA, or to the first at or after a line."""
+
+    line: int | None
+
+
+@dataclass(frozen=True)
+class Print:
+    """PRINT expressions and texts."""
+
+    items: tuple[Expression | str, ...]
+
+
+@dataclass(frozen=True)
+class Input:
+    """INPUT names."""
+
+    names: tuple[Name, ...]
+
+
+@dataclass(frozen=True)
+class Goto:
+    """GOTO line."""
+
+    line: int
+
+
+@dataclass(frozen=True)
+class If:
+    """IF left relation right GOTO line."""
+
+    left: Expression
+    relation: str
+    right: Expression
+    line: int
+
+
+@dataclass(frozen=True)
+class Gosub:
+    """GOSUB line."""
+
+    line: int
+
+
+@dataclass(frozen=True)
+class Simple:
+    """A statement that is one word: BACK, RECUT, RETURN, END, REM."""
+
+    word: str
+
+
+Statement = (
+    Assign
+    | From
+    | Cut
+    | Sym
+    | Rep
+    | Fit
+    | Scale
+    | Read
+    | Data
+    | Restore
+    | Print
+    | Input
+    | Goto
+    | If
+    | Gosub
+    | Simple
+)
+
+
+@dataclass(frozen=True)
+class ProgramLine:
+    """A line of text: a number alone deletes, a statement without a number is carried out at once."""
+
+    number: int | None
+    statement: Statement | None
+
+
+class _Tree(Transformer):
+    """lark's tree to ours, built while parsing."""
+
+    def line(self, children: list) -> ProgramLine:
+        if not isinstance(children[0], Token):
+            return ProgramLine(None, children[0])
+        number = int(children[0])
+        if not 1 <= number <= LAST_LINE:
+            raise LineFault(Code.SYNTAX, children[0].start_pos)
+        return ProgramLine(number, children[1])
+
+    @v_args(inline=True)
+    def number(self, token: Token) -> Number:
+        return Number(real.literal(token), token.start_pos)
+
+    @v_args(inline=True)
+    def name(self, token: Token, subscript: Expression | None = None) -> Name:
+        if subscript is None:
+            subscript = int(token[1:] or 0)
+        return Name(str(token[0]), subscript, token.start_pos)
+
+    @v_args(inline=True)
+    def minus(self, _: Token, operand: Expression) -> Minus:
+        return Minus(operand)
+
+    @v_args(inline=True)
+    def function(self, token: Token, argument: Expression) -> Function:
+        return Function(token.rstrip("␣"), argument)
+
+    @v_args(inline=True)
+    def binary(self, left: Expression, operator: Token, right: Expression) -> Binary:
+        return Binary(str(operator), left, right)
+
+    @v_args(inline=True)
+    def assign(self, name: Name, _: Token, value: Expression) -> Assign:
+        return Assign(name, value)
+
+    def cut(self, children: list) -> Cut:
+        items = tuple(
+            (separator is not None and separator.type == "SEMICOLON", item)
+            for separator, item in zip(children[::2], children[1::2], strict=True)
+        )
+        _check_fillets(items)
+        return Cut(items)
+
+    def sym(self, children: list) -> Sym:
+        return Sym(children[0] is not None, children[1])
+
+    def rep(self, children: list) -> Rep:
+        return Rep(children[0] is not None, children[1], children[3])
+
+    def fit(self, children: list) -> Fit:
+        return Fit(children[0], children[2])
+
+    def read(self, children: list) -> Read:
+        return Read(tuple(children[::2]))
+
+    def input(self, children: list) -> Input:
+        return Input(tuple(children[::2]))
+
+    def data(self, children: list) -> Data:
+        return Data(tuple(children[::2]))
+
+    def print(self, children: list) -> Print:
+        items = children[::2] if children[0] is not None else []
+        return Print(tuple(str(i[1:-1]) if isinstance(i, Token) else i for i in items))
+
+    def restore(self, children: list) -> Restore:
+        return Restore(None if children[0] is None else int(children[0]))
+
+    def goto(self, children: list) -> Goto:
+        return Goto(int(children[0]))
+
+    def gosub(self, children: list) -> Gosub:
+        return Gosub(int(children[0]))
+
+    @v_args(inline=True)
+    def if_(self, left: Expression, relation: Token, right: Expression, line: Token) -> If:
+        return If(left, str(relation), right, int(line))
+
+    from_ = v_args(inline=True)(From)
+    scale = v_args(inline=True)(Scale)
+
+    def back(self, _: list) -> Simple:
+        return Simple("BACK")
+
+    def recut(self, _: list) -> Simple:
+        return Simple("RECUT")
+
+    def return_(self, _: list) -> Simple:
+        return Simple("RETURN")
+
+    def end(self, _: list) -> Simple:
+        return Simple("END")
+
+    def rem(self, _: list) -> Simple:
+        return Simple("REM")
+
+
+def plain_kind(item: Expression) -> str | None:
+    """The kind of an item that is a single constant or name, None for anything longer."""
+    match item:
+        case Number():
+            return "D"
+        case Name(letter):
+            return LETTERS[letter]
+    return None
+
+
+def _check_fillets(items: tuple[tuple[bool, Expression], ...]) -> None:
+    """Error 1 for a fillet radius where the line itself shows that none can stand."""
+    kinds = [plain_kind(item) for _, item in items]
+    columns = [getattr(item, "column", 0) for _, item in items]
+    for i, (kind, following) in enumerate(pairwise(kinds)):
+        if kind != "D":
+            continue
+        if following == "D":
+            raise LineFault(Code.SYNTAX, columns[i + 1])
+        if following == "P" and i > 0 and kinds[i - 1] in ("C", "S"):
+            raise LineFault(Code.SYNTAX, columns[i])
+
+
+def _literal_check(token: Token) -> Token:
+    try:
+        real.literal(token)
+    except Fault as fault:
+        raise LineFault(fault.code, token.start_pos) from None
+    return token
+
+
+def _subscript_check(token: Token) -> Token:
+    if int(token[1:] or 0) > LAST_SUBSCRIPT:
+        raise LineFault(Code.RANGE, token.start_pos)
+    return token
+
+
+@cache
+def _parser() -> Lark:
+    return Lark(
+        files("skg.ref").joinpath("skg.lark").read_text("utf-8"),
+        start=["line", "expression"],
+        parser="lalr",
+        transformer=_Tree(),
+        maybe_placeholders=True,
+        lexer_callbacks={"NUMBER": _literal_check, "NAME": _subscript_check},
+    )
+
+
+_BLANK = " \t"
+_FUNCTION_END = re.compile(r"(SQR|SIN|COS|TG|ABS|INT|K[123])$")
+_REMARK = re.compile(r"[ \t0-9]*R[ \t]*E[ \t]*M", re.IGNORECASE)
+
+
+def squeeze(text: str) -> tuple[str, list[int]]:
+    """The line in upper case without its blanks, and the column of each character that is left.
+
+    Blanks stay in texts between quotes; one that follows a function's name becomes `␣`. What follows REM
+    is dropped.
+    """
+    remark = _REMARK.match(text)
+    if remark:
+        text = remark.group()
+    out: list[str] = []
+    columns: list[int] = []
+    quoted = False
+    for column, char in enumerate(text):
+        if char == '"':
+            quoted = not quoted
+        if quoted or char not in _BLANK:
+            out.append(char if quoted else char.upper())
+        elif _FUNCTION_END.search("".join(out[-3:])):
+            out.append("␣")
+        else:
+            continue
+        columns.append(column)
+    return "".join(out), columns
+
+
+def _parse(text: str, start: str) -> ProgramLine | Expression:
+    squeezed, columns = squeeze(text)
+    columns.append(len(text))
+    try:
+        return _parser().parse(squeezed, start=start)
+    except UnexpectedInput as unexpected:
+        place = unexpected.pos_in_stream
+        at_end = place is None or getattr(getattr(unexpected, "token", None), "type", "") == "$END"
+        raise LineFault(Code.SYNTAX, columns[-1 if at_end else place]) from None
+    except LineFault as fault:
+        raise LineFault(fault.code, columns[fault.column]) from None
+    except RecursionError:
+        raise LineFault(Code.MEMORY, 0) from None
+
+
+def parse_line(text: str) -> ProgramLine:
+    """A line as typed; `LineFault` when it is not understood."""
+    return _parse(text, "line")
+
+
+def parse_answer(text: str) -> Expression:
+    """An answer to INPUT: one expression."""
+    return _parse(text, "expression")
+
+

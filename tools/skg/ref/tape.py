@@ -1,0 +1,169 @@
+"""The 3B tape, made from true places in integer arithmetic (tape-3b.md)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isqrt
+
+from skg.ref import near, real
+from skg.ref.fault import Code, Fault
+from skg.ref.real import Real
+from skg.ref.values import Point
+
+#: One more than the largest number of 8 digits.
+TOO_LONG = 10**8
+
+Grid = tuple[int, int]
+
+
+def micrometres(value: Real) -> int:
+    """A length in mm rounded to the µm: ⌊1000·|v| + 0.502⌋ with the sign of v; error 10 for 100 m or more."""
+    scaled = 1000 * abs(value) + Real("0.502")
+    size = int(real.mp.floor(scaled))
+    near.note("rounding", scaled - real.mp.nint(scaled), 1e-3)
+    if size >= TOO_LONG:
+        raise Fault(Code.TAPE)
+    return size if value >= 0 else -size
+
+
+def grid(p: Point) -> Grid:
+    """A place in whole micrometres."""
+    return micrometres(p.x), micrometres(p.y)
+
+
+def quadrant_into(x: int, y: int) -> int:
+    """Quadrant that a counter-clockwise move from direction (x, y) goes into: 1 for 0° ≤ it < 90°, …"""
+    if x > 0 and y >= 0:
+        return 1
+    if y > 0:
+        return 2
+    return 3 if x < 0 else 4
+
+
+def quadrant_out_of(x: int, y: int) -> int:
+    """Quadrant that a counter-clockwise move to direction (x, y) comes out of: 1 for 0° < it ≤ 90°, …"""
+    return 5 - quadrant_into(x, -y)
+
+
+def line_block(dx: int, dy: int) -> str:
+    """The block of a straight move, which is not zero."""
+    x, y = abs(dx), abs(dy)
+    axis = "Y" if y > x or (x == y and dx * dy > 0) else "X"
+    return _block(x, y, max(x, y), axis, f"L{quadrant_into(dx, dy)}")
+
+
+def _block(x: int, y: int, j: int, axis: str, z: str) -> str:
+    if max(x, y, j) >= TOO_LONG:
+        raise Fault(Code.TAPE)
+    return f"B{x}B{y}B{j}G{axis}{z}"
+
+
+def arc_block(start: Grid, end: Grid, clockwise: bool, true_sweep: Real) -> str | None:
+    """The block of an arc from its ends relative to its rounded centre, or None where it goes as a line.
+
+    `true_sweep` is in radians, positive, 2π for a full circle. A clockwise arc is counted as its
+    counter-clockwise image about the X axis: the travel along each axis is the same.
+    """
+    (xs, ys), (xe, ye) = start, end
+    if clockwise:
+        ys, ye = -ys, -ye
+    if (xs, ys) == (0, 0) or (xe, ye) == (0, 0):
+        return None
+    cross, dot = xs * ye - ys * xe, xs * xe + ys * ye
+    rounded = real.mp.atan2(cross, dot) % (2 * real.mp.pi)
+    turns = _nearest_turns(rounded, true_sweep)
+    if turns < 0 or (turns == 0 and cross == 0 and dot > 0):
+        return None
+    axis = "Y" if abs(xe) > abs(ye) else "X"
+    travel = _travel((xs, ys), (xe, ye), turns, axis)
+    if travel == 0:
+        return None
+    quadrant = quadrant_into(xs, ys)
+    z = f"SR{5 - quadrant}" if clockwise else f"NR{quadrant}"
+    return _block(abs(xs), abs(ys), travel, axis, z)
+
+
+def _nearest_turns(rounded: Real, true_sweep: Real) -> int:
+    """How many full turns to add to the rounded values' sweep to come nearest the true one: -1, 0 or 1."""
+    full = 2 * real.mp.pi
+    misses = sorted((abs(rounded + n * full - true_sweep), n) for n in (-1, 0, 1))
+    near.note("sweep", misses[1][0] - misses[0][0], 1e-6)
+    return misses[0][1]
+
+
+def _travel(start: Grid, end: Grid, turns: int, axis: str) -> int:
+    """J: the travel along one axis, counter-clockwise, with `turns` full turns added (0 or 1)."""
+    (xs, ys), (xe, ye) = start, end
+    radius = (isqrt(4 * (xs * xs + ys * ys)) + 1) // 2
+    quadrant = quadrant_into(xs, ys)
+    cross, dot = xs * ye - ys * xe, xs * xe + ys * ye
+    crossed = (quadrant_out_of(xe, ye) - quadrant) % 4
+    if cross == 0 and dot > 0:
+        crossed = -1 if crossed else 0  # the same direction: none, or less the axis that both lie on
+    elif crossed == 0 and cross < 0:
+        crossed = 4
+    # The axis crossings' values of the counted coordinate, in the order 90°, 180°, 270°, 360°.
+    extremes = (None, -radius, None, radius) if axis == "X" else (radius, None, -radius, None)
+    at, last = (xs, xe) if axis == "X" else (ys, ye)
+    total = 0
+    for i in range(crossed + 4 * turns):
+        extreme = extremes[(quadrant - 1 + i) % 4]
+        if extreme is not None:
+            total += abs(extreme - at)
+            at = extreme
+    return total + abs(last - at)
+
+
+@dataclass
+class Tape:
+    """Blocks in the order of punching; keeps the place of the wire in whole micrometres."""
+
+    at: Grid = (0, 0)
+    lines: list[str] = field(default_factory=list)
+
+    def place(self, p: Point) -> None:
+        """Take the wire to be at p without a block."""
+        self.at = grid(p)
+
+    def line(self, end: Point) -> None:
+        """A straight move; nothing when the rounded ends coincide."""
+        self._line(grid(end))
+
+    def _line(self, end: Grid) -> None:
+        dx, dy = end[0] - self.at[0], end[1] - self.at[1]
+        if dx or dy:
+            self.lines.append(line_block(dx, dy))
+        self.at = end
+
+    def arc(self, end: Point, centre: Point, clockwise: bool, sweep: Real) -> None:
+        """An arc of a true sweep in radians; where the rounded values make none of it, a straight move."""
+        last, middle = grid(end), grid(centre)
+        xs, ys = self.at[0] - middle[0], self.at[1] - middle[1]
+        if last == self.at:
+            near.note("sweep", sweep - real.mp.pi, 1e-6)
+            if sweep > real.mp.pi:
+                self._full_circle(xs, ys, clockwise)
+            return
+        block = arc_block((xs, ys), (last[0] - middle[0], last[1] - middle[1]), clockwise, sweep)
+        if block is None:
+            self._line(last)
+        else:
+            self.lines.append(block)
+            self.at = last
+
+    def _full_circle(self, xs: int, ys: int, clockwise: bool) -> None:
+        block = arc_block((xs, ys), (xs, ys), clockwise, 2 * real.mp.pi)
+        if block is not None:
+            self.lines.append(block)
+
+    def stop(self) -> None:
+        """`D`: the controller stops."""
+        self.lines.append("D")
+
+    def end(self) -> None:
+        """`DD`: end of the tape."""
+        self.lines.append("DD")
+
+    def bytes(self) -> bytes:
+        """The tape as it is punched."""
+        return "".join(line + "\r\n" for line in self.lines).encode("ascii")
