@@ -210,7 +210,8 @@ def test_closing_and_routes(run: Run) -> None:
     result = run("sim", "-", stdin=data)
     assert result.exit_code == 0
     assert "9 blocks, 2 stops" in result.output
-    assert "open by 5000, 100 µm" in result.output
+    assert "path        closes to 0 µm" in result.output
+    assert "blocks 5-5: moves by 5000, 100 µm" in result.output
     assert "blocks 1-4: closes to 0 µm" in result.output
     assert "blocks 6-9: closes to 0 µm" in result.output
     assert run("sim", "-", "--strict-close", stdin=tapes.to_bytes(square)).exit_code == 0

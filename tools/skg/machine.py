@@ -113,7 +113,8 @@ def _load() -> ctypes.CDLL:
 class Batch:
     """What `Machine.batch` brings back from n calls.
 
-    `outputs`: n * out_len bytes. `cycles`: n of uint32. `ends`: n of uint8, indices into `ENDS` (0 = returned).
+    `outputs`: n * out_len bytes. `cycles`: n of uint32. `ends`: n of uint8, indices into `ENDS`
+    (0 = returned).
     `registers`: n records with fields a, f, bc, de, hl, sp, pc, as they were when the call ended.
     """
 
@@ -164,7 +165,7 @@ class Machine:
     # The operator
 
     def type(self, text: str | bytes) -> None:
-        """Queue text that the operator types, each character when the machine waits for one. CR ends a line."""
+        """Text that the operator types, each character when the machine waits for one; CR ends a line."""
         data = text.encode("ascii") if isinstance(text, str) else text
         if not self._lib.board_type(self._board, data, len(data)):
             raise MemoryError
@@ -193,10 +194,10 @@ class Machine:
         self._lib.machine_interrupt(self._machine, bytes(code).ljust(3, b"\0"))
 
     def run(self, max_cycles: int = 1_000_000_000) -> str:
-        """Run until the machine waits for the operator and nothing typed is left, or something else stops it.
+        """Run until the machine waits for the operator and nothing typed is left, or until something else.
 
-        Returns "prompt" (the paper's last line is `>`), "input" (it ends in `? `), "wait" (for a key anywhere else),
-        "cycles" (max_cycles used up), "halt" or "break" (at a breakpoint).
+        Returns "prompt" (the paper's last line is `>`), "input" (it ends in `? `), "wait" (for a key anywhere
+        else), "cycles" (max_cycles used up), "halt" or "break" (at a breakpoint).
         """
         return REASONS[self._lib.board_run(self._board, max_cycles)]
 
@@ -341,10 +342,10 @@ class Machine:
     ) -> Batch:
         """Call a subroutine n times, at the core's full speed.
 
-        Before each call the next k = len(inputs) / n bytes go to `in_addr` and the registers are set (those not
-        given as they are now; sp: the end of the RAM); after it out_len bytes are taken from `out_addr`. A call may
-        take `max_cycles`. The rest of the memory stays from call to call. Raises ValueError when n does not divide
-        len(inputs).
+        Before each call the next k = len(inputs) / n bytes go to `in_addr` and the registers are set (those
+        not given as they are now; sp: the end of the RAM); after it out_len bytes are taken from `out_addr`.
+        A call may take `max_cycles`. The rest of the memory stays from call to call. Raises ValueError when n
+        does not divide len(inputs).
         """
         if n < 1 or len(inputs) % n:
             raise ValueError(f"{len(inputs)} input bytes for {n} calls")

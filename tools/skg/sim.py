@@ -30,18 +30,22 @@ class BlockReport:
 
 @dataclass(frozen=True)
 class Route:
-    """The blocks between two stops. `gap` is where the controller ended minus where it started, µm;
-    `programmed_gap` the same summed over the ends that the blocks should have had."""
+    """The blocks between two stops.
+
+    `gap` is where the controller ended minus where it started, µm; `programmed_gap` the same summed over the
+    ends that the blocks should have had. `is_move`: one straight move between two stops, nothing is cut.
+    """
 
     first: int
     last: int
     gap: tuple[int, int]
     programmed_gap: tuple[int, int]
+    is_move: bool
 
 
 @dataclass(frozen=True)
 class Report:
-    """A whole tape; lengths in µm, times in seconds."""
+    """A whole tape; lengths in µm, times in seconds. `gap` is the larger of all cut routes' gaps."""
 
     name: str
     blocks: int
@@ -52,6 +56,7 @@ class Report:
     time: float
     gap: tuple[int, int]
     programmed_gap: tuple[int, int]
+    end: tuple[int, int]
     off_curve: float
     off_path: float
     misses: int
@@ -62,7 +67,7 @@ class Report:
 
     @property
     def closed(self) -> bool:
-        """True when the controller ends where it began."""
+        """True when every route that is cut ends where it began."""
         return self.gap == (0, 0)
 
 
@@ -87,18 +92,19 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False) -> Report:
     bar = tqdm(total=total, unit="step", unit_scale=True, delay=0.5, leave=False,
                disable=None if progress and total > _LONG else True)
 
-    def close_route(last: int) -> None:
+    def close_route(last: int, before_stop: bool) -> None:
         nonlocal at_stop
         (x, y), (xp, yp), first = at_stop
         if last >= first:
+            is_move = before_stop and 1 < first == last and tape.blocks[first - 1].is_line
             routes.append(Route(first, last, (real[0] - x, real[1] - y),
-                                (programmed[0] - xp, programmed[1] - yp)))
+                                (programmed[0] - xp, programmed[1] - yp), is_move))
         at_stop = real, programmed, last + 1
 
     with bar:
         for item in tape.items:
             if isinstance(item, Stop):
-                close_route(item.after)
+                close_route(item.after, True)
                 continue
             drift = real[0] - programmed[0], real[1] - programmed[1]
             outcome: Outcome = run_block(item, drift, bar.update)
@@ -110,15 +116,22 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False) -> Report:
             off_curve = max(off_curve, outcome.off_curve)
             off_path = max(off_path, outcome.off_path)
             largest_drift = max(largest_drift, abs(real[0] - programmed[0]), abs(real[1] - programmed[1]))
-    close_route(len(each))
+    close_route(len(each), False)
+    cut = [route for route in routes if not route.is_move] or [Route(0, 0, (0, 0), (0, 0), False)]
     travel = sum(block.length for block in tape.blocks)
     missed = [max(abs(one.really[0] - one.should[0]), abs(one.really[1] - one.should[1])) for one in each]
     return Report(
         name=tape.name, blocks=len(each), stops=sum(isinstance(item, Stop) for item in tape.items),
         travel=travel, steps=sum(one.steps for one in each), feed=feed, time=travel / 1000 / feed * 60,
-        gap=real, programmed_gap=programmed, off_curve=off_curve, off_path=off_path,
+        gap=max((route.gap for route in cut), key=_size),
+        programmed_gap=max((route.programmed_gap for route in cut), key=_size), end=real,
+        off_curve=off_curve, off_path=off_path,
         misses=sum(miss > 0 for miss in missed), largest_miss=max(missed, default=0),
         largest_drift=largest_drift, routes=tuple(routes), each=tuple(each))
+
+
+def _size(gap: tuple[int, int]) -> int:
+    return max(abs(gap[0]), abs(gap[1]))
 
 
 def closing(gap: tuple[int, int]) -> str:
@@ -155,7 +168,9 @@ def _text(report: Report, blocks: bool) -> str:
         f"{report.off_path:.3f} µm with the drift before it",
     ]
     if len(report.routes) > 1:
-        lines += [f"  blocks {route.first}-{route.last}: {closing(route.gap)}" for route in report.routes]
+        lines += [f"  blocks {route.first}-{route.last}: "
+                  + (f"moves by {_pair(route.gap)} µm" if route.is_move else closing(route.gap))
+                  for route in report.routes]
     return "\n".join(lines)
 
 

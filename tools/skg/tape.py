@@ -228,6 +228,11 @@ class Tape:
         """The blocks alone, in order."""
         return [item for item in self.items if isinstance(item, Block)]
 
+    @property
+    def stops(self) -> list[Stop]:
+        """The stops alone, in order."""
+        return [item for item in self.items if isinstance(item, Stop)]
+
     def stretches(self) -> list[list[Block]]:
         """Return the blocks between stops; an empty list where two stops follow each other."""
         found: list[list[Block]] = [[]]

@@ -1,0 +1,202 @@
+"""Pictures: their geometry is read back out of the SVG and compared, not their bytes.
+
+`golden/*.svg` were looked at by eye; `python tests/tools/test_plot.py` draws them anew.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from math import cos, hypot, sin
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from conftest import CAD_TAPE, Run
+
+from skg import tape as tapes
+from skg.placed import Placed, place
+
+HERE = Path(__file__).parent
+PLATE = HERE / "parts" / "plate.3b"
+PLATE_SKG = HERE / "parts" / "plate.skg"
+#: Golden picture -> arguments that draw it.
+GOLDEN = {
+    "cad.svg": ["-", "--blocks", "--wire", "1"],
+    "plate.svg": [str(PLATE), "--start", "30,-30", "--positions", "programmed"],
+    "two.svg": [str(PLATE), str(PLATE), "--start", "30,-30", "--start", "35,-25", "--scale", "1",
+                "--positions", "machine", "--title", "Two plates"],
+    "offset.svg": [str(PLATE_SKG), "--show-offset", "--skg80", "reference", "--positions", "programmed"],
+}
+SVG = "{http://www.w3.org/2000/svg}"
+_NUMBERS = re.compile(r"([MLCz])|(-?\d+\.?\d*(?:e-?\d+)?)")
+
+
+def sampled(svg: bytes) -> dict[str, list[tuple[float, float]]]:
+    """Points of every path that has an id of ours, in mm of the part, 9 on each piece."""
+    root = ElementTree.fromstring(svg)
+    note = next(element for element in root.iter() if element.tag.endswith("}description"))
+    page = json.loads(note.text)
+    found = {}
+    for group in root.iter(f"{SVG}g"):
+        if not re.match(r"tape-\d", group.get("id", "")):
+            continue
+        points = []
+        for x, y in flattened(group.find(f"{SVG}path").get("d")):
+            points.append((page["left"] + x / page["mm_to_points"],
+                           page["bottom"] + (page["height_points"] - y) / page["mm_to_points"]))
+        found[group.get("id")] = points
+    return found
+
+
+def flattened(d: str) -> list[tuple[float, float]]:
+    """Points along an SVG path of M, L, C and z."""
+    tokens = [letter or float(number) for letter, number in _NUMBERS.findall(d)]
+    points: list[tuple[float, float]] = []
+    at = 0
+    while at < len(tokens):
+        letter, at = tokens[at], at + 1
+        if letter == "z":
+            continue
+        pairs = []
+        while at < len(tokens) and not isinstance(tokens[at], str):
+            pairs.append((tokens[at], tokens[at + 1]))
+            at += 2
+        if letter == "M":
+            points += pairs
+            continue
+        step = 1 if letter == "L" else 3
+        for first in range(0, len(pairs), step):
+            corners = [points[-1], *pairs[first:first + step]]
+            points += [bezier(corners, k / 8) for k in range(1, 9)]
+    return points
+
+
+def bezier(corners: list[tuple[float, float]], t: float) -> tuple[float, float]:
+    while len(corners) > 1:
+        corners = [((1 - t) * a + t * c, (1 - t) * b + t * d)
+                   for (a, b), (c, d) in zip(corners, corners[1:], strict=False)]
+    return corners[0]
+
+
+def apart(ones: list[tuple[float, float]], others: list[tuple[float, float]]) -> float:
+    """Largest distance of corresponding points, mm."""
+    assert len(ones) == len(others)
+    return max(hypot(a - c, b - d) for (a, b), (c, d) in zip(ones, others, strict=True))
+
+
+@pytest.mark.parametrize("name", GOLDEN)
+def test_golden(run: Run, tmp_path: Path, name: str) -> None:
+    drawn = tmp_path / name
+    result = run("plot", *GOLDEN[name], "-o", drawn, stdin=CAD_TAPE)
+    assert result.exit_code == 0, result.output
+    new, golden = sampled(drawn.read_bytes()), sampled((HERE / "golden" / name).read_bytes())
+    assert new.keys() == golden.keys()
+    for key, points in golden.items():
+        assert apart(new[key], points) < 0.002, key
+
+
+def test_drawn_path_is_the_tape(run: Run, tmp_path: Path) -> None:
+    """Every point drawn lies on its block's line or circle, and the corners are the blocks' ends."""
+    drawn = tmp_path / "plate.svg"
+    run("plot", PLATE, "--start", "30,-30", "-o", drawn)
+    paths = sampled(drawn.read_bytes())
+    for number, route in enumerate(place(tapes.read(str(PLATE)), (30_000, -30_000)), 1):
+        points = paths[f"tape-1-route-{number}"]
+        for placed in route.blocks:
+            for part in (0, 0.25, 0.5, 0.75, 1):
+                x, y = (ordinate / 1000 for ordinate in placed.at(part))
+                assert min(hypot(x - u, y - v) for u, v in points) < placed.block.length / 1000 / 8
+            if not placed.block.is_line:
+                continue
+            for x, y in (placed.start, placed.end):
+                assert min(hypot(x / 1000 - u, y / 1000 - v) for u, v in points) < 0.003
+        for u, v in points:
+            assert min(distance(placed, 1000 * u, 1000 * v) for placed in route.blocks) < 5
+
+
+def distance(placed: Placed, x: float, y: float) -> float:
+    """From a point to a block's whole line or circle, µm."""
+    if placed.block.is_line:
+        way = placed.direction(0)
+        return abs((x - placed.start[0]) * sin(way) - (y - placed.start[1]) * cos(way))
+    return abs(hypot(x - placed.centre[0], y - placed.centre[1]) - hypot(placed.block.x, placed.block.y))
+
+
+@pytest.mark.parametrize(("form", "begin"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")])
+def test_formats(run: Run, tmp_path: Path, cad_tape: Path, form: str, begin: bytes) -> None:
+    picture = tmp_path / f"cad.{form}"
+    assert run("plot", cad_tape, "-o", picture).exit_code == 0
+    assert picture.read_bytes().startswith(begin)
+    result = run("plot", cad_tape, "-o", "-", "--format", form)
+    assert result.stdout_bytes.startswith(begin)
+
+
+def test_same_bytes_every_time(run: Run, cad_tape: Path) -> None:
+    first, second = (run("plot", cad_tape, "-o", "-").stdout_bytes for _ in range(2))
+    assert first == second
+
+
+def test_wire_to_scale(run: Run, cad_tape: Path) -> None:
+    """The kerf's width on the paper is the wire's diameter times the scale."""
+    svg = run("plot", cad_tape, "-o", "-", "--wire", "2", "--scale", "0.5").stdout
+    width = float(re.search(r'id="tape-1-route-1-kerf".*?stroke-width: ([\d.]+)', svg, re.S)[1])
+    assert width == pytest.approx(2 * 0.5 * 72 / 25.4, rel=1e-4)
+
+
+def test_offset_lies_beside_the_contour(run: Run) -> None:
+    """R = 0.1: the wire path on a belt and an arc is 0.1 mm from the contour."""
+    svg = run("plot", PLATE_SKG, "--show-offset", "--skg80", "reference", "-o", "-").stdout_bytes
+    paths = sampled(svg)
+    contour = paths["tape-1-contour"]
+    belt = paths["tape-1-route-1"][8:-8]
+    for x, y in belt:
+        assert 0.098 < hypot(*nearest_offset(contour, x, y)) < 0.1 + 0.01
+
+
+def nearest_offset(points: list[tuple[float, float]], x: float, y: float) -> tuple[float, float]:
+    """Vector to the nearest point of a polyline."""
+    best = None
+    for (a, b), (c, d) in zip(points, points[1:], strict=False):
+        length = (c - a) ** 2 + (d - b) ** 2
+        t = min(1, max(0, ((x - a) * (c - a) + (y - b) * (d - b)) / length)) if length else 0
+        vector = a + t * (c - a) - x, b + t * (d - b) - y
+        if best is None or hypot(*vector) < hypot(*best):
+            best = vector
+    return best
+
+
+@pytest.mark.parametrize(("arguments", "message"), [
+    (["nothing.3b", "-o", "x.svg"], "nothing.3b: No such file or directory"),
+    ([PLATE, "-o", "x.bmp"], "x.bmp: expected a name that ends in .svg, .png or .pdf, or --format"),
+    ([PLATE, "-o", "x.svg", "--show-offset"], "a tape has no nominal contour, expected a .skg program"),
+    ([PLATE, "-o", "/nowhere/x.svg"], "/nowhere/x.svg: No such file or directory"),
+    ([PLATE, "-o", "x.svg", "--scale", "1000"], "the picture would be"),
+    (["-", "-o", "x.svg"], "-: nothing to draw, the tape has no blocks"),
+    ([PLATE_SKG, "-o", "x.svg", "--skg80", "/nowhere"], "/nowhere: no such file"),
+])
+def test_bad_wishes(run_program: Run, arguments: list, message: str) -> None:
+    stdin = "DD\r\n" if arguments[0] == "-" else ""
+    result = run_program("plot", *arguments, stdin=stdin)
+    assert result.returncode == 2
+    assert message in result.stderr.splitlines()[-1]
+    assert "Traceback" not in result.stderr
+
+
+def test_program_with_an_error(run_program: Run, tmp_path: Path) -> None:
+    part = tmp_path / "bad.skg"
+    part.write_text("10 A=1/0\n20 END\n")
+    result = run_program("plot", part, "-o", tmp_path / "x.svg", "--skg80", "reference")
+    assert (result.returncode, result.stderr) == (2, f"skg: {part}: ERR 05 LINE 10\n")
+
+
+if __name__ == "__main__":
+    from click.testing import CliRunner
+
+    from skg.cli import cli
+
+    for golden, wishes in GOLDEN.items():
+        target = str(HERE / "golden" / golden)
+        drawing = CliRunner().invoke(cli, ["plot", *wishes, "-o", target], input=CAD_TAPE)
+        sys.stderr.write(f"{golden}: {drawing.exit_code} {drawing.output}\n")

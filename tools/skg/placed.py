@@ -1,0 +1,136 @@
+"""A tape laid out on the drawing: absolute lines and arcs, in whole micrometres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, pi, sin
+
+import click
+
+from skg.controller import run_block
+from skg.tape import Block, Stop, Tape
+
+#: The names that `place` and the command lines know for "where does the next block start".
+POSITIONS = ("auto", "programmed", "machine")
+
+positions_option = click.option(
+    "--positions", type=click.Choice(POSITIONS), default="auto", show_default=True,
+    help="Start each block where the block before should have ended (programmed), or where the controller "
+         "really stands then (machine); auto: whichever closes the routes better.")
+
+
+@dataclass(frozen=True)
+class Placed:
+    """One block in its place: absolute start, end and (of an arc) centre, µm."""
+
+    block: Block
+    start: tuple[int, int]
+    end: tuple[int, int]
+
+    @property
+    def centre(self) -> tuple[int, int]:
+        """Centre of an arc."""
+        xs, ys = self.block.start
+        return self.start[0] - xs, self.start[1] - ys
+
+    @property
+    def angles(self) -> tuple[float, float]:
+        """Start and end angle of an arc in radians; the end is the start plus the signed sweep."""
+        first = atan2(*reversed(self.block.start))
+        x, y = self.end[0] - self.centre[0], self.end[1] - self.centre[1]
+        near = first + self.block.sweep
+        if self.block.is_full_circle:
+            return first, near
+        # The placed end may lie some µm from where the block alone would end.
+        miss = (atan2(y, x) - near + pi) % (2 * pi) - pi
+        return first, near + miss
+
+    def at(self, part: float) -> tuple[float, float]:
+        """The point at `part` (0…1) of the block's length, µm."""
+        if self.block.is_line:
+            return (self.start[0] + part * (self.end[0] - self.start[0]),
+                    self.start[1] + part * (self.end[1] - self.start[1]))
+        first, last = self.angles
+        angle, radius = first + part * (last - first), hypot(self.block.x, self.block.y)
+        return self.centre[0] + radius * cos(angle), self.centre[1] + radius * sin(angle)
+
+    def direction(self, part: float) -> float:
+        """Direction of travel at `part` of the block's length, radians."""
+        if self.block.is_line:
+            return atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
+        first, last = self.angles
+        return first + part * (last - first) + self.block.sense * pi / 2
+
+
+@dataclass(frozen=True)
+class PlacedRoute:
+    """The blocks between two stops.
+
+    `is_move`: a straight move between two stops, with the wire out; else it is cut. `leads` is how many
+    blocks at the beginning and at the end belong to the way in from the start hole and back (0 or 1).
+    """
+
+    blocks: tuple[Placed, ...]
+    is_move: bool
+
+    @property
+    def start(self) -> tuple[int, int]:
+        """Where the route begins, µm."""
+        return self.blocks[0].start
+
+    @property
+    def gap(self) -> int:
+        """Larger coordinate of end minus start, µm."""
+        first, last = self.blocks[0].start, self.blocks[-1].end
+        return max(abs(last[0] - first[0]), abs(last[1] - first[1]))
+
+    @property
+    def leads(self) -> int:
+        """1 when the last block is a line that goes back along the first, else 0."""
+        if len(self.blocks) < 3:
+            return 0
+        first, last = self.blocks[0].block, self.blocks[-1].block
+        if not (first.is_line and last.is_line):
+            return 0
+        (dx, dy), (ex, ey) = first.move, last.move
+        return int(max(abs(dx + ex), abs(dy + ey)) <= 1)
+
+
+def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") -> list[PlacedRoute]:
+    """Lay a tape out from `start` (µm); `positions` is one of `POSITIONS`, see `positions_option`."""
+    if positions == "auto":
+        both = [_place(tape, start, machine) for machine in (False, True)]
+        return min(both, key=lambda routes: sum(min(route.gap, 10) for route in routes))
+    return _place(tape, start, positions == "machine")
+
+
+def _place(tape: Tape, start: tuple[int, int], machine: bool) -> list[PlacedRoute]:
+    routes: list[PlacedRoute] = []
+    blocks: list[Placed] = []
+    at, after_stop = start, False
+
+    def close(before_stop: bool) -> None:
+        if blocks:
+            is_move = after_stop and before_stop and len(blocks) == 1 and blocks[0].block.is_line
+            routes.append(PlacedRoute(tuple(blocks), is_move))
+            blocks.clear()
+
+    for item in tape.items:
+        if isinstance(item, Stop):
+            close(True)
+            after_stop = True
+            continue
+        dx, dy = run_block(item).move if machine else item.move
+        end = at[0] + dx, at[1] + dy
+        blocks.append(Placed(item, at, end))
+        at = end
+    close(False)
+    return routes
+
+
+def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
+    """Smallest and largest x and y (xmin, ymin, xmax, ymax) of the routes in µm, bulges of arcs included."""
+    points = [placed.at(part) for route in routes for placed in route.blocks
+              for part in ((0, 1) if placed.block.is_line else [k / 32 for k in range(33)])]
+    xs, ys = [x for x, _ in points] or [0], [y for _, y in points] or [0]
+    return min(xs), min(ys), max(xs), max(ys)
