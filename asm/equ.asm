@@ -21,6 +21,22 @@ CEOF    EQU 1AH         ; ctrl-Z, end of a program tape
 CBLANK  EQU 20H
 CQUOTE  EQU 22H
 CRUB    EQU 7FH
+CLPAR   EQU 28H         ; (
+CRPAR   EQU 29H         ; )
+CCOMMA  EQU 2CH         ; ,
+CMINUS  EQU 2DH         ; -
+CSEMI   EQU 3BH         ; ;
+CEQU    EQU 3DH         ; =
+CRBRK   EQU 5DH         ; ]
+CZERO   EQU 30H
+CLTB    EQU 42H         ; letters on the tape
+CLTD    EQU 44H
+CLTG    EQU 47H
+CLTL    EQU 4CH
+CLTN    EQU 4EH
+CLTR    EQU 52H
+CLTS    EQU 53H
+CLTX    EQU 58H
 
 ; ---- Restarts -------------------------------------------------------------
 ;   RST 1 / DB n    ERROR   statement ends with ERR n
@@ -56,6 +72,7 @@ TFLT    EQU 01H         ; five bytes of float follow
 TINT    EQU 02H         ; one byte follows: whole number 0...255
 ; 80H...B7H: a name; letter index * 4 + subscript high bits, then subscript low byte
 TNAME   EQU 80H
+NAMER   EQU 8800H       ; the name R, the wire offset
 ; C0H...CDH: letter index of a name whose subscript is computed: tokens of an
 ; expression follow, then "]"
 TSUB    EQU 0C0H
@@ -96,6 +113,135 @@ TNEW    EQU 0EFH
 TLOAD   EQU 0F0H
 TSAVE   EQU 0F1H
 TFREE   EQU 0F2H
+
+; ---- Calculator registers M0...M63 -------------------------------------------
+; Lxx pushes a register, Sxx pops into it: one byte of byte-code each.
+MA      EQU RAM         ; address of a0: value, and left operand
+MB      EQU RAM+15      ; address of b0: right operand
+MT0     EQU RAM+30      ; temporary registers
+MCUR    EQU RAM+60      ; elements: three numbers, offset, kind
+MNEXT   EQU RAM+85
+MFIRST  EQU RAM+110
+MKEPT   EQU RAM+135
+ELSIZE  EQU 21          ; bytes of an element
+LA0     EQU 040H
+SA0     EQU 080H        ; M0
+LA1     EQU 041H
+SA1     EQU 081H        ; M1
+LA2     EQU 042H
+SA2     EQU 082H        ; M2
+LB0     EQU 043H
+SB0     EQU 083H        ; M3
+LB1     EQU 044H
+SB1     EQU 084H        ; M4
+LB2     EQU 045H
+SB2     EQU 085H        ; M5
+LT0     EQU 046H
+ST0     EQU 086H        ; M6
+LT1     EQU 047H
+ST1     EQU 087H        ; M7
+LT2     EQU 048H
+ST2     EQU 088H        ; M8
+LT3     EQU 049H
+ST3     EQU 089H        ; M9
+LT4     EQU 04AH
+ST4     EQU 08AH        ; M10
+LT5     EQU 04BH
+ST5     EQU 08BH        ; M11
+LC0     EQU 04CH
+SC0     EQU 08CH        ; M12 current element: canonical numbers
+LC1     EQU 04DH
+SC1     EQU 08DH        ; M13
+LC2     EQU 04EH
+SC2     EQU 08EH        ; M14
+LCR     EQU 04FH
+SCR     EQU 08FH        ; M15 its wire offset
+LN0     EQU 051H
+SN0     EQU 091H        ; M17 next element: canonical numbers
+LN1     EQU 052H
+SN1     EQU 092H        ; M18
+LN2     EQU 053H
+SN2     EQU 093H        ; M19
+LNR     EQU 054H
+SNR     EQU 094H        ; M20 its wire offset
+LF0     EQU 056H
+SF0     EQU 096H        ; M22 first element of the route: canonical numbers
+LF1     EQU 057H
+SF1     EQU 097H        ; M23
+LF2     EQU 058H
+SF2     EQU 098H        ; M24
+LFR     EQU 059H
+SFR     EQU 099H        ; M25 its wire offset
+LX0     EQU 05BH
+SX0     EQU 09BH        ; M27 element kept while a fillet goes first: canonical numbers
+LX1     EQU 05CH
+SX1     EQU 09CH        ; M28
+LX2     EQU 05DH
+SX2     EQU 09DH        ; M29
+LXR     EQU 05EH
+SXR     EQU 09EH        ; M30 its wire offset
+LAX     EQU 060H
+SAX     EQU 0A0H        ; M32 where the wire entered C
+LAY     EQU 061H
+SAY     EQU 0A1H        ; M33
+LKX     EQU 062H
+SKX     EQU 0A2H        ; M34 corner at the end of C
+LKY     EQU 063H
+SKY     EQU 0A3H        ; M35
+LGX     EQU 064H
+SGX     EQU 0A4H        ; M36 where the route was entered
+LGY     EQU 065H
+SGY     EQU 0A5H        ; M37
+LPX     EQU 066H
+SPX     EQU 0A6H        ; M38 last item, a point
+LPY     EQU 067H
+SPY     EQU 0A7H        ; M39
+LQX     EQU 068H
+SQX     EQU 0A8H        ; M40 first item, a point
+LQY     EQU 069H
+SQY     EQU 0A9H        ; M41
+LDX     EQU 06AH
+SDX     EQU 0AAH        ; M42 point that arrives
+LDY     EQU 06BH
+SDY     EQU 0ABH        ; M43
+LHX     EQU 06CH
+SHX     EQU 0ACH        ; M44 start hole: the FROM point
+LHY     EQU 06DH
+SHY     EQU 0ADH        ; M45
+LFI     EQU 06EH
+SFI     EQU 0AEH        ; M46 fillet radius that waits
+LO1     EQU 06FH
+SO1     EQU 0AFH        ; M47 offset of C in a crossing
+LO2     EQU 070H
+SO2     EQU 0B0H        ; M48 offset of N in a crossing
+LSC     EQU 071H
+SSC     EQU 0B1H        ; M49 scale
+LWX     EQU 072H
+SWX     EQU 0B2H        ; M50 wire, whole um
+LWY     EQU 073H
+SWY     EQU 0B3H        ; M51
+LVX     EQU 074H
+SVX     EQU 0B4H        ; M52 end of the move, whole um
+LVY     EQU 075H
+SVY     EQU 0B5H        ; M53
+LHU     EQU 076H
+SHU     EQU 0B6H        ; M54 start hole, whole um
+LHV     EQU 077H
+SHV     EQU 0B7H        ; M55
+LBX     EQU 078H
+SBX     EQU 0B8H        ; M56 block: x
+LBY     EQU 079H
+SBY     EQU 0B9H        ; M57 block: y
+LBJ     EQU 07AH
+SBJ     EQU 0BAH        ; M58 block: J
+LQR     EQU 07BH
+SQR     EQU 0BBH        ; M59 its wire offset
+LTL     EQU 07CH
+STL     EQU 0BCH        ; M60 how far curves may cross and still be taken as touching, mm
+MNR     EQU RAM+100
+MO1     EQU RAM+235
+MBX     EQU RAM+280
+MC2     EQU RAM+70
 
 ; ---- RAM -------------------------------------------------------------------
 RAM     EQU 2000H

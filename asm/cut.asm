@@ -1,0 +1,803 @@
+; cut.asm - the route: from items to corners, fillets and closing
+; Offers: SFROM SCUT SBACK CENDST ROUTERR RUNINI RTNEW ROOM
+; Uses:   parser, geom, calc, tape
+; Room:   1500 bytes
+;
+; A route is a chain of oriented elements (lines, circles).  The wire travels the
+; current element C, which it entered at A.  An item that arrives becomes the next
+; element N; the corner K between C and N, each offset by its own R, ends C, whose
+; segment goes out at once, and N becomes C.  Of points the last one, P, is kept:
+; between two points comes a line, beside an element a point names the corner.  So
+; two elements and a point are all the state of a route of any length; for closing
+; it keeps the first element F, the place G where that was entered, and the first
+; item Q when it was a point.
+;
+; Distances up to 1 um (QMU) are taken as none.
+
+CKIND   EQU MCUR+20     ; kinds of the elements
+NKIND   EQU MNEXT+20
+FKIND   EQU MFIRST+20
+RITEMS  EQU CWORK+5     ; items written so far: 0 = no route, 1, 2 = more
+RELEMS  EQU CWORK+6     ; elements of them that did not merge: 0, 1, 2 = more
+RLASTP  EQU CWORK+7     ; 1 = last item was a point
+RFSTP   EQU CWORK+8     ; 1 = first item was a point
+RFILW   EQU CWORK+9     ; not 0 = a fillet waits
+RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
+RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
+RMOVED  EQU CWORK+12    ; not 0 = wire positioned or moved since RUN
+RBEND   EQU CWORK+14    ; end of the route buffer, which begins behind PEND
+BLKNO   EQU CWORK+16    ; number of the last block, four decimal digits
+
+; RUNINI - the state in which a run starts: wire at O, scale 1, no route
+; Clobbers all
+RUNINI: RST     5
+        DB      Q1,SSC          ; -
+        DB      Q0,SHX,Q0,SHY   ; -
+        DB      Q0,SWX,Q0,SWY   ; -
+        DB      Q0,SHU,Q0,SHV   ; -
+        DB      QEND
+        LXI     H,0
+        SHLD    BLKNO
+        XRA     A
+        STA     RMOVED
+; (fall into RTNEW)
+
+; RTNEW - forgets the open route and the route buffer
+; Clobbers A, B, HL
+RTNEW:  RST     5
+        DB      QMU,STL,QEND    ; -
+        LXI     H,RITEMS
+        MVI     B,RNAMED-RITEMS+1
+RTNEW1: MVI     M,0
+        INX     H
+        DCR     B
+        JNZ     RTNEW1
+        LHLD    PEND
+        INX     H
+        SHLD    RBEND
+        RET
+
+; ROOM - is memory free from HL up?  The route buffer is given up for it
+; In:  HL = lowest address wanted   Out: ERR 09 when not   Clobbers A
+ROOM:   PUSH    D
+        XCHG
+        LHLD    RBEND
+        CALL    ROOM1
+        JC      ROOM2
+        LHLD    PEND
+        INX     H
+        SHLD    RBEND
+        CALL    ROOM1
+        JNC     ERMEM
+ROOM2:  XCHG
+        POP     D
+        RET
+ROOM1:  MOV     A,L             ; CY when HL < DE
+        SUB     E
+        MOV     A,H
+        SBB     D
+        RET
+
+; SCUT - statement: CUT item, item; item ...
+SCUT:   RST     6
+        CPI     CSEMI
+        JNZ     SCUT2
+SCUT1:  RST     3               ; ";": the corner to come turns right
+        STA     RTURN
+SCUT2:  CALL    EVAL
+        LDA     CHKF
+        ORA     A
+        CZ      ITEM
+        RST     6
+        CPI     CSEMI
+        JZ      SCUT1
+        CPI     CCOMMA
+        JNZ     CHKEND
+        RST     3
+        JMP     SCUT2
+
+; ITEM - takes one item into the route
+; In:  a0 a1 a2, VKIND; RTURN   Clobbers all
+ITEM:   LDA     VKIND
+        CPI     KTURN
+        JZ      ERKIND
+        CALL    SCALED
+        CALL    GETR
+        LDA     VKIND
+        ORA     A
+        JZ      ITFIL
+        STA     RMOVED
+        CPI     KPNT
+        JZ      ITPNT
+; (fall into ITELM)
+
+; ITELM - a line or circle
+; In:  A = its kind
+ITELM:  STA     NKIND
+        LXI     D,MA
+        LXI     H,MNEXT
+        CALL    COPY15
+        CALL    NAMEIT
+        CALL    ADDEL
+        XRA     A
+; (fall into ITDONE)
+
+; ITDONE - notes that an item was written
+; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
+ITDONE: STA     RLASTP
+        LXI     H,RITEMS
+        MOV     B,M
+        MVI     M,2
+        INR     B
+        DCR     B
+        RNZ
+        DCR     M               ; it is the first one
+        STA     RFSTP
+        RET
+
+; ITFIL - a fillet radius
+ITFIL:  LDA     RELEMS
+        ORA     A
+        JZ      ERGEO           ; before or at the entry
+        LDA     RFILW
+        ORA     A
+        JNZ     ERGEO           ; two in a row
+        LXI     H,MA
+        CALL    FSGN
+        DCR     A
+        JNZ     ERRNG           ; zero or negative
+        INR     A
+        STA     RFILW
+        RST     5
+        DB      LA0,SFI,QRET    ; -
+
+; ITPNT - a point
+ITPNT:  RST     5
+        DB      LA0,SDX,LA1,SDY ; -
+        DB      LA0,SB0,LA1,SB1 ; -             b = D
+        DB      Q0,SB2,QEND
+        LDA     RITEMS
+        ORA     A
+        JZ      ITPN0
+        LDA     RLASTP
+        ORA     A
+        JZ      ITPN1
+        RST     5
+        DB      LPX,SA0,LPY,SA1 ; -
+        DB      QDIF,QHYP       ; distance
+        DB      QMU,QSUB        ; -             within 1 um: the same point
+        DB      QJN,ITPN3-$-1
+        DB      QEND
+        LXI     D,GBELT
+        CALL    RUNBC           ; the line from P to D
+        MVI     A,KLIN
+        STA     NKIND
+        LXI     D,MA
+        LXI     H,MNEXT
+        CALL    COPY15
+        LDA     RELEMS
+        STA     RNAMED
+        CALL    ADDEL
+        JMP     ITPN2
+ITPN0:  RST     5               ; the first item
+        DB      LDX,SQX,LDY,SQY ; -
+        DB      LNR,SQR,QEND    ; -
+        JMP     ITPN2
+ITPN1:  LDA     RFILW
+        ORA     A
+        JNZ     ERGEO           ; a fillet between an element and a point
+        RST     5
+        DB      QCA,QEND        ; -
+        LDA     CKIND
+        CALL    ONELM
+ITPN2:  RST     5
+        DB      LDX,SPX,LDY,SPY ; -
+        DB      QEND
+        MVI     A,1
+        JMP     ITDONE
+ITPN3:  DB      QRET
+
+; GETR - wire offset of now; where none was set: 0
+; Out: NR   Clobbers A, BC, DE, HL
+GETR:   LXI     D,NAMER
+        CALL    FIND
+        XCHG
+        JNC     GETR1
+        LXI     D,PREDEF+2      ; a zero
+GETR1:  LXI     H,MNR
+        JMP     COPY5
+
+; SCALED - the value in the scale of the tape
+; In:  a0 a1 a2, VKIND   Out: a0 a1 a2   Clobbers all
+SCALED: LDA     VKIND
+        CPI     KLIN
+        JZ      SCAL1
+        RST     5
+        DB      LA0,LSC,QMUL,SA0 ; -
+        DB      LA1,LSC,QMUL,SA1 ; -
+        DB      QEND
+SCAL1:  RST     5
+        DB      LA2,LSC,QMUL,SA2 ; -
+        DB      QRET
+
+; NAMEIT - when the last item was a point, it names the corner before N
+; In:  N, RLASTP   Out: RNAMED; ERR 06 when the point is not on N   Clobbers all
+NAMEIT: LDA     RLASTP
+        STA     RNAMED
+        ORA     A
+        RZ
+        RST     5
+        DB      LPX,SB0,LPY,SB1 ; -
+        DB      QNA,QEND        ; -
+        LDA     NKIND
+; (fall into ONELM)
+
+; ONELM - demands that a point lies on an element
+; In:  a = element, A = its kind; b = point   Out: ERR 06   Clobbers all
+ONELM:  CPI     KLIN
+        JZ      ONEL1
+        RST     5
+        DB      QDIF,QHYP       ; distance
+        DB      LA2,QABS,QSUB   ; off
+        DB      QE6D,QRET       ; -
+ONEL1:  RST     5
+        DB      QDOT,LA2,QSUB   ; off
+        DB      QE6D,QRET       ; -
+
+; ADDEL - the element N follows: corner or merging, fillet
+; In:  N; RTURN, RNAMED, RFILW, FI; first element: RFSTP, P or H   Clobbers all
+ADDEL:  LDA     RELEMS
+        ORA     A
+        JZ      FIRST
+        LDA     RNAMED
+        ORA     A
+        JNZ     ADDEL1
+        CALL    SAMEC
+        JZ      CORDON          ; the same curve goes on: no corner
+ADDEL1: CALL    OFFCHK
+        MVI     A,2
+        STA     RELEMS
+        LDA     RFILW
+        ORA     A
+        CNZ     FILLET
+; (fall into JOIN)
+
+; JOIN - corner between C and N, C goes out, N is the current element
+; Clobbers all
+JOIN:   CALL    CORNER
+        CALL    ADVANC
+        CALL    NTOC
+; (fall into CORDON)
+
+; CORDON - the corner to come is not described yet
+; Clobbers A, HL
+CORDON: LXI     H,0
+        SHLD    RFILW           ; and RTURN
+        XRA     A
+        STA     RNAMED
+        RET
+
+; FIRST - N is the first element: the wire goes to it
+FIRST:  CALL    OFFCHK
+        MVI     A,1
+        STA     RELEMS
+        CALL    NTOC
+        LXI     D,MNEXT
+        LXI     H,MFIRST
+        CALL    CPYEL
+        LDA     RFSTP           ; set when a point was written before
+        ORA     A
+        JZ      FIRST1
+        CALL    PATC
+        JMP     FIRST2
+FIRST1: CALL    PLACE
+FIRST2: RST     5
+        DB      LKX,QDUP,SAX,SGX ; -
+        DB      LKY,QDUP,SAY,SGY ; -            A = G = K
+        DB      QVK,QEND
+        CALL    MOVE
+        JMP     CORDON
+
+; NTOC - the next element becomes the current one
+; Clobbers A, DE, HL
+NTOC:   LXI     D,MNEXT
+        LXI     H,MCUR
+; (fall into CPYEL)
+
+; CPYEL - copies an element
+; In:  DE -> from, HL -> to   Clobbers A, DE, HL
+CPYEL:  MVI     A,ELSIZE
+        JMP     COPY
+
+; FILLET - puts the arc that rounds the corner between C and N before N
+; In:  C, N, FI; RTURN, RNAMED   Out: C = the arc (or untouched when C and N run on
+;      without a turn)   Clobbers all
+; The arc turns as the corner does; its centre is where the parallels at its signed
+; radius FI cross (SKG book, formula 9-7).
+FILLET: RST     5
+        DB      Q0,SO1,Q0,SO2   ; -
+        DB      QEND
+        CALL    NOMCOR
+        CALL    NORMS
+        RST     5
+        DB      QCRS,QABS       ; |sine of the turn|
+        DB      QMU,QSUB        ; -             0.001 rad
+        DB      QJN,FILL9-$-1
+        DB      LCR,LNR,QSUB,QE6D ; -
+        DB      QCRS,QSGN,LFI   ; sign FI
+        DB      QMUL,QNEG       ; -fi
+        DB      QDUP,SO1,SO2    ; -
+        DB      LC2,LO1,QEND    ; r -fi
+        LDA     CKIND
+        CALL    SENSE
+        JC      ERGEO
+        RST     5
+        DB      LN2,LO1,QEND    ; r -fi
+        LDA     NKIND
+        CALL    SENSE
+        JC      ERGEO
+        LXI     H,MO1
+        CALL    FSGN            ; 0FFH for a left turn
+        INR     A
+        STA     RTURN
+        PUSH    PSW
+        CALL    XING            ; centre of the arc
+        LXI     D,MNEXT
+        LXI     H,MKEPT
+        CALL    CPYEL
+        MVI     A,KCIR
+        STA     NKIND
+        RST     5
+        DB      LA0,SN0,LA1,SN1 ; -
+        DB      LO1,QNEG,SN2    ; -
+        DB      QEND
+        LDA     CKIND
+        CPI     KCIR
+        CZ      FITARC
+        XRA     A
+        STA     RNAMED
+        CALL    OFFCHK
+        CALL    JOIN
+        LXI     D,MKEPT
+        LXI     H,MNEXT
+        CALL    CPYEL
+        POP     PSW
+        STA     RTURN
+        RET
+FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
+
+; FITARC - does the fillet's touching point on the circle C come before the corner?
+; In:  C, A, N = fillet, K = corner, O1 = -fillet   Out: ERR 06   Clobbers all
+; All seen from C's centre, on C itself: e entry, t touching point, k corner; t is
+; passed before k when t-e, k-e turn as C does.
+FITARC: RST     5
+        DB      LC2             ; r
+        DB      LC2,LCR,QADD    ; r r+R
+        DB      QDIV,ST1        ; -
+        DB      LC2             ; r
+        DB      LC2,LO1,QADD    ; r r-fi
+        DB      QDIV,ST0        ; -
+        DB      LAX,LC0,QSUB,LT1,QMUL,ST2       ; -     e
+        DB      LAY,LC1,QSUB,LT1,QMUL,ST3       ; -
+        DB      LN0,LC0,QSUB,LT0,QMUL,LT2,QSUB,SA0 ; -  a = t-e
+        DB      LN1,LC1,QSUB,LT0,QMUL,LT3,QSUB,SA1 ; -
+        DB      LKX,LC0,QSUB,LT2,QSUB,SB0       ; -     b = k-e
+        DB      LKY,LC1,QSUB,LT3,QSUB,SB1       ; -
+        DB      QCRS,LC2,QSGN,QMUL              ; cross
+        DB      LB0,LB1,QHYP,QMU,QMUL           ; cross 1um*|k-e|
+        DB      QADD,QE6N,QRET                  ; -
+
+; OFFCHK - demands that the wire offset leaves a circle N its sense
+; Out: ERR 07   Clobbers all
+OFFCHK: RST     5
+        DB      LN2,LNR,QEND    ; r R
+        LDA     NKIND
+        CALL    SENSE
+        RNC
+        RST     1
+        DB      EOFFS
+
+; SENSE - does a circle keep its sense when it is offset?
+; In:  A = kind of the element; on the float stack r and the offset
+; Out: CY set when a circle does not; float stack without both   Clobbers all
+SENSE:  CPI     KCIR
+        JNZ     SENSE1
+        RST     5
+        DB      QOVR,QADD,QMUL  ; r*r'
+        DB      QEPS,QSWP,QSUB  ; eps-r*r'
+        DB      QJN,SENSE2-$-1  ; -
+        DB      QEND
+        STC
+        RET
+SENSE1: RST     5
+        DB      QDRP,QDRP       ; -
+SENSE2: DB      QEND
+        ORA     A
+        RET
+
+; CORNER - the corner between C and N as offset
+; In:  C, N, RTURN, RNAMED, P   Out: K   Clobbers all
+CORNER: RST     5
+        DB      LCR,SO1,LNR,SO2 ; -
+        DB      LCR,QABS,LNR,QABS,QADD ; |R|+|R|
+        DB      QJZ,CORN1-$-1   ; -
+        DB      QEND
+        LDA     RNAMED
+        ORA     A
+        JNZ     NAMED
+        RST     5
+CORN1:  DB      QEND
+; (fall into NOMCOR)
+
+; NOMCOR - the corner between C and N offset by O1 and O2; a point is the corner itself
+; In:  C, N, O1, O2, RTURN, RNAMED, P   Out: K   Clobbers all
+NOMCOR: LDA     RNAMED
+        ORA     A
+        JZ      NOMC1
+PTOK:   RST     5
+        DB      LPX,SKX,LPY,SKY ; -
+        DB      QRET
+NOMC1:  CALL    XING
+ATOK:   RST     5
+ATOK1:  DB      LA0,SKX,LA1,SKY ; -
+        DB      QRET
+
+; NAMED - the corner at P between offset elements: of the crossings the one nearest
+; to P; where both run the same way through P, P moved R to the right
+NAMED:  CALL    PTOK
+        CALL    NORMS
+        RST     5
+        DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
+        DB      QJN,NAMED1-$-1  ; -
+        DB      QEND
+        RST     5
+        DB      Q0,STL,QEND     ; -             crossings, however flat
+        XRA     A
+        STA     RTURN
+        CALL    NOMC1
+        MVI     A,1
+        STA     RTURN
+        CALL    XING
+        RST     5
+        DB      QMU,STL         ; -
+        DB      LA0,LPX,QSUB    ; dx
+        DB      LA1,LPY,QSUB    ; dx dy
+        DB      QHYP            ; d2
+        DB      LKX,LPX,QSUB    ; d2 dx
+        DB      LKY,LPY,QSUB    ; d2 dx dy
+        DB      QHYP,QSUB       ; d2-d1
+        DB      QJN,ATOK1-$-1   ; -
+        DB      QRET
+NAMED1: DB      QDOT,QE6N       ; -             there and back
+        DB      LCR,LNR,QSUB    ; dR
+        DB      QE6D            ; -             no crossing any more
+NAMED2: DB      LA0,LCR,QMUL,LKX,QADD,SKX ; -
+        DB      LA1,LCR,QMUL,LKY,QADD,SKY ; -
+        DB      QRET
+
+; NORMS - right normals of C and N at K
+; Out: a0 a1 of C, b0 b1 of N   Clobbers all
+NORMS:  RST     5
+        DB      LKX,SB0,LKY,SB1 ; -
+        DB      QNA,QEND        ; -
+        LDA     NKIND
+        CALL    NORMAL
+        RST     5
+        DB      LA0,ST0,LA1,ST1 ; -
+        DB      QCA,QEND        ; -
+        LDA     CKIND
+        CALL    NORMAL
+        RST     5
+        DB      LT0,SB0,LT1,SB1 ; -
+        DB      QRET
+
+; PATC - place of the point P on C, as offset: P moved R to the right
+; Out: K   Clobbers all
+PATC:   CALL    PTOK
+        RST     5
+        DB      QCA             ; -
+        DB      LPX,SB0,LPY,SB1 ; -
+        DB      QEND
+        LDA     CKIND
+        CALL    NORMAL
+        RST     5
+        DB      QJMP,NAMED2-$-1
+
+; NORMAL - right normal of an element at a point on it
+; In:  a = element, A = its kind; b = point   Out: a0 a1   Clobbers all
+NORMAL: CPI     KLIN
+        RZ
+        RST     5
+        DB      QDIF            ; dx dy
+        DB      QOVR,QOVR,QHYP  ; dx dy d
+        DB      LA2,QSGN,QMUL   ; dx dy +-d
+        DB      QSWP,QOVR       ; dx +-d dy +-d
+        DB      QDIV,SA1        ; dx +-d
+        DB      QDIV,SA0        ; -
+        DB      QRET
+
+; XING - the crossing of C offset by O1 and N offset by O2, as RTURN says
+; Out: a0 a1; ERR 06   Clobbers all
+XING:   RST     5
+        DB      QNA             ; -
+        DB      LA2,LO2,QADD,SA2 ; -
+        DB      QEND
+        LDA     NKIND
+        STA     VKIND
+        LDA     RTURN
+        ORA     A
+        CNZ     NEGVAL
+        RST     5
+        DB      LA0,SB0,LA1,SB1,LA2,SB2 ; -
+        DB      QCA             ; -
+        DB      LA2,LO1,QADD,SA2 ; -
+        DB      QEND
+        LDA     CKIND
+        MOV     B,A
+        MVI     C,RSTAR
+        JMP     BINOP
+
+; SAMEF - is N as written the first element?   SAMEC - does N go on along C?
+; Out: Z set when it is   Clobbers all
+SAMEF:  RST     5
+        DB      LF0,SA0,LF1,SA1,LF2,SA2 ; -
+        DB      LGX,ST0,LGY,ST1,LFR,ST2 ; -
+        DB      QEND
+        LDA     FKIND
+        JMP     SAME
+SAMEC:  RST     5
+        DB      QCA             ; -
+        DB      LAX,ST0,LAY,ST1,LCR,ST2 ; -
+        DB      QEND
+        LDA     CKIND
+; (fall into SAME)
+
+; SAME - are an element and N the same curve in the same direction?
+; In:  a = element, A = its kind; (t0,t1) where it was entered, t2 its offset
+; Out: Z set when they are   Clobbers all
+SAME:   LXI     H,NKIND
+        CMP     M
+        RNZ
+        RST     5
+        DB      LN0,SB0,LN1,SB1,LN2,SB2 ; -
+        DB      QEND
+        LDA     NKIND
+        CPI     KCIR
+        JZ      SAME2
+        RST     5
+        DB      QDOT            ; cosine
+        DB      QJN,SAME9-$-1   ; -             opposite
+        DB      QEPS5,QCRS,QABS ; eps |sine|
+        DB      QSUB            ; -
+        DB      QJN,SAME9-$-1   ; -
+        DB      LT0,LB0,QMUL    ; place along N's normal
+        DB      LT1,LB1,QMUL,QADD
+        DB      LB2,QSUB,LT2,QSUB ; off
+        DB      QABS            ; |off|
+SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|
+        DB      QJN,SAME9-$-1   ; -
+        DB      QEND
+        XRA     A
+        RET
+SAME2:  RST     5
+        DB      QDIF,QHYP       ; distance of the centres
+        DB      LA2,LB2,QSUB    ; distance dr
+        DB      QABS,QMAX       ; greater
+        DB      QJMP,SAME1-$-1
+SAME9:  DB      QEND
+        ORI     1
+        RET
+
+; SAMEL - is the last item, as written, the first one?
+; Out: Z set when it is   Clobbers all
+SAMEL:  LDA     RLASTP
+        LXI     H,RFSTP
+        CMP     M
+        RNZ
+        ORA     A
+        JZ      SAMEF
+        RST     5
+        DB      LPX,LQX,QSUB    ; dx
+        DB      LPY,LQY,QSUB    ; dx dy
+        DB      QHYP            ; distance
+        DB      QJMP,SAME1-$-1
+
+; PLACE - place on C, as offset, that is nearest to the start hole
+; Out: K   Clobbers all
+PLACE:  RST     5
+        DB      LHX,SB0,LHY,SB1 ; -
+        DB      QCA             ; -
+        DB      LA2,LCR,QADD,SA2 ; -
+        DB      QEND
+        LDA     CKIND
+        CPI     KCIR
+        JZ      PLACE1
+        RST     5
+        DB      QDOT,LA2,QSUB,ST0 ; -           t0 = right of C by
+        DB      LB0,LT0,LA0,QMUL,QSUB,SKX ; -
+        DB      LB1,LT0,LA1,QMUL,QSUB,SKY ; -
+        DB      QRET
+PLACE1: RST     5
+        DB      LA1,SKY         ; -
+        DB      LA2,QABS,LA0,QADD,SKX ; -       at the +X side
+        DB      QDIF,QHYP,ST0   ; -             t0 = from the centre
+        DB      QMU,LT0,QSUB    ; 1um-t0
+        DB      QJN,PLACE2-$-1  ; -
+        DB      QRET
+PLACE2: DB      LA2,QABS,LT0,QDIV,ST0 ; -
+        DB      QDIF            ; dx dy
+        DB      LT0,QMUL,LA1,QADD,SKY ; dx
+        DB      LT0,QMUL,LA0,QADD,SKX ; -
+        DB      QRET
+
+; ADVANC - the wire travels C to the corner K
+; In:  C, A, K   Out: A = K; ERR 06 when K lies behind A on a line   Clobbers all
+ADVANC: LDA     CKIND
+        CPI     KCIR
+        JZ      ADVAN1
+        RST     5
+        DB      LKY,LAY,QSUB,LC0,QMUL   ; dy*alpha
+        DB      LKX,LAX,QSUB,LC1,QMUL   ; dy*alpha dx*beta
+        DB      QSUB,QMU,QADD,QE6N      ; -
+        DB      QEND
+        JMP     ADVAN3
+ADVAN1: RST     5
+        DB      LKX,LAX,QSUB    ; dx
+        DB      LKY,LAY,QSUB    ; dx dy
+        DB      QHYP,QMU,QSUB   ; chord-1um
+        DB      QJN,ADVAN2-$-1  ; -
+        DB      QEND
+ADVAN3: CALL    SEGMNT
+        RST     5
+        DB      LKX,SAX,LKY,SAY ; -
+        DB      QRET
+ADVAN2: DB      QRET            ; no travel: the corner is the entry place
+
+; SBACK - statement: BACK
+SBACK:  CALL    CHKEND
+        LDA     RELEMS
+        ORA     A
+        JZ      ERGEO           ; no route, or but a point
+        CALL    CLOSE
+; (fall into HOME)
+
+; HOME - straight to the start hole
+HOME:   RST     5
+        DB      LHU,SVX,LHV,SVY ; -
+        DB      QEND
+        JMP     MOVE
+
+; CLOSE - closes the route onto its first element, up to where it was entered
+; Clobbers all
+; A first point is the closing corner, written once more.
+CLOSE:  LDA     RFSTP
+        ORA     A
+        JZ      CLOSE1
+        RST     5
+        DB      LQX,SA0,LQY,SA1 ; -
+        DB      LQR,SNR,QEND    ; -
+        CALL    ITPNT
+        LDA     RFILW
+        ORA     A
+        JNZ     ERGEO           ; a fillet there
+CLOSE1: LXI     H,RELEMS
+        DCR     M
+        JZ      CLOSE4
+        LDA     RLASTP
+        ORA     A
+        JNZ     CLOSE2
+        CALL    SAMEF
+        JZ      CLOSE3          ; the last element is the first again
+CLOSE2: LXI     D,MFIRST
+        LXI     H,MNEXT
+        CALL    CPYEL
+        CALL    NAMEIT
+        CALL    ADDEL
+CLOSE3: CALL    CLOSE5
+        RST     5
+        DB      LCR,LFR,QSUB,QE6D ; -
+        DB      QEND
+        CALL    ADVANC
+        JMP     RTDONE
+CLOSE4: CALL    CLOSE5
+        LDA     CKIND
+        CPI     KCIR
+        JNZ     ERGEO           ; a line alone
+        CALL    WHOLE
+        JMP     RTDONE
+CLOSE5: LDA     RFILW
+        ORA     A
+        JNZ     ERGEO           ; a fillet without a corner
+        RST     5
+        DB      LGX,SKX,LGY,SKY ; -
+        DB      QRET
+
+; RTDONE - the route is over; the buffer keeps it for RECUT
+; Clobbers HL
+RTDONE: LXI     H,0
+        SHLD    RITEMS          ; and RELEMS
+        RET
+
+; ENDRT - ends the open route: closed when its last item is its first, else open
+; Clobbers all
+ENDRT:  LDA     RITEMS
+        ORA     A
+        RZ
+        DCR     A
+        JZ      ERGEO           ; a single item
+        LDA     RFILW
+        ORA     A
+        JNZ     ERGEO
+        CALL    SAMEL
+        JZ      CLOSE
+        LDA     RLASTP
+        ORA     A
+        JZ      ERGEO           ; the end is no point
+        CALL    PATC
+        CALL    ADVANC
+        JMP     RTDONE
+
+; SFROM - statement: FROM point
+SFROM:  CALL    EVAL
+        CALL    CHKEND
+        LDA     VKIND
+        CPI     KPNT
+        JNZ     ERKIND
+        CALL    SCALED
+        LXI     H,RMOVED
+        MOV     A,M
+        ORA     A
+        JNZ     SFROM1
+        INR     M
+        RST     5
+        DB      LA0,QDUP,SHX,QRND,QDUP,SHU,SWX ; -
+        DB      LA1,QDUP,SHY,QRND,QDUP,SHV,SWY ; -
+        DB      QRET
+SFROM1: RST     5
+        DB      LA0,LA1,QEND    ; x y           kept while the route ends
+        CALL    ENDRT
+        RST     5
+        DB      QDUP,SHY,QRND,SHV ; x
+        DB      QDUP,SHX,QRND,SHU ; -
+        DB      QEND
+        CALL    STOP
+        CALL    HOME
+; (fall into STOP)
+
+; STOP - punches D: the controller stops
+STOP:   MVI     B,1
+; (fall into PUNDS)
+
+; PUNDS - punches B times D, and the end of the line
+; In:  B   Clobbers A, B
+PUNDS:  CALL    PUNON
+PUNDS1: MVI     A,CLTD
+        RST     2
+        DCR     B
+        JNZ     PUNDS1
+        CALL    CRLF
+        JMP     PUNOFF
+
+; CENDST - what END does to the tape: the route ended, DD
+CENDST: CALL    ENDRT
+        MVI     B,2
+        JMP     PUNDS
+
+; ROUTERR - after an error: D when a route was open, which is forgotten
+ROUTERR: LDA    RITEMS
+        PUSH    PSW
+        CALL    RTNEW
+        POP     PSW
+        ORA     A
+        RZ
+        JMP     STOP
+
+; Operations of the calculator that the route adds
+
+; QCA: a = C.  QNA: a = N
+XCA:    RST     5
+        DB      LC0,SA0,LC1,SA1,LC2,SA2 ; -
+        DB      QRET
+XNA:    RST     5
+        DB      LN0,SA0,LN1,SA1,LN2,SA2 ; -
+        DB      QRET

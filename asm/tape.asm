@@ -1,0 +1,279 @@
+; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
+; Offers: MOVE SEGMNT WHOLE and the operations QRND QVK
+; Uses:   calc, float, io
+; Room:   500 bytes
+;
+; The wire stands at W, the move goes to V; everything is made from these rounded
+; values.  An arc is looked at from its rounded centre, mirrored when it runs
+; clockwise, so that there is one sense to think about; for the count along Y it is
+; turned by a quarter, so that the count always runs along u:
+;
+;       (u,v) going round counter-clockwise from (r,0): u falls from r to -r in the
+;       upper half plane, rises again in the lower.  F = r-u there, 3r+u here, is the
+;       travel counted since (r,0); J = F(end) - F(start) + 4r for every pass of (r,0).
+
+TGAX    EQU CWORK+18    ; block: letter of the count direction
+TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
+TZNUM   EQU CWORK+20    ; its number
+
+; SEGMNT - the wire goes along C to K
+; In:  C, A (entry), K, W   Out: W   Clobbers all
+SEGMNT: RST     5
+        DB      QVK,QEND        ; -
+        LDA     CKIND
+        CPI     KLIN
+        JZ      MOVE
+        RST     5
+        DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
+        DB      LKX,LC0,QSUB,SB0,LKY,LC1,QSUB,SB1 ; -
+        DB      QCRS,LC2,QMUL   ; s             < 0: more than half a turn
+        DB      QJMP,ARC-$-1
+
+; WHOLE - the whole circle C, from K
+; In:  C, K, W   Clobbers all
+WHOLE:  RST     5
+        DB      QVK             ; -
+        DB      Q1,QNEG         ; s
+ARC:    DB      ST3             ; -             t3 < 0: more than half a turn
+        DB      LC0,QRND,ST0    ; -
+        DB      LC1,QRND,ST1    ; -
+        DB      LWX,LT0,QSUB,QDUP,SA0,QABS,SBX ; -      a = start
+        DB      LWY,LT1,QSUB,QDUP,SA1,QABS,SBY ; -
+        DB      LVX,LT0,QSUB,SB0 ; -                    b = end
+        DB      LVY,LT1,QSUB,SB1 ; -
+        DB      LC2,QSGN        ; sense
+        DB      QDUP,LA1,QMUL,SA1 ; sense
+        DB      LB1,QMUL,SB1    ; -             mirrored when clockwise
+        DB      Q0,ST4          ; -             t4 = passes of (r,0)
+        DB      QDOT,QJN,ARC2-$-1 ; -           ends far apart: no doubt
+        DB      LT3,QJN,ARC1-$-1 ; -
+        DB      QHALF,QCRS,QSUB ; -             short; sweep not positive:
+        DB      QJN,ARC2-$-1
+        DB      QEND
+        JMP     MOVE            ; a line
+ARC1:   DB      QCRS,QJN,ARC2-$-1 ; -           long and past the start again:
+        DB      Q1,ST4          ; -             a pass more
+ARC2:   DB      LA0,LA1,QHYP    ; radius
+        DB      QHALF,QADD,QFLR,ST5 ; -         t5 = r
+        DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
+        DB      QEND
+        LXI     H,MA
+        CALL    QUAD
+        MOV     C,A
+        LXI     H,MC2
+        CALL    FSGN
+        ORA     A
+        MVI     B,CLTN
+        JP      ARC3
+        MVI     A,5             ; clockwise quadrants are mirrored ones
+        SUB     C
+        MOV     C,A
+        MVI     B,CLTS
+ARC3:   CALL    SETZ
+        LXI     H,MT0
+        CALL    FSGN
+        DCR     A
+        CALL    SETG
+        JNZ     ARC4
+        RST     5               ; count along Y: turned by a quarter
+        DB      LA1,LA0,QNEG,SA1,SA0 ; -
+        DB      LB1,LB0,QNEG,SB1,SB0 ; -
+        DB      QEND
+ARC4:   LXI     H,MA
+        CALL    TRAVEL
+        PUSH    PSW
+        RST     5
+        DB      LT0,ST1,QEND    ; -             t1 = F(start)
+        LXI     H,MB
+        CALL    TRAVEL          ; t0 = F(end)
+        POP     B
+        CMP     B               ; quadrants: end, start
+        JC      ARC5
+        JNZ     ARC6
+        RST     5               ; in the same one: the cross product tells
+        DB      QCRS,QJN,ARC7-$-1
+        DB      QEND
+        JMP     ARC6
+ARC5:   RST     5
+ARC7:   DB      LT4,Q1,QADD,ST4,QEND ; -
+ARC6:   RST     5
+        DB      LT5,LT4,QMUL    ; r*n
+        DB      QDUP,QADD,QDUP,QADD ; 4*r*n
+        DB      LT0,QADD,LT1,QSUB,QABS ; J
+        DB      QDUP,SBJ,QJZ,ARC8-$-1 ; -
+        DB      QEND
+        JMP     PUTBLK
+ARC8:   DB      QEND
+
+; (fall into MOVE: counted as nothing, the arc goes out as a line)
+
+; MOVE - a straight move of the wire
+; In:  W, V   Out: W = V   Clobbers all
+MOVE:   RST     5
+        DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
+        DB      LVY,LWY,QSUB,QDUP,SA1,QABS,SBY ; -
+        DB      LBX,LBY,QMAX,SBJ ; -
+        DB      LBY,LBX,QSUB,ST0,QEND ; -
+        LXI     H,MA
+        CALL    QUAD
+        MOV     C,A
+        MVI     B,CLTL
+        CALL    SETZ
+        LXI     H,MT0
+        CALL    FSGN
+        ORA     A
+        JNZ     MOVE1
+        MOV     A,C             ; x = y: along Y in quadrants 1 and 3
+        ANI     1
+MOVE1:  DCR     A
+        CALL    SETG
+; (fall into PUTBLK)
+
+; PUTBLK - lists and punches a block; J = 0 is none
+; In:  BX BY BJ, TGAX TZLET TZNUM, V   Out: W = V; ERR 10 when too long   Clobbers all
+PUTBLK: RST     5
+        DB      LVX,SWX,LVY,SWY ; -
+        DB      Q8DIG           ; 99999999
+        DB      LBX,LBY,QMAX,LBJ,QMAX ; 99999999 max
+        DB      QSUB,QJN,PUTB9-$-1 ; -
+        DB      LBJ,QJZ,PUTB8-$-1 ; -
+        DB      QEND
+        LXI     H,BLKNO
+        MOV     A,M             ; decimal, low two digits first
+        ADI     1
+        DAA
+        MOV     M,A
+        INX     H
+        MOV     A,M
+        ACI     0
+        DAA
+        MOV     M,A
+        CALL    PUT2D
+        DCX     H
+        MOV     A,M
+        CALL    PUT2D
+        MVI     A,CBLANK
+        RST     2
+        CALL    PUNON
+        LXI     H,MBX
+        MVI     C,3
+PUTB1:  MVI     A,CLTB
+        RST     2
+        PUSH    B
+        PUSH    H
+        MVI     B,8
+        CALL    DECOUT
+        POP     H
+        POP     B
+        LXI     D,5
+        DAD     D
+        DCR     C
+        JNZ     PUTB1
+        MVI     A,CLTG
+        RST     2
+        LDA     TGAX
+        RST     2
+        LDA     TZLET
+        RST     2
+        CPI     CLTL
+        MVI     A,CLTR
+        JZ      PUTB2
+        RST     2
+PUTB2:  LDA     TZNUM
+        RST     2
+        CALL    CRLF
+        JMP     PUNOFF
+PUTB8:  DB      QRET
+PUTB9:  DB      QEND
+        RST     1
+        DB      ETAPE
+
+; TRAVEL - F of a point (head of this file)
+; In:  HL -> u v, t5 = r   Out: t0 = F, A = quadrant 1...4   Clobbers all
+TRAVEL: PUSH    H
+        CALL    QUAD
+        POP     D
+        PUSH    PSW
+        LXI     H,MT0
+        CALL    COPY5
+        POP     PSW
+        PUSH    PSW
+        CPI     3
+        JNC     TRAV1
+        RST     5
+        DB      LT5,LT0,QSUB,ST0,QEND ; -
+        POP     PSW
+        RET
+TRAV1:  RST     5
+        DB      LT5,QDUP,QDUP,QADD,QADD ; 3r
+        DB      LT0,QADD,ST0,QEND ; -
+        POP     PSW
+        RET
+
+; QUAD - quadrant of a vector, each with its first axis (counter-clockwise)
+; In:  HL -> x y   Out: A = 1...4   Clobbers all
+QUAD:   CALL    FSGN
+        MOV     C,A
+        ADD     A
+        ADD     C
+        MOV     C,A             ; 3 * sign of x
+        LXI     D,5
+        DAD     D
+        CALL    FSGN
+        ADD     C
+        ADI     4
+        MOV     E,A
+        MVI     D,0
+        LXI     H,QUADS
+        DAD     D
+        MOV     A,M
+        RET
+
+;               x-y-  x-y0  x-y+  x0y-  none  x0y+  x+y-  x+y0  x+y+
+QUADS:  DB      3,    3,    2,    4,    1,    2,    4,    1,    1
+
+; SETZ - B, C = letter and number of Z
+SETZ:   MOV     A,C
+        ADI     CZERO
+        MOV     H,A
+        MOV     L,B
+        SHLD    TZLET
+        RET
+
+; SETG - count direction: A = 0 for Y, else X
+; Out: flags of A   Clobbers A
+SETG:   ORA     A
+        MVI     A,CLTX
+        JNZ     SETG1
+        INR     A
+        CMP     A               ; Z again
+SETG1:  STA     TGAX
+        RET
+
+; PUT2D - two decimal digits to the paper
+; In:  A = them   Clobbers A
+PUT2D:  PUSH    PSW
+        RRC
+        RRC
+        RRC
+        RRC
+        CALL    PUT1D
+        POP     PSW
+PUT1D:  ANI     0FH
+        ORI     CZERO
+        RST     2
+        RET
+
+; Operations of the calculator that the tape adds
+
+; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
+XRND:   RST     5
+        DB      QTHOU,QMUL              ; um
+        DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
+        DB      QFLR,QSWP,QSGN,QMUL     ; whole
+        DB      Q8DIG,QOVR,QABS,QSUB    ; whole room
+        DB      QJN,PUTB9-$-1,QRET      ; whole
+; QVK: V = K in whole um
+XVK:    RST     5
+        DB      LKX,QRND,SVX            ; -
+        DB      LKY,QRND,SVY,QRET       ; -
