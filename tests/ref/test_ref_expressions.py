@@ -1,0 +1,272 @@
+"""Values of expressions, by hand (language.md, sections 1 and 2)."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from refhelp import cut, value
+
+from skg.ref import real
+from skg.ref.fault import Fault
+from skg.ref.geometry import negate
+from skg.ref.operations import operate
+from skg.ref.values import X_AXIS, Circle, Line, Point, Value, canonical
+
+TABLE = [
+    ("(3,4)", "(3,4)"),
+    ("((0,0),(3,4))", "5"),
+    ("((0,-2),X)", "2"),
+    ("(X,(0,3))", "-3"),
+    ("(X,Y)", "90"),
+    ("(Y,X)", "-90"),
+    ("(X,-X)", "180"),
+    ("(-X,X)", "180"),
+    ("(1,2):5", "(1,2,5)"),
+    ("(1,2):-5", "(1,2,-5)"),
+    ("(O:30):10", "(0,0,40)"),
+    ("(O:-30):10", "(0,0,-20)"),
+    ("X:10", "(0,-1,10)"),
+    ("X:(5,7)", "(0,-1,-7)"),
+    ("X:(O:5)", "(0,-1,5)"),
+    ("X:(O:-5)", "(0,-1,-5)"),
+    ("O:(1,0)", "(0,-1,0)"),
+    ("(3,0):(3,5)", "(1,0,3)"),
+    ("(O:10):((30,0):10)", "(0,-1,10)"),
+    ("(O:-10):((30,0):-10)", "(0,-1,-10)"),
+    ("(O:10):((40,0):-10)", "(0.5,-0.8660254,10)"),
+    ("(O:5):(10,0)", "(0.5,-0.8660254,5)"),
+    ("O:((10,0):5)", "(-0.5,-0.8660254,0)"),
+    ("2#60", "(1,1.7320508)"),
+    ("-2#60", "(-1,-1.7320508)"),
+    ("(1,0)#90", "(0,1)"),
+    ("((3,0):-2)#90", "(0,3,-2)"),
+    ("X#90", "(1,0,0)"),
+    ("X:5#90", "(1,0,5)"),
+    ("(2,0)#(90:(1,0))", "(1,1)"),
+    ("(2,0)#90:(1,0)", "(1,1)"),
+    ("((2,0):3)#90:(1,0)", "(1,1,3)"),
+    ("X#(90:(1,0))", "(1,0,1)"),
+    ("O#(2,0)", "(1,0,1)"),
+    ("(3,4)#X", "(3,0)"),
+    ("2*3", "6"),
+    ("(Y:2)*(X:-3)", "(2,3)"),
+    ("X*(O:5)", "(5,0)"),
+    ("(O:5)*X", "(-5,0)"),
+    ("X*-(O:5)", "(-5,0)"),
+    ("X*(O:-5)", "(-5,0)"),
+    ("(O:5)*((6,0):5)", "(3,4)"),
+    ("(O:5)*-((6,0):5)", "(3,-4)"),
+    ("(O:-5)*((6,0):5)", "(3,-4)"),
+    ("(1,2)*3", "(3,6)"),
+    ("3*(1,2)", "(3,6)"),
+    ("(3,6)/3", "(1,2)"),
+    ("(1,2)*(3,4)", "11"),
+    ("7/2", "3.5"),
+    ("(3,4)/X", "(3,-4)"),
+    ("((3,4):-2)/X", "(3,-4,-2)"),
+    ("(O:(1,1))/(Y:2)", "(-0.70710678,-0.70710678,-2.8284271)"),
+    ("X/Y", "(0,-1,0)"),
+    ("(Y:5)/(Y:2)", "(-1,0,1)"),
+    ("(1,1)/(4,5)", "(1,1,5)"),
+    ("(1,2)+(3,4)", "(4,6)"),
+    ("(1,2)-(3,5)", "(-2,-3)"),
+    ("-(1,2)", "(-1,-2)"),
+    ("-(O:5)", "(0,0,-5)"),
+    ("-X", "(0,1,0)"),
+    ("K1 (7,8)", "7"),
+    ("K3 ((7,8):9)", "9"),
+    ("K2 X", "-1"),
+    ("ABS -3.5", "3.5"),
+    ("INT -3.5", "-4"),
+    ("INT 2.99999999", "3"),
+    ("INT 2.9999", "2"),
+    ("SQR 2", "1.4142136"),
+    ("SIN 30", "0.5"),
+    ("COS 180", "-1"),
+    ("COS 90", "0"),
+    ("TG 45", "1"),
+    ("ATG -1", "-45"),
+]
+
+
+@pytest.mark.parametrize(("expression", "printed"), TABLE)
+def test_operation(expression: str, printed: str) -> None:
+    assert value(expression) == printed
+
+
+@pytest.mark.parametrize(
+    ("expression", "printed"),
+    [
+        ("8/2*3", "12"),
+        ("12*8/2", "48"),
+        ("2*3/4*2", "3"),
+        ("10-4+3-1", "8"),
+        ("1-2-3", "-4"),
+        ("8/4/2", "1"),
+        ("2+3*4", "14"),
+        ("5-2*3", "-1"),
+        ("SIN 30/2", "0.25"),
+        ("SIN -30", "-0.5"),
+        ("-SIN 30", "-0.5"),
+        ("SIN(30)+1", "1.5"),
+        ("6/-2", "-3"),
+        ("2#30+60", "(0,2)"),
+        ("1.5E-3*2", "0.003"),
+        ("si n 3 0", "0.5"),
+        ("P[1+1]", "(1,2)"),
+        ("P 2", "(1,2)"),
+    ],
+)
+def test_priorities_and_spelling(expression: str, printed: str) -> None:
+    assert value(expression, "P2=(1,2)") == printed
+
+
+def test_touching_curves_give_the_point_of_tangency() -> None:
+    assert value("X*((0,5):5.0009)") == "(0,0)"
+    assert value("X*((0,5):4.9991)") == "(0,0)"
+    assert value("(O:5)*((12,0):7.0005)") == "(4.99975,0)"
+    # One inside the other: halfway between 10 and 5.0005 + 5.
+    assert value("(O:10)*((5,0):5.0005)") == "(10.00025,0)"
+    assert value("(O:10):((4,0):6.0006)") == "(1,0,10.0003)"
+
+
+@pytest.mark.parametrize(
+    ("number", "printed"),
+    [
+        ("123456789", "1.2345679E8"),
+        ("99999999", "99999999"),
+        ("99999999.6", "1E8"),
+        ("0.00001", "0.00001"),
+        ("0.0000012345", "1.2345E-6"),
+        ("-0.000012345678", "-0.000012345678"),
+        ("1/3", "0.33333333"),
+        ("2/3", "0.66666667"),
+        ("100", "100"),
+        ("1E10", "1E10"),
+        ("-5", "-5"),
+        ("1000000/8", "125000"),
+    ],
+)
+def test_print_format(number: str, printed: str) -> None:
+    assert value(number) == printed
+
+
+def test_print_separates_items_by_a_blank() -> None:
+    assert cut('PRINT 1,"Two  and a half",(1,2)', "PRINT").paper == "1 Two  and a half (1,2)\n\n"
+
+
+@pytest.mark.parametrize(
+    ("statement", "code"),
+    [
+        ("A=", 1),
+        ("A=(1", 1),
+        ("A=1)", 1),
+        ("A=SINA", 1),
+        ("P3=25,32", 1),
+        ("CUT S1,,S2", 1),
+        ("CUT S1,5,5,S2", 1),
+        ("CUT S1,5,P1", 1),
+        ("CUT S1,", 1),
+        ("RUN", 1),
+        ('PRINT "abc', 1),
+        ("A=P1000", 5),
+        ("A=1E40", 5),
+        ("A=D", 3),
+        ("O=(1,2)", 3),
+        ("X0=Y", 3),
+        ("A=(1,2)", 4),
+        ("P=X", 4),
+        ("A=X+X", 4),
+        ("A=K3 O", 4),
+        ("S=90:O", 4),
+        ("P=2#(90:O)", 4),
+        ("C=O:0", 5),
+        ("C=O/O", 5),
+        ("A=1/0", 5),
+        ("A=SQR -1", 5),
+        ("A=TG 270", 5),
+        ("A=1E30*1E30", 5),
+        ("P[0.5]=O", 5),
+        ("P[1000]=O", 5),
+        ("P=X*(X:5)", 6),
+        ("P=X*((0,5):4.998)", 6),
+        ("P=(O:5)*(O:6)", 6),
+        ("P=(O:5)*((1,0):2)", 6),
+        ("S=(O:5):((1,0):2)", 6),
+        ("S=O:O", 6),
+        ("GOTO 5", 2),
+        ("RETURN", 2),
+        ("READ A", 8),
+    ],
+)
+def test_errors(statement: str, code: int) -> None:
+    assert cut(statement).error == (code, 10)
+
+
+def test_error_1_stops_loading_and_marks_the_place() -> None:
+    result = cut("PRINT 1", "A = (2 + * 3)", "PRINT 2")
+    assert result.paper == "ERR 01 LINE 20\n20 A = (2 + * 3)\n            ^\n"
+    assert result.tape == b""
+
+
+# Identities of the book, sections 5 to 8 ------------------------------------------------------------------
+
+coordinate = st.decimals(-200, 200, places=3).map(lambda d: real.Real(str(d)))
+angle = st.decimals(-360, 360, places=2).map(lambda d: real.Real(str(d)))
+points = st.builds(Point, coordinate, coordinate)
+radii = st.decimals(1, 100, places=3).flatmap(lambda d: st.sampled_from([real.Real(str(d)), -real.Real(str(d))]))
+circles = st.builds(lambda p, r: Circle(p.x, p.y, r), points, radii)
+lines = st.builds(lambda d, a: operate(operate(X_AXIS, ":", d), "#", a), coordinate, angle)
+
+
+def same(a: Value, b: Value) -> bool:
+    return all(abs(p - q) < real.Real("1e-40") for p, q in zip(canonical(a), canonical(b), strict=True))
+
+
+def crossing(e: Value, f: Value) -> Point | None:
+    try:
+        return operate(e, "*", f)
+    except Fault:
+        return None
+
+
+@given(st.one_of(points, circles, lines))
+def test_negated_twice(v: Value) -> None:
+    assert negate(negate(v)) == v
+
+
+@given(coordinate, angle)
+def test_shift_and_turn_of_the_axis(d: real.Real, a: real.Real) -> None:
+    assert same(operate(operate(X_AXIS, ":", d), "#", a), operate(operate(X_AXIS, "#", a), ":", d))
+
+
+@given(lines, circles)
+def test_identities_6_4(s: Line, c: Circle) -> None:
+    assert same(negate(operate(s, ":", c)), operate(negate(s), ":", negate(c)))
+    assert same(negate(operate(s, ":", negate(c))), operate(negate(s), ":", c))
+
+
+@settings(max_examples=200)
+@given(st.one_of(lines, circles), circles)
+def test_identities_7_4_and_7_5(s: Line | Circle, c: Circle) -> None:
+    left = crossing(s, c)
+    if left is None:
+        assert crossing(c, s) is None
+        return
+    for e, f in ((negate(s), negate(c)), (negate(c), s), (c, negate(s))):
+        assert same(left, crossing(e, f))
+    right = crossing(s, negate(c))
+    assert same(right, crossing(c, s))
+
+
+@given(points, lines)
+def test_foot_and_image(p: Point, s: Line) -> None:
+    foot, image = operate(p, "#", s), operate(p, "/", s)
+    assert abs(s.distance(foot)) < real.Real("1e-40")
+    assert same(operate(foot, "+", foot), operate(p, "+", image))
+
+
+@given(lines, lines)
+def test_quasi_mirror_twice(s: Line, mirror: Line) -> None:
+    assert same(s, operate(operate(s, "/", mirror), "/", mirror))
