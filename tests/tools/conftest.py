@@ -33,7 +33,8 @@ def run() -> Run:
     """Run `skg` with arguments in this process; an exception that is no `UserError` fails the test."""
 
     def call(*arguments: object, stdin: bytes | str | None = None) -> Result:
-        result = CliRunner().invoke(cli, [str(argument) for argument in arguments], input=stdin)
+        words = [str(argument) for argument in arguments]
+        result = CliRunner(mix_stderr=False).invoke(cli, words, input=stdin)
         if result.exception is not None and not isinstance(result.exception, SystemExit):
             raise result.exception
         return result

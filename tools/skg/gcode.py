@@ -16,6 +16,7 @@ import click
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.placed import closed_moves
 from skg.tape import Block, Stop, Tape, arc_block, line_block
 
 #: An arc's end may lie this far off the circle through its start, µm: each of the two is rounded, and so is
@@ -37,15 +38,17 @@ def write(tape: Tape, start: tuple[int, int] = (0, 0), millimetres: bool = False
     lines = [f"G91 G92 {pair('X', 'Y', start)}"]
     if millimetres:
         lines.insert(0, "G21")
+    moves = (move for blocks in tape.stretches() for move in closed_moves(blocks))
     for item in tape.items:
         if isinstance(item, Stop):
             lines.append("M00")
-        elif item.is_line:
-            lines.append(f"G01 {pair('X', 'Y', item.move)}")
+            continue
+        move = pair("X", "Y", next(moves))
+        if item.is_line:
+            lines.append(f"G01 {move}")
         else:
             centre = -item.start[0], -item.start[1]
-            motion = "G03" if item.sense > 0 else "G02"
-            lines.append(f"{motion} {pair('X', 'Y', item.move)} {pair('I', 'J', centre)}")
+            lines.append(f"{'G03' if item.sense > 0 else 'G02'} {move} {pair('I', 'J', centre)}")
     return "\n".join([*lines, "M02"]) + "\n"
 
 

@@ -106,26 +106,69 @@ def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") 
 
 def _place(tape: Tape, start: tuple[int, int], machine: bool) -> list[PlacedRoute]:
     routes: list[PlacedRoute] = []
-    blocks: list[Placed] = []
+    blocks: list[Block] = []
     at, after_stop = start, False
 
     def close(before_stop: bool) -> None:
-        if blocks:
-            is_move = after_stop and before_stop and len(blocks) == 1 and blocks[0].block.is_line
-            routes.append(PlacedRoute(tuple(blocks), is_move))
-            blocks.clear()
+        nonlocal at
+        moves = [run_block(block).move for block in blocks] if machine else closed_moves(blocks)
+        placed = []
+        for block, (dx, dy) in zip(blocks, moves, strict=True):
+            end = at[0] + dx, at[1] + dy
+            placed.append(Placed(block, at, end))
+            at = end
+        if placed:
+            is_move = after_stop and before_stop and len(placed) == 1 and placed[0].block.is_line
+            routes.append(PlacedRoute(tuple(placed), is_move))
+        blocks.clear()
 
     for item in tape.items:
         if isinstance(item, Stop):
             close(True)
             after_stop = True
-            continue
-        dx, dy = run_block(item).move if machine else item.move
-        end = at[0] + dx, at[1] + dy
-        blocks.append(Placed(item, at, end))
-        at = end
+        else:
+            blocks.append(item)
     close(False)
     return routes
+
+
+def closed_moves(blocks: list[Block]) -> list[tuple[int, int]]:
+    """Return the moves of the blocks of one route, so that a route that is meant to close does close.
+
+    A block tells an arc's end exactly along the count axis, but across it only as well as its start gives the
+    radius: the tape's own rounded end may be a µm away from `Block.end`. Where those µm leave a gap that they
+    can explain, the arcs whose end was the closest call give a µm each until the gap is gone.
+    """
+    moves = [block.move for block in blocks]
+    for axis in (0, 1):
+        gap = sum(move[axis] for move in moves)
+        # How far the unrounded end lies from the rounded one, for the arcs that can give on this axis.
+        doubts = {at: _doubt(block) for at, block in enumerate(blocks)
+                  if not block.is_line and not block.is_full_circle and "YX".index(block.axis) == axis}
+        if abs(gap) > len(doubts):
+            continue
+        way = -1 if gap > 0 else 1
+        ranked = sorted(doubts, key=lambda at: -way * doubts[at])
+        for at in [at for at in ranked if _may_give(blocks[at], axis, way)][:abs(gap)]:
+            move = list(moves[at])
+            move[axis] += way
+            moves[at] = tuple(move)
+    return moves
+
+
+def _doubt(block: Block) -> float:
+    """An arc's unrounded end minus its rounded one, across the count axis, µm."""
+    across = "YX".index(block.axis)
+    end, along = block.end[across], block.end[1 - across]
+    true = max(0, block.x**2 + block.y**2 - along**2) ** 0.5
+    return (true if end >= 0 else -true) - end
+
+
+def _may_give(block: Block, axis: int, way: int) -> bool:
+    """Whether the count direction is still right when an arc's end moves by a µm across it."""
+    other = abs(block.end[axis] + way)
+    along = abs(block.end[1 - axis])
+    return along <= other if block.axis == "X" else along < other
 
 
 def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
@@ -134,3 +177,9 @@ def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
               for part in ((0, 1) if placed.block.is_line else [k / 32 for k in range(33)])]
     xs, ys = [x for x, _ in points] or [0], [y for _, y in points] or [0]
     return min(xs), min(ys), max(xs), max(ys)
+
+
+def stop_places(tape: Tape, routes: list[PlacedRoute], home: tuple[int, int]) -> list[tuple[int, int]]:
+    """Where the controller stops, µm, each place once; `home` is where the tape begins."""
+    ends = {placed.block.number: placed.end for route in routes for placed in route.blocks}
+    return list(dict.fromkeys(ends.get(stop.after, home) for stop in tape.stops))

@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from skg import source
 from skg.errors import UserError
 from skg.gcode import Pair
-from skg.placed import Placed, PlacedRoute, extents, place, positions_option
+from skg.placed import Placed, PlacedRoute, extents, place, positions_option, stop_places
 
 #: One colour for each tape (Okabe and Ito's palette, which colour-blind readers tell apart).
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -257,17 +257,16 @@ def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool,
     for at, name in enumerate(files):
         made = source.load(name, skg80, show_offset)
         x, y = start[at] if at < len(start) else made.start
-        routes = place(made.tape, (round(x * 1000), round(y * 1000)), positions)
-        sheets.append(Sheet(Path(name).name, routes, made.contour))
-        last = {placed.block.number: placed.end for route in routes for placed in route.blocks}
         home = round(x * 1000), round(y * 1000)
-        stops.append([last.get(stop.after, home) for stop in made.tape.stops])
+        routes = place(made.tape, home, positions)
+        sheets.append(Sheet(Path(name).name, routes, made.contour))
+        stops.append(stop_places(made.tape, routes, home))
     if not any(sheet.routes for sheet in sheets):
         raise UserError(f"{files[0]}: nothing to draw, the tape has no blocks")
     picture = Picture(sheets, scale, title)
     for at, sheet in enumerate(sheets):
         picture.draw(sheet, COLOURS[at % len(COLOURS)], f"tape-{at + 1}", wire, not no_arrows, blocks)
-        for number, point in enumerate(dict.fromkeys(stops[at]), 1):
+        for number, point in enumerate(stops[at], 1):
             picture.stop(point, f"tape-{at + 1}-stop-{number}")
     if len(sheets) > 1:
         picture.legend([sheet.name for sheet in sheets])
