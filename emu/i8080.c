@@ -4,10 +4,9 @@
  *
  * - run_fast keeps the registers in locals and jumps from handler to handler through code[], which holds one
  *   handler address for every memory address. Most addresses start as `undecoded`; decode() puts in the handler
- *   for the opcode found there, or one for a whole sequence of instructions (i8080_fused.h) when it begins one.
- *   Only opcodes are decoded: operands are read when they are needed.
+ *   for the opcode found there. Operands are not decoded but read when they are needed.
  * - run_careful does one instruction after the other from memory and has everything that is rare: ports, EI and DI,
- *   HLT, writes to anything but plain RAM, watching, the last few cycles of a run. The fast loop leaves to it every
+ *   HLT, writes to anything but plain RAM, breakpoints, watching. The fast loop leaves to it every
  *   instruction that touches one of these, before that instruction has changed anything.
  *
  * mark[] says of each byte what a write to it must not overlook: read-only, decoded as an opcode (the write
@@ -24,8 +23,6 @@ enum { MARK_NOT_RAM = 1, MARK_OPEN = 2, MARK_CODE = 4, MARK_BREAK = 8, MARK_MIRR
 
 enum {
     MIRRORED = 4,           /* bytes at 0000 that are kept a second time past FFFF */
-    LONGEST_FUSED = 16,     /* a sequence's last opcode is less than so many bytes after its first */
-    TAIL = 128,             /* no sequence takes as many cycles; the last of a run are done carefully */
     SLICE = 1 << 25         /* cycles; less than 4 * 2^24, so that instructions never overflow their 24 bits */
 };
 
@@ -43,9 +40,7 @@ enum {
 
 static void forget_code(i8080 *c, unsigned address)
 {
-    for (unsigned k = 0; k < LONGEST_FUSED; k++) {
-        c->code[(address - k) & 0xffff] = c->handlers[HANDLE_UNDECODED];
-    }
+    c->code[address] = c->handlers[HANDLE_UNDECODED];
     c->mark[address] &= (uint8_t)~MARK_CODE;
 }
 
@@ -553,12 +548,9 @@ i8080_reason i8080_run(i8080 *c, uint64_t cycles)
             at_break = run_careful(c, code, true);
         } else if (c->halted) {
             return I8080_HALTED;
-        } else if (c->watching || c->shadow || rest <= TAIL) {
-            c->slice_end = c->cycles + (rest < SLICE ? rest : SLICE);
-            at_break = run_careful(c, NULL, c->shadow);
         } else {
-            c->slice_end = c->cycles + (rest - TAIL < SLICE ? rest - TAIL : SLICE);
-            at_break = run_fast(c, false);
+            c->slice_end = c->cycles + (rest < SLICE ? rest : SLICE);
+            at_break = c->watching || c->shadow ? run_careful(c, NULL, c->shadow) : run_fast(c, false);
         }
         if (at_break) {
             return I8080_BREAK;

@@ -193,15 +193,29 @@ class Machine:
         """Raise the interrupt line; the device will put these one to three bytes on the bus."""
         self._lib.machine_interrupt(self._machine, bytes(code).ljust(3, b"\0"))
 
-    def run(self, max_cycles: int = 1_000_000_000) -> str:
+    def run(self, max_cycles: int = 1_000_000_000, patience: int = 0) -> str:
         """Run until the machine waits for the operator and nothing typed is left, or until something else.
 
         Returns "prompt" (the paper's last line is `>`), "input" (it ends in `? `), "wait" (for a key anywhere
-        else), "cycles" (max_cycles used up), "halt" or "break" (at a breakpoint).
+        else), "cycles" (max_cycles used up), "halt" or "break" (at a breakpoint). A machine that waits for a
+        key only for some time goes on by itself: "wait" is then returned after `patience` cycles of waiting.
         """
-        return REASONS[self._lib.board_run(self._board, max_cycles)]
+        end = self.cycles + max_cycles
+        patient_until = min(end, self.cycles + patience)
+        while True:
+            printed = self._output_length
+            reason = REASONS[self._lib.board_run(self._board, max(0, end - self.cycles))]
+            if reason != "wait" or self.cycles >= patient_until:
+                return reason
+            if self._output_length != printed:
+                patient_until = min(end, self.cycles + patience)
 
     # What came out
+
+    @property
+    def _output_length(self) -> int:
+        start = ctypes.byref(ctypes.c_void_p())
+        return sum(self._lib.machine_output(self._machine, punch, start) for punch in (False, True))
 
     def _output(self, punch: bool) -> bytes:
         start = ctypes.c_void_p()
