@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from refhelp import cut, value
 
-from skg.ref import real
+from skg.ref import real, run
 from skg.ref.fault import Fault
 from skg.ref.geometry import negate
 from skg.ref.operations import operate
@@ -202,6 +202,28 @@ def test_print_separates_items_by_a_blank() -> None:
 )
 def test_errors(statement: str, code: int) -> None:
     assert cut(statement).error == (code, 10)
+
+
+def test_hostile_lines() -> None:
+    nines = "9" * 5000
+    for statement, code in (
+        (f"A=1E{nines}", 5),
+        (f"A=0E{nines}", None),
+        (f"A=1E-{nines}", None),
+        (f"A={nines}", 5),
+        (f"A=P{nines}", 5),
+        (f"A=A{'0' * 5000}1", 3),
+        (f"GOTO {nines}", 2),
+        (f"A={'(' * 3000}1{')' * 3000}", None),
+        (f"A={'(' * 3000}1", 1),
+        (f"A={'-' * 5000}1", 9),
+        (f"CUT O\n20 REP {nines[:9]},1", 9),
+        ("A=\x01", 1),
+        ("A=1_2", 1),
+    ):
+        error = cut(statement).error
+        assert (None if error is None else error[0]) == code, statement[:20]
+    assert run(f"{nines} END").error[0] == 1
 
 
 def test_error_1_stops_loading_and_marks_the_place() -> None:

@@ -107,6 +107,12 @@ def test_flat_arcs_go_as_lines() -> None:
     assert blocks("FIT O,0.02", "FIT (10,0)") == ["B5000B1B5000GXL1", "B5000B1B5000GXL4", "DD"]
 
 
+def test_arcs_of_fifty_metres_go_as_lines() -> None:
+    # The chord 80 of a circle of 40 m, and of 60 m: its rise is 0.020, 0.013 mm.
+    assert "SR" in blocks("FIT O,0.0573", "FIT (80,0)")[0]
+    assert blocks("FIT O,0.0382", "FIT (80,0)") == ["B40000B13B40000GXL1", "B40000B13B40000GXL4", "DD"]
+
+
 def test_first_and_last_node_join_as_points() -> None:
     assert blocks("CUT O,(1,0)", "FIT (1,5),90", "FIT (11,5),-90", "CUT (11,0)") == [
         "B1000B0B1000GXL1",

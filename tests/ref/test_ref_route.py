@@ -158,14 +158,19 @@ def test_a_corner_that_hardly_turns_leaves_its_fillet_out() -> None:
         (["FROM (9.5,0)", "CUT X,1,Y:10"], 6),
         # The circle has radius 1, the fillet 2.
         (["CUT O:1,2,Y"], 6),
-        # On a circle: the touching point lies before the entry.
-        (["FROM (-8,6.5)", "CUT O:10,2,X:-6,(-2,6)"], 6),
     ],
 )
 def test_fillets_that_cannot_be(statements: list[str], code: int) -> None:
     result = cut(*statements)
     assert result.error is not None
     assert result.error[0] == code
+
+
+def test_fillet_after_the_entry_on_a_circle() -> None:
+    """The touching point lies 10° before, the corner 10° after (10, 0)."""
+    corner = ["CUT O:10,3,-X:1.74,(0,1.74)"]
+    assert cut("FROM (0,-20)", *corner).error is None
+    assert cut("FROM (20,0)", *corner).error == (6, 20)
 
 
 def test_point_chooses_the_nearest_crossing() -> None:
@@ -225,6 +230,8 @@ def test_last_element_equal_to_the_first() -> None:
     assert closed == [up(3), right(5), up(10), left(10), down(10), right(5), "DD"]
     assert blocks("FROM (5,-3)", "CUT X,Y:10,-X:10,-Y,X", "BACK") == [*closed[:-1], down(3), "DD"]
     assert cut("FROM (5,-3)", "CUT X").error == (6, 20)
+    # With another R it does not lead to the place of entry.
+    assert cut("R=1", "FROM (5,-3)", "CUT X,Y:10,-X:10,-Y", "R=2", "CUT X", "BACK").error == (6, 60)
 
 
 def test_back_to_a_point_and_from_a_point() -> None:
@@ -298,7 +305,7 @@ def test_scale() -> None:
     ]
     small, big = ([line.format(n) for line in drawing] for n in (1, 2))
     assert blocks("R=0.3", "SCALE 2", *small) == blocks("R=0.3", *big)
-    assert cut("CUT X", "SCALE 2").error == (6, 20)
+    assert cut("CUT O,(1,0)", "SCALE 2", "FROM O").error == (6, 20)
     assert cut("SCALE 0").error == (5, 10)
 
 

@@ -42,6 +42,7 @@ from skg.ref.parser import (
     Sym,
     parse_answer,
     parse_line,
+    whole,
 )
 from skg.ref.real import ZERO, Real
 from skg.ref.route import Segment
@@ -50,6 +51,8 @@ from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Turn, Value, canonical
 
 #: Levels of GOSUB.
 LEVELS = 8
+#: More than any route buffer holds.
+MOST_COPIES = 10000
 
 _PREDEFINED = {("O", 0): ORIGIN, ("X", 0): X_AXIS, ("Y", 0): Y_AXIS}
 
@@ -114,7 +117,7 @@ class Interpreter:
                 line = parse_line(text)
             except LineFault as fault:
                 number = re.match(r"\s*(\d+)", text)
-                error = self._report(fault.code, int(number.group(1)) if number else None)
+                error = self._report(fault.code, whole(number.group(1)) if number else None)
                 self.paper.append(f"{text}\n{' ' * fault.column}^\n")
                 return error
             if line.number is None:
@@ -152,9 +155,16 @@ class Interpreter:
         except _End:
             pass
         except Fault as fault:
-            self.cutter.abort()
-            return self._report(fault.code, self.watch.line)
+            return self._fail(fault.code)
+        except RecursionError:
+            return self._fail(Code.MEMORY)
+        except KeyboardInterrupt:
+            return self._fail(Code.TAPE)
         return None
+
+    def _fail(self, code: Code) -> tuple[int, int | None]:
+        self.cutter.abort()
+        return self._report(code, self.watch.line)
 
     def _at(self, number: int | None) -> None:
         self.watch.line = self.cutter.line = number
@@ -305,6 +315,8 @@ class Interpreter:
         copies = real.whole(count)
         if copies < 1:
             raise Fault(Code.RANGE)
+        if copies > MOST_COPIES:
+            raise Fault(Code.MEMORY)
         self.cutter.repeat(copies, turn.angle, turn.centre, s.right, self.offset)
 
     def _fit(self, node: Point, angle: Real | None) -> None:

@@ -21,6 +21,11 @@ LETTERS = {letter: kind for kind, letters in {"D": "ADRIJ", "P": "POV", "C": "CB
            for letter in letters}  # fmt: skip
 
 
+def whole(digits: str) -> int:
+    """The number of a row of digits (none: 0); with more than six that count it is merely too large."""
+    return int((digits.lstrip("0") or "0")[:7])
+
+
 class LineFault(Fault):
     """A line that cannot be stored: the error, and the column (from 0) where the line stops making sense."""
 
@@ -232,7 +237,7 @@ class _Tree(Transformer):
     def line(self, children: list) -> ProgramLine:
         if not isinstance(children[0], Token):
             return ProgramLine(None, children[0])
-        number = int(children[0])
+        number = whole(children[0])
         if not 1 <= number <= LAST_LINE:
             raise LineFault(Code.SYNTAX, children[0].start_pos)
         return ProgramLine(number, children[1])
@@ -244,7 +249,7 @@ class _Tree(Transformer):
     @v_args(inline=True)
     def name(self, token: Token, subscript: Expression | None = None) -> Name:
         if subscript is None:
-            subscript = int(token[1:] or 0)
+            subscript = whole(token[1:])
         return Name(str(token[0]), subscript, token.start_pos)
 
     @v_args(inline=True)
@@ -294,17 +299,17 @@ class _Tree(Transformer):
         return Print(tuple(str(i[1:-1]) if isinstance(i, Token) else i for i in items))
 
     def restore(self, children: list) -> Restore:
-        return Restore(None if children[0] is None else int(children[0]))
+        return Restore(None if children[0] is None else whole(children[0]))
 
     def goto(self, children: list) -> Goto:
-        return Goto(int(children[0]))
+        return Goto(whole(children[0]))
 
     def gosub(self, children: list) -> Gosub:
-        return Gosub(int(children[0]))
+        return Gosub(whole(children[0]))
 
     @v_args(inline=True)
     def if_(self, left: Expression, relation: Token, right: Expression, line: Token) -> If:
-        return If(left, str(relation), right, int(line))
+        return If(left, str(relation), right, whole(line))
 
     from_ = v_args(inline=True)(From)
     scale = v_args(inline=True)(Scale)
@@ -357,7 +362,7 @@ def _literal_check(token: Token) -> Token:
 
 
 def _subscript_check(token: Token) -> Token:
-    if int(token[1:] or 0) > LAST_SUBSCRIPT:
+    if whole(token[1:]) > LAST_SUBSCRIPT:
         raise LineFault(Code.RANGE, token.start_pos)
     return token
 

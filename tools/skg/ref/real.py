@@ -21,6 +21,8 @@ MICRON = Real("0.001")
 #: Two numbers closer than this, relative to max(1, |a|, |b|), are equal for IF, INT, n and subscripts.
 #: As a length in mm or as the sine of an angle it is also where zero begins.
 NEARLY = Real("1e-7")
+#: Digits of a constant, on either side of the point, beyond which nobody is served by counting.
+MOST_DIGITS = 1000
 
 
 def in_range(value: Real) -> Real:
@@ -105,7 +107,17 @@ def whole(value: Real) -> int:
 
 def literal(text: str) -> Real:
     """A decimal constant; error 5 when it is out of range."""
-    return in_range(Real(text))
+    mantissa, _, exponent = text.partition("E")
+    units, _, fraction = mantissa.partition(".")
+    units, fraction = units.lstrip("0"), fraction[:MOST_DIGITS]
+    if len(units) > MOST_DIGITS:
+        raise Fault(Code.RANGE)
+    value = Real(f"0{units}.{fraction}0")
+    if len(exponent) > len("-1000"):  # ten to that power would take for ever
+        if value != 0 and not exponent.startswith("-"):
+            raise Fault(Code.RANGE)
+        return ZERO
+    return in_range(value * Real(10) ** int(exponent or 0))
 
 
 def show(value: Real) -> str:

@@ -99,7 +99,7 @@ def _travel(start: Grid, end: Grid, turns: int, axis: str) -> int:
     cross, dot = xs * ye - ys * xe, xs * xe + ys * ye
     crossed = (quadrant_out_of(xe, ye) - quadrant) % 4
     if cross == 0 and dot > 0:
-        crossed = -1 if crossed else 0  # the same direction: none, or less the axis that both lie on
+        crossed = 0  # the same direction; an axis that both lie on is not extreme in the counted coordinate
     elif crossed == 0 and cross < 0:
         crossed = 4
     # The axis crossings' values of the counted coordinate, in the order 90°, 180°, 270°, 360°.
