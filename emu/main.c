@@ -75,9 +75,22 @@ typedef struct {
 extern const uint8_t skg80_rom[BOARD_ROM_SIZE];    /* roms/skg.bin, by rom.S */
 #endif
 
+/* The paper, when it is in the middle of a line that the user sees on standard error or in the terminal. */
+static const session *open_line;
+
+/* Ends that line, so that a message has one of its own. */
+static void end_line(void)
+{
+    if (open_line && open_line->board->line_length) {
+        fputs("\r\n", stderr);
+    }
+    open_line = NULL;
+}
+
 static int complain(int code, const char *format, ...)
 {
     va_list arguments;
+    end_line();
     va_start(arguments, format);
     fputs("skg80: ", stderr);
     vfprintf(stderr, format, arguments);
@@ -276,6 +289,7 @@ static void print_stats(const session *s)
 {
     const i8080 *c = &s->board->cpu;
     unsigned end = BOARD_RAM_START + s->o.ram_kib * 1024;
+    end_line();
     print_counts(c->cycles, c->instructions);
     fprintf(stderr, "RAM           2000 to %04X, written up to %04X\nstack         down to %04X\n", end - 1,
             c->highest_write, c->lowest_sp);
@@ -538,6 +552,7 @@ static int with_part(session *s)
     int code = set_tape(s, s->o.part);
     code = code ? code : open_output(&s->paper, s->o.tty);
     code = code ? code : open_output(&s->punch, s->o.punch);
+    open_line = s->paper == stderr ? s : NULL;
     code = code ? code : run_part(s, answers ? (const char *)answers : "");
     free(answers);
     return code;
@@ -561,6 +576,7 @@ static int with_terminal(session *s)
         fflush(stdout);
     }
     s->terminal.copy = copy;
+    open_line = s->o.pty ? NULL : s;
     return run_terminal(s);
 }
 
