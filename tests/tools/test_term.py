@@ -1,0 +1,248 @@
+"""`skg term` against a machine of the test's own at the other end of a pseudo-terminal."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pty
+import select
+import subprocess
+import sys
+import threading
+import time
+import tty
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import CAD_TAPE
+
+from skg.term import DC2, DC4, XOFF, XON, Splitter
+
+SKG = Path(sys.executable).with_name("skg")
+PROGRAM = "10 REM A PART\n20 CUT P1,P2\n30 END\n"
+
+
+class Machine:
+    """A board of sorts: echoes, gives a prompt after each line, and punches the CAD tape at RUN.
+
+    Its port is `link`, a symbolic link to the pseudo-terminal, so that the port can go away and come back.
+    """
+
+    def __init__(self, link: Path, between_codes: bool = True) -> None:
+        self.link = link
+        self.between_codes = between_codes
+        self.received = bytearray()
+        self.lines: list[str] = []
+        self.hold_after = 0
+        self.held: list[int] = []
+        self.master = -1
+        self.stopping = False
+        self.plug()
+        self.thread = threading.Thread(target=self.work, daemon=True)
+        self.thread.start()
+
+    def plug(self) -> None:
+        """Offer a new pseudo-terminal."""
+        master, slave = pty.openpty()
+        tty.setraw(slave)
+        # The slave stays open here too: a master without any slave reports an error.
+        self.slave = slave
+        self.link.unlink(missing_ok=True)
+        self.link.symlink_to(os.ttyname(slave))
+        self.master = master
+
+    def unplug(self) -> None:
+        """Take the port away."""
+        self.link.unlink()
+        master, self.master = self.master, -1
+        os.close(self.slave)
+        os.close(master)
+
+    def work(self) -> None:
+        line = bytearray()
+        while not self.stopping:
+            master = self.master
+            if master < 0 or not select.select([master], [], [], 0.05)[0]:
+                time.sleep(0.01)
+                continue
+            with contextlib.suppress(OSError):
+                for byte in os.read(master, 1):
+                    self.received.append(byte)
+                    self.answer(line, byte, master)
+
+    def answer(self, line: bytearray, byte: int, master: int) -> None:
+        if byte != 0x0D:
+            line.append(byte)
+            os.write(master, bytes([byte]))
+            if len(self.received) == self.hold_after:
+                self.hold(master)
+            return
+        os.write(master, b"\r\n")
+        self.lines.append(line.decode())
+        if line == b"RUN":
+            codes = (bytes([DC2]), bytes([DC4])) if self.between_codes else (b"", b"")
+            if self.between_codes:
+                os.write(master, codes[0] + CAD_TAPE + codes[1])
+        line.clear()
+        os.write(master, b">")
+
+    def hold(self, master: int) -> None:
+        """Send XOFF, see what still comes, and send XON."""
+        os.write(master, bytes([XOFF]))
+        time.sleep(0.3)
+        while select.select([master], [], [], 0)[0]:
+            data = os.read(master, 64)
+            self.held += data
+            self.received += data
+        time.sleep(0.3)
+        assert not select.select([master], [], [], 0)[0], "nothing is sent while held"
+        os.write(master, bytes([XON]))
+
+    def stop(self) -> None:
+        self.stopping = True
+        self.thread.join()
+
+
+@pytest.fixture
+def machine(tmp_path: Path) -> Iterator[Machine]:
+    one = Machine(tmp_path / "port")
+    yield one
+    one.stop()
+
+
+def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True,
+                          timeout=30)
+
+
+def test_sends_and_records(machine: Machine, tmp_path: Path) -> None:
+    part, tape = tmp_path / "part.skg", tmp_path / "part.3b"
+    part.write_text(PROGRAM)
+    result = term(machine.link, "--send", part, "--run", "--record", tape, "--batch")
+    assert result.returncode == 0, result.stderr
+    assert machine.lines == [*PROGRAM.splitlines(), "RUN"]
+    assert tape.read_bytes() == CAD_TAPE
+    assert b"B9900B0B9900GXL3" in result.stdout, "what is punched is on the paper too"
+    assert result.stdout.count(b">") == 4
+    assert result.stderr.decode().endswith(f"{len(CAD_TAPE)} bytes punched to {tape}\n")
+
+
+def test_keyboard_from_a_pipe(machine: Machine) -> None:
+    result = term(machine.link, "--quiet", "0.3", stdin="PRINT 1\nRUN\n")
+    assert result.returncode == 0
+    assert machine.lines == ["PRINT 1", "RUN"]
+
+
+def test_file_from_a_pipe(machine: Machine) -> None:
+    assert term(machine.link, "--send", "-", "--quiet", "0.3", stdin=PROGRAM).returncode == 0
+    assert machine.lines == PROGRAM.splitlines()
+
+
+def test_flow_control(machine: Machine, tmp_path: Path) -> None:
+    part = tmp_path / "part.skg"
+    text = ("10 REM " + "X" * 60 + "\n") * 50
+    part.write_text(text)
+    machine.hold_after = 20
+    assert term(machine.link, "--send", part, "--batch", "--pace", "none", "--quiet", "1").returncode == 0
+    # A pseudo-terminal has no line speed: what is written before XOFF is read is on its way already.
+    assert len(machine.held) < 1000 < len(text) / 3
+    assert bytes(machine.received).decode() == text.replace("\n", "\r")
+
+
+def test_punch_on_a_port_of_its_own(machine: Machine, tmp_path: Path) -> None:
+    machine.between_codes = False
+    punch = Machine(tmp_path / "punch")
+    tape = tmp_path / "part.3b"
+    done = threading.Thread(target=lambda: (time.sleep(1), os.write(punch.master, CAD_TAPE)))
+    done.start()
+    result = term(machine.link, "--punch-port", punch.link, "--record", tape, "--batch", "--quiet", "3")
+    done.join()
+    punch.stop()
+    assert result.returncode == 0
+    assert tape.read_bytes() == CAD_TAPE
+
+
+def test_survives_the_port_going_away(machine: Machine, tmp_path: Path) -> None:
+    part = tmp_path / "part.skg"
+    part.write_text("".join(f"{number} REM LINE\n" for number in range(10, 100)))
+    process = subprocess.Popen([SKG, "term", machine.link, "--send", part, "--batch", "--quiet", "1"],
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    while len(machine.lines) < 20:
+        time.sleep(0.005)
+    machine.unplug()
+    time.sleep(0.7)
+    assert process.poll() is None
+    machine.plug()
+    errors = process.communicate(timeout=40)[1].decode()
+    assert process.returncode == 0, errors
+    assert "went away" in errors
+    assert "is back" in errors
+    # The line in hand when the port went may have lost its beginning; all others arrive whole.
+    whole = [line for line in machine.lines if line.endswith("REM LINE")]
+    assert len(whole) >= 88
+    assert machine.lines[-1] == "99 REM LINE"
+
+
+def test_gives_up(machine: Machine) -> None:
+    process = subprocess.Popen([SKG, "term", machine.link, "--patience", "0.6", "--batch", "--quiet", "20"],
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    time.sleep(1)
+    machine.unplug()
+    errors = process.communicate(timeout=20)[1].decode()
+    assert process.returncode == 2
+    assert errors.splitlines()[-1] == f"skg: {machine.link}: no such file or directory, given up"
+
+
+def test_in_a_terminal(machine: Machine) -> None:
+    """Keys go out one by one, ctrl-] leaves, and the terminal is as it was."""
+    outer, inner = pty.openpty()
+    process = subprocess.Popen([SKG, "term", machine.link], stdin=inner, stdout=inner, stderr=inner)
+    time.sleep(1)
+    os.write(outer, b"PRINT 2\r")
+    deadline = time.monotonic() + 10
+    while machine.lines != ["PRINT 2"] and time.monotonic() < deadline:
+        time.sleep(0.02)
+    os.write(outer, b"\x1d")
+    assert process.wait(timeout=10) == 0
+    assert machine.lines == ["PRINT 2"]
+    assert b"PRINT 2\r\n>" in os.read(outer, 1000)
+    for descriptor in (inner, outer):
+        os.close(descriptor)
+
+
+def test_broken_off(machine: Machine, tmp_path: Path) -> None:
+    part = tmp_path / "part.skg"
+    part.write_text(PROGRAM * 400)
+    outer, inner = pty.openpty()
+    process = subprocess.Popen([SKG, "term", machine.link, "--send", part], stdin=inner,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    while not machine.lines:
+        time.sleep(0.01)
+    os.write(outer, b"\x03")
+    assert process.communicate(timeout=10)[1].decode().splitlines()[-1].strip() == "skg term: broken off"
+    assert process.returncode == 1
+    for descriptor in (inner, outer):
+        os.close(descriptor)
+
+
+@pytest.mark.parametrize(("arguments", "message"), [
+    (["/nowhere"], "skg: /nowhere: no such file or directory\n"),
+    (["nonsense://x"], "skg: nonsense://x: invalid URL"),
+    (["/dev/null", "--send", "/nowhere.skg"], "skg: /nowhere.skg: No such file or directory\n"),
+])
+def test_bad_ports(arguments: list[str], message: str) -> None:
+    result = term(*arguments)
+    assert result.returncode == 2
+    assert result.stderr.decode().startswith(message)
+    assert result.stderr.count(b"\n") == 1
+
+
+def test_splitter() -> None:
+    splitter = Splitter()
+    assert splitter.feed(b"A\0") == (b"A", b"")
+    assert splitter.feed(bytes([DC2]) + b"B1") == (b"B1", b"B1")
+    assert splitter.feed(bytes([XOFF]) + b"B2" + bytes([DC4]) + b"C") == (b"B2C", b"B2")
+    assert not splitter.may_send.is_set()
+    splitter.feed(bytes([XON]))
+    assert splitter.may_send.is_set()

@@ -1,0 +1,365 @@
+"""`skg term`: a teletype in the terminal, for the board or the emulator's `--pty`.
+
+Three things happen at once: the keyboard goes to the port, the port's paper to the screen and its punch to a
+file, and a program that is being sent goes out line by line. One thread reads the port (and one a second
+port, for the punch); the main thread does everything else. XON and XOFF are taken from the stream of the port
+itself and obeyed here, whatever the driver underneath does about them.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import sys
+import termios
+import threading
+import time
+import tty
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import BinaryIO
+
+import click
+import serial
+from tqdm import tqdm
+
+from skg import tape
+from skg.errors import UserError
+
+XON, XOFF, DC2, DC4, ESCAPE = 0x11, 0x13, 0x12, 0x14, 0x1D
+#: Seconds between two tries to open a port that went away.
+_RETRY = 0.5
+#: Seconds of silence after which a line is sent though no prompt has come.
+_PROMPT = 3.0
+#: What pyserial raises when a port cannot be opened, or is closed or gone in the middle of a call.
+_TROUBLE = (OSError, ValueError, TypeError, termios.error)
+
+
+class Splitter:
+    """Takes a port's bytes apart: flow control, punch (between DC2 and DC4) and paper."""
+
+    def __init__(self) -> None:
+        self.punching = False
+        self.may_send = threading.Event()
+        self.may_send.set()
+
+    def feed(self, data: bytes) -> tuple[bytes, bytes]:
+        """Return (paper, punch) of some bytes. What is punched is on the paper too, as on a teletype."""
+        paper, punch = bytearray(), bytearray()
+        for byte in data:
+            if byte == XOFF:
+                self.may_send.clear()
+            elif byte == XON:
+                self.may_send.set()
+            elif byte in (DC2, DC4):
+                self.punching = byte == DC2
+            else:
+                if self.punching:
+                    punch.append(byte)
+                if byte:
+                    paper.append(byte)
+        return bytes(paper), bytes(punch)
+
+
+class Port:
+    """A serial port that is opened again when it went away.
+
+    `say` tells the operator, `on_back` is called when the port is there again. A port that stays away longer
+    than `patience` seconds (0: for ever) is a `UserError`.
+    """
+
+    def __init__(self, name: str, baud: int, say: Callable[[str], None], on_back: Callable[[], None],
+                 patience: float) -> None:
+        self.name = name
+        self.say = say
+        self.on_back = on_back
+        self.patience = patience
+        self.settings = {"baudrate": baud, "timeout": 0.1, "write_timeout": 1}
+        self.closing = False
+        self.lock = threading.Lock()
+        try:
+            self.serial = self._open()
+        except _TROUBLE as error:
+            raise UserError(f"{name}: {_reason(error)}") from None
+
+    def _open(self) -> serial.SerialBase:
+        return serial.serial_for_url(self.name, **self.settings)
+
+    def _lost(self, broken: serial.SerialBase, error: Exception) -> None:
+        """The port went away: say so, and try to open it until it is back."""
+        with self.lock:
+            if self.closing or self.serial is not broken:
+                return
+            self.say(f"{self.name} went away ({_reason(error)}), trying again")
+            with contextlib.suppress(*_TROUBLE):
+                broken.close()
+            since = time.monotonic()
+            while not self.closing:
+                try:
+                    self.serial = self._open()
+                except _TROUBLE as again:
+                    if self.patience and time.monotonic() - since > self.patience:
+                        raise UserError(f"{self.name}: {_reason(again)}, given up") from None
+                    time.sleep(_RETRY)
+                else:
+                    self.say(f"{self.name} is back")
+                    self.on_back()
+                    return
+
+    def read(self) -> bytes:
+        """What has come in, 7 bits each; empty after a tenth of a second without anything."""
+        current = self.serial
+        try:
+            return bytes(byte & 0x7F for byte in current.read(max(1, current.in_waiting)))
+        except _TROUBLE as error:
+            self._lost(current, error)
+            return b""
+
+    def write(self, data: bytes) -> None:
+        """Send bytes; after a loss of the port it goes on with the byte that failed."""
+        for at in range(len(data)):
+            while not self.closing:
+                current = self.serial
+                try:
+                    current.write(data[at:at + 1])
+                    current.flush()
+                    break
+                except serial.SerialTimeoutException:
+                    continue
+                except _TROUBLE as error:
+                    self._lost(current, error)
+
+    def close(self) -> None:
+        """Close the port for good."""
+        self.closing = True
+        with contextlib.suppress(*_TROUBLE):
+            self.serial.close()
+
+
+def _reason(error: Exception) -> str:
+    """An error's own words, without the wrapping that pyserial puts around them."""
+    if isinstance(error, OSError) and error.errno:
+        return os.strerror(error.errno).lower()
+    return str(error).splitlines()[0] if str(error) else type(error).__name__
+
+
+class _BrokenOff(Exception):
+    """The operator typed ctrl-] or ctrl-C."""
+
+
+@dataclass
+class Teletype:
+    """The paper on the screen, the punch in a file, and what is known about the port's state."""
+
+    record: BinaryIO | None
+    keys: Callable[[], bytes] = bytes
+    splitter: Splitter = field(default_factory=Splitter)
+    last: float = field(default_factory=time.monotonic)
+    line: bytearray = field(default_factory=bytearray)
+    punched: int = 0
+    ended: bool = False
+    failure: UserError | None = None
+    punching: tqdm | None = None
+    show_bars: bool = False
+    tail: bytes = b""
+
+    def say(self, message: str) -> None:
+        """A line from `skg term` itself, on stderr."""
+        self._plain(f"skg term: {message}")
+
+    def _plain(self, message: str) -> None:
+        tqdm.write(message.replace("\n", "\r\n") + "\r", file=sys.stderr)
+
+    def paper(self, data: bytes) -> None:
+        """Print what the port typed."""
+        if not data:
+            return
+        self.last = time.monotonic()
+        for byte in data:
+            if byte in b"\r\n":
+                self.line.clear()
+            else:
+                self.line.append(byte & 0x7F)
+        with tqdm.external_write_mode(file=sys.stdout) if self.show_bars else contextlib.nullcontext():
+            sys.stdout.buffer.write(data)
+            sys.stdout.buffer.flush()
+
+    def punch(self, data: bytes) -> None:
+        """Record what the port punched."""
+        if not data:
+            return
+        self.last = time.monotonic()
+        self.punched += len(data)
+        if self.record:
+            self.record.write(data)
+            self.record.flush()
+        if self.show_bars:
+            if self.punching is None:
+                self.punching = tqdm(unit="block", desc="punching", leave=False)
+            self.punching.update(data.count(b"\n"))
+        self.tail = (self.tail + data)[-8:].replace(b"\r", b"")
+        self.ended = self.ended or b"DD\n" in self.tail[-8:]
+        if b"DD\n" in self.tail and self.punching is not None:
+            self.punching.close()
+            self.punching = None
+
+    @property
+    def at_prompt(self) -> bool:
+        """Whether the paper's last line is the prompt and nothing else."""
+        return bytes(self.line) == b">"
+
+    def check(self) -> None:
+        """Raise what went wrong in a reading thread, or `_BrokenOff` when the operator wants to stop."""
+        if self.failure:
+            raise self.failure
+        typed = self.keys()
+        if ESCAPE in typed or 0x03 in typed:
+            raise _BrokenOff
+
+    def wait(self, until: Callable[[], bool], quiet: float) -> None:
+        """Wait until something is so, or until nothing has come in for `quiet` seconds."""
+        since = time.monotonic()
+        while not until() and min(time.monotonic() - since, self.quiet_for()) <= quiet:
+            self.check()
+            time.sleep(0.01)
+
+    def quiet_for(self) -> float:
+        """Seconds since anything came in."""
+        return time.monotonic() - self.last
+
+    def listen(self, port: Port, is_punch: bool) -> None:
+        """Read a port until it is closed (a thread's body)."""
+        try:
+            while not port.closing:
+                data = port.read()
+                if is_punch:
+                    self.punch(data)
+                else:
+                    paper, punch = self.splitter.feed(data)
+                    self.paper(paper)
+                    self.punch(punch)
+        except UserError as error:
+            self.failure = error
+        except OSError as error:
+            self.failure = UserError(f"punch file: {error.strerror}")
+
+
+def send(port: Port, teletype: Teletype, data: bytes, pace: str, delay: float) -> None:
+    """Send a file; lines end with CR, as on a teletype.
+
+    `pace` "prompt" waits for the prompt after each line; with "none" only XOFF holds it. `delay`: seconds
+    between two lines. Raises `_BrokenOff` when the operator types ctrl-] or ctrl-C.
+    """
+    lines = data.replace(b"\r\n", b"\r").replace(b"\n", b"\r").splitlines(keepends=True)
+    with tqdm(total=sum(map(len, lines)), unit="B", unit_scale=True, desc="sending", leave=False,
+              disable=not teletype.show_bars) as bar:
+        for line in lines:
+            for at in range(len(line)):
+                teletype.check()
+                while not teletype.splitter.may_send.wait(0.1):
+                    teletype.check()
+                if line[at:] == b"\r":
+                    teletype.line.clear()
+                port.write(line[at:at + 1])
+                bar.update(1)
+            if pace == "prompt":
+                teletype.wait(lambda: teletype.at_prompt, _PROMPT)
+            if delay:
+                time.sleep(delay)
+
+
+@contextlib.contextmanager
+def raw_keyboard() -> Iterator[Callable[[], bytes]]:
+    """Give the keyboard's bytes as they are typed; the terminal is put right again at the end.
+
+    Where the standard input is no terminal there is no keyboard.
+    """
+    if not sys.stdin.isatty():
+        yield bytes
+        return
+    descriptor = sys.stdin.fileno()
+    before = termios.tcgetattr(descriptor)
+    try:
+        tty.setraw(descriptor)
+        yield lambda: os.read(descriptor, 256) if select.select([descriptor], [], [], 0)[0] else b""
+    finally:
+        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
+
+
+def converse(port: Port, teletype: Teletype) -> None:
+    """Carry the keyboard to the port until ctrl-]."""
+    while True:
+        if teletype.failure:
+            raise teletype.failure
+        typed = teletype.keys()
+        if ESCAPE in typed:
+            port.write(typed[:typed.index(ESCAPE)])
+            return
+        if typed:
+            port.write(typed)
+        else:
+            time.sleep(0.01)
+
+
+@click.command(name="term")
+@click.argument("port")
+@click.option("--send", "file", metavar="FILE", type=click.Path(allow_dash=True),
+              help="Type this file first, line by line; - for the standard input.")
+@click.option("--run", is_flag=True, help="Type RUN after the file.")
+@click.option("--record", metavar="FILE", type=click.Path(), help="Write what is punched to this file.")
+@click.option("--punch-port", metavar="PORT", help="Where the punch is connected, if not to PORT itself.")
+@click.option("--baud", default=9600, show_default=True, type=click.IntRange(50), help="Speed of both ports.")
+@click.option("--pace", type=click.Choice(("prompt", "none")), default="prompt", show_default=True,
+              help="After each line that is sent wait for the prompt, or for nothing but XOFF.")
+@click.option("--delay", default=0.0, metavar="SECONDS", type=click.FloatRange(0),
+              help="Also wait this long after each line.")
+@click.option("--batch", is_flag=True,
+              help="Leave when the file was sent and the tape's DD was punched, or when nothing has come for "
+                   "--quiet seconds.")
+@click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS",
+              type=click.FloatRange(0, min_open=True), help="How long --batch waits for more.")
+@click.option("--patience", default=0.0, metavar="SECONDS", type=click.FloatRange(0),
+              help="Give up a port that stays away this long. Default: never.")
+def command(port: str, file: str | None, run: bool, record: str | None, punch_port: str | None, baud: int,
+            pace: str, delay: float, batch: bool, quiet: float, patience: float) -> None:
+    """Be the teletype of the machine on PORT (a device, or any address that pyserial knows).
+
+    Keys go to the machine as they are typed; ctrl-] leaves. What it punches, between DC2 and DC4 or on a port
+    of its own, goes to the file of --record. XOFF holds what is sent until XON. A port that goes away is
+    opened again when it comes back. Without a terminal the standard input is typed instead, and the command
+    leaves as with --batch.
+    """
+    data = tape.read_bytes(file) if file else b""
+    with contextlib.ExitStack() as stack:
+        punched = stack.enter_context(Path(record).open("wb")) if record else None
+        teletype = Teletype(punched, show_bars=sys.stderr.isatty())
+        machine = Port(port, baud, teletype.say, teletype.splitter.may_send.set, patience)
+        stack.callback(machine.close)
+        readers = [(machine, False)]
+        if punch_port:
+            readers.append((Port(punch_port, baud, teletype.say, bool, patience), True))
+            stack.callback(readers[1][0].close)
+        for reader in readers:
+            threading.Thread(target=teletype.listen, args=reader, daemon=True).start()
+        teletype.keys = stack.enter_context(raw_keyboard())
+        try:
+            send(machine, teletype, data, pace, delay)
+            if run:
+                send(machine, teletype, b"RUN\n", "none", 0.0)
+            if batch or not sys.stdin.isatty():
+                if not batch and file != "-":
+                    send(machine, teletype, tape.read_bytes("-"), pace, delay)
+                teletype.wait(lambda: teletype.ended, quiet)
+                # Whatever stands on the paper after DD.
+                teletype.wait(bool, 0.2)
+            else:
+                converse(machine, teletype)
+        except _BrokenOff:
+            teletype.say("broken off")
+            stack.close()
+            raise SystemExit(1) from None
+    if teletype.punched:
+        where = f" to {record}" if record else ""
+        click.echo(f"skg term: {teletype.punched} bytes punched{where}", err=True)
