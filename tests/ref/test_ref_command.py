@@ -35,7 +35,11 @@ def test_tape_paper_and_answers(part: Path, tmp_path: Path) -> None:
 
 def test_error_ends_with_1(part: Path) -> None:
     done = skg(part)
-    assert (done.returncode, done.stdout, done.stderr) == (1, b"", b"? \nERR 10 LINE 10\n")
+    assert (done.returncode, done.stdout, done.stderr) == (
+        1,
+        b"",
+        b"? \nERR 10 LINE 10\n",
+    )
 
 
 def test_syntax_error_runs_nothing(part: Path) -> None:

@@ -13,11 +13,19 @@ from skg.ref.values import Point
 
 def test_half_circle_by_hand() -> None:
     """d = 100/20 = 5, joint ((0,5) + (10,5))/2: two quarters of a circle of radius 5."""
-    assert blocks("FIT O,90", "FIT (10,0),-90") == ["B5000B0B5000GXSR2", "B0B5000B5000GYSR1", "DD"]
+    assert blocks("FIT O,90", "FIT (10,0),-90") == [
+        "B5000B0B5000GXSR2",
+        "B0B5000B5000GYSR1",
+        "DD",
+    ]
 
 
 def test_two_nodes() -> None:
-    assert blocks("FIT O", "FIT (10,5)") == ["B5000B2500B5000GXL1", "B5000B2500B5000GXL1", "DD"]
+    assert blocks("FIT O", "FIT (10,5)") == [
+        "B5000B2500B5000GXL1",
+        "B5000B2500B5000GXL1",
+        "DD",
+    ]
     # One tangent given: the other is its mirror image about the chord, one circle.
     one = blocks("FIT O,90", "FIT (10,0)")
     assert one == blocks("FIT O", "FIT (10,0),-90") == blocks("FIT O,90", "FIT (10,0),-90")
@@ -104,13 +112,21 @@ def test_flat_arcs_go_as_lines() -> None:
     assert len(bent) == 3
     assert "R" in bent[0]
     # A rise of about 0.002 mm for the joint at (5, 0.002): 5·sin 0.0115° = 0.001.
-    assert blocks("FIT O,0.02", "FIT (10,0)") == ["B5000B1B5000GXL1", "B5000B1B5000GXL4", "DD"]
+    assert blocks("FIT O,0.02", "FIT (10,0)") == [
+        "B5000B1B5000GXL1",
+        "B5000B1B5000GXL4",
+        "DD",
+    ]
 
 
 def test_arcs_of_fifty_metres_go_as_lines() -> None:
     # The chord 80 of a circle of 40 m, and of 60 m: its rise is 0.020, 0.013 mm.
     assert "SR" in blocks("FIT O,0.0573", "FIT (80,0)")[0]
-    assert blocks("FIT O,0.0382", "FIT (80,0)") == ["B40000B13B40000GXL1", "B40000B13B40000GXL4", "DD"]
+    assert blocks("FIT O,0.0382", "FIT (80,0)") == [
+        "B40000B13B40000GXL1",
+        "B40000B13B40000GXL4",
+        "DD",
+    ]
 
 
 def test_first_and_last_node_join_as_points() -> None:
@@ -126,7 +142,9 @@ def test_first_and_last_node_join_as_points() -> None:
 
 def test_one_node_is_a_point_and_a_repeated_node_is_one() -> None:
     assert blocks("CUT O", "FIT (5,0)", "CUT (5,5)") == blocks("CUT O,(5,0),(5,5)")
-    assert blocks("FIT O", "FIT (5,1)", "FIT (5.0005,1)", "FIT (9,0)") == blocks("FIT O", "FIT (5,1)", "FIT (9,0)")
+    assert blocks("FIT O", "FIT (5,1)", "FIT (5.0005,1)", "FIT (9,0)") == blocks(
+        "FIT O", "FIT (5,1)", "FIT (9,0)"
+    )
 
 
 @pytest.mark.parametrize(
@@ -145,7 +163,15 @@ def test_impossible_curves(nodes: list[str], line: int) -> None:
 
 def test_other_cutting_statements_end_a_curve() -> None:
     """A corner in the middle: the tangents on its two sides are found apart from each other."""
-    split = cut("FIT O", "FIT (5,2)", "FIT (10,0)", "CUT (10,0)", "FIT (10,0)", "FIT (15,2)", "FIT (20,0)")
+    split = cut(
+        "FIT O",
+        "FIT (5,2)",
+        "FIT (10,0)",
+        "CUT (10,0)",
+        "FIT (10,0)",
+        "FIT (15,2)",
+        "FIT (20,0)",
+    )
     arcs = [s for s in split.path if s.role == "cut"]
     corner = heading(arcs[3], arcs[3].end).cross(heading(arcs[4], arcs[4].start))
     assert corner > 0.5
@@ -159,7 +185,10 @@ def test_blocks_leave_when_the_next_node_is_there() -> None:
     # With the third node the first span is known; of its two arcs the second still lacks its corner.
     assert cut(*nodes, "A=1/0").tape.decode().split() == [*first_span, "D"]
     # A tangent at every node: each span at once.
-    assert cut("FIT O,90", "FIT (10,0),-90", "A=1/0").tape.decode().split() == ["B5000B0B5000GXSR2", "D"]
+    assert cut("FIT O,90", "FIT (10,0),-90", "A=1/0").tape.decode().split() == [
+        "B5000B0B5000GXSR2",
+        "D",
+    ]
 
 
 def test_each_span_has_the_r_of_its_second_node() -> None:

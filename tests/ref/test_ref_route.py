@@ -58,7 +58,10 @@ def test_square_of_points() -> None:
 
 
 def test_inner_corner_cannot_be_the_entry() -> None:
-    assert cut("R=-1", "FROM (5,5)", "CUT O,(10,0),(10,10),(0,10)", "BACK").error == (6, 40)
+    assert cut("R=-1", "FROM (5,5)", "CUT O,(10,0),(10,10),(0,10)", "BACK").error == (
+        6,
+        40,
+    )
 
 
 def test_inner_corner_with_a_first_arc() -> None:
@@ -79,16 +82,35 @@ def test_inner_corner_with_a_first_arc() -> None:
     ],
 )
 def test_turns_between_line_and_circle(over: str, travel: int, arc: str) -> None:
-    assert blocks("FROM (-9,0)", "C=(0,4):5", f"CUT X{over},(0,9)") == [right(travel), arc, "DD"]
+    assert blocks("FROM (-9,0)", "C=(0,4):5", f"CUT X{over},(0,9)") == [
+        right(travel),
+        arc,
+        "DD",
+    ]
 
 
 def test_whole_circle() -> None:
     turned_to_x = ["B5000B0B20000GYNR1", left(5), "DD"]
-    assert blocks("CUT (10,0):5", "BACK") == [right(5), "B5000B0B20000GYNR3", left(5), "DD"]
+    assert blocks("CUT (10,0):5", "BACK") == [
+        right(5),
+        "B5000B0B20000GYNR3",
+        left(5),
+        "DD",
+    ]
     assert blocks("FROM (10,0)", "CUT (10,0):5", "BACK") == [right(5), *turned_to_x]
-    assert blocks("FROM (10,0)", "CUT (15,0),(10,0):5", "BACK") == [right(5), *turned_to_x]
-    assert blocks("FROM (10,0)", "CUT (15,0),(10,0):5,(15,0)", "BACK") == [right(5), *turned_to_x]
-    assert blocks("FROM (10,0)", "CUT (10,0):5,(10,0):5") == [right(5), turned_to_x[0], "DD"]
+    assert blocks("FROM (10,0)", "CUT (15,0),(10,0):5", "BACK") == [
+        right(5),
+        *turned_to_x,
+    ]
+    assert blocks("FROM (10,0)", "CUT (15,0),(10,0):5,(15,0)", "BACK") == [
+        right(5),
+        *turned_to_x,
+    ]
+    assert blocks("FROM (10,0)", "CUT (10,0):5,(10,0):5") == [
+        right(5),
+        turned_to_x[0],
+        "DD",
+    ]
 
 
 def test_circle_by_way_of_a_point_is_two_arcs() -> None:
@@ -104,9 +126,19 @@ def test_entry_radially_and_from_the_centre() -> None:
 
 def test_fillet_of_a_left_and_a_right_corner() -> None:
     # Left turn at (10, 0), radius 2: (8, 0) to (10, 2).
-    assert blocks("FROM (5,0)", "CUT X,2,Y:10,(10,5)") == [right(3), "B0B2000B2000GYNR4", up(3), "DD"]
+    assert blocks("FROM (5,0)", "CUT X,2,Y:10,(10,5)") == [
+        right(3),
+        "B0B2000B2000GYNR4",
+        up(3),
+        "DD",
+    ]
     # Right turn: (8, 0) to (10, -2).
-    assert blocks("FROM (5,0)", "CUT X,2,-Y:-10,(10,-5)") == [right(3), "B0B2000B2000GYSR1", down(3), "DD"]
+    assert blocks("FROM (5,0)", "CUT X,2,-Y:-10,(10,-5)") == [
+        right(3),
+        "B0B2000B2000GYSR1",
+        down(3),
+        "DD",
+    ]
     # After a point, and with the wire on the right of it: the arc's radius is 2 + 1.
     assert blocks("R=1", "FROM (5,-1)", "CUT O:(1,0),(10,0),2,(10,5)") == [
         right(3), "B0B3000B3000GYNR4", up(3), "DD",
@@ -142,7 +174,11 @@ def test_fillet_waits_for_the_corner_of_back() -> None:
 
 
 def test_a_corner_that_hardly_turns_leaves_its_fillet_out() -> None:
-    assert blocks("CUT O,(10,0),2,(20,0.001)") == [right(10), "B10000B1B10000GXL1", "DD"]
+    assert blocks("CUT O,(10,0),2,(20,0.001)") == [
+        right(10),
+        "B10000B1B10000GXL1",
+        "DD",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -204,11 +240,19 @@ def test_points_must_lie_on_their_elements() -> None:
 def test_travel_is_forward() -> None:
     assert cut("FROM (10,0)", "CUT X,Y:9.9985,(9.9985,5)").error == (6, 20)
     # By a micrometre or less it may go back.
-    assert blocks("FROM (10,0)", "CUT X,Y:9.999,(9.999,5)") == [left(0.001), up(5), "DD"]
+    assert blocks("FROM (10,0)", "CUT X,Y:9.999,(9.999,5)") == [
+        left(0.001),
+        up(5),
+        "DD",
+    ]
 
 
 def test_no_travel_on_a_circle_within_a_micrometre() -> None:
-    assert blocks("FROM (7,0)", "CUT O:5,(5,0.0005),(7,0.0005)") == [left(2), "B2000B1B2000GXL1", "DD"]
+    assert blocks("FROM (7,0)", "CUT O:5,(5,0.0005),(7,0.0005)") == [
+        left(2),
+        "B2000B1B2000GXL1",
+        "DD",
+    ]
     assert blocks("FROM (7,0)", "CUT O:5,(5,0.0011),(7,0.0011)")[1] == "B5000B0B1GYNR1"
 
 
@@ -228,7 +272,11 @@ def test_merging() -> None:
 def test_last_element_equal_to_the_first() -> None:
     closed = blocks("FROM (5,-3)", "CUT X,Y:10,-X:10,-Y,X")
     assert closed == [up(3), right(5), up(10), left(10), down(10), right(5), "DD"]
-    assert blocks("FROM (5,-3)", "CUT X,Y:10,-X:10,-Y,X", "BACK") == [*closed[:-1], down(3), "DD"]
+    assert blocks("FROM (5,-3)", "CUT X,Y:10,-X:10,-Y,X", "BACK") == [
+        *closed[:-1],
+        down(3),
+        "DD",
+    ]
     assert cut("FROM (5,-3)", "CUT X").error == (6, 20)
     # With another R it does not lead to the place of entry.
     assert cut("R=1", "FROM (5,-3)", "CUT X,Y:10,-X:10,-Y", "R=2", "CUT X", "BACK").error == (6, 60)
@@ -257,7 +305,12 @@ def test_from_and_its_stops() -> None:
 
 def test_changed_r() -> None:
     """Every element keeps the R of the statement that brought it."""
-    assert blocks("R=1", "FROM (5,-3)", "CUT X", "R=2", "CUT Y:10,(10,5)") == [up(2), right(7), up(6), "DD"]
+    assert blocks("R=1", "FROM (5,-3)", "CUT X", "R=2", "CUT Y:10,(10,5)") == [
+        up(2),
+        right(7),
+        up(6),
+        "DD",
+    ]
     # Along one line there is no crossing where R changes.
     assert cut("FROM O", "CUT O,(5,0)", "R=1", "CUT (9,0)").error == (6, 40)
 
@@ -275,7 +328,11 @@ def test_recut() -> None:
     both = ["R=0.2", "FROM (5,-3)", SQUARE, "BACK", "R=0.1", "A=5", "RECUT"]
     assert blocks(*both) == once[:-1] + again
     assert blocks(*both, "RECUT") == once[:-1] + again[:-1] + again
-    for bad in (["RECUT"], ["CUT X", "RECUT"], [*both, "CUT O,(1,0)", "FROM O", "RECUT"]):
+    for bad in (
+        ["RECUT"],
+        ["CUT X", "RECUT"],
+        [*both, "CUT O,(1,0)", "FROM O", "RECUT"],
+    ):
         assert cut(*bad).error == (6, 10 * len(bad))
 
 
@@ -322,7 +379,10 @@ HALF = ["R=0.1", "FROM (1,-5)", "S=X:2", "C=(0,8):7", "P1=(8,8)", "S1=X:12#150"]
         # An element square to the mirror or centred on it is its own image; turns are kept.
         ("S,Y:6;C", "S,Y:6;C;(Y:6)/Y,S"),
         # A fillet between elements, and one after a point.
-        ("S,1,Y:8,P1,0.5,P1:(0,12)", "S,1,Y:8,P1,0.5,P1:(0,12),(P1:(0,12))/Y,P1/Y,0.5,(Y:8)/Y,1,S"),
+        (
+            "S,1,Y:8,P1,0.5,P1:(0,12)",
+            "S,1,Y:8,P1,0.5,P1:(0,12),(P1:(0,12))/Y,P1/Y,0.5,(Y:8)/Y,1,S",
+        ),
         # A point on the mirror.
         ("S,Y:8,P1,(0,12)", "S,Y:8,P1,(0,12),P1/Y,(Y:8)/Y,S"),
         # A fillet that waits: after an element, after a point on the mirror, after another point.
@@ -341,7 +401,9 @@ def test_rep() -> None:
     assert blocks(*start, "CUT X:10", "REP 4,90", "BACK") == blocks(*start, *sides, "BACK")
     rounded = [f"CUT X:10#{90 * n},2" for n in range(4)]
     assert blocks(*start, "CUT X:10,2", "REP 4,90", "BACK") == blocks(*start, *rounded, "BACK")
-    assert blocks(*start, "CUT X:10", "REP 1,90", "REP 2,90", "REP 2,180", "BACK") == blocks(*start, *sides, "BACK")
+    assert blocks(*start, "CUT X:10", "REP 1,90", "REP 2,90", "REP 2,180", "BACK") == blocks(
+        *start, *sides, "BACK"
+    )
     for count, code in (("0", 5), ("-1", 5), ("1.5", 5), ("X", 4)):
         assert cut("CUT X", f"REP {count},90").error == (code, 20)
     assert cut("REP 2,90").error == (6, 10)
@@ -426,22 +488,50 @@ def test_lines_in_any_order_replaced_and_deleted() -> None:
 
 
 def test_read_data_restore() -> None:
-    lines = ["READ A,P", "PRINT A,P", "RESTORE", "READ A", "PRINT A", "RESTORE 105", "READ A", "PRINT A"]
+    lines = [
+        "READ A,P",
+        "PRINT A,P",
+        "RESTORE",
+        "READ A",
+        "PRINT A",
+        "RESTORE 105",
+        "READ A",
+        "PRINT A",
+    ]
     data = ["DATA 1+1,(D,4)", "DATA 7", "READ A"]
     result = run("D=1\n" + program("D=3", *lines, *data))
     assert result.paper == "2 (3,4)\n2\n7\nERR 08 LINE 120\n"
 
 
 def test_gosub_goes_eight_deep() -> None:
-    nested = "10 I=0\n20 GOSUB 50\n30 PRINT I\n40 END\n50 I=I+1\n60 IF I<{} GOTO 70\n65 RETURN\n70 GOSUB 50\n80 RETURN"
+    nested = (
+        "10 I=0\n20 GOSUB 50\n30 PRINT I\n40 END\n"
+        "50 I=I+1\n60 IF I<{} GOTO 70\n65 RETURN\n70 GOSUB 50\n80 RETURN"
+    )
     assert run(nested.format(8)).paper == "8\n"
     assert run(nested.format(9)).paper == "ERR 02 LINE 70\n"
 
 
 def test_nearly_equal_numbers() -> None:
-    result = cut("A=0", "I=0", "A=A+0.1", "I=I+1", "IF I<10 GOTO 30", "IF A=1 GOTO 80", "PRINT 0", "PRINT INT A")
+    result = cut(
+        "A=0",
+        "I=0",
+        "A=A+0.1",
+        "I=I+1",
+        "IF I<10 GOTO 30",
+        "IF A=1 GOTO 80",
+        "PRINT 0",
+        "PRINT INT A",
+    )
     assert result.paper == "1\n"
-    for relation, holds in (("=", 1), ("<>", 0), ("<", 0), (">", 0), ("<=", 1), (">=", 1)):
+    for relation, holds in (
+        ("=", 1),
+        ("<>", 0),
+        ("<", 0),
+        (">", 0),
+        ("<=", 1),
+        (">=", 1),
+    ):
         paper = cut(f"IF 1{relation}1.00000009 GOTO 40", "PRINT 0", "END", "PRINT 1").paper
         assert paper == f"{holds}\n"
 

@@ -162,7 +162,10 @@ def test_bytes() -> None:
 
 
 @given(
-    st.integers(50, 5000), st.floats(0, 2 * math.pi), st.floats(0.1, 2 * math.pi - 0.1), st.booleans()
+    st.integers(50, 5000),
+    st.floats(0, 2 * math.pi),
+    st.floats(0.1, 2 * math.pi - 0.1),
+    st.booleans(),
 )
 def test_a_controller_arrives_at_the_end(radius: int, a: float, sweep: float, clockwise: bool) -> None:
     """Counting J along the G axis leads to the end of the arc again."""

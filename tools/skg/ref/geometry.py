@@ -12,6 +12,9 @@ from skg.ref.fault import Code, Fault
 from skg.ref.real import MICRON, NEARLY, Real
 from skg.ref.values import ORIGIN, Circle, Curve, Line, Point, Turn, Value
 
+#: Sine of a crossing angle below which a float's last bits are magnified a hundred times: worth a note.
+SHALLOW = 1e-2
+
 
 def circle(centre: Point, r: Real) -> Circle:
     """A circle; error 5 when its radius is zero."""
@@ -88,7 +91,7 @@ def _line_line(e: Line, f: Line) -> Crossings:
     sine = e.normal.cross(f.normal)
     if near.at_most(abs(sine), NEARLY, "parallel lines"):
         raise Fault(Code.GEOMETRY)
-    near.note("shallow crossing", sine, 1e-3)
+    near.note("shallow crossing", sine, SHALLOW)
     p = Point((e.g * f.b - f.g * e.b) / sine, (e.a * f.g - f.a * e.g) / sine)
     return Crossings(p, p)
 
@@ -100,7 +103,7 @@ def _line_circle(e: Line, c: Circle, snap: bool) -> Crossings:
     if _touch(gap, snap):
         return Crossings(foot, foot, gap)
     half_chord = real.mp.sqrt(c.r**2 - distance**2)
-    near.note("shallow crossing", half_chord / c.r, 1e-3)
+    near.note("shallow crossing", half_chord / c.r, SHALLOW)
     ahead = e.direction * (half_chord if c.r > 0 else -half_chord)
     return Crossings(foot + ahead, foot - ahead, gap)
 
@@ -125,7 +128,7 @@ def _circle_circle(c1: Circle, c2: Circle, snap: bool) -> Crossings:
         return Crossings(p, p, gap)
     along = (d**2 + r1**2 - r2**2) / (2 * d)
     half_chord = real.mp.sqrt(r1**2 - along**2)
-    near.note("shallow crossing", half_chord * d / (r1 * r2), 1e-3)
+    near.note("shallow crossing", half_chord * d / (r1 * r2), SHALLOW)
     foot = c1.centre + to_second * along
     aside = to_second.left() * (half_chord if c1.r * c2.r > 0 else -half_chord)
     return Crossings(foot + aside, foot - aside, gap)

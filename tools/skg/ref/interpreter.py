@@ -401,9 +401,13 @@ def _lines(source: str) -> list[str]:
     return [line for line in lines if line.strip()]
 
 
-def run(source: str, inputs: Iterable[str] = ()) -> Result:
-    """Load a program and RUN it; `inputs` are the operator's answers to INPUT."""
-    with watching() as watch:
+def run(source: str, inputs: Iterable[str] = (), bits: int | None = None) -> Result:
+    """Load a program and RUN it; `inputs` are the operator's answers to INPUT.
+
+    With `bits`, everything is computed with a mantissa of that many bits instead of 50 digits. A program
+    whose tape comes out differently at 33 bits is ill-conditioned for the machine's own floats.
+    """
+    with watching() as watch, real.mp.workprec(bits or real.mp.prec):
         machine = Interpreter(inputs, watch)
         error = machine.load(source)
         if error is None:

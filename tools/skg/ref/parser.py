@@ -432,5 +432,3 @@ def parse_line(text: str) -> ProgramLine:
 def parse_answer(text: str) -> Expression:
     """An answer to INPUT: one expression."""
     return _parse(text, "expression")
-
-
