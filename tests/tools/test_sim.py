@@ -8,7 +8,7 @@ from math import atan2, cos, degrees, hypot, pi, sin
 from pathlib import Path
 
 import pytest
-from conftest import Run
+from conftest import ROOT, Run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -215,6 +215,19 @@ def test_closing_and_routes(run: Run) -> None:
     assert "blocks 1-4: closes to 0 µm" in result.output
     assert "blocks 6-9: closes to 0 µm" in result.output
     assert run("sim", "-", "--strict-close", stdin=tapes.to_bytes(square)).exit_code == 0
+
+
+@pytest.mark.parametrize("tape", sorted((ROOT / "examples").glob("*.3b")), ids=lambda path: path.stem)
+def test_examples(run: Run, tape: Path) -> None:
+    """The examples' tapes are sound, each that is meant to close does, and lines never miss."""
+    assert run("check", tape).exit_code == 0
+    report = simulate(tapes.read(str(tape)))
+    if max(map(abs, report.gap)) < 20:
+        assert (0, 0) in (report.gap, report.programmed_gap)
+    assert report.off_curve <= 1
+    for one in report.each:
+        if "GXL" in one.block or "GYL" in one.block:
+            assert one.really == one.should
 
 
 def test_speed() -> None:

@@ -10,7 +10,8 @@ from tqdm import tqdm
 
 from skg import tape as tapes
 from skg.controller import Outcome, run_block
-from skg.tape import Block, Stop, Tape
+from skg.placed import closed_moves
+from skg.tape import Block, Tape
 
 #: A progress bar appears on tapes of more steps than this (about a second's worth).
 _LONG = 50_000_000
@@ -80,7 +81,7 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False) -> Report:
     """Follow every block of `tape`.
 
     `feed` is in mm/min; `progress` shows a bar on stderr when that is a terminal and the tape long. Where a
-    block should start is the sum of the ends (`Block.end`) that the blocks before it should have had.
+    block should start is the sum of the moves (`closed_moves`) that the blocks before it should have made.
     """
     each: list[BlockReport] = []
     routes: list[Route] = []
@@ -102,26 +103,24 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False) -> Report:
         at_stop = real, programmed, last + 1
 
     with bar:
-        for item in tape.items:
-            if isinstance(item, Stop):
-                close_route(item.after, True)
-                continue
-            drift = real[0] - programmed[0], real[1] - programmed[1]
-            outcome: Outcome = run_block(item, drift, bar.update)
-            should = item.move
-            each.append(BlockReport(item.number, str(item), should, outcome.move, outcome.steps,
-                                    outcome.off_curve))
-            real = real[0] + outcome.move[0], real[1] + outcome.move[1]
-            programmed = programmed[0] + should[0], programmed[1] + should[1]
-            off_curve = max(off_curve, outcome.off_curve)
-            off_path = max(off_path, outcome.off_path)
-            largest_drift = max(largest_drift, abs(real[0] - programmed[0]), abs(real[1] - programmed[1]))
-    close_route(len(each), False)
+        stretches = tape.stretches()
+        for at, blocks in enumerate(stretches):
+            for block, should in zip(blocks, closed_moves(blocks), strict=True):
+                drift = real[0] - programmed[0], real[1] - programmed[1]
+                outcome: Outcome = run_block(block, drift, bar.update)
+                each.append(BlockReport(block.number, str(block), should, outcome.move, outcome.steps,
+                                        outcome.off_curve))
+                real = real[0] + outcome.move[0], real[1] + outcome.move[1]
+                programmed = programmed[0] + should[0], programmed[1] + should[1]
+                off_curve = max(off_curve, outcome.off_curve)
+                off_path = max(off_path, outcome.off_path)
+                largest_drift = max(largest_drift, _size((real[0] - programmed[0], real[1] - programmed[1])))
+            close_route(len(each), at + 1 < len(stretches))
     cut = [route for route in routes if not route.is_move] or [Route(0, 0, (0, 0), (0, 0), False)]
     travel = sum(block.length for block in tape.blocks)
     missed = [max(abs(one.really[0] - one.should[0]), abs(one.really[1] - one.should[1])) for one in each]
     return Report(
-        name=tape.name, blocks=len(each), stops=sum(isinstance(item, Stop) for item in tape.items),
+        name=tape.name, blocks=len(each), stops=len(tape.stops),
         travel=travel, steps=sum(one.steps for one in each), feed=feed, time=travel / 1000 / feed * 60,
         gap=max((route.gap for route in cut), key=_size),
         programmed_gap=max((route.programmed_gap for route in cut), key=_size), end=real,
