@@ -158,6 +158,9 @@ WORK:   NOP
         LHLD    OLDSP
         SPHL
         LXI     H,OUT
+        MOV     A,M             ; S Z AC P CY alone
+        ANI     0D5H
+        MOV     M,A
         MVI     B,12            ; the state and the memory that it works on
 TEST1:  MOV     A,M
         CALL    UPDATE
