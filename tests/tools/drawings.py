@@ -142,4 +142,18 @@ def in_inches() -> Drawing:
     return drawing
 
 
-ALL = (die_plate, connecting_rod, ratchet, cam, punch_with_spline, mirrored_blocks, in_inches)
+def bracket() -> Drawing:
+    """The drawing of docs/tools.md: a bracket with rounded corners, a bore, a slot and an ellipse."""
+    drawing, space = new()
+    outline = [(4, 0, 0), (66, 0, QUARTER), (70, 4, 0), (70, 20, 0), (40, 30, 0), (4, 30, QUARTER),
+               (0, 26, 0), (0, 4, QUARTER)]
+    space.add_lwpolyline(outline, format="xyb", close=True, dxfattribs={"layer": "PART"})
+    space.add_circle((12, 15), 6, {"layer": "PART"})
+    space.add_lwpolyline([(26, 11, 0), (36, 11, 1), (36, 19, 0), (26, 19, 1)], format="xyb", close=True,
+                         dxfattribs={"layer": "PART"})
+    space.add_ellipse((55, 11), (6, 0), 0.5, dxfattribs={"layer": "PART"})
+    space.add_text("BRACKET", dxfattribs={"layer": "NOTES"})
+    return drawing
+
+
+ALL = (die_plate, connecting_rod, ratchet, cam, punch_with_spline, mirrored_blocks, in_inches, bracket)

@@ -32,7 +32,8 @@ LAYERS = {drawings.cam: ("CAM",)}
 #: Largest distance, µm, of a drawing made from the tape. A tape tells the end of an arc across its count axis
 #: only to a µm, since the start's rounding is in the radius: where dozens of arcs follow each other without a
 #: line the places found again wander off by some µm, and nothing on the tape could tell better.
-LOST_ON_TAPE = {drawings.ratchet: 2.0, drawings.cam: 6.0, drawings.punch_with_spline: 4.0}
+LOST_ON_TAPE = {drawings.ratchet: 2.0, drawings.cam: 6.0, drawings.punch_with_spline: 4.0,
+                drawings.bracket: 3.0}
 
 
 #: A program may miss the drawing by this, µm: half a micrometre of FIT's nodes, and half a micrometre where

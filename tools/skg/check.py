@@ -27,7 +27,7 @@ def command(tapes_: tuple[str, ...], as_json: bool) -> None:
         if not as_json and not findings:
             click.echo(f"{name}: {len(tape.blocks)} blocks, nothing wrong")
     if as_json:
-        click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in found], indent=1))
+        click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in found]))
     else:
         for name, finding in found:
             click.echo(f"{name}: {finding}")

@@ -173,6 +173,15 @@ def _text(report: Report, blocks: bool) -> str:
     return "\n".join(lines)
 
 
+def _rounded(value: object) -> object:
+    """The figures with three decimals: nm and ms."""
+    if isinstance(value, float):
+        return round(value, 3)
+    if isinstance(value, dict):
+        return {key: _rounded(inner) for key, inner in value.items()}
+    return [_rounded(inner) for inner in value] if isinstance(value, list | tuple) else value
+
+
 def _pair(point: tuple[int, int]) -> str:
     return f"{point[0]}, {point[1]}"
 
@@ -194,7 +203,7 @@ def command(tapes_: tuple[str, ...], feed: float, blocks: bool, as_json: bool, s
     reports = [simulate(tapes.read(name), feed, progress=True) for name in tapes_]
     if as_json:
         kept = reports if blocks else [replace(report, each=()) for report in reports]
-        click.echo(json.dumps([{**asdict(report), "closed": report.closed} for report in kept], indent=1))
+        click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))
     else:
         click.echo("\n".join(_text(report, blocks) for report in reports))
     if strict_close and not all(report.closed for report in reports):

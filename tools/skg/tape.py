@@ -351,6 +351,7 @@ def scan(data: bytes, name: str = "-") -> tuple[Tape, list[Finding]]:
         findings.append(Finding(bare, 1, "expected CR LF at the line's end, found LF alone (the first)"))
     if not ended:
         findings.append(Finding(number + 1, 1, "expected DD, found the end of the tape"))
+    findings.sort(key=lambda finding: (finding.block, finding.column))
     return Tape(name, tuple(items)), findings
 
 
@@ -376,8 +377,7 @@ def parse(data: bytes, name: str = "-") -> Tape:
     tape, findings = scan(data, name)
     serious = [finding for finding in findings if "LF" not in finding.message]
     if serious:
-        first = min(serious, key=lambda finding: (finding.block, finding.column))
-        raise UserError(f"{name}: {first}")
+        raise UserError(f"{name}: {serious[0]}")
     return tape
 
 

@@ -1,0 +1,66 @@
+"""The examples of docs/tools.md print what the page says; run as a program, this writes the page anew."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import drawings
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "tools.md"
+BRACKET = ROOT / "docs" / "pictures" / "bracket.dxf"
+#: A command and the indented lines after it, up to the next command or the end of the indentation.
+EXAMPLE = re.compile(r"^    \$ (?P<command>.*)\n(?P<output>(?:    (?!\$ ).*\n|\n(?=    (?!\$ )))*)", re.M)
+
+
+def printed(command: str) -> str:
+    """What a command of the page prints, both streams."""
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    (ROOT / "build").mkdir(exist_ok=True)
+    done = subprocess.run(["bash", "-c", command], cwd=ROOT, env={**os.environ, "PATH": path}, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
+    return done.stdout
+
+
+def indented(text: str) -> str:
+    return "".join(f"    {line}\n" if line else "\n" for line in text.splitlines())
+
+
+def examples() -> Iterator[re.Match[str]]:
+    return EXAMPLE.finditer(PAGE.read_text())
+
+
+@pytest.mark.parametrize("example", examples(), ids=lambda match: match["command"])
+def test_example(example: re.Match[str], tmp_path: Path) -> None:
+    # Pictures are drawn elsewhere, so that a test never changes the tree.
+    command = re.sub(r"-o docs/pictures/", f"-o {tmp_path}/", example["command"])
+    assert indented(printed(command)) == example["output"]
+
+
+def test_every_command_has_a_section() -> None:
+    from skg.cli import COMMANDS
+
+    assert set(re.findall(r"^## skg (\S+)", PAGE.read_text(), re.M)) == set(COMMANDS)
+
+
+def test_every_option_is_explained() -> None:
+    """No option without a help text."""
+    from skg.cli import COMMANDS, cli
+
+    for name in COMMANDS:
+        command = cli.get_command(None, name)
+        assert command.help, name
+        for parameter in command.params:
+            assert getattr(parameter, "help", "argument"), (name, parameter.name)
+
+
+if __name__ == "__main__":
+    drawings.bracket().saveas(BRACKET)
+    PAGE.write_text(EXAMPLE.sub(
+        lambda match: f"    $ {match['command']}\n{indented(printed(match['command']))}", PAGE.read_text()))
