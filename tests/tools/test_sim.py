@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import pty
+import subprocess
+import sys
 import time
 from math import atan2, cos, degrees, hypot, pi, sin
 from pathlib import Path
@@ -228,6 +232,19 @@ def test_examples(run: Run, tape: Path) -> None:
     for one in report.each:
         if "GXL" in one.block or "GYL" in one.block:
             assert one.really == one.should
+
+
+def test_progress_on_a_terminal_only(run_program: Run, tmp_path: Path) -> None:
+    tape = tmp_path / "long.3b"
+    tape.write_bytes(tapes.to_bytes([line_block(99_999_999, 99_999_998)] * 3))
+    assert run_program("sim", tape).stderr == ""
+    outer, inner = pty.openpty()
+    process = subprocess.Popen([Path(sys.executable).with_name("skg"), "sim", tape], stderr=inner,
+                               stdout=subprocess.DEVNULL)
+    assert process.wait(timeout=60) == 0
+    assert b"step/s" in os.read(outer, 10_000)
+    for descriptor in (inner, outer):
+        os.close(descriptor)
 
 
 def test_speed() -> None:
