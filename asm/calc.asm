@@ -1,0 +1,207 @@
+; calc.asm - the calculator: byte-code over a stack of floats
+; Offers: CALC, CALINI, COPY5, the operations QADD ... QOVR, and OPTAB
+; Uses:   float
+; Room:   210 bytes
+;
+; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
+;
+;   00      QEND    the program goes on in machine code behind it
+;   01-3F           operation n of OPTAB
+;   40-7F           push register M0 ... M63
+;   80-BF           pop into register M0 ... M63
+;   C0-FF           push constant 0 ... 63 of CONTAB
+;
+; QJMP, QJN (pop, jump if negative) and QJZ (pop, jump if zero) are followed by
+; the signed distance of their target from the distance byte itself:
+;
+;         DB      QJZ
+;         DB      TARGET-$
+;
+; The stack grows upward in FSTK; FSP -> behind its top.  There is no check for
+; its end.  The code pointer lies on the 8080 stack while an operation runs, so
+; an operation may use RST 5 itself.
+;
+; An operation is a subroutine:
+; In:  HL -> top, DE -> second, FSP -> behind the top; for the numbers up to QPOP
+;      FSP = HL, that is: the top is popped, but still there to be read
+; Out: FSP and floats   Clobbers all
+
+FSP     EQU FWORK       ; stack pointer of the calculator
+
+QEND    EQU 00H
+QADD    EQU 01H         ; x y -> x+y
+QSUB    EQU 02H         ; x y -> x-y
+QMUL    EQU 03H         ; x y -> x*y
+QDIV    EQU 04H         ; x y -> x/y
+QJN     EQU 05H         ; x ->
+QJZ     EQU 06H         ; x ->
+QDRP    EQU 07H         ; x ->
+QPOP    EQU 07H         ; the last that pops
+QJMP    EQU 08H
+QRET    EQU 09H         ; ends the byte-code and returns from the routine
+QDUP    EQU 0AH         ; x -> x x
+QOVR    EQU 0BH         ; x y -> x y x
+QSWP    EQU 0CH         ; x y -> y x
+QSQ     EQU 0DH         ; x -> x*x
+QNEG    EQU 0EH         ; x -> -x
+QABS    EQU 0FH         ; x -> |x|
+QSQRT   EQU 10H         ; x -> square root
+QSIN    EQU 11H         ; x -> sine of x degrees
+QCOS    EQU 12H
+QTG     EQU 13H
+QATG    EQU 14H         ; x -> arc tangent in degrees
+QFLR    EQU 15H         ; x -> greatest whole number not above
+QOWN    EQU 16H         ; number of the first operation that another file adds
+
+; CALINI - empties the float stack
+; Clobbers HL
+CALINI: LXI     H,FSTK
+        SHLD    FSP
+        RET
+
+; CALC - runs byte-code (RST 5 jumps here)
+; In:  on the stack: code pointer   Clobbers all
+; Cycles: an operation 238 + its own, a load 319, a store 299
+CALC:   POP     H
+CALC1:  MOV     A,M
+        INX     H
+        PUSH    H
+        ORA     A
+        RZ                      ; QEND: on behind it
+        LXI     H,CALC
+        PUSH    H               ; every operation returns there
+        MOV     L,A
+        MVI     H,0
+        CPI     40H
+        JC      CALC3
+        MOV     D,H
+        MOV     E,L
+        DAD     H
+        DAD     H
+        DAD     D               ; HL = 5*code
+        LXI     D,CONTAB-5*0C0H
+        CPI     0C0H
+        JNC     CALC2
+        LXI     D,MREG-5*80H
+        CPI     80H
+        JNC     CALC4
+        LXI     D,MREG-5*40H
+CALC2:  DAD     D
+        XCHG                    ; DE -> register or constant
+; (fall into OOVR)
+
+; OOVR - QOVR: pushes a float
+; In:  DE -> float   Clobbers all
+OOVR:   LHLD    FSP
+        CALL    COPY5
+        SHLD    FSP
+        RET
+
+CALC3:  LXI     D,OPTAB-2
+        DAD     H
+        DAD     D
+        MOV     E,M
+        INX     H
+        MOV     D,M
+        PUSH    D               ; operation
+        MOV     B,A
+        LHLD    FSP
+        MOV     A,L             ; FSTK lies within a page
+        SUI     5
+        MOV     L,A             ; HL -> top
+        SUI     5
+        MOV     E,A
+        MOV     D,H             ; DE -> second
+        MOV     A,B
+        CPI     QPOP+1
+        RNC
+        SHLD    FSP
+        RET
+
+CALC4:  DAD     D               ; HL -> register
+        XCHG
+        LHLD    FSP
+        MOV     A,L
+        SUI     5
+        MOV     L,A
+        SHLD    FSP
+        XCHG
+; (fall into COPY5)
+
+; COPY5 - copies a float
+; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
+; Cycles: 130
+COPY5:  LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+ODRP:   RET
+
+OJN:    INX     H
+        MOV     A,M
+        RLC                     ; CY = sign
+        JMP     OJMP1
+OJZ:    MOV     A,M
+        SUI     1               ; CY: zero
+        JMP     OJMP1
+OJMP:   STC
+OJMP1:  POP     H               ; CALC
+        POP     H
+        MOV     A,M             ; distance
+        JC      OJMP2
+        MVI     A,1             ; no jump: over the distance byte
+OJMP2:  MOV     E,A
+        RLC
+        SBB     A
+        MOV     D,A
+        DAD     D
+        JMP     CALC1
+
+ORET:   POP     H               ; CALC
+        POP     H               ; code pointer
+        RET
+
+ODUP:   XCHG
+        JMP     OOVR
+
+OSWP:   MVI     C,5
+OSWP1:  LDAX    D
+        MOV     B,M
+        MOV     M,A
+        MOV     A,B
+        STAX    D
+        INX     H
+        INX     D
+        DCR     C
+        JNZ     OSWP1
+        RET
+
+OSQ:    MOV     D,H
+        MOV     E,L
+        JMP     FMUL
+
+; OPTAB - addresses of the operations from 1 on.  It is left open: a file that
+; comes next goes on with DW lines for QOWN, QOWN+1, ...
+OPTAB:  DW      FADD,FSUB,FMUL,FDIV
+        DW      OJN,OJZ,ODRP
+        DW      OJMP,ORET
+        DW      ODUP,OOVR,OSWP,OSQ
+        DW      FNEG,FABS,FSQR
+        DW      FSIN,FCOS,FTG,FATG
+        DW      FFLR

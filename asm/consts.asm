@@ -1,0 +1,30 @@
+; consts.asm - constants of the calculator
+; Offers: CONTAB, the byte-codes Q0 ... that push them
+; Room:   5 bytes each
+;
+; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see
+; float.asm).  Add new ones at the end.
+
+Q0      EQU 0C0H
+Q1      EQU 0C1H
+Q2      EQU 0C2H
+QHALF   EQU 0C3H
+QMU     EQU 0C4H        ; 1 um
+Q90     EQU 0C5H
+Q180    EQU 0C6H
+Q1000   EQU 0C7H
+QNEAR   EQU 0C8H        ; numbers this close are equal
+Q502    EQU 0C9H        ; halves of a um, and what lies 2 nm below
+QEPS    EQU 0CAH
+
+CONTAB: DB      0,0,0,0,0               ; 0
+        DB      81H,00H,00H,00H,00H     ; 1
+        DB      82H,00H,00H,00H,00H     ; 2
+        DB      80H,00H,00H,00H,00H     ; 0.5
+        DB      77H,03H,12H,6EH,98H     ; 0.001
+        DB      87H,34H,00H,00H,00H     ; 90
+        DB      88H,34H,00H,00H,00H     ; 180
+        DB      8AH,7AH,00H,00H,00H     ; 1000
+        DB      69H,56H,0BFH,94H,0D6H   ; 1E-7
+        DB      80H,00H,83H,12H,6FH     ; 0.502
+        DB      70H,27H,0C5H,0ACH,47H   ; 1E-5
