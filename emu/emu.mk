@@ -1,11 +1,10 @@
 # The emulator: build/skg80 and, for the tests, build/libskg80.so. `make bench-emu` prints the core's speed.
 EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
-EMU_BOARD   := emu/i8080.c emu/board.c
-EMU_PROGRAM := $(EMU_BOARD) emu/com.c emu/image.c emu/terminal.c emu/main.c
-EMU_LIBRARY := $(EMU_BOARD) emu/machine.c
-EMU_COMPARE := tests/emu/compare.c tests/emu/plain8080.c emu/i8080.c
+EMU_PROGRAM := emu/board.c emu/com.c emu/image.c emu/terminal.c emu/main.c
+EMU_LIBRARY := emu/board.c emu/machine.c
+EMU_COMPARE := tests/emu/compare.c tests/emu/plain8080.c
 EMU_FUZZ    := tests/emu/fuzz.c emu/com.c emu/image.c $(EMU_LIBRARY)
-EMU_BENCH   := tests/emu/bench.c tests/emu/plain8080.c emu/i8080.c emu/com.c emu/image.c
+EMU_BENCH   := tests/emu/bench.c tests/emu/plain8080.c emu/com.c emu/image.c
 EMU_HEADERS := $(wildcard emu/*.h) tests/emu/plain8080.h emu/emu.mk
 EMU_ASAN    := -g -fsanitize=address,undefined -fno-sanitize-recover=all
 
@@ -19,31 +18,35 @@ endif
 
 EMU_CC = @mkdir -p $(@D); $(CC) $(EMU_CFLAGS) $(CFLAGS)
 
-build/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) $(EMU_HEADERS)
-	$(EMU_CC) -o $@ $(EMU_PROGRAM) $(EMU_ROM)
+# The core takes gcc a few seconds, so it is compiled once for all programs and the library.
+build/emu/i8080.o: emu/i8080.c $(EMU_HEADERS)
+	$(EMU_CC) -fPIC -c -o $@ $<
 
-build/libskg80.so: $(EMU_LIBRARY) $(EMU_HEADERS)
-	$(EMU_CC) -fPIC -shared -o $@ $(EMU_LIBRARY)
+build/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/emu/i8080.o
+	$(EMU_CC) -o $@ $(EMU_PROGRAM) build/emu/i8080.o $(EMU_ROM)
+
+build/libskg80.so: $(EMU_LIBRARY) build/emu/i8080.o
+	$(EMU_CC) -fPIC -shared -o $@ $(EMU_LIBRARY) build/emu/i8080.o
 
 # Tests
-build/emu/compare: $(EMU_COMPARE) $(EMU_HEADERS)
-	$(EMU_CC) -o $@ $(EMU_COMPARE)
+build/emu/compare: $(EMU_COMPARE) build/emu/i8080.o
+	$(EMU_CC) -o $@ $(EMU_COMPARE) build/emu/i8080.o
 
-build/emu/bench: $(EMU_BENCH) $(EMU_HEADERS)
-	$(EMU_CC) -o $@ $(EMU_BENCH)
+build/emu/bench: $(EMU_BENCH) build/emu/i8080.o
+	$(EMU_CC) -o $@ $(EMU_BENCH) build/emu/i8080.o
 
-# Under the sanitizers, with the core compiled once: it takes gcc its time.
+# The same under the sanitizers
 build/asan/i8080.o: emu/i8080.c $(EMU_HEADERS)
 	$(EMU_CC) $(EMU_ASAN) -c -o $@ $<
 
 build/asan/compare: $(EMU_COMPARE) build/asan/i8080.o
-	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_COMPARE:emu/i8080.c=build/asan/i8080.o)
+	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_COMPARE) build/asan/i8080.o
 
 build/asan/fuzz: $(EMU_FUZZ) build/asan/i8080.o
-	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_FUZZ:emu/i8080.c=build/asan/i8080.o)
+	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_FUZZ) build/asan/i8080.o
 
 build/asan/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/asan/i8080.o
-	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_PROGRAM:emu/i8080.c=build/asan/i8080.o) $(EMU_ROM)
+	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_PROGRAM) build/asan/i8080.o $(EMU_ROM)
 
 build/emu/%.com: tests/emu/%.asm tests/emu/asm8080.py
 	@mkdir -p $(@D); $(PYTHON) tests/emu/asm8080.py $< $@

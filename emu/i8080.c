@@ -4,7 +4,9 @@
  *
  * - run_fast keeps the registers in locals and jumps from handler to handler through code[], which holds one
  *   handler address for every memory address. Most addresses start as `undecoded`; decode() puts in the handler
- *   for the opcode found there. Operands are not decoded but read when they are needed.
+ *   for the opcode found there, or one for a chain of two or three instructions (i8080_chains.h) that begins
+ *   there. A chain saves the jumps between its handlers and nothing else: after each of its instructions it may be left,
+ *   because the slice is over or the next one needs care. Operands are not decoded but read when they are needed.
  * - run_careful does one instruction after the other from memory and has everything that is rare: ports, EI and DI,
  *   HLT, writes to anything but plain RAM, breakpoints, watching. The fast loop leaves to it every
  *   instruction that touches one of these, before that instruction has changed anything.
@@ -16,12 +18,15 @@
  * the instructions done. One subtraction an instruction, and the sign says when the slice is over.
  */
 #include "i8080.h"
+#include "i8080_chains.h"
+#include "i8080_ops.h"
 
 #include <string.h>
 
 enum { MARK_NOT_RAM = 1, MARK_OPEN = 2, MARK_CODE = 4, MARK_BREAK = 8, MARK_MIRROR = 16 };
 
 enum {
+    CHAIN_SPAN = 7,         /* a chain's last opcode is less than so many bytes behind its first */
     MIRRORED = 4,           /* bytes at 0000 that are kept a second time past FFFF */
     SLICE = 1 << 25         /* cycles; less than 4 * 2^24, so that instructions never overflow their 24 bits */
 };
@@ -31,8 +36,19 @@ enum {
     HANDLE_UNDECODED = 256,     /* look at the opcode first */
     HANDLE_CAREFUL,             /* leave the instruction to run_careful */
     HANDLE_WRAP,                /* PC has run past FFFF */
-    HANDLERS
+    HANDLE_CHAINS               /* then the chains in their order */
 };
+
+#define CHAIN2(p, q) { 2, { 0x##p, 0x##q, 0 } },
+#define CHAIN3(p, q, r) { 3, { 0x##p, 0x##q, 0x##r } },
+static const struct {
+    uint8_t length, opcode[3];
+} chains[] = { EVERY_CHAIN(CHAIN2, CHAIN3) };
+#undef CHAIN2
+#undef CHAIN3
+
+enum { CHAINS = sizeof chains / sizeof *chains };
+_Static_assert(CHAINS <= 256, "first_chain[] has bytes");
 
 #define UNLIKELY(x) __builtin_expect(!!(x), 0)
 
@@ -40,7 +56,9 @@ enum {
 
 static void forget_code(i8080 *c, unsigned address)
 {
-    c->code[address] = c->handlers[HANDLE_UNDECODED];
+    for (unsigned k = 0; k < CHAIN_SPAN; k++) {
+        c->code[(address - k) & 0xffff] = c->handlers[HANDLE_UNDECODED];
+    }
     c->mark[address] &= (uint8_t)~MARK_CODE;
 }
 
@@ -328,11 +346,10 @@ static bool attention(const i8080 *c)
     return c->stop_wanted || c->halted || c->shadow || (c->irq && c->inte);
 }
 
-static const uint8_t instruction_length[256] = {
-#define OP(op, length, cycles, ...) [0x##op] = length,
-#include "i8080_ops.h"
-#undef OP
-};
+#define FIRST(first, ...) first
+#define LENGTH(row) FIRST(row)
+#define LENGTH_OF(op) [0x##op] = LENGTH(OP_##op),
+static const uint8_t instruction_length[256] = { EVERY_OPCODE(LENGTH_OF) };
 
 /* Carries out instructions until the slice is over or attention() is due; `bus` is NULL, or the instruction that an
  * interrupting device has put on the bus, which is then the only one. `single`: one instruction in any case.
@@ -363,11 +380,14 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 #define EI (c->inte = c->shadow = true)
 #define DI (c->inte = false)
 #define HLT (c->halted = true)
-#define OP(op, length, cycles, ...)         \
+#define BODY(length, cycles, ...)           \
+    __VA_ARGS__;                            \
+    pc += length;                           \
+    left -= COST(cycles, 1);
+#define ROW(row) BODY(row)
+#define CASE(op)                            \
     case 0x##op:                            \
-        __VA_ARGS__;                        \
-        pc += length;                       \
-        left -= COST(cycles, 1);            \
+        ROW(OP_##op)                        \
         break;
 
     REGISTERS;
@@ -390,7 +410,7 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
             pc -= instruction_length[code[0]];  /* PC is not counted up while the bytes come from the device */
         }
         switch (code[0]) {
-#include "i8080_ops.h"
+            EVERY_OPCODE(CASE)
         }
     done:
         pc &= 0xffff;
@@ -411,18 +431,40 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 #undef EI
 #undef DI
 #undef HLT
-#undef OP
+#undef CASE
 
 /* ---- the fast loop ---- */
 
-/* The handler for the instruction at `address`; marks the opcodes it depends on. */
+/* True when a chain begins at `address`; marks its opcodes. */
+static bool find_chain(i8080 *c, unsigned address, unsigned chain)
+{
+    unsigned length = chains[chain].length, at[3];
+    for (unsigned k = 0; k < length; k++) {
+        at[k] = k ? at[k - 1] + instruction_length[chains[chain].opcode[k - 1]] : address;
+        if (at[k] >= I8080_SPACE || c->mem[at[k]] != chains[chain].opcode[k] || (c->mark[at[k]] & MARK_BREAK)) {
+            return false;
+        }
+    }
+    for (unsigned k = 0; k < length; k++) {
+        c->mark[at[k]] |= MARK_CODE;
+    }
+    return true;
+}
+
+/* The handler for what is at `address`; marks the opcodes it depends on. */
 static unsigned decode(i8080 *c, unsigned address)
 {
+    uint8_t opcode = c->mem[address];
     if (c->mark[address] & MARK_BREAK) {
         return HANDLE_CAREFUL;
     }
+    for (unsigned i = c->first_chain[opcode]; i < CHAINS && chains[i].opcode[0] == opcode; i++) {
+        if (find_chain(c, address, i)) {
+            return HANDLE_CHAINS + i;
+        }
+    }
     c->mark[address] |= MARK_CODE;
-    return c->mem[address];
+    return opcode;
 }
 
 /* Runs until the slice is over or attention() is due; true when it stands at a breakpoint. With `labels` it only
@@ -468,13 +510,17 @@ static bool run_fast(i8080 *c, bool labels)
 #define DI goto careful
 #define HLT goto careful
 
-    static const void *const handlers[HANDLERS] = {
-#define OP(op, length, cycles, ...) [0x##op] = &&op_##op,
-#include "i8080_ops.h"
-#undef OP
+    static const void *const handlers[HANDLE_CHAINS + CHAINS] = {
+#define LABEL(op) [0x##op] = &&op_##op,
+#define CHAIN2(p, q) &&chain_##p##_##q,
+#define CHAIN3(p, q, r) &&chain_##p##_##q##_##r,
+        EVERY_OPCODE(LABEL)
         [HANDLE_UNDECODED] = &&undecoded,
         [HANDLE_CAREFUL] = &&careful,
         [HANDLE_WRAP] = &&wrap,
+        EVERY_CHAIN(CHAIN2, CHAIN3)
+#undef CHAIN2
+#undef CHAIN3
     };
 
     REGISTERS;
@@ -488,14 +534,27 @@ static bool run_fast(i8080 *c, bool labels)
     left = (int64_t)((c->slice_end - c->cycles - 1) << 24);
     NEXT;
 
-#define OP(op, length, cycles, ...)         \
+#define ON                                  \
+    if (UNLIKELY(left < 0)) {               \
+        goto leave;                         \
+    }
+#define HANDLER(op)                         \
     op_##op:                                \
-    __VA_ARGS__;                            \
-    pc += length;                           \
-    left -= COST(cycles, 1);                \
+    ROW(OP_##op)                            \
     NEXT;
-#include "i8080_ops.h"
-#undef OP
+#define CHAIN2(p, q)                        \
+    chain_##p##_##q:                        \
+    ROW(OP_##p) ON                          \
+    ROW(OP_##q)                             \
+    NEXT;
+#define CHAIN3(p, q, r)                     \
+    chain_##p##_##q##_##r:                  \
+    ROW(OP_##p) ON                          \
+    ROW(OP_##q) ON                          \
+    ROW(OP_##r)                             \
+    NEXT;
+    EVERY_OPCODE(HANDLER)
+    EVERY_CHAIN(CHAIN2, CHAIN3)
 
 wrap:
     pc &= 0xffff;
@@ -569,6 +628,9 @@ void i8080_init(i8080 *c, i8080_in_fn *in, i8080_out_fn *out, void *user)
     for (unsigned v = 0; v < 256; v++) {
         bool even = !__builtin_parity(v);
         c->szp[v] = (uint8_t)((v & FLAG_S) | (v ? 0 : FLAG_Z) | (even ? FLAG_P : 0));
+    }
+    for (unsigned i = CHAINS; i--;) {
+        c->first_chain[chains[i].opcode[0]] = (uint8_t)i;
     }
     run_fast(c, true);
     for (unsigned i = 0; i < I8080_SPACE + I8080_PAD; i++) {

@@ -8,6 +8,7 @@
  * and exits 0, or prints the first difference and exits 1.
  */
 #include "../../emu/i8080.h"
+#include "../../emu/i8080_chains.h"
 #include "plain8080.h"
 
 #include <stdio.h>
@@ -265,18 +266,30 @@ static void map_at_random(pair *p)
     }
 }
 
-/* Some programs are noise, some mostly of instructions that go on to the next, so that they get somewhere. */
+/* Some programs are noise, some mostly of instructions that go on to the next, so that they get somewhere, and of the
+ * chains that the fast loop carries out as one. */
 static void write_program(pair *p)
 {
     static const uint8_t steady[] = {
         0x7e, 0x77, 0x23, 0x2b, 0x13, 0x1a, 0x12, 0x05, 0x0d, 0x3d, 0x78, 0x47, 0x4f, 0x79, 0x1f, 0x17, 0x29, 0x19,
         0xb7, 0xaf, 0xa6, 0xc5, 0xd5, 0xe5, 0xf5, 0xc1, 0xd1, 0xe1, 0xf1, 0xeb, 0xe3, 0xbe, 0x8e, 0x27, 0x34, 0x35,
     };
+#define CHAIN2(p, q) { 0x##p, 0x##q, 0 },
+#define CHAIN3(p, q, r) { 0x##p, 0x##q, 0x##r },
+    static const uint8_t chains[][3] = { EVERY_CHAIN(CHAIN2, CHAIN3) };
     unsigned noise = random32() % 4;
     for (unsigned i = 0; i < 65536; i++) {
         uint32_t x = random32();
         bool keep = noise == 0 || (x >> 16 & 3) < noise;
         poke_both(p, (uint16_t)i, keep ? (uint8_t)x : steady[(x & 0xffff) % sizeof steady]);
+    }
+    for (unsigned n = noise ? 8000 : 500; n; n--) {
+        const uint8_t *chain = chains[random32() % (sizeof chains / sizeof *chains)];
+        uint16_t at = (uint16_t)random32();
+        for (unsigned k = 0; k < 3 && chain[k]; k++) {
+            poke_both(p, at, chain[k]);
+            at += (chain[k] & 0xc7) == 0xc6 ? 2 : 1;        /* CPI, ANI */
+        }
     }
 }
 
@@ -308,7 +321,7 @@ static bool stream(pair *p, uint64_t *instructions)
     write_program(p);
     uint32_t x = random32(), y = random32(), z = random32();
     set_both(p, (uint8_t)z, (uint8_t)((z >> 8 & 0xd5) | 2), (uint16_t)x, (uint16_t)(x >> 16), (uint16_t)y,
-             (uint16_t)(y >> 16), (uint16_t)(z >> 16));
+             (uint16_t)(y >> 16), random32() % 8 ? (uint16_t)(z >> 16) : 0xfff0);
     i8080_watch(&p->core, random32() % 8 == 0, 0, 0xffff);
     for (unsigned slices = 0; slices < 40; slices++) {
         uint64_t cycles = random32() % (random32() & 1 ? 30 : 3000);

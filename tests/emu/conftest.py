@@ -27,7 +27,7 @@ def built() -> None:
     (ROOT / "build").mkdir(exist_ok=True)
     with (ROOT / "build" / "emu.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        done = subprocess.run(["make", "-s", *TARGETS], cwd=ROOT, capture_output=True, text=True)
+        done = subprocess.run(["make", "-s", "-j2", *TARGETS], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
