@@ -467,6 +467,18 @@ static unsigned decode(i8080 *c, unsigned address)
     return opcode;
 }
 
+/* Stores a word as one, since a host that must gather a later 16-bit load (RET, POP) from two stores waits for both. */
+static inline void put16(uint8_t *at, uint64_t value)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    uint16_t word = (uint16_t)value;
+    memcpy(at, &word, sizeof word);
+#else
+    at[0] = (uint8_t)value;
+    at[1] = (uint8_t)(value >> 8);
+#endif
+}
+
 /* Runs until the slice is over or attention() is due; true when it stands at a breakpoint. With `labels` it only
  * gives away the table of its handlers. */
 static bool run_fast(i8080 *c, bool labels)
@@ -494,8 +506,7 @@ static bool run_fast(i8080 *c, bool labels)
         if (UNLIKELY(c->mark[at_] | c->mark[at_ + 1])) {    \
             goto careful;                                   \
         }                                                   \
-        c->mem[at_] = (uint8_t)(value);                     \
-        c->mem[at_ + 1] = (uint8_t)((value) >> 8);          \
+        put16(c->mem + at_, value);                         \
     } while (0)
 #define PUSH(value)                         \
     do {                                    \
