@@ -26,7 +26,7 @@
 ;      FSP = HL, that is: the top is popped, but still there to be read
 ; Out: FSP and floats   Clobbers all
 
-FSP     EQU FWORK       ; stack pointer of the calculator
+FSP     EQU FWORK+46    ; stack pointer of the calculator
 
 QEND    EQU 00H
 QADD    EQU 01H         ; x y -> x+y

@@ -26,12 +26,16 @@
 ; behind it; H = exponent, bit 7 of SIGN = sign, the address of the result on the
 ; 8080 stack.
 
-SIGN    EQU FWORK+2     ; bit 7: sign of the result
-EXPO    EQU FWORK+3     ; exponent of the result
-SHIFT   EQU FWORK+4     ; difference of exponents
-FY      EQU FWORK+5     ; mantissa of y, low byte first
-FQ      EQU FWORK+9     ; byte of the quotient that grows
-FT      EQU FWORK+10    ; bytes 1...3 of a partial product
+FY      EQU FWORK       ; mantissa of y, low byte first
+FQ      EQU FWORK+4     ; byte of the quotient that grows
+FT      EQU FWORK+5     ; bytes 1...3 of a partial product; mask of FSQR
+FBIG    EQU FWORK       ; number of DECIN and DECOUT: 16 bytes whole, 22 bytes fraction
+BIGEND  EQU FWORK+38
+UNITS   EQU FBIG+15
+DIGS    EQU FSTK+50     ; digits of DECOUT: 5 zeros, then up to 10
+SIGN    EQU FWORK+43    ; bit 7: sign of the result
+EXPO    EQU FWORK+44    ; exponent of the result
+SHIFT   EQU FWORK+45    ; difference of exponents; decimal exponent
 
 ; FSUB - x - y
 ; FADD - x + y
@@ -161,7 +165,7 @@ FADD4:  CALL    FLOAD
 ; In:  HL -> byte 1   Out: B C D E, HL -> byte 4   Clobbers A
 FLOAD:  MOV     A,M
         ORI     80H
-        MOV     B,A
+FLOA1:  MOV     B,A
         INX     H
         MOV     C,M
         INX     H
@@ -522,7 +526,7 @@ FPACK:  MOV     A,H
         ANA     B               ; sign for the first bit
         MOV     M,A
         INX     H
-        MOV     M,C
+FPAC1:  MOV     M,C
         INX     H
         MOV     M,D
         INX     H
@@ -607,31 +611,543 @@ FTOI16: MOV     A,M
         MOV     H,A
         MOV     L,A
         RET
-FTOI1:  MVI     A,0A0H
-        SUB     M               ; bits behind the units
+FTOI1:  CALL    FWHOLE
+        CMC
         RC
-        CPI     10H
-        RC
-        MOV     B,A
-        INX     H
-        MOV     A,M
-        RLC
-        RC
-        PUSH    B
-        CALL    FLOAD
-        POP     PSW
-        CALL    FSHR
-        MOV     A,L
-        ADI     0FFH            ; CY: not whole
+        LDA     SIGN
+        ANI     80H
+        ORA     B
+        ORA     C
+        ORA     L
+        ADI     0FFH            ; CY: any of these
         XCHG
         RET
 
+; FWHOLE - whole part of a number
+; In:  HL -> x, not 0   Out: CY set: B C D E = |x| cut off, L = 0 when that is x,
+;      SIGN; CY clear: x is 2^32 or more   Clobbers A, H
+FWHOLE: MVI     A,0A0H
+        SUB     M               ; bits behind the units
+        CMC
+        RNC
+        PUSH    PSW
+        INX     H
+        MOV     A,M
+        STA     SIGN
+        CALL    FLOAD
+        POP     PSW
+        JMP     FSHR
+
+; FFLR - greatest whole number not above x
+; In:  HL -> x   Out: x   Clobbers all
+FFLR:   PUSH    H
+        CALL    FWHOLE
+        JNC     FFLR2
+        LDA     SIGN
+        ADD     A
+        JNC     FFLR1
+        MOV     A,L
+        ORA     A
+        JZ      FFLR1
+        INX     D               ; negative and not whole: one up
+        MOV     A,D
+        ORA     E
+        JNZ     FFLR1
+        INX     B
+FFLR1:  LXI     H,0A000H
+        JMP     FNRM
+FFLR2:  POP     H
+        RET
+
+; FSQR - square root
+; In:  HL -> x   Out: x; ERR 05 when it is negative   Clobbers all
+;
+; Bit by bit.  With Q the root so far and t half of the bit to be found, the step
+; is FDIV's with the divisor Q + t: subtract when it goes, then the bit belongs to
+; Q.  The last two bits come from a plain division by Q.
+FSQR:   MOV     A,M
+        ORA     A
+        RZ
+        PUSH    H
+        ADI     1
+        RAR
+        PUSH    PSW             ; CY set: even exponent
+        ADI     40H
+        STA     EXPO
+        INX     H
+        MOV     A,M
+        STA     SIGN
+        RLC
+        JC      FOVF
+        CALL    FLOAD
+        LXI     H,0
+        SHLD    FY
+        LXI     H,0A000H        ; Q = 1/2, t = 1/8
+        SHLD    FY+2
+        LXI     H,FY+3
+        MVI     A,80H
+        STA     FQ
+        MVI     A,20H
+        STA     FT
+        MOV     A,B
+        SUI     40H
+        MOV     B,A             ; even: x - 1/4, to be doubled
+        POP     PSW
+        PUSH    H
+        LXI     H,FSQR2
+        PUSH    H
+        JNC     FSQRO
+        JMP     FDIV2
+FSQRO:  MOV     A,B
+        SUI     40H
+        MOV     B,A             ; odd: 2 * (x/2 - 1/4)
+        JMP     FDIV3
+FSQR1:  STA     FT              ; A = t, HL -> its byte
+        PUSH    H
+        ORA     M
+        MOV     M,A
+        MVI     A,80H
+        CALL    FDIVA
+FSQR2:  POP     H
+        RRC
+        LDA     FT
+        JNC     FSQR3
+        ADD     M               ; t + t: the bit of Q
+        JNC     FSQR4
+        INX     H
+        INR     M
+        DCX     H
+        DB      0FEH            ; CPI: skips the XRA
+FSQR3:  XRA     M
+FSQR4:  MOV     M,A
+        LDA     FT
+        RRC
+        JNC     FSQR1
+        DCX     H
+        MOV     A,L
+        CPI     (FY-1)&255
+        MVI     A,80H
+        JNZ     FSQR1
+        MVI     A,40H
+        CALL    FDIVA
+        RRC                     ; bit 0: last bit, bit 7: the one behind it
+        LHLD    FY+2
+        MOV     B,H
+        MOV     C,L
+        LHLD    FY
+        XCHG
+        MOV     L,A
+        ANI     1
+        ORA     E
+        MOV     E,A
+        LDA     EXPO
+        MOV     H,A
+        JMP     FRND
+
+; Decimal numbers.  FBIG holds one with 16 bytes before and 22 behind the point,
+; first byte first: every float exactly.
+
+; FCLR - clears FBIG and DIGS
+; Clobbers A, DE
+FCLR:   LXI     D,DIGS-5
+FCLR1:  XRA     A
+        STAX    D
+        INX     D
+        MOV     A,E
+        CPI     BIGEND&255
+        JNZ     FCLR1
+        RET
+
+; FM10 - multiplies by 10 and adds
+; In:  HL -> last byte, B = bytes, C = added   Out: C = carry   Clobbers all
+; Cycles: 50 a byte that stays 0, else 158
+FM10:   MOV     A,M
+        ORA     C
+        JZ      FM101
+        MOV     E,M
+        MVI     D,0
+        PUSH    H
+        MOV     H,D
+        MOV     L,E
+        DAD     H
+        DAD     H
+        DAD     D
+        DAD     H
+        MOV     E,C
+        DAD     D
+        MOV     C,H
+        MOV     A,L
+        POP     H
+        MOV     M,A
+FM101:  DCX     H
+        DCR     B
+        JNZ     FM10
+        RET
+
+; FD10 - divides by 10, from the first byte on
+; In:  B = bytes   Out: A = remainder, Z: it was zero   Clobbers all
+; Cycles: 54 a byte that stays 0, else 490
+FD10:   LXI     D,FBIG
+        LXI     H,0
+        MVI     C,1
+FD101:  LDAX    D
+        MOV     L,A
+        ORA     H
+        JZ      FD104
+        MVI     C,8
+FD102:  DAD     H               ; H = remainder, L = quotient behind the dividend
+        MOV     A,H
+        SUI     10
+        JC      FD103
+        MOV     H,A
+        INR     L
+FD103:  DCR     C
+        JNZ     FD102
+        MOV     A,L
+        STAX    D
+FD104:  INX     D
+        DCR     B
+        JNZ     FD101
+        DCR     C
+        MOV     A,H
+        RET
+
+; DECOUT - prints a number
+; In:  HL -> x, B = most significant digits (8 or 9)   Clobbers all
+DECOUT: MOV     A,M
+        ORA     A
+        MVI     A,CZERO
+        JZ      PUTC
+        PUSH    B
+        CALL    FCLR
+        MOV     B,M
+        INX     H
+        MOV     A,M
+        RLC
+        MVI     A,CMINUS
+        CC      PUTC
+        PUSH    B
+        CALL    FLOAD
+        POP     PSW
+        PUSH    PSW
+        CMA
+        INR     A
+        ANI     7
+        CALL    FSHR            ; so that bytes of B C D E L are bytes of FBIG
+        POP     PSW
+        PUSH    H
+        ADI     7
+        RAR
+        RRC
+        RRC
+        ANI     3FH             ; bytes from 2^-128 up
+        CMA
+        ADI     (FBIG+33)&255
+        MOV     L,A
+        MVI     H,FBIG/256
+        MOV     M,B
+        INX     H
+        CALL    FPAC1
+        INX     H
+        POP     B
+        MOV     M,C
+        XRA     A
+        STA     SHIFT
+; times 10 until it is whole or has ten digits before the point
+DECO1:  LDA     FBIG+11
+        ORA     A
+        JNZ     DECO3
+        LXI     H,BIGEND
+DECO2:  DCX     H
+        MOV     A,M
+        ORA     A
+        JZ      DECO2
+        MOV     A,L
+        SUI     (FBIG-1)&255
+        MOV     B,A             ; bytes down to here
+        CPI     17
+        JC      DECO3
+        MVI     C,0
+        CALL    FM10
+        LXI     H,SHIFT
+        DCR     M
+        JMP     DECO1
+; digits, the last first, each put in front
+DECO3:  MVI     B,16
+        CALL    FD10
+        JZ      DECO5
+        LXI     H,DIGS
+        MVI     C,10
+DECO4:  MOV     B,M
+        MOV     M,A
+        MOV     A,B
+        INX     H
+        DCR     C
+        JNZ     DECO4
+        LXI     H,SHIFT
+        INR     M
+        JMP     DECO3
+; round
+DECO5:  POP     B
+        MVI     A,DIGS&255
+        ADD     B
+        MOV     L,A
+        MVI     H,DIGS/256
+        MOV     A,M
+        CPI     5
+        JNC     DECO7
+DECO6:  DCX     H
+        MOV     A,M
+        ORA     A
+        JZ      DECO6
+        JMP     DECO8
+DECO7:  MVI     M,0
+        DCX     H
+        INR     M
+        MOV     A,M
+        CPI     10
+        JNC     DECO7
+DECO8:  LXI     D,DIGS          ; HL -> last digit that is not 0, DE -> first
+        LDA     SHIFT
+        MOV     C,A             ; C = digits before the point
+        LDA     DIGS-1
+        ORA     A
+        JZ      DECO9
+        DCX     D
+        INR     C
+DECO9:  MOV     A,B
+        ADI     5
+        MOV     B,A
+        MOV     A,C
+        ADI     4
+        CMP     B
+        MVI     B,0             ; no exponent
+        JC      DECOA
+        MOV     B,C
+        DCR     B
+        MVI     C,1
+DECOA:  MOV     A,C             ; 0 before the point
+        DCR     A
+        JP      DECOB
+        DCX     D
+        INR     C
+        JMP     DECOA
+DECOB:  LDAX    D
+        ADI     CZERO
+        RST     2
+        MOV     A,E
+        CMP     L               ; CY: there are more
+        INX     D
+        DCR     C
+        JZ      DECOC
+        JP      DECOB
+        JC      DECOB
+DECOC:  MVI     A,CPOINT
+        JNC     DECOD
+        RST     2
+        JMP     DECOB
+DECOD:  MOV     A,B
+        ORA     A
+        RZ
+        MVI     A,CLTE
+        RST     2
+        MOV     A,B
+        ORA     A
+        JP      DECOE
+        MVI     A,CMINUS
+        RST     2
+        XRA     A
+        SUB     B
+DECOE:  MVI     C,CZERO-1
+DECOF:  INR     C
+        SUI     10
+        JNC     DECOF
+        ADI     CZERO+10
+        MOV     B,A
+        MOV     A,C
+        CPI     CZERO
+        CNZ     PUTC
+        MOV     A,B
+        RST     2
+        RET
+CPOINT  EQU 2EH         ; .
+CPLUS   EQU 2BH         ; +
+CLTE    EQU 45H
+
+; DECIN - reads a number
+; In:  HL -> text, a digit or a point, DE -> float
+; Out: float, HL -> first character behind it; CY: it is no number; ERR 05
+; Clobbers all
+DECIN:  PUSH    D
+        CALL    FCLR
+        LXI     B,0             ; B = digits taken, C = digits, bit 7: point seen
+        LXI     D,0             ; to be multiplied by 10^(D-E)
+DECI1:  CALL    DECIC
+        CALL    DIGIT
+        JNC     DECI5
+        INR     C
+        PUSH    H
+        MOV     L,A
+        MOV     A,B
+        CPI     9
+        JC      DECI3
+        JNZ     DECI2
+        INR     B
+        MOV     A,L
+        CPI     5
+        JC      DECI2
+        LXI     H,UNITS+1       ; the tenth digit rounds
+DECIA:  DCX     H
+        INR     M
+        JZ      DECIA
+DECI2:  MOV     A,C
+        ORA     A
+        JM      DECI4
+        INR     D               ; left out before the point
+        JMP     DECI4
+DECI3:  ORA     L
+        JZ      DECIB           ; a zero in front
+        INR     B
+        PUSH    B
+        PUSH    D
+        MOV     C,L
+        LXI     H,UNITS
+        MVI     B,16
+        CALL    FM10
+        POP     D
+        POP     B
+DECIB:  MOV     A,C
+        ORA     A
+        JP      DECI4
+        INR     E               ; taken behind the point
+DECI4:  POP     H
+        JMP     DECI1
+DECI5:  CPI     (CPOINT-CZERO)&255
+        JNZ     DECI6
+        MOV     A,C
+        XRI     80H
+        MOV     C,A
+        JM      DECI1
+        MVI     A,CPOINT        ; a second point: the end
+DECI6:  MOV     B,A
+        MOV     A,C
+        ADD     A
+        JZ      DECIE           ; no digit at all
+        MOV     A,B
+        ANI     0DFH
+        CPI     CLTE-CZERO
+        JNZ     DECI9
+        PUSH    H
+        CALL    DECIC
+        MOV     C,A             ; sign
+        CPI     CMINUS
+        JZ      DECI7
+        CPI     CPLUS
+        JZ      DECI7
+        DCX     H
+DECI7:  MVI     B,0
+        CALL    DECID
+        JNC     DECIF
+DECI8:  PUSH    H
+        MOV     L,A
+        MOV     A,B
+        CPI     12
+        JC      DECIG
+        MVI     A,12
+DECIG:  MOV     B,A
+        ADD     A
+        ADD     A
+        ADD     B
+        ADD     A
+        ADD     L
+        MOV     B,A
+        POP     H
+        CALL    DECID
+        JC      DECI8
+        INX     SP
+        INX     SP
+        MOV     A,C
+        CPI     CMINUS
+        MOV     A,B
+        JZ      DECIH
+        ADD     D
+        MOV     D,A
+        JMP     DECI9
+DECIH:  ADD     E
+        MOV     E,A
+DECI9:  DCX     H
+        XTHL
+        PUSH    H               ; text, address
+DECIJ:  MOV     A,D
+        CMP     E
+        JZ      DECIL
+        PUSH    D
+        JC      DECIK
+        LXI     H,UNITS
+        LXI     B,1000H
+        CALL    FM10
+        MOV     A,C
+        ORA     A
+        JNZ     FOVF
+        POP     D
+        DCR     D
+        JMP     DECIJ
+DECIK:  MVI     B,38
+        CALL    FD10
+        POP     D
+        DCR     E
+        JMP     DECIJ
+DECIL:  CALL    DECIM
+        POP     H
+        ORA     A
+        RET
+DECIF:  POP     H               ; behind the E
+        MOV     A,C
+        CPI     CMINUS
+        JZ      DECIE
+        CPI     CPLUS
+        JNZ     DECI9
+DECIE:  POP     D
+        STC
+        RET
+
+; FBIG to float; on the stack below the return: address
+DECIM:  POP     H
+        XTHL
+        PUSH    H
+        XRA     A
+        STA     SIGN
+        LXI     H,FBIG-1
+DECIN1: INX     H
+        MOV     A,L
+        CPI     (FBIG+32)&255
+        JZ      FZERO
+        MOV     A,M
+        ORA     A
+        JZ      DECIN1
+        MOV     A,L
+        ADD     A
+        ADD     A
+        ADD     A
+        CMA
+        STA     EXPO
+        MOV     A,M
+        CALL    FLOA1
+        INX     H
+        MOV     L,M
+        JMP     FNRM1
+
+; next character that is no blank, is it a digit?
+DECID:  CALL    DECIC
+        JMP     DIGIT
+DECIC:  MOV     A,M
+        INX     H
+        CPI     CBLANK
+        JZ      DECIC
+        RET
+
 ; Still to come; until then ERR 05
-FSQR:
 FSIN:
 FCOS:
 FTG:
-FATG:
-FFLR:
-DECIN:
-DECOUT: JMP     FOVF
+FATG:   JMP     FOVF
