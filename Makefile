@@ -6,7 +6,7 @@ PY     := $(VENV)/bin/python
 all: emu
 
 include emu/emu.mk
--include asm/asm.mk
+include asm/asm.mk
 
 # The virtual environment of the host tools and tests, made anew when the pinned list changes.
 venv: $(VENV)/.stamp

@@ -15,7 +15,8 @@ Q180    EQU 0C6H
 Q1000   EQU 0C7H
 QNEAR   EQU 0C8H        ; numbers this close are equal
 Q502    EQU 0C9H        ; halves of a um, and what lies 2 nm below
-QEPS    EQU 0CAH
+QEPS    EQU 0CAH        ; directions this close (rad) are one line
+Q8DIG   EQU 0CBH        ; the greatest number on a tape
 
 CONTAB: DB      0,0,0,0,0               ; 0
         DB      81H,00H,00H,00H,00H     ; 1
@@ -28,3 +29,4 @@ CONTAB: DB      0,0,0,0,0               ; 0
         DB      69H,56H,0BFH,94H,0D6H   ; 1E-7
         DB      80H,00H,83H,12H,6FH     ; 0.502
         DB      70H,27H,0C5H,0ACH,47H   ; 1E-5
+        DB      9BH,3EH,0BCH,1FH,0E0H   ; 99999999

@@ -1,5 +1,5 @@
 ; cut.asm - the route: from items to corners, fillets and closing
-; Offers: SFROM SCUT SBACK CENDST ROUTERR RUNINI RTNEW ROOM
+; Offers: SFROM SCUT SBACK CENDST ROUTER RUNINI RTNEW ROOM
 ; Uses:   parser, geom, calc, tape
 ; Room:   1500 bytes
 ;
@@ -166,7 +166,8 @@ ITPNT:  RST     5
         DB      LPX,SA0,LPY,SA1 ; -
         DB      QDIF,QHYP       ; distance
         DB      QMU,QSUB        ; -             within 1 um: the same point
-        DB      QJN,ITPN3-$-1
+        DB      QJN
+        DB      ITPN3-$
         DB      QEND
         LXI     D,GBELT
         CALL    RUNBC           ; the line from P to D
@@ -322,7 +323,8 @@ FILLET: RST     5
         RST     5
         DB      QCRS,QABS       ; |sine of the turn|
         DB      QMU,QSUB        ; -             0.001 rad
-        DB      QJN,FILL9-$-1
+        DB      QJN
+        DB      FILL9-$
         DB      LCR,LNR,QSUB,QE6D ; -
         DB      QCRS,QSGN,LFI   ; sign FI
         DB      QMUL,QNEG       ; -fi
@@ -404,8 +406,9 @@ SENSE:  CPI     KCIR
         JNZ     SENSE1
         RST     5
         DB      QOVR,QADD,QMUL  ; r*r'
-        DB      QEPS,QSWP,QSUB  ; eps-r*r'
-        DB      QJN,SENSE2-$-1  ; -
+        DB      QNEAR,QSWP,QSUB  ; eps-r*r'
+        DB      QJN             ; -
+        DB      SENSE2-$
         DB      QEND
         STC
         RET
@@ -420,7 +423,8 @@ SENSE2: DB      QEND
 CORNER: RST     5
         DB      LCR,SO1,LNR,SO2 ; -
         DB      LCR,QABS,LNR,QABS,QADD ; |R|+|R|
-        DB      QJZ,CORN1-$-1   ; -
+        DB      QJZ             ; -
+        DB      CORN1-$
         DB      QEND
         LDA     RNAMED
         ORA     A
@@ -448,7 +452,8 @@ NAMED:  CALL    PTOK
         CALL    NORMS
         RST     5
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
-        DB      QJN,NAMED1-$-1  ; -
+        DB      QJN             ; -
+        DB      NAMED1-$
         DB      QEND
         RST     5
         DB      Q0,STL,QEND     ; -             crossings, however flat
@@ -466,7 +471,8 @@ NAMED:  CALL    PTOK
         DB      LKX,LPX,QSUB    ; d2 dx
         DB      LKY,LPY,QSUB    ; d2 dx dy
         DB      QHYP,QSUB       ; d2-d1
-        DB      QJN,ATOK1-$-1   ; -
+        DB      QJN             ; -
+        DB      ATOK1-$
         DB      QRET
 NAMED1: DB      QDOT,QE6N       ; -             there and back
         DB      LCR,LNR,QSUB    ; dR
@@ -501,7 +507,8 @@ PATC:   CALL    PTOK
         LDA     CKIND
         CALL    NORMAL
         RST     5
-        DB      QJMP,NAMED2-$-1
+        DB      QJMP
+        DB      NAMED2-$
 
 ; NORMAL - right normal of an element at a point on it
 ; In:  a = element, A = its kind; b = point   Out: a0 a1   Clobbers all
@@ -566,16 +573,19 @@ SAME:   LXI     H,NKIND
         JZ      SAME2
         RST     5
         DB      QDOT            ; cosine
-        DB      QJN,SAME9-$-1   ; -             opposite
-        DB      QEPS5,QCRS,QABS ; eps |sine|
+        DB      QJN             ; -             opposite
+        DB      SAME9-$
+        DB      QEPS,QCRS,QABS ; eps |sine|
         DB      QSUB            ; -
-        DB      QJN,SAME9-$-1   ; -
+        DB      QJN             ; -
+        DB      SAME9-$
         DB      LT0,LB0,QMUL    ; place along N's normal
         DB      LT1,LB1,QMUL,QADD
         DB      LB2,QSUB,LT2,QSUB ; off
         DB      QABS            ; |off|
 SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|
-        DB      QJN,SAME9-$-1   ; -
+        DB      QJN             ; -
+        DB      SAME9-$
         DB      QEND
         XRA     A
         RET
@@ -583,7 +593,8 @@ SAME2:  RST     5
         DB      QDIF,QHYP       ; distance of the centres
         DB      LA2,LB2,QSUB    ; distance dr
         DB      QABS,QMAX       ; greater
-        DB      QJMP,SAME1-$-1
+        DB      QJMP
+        DB      SAME1-$
 SAME9:  DB      QEND
         ORI     1
         RET
@@ -600,7 +611,8 @@ SAMEL:  LDA     RLASTP
         DB      LPX,LQX,QSUB    ; dx
         DB      LPY,LQY,QSUB    ; dx dy
         DB      QHYP            ; distance
-        DB      QJMP,SAME1-$-1
+        DB      QJMP
+        DB      SAME1-$
 
 ; PLACE - place on C, as offset, that is nearest to the start hole
 ; Out: K   Clobbers all
@@ -622,7 +634,8 @@ PLACE1: RST     5
         DB      LA2,QABS,LA0,QADD,SKX ; -       at the +X side
         DB      QDIF,QHYP,ST0   ; -             t0 = from the centre
         DB      QMU,LT0,QSUB    ; 1um-t0
-        DB      QJN,PLACE2-$-1  ; -
+        DB      QJN             ; -
+        DB      PLACE2-$
         DB      QRET
 PLACE2: DB      LA2,QABS,LT0,QDIV,ST0 ; -
         DB      QDIF            ; dx dy
@@ -645,7 +658,8 @@ ADVAN1: RST     5
         DB      LKX,LAX,QSUB    ; dx
         DB      LKY,LAY,QSUB    ; dx dy
         DB      QHYP,QMU,QSUB   ; chord-1um
-        DB      QJN,ADVAN2-$-1  ; -
+        DB      QJN             ; -
+        DB      ADVAN2-$
         DB      QEND
 ADVAN3: CALL    SEGMNT
         RST     5
@@ -783,8 +797,8 @@ CENDST: CALL    ENDRT
         MVI     B,2
         JMP     PUNDS
 
-; ROUTERR - after an error: D when a route was open, which is forgotten
-ROUTERR: LDA    RITEMS
+; ROUTER - after an error: D when a route was open, which is forgotten
+ROUTER: LDA     RITEMS
         PUSH    PSW
         CALL    RTNEW
         POP     PSW

@@ -181,9 +181,11 @@ GDIST:  DB      QDIF,QHYP,SA0,QRET      ; -
 GPSDIS: DB      QDOT,LB2,QSUB,SA0,QRET  ; -
 GSPDIS: DB      QDOT,LA2,QSUB,SA0,QRET  ; -
 ; S,S: angle from the first direction to the second
-GANGLE: DB      QDOT,QDUP,QJZ,GANG2-$-1 ; cos
+GANGLE: DB      QDOT,QDUP,QJZ   ; cos
+        DB      GANG2-$
         DB      QCRS,QSWP,QDIV,QATG     ; angle         or 180 off
-        DB      QDOT,QJN,GANG1-$-1      ; angle
+        DB      QDOT,QJN        ; angle
+        DB      GANG1-$
         DB      SA0,QRET                ; -
 GANG1:  DB      Q180,QCRS,QSGN,QMUL     ; angle +-180
         DB      QADD,SA0,QRET           ; -
@@ -191,7 +193,8 @@ GANG2:  DB      QDRP,Q90,QCRS,QSGN,QMUL ; +-90
         DB      SA0,QRET                ; -
 
 ; P:D, C:D, P/P: a circle; S:D: the parallel to the right
-GTHRU:  DB      QDIF,QHYP,QJMP,GCIR1-$-1 ; r
+GTHRU:  DB      QDIF,QHYP,QJMP  ; r
+        DB      GCIR1-$
 GCIR:
 GCONC:  DB      LA2,LB0,QADD            ; r
 GCIR1:  DB      QE5Z,SA2,QRET           ; -
@@ -209,9 +212,11 @@ GBELT:  DB      QDIF                    ; dx dy
         DB      QHYP,QE6Z,ST3           ; -             t3 = d
         DB      LA2,LB2,QSUB,QDUP,ST2   ; e             t2 = e
         DB      QABS,LT3,QSUB           ; |e|-d
-        DB      QTCH,QJN,GBEL1-$-1      ; -             apart?
+        DB      QTCH,QJN        ; -             apart?
+        DB      GBEL1-$
         DB      LT2,QSGN,LT3,QMUL,ST2   ; -             touching: e = +-d
-        DB      Q0,QJMP,GBEL2-$-1       ; h
+        DB      Q0,QJMP         ; h
+        DB      GBEL2-$
 GBEL1:  DB      LT3,LT2,QSUB            ; d-e
         DB      LT3,LT2,QADD,QMUL,QSQRT ; h
 GBEL2:  DB      ST4,LT3,QSQ,ST3         ; -             t3 = d^2
@@ -276,7 +281,7 @@ GSUB:   DB      LA0,LB0,QSUB,SA0        ; -
 
 ; S*S: crossing by Cramer's rule
 GSXS:   DB      QCRS                    ; det
-        DB      QDUP,QABS,QEPS,QSUB,QE6N ; det          parallel?
+        DB      QDUP,QABS,QNEAR,QSUB,QE6N ; det          parallel?
         DB      LA0,LB2,QMUL            ; det
         DB      LA2,LB0,QMUL,QSUB       ; det y*det
         DB      QOVR,QDIV,QSWP          ; y det
@@ -306,7 +311,8 @@ GCXC:   DB      QDIF                    ; dx dy
         DB      LA0,SB0,LA1,SB1         ; gap
         DB      LB2,QSGN,LA2,QMUL,SB2   ; gap           the crossing's sign
         DB      LT0,SA0,LT1,SA1         ; gap
-        DB      QJMP,XCIR-$-1
+        DB      QJMP
+        DB      XCIR-$
 ; C*S = S*-C
 GCXS:   DB      LA0,LB0,SA0,SB0         ; -
         DB      LA1,LB1,SA1,SB1         ; -
@@ -318,8 +324,10 @@ GSXC:   DB      QDOT,LA2,QSUB           ; e             centre right of S
         DB      LB2,QABS,QSUB           ; gap
 ; XCIR - crossing of a line, given by its normal a0 a1 and the distance t2 of the
 ; circle's centre to its right, with the circle b; on the stack: how far they miss
-XCIR:   DB      QTCH,QJN,XCIR1-$-1      ; -
-        DB      Q0,QJMP,XCIR2-$-1       ; h
+XCIR:   DB      QTCH,QJN        ; -
+        DB      XCIR1-$
+        DB      Q0,QJMP         ; h
+        DB      XCIR2-$
 XCIR1:  DB      LB2,LT2,QSUB            ; r-e
         DB      LB2,LT2,QADD,QMUL,QSQRT ; h
 XCIR2:  DB      LB2,QSGN,QMUL,ST1       ; -
@@ -371,18 +379,21 @@ XTCH:   RST     5
         DB      LTL,QADD,QRET           ; g+tl
 ; QSGN: 1, or -1 for a negative number
 XSGN:   RST     5
-        DB      QJN,XSGN1-$-1           ; -
+        DB      QJN             ; -
+        DB      XSGN1-$
         DB      Q1,QRET                 ; 1
 XSGN1:  DB      Q1,QNEG,QRET            ; -1
 ; QMAX: the greater of two
 XMAX:   RST     5
         DB      QOVR,QOVR,QSUB          ; a b a-b
-        DB      QJN,XMAX1-$-1           ; a b
+        DB      QJN             ; a b
+        DB      XMAX1-$
         DB      QDRP,QRET               ; a
 XMAX1:  DB      QSWP,QDRP,QRET          ; b
 ; QE6N: takes a number, ERR 06 when it is negative
 XE6N:   RST     5
-        DB      QJN,XE6N1-$-1           ; -
+        DB      QJN             ; -
+        DB      XE6N1-$
         DB      QRET
 XE6N1:  DB      QEND
         JMP     ERGEO
@@ -392,10 +403,14 @@ XE6D:   RST     5
         DB      QE6N,QRET               ; -
 ; QE6Z, QE5Z: leave the number, ERR 06 or 05 when it is (nearly) zero
 XE6Z:   RST     5
-        DB      QDUP,QABS,QEPS,QSUB     ; x room
-        DB      QJN,XE6N1-$-1,QRET      ; x
+        DB      QDUP,QABS,QNEAR,QSUB     ; x room
+        DB      QJN
+        DB      XE6N1-$
+        DB      QRET            ; x
 XE5Z:   RST     5
-        DB      QDUP,QABS,QEPS,QSUB     ; x room
-        DB      QJN,XE5Z1-$-1,QRET      ; x
+        DB      QDUP,QABS,QNEAR,QSUB     ; x room
+        DB      QJN
+        DB      XE5Z1-$
+        DB      QRET            ; x
 XE5Z1:  DB      QEND
         JMP     ERRNG

@@ -251,11 +251,6 @@ NEGVAL: CALL    CHKRET
         LXI     H,MA
         JMP     FNEG
 
-; COPY5 - copies a float
-; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
-COPY5:  MVI     A,5
-        JMP     COPY
-
 ; NAME - a name with its subscript worked out
 ; In:  A = its first token, taken   Out: DE = name   Clobbers all
 NAME:   CPI     TNAME
@@ -329,10 +324,10 @@ PREDEF: DB      TNAME+24,0      ; O = (0,0)
         DB      0,0,0,0,0, 0,0,0,0,0
         DB      TNAME+48,0      ; X = (0,-1,0)
         DB      0,0,0,0,0
-        DB      FM1A,FM1B,FM1C,FM1D,FM1E
+        DB      81H,80H,0,0,0
         DB      0,0,0,0,0
         DB      TNAME+52,0      ; Y = (1,0,0)
-        DB      FP1A,FP1B,FP1C,FP1D,FP1E
+        DB      81H,0,0,0,0
         DB      0,0,0,0,0, 0,0,0,0,0
         DB      0
 
@@ -501,7 +496,8 @@ CMPNE:  RST     5
         DB      Q1,QMAX         ; |a-b| max
         DB      QNEAR,QMUL      ; |a-b| limit
         DB      QSUB            ; |a-b|-limit
-        DB      QJN,CMPN1-$-1   ; -
+        DB      QJN             ; -
+        DB      CMPN1-$
         DB      QEND
         LXI     H,MT0
         CALL    FSGN            ; A = 0FFH when a < b, else 1

@@ -27,7 +27,8 @@ SEGMNT: RST     5
         DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
         DB      LKX,LC0,QSUB,SB0,LKY,LC1,QSUB,SB1 ; -
         DB      QCRS,LC2,QMUL   ; s             < 0: more than half a turn
-        DB      QJMP,ARC-$-1
+        DB      QJMP
+        DB      ARC-$
 
 ; WHOLE - the whole circle C, from K
 ; In:  C, K, W   Clobbers all
@@ -45,13 +46,17 @@ ARC:    DB      ST3             ; -             t3 < 0: more than half a turn
         DB      QDUP,LA1,QMUL,SA1 ; sense
         DB      LB1,QMUL,SB1    ; -             mirrored when clockwise
         DB      Q0,ST4          ; -             t4 = passes of (r,0)
-        DB      QDOT,QJN,ARC2-$-1 ; -           ends far apart: no doubt
-        DB      LT3,QJN,ARC1-$-1 ; -
+        DB      QDOT,QJN        ; -           ends far apart: no doubt
+        DB      ARC2-$
+        DB      LT3,QJN         ; -
+        DB      ARC1-$
         DB      QHALF,QCRS,QSUB ; -             short; sweep not positive:
-        DB      QJN,ARC2-$-1
+        DB      QJN
+        DB      ARC2-$
         DB      QEND
         JMP     MOVE            ; a line
-ARC1:   DB      QCRS,QJN,ARC2-$-1 ; -           long and past the start again:
+ARC1:   DB      QCRS,QJN        ; -           long and past the start again:
+        DB      ARC2-$
         DB      Q1,ST4          ; -             a pass more
 ARC2:   DB      LA0,LA1,QHYP    ; radius
         DB      QHALF,QADD,QFLR,ST5 ; -         t5 = r
@@ -91,7 +96,8 @@ ARC4:   LXI     H,MA
         JC      ARC5
         JNZ     ARC6
         RST     5               ; in the same one: the cross product tells
-        DB      QCRS,QJN,ARC7-$-1
+        DB      QCRS,QJN
+        DB      ARC7-$
         DB      QEND
         JMP     ARC6
 ARC5:   RST     5
@@ -100,7 +106,8 @@ ARC6:   RST     5
         DB      LT5,LT4,QMUL    ; r*n
         DB      QDUP,QADD,QDUP,QADD ; 4*r*n
         DB      LT0,QADD,LT1,QSUB,QABS ; J
-        DB      QDUP,SBJ,QJZ,ARC8-$-1 ; -
+        DB      QDUP,SBJ,QJZ    ; -
+        DB      ARC8-$
         DB      QEND
         JMP     PUTBLK
 ARC8:   DB      QEND
@@ -135,8 +142,10 @@ PUTBLK: RST     5
         DB      LVX,SWX,LVY,SWY ; -
         DB      Q8DIG           ; 99999999
         DB      LBX,LBY,QMAX,LBJ,QMAX ; 99999999 max
-        DB      QSUB,QJN,PUTB9-$-1 ; -
-        DB      LBJ,QJZ,PUTB8-$-1 ; -
+        DB      QSUB,QJN        ; -
+        DB      PUTB9-$
+        DB      LBJ,QJZ         ; -
+        DB      PUTB8-$
         DB      QEND
         LXI     H,BLKNO
         MOV     A,M             ; decimal, low two digits first
@@ -268,11 +277,13 @@ PUT1D:  ANI     0FH
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   RST     5
-        DB      QTHOU,QMUL              ; um
+        DB      Q1000,QMUL              ; um
         DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
         DB      QFLR,QSWP,QSGN,QMUL     ; whole
         DB      Q8DIG,QOVR,QABS,QSUB    ; whole room
-        DB      QJN,PUTB9-$-1,QRET      ; whole
+        DB      QJN
+        DB      PUTB9-$
+        DB      QRET            ; whole
 ; QVK: V = K in whole um
 XVK:    RST     5
         DB      LKX,QRND,SVX            ; -
