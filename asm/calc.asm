@@ -120,7 +120,11 @@ CALC3:  LXI     D,OPTAB-2
 
 CALC4:  DAD     D               ; HL -> register
         XCHG
-        LHLD    FSP
+; (fall into CALPOP)
+
+; CALPOP - pops a float
+; In:  DE -> where to   Clobbers A, DE, HL
+CALPOP: LHLD    FSP
         MOV     A,L
         SUI     5
         MOV     L,A

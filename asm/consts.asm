@@ -17,6 +17,8 @@ QNEAR   EQU 0C8H        ; numbers this close are equal
 Q502    EQU 0C9H        ; halves of a um, and what lies 2 nm below
 QEPS    EQU 0CAH        ; directions this close (rad) are one line
 Q8DIG   EQU 0CBH        ; the greatest number on a tape
+QI180   EQU 0CCH
+QI64    EQU 0CDH
 
 CONTAB: DB      0,0,0,0,0               ; 0
         DB      81H,00H,00H,00H,00H     ; 1
@@ -30,3 +32,5 @@ CONTAB: DB      0,0,0,0,0               ; 0
         DB      80H,00H,83H,12H,6FH     ; 0.502
         DB      70H,27H,0C5H,0ACH,47H   ; 1E-5
         DB      9BH,3EH,0BCH,1FH,0E0H   ; 99999999
+        DB      79H,36H,0BH,60H,0B6H    ; 1/180
+        DB      7BH,00H,00H,00H,00H     ; 1/64

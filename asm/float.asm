@@ -744,6 +744,135 @@ FSQR4:  MOV     M,A
         MOV     H,A
         JMP     FRND
 
+; Functions of angles, in degrees.  They work on a copy of x on the calculator's
+; stack.
+
+; FUN - puts x on the calculator's stack; when the routine that called FUN returns,
+;       what is on top there goes back to x
+; In:  HL -> x   Out: HL -> behind the copy   Clobbers all
+FUN:    XCHG
+        POP     H
+        PUSH    D
+        LXI     B,FUN1
+        PUSH    B
+        PUSH    H
+        JMP     OOVR
+FUN1:   POP     D
+        JMP     CALPOP
+
+; FTG - tangent, sine by cosine
+; In:  HL -> x   Out: x; ERR 05 for odd multiples of 90   Clobbers all
+FTG:    CALL    FUN
+        RST     5
+        DB      QDUP,QSIN,QSWP,QCOS,QDIV ; tan x
+        DB      QRET
+
+; FCOS - cosine
+; In:  HL -> x   Out: x   Clobbers all
+FCOS:   CALL    FUN
+        RST     5
+        DB      QABS,Q90,QSWP,QSUB      ; 90-|x|
+        DB      QSIN,QRET               ; cos x
+
+; FSIN - sine
+; In:  HL -> x   Out: x   Clobbers all
+FSIN:   CALL    FUN
+        RST     5
+        DB      QDUP,QI180,QMUL         ; x x/180
+        DB      QHALF,QADD,QFLR         ; x k           k half turns
+        DB      QSWP,QOVR,Q180,QMUL     ; k x k*180
+        DB      QSUB                    ; k r           -90...90
+        DB      QSWP,QHALF,QMUL         ; r k/2
+        DB      QDUP,QFLR,QSUB          ; r 0 or 1/2
+        DB      QJZ
+        DB      FSIN1-$
+        DB      QNEG                    ; r             after an odd number: the other way
+FSIN1:  DB      QI64,QMUL,QEND          ; r/64
+        LXI     D,CSIN
+; (fall into FSER)
+
+; FSER - y + y * a polynomial in y*y: that way the error of the polynomial hardly
+;        counts
+; In:  y on the calculator's stack, DE -> coefficients, highest first, and a 0
+; Out: the sum instead of y   Clobbers all
+FSER:   PUSH    D
+        RST     5
+        DB      QDUP,QSQ,Q0,QEND        ; y z 0         z = y*y
+FSER1:  RST     5
+        DB      QOVR,QMUL,QEND          ; y z s*z
+        POP     D
+        CALL    OOVR                    ; y z s*z c
+        PUSH    D
+        RST     5
+        DB      QADD,QEND               ; y z s
+        POP     D
+        PUSH    D
+        LDAX    D
+        ORA     A
+        JNZ     FSER1
+        POP     D
+        RST     5
+        DB      QSWP,QDRP               ; y s
+        DB      QOVR,QMUL,QADD          ; y+y*s
+        DB      QRET
+
+; sin(64 y) = y + y*P(y*y) for |y| <= 90/64, to 2^-35
+CSIN:   DB      069H,0ADH,021H,0E3H,00AH        ; -8.06E-8
+        DB      06FH,07AH,005H,06DH,015H        ;  7.451E-6
+        DB      075H,0E1H,0B3H,026H,0F5H        ; -0.00043048823
+        DB      07AH,06DH,06CH,0A2H,077H        ;  0.01449123254
+        DB      07EH,0EDH,0DCH,010H,05FH        ; -0.2322847898
+        DB      07DH,06FH,0A3H,051H,028H        ;  0.1170107212
+        DB      0
+; atan(y)/64 = y + y*P(y*y) for |y| <= 1/2, to 2^-32
+CATG:   DB      07CH,00CH,0BAH,07DH,06BH        ;  0.03435753815
+        DB      07DH,091H,0DFH,09BH,0BDH        ; -0.07122728033
+        DB      07DH,048H,070H,0C7H,0D1H        ;  0.0978713618
+        DB      07EH,082H,0D3H,035H,01BH        ; -0.1277588175
+        DB      07EH,037H,057H,04AH,03BH        ;  0.1790439223
+        DB      07FH,098H,0C9H,0E8H,075H        ; -0.2984154361
+        DB      07DH,0D6H,088H,0F9H,06EH        ; -0.1047534453
+        DB      0
+
+; FATG - arc tangent
+; In:  HL -> x   Out: x, between -90 and 90   Clobbers all
+FATG:   CALL    FUN
+        LXI     D,-4
+        DAD     D
+        MOV     A,M
+        PUSH    PSW             ; sign
+        ANI     7FH
+        MOV     M,A
+        DCX     H
+        MOV     A,M
+        CPI     80H
+        JC      FATG2           ; below 1/2
+        CPI     82H
+        JC      FATG1           ; below 2
+        RST     5
+        DB      Q90,QSWP                ; 90 x
+        DB      Q1,QNEG,QSWP,QDIV       ; 90 -1/x
+        DB      QJMP
+        DB      FATG3-$
+FATG1:  RST     5
+        DB      Q90,QHALF,QMUL,QSWP     ; 45 x
+        DB      QDUP,Q1,QSUB            ; 45 x x-1
+        DB      QSWP,Q1,QADD,QDIV       ; 45 (x-1)/(x+1)
+        DB      QJMP
+        DB      FATG3-$
+FATG2:  RST     5
+        DB      Q0,QSWP                 ; 0 x
+FATG3:  DB      QEND
+        LXI     D,CATG
+        CALL    FSER
+        RST     5
+        DB      QI64,QDIV,QADD,QEND     ; atan |x|
+        POP     PSW
+        RLC
+        RNC
+        RST     5
+        DB      QNEG,QRET
+
 ; Decimal numbers.  FBIG holds one with 16 bytes before and 22 behind the point,
 ; first byte first: every float exactly.
 
@@ -1145,9 +1274,3 @@ DECIC:  MOV     A,M
         CPI     CBLANK
         JZ      DECIC
         RET
-
-; Still to come; until then ERR 05
-FSIN:
-FCOS:
-FTG:
-FATG:   JMP     FOVF
