@@ -1,0 +1,268 @@
+; io.asm - teletype, punch and reader
+; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF PRDEC, BREAK, PUNON PUNOFF,
+;         GETLIN, IOINIT
+; Uses:   monitor (the cells), start
+; Room:   280 bytes
+;
+; OUTSEL says where characters go: bit 0 paper, bit 1 punch.
+; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
+; until somebody asks (BREAK), ctrl-S holds all output until the next key.
+
+        IF      BRD51
+TTYDT   EQU     10H             ; teletype: data
+TTYST   EQU     11H             ; teletype: status
+PUNDT   EQU     12H             ; punch and reader: data
+PUNST   EQU     13H             ; punch and reader: status
+TXRDY   EQU     01H             ; transmitter empty
+RXRDY   EQU     02H             ; receiver full
+        ELSE
+TTYST   EQU     10H
+TTYDT   EQU     11H
+PUNST   EQU     12H
+PUNDT   EQU     13H
+RXRDY   EQU     01H
+TXRDY   EQU     02H
+        ENDIF
+CBEL    EQU     07H
+WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
+
+; IOINIT - readies both serial ports: 8 bits, 2 stop bits, clock / 16
+; Clobbers A, HL
+        IF      BRD51
+IOINIT: LXI     H,IOTAB
+IOIN1:  MOV     A,M
+        INX     H
+        OUT     TTYST
+        OUT     PUNST
+        CPI     37H
+        JNZ     IOIN1
+        RET
+IOTAB:  DB      0,0,0           ; ends whatever it was waiting for
+        DB      40H             ; reset
+        DB      0CEH            ; mode
+        DB      37H             ; command: transmitter and receiver on
+        ELSE
+IOINIT: MVI     A,03H           ; reset
+        OUT     TTYST
+        OUT     PUNST
+        MVI     A,11H
+        OUT     TTYST
+        OUT     PUNST
+        RET
+        ENDIF
+
+; PUTC1 - the work of RST 2
+; In:  A = B = character; PSW, HL and BC on the stack   Clobbers nothing
+PUTC1:  LDA     OUTSEL
+        RAR
+        JNC     PUTC2
+        MOV     A,B
+        STA     LASTC
+PAPER:  CALL    POLL
+        IN      TTYST
+        ANI     TXRDY
+        JZ      PAPER
+        MOV     A,B
+        OUT     TTYDT
+        IF      PTTY
+PUTC2:
+        ELSE
+        LDA     OUTSEL
+        RAR
+PUTC2:  RAR
+        JNC     PUTC3
+PUNCH:  CALL    POLL
+        IN      PUNST
+        ANI     TXRDY
+        JZ      PUNCH
+        MOV     A,B
+        OUT     PUNDT
+        ENDIF
+PUTC3:  POP     B
+        POP     H
+        POP     PSW
+        RET
+
+; POLL - looks at the keyboard; while ctrl-S holds, does not come back
+; Out: A = KEYB, HL-> it   Clobbers nothing else
+POLL:   LXI     H,KEYB
+POLL1:  MOV     A,M
+        CPI     CCTLC
+        RZ                      ; a break waits
+        IN      TTYST
+        ANI     RXRDY
+        JZ      POLL3
+        IN      TTYDT
+        ANI     7FH
+        CPI     CXON
+        JNZ     POLL2
+        XRA     A
+POLL2:  MOV     M,A
+POLL3:  MOV     A,M
+        CPI     CXOFF
+        RNZ
+        JMP     POLL1
+
+; PUNON - what is printed from here on is punched too
+; Clobbers A
+        IF      PTTY
+PUNON:  MVI     A,CDC2
+        RST     2
+        RET
+        ELSE
+PUNON:  MVI     A,3
+        STA     OUTSEL
+        RET
+        ENDIF
+
+; PUNOFF - punch off; the place for a break, since the block is complete
+; Clobbers A, HL
+        IF      PTTY
+PUNOFF: MVI     A,CDC4
+        RST     2
+        ELSE
+PUNOFF: MVI     A,1
+        STA     OUTSEL
+        ENDIF
+; (fall into BREAK)
+
+; BREAK - has the operator broken in?
+; Out: A = KEYB, HL-> it; ERR 10   Clobbers nothing else
+BREAK:  CALL    POLL
+        CPI     CCTLC
+        RNZ
+        MVI     M,0
+ERTAPE: RST     1
+        DB      ETAPE
+
+; CRLF - ends the paper's line
+; Clobbers A
+CRLF:   MVI     A,CCR
+        RST     2
+        MVI     A,CLF
+        RST     2
+        RET
+
+; PUTSI - prints the text that follows the call
+; Clobbers A
+PUTSI:  XTHL
+        CALL    PUTS
+        XTHL
+        RET
+
+; PUTS - prints a text whose last character has bit 7 set
+; In:  HL-> it   Out: HL-> behind it   Clobbers A
+PUTS:   MOV     A,M
+        ANI     7FH
+        RST     2
+        MOV     A,M
+        INX     H
+        ORA     A
+        JP      PUTS
+        RET
+
+; PRDEC - prints a whole number
+; In:  HL = number   Clobbers A, BC, DE, HL
+PRDEC:  LXI     B,-10
+        LXI     D,-1
+PRD1:   INX     D
+        DAD     B
+        JC      PRD1            ; DE = number / 10, L = remainder - 10
+        MVI     A,CZERO+10
+        ADD     L
+        PUSH    PSW
+        XCHG
+        MOV     A,H
+        ORA     L
+        CNZ     PRDEC
+        POP     PSW
+        RST     2
+        RET
+
+; INCHR - waits for the next character, from the reader in LOAD, else from the teletype
+; Out: A; CY set: ctrl-Z, or the reader has stopped   Clobbers DE, HL
+INCHR:  LXI     D,WAIT2
+INCH1:  CALL    BREAK
+        LDA     LOADF
+        ORA     A
+        JZ      INCH2
+        DCX     D
+        MOV     A,D
+        ORA     E
+        STC
+        RZ
+        IF      PTTY
+        ELSE
+        MVI     M,0             ; keys do not count
+        IN      PUNST
+        ANI     RXRDY
+        JZ      INCH1
+        IN      PUNDT
+        ANI     7FH
+        MOV     M,A
+        ENDIF
+INCH2:  MOV     A,M
+        ORA     A
+        JZ      INCH1
+        MVI     M,0
+        CPI     CEOF
+        STC
+        RZ
+        CMC
+        RET
+
+; GETLIN - reads a line into LINBUF, 00 behind it
+; Out: ERR 09 when it is too long; to READY at the end of the tape   Clobbers all
+GETLIN: LXI     H,LINBUF
+GETL1:  PUSH    H
+        CALL    INCHR
+        POP     H
+        JC      GETL6
+        CPI     CCR
+        JZ      GETL5
+        CPI     CLF
+        JZ      GETL5
+        CPI     CCTLU
+        JZ      GETL4
+        CPI     CRUB
+        JZ      GETL3
+        CPI     CBS
+        JZ      GETL3
+        CPI     CTAB
+        JNZ     GETL2
+        MVI     A,CBLANK
+GETL2:  MOV     M,A
+        INX     H
+        MOV     C,A
+        MOV     A,L
+        CPI     LINEND & 255
+        MOV     A,C
+        JC      GETL7
+        DCX     H               ; full: stays, so that the line is refused
+        MVI     A,CBEL
+GETL7:  RST     2
+        JMP     GETL1
+GETL3:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
+        ORA     A
+        JNZ     GETL1
+        MOV     A,L
+        CPI     LINBUF & 255
+        JZ      GETL1
+        DCX     H
+        CALL    PUTSI
+        DB      CBS,CBLANK,CBS+80H
+        JMP     GETL1
+GETL4:  CALL    CRLF
+        JMP     GETLIN
+GETL5:  MVI     M,0
+        CALL    CRLF
+        MOV     A,L
+        CPI     (LINEND-1) & 255
+        RC
+        JMP     ERMEM
+GETL6:  MOV     A,L             ; the tape ends: at a line's start?
+        CPI     LINBUF & 255
+        JNZ     ERTAPE
+        XRA     A
+        STA     LOADF
+        JMP     READY

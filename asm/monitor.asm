@@ -1,0 +1,747 @@
+; monitor.asm - prompt, program lines, running them, errors
+; Offers: READY RUNLP STMT ERR CHKED LINENO FINDLN CPHD NEW1 FREE1 CLEAR and the
+;         statements and commands that do not cut; the cells below
+; Uses:   everything
+; Room:   600 bytes
+;
+; A program line: length of the record, line number (low byte first), tokens, 00.
+; A zero length ends the program; PEND-> it.
+
+; ---- Cells -----------------------------------------------------------------
+TXTP    EQU     MWORK           ; next token
+PEND    EQU     MWORK+2         ; end of the program
+VBOT    EQU     MWORK+4         ; lowest byte of the variables
+VTOP    EQU     MWORK+6         ; last byte of RAM
+CURLIN  EQU     MWORK+8         ; number of the line that runs, 0FFFFH: none
+CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: at the prompt
+OUTSEL  EQU     MWORK+11        ; bit 0 paper, bit 1 punch (CHKF and OUTSEL are set together)
+LASTC   EQU     MWORK+12        ; last character on the paper
+KEYB    EQU     MWORK+13        ; key typed ahead
+LOADF   EQU     MWORK+14        ; 1: lines come from the reader
+NXTP    EQU     MWORK+25        ; the line to run next
+LINUM   EQU     MWORK+17        ; number of the line typed, 0: none
+LSTTO   EQU     MWORK+19        ; last line to list
+SIGNED  EQU     MWORK+21        ; SIGNAT when the RAM holds a program
+DATP    EQU     MWORK+23        ; in front of the next DATA item: its comma, or a line's last byte
+INPF    EQU     MWORK+15        ; not 0: INPUT waits for an answer
+INPNAM  EQU     MWORK+27        ; for this name
+INPTXT  EQU     MWORK+29        ; TXTP while it does
+GSP     EQU     MWORK+31        ; GOSUB stack: low byte of its pointer, upwards
+GSTK    EQU     MWORK+32        ; 12 lines to go back to
+GSTKE   EQU     MWORK+56
+
+SIGNAT  EQU     0A55AH
+TOKS    EQU     2300H           ; the typed line's tokens, at a page's start in TOKBUF
+TOKROM  EQU     176             ; how many bytes of them
+LINEND  EQU     TOKS-1          ; end of LINBUF
+LASTLN  EQU     9999            ; greatest line number
+LIF     EQU     7FH             ; M63: left side of IF
+SIF63   EQU     0BFH
+LIF2    EQU     7EH             ; M62: right side
+SIF62   EQU     0BEH
+CPRMPT  EQU     3EH             ; >
+CMARK   EQU     5EH             ; ^
+CDOT    EQU     2EH
+CCOLON  EQU     3AH
+CLESS   EQU     3CH
+CGT     EQU     3EH
+CLBRK   EQU     5BH
+CLOWA   EQU     61H             ; a
+CLOWZ   EQU     7AH             ; z
+
+; ERR - prints the error, after what belongs before it, and goes to READY
+; In:  A = number, the stack empty
+ERR:    MOV     B,A
+        LXI     H,INPF
+        MOV     A,M
+        MVI     M,0
+        ORA     A
+        MOV     A,B
+        JZ      ERR1
+        CPI     EMEM
+        JC      ASKAGN          ; a wrong answer
+ERR1:   PUSH    PSW
+        XRA     A
+        STA     LOADF
+        LXI     H,CHKF
+        MOV     A,M
+        MVI     M,2             ; (an error while the mark is sought ends in ERR2)
+        INX     H
+        MVI     M,1
+        MOV     B,A
+        IF      PTTY
+        MVI     A,CDC4
+        RST     2
+        ENDIF
+        LDA     LASTC
+        CPI     CLF
+        CNZ     CRLF
+        LXI     H,ERR2
+        PUSH    H
+        DCR     B
+        JM      ROUTER          ; while working: the route ends
+        CZ      MARK            ; while parsing: show the place
+        RET
+ERR2:   CALL    PUTSI
+        DB      "ERR",0A0H
+        POP     PSW
+        ORA     A
+        DAA
+        CALL    PUT2D
+        LHLD    CURLIN
+        INX     H
+        MOV     A,H
+        ORA     L
+        JZ      ERR3
+        DCX     H
+        CALL    PUTSI
+        DB      " LINE",0A0H
+        CALL    PRDEC
+ERR3:   CALL    CRLF
+; (fall into READY)
+
+; READY - the prompt: takes lines for ever
+READY:  LXI     SP,STKTOP
+        CALL    CALINI
+        LXI     H,-1
+        SHLD    CURLIN
+        LDA     LOADF
+        XRI     1
+        MOV     H,A
+        MVI     L,2
+        SHLD    CHKF            ; a tape's lines are not printed
+        MVI     A,CPRMPT
+        RST     2
+        CALL    GETLIN
+        LXI     H,TOKS
+        SHLD    TXTP
+        LXI     H,1
+        SHLD    CHKF            ; parse only, print nothing
+        CALL    LEX
+        LXI     H,-TOKS-TOKROM-1
+        DAD     D
+        JC      ERMEM
+        PUSH    D               ; -> behind the tokens
+        RST     6
+        JZ      READY
+        CPI     TINT+1
+        LXI     H,0
+        JNC     READ1           ; no number: a direct line
+        CALL    LINENO
+        PUSH    H
+        DCX     H
+        LXI     D,-LASTLN
+        DAD     D
+        POP     H
+        JC      ERSYN
+READ1:  SHLD    LINUM
+        SHLD    NXTP            ; 0 for a direct line: nothing runs after it
+        MOV     A,H
+        ORA     L
+        LHLD    TXTP
+        PUSH    H               ; -> the statement
+        JZ      READ2
+        RST     3
+        JZ      CHKED           ; the number alone
+        CPI     TRUN
+        JNC     ERSYN           ; commands do not go into a program
+        POP     H
+        PUSH    H
+        SHLD    TXTP
+READ2:  CALL    STMT
+; (fall into CHKED)
+
+; CHKED - the line is understood: stores it or carries it out
+CHKED:  LXI     SP,STKTOP-4
+        POP     H
+        SHLD    TXTP
+        LXI     H,0100H
+        SHLD    CHKF
+        LHLD    LINUM
+        MOV     A,H
+        ORA     L
+        JZ      RUNST
+; (fall into STORE)
+
+; STORE - puts the line into the program, or takes it out
+; In:  HL = its number, TXTP-> its tokens, on the stack: -> behind them
+STORE:  XCHG                    ; DE = number
+        POP     B
+        LHLD    TXTP
+        MOV     A,M
+        ORA     A
+        JZ      STO1            ; length 0: take it out
+        MOV     A,C
+        SUB     L
+        ADI     3
+STO1:   MOV     C,A
+        MVI     B,0             ; BC = length of the record
+        PUSH    D
+        LHLD    VBOT
+        XCHG
+        LHLD    PEND
+        DAD     B
+        CALL    CPHD
+        JNC     ERMEM
+        POP     D
+        PUSH    B
+        CALL    FINDLN          ; HL-> its place
+        CZ      DELREC
+        POP     B
+        MOV     A,C
+        ORA     A
+        JZ      STO9
+        PUSH    B
+        CALL    TAIL            ; BC = bytes to move up
+        LHLD    PEND
+        XCHG
+        POP     H
+        DAD     D
+        SHLD    PEND
+STO2:   LDAX    D
+        MOV     M,A
+        DCX     D
+        DCX     H
+        DCX     B
+        MOV     A,B
+        ORA     C
+        JNZ     STO2
+        MOV     A,L
+        SUB     E               ; A = length again
+        INX     D
+        XCHG
+        MOV     M,A
+        XCHG
+        LHLD    LINUM
+        XCHG
+        INX     H
+        MOV     M,E
+        INX     H
+        MOV     M,D
+        INX     H
+        XCHG
+        LHLD    TXTP
+        XCHG
+        SUI     3
+        CALL    COPY
+STO9:   CALL    RTNEW           ; the route buffer began at PEND
+        CALL    CLRPTR
+        JMP     READY
+
+; DELREC - takes a record out of the program
+; In:  HL-> it   Out: HL kept   Clobbers A, BC, DE
+DELREC: PUSH    H
+        MOV     D,H
+        MOV     E,L
+        MOV     A,M
+        CALL    ADDA
+        CALL    TAIL
+DELR1:  MOV     A,M
+        STAX    D
+        INX     H
+        INX     D
+        DCX     B
+        MOV     A,B
+        ORA     C
+        JNZ     DELR1
+        XCHG
+        DCX     H
+        SHLD    PEND
+        POP     H
+        RET
+
+; TAIL - length of the program from HL on, its end byte included
+; In:  HL   Out: BC   Clobbers A
+TAIL:   LDA     PEND
+        SUB     L
+        MOV     C,A
+        LDA     PEND+1
+        SBB     H
+        MOV     B,A
+        INX     B
+        RET
+
+; FINDLN - finds a line
+; In:  DE = number
+; Out: HL-> the first line with that number or a higher one; Z: it is that number;
+;      CY: no such line, HL-> the end   Clobbers A
+FINDLN: LXI     H,PROG
+FIND1L: MOV     A,M
+        SUI     1
+        RC                      ; (Z clear)
+        PUSH    H
+        INX     H
+        MOV     A,M
+        INX     H
+        MOV     H,M
+        MOV     L,A
+        CALL    CPHD
+        POP     H
+        RNC
+        MOV     A,M
+        CALL    ADDA
+        JMP     FIND1L
+
+; CPHD - compares
+; In:  HL, DE   Out: flags of HL - DE: CY less, Z equal   Clobbers A
+CPHD:   MOV     A,H
+        CMP     D
+        RNZ
+        MOV     A,L
+        CMP     E
+        RET
+
+; LINENO - takes a line number
+; In:  TXTP   Out: HL = number, 0...65535; ERR 01   Clobbers all
+LINENO: RST     6
+        JZ      LINEN1
+        CPI     TINT+1
+        JNC     LINEN1
+        CALL    OPND
+        LXI     H,MA
+        CALL    FTOI16
+        RNC
+        JMP     ERSYN
+LINEN1: RST     4               ; nothing will do
+        DB      0FFH
+
+; OPTLN - takes a line number, if there is one, and demands the statement's end
+; Out: DE = number, else 0   Clobbers all
+OPTLN:  RST     6
+        LXI     H,0
+        JZ      LNEND1
+; (fall into LNEND)
+
+; LNEND - takes a line number and demands the statement's end
+; Out: DE = number   Clobbers all
+LNEND:  CALL    LINENO
+LNEND1: PUSH    H
+        RST     7
+        POP     D
+        RET
+
+; SRETN - statement: RETURN
+SRETN:  RST     7
+        LDA     GSP
+        CPI     GSTK & 255
+        JZ      ERLINE
+        MOV     L,A
+        MVI     H,GSTK / 256
+        DCX     H
+        MOV     D,M
+        DCX     H
+        MOV     E,M
+        MOV     A,L
+        STA     GSP
+        XCHG
+        JMP     RUN1
+
+; SGOSUB - statement: GOSUB n
+SGOSUB: CALL    LNEND
+        LDA     GSP
+        CPI     GSTKE & 255
+        JZ      ERLINE
+        PUSH    D
+        XCHG
+        LHLD    NXTP
+        XCHG
+        MOV     L,A
+        MVI     H,GSTK / 256
+        MOV     M,E
+        INX     H
+        MOV     M,D
+        INX     H
+        MOV     A,L
+        STA     GSP
+        POP     D
+        JMP     GOLINE
+
+; SRUN - command: RUN, RUN n
+SRUN:   CALL    OPTLN
+        PUSH    D
+        CALL    CLEAR
+        POP     D
+        LXI     H,PROG
+        MOV     A,D
+        ORA     E
+        JZ      RUN1
+        JMP     GOLINE
+
+; SGOTO - statement: GOTO n
+SGOTO:  CALL    LNEND
+; (fall into GOLINE)
+
+; GOLINE - goes on with a line
+; In:  DE = its number; ERR 02
+GOLINE: CALL    FINDLN
+        JNZ     ERLINE
+RUN1:   SHLD    NXTP
+; (fall into RUNLP)
+
+; RUNLP - runs the program from NXTP on; to READY when a direct line is done
+RUNLP:  LXI     SP,STKTOP
+        LHLD    NXTP
+        MOV     A,H
+        ORA     A
+        JZ      READY
+        MOV     A,M
+        ORA     A
+        JZ      END1            ; past the last line
+        MOV     B,H
+        MOV     C,L
+        CALL    ADDA
+        SHLD    NXTP
+        INX     B
+        LDAX    B
+        MOV     L,A
+        INX     B
+        LDAX    B
+        MOV     H,A
+        INX     B
+        SHLD    CURLIN
+        MOV     H,B
+        MOV     L,C
+        SHLD    TXTP
+        CALL    BREAK
+RUNST:  CALL    STMT
+        JMP     RUNLP
+
+ERLINE: RST     1
+        DB      ELINE
+
+; STMT - one statement
+; In:  TXTP   Clobbers all
+STMT:   RST     6
+        CPI     TFROM
+        JC      ASSIGN
+        RST     3
+        SUI     TFROM
+        LXI     H,STTAB
+        JMP     JTAB
+
+; The statements in the order of their tokens
+STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
+        DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
+        DW      SSCALE,SSYM,SREP,SRECUT,SFIT
+        DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
+
+; SIF - statement: IF expression relation expression GOTO n
+SIF:    CALL    EVNUM
+        RST     5
+        DB      LA0,SIF63,QEND
+        RST     3
+        MOV     B,A             ; B, C = what makes it true
+        MOV     C,A
+        SUI     CLESS
+        CPI     CGT-CLESS+1
+        JNC     ERSYN
+        DCR     A
+        JZ      SIF2            ; =
+        RST     6
+        CPI     CEQU
+        JZ      SIF1            ; <= >=
+        CPI     CGT
+        JNZ     SIF2
+        CMP     B
+        JZ      SIF2
+SIF1:   MOV     C,A             ; <>
+        RST     3
+SIF2:   PUSH    B
+        CALL    EVNUM
+        RST     5
+        DB      LA0,SIF62,QEND
+        RST     4
+        DB      TGOTO
+        CALL    LNEND
+        PUSH    D
+        RST     5
+        DB      LIF,SA0,LIF2,SB0,QEND
+        CALL    CMPNE
+        POP     D
+        POP     B
+        MVI     A,CEQU
+        JZ      SIF3
+        MVI     A,CLESS
+        JC      SIF3
+        MVI     A,CGT
+SIF3:   CMP     B
+        JZ      GOLINE
+        CMP     C
+        RNZ
+        JMP     GOLINE
+
+; SEND - statement: END
+SEND:   RST     7
+END1:   CALL    CENDST
+        JMP     READY
+
+; SPRINT - statement: PRINT item, item ...
+SPRINT: RST     6
+        JZ      SPRI3
+SPRI1:  RST     6
+        CPI     CQUOTE
+        JZ      SPRI4
+        CALL    EVAL
+        CALL    PRVAL
+SPRI2:  RST     6
+        CPI     CCOMMA
+        JNZ     SPRI3
+        RST     3
+        MVI     A,CBLANK
+        RST     2
+        JMP     SPRI1
+SPRI3:  RST     7
+        JMP     CRLF
+SPRI4:  RST     3               ; the quote
+SPRI5:  RST     3
+        CPI     CQUOTE
+        JZ      SPRI2
+        RST     2
+        JMP     SPRI5
+
+; MORE - in a list: takes the comma; where there is none the statement must end, and
+;        the routine that called is left
+; Clobbers A, HL
+MORE:   RST     6
+        CPI     CCOMMA
+        JZ      NEXT
+        POP     H
+        JMP     CHKEND
+
+; SDATA - statement: DATA expression, ...: nothing, until READ comes
+SDATA:  LDA     CHKF
+        ORA     A
+        RZ
+SDAT1:  CALL    EVAL
+        CALL    MORE
+        JMP     SDAT1
+
+; SREST - statement: RESTORE, RESTORE n
+SREST:  CALL    OPTLN
+        CALL    FINDLN
+REST1:  DCX     H
+        SHLD    DATP
+        RET
+
+; SREAD - statement: READ name, ...
+SREAD:  CALL    GETREF
+        LDA     CHKF
+        ORA     A
+        CZ      READI
+        CALL    MORE
+        JMP     SREAD
+
+; READI - gives a name the next DATA item
+; In:  DE = name; ERR 08   Clobbers all
+READI:  PUSH    D
+        LHLD    DATP
+        MOV     A,M
+        CPI     CCOMMA
+        JZ      READI3
+        INX     H               ; next line
+READI1: MOV     A,M
+        ORA     A
+        JZ      ERDATA
+        MOV     D,H
+        MOV     E,L
+        CALL    ADDA
+        INX     D
+        INX     D
+        INX     D
+        LDAX    D
+        CPI     TDATA
+        JNZ     READI1
+        XCHG
+READI3: INX     H
+        XCHG
+        LHLD    TXTP
+        PUSH    H
+        XCHG
+        SHLD    TXTP
+        CALL    EVAL
+        LHLD    TXTP
+        SHLD    DATP
+        POP     H
+        SHLD    TXTP
+        POP     D
+        JMP     SETREF
+ERDATA: RST     1
+        DB      EDATA
+
+; SINPUT - statement: INPUT name, ...; a direct one asks for one name, its line being
+;          overwritten by the answer
+SINPUT: CALL    GETREF
+        LDA     CHKF
+        ORA     A
+        CZ      ASK
+SINP1:  LDA     CURLIN+1
+        INR     A
+        LXI     H,CHKF
+        ORA     M
+        RZ
+        CALL    MORE
+        JMP     SINPUT
+
+; ASKAGN - after a wrong answer: the stack is empty
+ASKAGN: LXI     H,RUNLP
+        PUSH    H
+        LXI     H,SINP1
+        PUSH    H
+        JMP     ASK1
+
+; ASK - asks for a value, until there is a right one
+; In:  DE = name   Clobbers all
+ASK:    XCHG
+        SHLD    INPNAM
+        LHLD    TXTP
+        SHLD    INPTXT
+ASK1:   MVI     A,0FFH
+        STA     INPF
+        CALL    PUTSI
+        DB      "?",0A0H
+        CALL    GETLIN
+        LXI     H,TOKS
+        SHLD    TXTP
+        CALL    LEX
+        CALL    EVAL
+        RST     4
+        DB      TEOL
+        LHLD    INPNAM
+        XCHG
+        CALL    SETREF
+        XRA     A
+        STA     INPF
+        LHLD    INPTXT
+        SHLD    TXTP
+        RET
+
+; SLIST - command: LIST, LIST n, LIST n,m
+SLIST:  RST     6
+        LXI     H,0
+        LXI     D,-1
+        JZ      SLIS2
+        CALL    LINENO
+        PUSH    H
+        RST     6
+        CPI     CCOMMA
+        POP     H
+        MOV     D,H
+        MOV     E,L             ; one number: that line
+        JNZ     SLIS2
+        PUSH    H
+        RST     3
+        CALL    LINENO
+        XCHG
+        POP     H
+SLIS2:  PUSH    D
+        CALL    LNEND1          ; DE = first
+        POP     H
+; (fall into LISTPR)
+
+; LISTPR - prints the program from line DE to line HL
+; Clobbers all
+LISTPR: SHLD    LSTTO
+        CALL    FINDLN
+LISTP1: MOV     A,M
+        ORA     A
+        RZ
+        INX     H
+        MOV     E,M
+        INX     H
+        MOV     D,M
+        INX     H
+        LDA     LSTTO
+        SUB     E
+        LDA     LSTTO+1
+        SBB     D
+        RC
+        PUSH    H
+        CALL    BREAK
+        XCHG
+        CALL    PRDEC
+        MVI     A,CBLANK
+        RST     2
+        POP     H
+        CALL    LISTOK
+        JMP     LISTP1
+
+; SSAVE - command: SAVE; ctrl-Z tells LOAD where the tape ends
+SSAVE:  RST     7
+        CALL    PUNON
+        LXI     D,0
+        LXI     H,-1
+        CALL    LISTPR
+        MVI     A,CEOF
+        RST     2
+        JMP     PUNOFF
+
+; SNEW - command: NEW
+SNEW:   RST     7
+NEW1:   LXI     H,PROG
+        SHLD    PEND
+        MVI     M,0
+; (fall into CLEAR)
+
+; CLEAR - forgets variables and route: the state in which a run starts
+; Clobbers all
+CLEAR:  CALL    CLRVAR
+        CALL    RUNINI
+; (fall into CLRPTR)
+
+; CLRPTR - forgets what points into the program: DATA at its start, no GOSUB
+; Clobbers A, HL
+CLRPTR: MVI     A,GSTK & 255
+        STA     GSP
+        LXI     H,PROG
+        JMP     REST1
+
+; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it
+SLOAD:  RST     7
+SLOA1:  CALL    BREAK
+        IF      PTTY
+        ORA     A
+        ELSE
+        IN      PUNST
+        ANI     RXRDY
+        ENDIF
+        JZ      SLOA1
+        MVI     A,1
+        STA     LOADF
+        RET
+
+; SFREE - command: FREE
+SFREE:  RST     7
+FREE1:  LHLD    PEND
+        XCHG
+        LHLD    VBOT
+        MOV     A,L
+        SUB     E
+        MOV     L,A
+        MOV     A,H
+        SBB     D
+        MOV     H,A
+        CALL    PRDEC
+        JMP     CRLF
+
+; MARK - prints the typed line again and a mark under the end of the token in front of TXTP
+; Clobbers all
+MARK:   LXI     H,LINBUF
+MARK1:  MOV     A,M
+        ORA     A
+        JZ      MARK2
+        RST     2
+        INX     H
+        JMP     MARK1
+MARK2:  CALL    CRLF
+        CALL    LEX
+        MOV     A,L
+        SUI     (LINBUF+1) & 255
+        MOV     B,A
+        MVI     A,CBLANK
+MARK3:  DCR     B
+        JM      MARK4
+        RST     2
+        JMP     MARK3
+MARK4:  MVI     A,CMARK
+        RST     2
+        JMP     CRLF
