@@ -21,7 +21,9 @@ ASM = Path(__file__).resolve().parent
 ROOT = ASM.parent
 ROM_SIZE = 8192
 #: Source files in the order in which they stand in the ROM; equ.asm first, since it only names things.
-FILES = ["equ", "start", "io", "calc", "ops", "consts", "float", "parser", "geom", "cut", "tape", "lexer", "monitor"]
+FILES = [
+    "equ", "start", "io", "calc", "ops", "consts", "float", "parser", "geom", "cut", "tape", "repeat", "lexer", "monitor",
+]
 OPTIONS = {"BRD51": 0, "PTTY": 0}
 
 
