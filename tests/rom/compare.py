@@ -1,0 +1,102 @@
+"""Firmware against reference: run both, tell a difference from a close call.
+
+A 40-bit float has a mantissa of 32 bits: at 100 mm one rounding is up to 2⁻³³·128 mm = 1.5·10⁻⁵ µm. A place that
+took some dozen roundings to find may therefore be out by about 2·10⁻⁴ µm (`ROUNDING`), and a crossing at a shallow
+angle by that divided by the angle's sine. When the true place lies nearer than this to the tie between two
+micrometres, no 32-bit arithmetic can be asked to choose the right one: such a program is set aside and counted. So
+is one with any other decision that hangs on the last bits (`skg.ref.near` keeps the list), and one whose tape, paper
+or error the reference itself changes when it computes with 33 bits.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from romhelp import Outcome, run
+
+from skg.ref import Result
+from skg.ref import run as reference
+
+#: µm; see above.
+ROUNDING = 2e-4
+#: Sine of the crossing angle up to which `ROUNDING` has room enough.
+SHALLOW = 0.1
+#: Two printed numbers are equal to 7 digits, or to 10⁻⁷ of the drawing's size (100 mm) where digits cancelled.
+DIGITS = 1e-7
+SIZE = 100
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:E-?\d+)?")
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Blocks compared; why the program was set aside, or how the two differ (empty: neither)."""
+
+    blocks: int = 0
+    aside: str = ""
+    difference: str = ""
+
+
+def close_call(result: Result) -> str:
+    """The decision that 32 bits cannot be asked to take, if there is one."""
+    shallowest = min((n.margin for n in result.near if n.kind == "shallow crossing"), default=SHALLOW)
+    needed = ROUNDING * max(1.0, SHALLOW / max(shallowest, 1e-12))
+    for n in result.near:
+        if n.kind == "shallow crossing":
+            continue
+        if n.kind != "rounding" or n.margin < needed:
+            return f"{n.kind} {n.margin:.1e} in line {n.line}"
+    return ""
+
+
+def lines(paper: str) -> list[str]:
+    """The reference's paper as lines, empty ones left out as `Outcome` has it."""
+    return [line for line in paper.split("\n") if line]
+
+
+def same_line(a: str, b: str) -> bool:
+    """Whether two lines of paper are equal but for the last digits of their numbers."""
+    if NUMBER.sub("#", a) != NUMBER.sub("#", b):
+        return False
+    pairs = zip(map(float, NUMBER.findall(a)), map(float, NUMBER.findall(b)), strict=True)
+    return all(abs(x - y) <= DIGITS * max(SIZE, abs(x), abs(y)) for x, y in pairs)
+
+
+def same_paper(a: list[str], b: list[str]) -> bool:
+    """Whether two papers say the same."""
+    return len(a) == len(b) and all(map(same_line, a, b))
+
+
+def difference(outcome: Outcome, result: Result) -> str:
+    """How the firmware's outcome differs from the reference's result; empty when it does not."""
+    if outcome.error != result.error:
+        return f"error {outcome.error}, reference {result.error}"
+    if outcome.tape != result.tape:
+        ours, theirs = outcome.tape.decode().split(), result.tape.decode().split()
+        at = next(
+            (n for n, (a, b) in enumerate(zip(ours, theirs, strict=False)) if a != b),
+            min(len(ours), len(theirs)),
+        )
+        return f"block {at + 1}: {ours[at : at + 2]}, reference {theirs[at : at + 2]}"
+    if not same_paper(outcome.paper, lines(result.paper)):
+        return f"paper {outcome.paper}, reference {lines(result.paper)}"
+    return ""
+
+
+def compare(program: str) -> Verdict:
+    """Run a program on a new board and through the reference."""
+    result = reference(program)
+    blocks = sum(line.startswith("B") for line in result.tape.decode().split())
+    found = difference(run(program), result)
+    if not found:
+        return Verdict(blocks)
+    # Only a program that came out differently needs an excuse.
+    aside = close_call(result)
+    if not aside:
+        rough = reference(program, bits=33)
+        if (rough.tape, rough.error) != (result.tape, result.error):
+            aside = "the reference's tape is another one at 33 bits"
+        elif not same_paper(lines(rough.paper), lines(result.paper)):
+            aside = "the reference prints other numbers at 33 bits"
+    return Verdict(aside=aside) if aside else Verdict(difference=found)
