@@ -1,5 +1,5 @@
 ; float.asm - numbers of 40 bits
-; Offers: FADD FSUB FMUL FDIV FNEG FABS FCMP FSGN FITOF FTOI16
+; Offers: FADD FSUB FMUL FDIV FNEG FABS FSGN FITOF FTOI16
 ; Uses:   FWORK, ERROR (RST 1)
 ; Room:   1500 bytes
 ;
@@ -102,64 +102,18 @@ FADD1:  STA     SHIFT
         MOV     B,A
         POP     H
         MOV     L,H             ; guard
-        LDA     EXPO
-        JNC     FRNDA
+        JNC     FNRME
         MVI     H,1
         CALL    FSHR2           ; carry comes in
         LDA     EXPO
         INR     A
-        JZ      FOVF
-FRNDA:  MOV     H,A
-        JMP     FRND
-
-FADD2:  CMA                     ; 0 - guard
-        ADI     1
-        CMC
-        PUSH    PSW
-        MOV     A,M
-        SBB     E
-        MOV     E,A
-        DCX     H
-        MOV     A,M
-        SBB     D
-        MOV     D,A
-        DCX     H
-        MOV     A,M
-        SBB     C
-        MOV     C,A
-        DCX     H
-        MOV     A,M
-        RAL
-        STC
-        RAR
-        SBB     B
-        MOV     B,A
-        POP     H
-        MOV     L,H
-        JNC     FADD3
-        XRA     A               ; it was the smaller after all: turn all (guard is 0)
-        SUB     E
-        MOV     E,A
-        MVI     A,0
-        SBB     D
-        MOV     D,A
-        MVI     A,0
-        SBB     C
-        MOV     C,A
-        MVI     A,0
-        SBB     B
-        MOV     B,A
-        LDA     SIGN
-        CMA
-        STA     SIGN
-FADD3:  LDA     EXPO
         MOV     H,A
-        JMP     FNRM
+        JNZ     FRND
+        JMP     FOVF
 
 FADD4:  CALL    FLOAD
-        LDA     EXPO
-        MOV     H,A
-        JMP     FPACK
+        MVI     L,0
+        JMP     FNRME
 
 ; FLOAD - takes a mantissa
 ; In:  HL -> byte 1   Out: B C D E, HL -> byte 4   Clobbers A
@@ -247,7 +201,20 @@ FMUL:   PUSH    D
         JNC     FMULA
         INX     B
 FMULA:  LHLD    FT              ; L = guard
-        JMP     FNRM1
+; (fall into FNRM1)
+
+; FNRM1 - ends FMUL and FDIV
+; In:  B C D E L = mantissa from 1/4 up, EXPO for one below 1/2
+FNRM1:  LDA     EXPO
+        INR     A
+        MOV     H,A
+        MOV     A,B
+        ORA     A
+        JP      FNRM2
+        MOV     A,H
+        ORA     A
+        JZ      FOVF
+        JMP     FRND
 
 ; FMUL1 - 16 * 32 bits
 ; In:  DE, FY, BC = added   Out: BC, FT+2, FT+1, FT = product without its low byte
@@ -340,9 +307,8 @@ FEXP:   MOV     B,A
         POP     H
         JMP     FLOAD
 FEXP1:  POP     H
-        JNC     FZERO
-FOVF:   RST     1
-        DB      ERANGE
+        JC      FOVF
+        JMP     FZERO
 
 ; FDIV - x / y
 ; In:  DE -> x, HL -> y   Out: x; ERR 05 too when y is 0   Clobbers all
@@ -439,18 +405,54 @@ FDIV6:  CMC
         JNC     FDIV2
         RET
 
-; FNRM1 - ends FMUL and FDIV
-; In:  B C D E L = mantissa from 1/4 up, EXPO for one below 1/2
-FNRM1:  LDA     EXPO
-        INR     A
+; FADD2 - the part of FADD for different signs
+; In:  B C D E A = the smaller, aligned, HL -> last byte of the larger
+FADD2:  CMA                     ; 0 - guard
+        ADI     1
+        CMC
+        PUSH    PSW
+        MOV     A,M
+        SBB     E
+        MOV     E,A
+        DCX     H
+        MOV     A,M
+        SBB     D
+        MOV     D,A
+        DCX     H
+        MOV     A,M
+        SBB     C
+        MOV     C,A
+        DCX     H
+        MOV     A,M
+        RAL
+        STC
+        RAR
+        SBB     B
+        MOV     B,A
+        POP     H
+        MOV     L,H
+        JNC     FNRME
+        XRA     A               ; it was the smaller after all: turn all (guard is 0)
+        SUB     E
+        MOV     E,A
+        MVI     A,0
+        SBB     D
+        MOV     D,A
+        MVI     A,0
+        SBB     C
+        MOV     C,A
+        MVI     A,0
+        SBB     B
+        MOV     B,A
+        LDA     SIGN
+        CMA
+        STA     SIGN
+; (fall into FNRME)
+
+; FNRME - as FNRM, exponent in EXPO
+FNRME:  LDA     EXPO
         MOV     H,A
-        MOV     A,B
-        ORA     A
-        JP      FNRM2
-        MOV     A,H
-        ORA     A
-        JZ      FOVF
-        JMP     FRND
+; (fall into FNRM)
 
 ; FNRM - normalizes, rounds and stores
 ; In:  B C D E L = any mantissa, H = exponent, SIGN; on the stack: address
@@ -495,18 +497,21 @@ FNRM2:  MOV     A,L
 FRND:   MOV     A,L
         ADD     A
         JNC     FPACK
-        INR     E
+        INX     D
+        MOV     A,D
+        ORA     E
         JNZ     FPACK
-        INR     D
-        JNZ     FPACK
-        INR     C
-        JNZ     FPACK
-        INR     B
+        INX     B
+        MOV     A,B
+        ORA     C
         JNZ     FPACK
         MVI     B,80H
         INR     H
         JNZ     FPACK
-        JMP     FOVF
+; (fall into FOVF)
+
+FOVF:   RST     1
+        DB      ERANGE
 
 FZERO:  LXI     B,0
         MOV     D,B
@@ -565,32 +570,6 @@ FSGN:   MOV     A,M
         ORI     1
         RET
 
-; FCMP - compares
-; In:  DE -> x, HL -> y   Out: Z: x = y; CY: x < y   Clobbers A, B, C, DE, HL
-FCMP:   INX     D
-        INX     H
-        LDAX    D
-        MOV     B,A             ; bit 7: sign of x
-        XRA     M
-        MOV     A,B
-        JM      FCMP2           ; signs differ
-        DCX     D
-        DCX     H
-        MVI     C,5
-FCMP1:  LDAX    D
-        CMP     M
-        INX     D
-        INX     H
-        JNZ     FCMP3
-        DCR     C
-        JNZ     FCMP1
-        RET
-FCMP3:  SBB     A               ; 0FFH: |x| < |y|
-        XRA     B
-FCMP2:  ORI     1
-        RLC
-        RET
-
 ; FITOF - whole number to float
 ; In:  HL = 0...65535, DE -> float   Clobbers all
 FITOF:  PUSH    D
@@ -645,9 +624,8 @@ FFLR:   PUSH    H
         JNC     FFLR2
         LDA     SIGN
         ADD     A
-        JNC     FFLR1
-        MOV     A,L
-        ORA     A
+        SBB     A
+        ANA     L
         JZ      FFLR1
         INX     D               ; negative and not whole: one up
         MOV     A,D
@@ -684,11 +662,9 @@ FSQR:   MOV     A,M
         SHLD    FY
         LXI     H,0A000H        ; Q = 1/2, t = 1/8
         SHLD    FY+2
+        LXI     H,2080H         ; one bit, t = 20H of the first byte
+        SHLD    FQ
         LXI     H,FY+3
-        MVI     A,80H
-        STA     FQ
-        MVI     A,20H
-        STA     FT
         MOV     A,B
         SUI     40H
         MOV     B,A             ; even: x - 1/4, to be doubled
@@ -696,9 +672,8 @@ FSQR:   MOV     A,M
         PUSH    H
         LXI     H,FSQR2
         PUSH    H
-        JNC     FSQRO
-        JMP     FDIV2
-FSQRO:  MOV     A,B
+        JC      FDIV2
+        MOV     A,B
         SUI     40H
         MOV     B,A             ; odd: 2 * (x/2 - 1/4)
         JMP     FDIV3
@@ -740,9 +715,7 @@ FSQR4:  MOV     M,A
         ANI     1
         ORA     E
         MOV     E,A
-        LDA     EXPO
-        MOV     H,A
-        JMP     FRND
+        JMP     FNRME
 
 ; Functions of angles, in degrees.  They work on a copy of x on the calculator's
 ; stack.
