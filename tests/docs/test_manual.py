@@ -1,0 +1,253 @@
+"""What docs/language.md shows is what happens; run as a program, this writes the page and its pictures anew.
+
+A fence ```skg holds a program; the fences ```paper and ```tape after it what it prints and punches. A word
+behind ```skg names its picture, `input=` what the operator answers. A fence ```prompt holds lines that begin
+with the prompt and what the machine says to them. The tables of operations and errors carry examples too.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from skg.cli import cli
+from skg.ref import Result, run
+from skg.ref.operations import OPERATIONS
+from skg.ref.values import C, D, P, S, T
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "language.md"
+README = ROOT / "README.md"
+PICTURES = ROOT / "docs" / "pictures"
+ROM = ROOT / "roms" / "skg.bin"
+SKG80 = ROOT / "build" / "skg80"
+
+FENCE = re.compile(r"^```(?P<kind>skg|paper|tape|prompt)(?P<rest>.*)\n(?P<body>(?:(?!```).*\n)*)```$", re.M)
+#: A row of the table of operations: form, result, meaning, example, what PRINT says, source.
+OPERATION = re.compile(
+    r"^\| `(?P<form>[^`]+)` \| \S+ \| [^|]+ \| `(?P<example>[^`]+)` \| `(?P<result>[^`]*)` \|", re.M)
+#: A row of the table of errors: number, meaning, statements that end in it.
+ERROR = re.compile(r"^\| (?P<number>\d\d) \| [^|]+ \| (?P<example>`[^|]+`) \|", re.M)
+#: A block as the teletype lists it.
+BLOCK = re.compile(r"\d{4} (B|D)")
+#: A row of the README's table of what the ROM has: words, yes or no.
+STATUS = re.compile(r"^\| (?P<words>`[A-Z`, ]+`) \| (?P<state>yes|no) \|", re.M)
+
+
+@dataclass
+class Example:
+    """A program of the page with what stands behind it; None where no such fence stands."""
+
+    line: int
+    source: str
+    picture: str | None
+    answers: list[str]
+    paper: str | None = None
+    tape: str | None = None
+
+
+def examples() -> list[Example]:
+    page = PAGE.read_text()
+    found: list[Example] = []
+    for fence in FENCE.finditer(page):
+        if fence["kind"] == "skg":
+            options = re.fullmatch(r"(?: (?P<picture>[a-z-]+))?(?: input=(?P<answers>\S+))?", fence["rest"])
+            assert options, fence[0]
+            line = page.count("\n", 0, fence.start()) + 1
+            answers = (options["answers"] or "").split("/") if options["answers"] else []
+            found.append(Example(line, fence["body"], options["picture"], answers))
+        elif fence["kind"] != "prompt":
+            setattr(found[-1], fence["kind"], fence["body"])
+    return found
+
+
+def text_of(result: Result) -> str:
+    return result.tape.decode("ascii").replace("\r\n", "\n")
+
+
+def fences(kind: str) -> list[re.Match[str]]:
+    return [fence for fence in rows(FENCE) if fence["kind"] == kind]
+
+
+def rows(pattern: re.Pattern[str]) -> Iterator[re.Match[str]]:
+    return pattern.finditer(PAGE.read_text())
+
+
+def by_line(example: Example) -> str:
+    return f"line {example.line}"
+
+
+@pytest.mark.parametrize("example", examples(), ids=by_line)
+def test_example(example: Example) -> None:
+    result = run(example.source, example.answers)
+    assert result.paper == (example.paper or "")
+    if example.tape is not None or text_of(result) not in ("", "DD\n"):
+        assert text_of(result) == example.tape
+
+
+@pytest.mark.parametrize("fence", fences("prompt"), ids=lambda fence: fence["body"][:20])
+def test_prompt(fence: re.Match[str]) -> None:
+    lines = fence["body"].splitlines()
+    typed = "\n".join(line[1:] for line in lines if line.startswith(">"))
+    assert run(typed).paper.splitlines() == [line for line in lines if not line.startswith(">")]
+
+
+@pytest.mark.parametrize("row", rows(OPERATION), ids=lambda row: row["form"])
+def test_operation(row: re.Match[str]) -> None:
+    assert run(f"PRINT {row['example']}").paper == row["result"] + "\n"
+
+
+@pytest.mark.parametrize("row", rows(ERROR), ids=lambda row: row["number"])
+def test_error(row: re.Match[str]) -> None:
+    assert error_of(row["example"]) == int(row["number"])
+
+
+def error_of(cell: str) -> int | None:
+    """Number of the error in which the quoted statements end."""
+    statements = re.findall(r"`([^`]+)`", cell)
+    error = run("".join(f"{10 * n} {text}\n" for n, text in enumerate(statements, 1))).error
+    return error[0] if error else None
+
+
+def test_errors_are_complete() -> None:
+    assert [int(row["number"]) for row in rows(ERROR)] == list(range(1, 11))
+
+
+def test_operations_are_complete() -> None:
+    """Every pair that the reference knows has its row, and no row is too much."""
+    kinds = {"P": P, "C": C, "S": S, "D": D, "A": D, "(A:P)": T}
+    shown = set()
+    for row in rows(OPERATION):
+        if form := re.fullmatch(r"([DAPCS])(\W)([DAPCS]|\(A:P\))", row["form"]):
+            shown.add((kinds[form[1]], form[2], kinds[form[3]]))
+    # A turn shows only at the right of `#`, which its row writes out; it is no value by itself.
+    assert shown | {(D, ":", P)} == set(OPERATIONS)
+
+
+def test_statements_are_complete() -> None:
+    """Every word of the grammar stands in the appendix of statements, and in the README's table."""
+    grammar = (ROOT / "tools" / "skg" / "ref" / "skg.lark").read_text()
+    words = set(re.findall(r"^_([A-Z]+)\.2", grammar, re.M))
+    appendix = PAGE.read_text().split("## Appendix A")[1].split("## Appendix B")[0]
+    shown = set(re.findall(r"^\| `([A-Z]+)", appendix, re.M))
+    assert words <= shown
+    assert words <= set(status())
+
+
+def pictures() -> list[Example]:
+    return [example for example in examples() if example.picture]
+
+
+def draw(example: Example, folder: Path) -> bytes:
+    """The picture of an example."""
+    part, picture = folder / "part.skg", folder / "part.svg"
+    part.write_text(example.source)
+    done = CliRunner().invoke(cli, ["plot", str(part), "--skg80", "reference", "-o", str(picture)])
+    assert done.exit_code == 0, done.output
+    return picture.read_bytes()
+
+
+@pytest.mark.parametrize("example", pictures(), ids=by_line)
+def test_picture(example: Example, tmp_path: Path) -> None:
+    name = f"manual-{example.picture}.svg"
+    assert f"](pictures/{name})" in PAGE.read_text()
+    assert draw(example, tmp_path) == (PICTURES / name).read_bytes()
+
+
+def test_every_picture_is_used() -> None:
+    assert {f"manual-{e.picture}.svg" for e in pictures()} == {p.name for p in PICTURES.glob("manual-*.svg")}
+
+
+# The same on the firmware
+
+def status() -> dict[str, bool]:
+    """Which words the ROM knows, by the README's table."""
+    return {word: row["state"] == "yes" for row in STATUS.finditer(README.read_text())
+            for word in re.findall(r"[A-Z]+", row["words"])}
+
+
+def missing(source: str) -> bool:
+    """Does a program use a word that the README says the ROM does not know?"""
+    words = "|".join(word for word, known in status().items() if not known)
+    return bool(words and re.search(rf"\b({words})\b", re.sub(r"REM.*|\"[^\"]*\"", "", source)))
+
+
+def on_the_board(source: str, answers: list[str], folder: Path) -> tuple[str, str]:
+    """Paper (without the listing of blocks) and tape of a program on the firmware."""
+    (folder / "part.skg").write_text(source)
+    (folder / "answers").write_text("".join(f"{answer}\n" for answer in answers))
+    done = subprocess.run([SKG80, "--rom", ROM, "--input", folder / "answers", folder / "part.skg"],
+                          capture_output=True, timeout=60, check=False)
+    said = done.stderr.decode().replace("\r", "").partition(">RUN\n")[2]
+    lines = [line for line in said.splitlines() if line not in (">", "D", "DD") and not BLOCK.match(line)]
+    return "".join(f"{line}\n" for line in lines), done.stdout.decode().replace("\r\n", "\n")
+
+
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+@pytest.mark.parametrize("example", examples(), ids=by_line)
+def test_example_on_the_board(example: Example, tmp_path: Path) -> None:
+    if missing(example.source):
+        pytest.skip("README: not in the ROM yet")
+    paper, tape = on_the_board(example.source, example.answers, tmp_path)
+    assert paper == (example.paper or "")
+    assert example.tape is None or tape == example.tape
+
+
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+def test_operations_on_the_board(tmp_path: Path) -> None:
+    """All examples of the table of operations, in one program."""
+    table = list(rows(OPERATION))
+    source = "".join(f"{n} PRINT {row['example']}\n" for n, row in enumerate(table, 1))
+    paper, _ = on_the_board(source, [], tmp_path)
+    assert paper.splitlines() == [row["result"] for row in table]
+
+
+# Writing the page anew
+
+def rewritten(page: str) -> str:
+    """The page with every result in its place."""
+    last: Result | None = None
+
+    def fence(match: re.Match[str]) -> str:
+        nonlocal last
+        kind = match["kind"]
+        if kind == "prompt":
+            typed = [line for line in match["body"].splitlines() if line.startswith(">")]
+            body = ""
+            for n, line in enumerate(typed, 1):
+                said = run("\n".join(each[1:] for each in typed[:n])).paper.splitlines()
+                before = run("\n".join(each[1:] for each in typed[: n - 1])).paper.splitlines()
+                body += "".join(f"{each}\n" for each in [line, *said[len(before):]])
+            return f"```prompt\n{body}```"
+        if kind == "skg":
+            answers = re.search(r"input=(\S+)", match["rest"])
+            last = run(match["body"], answers[1].split("/") if answers else [])
+            return match[0]
+        assert last
+        return f"```{kind}\n{last.paper if kind == 'paper' else text_of(last)}```"
+
+    page = FENCE.sub(fence, page)
+
+    def row(match: re.Match[str]) -> str:
+        said = run(f"PRINT {match['example']}").paper.strip()
+        return match[0].removesuffix(f"`{match['result']}` |") + f"`{said}` |"
+
+    return OPERATION.sub(row, page)
+
+
+if __name__ == "__main__":
+    import tempfile
+
+    PAGE.write_text(rewritten(PAGE.read_text()))
+    for number in rows(ERROR):
+        if error_of(number["example"]) != int(number["number"]):
+            sys.exit(f"{PAGE}: example of error {number['number']} ends in {error_of(number['example'])}")
+    for each in pictures():
+        with tempfile.TemporaryDirectory() as scratch:
+            (PICTURES / f"manual-{each.picture}.svg").write_bytes(draw(each, Path(scratch)))
