@@ -7,6 +7,7 @@
 ; OUTSEL says where characters go: bit 0 paper, bit 1 punch.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
 ; until somebody asks (BREAK), ctrl-S holds all output until the next key.
+; In a line, a control character that is no editing key counts as a blank.
 
         IF      BRD51
 TTYDT   EQU     10H             ; teletype: data
@@ -91,14 +92,11 @@ POLL1:  MOV     A,M
         RZ                      ; a break waits
         IN      TTYST
         ANI     RXRDY
-        JZ      POLL3
+        JZ      POLL2
         IN      TTYDT
         ANI     7FH
-        CPI     CXON
-        JNZ     POLL2
-        XRA     A
-POLL2:  MOV     M,A
-POLL3:  MOV     A,M
+        MOV     M,A
+POLL2:  MOV     A,M
         CPI     CXOFF
         RNZ
         JMP     POLL1
@@ -150,10 +148,11 @@ PUTSI:  XTHL
         XTHL
         RET
 
-; PUTS - prints a text whose last character has bit 7 set
+; PUTS - prints a text whose last character has bit 7 set, or which ends with 00
 ; In:  HL-> it   Out: HL-> behind it   Clobbers A
 PUTS:   MOV     A,M
         ANI     7FH
+        RZ
         RST     2
         MOV     A,M
         INX     H
@@ -180,7 +179,7 @@ PRD1:   INX     D
         RET
 
 ; INCHR - waits for the next character, from the reader in LOAD, else from the teletype
-; Out: A; CY set: ctrl-Z, or the reader has stopped   Clobbers DE, HL
+; Out: A; ctrl-Z when the reader has stopped   Clobbers DE, HL
 INCHR:  LXI     D,WAIT2
 INCH1:  CALL    BREAK
         LDA     LOADF
@@ -189,7 +188,7 @@ INCH1:  CALL    BREAK
         DCX     D
         MOV     A,D
         ORA     E
-        STC
+        MVI     A,CEOF
         RZ
         IF      PTTY
         ELSE
@@ -198,69 +197,59 @@ INCH1:  CALL    BREAK
         ANI     RXRDY
         JZ      INCH1
         IN      PUNDT
-        ANI     7FH
         MOV     M,A
         ENDIF
 INCH2:  MOV     A,M
-        ORA     A
+        ANI     7FH
         JZ      INCH1
         MVI     M,0
-        CPI     CEOF
-        STC
-        RZ
-        CMC
         RET
 
 ; GETLIN - reads a line into LINBUF, 00 behind it
 ; Out: ERR 09 when it is too long; to READY at the end of the tape   Clobbers all
+GETL1:  CALL    CRLF            ; ctrl-U: again
 GETLIN: LXI     H,LINBUF
-GETL1:  PUSH    H
+GETL2:  PUSH    H
         CALL    INCHR
         POP     H
-        JC      GETL6
+        CPI     CEOF
+        JZ      GETL7
         CPI     CCR
-        JZ      GETL5
+        JZ      GETL6
         CPI     CLF
-        JZ      GETL5
+        JZ      GETL6
         CPI     CCTLU
-        JZ      GETL4
+        JZ      GETL1
         CPI     CRUB
-        JZ      GETL3
+        JZ      GETL5
         CPI     CBS
-        JZ      GETL3
-        CPI     CTAB
-        JNZ     GETL2
+        JZ      GETL5
+        CPI     CBLANK
+        JNC     GETL3
         MVI     A,CBLANK
-GETL2:  MOV     M,A
-        INX     H
-        MOV     C,A
-        MOV     A,L
-        CPI     LINEND & 255
-        MOV     A,C
-        JC      GETL7
-        DCX     H               ; full: stays, so that the line is refused
+GETL3:  MOV     M,A
+        INR     L               ; (LINBUF ends with a page)
+        JNZ     GETL4
+        DCR     L               ; full: stays, so that the line is refused
         MVI     A,CBEL
-GETL7:  RST     2
-        JMP     GETL1
-GETL3:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
+GETL4:  RST     2
+        JMP     GETL2
+GETL5:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
         ORA     A
-        JNZ     GETL1
+        JNZ     GETL2
         MOV     A,L
         CPI     LINBUF & 255
-        JZ      GETL1
-        DCX     H
+        JZ      GETL2
+        DCR     L
         CALL    PUTSI
         DB      CBS,CBLANK,CBS+80H
-        JMP     GETL1
-GETL4:  CALL    CRLF
-        JMP     GETLIN
-GETL5:  MVI     M,0
+        JMP     GETL2
+GETL6:  MVI     M,0
         CALL    CRLF
-        MOV     A,L
-        CPI     (LINEND-1) & 255
-        RC
+        INR     L
+        RNZ
         JMP     ERMEM
-GETL6:  MOV     A,L             ; the tape ends: at a line's start?
+GETL7:  MOV     A,L             ; the tape ends: at a line's start?
         CPI     LINBUF & 255
         JNZ     ERTAPE
         XRA     A

@@ -5,15 +5,18 @@
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
-; what it does not know.  Control characters are refused here (01H and 02H are tokens).
-; TOKS begins a page and so the low byte of a token's address is its distance from the
+; what it does not know.  TOKS begins a page and so the low byte of a token's address is its distance from the
 ; line's start; what is longer than TOKROM is refused after LEX, the stack having room
 ; for what the longest line can make.
 
-; LEX - makes tokens of the text in LINBUF
-; In:  TXTP = TOKS: all of it; higher: up to the token in front of TXTP (error mark)
-; Out: DE-> behind the last token, HL-> behind its text; ERR 01, ERR 05
+; LEXALL - makes tokens of the text in LINBUF
+; Out: TXTP-> the first; DE-> behind the last token, HL-> behind its text; ERR 01, ERR 05
 ; Clobbers all
+LEXALL: LXI     H,TOKS
+        SHLD    TXTP
+; (fall into LEX)
+
+; LEX - the same, but no further than the token in front of TXTP, when TXTP is not TOKS
 LEX:    LXI     H,LINBUF
         LXI     D,TOKS
 LEX1:   LDA     TXTP
@@ -21,41 +24,41 @@ LEX1:   LDA     TXTP
         CMP     E
         RC                      ; TXTP reached
         CALL    LEXCH
-LEX2:   STAX    D
+        STAX    D
         ORA     A
-        JZ      LEX4            ; the end, and its token
-        CPI     CBLANK
-        JC      ERSYN
-        CPI     CQUOTE
+        JZ      LEX3            ; the end, and its token
         MOV     C,A
+        CPI     CQUOTE
         JZ      LEXRAW
-        CPI     CDOT
-        JZ      LEXNUM
         CPI     CCOLON
-        JC      LEX5
+        JC      LEX4
         PUSH    D
-        LXI     D,KEYTAB        ; a word?
+        LXI     D,KEYTAB        ; a word or a name's letter?
         MVI     B,TSQR          ; B = its token
 LEXW1:  PUSH    H
 LEXW2:  CALL    LEXCH
-        MOV     C,A
-        LDAX    D
-        ANI     7FH
-        CMP     C
-        JNZ     LEXW4
+        XCHG
+        XRA     M
+        XCHG
+        ADD     A               ; zero: equal but for bit 7, which goes to CY
+        JNZ     LEXW3
         INX     H
-        LDAX    D
         INX     D
-        ORA     A
-        JP      LEXW2
+        JNC     LEXW2
         POP     PSW             ; yes: HL-> behind it
         POP     D
         MOV     A,B
-        CPI     TREM
-        JNZ     LEX7
+        SUI     TFREE+1
+        CPI     14
+        JC      LEXNAM
+        MOV     A,B
         STAX    D
+        INX     D
+        CPI     TREM
+        JNZ     LEX1
         MOV     A,M
         MVI     C,TEOL
+        DCX     D
         CPI     CBLANK          ; LIST puts one blank after REM
         JZ      LEXRAW
         DCX     H
@@ -68,55 +71,46 @@ LEXRAW: INX     H
         STAX    D
         CMP     C
         JZ      LEXRA1
-        CPI     CBLANK
-        JNC     LEXRAW
-        JMP     ERSYN           ; a control character, no second quote
+        ORA     A
+        JNZ     LEXRAW
+        JMP     ERSYN           ; no second quote
 LEXRA1: ORA     A
-        JNZ     LEX3
-LEX4:   INX     D
+        JNZ     LEX2
+LEX3:   INX     D
         INX     H
         RET
 
-LEXW4:  POP     H
-LEXW5:  LDAX    D               ; to the next word
+LEXW3:  POP     H
+LEXW4:  LDAX    D               ; to the next word
         INX     D
         ORA     A
-        JP      LEXW5
+        JP      LEXW4
         INR     B
         MOV     A,B
-        CPI     TFREE+1
+        CPI     (TFREE+15) & 255
         JNZ     LEXW1
         POP     D
-        LDAX    D               ; a name?
-        PUSH    H
-        LXI     H,LETTAB
-        LXI     B,14*256+TSUB
-LEXN1:  CMP     M
-        JZ      LEXN2
-        INX     H
-        INR     C
-        DCR     B
-        JNZ     LEXN1
-        POP     H
-        JMP     LEX3
-LEX5:   CALL    DIGIT
+        JMP     LEX2
+LEX4:   SUI     CDOT            ; . / 0 ... 9
+        CPI     CCOLON-CDOT
         JC      LEXNUM
-LEX3:   INX     H               ; the character stands for itself
+LEX2:   INX     H               ; the character stands for itself
         INX     D
         JMP     LEX1
 
-LEXN2:  POP     H
-        INX     H
+; LEXNAM - a name, or its letter and the bracket of a computed subscript
+; In:  A = index of the letter
+LEXNAM: MOV     C,A
+        ADI     TSUB
+        STAX    D
         CALL    LEXCH
         CPI     CLBRK
-        MOV     A,C
-        STAX    D               ; (should it be a computed subscript)
-        JZ      LEX3
+        JZ      LEX2
         PUSH    D
         LXI     D,0             ; DE = subscript
-LEXN3:  CALL    LEXCH
+LEXN1:  CALL    LEXCH
         CALL    DIGIT
-        JNC     LEXN4
+        JNC     LEXN2
         INX     H
         PUSH    H
         MOV     H,D
@@ -130,46 +124,31 @@ LEXN3:  CALL    LEXCH
         LXI     H,-SUBMAX-1
         DAD     D
         POP     H
-        JC      ERRNG
-        JMP     LEXN3
-LEXN4:  MOV     A,C             ; 0C0H + index
+        JNC     LEXN1
+        JMP     ERRNG
+LEXN2:  MOV     A,C
         ADD     A
         ADD     A
-        ORI     TNAME
-        ORA     D
+        ADI     TNAME
+        ADD     D
         MOV     B,E
         POP     D
         STAX    D
         INX     D
         MOV     A,B
-LEX7:   STAX    D
+        STAX    D
         INX     D
         JMP     LEX1
 
 ; LEXNUM - a number
 LEXNUM: PUSH    D
+        MVI     A,TFLT
+        STAX    D
         INX     D
         CALL    DECIN
         POP     D
-        JC      LEX3            ; a dot alone
+        JC      LEX2            ; none: the character stays
         PUSH    H
-        PUSH    D
-        XCHG
-        INX     H
-        CALL    FTOI16
-        POP     D
-        JC      LEXNU1
-        MOV     A,H
-        ORA     A
-        JNZ     LEXNU1
-        MVI     A,TINT          ; 0...255: two bytes
-        STAX    D
-        INX     D
-        MOV     A,L
-        POP     H
-        JMP     LEX7
-LEXNU1: MVI     A,TFLT
-        STAX    D
         LXI     H,6
         DAD     D
         XCHG
@@ -197,9 +176,8 @@ LISTOK: MOV     A,M
         ORA     A
         JZ      CRLF
         JM      LIST2
-        CPI     TINT
-        JZ      LISINT
-        JNC     LIST1           ; stands for itself
+        CPI     TFLT
+        JNZ     LIST1           ; stands for itself
         PUSH    H
         MVI     B,9
         CALL    DECOUT
@@ -207,86 +185,67 @@ LISTOK: MOV     A,M
         LXI     D,5
         DAD     D
         JMP     LISTOK
-LISINT: MOV     E,M
-        INX     H
-        MVI     D,0
-        JMP     LISDEC
-LIST2:  PUSH    H
-        CPI     TSQR
-        JC      LISNAM
+LIST2:  CPI     TSQR
+        JC      LIST4
         MOV     B,A             ; a word
         CPI     TFROM
-        JC      LISWD1
-        LDA     LASTC           ; GOTO behind a name: a blank between
+        JC      LIST3
+        LDA     LASTC           ; GOTO behind something else: a blank between
         CPI     CBLANK
         MVI     A,CBLANK
-        JZ      LISWD1
+        JZ      LIST3
         RST     2
-LISWD1: LXI     H,KEYTAB
-        MVI     A,TSQR
-LISWD2: CMP     B
-        JZ      LISWD4
-        INR     A
-        MOV     C,A
-LISWD3: MOV     A,M             ; skip a word
-        INX     H
-        ORA     A
-        JP      LISWD3
-        MOV     A,C
-        JMP     LISWD2
-LISWD4: CALL    PUTS
-        POP     H
+LIST3:  CALL    PRWORD
         MOV     A,M
         ORA     A
         JZ      LISTOK          ; no blank at the line's end
         MVI     A,CBLANK
         JMP     LIST1
-
-LISNAM: MOV     D,A
-        CPI     TSUB
-        JNC     LISSUB
-        POP     H
-        ANI     3
+LIST4:  CPI     TSUB
+        JNC     LIST5
+        MOV     D,A
+        RRC
+        RRC
+        CALL    PRLET
         MOV     E,M
         INX     H
-        XCHG                    ; E = subscript, low part
-        MOV     C,L
-        MOV     L,H             ; first byte
-        MOV     B,A
-        MOV     A,L
-        ANI     7FH
-        RRC
-        RRC
-        CALL    LISLET
-        XCHG
-        MOV     D,B
-        MOV     E,C
         MOV     A,D
+        ANI     3
+        MOV     D,A             ; DE = subscript
         ORA     E
         JZ      LISTOK          ; P0 is P
-LISDEC: PUSH    H
+        PUSH    H
         XCHG
         CALL    PRDEC
         POP     H
         JMP     LISTOK
-LISSUB: POP     H
-        CALL    LISLET
+LIST5:  CALL    PRLET
         MVI     A,CLBRK
         JMP     LIST1
 
-; LISLET - prints the letter with index A
-LISLET: PUSH    H
-        ANI     0FH
-        LXI     H,LETTAB
-        CALL    ADDA
-        MOV     A,M
-        RST     2
+; PRLET - prints the letter with index A (low half)
+; PRWORD - prints the word with token B
+; Clobbers A, B
+PRLET:  ANI     0FH
+        ADI     TFREE+1
+        MOV     B,A
+PRWORD: PUSH    H
+        LXI     H,KEYTAB
+PRWO1:  MOV     A,B
+        DCR     B
+        CPI     TSQR
+        JZ      PRWO3
+PRWO2:  MOV     A,M             ; skip a word
+        INX     H
+        ORA     A
+        JP      PRWO2
+        JMP     PRWO1
+PRWO3:  CALL    PUTS
         POP     H
         RET
 
-LETTAB: DB      "ADRIJPOVCBTSXY"
-
-; The words in the order of their tokens, bit 7 set in the last character
+; The words in the order of their tokens, then the letters of the names; bit 7 set in the
+; last character
 KEYTAB: DB      "SQ",0D2H       ; SQR
         DB      "SI",0CEH       ; SIN
         DB      "CO",0D3H       ; COS
@@ -322,3 +281,7 @@ KEYTAB: DB      "SQ",0D2H       ; SQR
         DB      "LOA",0C4H      ; LOAD
         DB      "SAV",0C5H      ; SAVE
         DB      "FRE",0C5H      ; FREE
+        DB      0C1H,0C4H,0D2H,0C9H,0CAH                ; A D R I J
+        DB      0D0H,0CFH,0D6H                          ; P O V
+        DB      0C3H,0C2H,0D4H                          ; C B T
+        DB      0D3H,0D8H,0D9H                          ; S X Y

@@ -12,28 +12,26 @@ TXTP    EQU     MWORK           ; next token
 PEND    EQU     MWORK+2         ; end of the program
 VBOT    EQU     MWORK+4         ; lowest byte of the variables
 VTOP    EQU     MWORK+6         ; last byte of RAM
-CURLIN  EQU     MWORK+8         ; number of the line that runs, 0FFFFH: none
-CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: at the prompt
-OUTSEL  EQU     MWORK+11        ; bit 0 paper, bit 1 punch (CHKF and OUTSEL are set together)
-LASTC   EQU     MWORK+12        ; last character on the paper
-KEYB    EQU     MWORK+13        ; key typed ahead
-LOADF   EQU     MWORK+14        ; 1: lines come from the reader
-NXTP    EQU     MWORK+25        ; the line to run next
+NXTP    EQU     MWORK+8         ; the line to run next, 0: none, the line is a direct one
+CURLIN  EQU     MWORK+10        ; number of the line that runs
+CHKF    EQU     MWORK+12        ; 0: statements work; 1: they are only parsed; 2: at the prompt
+OUTSEL  EQU     MWORK+13        ; bit 0 paper, bit 1 punch; bit 2: INPUT waits for an answer
+KEYB    EQU     MWORK+14        ; key typed ahead
+LOADF   EQU     MWORK+15        ; 1: lines come from the reader
+LASTC   EQU     MWORK+16        ; last character on the paper
 LINUM   EQU     MWORK+17        ; number of the line typed, 0: none
 LSTTO   EQU     MWORK+19        ; last line to list
-SIGNED  EQU     MWORK+21        ; SIGNAT when the RAM holds a program
-DATP    EQU     MWORK+23        ; in front of the next DATA item: its comma, or a line's last byte
-INPF    EQU     MWORK+15        ; not 0: INPUT waits for an answer
-INPNAM  EQU     MWORK+27        ; for this name
-INPTXT  EQU     MWORK+29        ; TXTP while it does
-GSP     EQU     MWORK+31        ; GOSUB stack: low byte of its pointer, upwards
-GSTK    EQU     MWORK+32        ; 12 lines to go back to
-GSTKE   EQU     MWORK+56
+DATP    EQU     MWORK+21        ; in front of the next DATA item: its comma, or a line's last byte
+INPNAM  EQU     MWORK+23        ; name that INPUT asks for
+INPTXT  EQU     MWORK+25        ; TXTP while it does
+SIGNED  EQU     MWORK+27        ; SIGNAT when the RAM holds a program
+GSP     EQU     MWORK+29        ; top of the GOSUB stack
+GSTK    EQU     MWORK+31        ; 12 lines to go back to, downwards
+GSTKE   EQU     MWORK+55
 
 SIGNAT  EQU     0A55AH
 TOKS    EQU     2300H           ; the typed line's tokens, at a page's start in TOKBUF
-TOKROM  EQU     176             ; how many bytes of them
-LINEND  EQU     TOKS-1          ; end of LINBUF
+TOKROM  EQU     176             ; how many bytes of them; LINBUF reaches up to TOKS
 LASTLN  EQU     9999            ; greatest line number
 LIF     EQU     7FH             ; M63: left side of IF
 SIF63   EQU     0BFH
@@ -52,23 +50,17 @@ CLOWZ   EQU     7AH             ; z
 ; ERR - prints the error, after what belongs before it, and goes to READY
 ; In:  A = number, the stack empty
 ERR:    MOV     B,A
-        LXI     H,INPF
+        LXI     H,OUTSEL
         MOV     A,M
-        MVI     M,0
-        ORA     A
-        MOV     A,B
+        MVI     M,1
+        ANI     4
         JZ      ERR1
+        MOV     A,B
         CPI     EMEM
         JC      ASKAGN          ; a wrong answer
-ERR1:   PUSH    PSW
+ERR1:   PUSH    B
         XRA     A
         STA     LOADF
-        LXI     H,CHKF
-        MOV     A,M
-        MVI     M,2             ; (an error while the mark is sought ends in ERR2)
-        INX     H
-        MVI     M,1
-        MOV     B,A
         IF      PTTY
         MVI     A,CDC4
         RST     2
@@ -76,35 +68,33 @@ ERR1:   PUSH    PSW
         LDA     LASTC
         CPI     CLF
         CNZ     CRLF
-        LXI     H,ERR2
-        PUSH    H
-        DCR     B
-        JM      ROUTER          ; while working: the route ends
+        LXI     H,CHKF
+        MOV     A,M
+        MVI     M,2             ; (an error while MARK works needs no mark)
+        DCR     A
         CZ      MARK            ; while parsing: show the place
-        RET
-ERR2:   CALL    PUTSI
+        CM      ROUTER          ; while working: the route ends
+        CALL    PUTSI
         DB      "ERR",0A0H
         POP     PSW
         ORA     A
         DAA
         CALL    PUT2D
-        LHLD    CURLIN
-        INX     H
-        MOV     A,H
-        ORA     L
-        JZ      ERR3
-        DCX     H
+        LDA     NXTP+1
+        ORA     A
+        JZ      ERR2
         CALL    PUTSI
         DB      " LINE",0A0H
+        LHLD    CURLIN
         CALL    PRDEC
-ERR3:   CALL    CRLF
+ERR2:   CALL    CRLF
 ; (fall into READY)
 
 ; READY - the prompt: takes lines for ever
 READY:  LXI     SP,STKTOP
         CALL    CALINI
-        LXI     H,-1
-        SHLD    CURLIN
+        LXI     H,0
+        SHLD    NXTP
         LDA     LOADF
         XRI     1
         MOV     H,A
@@ -113,20 +103,18 @@ READY:  LXI     SP,STKTOP
         MVI     A,CPRMPT
         RST     2
         CALL    GETLIN
-        LXI     H,TOKS
-        SHLD    TXTP
         LXI     H,1
         SHLD    CHKF            ; parse only, print nothing
-        CALL    LEX
+        CALL    LEXALL
         LXI     H,-TOKS-TOKROM-1
         DAD     D
         JC      ERMEM
         PUSH    D               ; -> behind the tokens
         RST     6
         JZ      READY
-        CPI     TINT+1
         LXI     H,0
-        JNC     READ1           ; no number: a direct line
+        CPI     TFLT
+        JNZ     READ1           ; no number: a direct line
         CALL    LINENO
         PUSH    H
         DCX     H
@@ -135,131 +123,103 @@ READY:  LXI     SP,STKTOP
         POP     H
         JC      ERSYN
 READ1:  SHLD    LINUM
-        SHLD    NXTP            ; 0 for a direct line: nothing runs after it
-        MOV     A,H
-        ORA     L
         LHLD    TXTP
         PUSH    H               ; -> the statement
-        JZ      READ2
-        RST     3
-        JZ      CHKED           ; the number alone
-        CPI     TRUN
-        JNC     ERSYN           ; commands do not go into a program
-        POP     H
-        PUSH    H
-        SHLD    TXTP
-READ2:  CALL    STMT
+        RST     6
+        CNZ     STMT
 ; (fall into CHKED)
 
 ; CHKED - the line is understood: stores it or carries it out
 CHKED:  LXI     SP,STKTOP-4
         POP     H
         SHLD    TXTP
-        LXI     H,0100H
-        SHLD    CHKF
         LHLD    LINUM
         MOV     A,H
         ORA     L
-        JZ      RUNST
+        JZ      DIRECT
 ; (fall into STORE)
 
 ; STORE - puts the line into the program, or takes it out
 ; In:  HL = its number, TXTP-> its tokens, on the stack: -> behind them
 STORE:  XCHG                    ; DE = number
         POP     B
-        LHLD    TXTP
-        MOV     A,M
+        RST     3
+        CPI     TRUN
+        JNC     ERSYN           ; commands do not go into a program
+        DCX     H
+        DCX     H
+        MOV     M,D             ; the record's head takes the place of the number token
+        DCX     H
+        MOV     M,E
+        DCX     H
         ORA     A
-        JZ      STO1            ; length 0: take it out
+        JZ      STOR1           ; the number alone: no record
         MOV     A,C
         SUB     L
-        ADI     3
-STO1:   MOV     C,A
-        MVI     B,0             ; BC = length of the record
-        PUSH    D
-        LHLD    VBOT
-        XCHG
-        LHLD    PEND
-        DAD     B
-        CALL    CPHD
-        JNC     ERMEM
-        POP     D
-        PUSH    B
+STOR1:  MOV     M,A
+        MOV     C,A             ; C = length
+        PUSH    H
         CALL    FINDLN          ; HL-> its place
-        CZ      DELREC
-        POP     B
-        MOV     A,C
-        ORA     A
-        JZ      STO9
-        PUSH    B
-        CALL    TAIL            ; BC = bytes to move up
-        LHLD    PEND
-        XCHG
-        POP     H
-        DAD     D
-        SHLD    PEND
-STO2:   LDAX    D
-        MOV     M,A
-        DCX     D
-        DCX     H
-        DCX     B
-        MOV     A,B
-        ORA     C
-        JNZ     STO2
-        MOV     A,L
-        SUB     E               ; A = length again
-        INX     D
-        XCHG
-        MOV     M,A
-        XCHG
-        LHLD    LINUM
-        XCHG
-        INX     H
-        MOV     M,E
-        INX     H
-        MOV     M,D
-        INX     H
-        XCHG
-        LHLD    TXTP
-        XCHG
-        SUI     3
-        CALL    COPY
-STO9:   CALL    RTNEW           ; the route buffer began at PEND
-        CALL    CLRPTR
-        JMP     READY
-
-; DELREC - takes a record out of the program
-; In:  HL-> it   Out: HL kept   Clobbers A, BC, DE
-DELREC: PUSH    H
+        MVI     A,0
+        JNZ     STOR2
+        MOV     A,M             ; A = length of the line that it replaces
+STOR2:  PUSH    H
         MOV     D,H
         MOV     E,L
-        MOV     A,M
         CALL    ADDA
-        CALL    TAIL
-DELR1:  MOV     A,M
-        STAX    D
-        INX     H
-        INX     D
+        XCHG                    ; DE-> the program behind it
+        MOV     A,C
+        CALL    ADDA            ; HL-> where that must go
+        LDA     PEND
+        SUB     E
+        MOV     C,A
+        LDA     PEND+1
+        SBB     D
+        MOV     B,A
+        INX     B               ; BC = its length
+        PUSH    D
+        PUSH    H
+        DAD     B
+        DCX     H
+        XCHG
+        LHLD    VBOT
+        XCHG
+        CALL    CPHD
+        JNC     ERMEM
+        SHLD    PEND
+        POP     H
+        POP     D
+        CALL    CPHD
+        JC      STOR4
+        DAD     B               ; move up: last byte first
+        XCHG
+        DAD     B
+        XCHG
+STOR3:  DCX     D
+        DCX     H
+        LDAX    D
+        MOV     M,A
         DCX     B
         MOV     A,B
         ORA     C
-        JNZ     DELR1
-        XCHG
-        DCX     H
-        SHLD    PEND
-        POP     H
-        RET
-
-; TAIL - length of the program from HL on, its end byte included
-; In:  HL   Out: BC   Clobbers A
-TAIL:   LDA     PEND
-        SUB     L
-        MOV     C,A
-        LDA     PEND+1
-        SBB     H
-        MOV     B,A
-        INX     B
-        RET
+        JNZ     STOR3
+        JMP     STOR5
+STOR4:  LDAX    D               ; move down
+        MOV     M,A
+        INX     D
+        INX     H
+        DCX     B
+        MOV     A,B
+        ORA     C
+        JNZ     STOR4
+STOR5:  POP     H
+        POP     D
+        LDAX    D
+        ORA     A
+        CNZ     COPY
+        CALL    RTNEW           ; the route buffer began at PEND
+        CALL    CLRPTR
+        JMP     READY
 
 ; FINDLN - finds a line
 ; In:  DE = number
@@ -293,17 +253,13 @@ CPHD:   MOV     A,H
 
 ; LINENO - takes a line number
 ; In:  TXTP   Out: HL = number, 0...65535; ERR 01   Clobbers all
-LINENO: RST     6
-        JZ      LINEN1
-        CPI     TINT+1
-        JNC     LINEN1
-        CALL    OPND
+LINENO: RST     4
+        DB      TFLT
+        CALL    OPFLT
         LXI     H,MA
         CALL    FTOI16
         RNC
         JMP     ERSYN
-LINEN1: RST     4               ; nothing will do
-        DB      0FFH
 
 ; OPTLN - takes a line number, if there is one, and demands the statement's end
 ; Out: DE = number, else 0   Clobbers all
@@ -322,38 +278,37 @@ LNEND1: PUSH    H
 
 ; SRETN - statement: RETURN
 SRETN:  RST     7
-        LDA     GSP
-        CPI     GSTK & 255
-        JZ      ERLINE
-        MOV     L,A
-        MVI     H,GSTK / 256
-        DCX     H
-        MOV     D,M
-        DCX     H
-        MOV     E,M
+        LHLD    GSP
         MOV     A,L
-        STA     GSP
+        CPI     GSTKE & 255
+        JZ      ERLINE
+        MOV     E,M
+        INX     H
+        MOV     D,M
+        INX     H
+        SHLD    GSP
         XCHG
         JMP     RUN1
 
 ; SGOSUB - statement: GOSUB n
 SGOSUB: CALL    LNEND
-        LDA     GSP
-        CPI     GSTKE & 255
-        JZ      ERLINE
         PUSH    D
-        XCHG
         LHLD    NXTP
         XCHG
-        MOV     L,A
-        MVI     H,GSTK / 256
-        MOV     M,E
-        INX     H
-        MOV     M,D
-        INX     H
+        LHLD    GSP
         MOV     A,L
-        STA     GSP
+        CPI     GSTK & 255
+        JZ      ERLINE
+        DCX     H
+        MOV     M,D
+        DCX     H
+        MOV     M,E
+        SHLD    GSP
         POP     D
+        JMP     GOLINE
+
+; SGOTO - statement: GOTO n
+SGOTO:  CALL    LNEND
         JMP     GOLINE
 
 ; SRUN - command: RUN, RUN n
@@ -365,10 +320,6 @@ SRUN:   CALL    OPTLN
         MOV     A,D
         ORA     E
         JZ      RUN1
-        JMP     GOLINE
-
-; SGOTO - statement: GOTO n
-SGOTO:  CALL    LNEND
 ; (fall into GOLINE)
 
 ; GOLINE - goes on with a line
@@ -387,23 +338,22 @@ RUNLP:  LXI     SP,STKTOP
         MOV     A,M
         ORA     A
         JZ      END1            ; past the last line
-        MOV     B,H
-        MOV     C,L
+        PUSH    H
         CALL    ADDA
         SHLD    NXTP
-        INX     B
-        LDAX    B
-        MOV     L,A
-        INX     B
-        LDAX    B
-        MOV     H,A
-        INX     B
-        SHLD    CURLIN
-        MOV     H,B
-        MOV     L,C
+        POP     H
+        INX     H
+        MOV     E,M
+        INX     H
+        MOV     D,M
+        INX     H
         SHLD    TXTP
+        XCHG
+        SHLD    CURLIN
         CALL    BREAK
-RUNST:  CALL    STMT
+DIRECT: LXI     H,0100H
+        SHLD    CHKF            ; (nothing new to a line of the program)
+        CALL    STMT
         JMP     RUNLP
 
 ERLINE: RST     1
@@ -476,28 +426,25 @@ END1:   CALL    CENDST
         JMP     READY
 
 ; SPRINT - statement: PRINT item, item ...
-SPRINT: RST     6
-        JZ      SPRI3
+SPRINT: LXI     H,CRLF
+        PUSH    H               ; comes last
+        RST     6
+        JZ      CHKEND
 SPRI1:  RST     6
         CPI     CQUOTE
-        JZ      SPRI4
+        JZ      SPRI3
         CALL    EVAL
         CALL    PRVAL
-SPRI2:  RST     6
-        CPI     CCOMMA
-        JNZ     SPRI3
-        RST     3
+SPRI2:  CALL    MORE
         MVI     A,CBLANK
         RST     2
         JMP     SPRI1
-SPRI3:  RST     7
-        JMP     CRLF
-SPRI4:  RST     3               ; the quote
-SPRI5:  RST     3
+SPRI3:  RST     3               ; the quote
+SPRI4:  RST     3
         CPI     CQUOTE
         JZ      SPRI2
         RST     2
-        JMP     SPRI5
+        JMP     SPRI4
 
 ; MORE - in a list: takes the comma; where there is none the statement must end, and
 ;        the routine that called is left
@@ -525,15 +472,14 @@ REST1:  DCX     H
 
 ; SREAD - statement: READ name, ...
 SREAD:  CALL    GETREF
-        LDA     CHKF
-        ORA     A
-        CZ      READI
+        CALL    READI
         CALL    MORE
         JMP     SREAD
 
 ; READI - gives a name the next DATA item
 ; In:  DE = name; ERR 08   Clobbers all
-READI:  PUSH    D
+READI:  CALL    CHKRET
+        PUSH    D
         LHLD    DATP
         MOV     A,M
         CPI     CCOMMA
@@ -571,12 +517,9 @@ ERDATA: RST     1
 ; SINPUT - statement: INPUT name, ...; a direct one asks for one name, its line being
 ;          overwritten by the answer
 SINPUT: CALL    GETREF
+        CALL    ASK
+SINP1:  LXI     H,NXTP+1
         LDA     CHKF
-        ORA     A
-        CZ      ASK
-SINP1:  LDA     CURLIN+1
-        INR     A
-        LXI     H,CHKF
         ORA     M
         RZ
         CALL    MORE
@@ -589,28 +532,27 @@ ASKAGN: LXI     H,RUNLP
         PUSH    H
         JMP     ASK1
 
-; ASK - asks for a value, until there is a right one
+; ASK - asks for a value
 ; In:  DE = name   Clobbers all
-ASK:    XCHG
+ASK:    CALL    CHKRET
+        XCHG
         SHLD    INPNAM
         LHLD    TXTP
         SHLD    INPTXT
-ASK1:   MVI     A,0FFH
-        STA     INPF
+ASK1:   MVI     A,5
+        STA     OUTSEL
         CALL    PUTSI
         DB      "?",0A0H
         CALL    GETLIN
-        LXI     H,TOKS
-        SHLD    TXTP
-        CALL    LEX
+        CALL    LEXALL
         CALL    EVAL
         RST     4
         DB      TEOL
         LHLD    INPNAM
         XCHG
         CALL    SETREF
-        XRA     A
-        STA     INPF
+        MVI     A,1
+        STA     OUTSEL
         LHLD    INPTXT
         SHLD    TXTP
         RET
@@ -690,8 +632,8 @@ CLEAR:  CALL    CLRVAR
 
 ; CLRPTR - forgets what points into the program: DATA at its start, no GOSUB
 ; Clobbers A, HL
-CLRPTR: MVI     A,GSTK & 255
-        STA     GSP
+CLRPTR: LXI     H,GSTKE
+        SHLD    GSP
         LXI     H,PROG
         JMP     REST1
 
@@ -724,24 +666,19 @@ FREE1:  LHLD    PEND
         JMP     CRLF
 
 ; MARK - prints the typed line again and a mark under the end of the token in front of TXTP
-; Clobbers all
+; Out: sign flag clear   Clobbers all
 MARK:   LXI     H,LINBUF
-MARK1:  MOV     A,M
-        ORA     A
-        JZ      MARK2
-        RST     2
-        INX     H
-        JMP     MARK1
-MARK2:  CALL    CRLF
+        CALL    PUTS
+        CALL    CRLF
         CALL    LEX
         MOV     A,L
-        SUI     (LINBUF+1) & 255
+        SUI     LINBUF & 255
         MOV     B,A
         MVI     A,CBLANK
-MARK3:  DCR     B
-        JM      MARK4
+MARK1:  DCR     B
+        JZ      MARK2
         RST     2
-        JMP     MARK3
-MARK4:  MVI     A,CMARK
+        JMP     MARK1
+MARK2:  MVI     A,CMARK
         RST     2
         JMP     CRLF

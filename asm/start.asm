@@ -89,7 +89,6 @@ RESET:  LXI     SP,STKTOP
         CALL    IOINIT
         LXI     H,0
         SHLD    KEYB            ; and LOADF
-        SHLD    INPF
         INR     H               ; no check mode, paper on
         SHLD    CHKF
         LXI     H,RAM
