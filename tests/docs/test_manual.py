@@ -1,4 +1,4 @@
-"""What docs/language.md shows is what happens; run as a program, this writes the page and its pictures anew.
+"""What docs/language.md and the README show is what happens; run as a program, this writes them anew.
 
 A fence ```skg holds a program; the fences ```paper and ```tape after it what it prints and punches. A word
 behind ```skg names its picture, `input=` what the operator answers. A fence ```prompt holds lines that begin
@@ -208,7 +208,22 @@ def test_operations_on_the_board(tmp_path: Path) -> None:
     assert paper.splitlines() == [row["result"] for row in table]
 
 
-# Writing the page anew
+def said_by_the_board(session: str) -> str:
+    """A session as the board's paper shows it, from the first prompt on, when these lines are typed."""
+    typed = "".join(f"{line[1:]}\r" for line in session.splitlines() if line.startswith(">"))
+    done = subprocess.run([SKG80, "--rom", ROM], input=typed.encode(), capture_output=True, timeout=60,
+                          check=False)
+    paper = done.stdout.decode().replace("\r", "")
+    return paper[paper.index(">"):].removesuffix(">")
+
+
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+def test_readme_session() -> None:
+    session = next(fence["body"] for fence in FENCE.finditer(README.read_text()) if fence["kind"] == "prompt")
+    assert said_by_the_board(session) == session
+
+
+# Writing the pages anew
 
 def rewritten(page: str) -> str:
     """The page with every result in its place."""
@@ -245,6 +260,9 @@ if __name__ == "__main__":
     import tempfile
 
     PAGE.write_text(rewritten(PAGE.read_text()))
+    if ROM.exists() and SKG80.exists():
+        README.write_text(FENCE.sub(
+            lambda fence: f"```prompt\n{said_by_the_board(fence['body'])}```", README.read_text()))
     for number in rows(ERROR):
         if error_of(number["example"]) != int(number["number"]):
             sys.exit(f"{PAGE}: example of error {number['number']} ends in {error_of(number['example'])}")
