@@ -1,12 +1,19 @@
 # SKG: `make run` cuts an example before your eyes, `make test` checks everything.
+#
+#   make          the emulator, build/skg80: needs gcc alone
+#   make rom      roms/skg.bin .hex .lst .sym from asm/: needs Python and node
+#   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
 PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python
+PART   ?= examples/xy-fig1-loop.skg
 
 all: emu
 
 include emu/emu.mk
 include asm/asm.mk
+include tools/tools.mk
+-include tests/floats/floats.mk
 
 # The virtual environment of the host tools and tests, made anew when the pinned list changes.
 venv: $(VENV)/.stamp
@@ -15,7 +22,27 @@ $(VENV)/.stamp: tools/pyproject.toml
 	$(PY) -m pip install -q --disable-pip-version-check -e 'tools[test]'
 	touch $@
 
+# The program, then the teletype's paper with the blocks as they are punched, then what it took.
+run: build/skg80
+	@echo "The program $(PART):"
+	@echo
+	@cat $(PART)
+	@echo
+	@echo "The teletype's paper:"
+	@build/skg80 --stats --punch build/run.3b $(PART)
+	@echo
+	@echo "The tape is in build/run.3b."
+
+test: venv asm80 emu tools
+	$(PY) -m pytest -q -n 2 tests
+	$(VENV)/bin/ruff check --config tools/pyproject.toml tools asm tests
+
+bench: bench-emu $(if $(wildcard tests/floats/floats.mk),bench-floats) bench-rom
+
+bench-rom: venv emu
+	@$(PY) tests/rom/bench.py
+
 clean:
 	rm -rf build
 
-.PHONY: all venv clean
+.PHONY: all venv run test bench bench-rom clean

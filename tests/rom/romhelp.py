@@ -17,9 +17,7 @@ ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 
 #: A program that is still at work after so many cycles (16 minutes of the 2 MHz board) hangs.
-PATIENCE = 2_000_000_000
-#: LOAD waits this long (2 s) for a reader that has stopped; the tests' tapes end in ctrl-Z, or wait for it.
-READER_STOPS = 20_000_000
+RUN_LIMIT = 2_000_000_000
 
 ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
 BLOCK = re.compile(r"\d{4} B\d+B\d+B\d+G[XY](L|NR|SR)[1-4]|DD?")
@@ -49,7 +47,7 @@ class Board:
         """What is printed after a line has been typed, up to the next prompt, its echo left out."""
         start = len(self.machine.tty)
         self.machine.type(f"{line}\r")
-        reason = self.machine.run(PATIENCE)
+        reason = self.machine.run(RUN_LIMIT)
         paper = self.machine.tty[start:]
         assert reason == "prompt", f"{line!r} ends in {reason}: {paper[-300:]!r}"
         return paper.removesuffix(">").split("\r\n")[1:-1]
@@ -70,7 +68,7 @@ class Board:
         if fault(printed) is None:
             start = len(self.machine.tty)
             self.machine.type("RUN\r" + "".join(f"{answer}\r" for answer in answers))
-            reason = self.machine.run(PATIENCE)
+            reason = self.machine.run(RUN_LIMIT)
             assert reason == "prompt", f"RUN ends in {reason}: {self.machine.tty[-300:]!r}"
             printed += self.machine.tty[start:].removesuffix(">").split("\r\n")[1:-1]
         words = [line for line in printed if line not in ("", ">") and not BLOCK.fullmatch(line)]

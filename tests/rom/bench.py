@@ -1,0 +1,45 @@
+"""What the examples cost: 8080 cycles a block, RAM and stack used. `make bench-rom` prints it.
+
+The limit set for the firmware is 400,000 cycles a block in the mean: a punch of 50 characters a second then never
+waits for the machine.
+"""
+
+from __future__ import annotations
+
+from romhelp import EXAMPLES, Board, fault
+
+HEADING = f"{'part':20} {'blocks':>6} {'cycles':>12} {'per block':>10} {'seconds':>8} {'RAM up to':>9} {'stack to':>8}"
+
+
+def main() -> None:
+    """Every example on a board of its own; RUN alone is counted, not LOAD."""
+    print(HEADING)
+    blocks_run = cycles_run = 0
+    worst, stack = (0.0, ""), 0xFFFF
+    for part in EXAMPLES:
+        board = Board()
+        machine = board.machine
+        board.load(part.read_text())
+        machine.watch()
+        start = machine.cycles
+        paper = board.type("RUN")
+        cycles = machine.cycles - start
+        if fault(paper):
+            print(f"{part.stem:20} ERR {fault(paper)}")
+            continue
+        blocks = machine.punch.count(b"B") // 3
+        low = machine.lowest_sp or machine.ram_end
+        print(
+            f"{part.stem:20} {blocks:6} {cycles:12,} {cycles / blocks:10,.0f} {cycles / 2e6:8.1f}"
+            f" {machine.highest_write or 0:9X} {low:8X}"
+        )
+        blocks_run, cycles_run = blocks_run + blocks, cycles_run + cycles
+        worst, stack = max(worst, (cycles / blocks, part.stem)), min(stack, low)
+    print(
+        f"mean {cycles_run / blocks_run:,.0f} cycles a block of {blocks_run} (limit 400,000), "
+        f"most {worst[0]:,.0f} ({worst[1]}), stack down to {stack:X}"
+    )
+
+
+if __name__ == "__main__":
+    main()
