@@ -24,7 +24,9 @@ RFSTP   EQU CWORK+8     ; 1 = first item was a point
 RFILW   EQU CWORK+9     ; not 0 = a fillet waits
 RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
-RMOVED  EQU CWORK+12    ; not 0 = wire positioned or moved since RUN
+RBACK   EQU CWORK+12    ; not 0 = RECUT may come: the buffer holds a route that is cut
+RBFULL  EQU CWORK+13    ; not 0 = the route has outgrown its buffer
+RMOVED  EQU CWORK+21    ; not 0 = wire positioned or moved since RUN
 RBEND   EQU CWORK+14    ; end of the route buffer, which begins behind PEND
 BLKNO   EQU CWORK+16    ; number of the last block, four decimal digits
 
@@ -46,13 +48,18 @@ RUNINI: RST     5
 ; Clobbers A, B, HL
 RTNEW:  RST     5
         DB      QMU,STL,QEND    ; -
-        LXI     H,RITEMS
-        MVI     B,RNAMED-RITEMS+1
-RTNEW1: MVI     M,0
-        INX     H
-        DCR     B
-        JNZ     RTNEW1
-        LHLD    PEND
+        CALL    RTDONE
+; (fall into RBNEW)
+
+; RBNEW - forgets the route buffer, for a new route
+; Clobbers HL
+RBNEW:  LXI     H,0
+        SHLD    RBACK           ; and RBFULL
+; (fall into RBEMP)
+
+; RBEMP - empties the route buffer
+; Clobbers HL
+RBEMP:  LHLD    PEND
         INX     H
         SHLD    RBEND
         RET
@@ -62,20 +69,15 @@ RTNEW1: MVI     M,0
 ROOM:   PUSH    D
         XCHG
         LHLD    RBEND
-        CALL    ROOM1
-        JC      ROOM2
-        LHLD    PEND
-        INX     H
-        SHLD    RBEND
-        CALL    ROOM1
+        CALL    CPHD
+        JC      ROOM1
+        MVI     A,1
+        STA     RBFULL
+        CALL    RBEMP
+        CALL    CPHD
         JNC     ERMEM
-ROOM2:  XCHG
+ROOM1:  XCHG
         POP     D
-        RET
-ROOM1:  MOV     A,L             ; CY when HL < DE
-        SUB     E
-        MOV     A,H
-        SBB     D
         RET
 
 ; SCUT - statement: CUT item, item; item ...
@@ -102,6 +104,8 @@ ITEM:   LDA     VKIND
         CPI     KTURN
         JZ      ERKIND
         CALL    SCALED
+; ITEM2 - the same for an item in the scale of the tape
+ITEM2:  CALL    RECORD
         CALL    GETR
         LDA     VKIND
         ORA     A
@@ -139,9 +143,7 @@ ITDONE: STA     RLASTP
 ITFIL:  LDA     RELEMS
         ORA     A
         JZ      ERGEO           ; before or at the entry
-        LDA     RFILW
-        ORA     A
-        JNZ     ERGEO           ; two in a row
+        CALL    NOFIL           ; two in a row
         LXI     H,MA
         CALL    FSGN
         DCR     A
@@ -151,11 +153,18 @@ ITFIL:  LDA     RELEMS
         RST     5
         DB      LA0,SFI,QRET    ; -
 
+; NOFIL - demands that no fillet waits
+; Out: ERR 06   Clobbers A
+NOFIL:  LDA     RFILW
+        ORA     A
+        RZ
+        JMP     ERGEO
+
 ; ITPNT - a point
 ITPNT:  RST     5
         DB      LA0,SDX,LA1,SDY ; -
         DB      LA0,SB0,LA1,SB1 ; -             b = D
-        DB      Q0,SB2,QEND
+        DB      Q0,SB2,Q0,SA2,QEND
         LDA     RITEMS
         ORA     A
         JZ      ITPN0
@@ -184,15 +193,13 @@ ITPN0:  RST     5               ; the first item
         DB      LDX,SQX,LDY,SQY ; -
         DB      LNR,SQR,QEND    ; -
         JMP     ITPN2
-ITPN1:  LDA     RFILW
-        ORA     A
-        JNZ     ERGEO           ; a fillet between an element and a point
+ITPN1:  CALL    NOFIL           ; a fillet between an element and a point
         RST     5
-        DB      QCA,QEND        ; -
-        LDA     CKIND
-        CALL    ONELM
+        DB      QCA,QONEL       ; -
+        DB      QJMP
+        DB      ITPN4-$
 ITPN2:  RST     5
-        DB      LDX,SPX,LDY,SPY ; -
+ITPN4:  DB      LDX,SPX,LDY,SPY ; -
         DB      QEND
         MVI     A,1
         JMP     ITDONE
@@ -229,21 +236,7 @@ NAMEIT: LDA     RLASTP
         RZ
         RST     5
         DB      LPX,SB0,LPY,SB1 ; -
-        DB      QNA,QEND        ; -
-        LDA     NKIND
-; (fall into ONELM)
-
-; ONELM - demands that a point lies on an element
-; In:  a = element, A = its kind; b = point   Out: ERR 06   Clobbers all
-ONELM:  CPI     KLIN
-        JZ      ONEL1
-        RST     5
-        DB      QDIF,QHYP       ; distance
-        DB      LA2,QABS,QSUB   ; off
-        DB      QE6D,QRET       ; -
-ONEL1:  RST     5
-        DB      QDOT,LA2,QSUB   ; off
-        DB      QE6D,QRET       ; -
+        DB      QNA,QONEL,QRET  ; -
 
 ; ADDEL - the element N follows: corner or merging, fillet
 ; In:  N; RTURN, RNAMED, RFILW, FI; first element: RFSTP, P or H   Clobbers all
@@ -329,13 +322,11 @@ FILLET: RST     5
         DB      QCRS,QSGN,LFI   ; sign FI
         DB      QMUL,QNEG       ; -fi
         DB      QDUP,SO1,SO2    ; -
-        DB      LC2,LO1,QEND    ; r -fi
-        LDA     CKIND
+        DB      QCA,LO1,QEND    ; -fi
         CALL    SENSE
         JC      ERGEO
         RST     5
-        DB      LN2,LO1,QEND    ; r -fi
-        LDA     NKIND
+        DB      QNA,LO1,QEND    ; -fi
         CALL    SENSE
         JC      ERGEO
         LXI     H,MO1
@@ -392,28 +383,28 @@ FITARC: RST     5
 ; OFFCHK - demands that the wire offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
 OFFCHK: RST     5
-        DB      LN2,LNR,QEND    ; r R
-        LDA     NKIND
+        DB      QNA,LNR,QEND    ; R
         CALL    SENSE
         RNC
         RST     1
         DB      EOFFS
 
 ; SENSE - does a circle keep its sense when it is offset?
-; In:  A = kind of the element; on the float stack r and the offset
-; Out: CY set when a circle does not; float stack without both   Clobbers all
-SENSE:  CPI     KCIR
-        JNZ     SENSE1
-        RST     5
-        DB      QOVR,QADD,QMUL  ; r*r'
-        DB      QNEAR,QSWP,QSUB  ; eps-r*r'
-        DB      QJN             ; -
+; In:  a = element, VKIND; on the float stack the offset
+; Out: CY set when a circle does not; float stack without it   Clobbers all
+SENSE:  RST     5
+        DB      QJC
+        DB      SENSE1-$
+        DB      QDRP,QJMP       ; -
+        DB      SENSE2-$
+SENSE1: DB      LA2,QADD        ; r'
+        DB      LA2,QMUL        ; r*r'
+        DB      QNEAR,QSWP,QSUB ; eps-r*r'
+        DB      QJN
         DB      SENSE2-$
         DB      QEND
         STC
         RET
-SENSE1: RST     5
-        DB      QDRP,QDRP       ; -
 SENSE2: DB      QEND
         ORA     A
         RET
@@ -485,15 +476,9 @@ NAMED2: DB      LA0,LCR,QMUL,LKX,QADD,SKX ; -
 ; Out: a0 a1 of C, b0 b1 of N   Clobbers all
 NORMS:  RST     5
         DB      LKX,SB0,LKY,SB1 ; -
-        DB      QNA,QEND        ; -
-        LDA     NKIND
-        CALL    NORMAL
-        RST     5
+        DB      QNA,QNORM       ; -
         DB      LA0,ST0,LA1,ST1 ; -
-        DB      QCA,QEND        ; -
-        LDA     CKIND
-        CALL    NORMAL
-        RST     5
+        DB      QCA,QNORM       ; -
         DB      LT0,SB0,LT1,SB1 ; -
         DB      QRET
 
@@ -501,27 +486,10 @@ NORMS:  RST     5
 ; Out: K   Clobbers all
 PATC:   CALL    PTOK
         RST     5
-        DB      QCA             ; -
         DB      LPX,SB0,LPY,SB1 ; -
-        DB      QEND
-        LDA     CKIND
-        CALL    NORMAL
-        RST     5
+        DB      QCA,QNORM       ; -             a = right normal
         DB      QJMP
         DB      NAMED2-$
-
-; NORMAL - right normal of an element at a point on it
-; In:  a = element, A = its kind; b = point   Out: a0 a1   Clobbers all
-NORMAL: CPI     KLIN
-        RZ
-        RST     5
-        DB      QDIF            ; dx dy
-        DB      QOVR,QOVR,QHYP  ; dx dy d
-        DB      LA2,QSGN,QMUL   ; dx dy +-d
-        DB      QSWP,QOVR       ; dx +-d dy +-d
-        DB      QDIV,SA1        ; dx +-d
-        DB      QDIV,SA0        ; -
-        DB      QRET
 
 ; XING - the crossing of C offset by O1 and N offset by O2, as RTURN says
 ; Out: a0 a1; ERR 06   Clobbers all
@@ -529,8 +497,6 @@ XING:   RST     5
         DB      QNA             ; -
         DB      LA2,LO2,QADD,SA2 ; -
         DB      QEND
-        LDA     NKIND
-        STA     VKIND
         LDA     RTURN
         ORA     A
         CNZ     NEGVAL
@@ -539,8 +505,10 @@ XING:   RST     5
         DB      QCA             ; -
         DB      LA2,LO1,QADD,SA2 ; -
         DB      QEND
-        LDA     CKIND
-        MOV     B,A
+        LHLD    VKIND           ; left kind
+        MOV     B,L
+        LDA     NKIND
+        STA     VKIND
         MVI     C,RSTAR
         JMP     BINOP
 
@@ -620,17 +588,13 @@ PLACE:  RST     5
         DB      LHX,SB0,LHY,SB1 ; -
         DB      QCA             ; -
         DB      LA2,LCR,QADD,SA2 ; -
-        DB      QEND
-        LDA     CKIND
-        CPI     KCIR
-        JZ      PLACE1
-        RST     5
+        DB      QJC
+        DB      PLACE1-$
         DB      QDOT,LA2,QSUB,ST0 ; -           t0 = right of C by
         DB      LB0,LT0,LA0,QMUL,QSUB,SKX ; -
         DB      LB1,LT0,LA1,QMUL,QSUB,SKY ; -
         DB      QRET
-PLACE1: RST     5
-        DB      LA1,SKY         ; -
+PLACE1: DB      LA1,SKY         ; -
         DB      LA2,QABS,LA0,QADD,SKX ; -       at the +X side
         DB      QDIF,QHYP,ST0   ; -             t0 = from the centre
         DB      QMU,LT0,QSUB    ; 1um-t0
@@ -645,17 +609,15 @@ PLACE2: DB      LA2,QABS,LT0,QDIV,ST0 ; -
 
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K   Out: A = K; ERR 06 when K lies behind A on a line   Clobbers all
-ADVANC: LDA     CKIND
-        CPI     KCIR
-        JZ      ADVAN1
-        RST     5
+ADVANC: RST     5
+        DB      QCA,QJC         ; -
+        DB      ADVAN1-$
         DB      LKY,LAY,QSUB,LC0,QMUL   ; dy*alpha
         DB      LKX,LAX,QSUB,LC1,QMUL   ; dy*alpha dx*beta
         DB      QSUB,QMU,QADD,QE6N      ; -
         DB      QEND
         JMP     ADVAN3
-ADVAN1: RST     5
-        DB      LKX,LAX,QSUB    ; dx
+ADVAN1: DB      LKX,LAX,QSUB    ; dx
         DB      LKY,LAY,QSUB    ; dx dy
         DB      QHYP,QMU,QSUB   ; chord-1um
         DB      QJN             ; -
@@ -672,7 +634,9 @@ SBACK:  CALL    CHKEND
         LDA     RELEMS
         ORA     A
         JZ      ERGEO           ; no route, or but a point
-        CALL    CLOSE
+SBACK1: CALL    CLOSE
+        MVI     A,1
+        STA     RBACK
 ; (fall into HOME)
 
 ; HOME - straight to the start hole
@@ -691,9 +655,7 @@ CLOSE:  LDA     RFSTP
         DB      LQX,SA0,LQY,SA1 ; -
         DB      LQR,SNR,QEND    ; -
         CALL    ITPNT
-        LDA     RFILW
-        ORA     A
-        JNZ     ERGEO           ; a fillet there
+        CALL    NOFIL           ; a fillet there
 CLOSE1: LXI     H,RELEMS
         DCR     M
         JZ      CLOSE4
@@ -719,17 +681,19 @@ CLOSE4: CALL    CLOSE5
         JNZ     ERGEO           ; a line alone
         CALL    WHOLE
         JMP     RTDONE
-CLOSE5: LDA     RFILW
-        ORA     A
-        JNZ     ERGEO           ; a fillet without a corner
+CLOSE5: CALL    NOFIL           ; a fillet without a corner
         RST     5
         DB      LGX,SKX,LGY,SKY ; -
         DB      QRET
 
 ; RTDONE - the route is over; the buffer keeps it for RECUT
-; Clobbers HL
-RTDONE: LXI     H,0
-        SHLD    RITEMS          ; and RELEMS
+; Clobbers B, HL
+RTDONE: LXI     H,RITEMS
+        MVI     B,RBACK-RITEMS
+RTDON1: MVI     M,0
+        INX     H
+        DCR     B
+        JNZ     RTDON1
         RET
 
 ; ENDRT - ends the open route: closed when its last item is its first, else open
@@ -739,9 +703,7 @@ ENDRT:  LDA     RITEMS
         RZ
         DCR     A
         JZ      ERGEO           ; a single item
-        LDA     RFILW
-        ORA     A
-        JNZ     ERGEO
+        CALL    NOFIL
         CALL    SAMEL
         JZ      CLOSE
         LDA     RLASTP
@@ -808,10 +770,37 @@ ROUTER: LDA     RITEMS
 
 ; Operations of the calculator that the route adds
 
-; QCA: a = C.  QNA: a = N
-XCA:    RST     5
-        DB      LC0,SA0,LC1,SA1,LC2,SA2 ; -
+; QCA: a = C.  QNA: a = N.  VKIND with it
+XCA:    LXI     D,MCUR
+        LDA     CKIND
+        JMP     XNA1
+XNA:    LXI     D,MNEXT
+        LDA     NKIND
+XNA1:   STA     VKIND
+        LXI     H,MA
+        JMP     COPY15
+; QJC: jumps when a is a circle, not a line
+XJC:    LDA     VKIND
+        SUI     KLIN            ; CY: jump
+        JMP     OJMP1
+; QONEL: demands that the point b lies on the element a
+XONEL:  RST     5
+        DB      QJC
+        DB      XONEL1-$
+        DB      QDOT,LA2,QSUB   ; off
+        DB      QE6D,QRET       ; -
+XONEL1: DB      QDIF,QHYP       ; distance
+        DB      LA2,QABS,QSUB   ; off
+        DB      QE6D,QRET       ; -
+; QNORM: a0 a1 = right normal of the element a at the point b
+XNORM:  RST     5
+        DB      QJC
+        DB      XNORM1-$
         DB      QRET
-XNA:    RST     5
-        DB      LN0,SA0,LN1,SA1,LN2,SA2 ; -
+XNORM1: DB      QDIF            ; dx dy
+        DB      QOVR,QOVR,QHYP  ; dx dy d
+        DB      LA2,QSGN,QMUL   ; dx dy +-d
+        DB      QSWP,QOVR       ; dx +-d dy +-d
+        DB      QDIV,SA1        ; dx +-d
+        DB      QDIV,SA0        ; -
         DB      QRET

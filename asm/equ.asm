@@ -238,6 +238,12 @@ LQR     EQU 07BH
 SQR     EQU 0BBH        ; M59 its wire offset
 LTL     EQU 07CH
 STL     EQU 0BCH        ; M60 how far curves may cross and still be taken as touching, mm
+LRA     EQU 07DH        ; M61, M62, M63: what SYM and REP do to items
+SRA     EQU 0BDH
+LRX     EQU 07EH
+SRX     EQU 0BEH
+LRY     EQU 07FH
+SRY     EQU 0BFH
 MNR     EQU RAM+100
 MO1     EQU RAM+235
 MBX     EQU RAM+280

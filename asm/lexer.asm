@@ -91,9 +91,10 @@ LEXW4:  LDAX    D               ; to the next word
         JNZ     LEXW1
         POP     D
         JMP     LEX2
-LEX4:   SUI     CDOT            ; . / 0 ... 9
-        CPI     CCOLON-CDOT
-        JC      LEXNUM
+LEX4:   CPI     CDOT
+        JZ      LEXNUM
+        CPI     CZERO
+        JNC     LEXNUM
 LEX2:   INX     H               ; the character stands for itself
         INX     D
         JMP     LEX1

@@ -21,7 +21,10 @@ QCA     EQU QOWN+14     ; ->      a = C
 QNA     EQU QOWN+15     ; ->      a = N
 QRND    EQU QOWN+16     ; mm -> whole um
 QVK     EQU QOWN+17     ; ->      V = K in whole um
+QJC     EQU QOWN+18     ; ->      jump when a is a circle
+QONEL   EQU QOWN+19     ; ->      ERR 06 when the point b is not on the element a
+QNORM   EQU QOWN+20     ; ->      a0 a1 = right normal of a at the point b
 
         DW      XDOT,XCRS,XDIF,XHYP,XCEN,XREFL,XROTV,XTCH
         DW      XSGN,XMAX,XE6N,XE6D,XE6Z,XE5Z
-        DW      XCA,XNA,XRND,XVK
+        DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM

@@ -1,6 +1,270 @@
-; repeat.asm - statements that do not work yet: ERR 01
-SSCALE:
-SSYM:
-SREP:
-SRECUT:
+; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
+; Offers: SSYM SREP SRECUT SSCALE, RECORD
+; Uses:   cut (ITEM2, CLOSE, HOME), parser, geom
+; Room:   300 bytes
+;
+; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
+; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
+; the scale of the tape.  It goes on from BACK to the next route, for RECUT.  A route
+; that has outgrown it (RBFULL) is cut all the same.
+
+RSRC    EQU CWORK+22    ; -> item to feed
+RSTOP   EQU CWORK+24    ; -> behind the last one
+RJOIN   EQU CWORK+26    ; turn at the corner that SYM or REP makes
+ROP     EQU CWORK+27    ; operation on the items: rank
+ROPK    EQU CWORK+28    ; and kind of its right operand
+RTIMES  EQU CWORK+29    ; its first number is multiplied by this
+RCOUNT  EQU CWORK+31    ; copies that are wanted
+
+; RECORD - notes an item in the route buffer
+; In:  a0 a1 a2, VKIND, RTURN, RITEMS   Clobbers all
+RECORD: LDA     RITEMS
+        ORA     A
+        CZ      RBNEW           ; a new route
+        LDA     RBFULL
+        ORA     A
+        RNZ
+        LHLD    RBEND
+        LXI     D,16
+        DAD     D
+        XCHG
+        LHLD    VBOT
+        CALL    CPHD
+        JC      RECO2
+        XCHG
+        LXI     D,-16
+        DAD     D
+        LDA     RTURN
+        ADI     0FFH            ; CY: right
+        LDA     VKIND
+        RAL
+        RRC                     ; bit 7
+        MOV     M,A
+        INX     H
+        LXI     D,MA
+        CALL    COPY15
+        SHLD    RBEND
+        RET
+RECO2:  MVI     A,1
+        STA     RBFULL
+        RET
+
+; FETCH - an item of the buffer as the value
+; In:  RSRC; bit 7 of A: its corner turns right   Out: a0 a1 a2, VKIND, RTURN
+; Clobbers A, DE, HL
+FETCH:  LXI     H,RTURN         ; (a fillet may have said so before)
+        ANI     80H
+        ORA     M
+        MOV     M,A
+        LHLD    RSRC
+        MOV     A,M
+        ANI     7FH
+        STA     VKIND
+        INX     H
+        XCHG
+        LXI     H,MA
+        JMP     COPY15
+
+; IMAGE - feeds the item at RSRC, mirrored or turned
+; In:  bit 7 of A: its corner turns right   Clobbers all
+IMAGE0: XRA     A
+IMAGE:  CALL    FETCH
+        LDA     VKIND
+        ORA     A
+        JZ      IMAG1
+        LHLD    RTIMES
+        LXI     D,MT0
+        CALL    FITOF
+        RST     5
+        DB      LRA,LT0,QMUL,SB0 ; -
+        DB      LRX,SB1,LRY,SB2 ; -
+        DB      QEND
+        LHLD    ROP             ; L = rank, H = kind
+        LDA     VKIND
+        MOV     B,A
+        MOV     C,L
+        MOV     A,H
+        STA     VKIND
+        CALL    BINOP
+        JMP     ITEM2
+IMAG1:  LDA     RFILW
+        ORA     A
+        RNZ                     ; one waits already
+        JMP     ITEM2
+
+; OPENRT - demands an open route that is in memory whole
+; Out: RSTOP, HL = its first item = RSRC   ERR 06, ERR 09   Clobbers A
+OPENRT: LDA     RITEMS
+        ORA     A
+        JZ      ERGEO
+OPENR1: LDA     RBFULL
+        ORA     A
+        JNZ     ERMEM
+        LHLD    RBEND
+        SHLD    RSTOP
+OPENR2: LHLD    PEND
+        INX     H
+        SHLD    RSRC
+        RET
+
+; STEP - to the next item
+; Out: HL = RSRC, Z: that is RSTOP   Clobbers A, DE
+STEP:   LXI     D,16
+        LHLD    RSRC
+        DAD     D
+        SHLD    RSRC
+        XCHG
+        LHLD    RSTOP
+        XCHG
+        JMP     CPHD
+
+; JOINT - takes the ";" that SYM and REP may begin with
+; Out: RJOIN   Clobbers A, HL
+JOINT:  RST     6
+        CPI     CSEMI
+        MVI     A,0
+        JNZ     JOINT1
+        RST     3
+        MVI     A,80H
+JOINT1: STA     RJOIN
+        RET
+
+; SREP - statement: REP n, angle or turn
+SREP:   CALL    JOINT
+        CALL    EVINT
+        PUSH    H
+        RST     4
+        DB      CCOMMA
+        CALL    EVAL
+        POP     B
+        RST     7
+        MOV     A,B
+        ORA     C
+        JZ      ERRNG
+        MOV     H,B
+        MOV     L,C
+        SHLD    RCOUNT
+        LDA     VKIND
+        ORA     A
+        JZ      SREP1
+        CPI     KTURN
+        JNZ     ERKIND
+SREP1:  RST     5
+        DB      LA0,SRA         ; -
+        DB      LA1,LSC,QMUL,SRX ; -
+        DB      LA2,LSC,QMUL,SRY ; -
+        DB      QEND
+        LXI     H,KTURN*256+2   ; #
+        SHLD    ROP
+        LXI     H,0
+        SHLD    RTIMES
+        CALL    OPENRT
+SREP2:  LHLD    RCOUNT
+        DCX     H
+        SHLD    RCOUNT
+        MOV     A,H
+        ORA     L
+        RZ
+        LHLD    RTIMES
+        INX     H
+        SHLD    RTIMES
+        CALL    OPENR2
+        LDA     RJOIN
+        JMP     SREP4
+SREP3:  MOV     A,M
+SREP4:  CALL    IMAGE
+        CALL    STEP
+        JNZ     SREP3
+        JMP     SREP2
+
+; SSYM - statement: SYM line
+; The items come last to first, each with the turn of the one behind it; a fillet stays
+; behind a point, and between two elements.
+SSYM:   CALL    JOINT
+        CALL    EVAL
+        RST     7
+        LDA     VKIND
+        CPI     KLIN
+        JNZ     ERKIND
+        RST     5
+        DB      LA0,SRA,LA1,SRX ; -
+        DB      LA2,LSC,QMUL,SRY ; -
+        DB      QEND
+        LXI     H,KLIN*256+7    ; /
+        SHLD    ROP
+        LXI     H,1
+        SHLD    RTIMES
+        LDA     RELEMS
+        ORA     A
+        JZ      ERGEO           ; but a point
+        CALL    OPENRT
+        LHLD    RSTOP
+        SHLD    RSRC
+SYM1:   LHLD    RSRC
+        LXI     D,-16
+        DAD     D
+        SHLD    RSRC
+        XCHG
+        LHLD    PEND
+        CALL    CPHD
+        RNC                     ; that was the first
+        XCHG
+        MOV     A,M
+        ADD     A               ; 2 * kind
+        JNZ     SYM2
+        LXI     D,-16           ; a fillet
+        DAD     D
+        MOV     A,M
+        ADD     A
+        CPI     2*KPNT
+        CNZ     IMAGE0
+        JMP     SYM1
+SYM2:   MOV     A,M
+        LXI     H,RJOIN
+        MOV     B,M
+        MOV     M,A
+        MOV     A,B
+        CALL    IMAGE
+        LHLD    RSRC
+        MOV     A,M
+        ADD     A
+        CPI     2*KPNT
+        JNZ     SYM1
+        PUSH    H
+        CALL    STEP
+        JZ      SYM3
+        MOV     A,M
+        ADD     A
+        CZ      IMAGE0
+SYM3:   POP     H
+        SHLD    RSRC
+        JMP     SYM1
+
+; SRECUT - statement: RECUT
+SRECUT: RST     7
+        LDA     RBACK
+        ORA     A
+        JZ      ERGEO
+        CALL    OPENR1
+SREC1:  MOV     A,M
+        CALL    FETCH
+        CALL    ITEM2           ; (noted again where it stands)
+        CALL    STEP
+        JNZ     SREC1
+        JMP     SBACK1
+
+; SSCALE - statement: SCALE number
+SSCALE: CALL    EVNUM
+        RST     7
+        LXI     H,MA
+        CALL    FSGN
+        DCR     A
+        JNZ     ERRNG
+        LDA     RITEMS
+        ORA     A
+        JNZ     ERGEO
+        RST     5
+        DB      LA0,SSC,QRET    ; -
+
+; SFIT - statement: FIT, not there yet
 SFIT:   JMP     ERSYN

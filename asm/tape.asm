@@ -19,12 +19,11 @@ TZNUM   EQU CWORK+20    ; its number
 ; SEGMNT - the wire goes along C to K
 ; In:  C, A (entry), K, W   Out: W   Clobbers all
 SEGMNT: RST     5
-        DB      QVK,QEND        ; -
-        LDA     CKIND
-        CPI     KLIN
-        JZ      MOVE
-        RST     5
-        DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
+        DB      QVK,QCA,QJC     ; -
+        DB      SEGM1-$
+        DB      QEND
+        JMP     MOVE
+SEGM1:  DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
         DB      LKX,LC0,QSUB,SB0,LKY,LC1,QSUB,SB1 ; -
         DB      QCRS,LC2,QMUL   ; s             < 0: more than half a turn
         DB      QJMP
