@@ -1,11 +1,12 @@
 """Firmware against reference: run both, tell a difference from a close call.
 
-A 40-bit float has a mantissa of 32 bits: at 100 mm one rounding is up to 2⁻³³·128 mm = 1.5·10⁻⁵ µm. A place that
-took some dozen roundings to find may therefore be out by about 2·10⁻⁴ µm (`ROUNDING`), and a crossing at a shallow
-angle by that divided by the angle's sine. When the true place lies nearer than this to the tie between two
-micrometres, no 32-bit arithmetic can be asked to choose the right one: such a program is set aside and counted. So
-is one with any other decision that hangs on the last bits (`skg.ref.near` keeps the list), and one whose tape, paper
-or error the reference itself changes when it computes with 33 bits.
+A 40-bit float has a mantissa of 32 bits: at 100 mm one rounding is up to 2⁻³³·128 mm = 1.5·10⁻⁵ µm. A place
+that took some dozen roundings to find may therefore be out by about 2·10⁻⁴ µm (`ROUNDING`), and a crossing at
+a shallow angle by that divided by the angle's sine. Where the true place lies nearer than this to the tie
+between two micrometres, no 32-bit arithmetic can be asked to choose the right one. A program that came out
+differently is then set aside and counted. So is one with any other decision that hangs on the last bits
+(`skg.ref.near` keeps the list), and one whose tape, paper or error the reference itself changes when it
+computes with 33 bits.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from skg.ref import run as reference
 ROUNDING = 2e-4
 #: Sine of the crossing angle up to which `ROUNDING` has room enough.
 SHALLOW = 0.1
-#: Two printed numbers are equal to 7 digits, or to 10⁻⁷ of the drawing's size (100 mm) where digits cancelled.
+#: Printed numbers are equal to 7 digits, or to 10⁻⁷ of the drawing's size (100 mm) where digits cancelled.
 DIGITS = 1e-7
 SIZE = 100
 

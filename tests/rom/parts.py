@@ -237,7 +237,8 @@ def crossings(rng: Random) -> Statements:
     return [*lines, "PRINT " + ",".join(names), "R=0", "CUT " + ",".join(names[:5]), "BACK"]
 
 
-ROUTES = [points, points, open_points, arcs, arcs, belt, notched, notched, whole_circle, wheel, slots, crossings]
+#: The families, the more telling ones twice.
+ROUTES = [points, arcs, notched] * 2 + [open_points, belt, whole_circle, wheel, slots, crossings]
 
 # ---- Arithmetic ----
 
