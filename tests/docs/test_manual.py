@@ -8,6 +8,7 @@ with the prompt and what the machine says to them. The tables of operations and 
 from __future__ import annotations
 
 import re
+import runpy
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -16,6 +17,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+
 from skg.cli import cli
 from skg.ref import Result, run
 from skg.ref.operations import OPERATIONS
@@ -24,6 +26,7 @@ from skg.ref.values import C, D, P, S, T
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "language.md"
 README = ROOT / "README.md"
+FIRMWARE = ROOT / "docs" / "firmware.md"
 PICTURES = ROOT / "docs" / "pictures"
 ROM = ROOT / "roms" / "skg.bin"
 SKG80 = ROOT / "build" / "skg80"
@@ -208,6 +211,15 @@ def test_operations_on_the_board(tmp_path: Path) -> None:
     assert paper.splitlines() == [row["result"] for row in table]
 
 
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+def test_what_is_missing_is_refused() -> None:
+    """The README's table does not call missing what the ROM has learnt since (what it has, the examples show)."""
+    lines = [line for example in examples() for line in example.source.splitlines()]
+    for word in (word for word, known in status().items() if not known):
+        line = next(line for line in lines if re.match(rf"\d+ {word}\b", line))
+        assert "ERR 01" in said_by_the_board(f">{line}\n"), f"the ROM knows {word}: say so in README.md"
+
+
 def said_by_the_board(session: str) -> str:
     """A session as the board's paper shows it, from the first prompt on, when these lines are typed."""
     typed = "".join(f"{line[1:]}\r" for line in session.splitlines() if line.startswith(">"))
@@ -221,6 +233,33 @@ def said_by_the_board(session: str) -> str:
 def test_readme_session() -> None:
     session = next(fence["body"] for fence in FENCE.finditer(README.read_text()) if fence["kind"] == "prompt")
     assert said_by_the_board(session) == session
+
+
+# The firmware's page
+
+def byte_table() -> list[tuple[str, int]]:
+    """Files and bytes of docs/firmware.md."""
+    body = FIRMWARE.read_text().split("```bytes\n")[1].split("```")[0]
+    return [(name, int(count)) for name, count in re.findall(r"^ *(\S+) +(\d+)", body, re.M)]
+
+
+def test_bytes_add_up() -> None:
+    """Every source file of the ROM has its row, and the sum is right."""
+    build = runpy.run_path(str(ROOT / "asm" / "build.py"))
+    *files, (used, total) = byte_table()
+    assert [name for name, _ in files] == [f"{name}.asm" for name in build["FILES"]]
+    assert used == "used"
+    assert sum(count for _, count in files) == total <= build["ROM_SIZE"]
+
+
+def test_memory_map() -> None:
+    """The addresses of the page are those of the sources."""
+    equates = dict(re.findall(r"^(\w+)\s+EQU\s+([0-9A-F]+)H\b", (ROOT / "asm" / "equ.asm").read_text()
+                              + (ROOT / "asm" / "monitor.asm").read_text(), re.M))
+    equates["MREG"] = equates["RAM"]
+    shown = re.findall(r"^\| ([0-9A-F]{4}) \| [^|]+ \| `(\w+)` \|", FIRMWARE.read_text(), re.M)
+    assert len(shown) > 8
+    assert [(place, name) for place, name in shown if equates[name].lstrip("0") != place] == []
 
 
 # Writing the pages anew
@@ -263,6 +302,14 @@ if __name__ == "__main__":
     if ROM.exists() and SKG80.exists():
         README.write_text(FENCE.sub(
             lambda fence: f"```prompt\n{said_by_the_board(fence['body'])}```", README.read_text()))
+    with tempfile.TemporaryDirectory() as scratch:
+        built = subprocess.run([sys.executable, ROOT / "asm" / "build.py", Path(scratch) / "table"],
+                               capture_output=True, text=True, check=False)
+    if built.returncode:
+        print(f"{FIRMWARE}: bytes not written anew: {built.stderr.strip()}", file=sys.stderr)
+    else:
+        FIRMWARE.write_text(
+            re.sub(r"```bytes\n[^`]*```", f"```bytes\n{built.stdout}```", FIRMWARE.read_text()))
     for number in rows(ERROR):
         if error_of(number["example"]) != int(number["number"]):
             sys.exit(f"{PAGE}: example of error {number['number']} ends in {error_of(number['example'])}")
