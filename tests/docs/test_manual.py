@@ -217,7 +217,7 @@ def test_what_is_missing_is_refused() -> None:
     lines = [line for example in examples() for line in example.source.splitlines()]
     for word in (word for word, known in status().items() if not known):
         line = next(line for line in lines if re.match(rf"\d+ {word}\b", line))
-        assert "ERR 01" in said_by_the_board(f">{line}\n"), f"the ROM knows {word}: say so in README.md"
+        assert "ERR 01" in said_by_the_board(f">{line}\n"), f"{word} works: README.md"
 
 
 def said_by_the_board(session: str) -> str:
