@@ -213,7 +213,7 @@ def test_operations_on_the_board(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
 def test_what_is_missing_is_refused() -> None:
-    """The README's table does not call missing what the ROM has learnt since (what it has, the examples show)."""
+    """What the README calls missing is; that what it has works, the examples show."""
     lines = [line for example in examples() for line in example.source.splitlines()]
     for word in (word for word, known in status().items() if not known):
         line = next(line for line in lines if re.match(rf"\d+ {word}\b", line))
