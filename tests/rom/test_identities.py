@@ -1,0 +1,158 @@
+"""The identities of the SKG book, sections 5 to 8, at the prompt, with values of every size."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+from romhelp import Board, fault
+
+#: 7 digits, or as much of the drawing's size.
+CLOSE = 1e-6
+
+thousandths = st.integers(-60_000, 60_000).map(lambda n: f"{n / 1000:.3f}".replace("-0.000", "0"))
+angles = st.integers(-36_000, 36_000).map(lambda n: f"{n / 100:.2f}".replace("-0.00", "0"))
+radii = st.builds(lambda sign, n: f"{sign}{n / 1000:.3f}", st.sampled_from(["", "-"]), st.integers(1, 50_000))
+points = st.builds("({},{})".format, thousandths, thousandths)
+circles = st.builds("({}:{})".format, points, radii)
+#: `:` binds tighter: the X axis moved, then turned.
+lines = st.builds("(X:{}#{})".format, thousandths, angles)
+elements = st.one_of(thousandths.map("({})".format), points, circles, lines)
+
+quick = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+
+
+@cache
+def board() -> Board:
+    """One board for all examples."""
+    return Board()
+
+
+def value(expression: str) -> tuple[float, ...] | int:
+    """The canonical numbers of an expression, or its error's number."""
+    paper = board().type(f"PRINT {expression}")
+    if error := fault(paper):
+        return error[0]
+    return tuple(float(number) for number in re.findall(r"[-\d.E]+", paper[0]))
+
+
+def same(left: str, right: str, exact: bool = False) -> None:
+    """Both expressions have the same value, to the last printed digit or to 7 digits, or the same error."""
+    a, b = value(left), value(right)
+    if exact or isinstance(a, int) or isinstance(b, int):
+        assert a == b, (left, a, right, b)
+        return
+    size = max(1.0, *map(abs, a))
+    assert len(a) == len(b)
+    assert all(abs(x - y) <= CLOSE * size for x, y in zip(a, b, strict=True)), (left, a, right, b)
+
+
+@quick
+@given(elements)
+def test_minus_twice(e: str) -> None:
+    same(f"-(-{e})", e, exact=True)
+
+
+@quick
+@given(thousandths, angles)
+def test_parallel_then_turned(d: str, a: str) -> None:
+    same(f"(X:({d}))#({a})", f"(X#({a})):({d})")
+    same(f"X:({d})#({a})", f"(X:({d}))#({a})", exact=True)
+
+
+@quick
+@given(points, points)
+def test_line_reversed(p: str, q: str) -> None:
+    same(f"{p}:{q}", f"-({q}:{p})")
+
+
+@quick
+@given(circles, circles)
+def test_belt_reversed(c: str, d: str) -> None:
+    """The line back is the same line the other way between the circles run backwards."""
+    same(f"{c}:{d}", f"-(-{d}:-{c})")
+
+
+@quick
+@given(lines, lines)
+def test_crossing_of_lines(s: str, t: str) -> None:
+    angle = value(f"({s},{t})")
+    assume(isinstance(angle, tuple) and 0.5 < abs(angle[0]) < 179.5)
+    same(f"{s}*{t}", f"{t}*{s}")
+    same(f"{s}*{t}", f"{s}*-{t}")
+
+
+def number(expression: str) -> float:
+    """The value of an expression that must be a number."""
+    numbers = value(expression)
+    assert isinstance(numbers, tuple), (expression, numbers)
+    return numbers[0]
+
+
+@quick
+@given(lines, circles)
+def test_left_turn_of_line_and_circle(s: str, c: str) -> None:
+    """S*C = -S*-C = -C*S = C*-S."""
+    board().type(f"S1={s}")
+    board().type(f"C1={c}")
+    miss = abs(number("((K1 C1,K2 C1),S1)")) - abs(number("K3 C1"))
+    assume(abs(miss) > 0.01)  # not where a micrometre decides
+    for other in ("-S1*-C1", "-C1*S1", "C1*-S1"):
+        same("S1*C1", other)
+
+
+@quick
+@given(circles, circles)
+def test_left_turn_of_two_circles(c: str, d: str) -> None:
+    """C*D = -C*-D = -D*C = D*-C."""
+    board().type(f"C1={c}")
+    board().type(f"C2={d}")
+    apart, r, q = number("((K1 C1,K2 C1),(K1 C2,K2 C2))"), abs(number("K3 C1")), abs(number("K3 C2"))
+    assume(min(abs(apart - r - q), abs(apart - abs(r - q)), apart) > 0.01)
+    for other in ("-C1*-C2", "-C2*C1", "C2*-C1"):
+        same("C1*C2", other)
+
+
+@quick
+@given(points, lines)
+def test_foot_and_mirror(p: str, s: str) -> None:
+    """The foot is half way to the mirror image, and lies on the line; mirrored twice is where it was."""
+    same(f"{p}#{s}", f"({p}+{p}/{s})/2")
+    same(f"({p}#{s},{s})", "0")
+    same(f"{p}/{s}/{s}", p)
+
+
+@quick
+@given(st.one_of(circles, lines), lines)
+def test_quasi_mirror_twice(e: str, s: str) -> None:
+    same(f"{e}/{s}/{s}", e)
+
+
+@quick
+@given(points, points)
+def test_bisector(p: str, q: str) -> None:
+    """The first point on the left; both as far; the mirror in it takes one to the other."""
+    assume(p != q)
+    distance = value(f"({p},{p}#{q})")
+    assert distance[0] < 0
+    same(f"({p},{p}#{q})", f"-({q},{p}#{q})")
+    same(f"{p}/({p}#{q})", q)
+
+
+@quick
+@given(st.one_of(points, circles, lines), angles, points)
+def test_turned_there_and_back(e: str, a: str, p: str) -> None:
+    same(f"({e}#(({a}):{p}))#(-({a}):{p})", e)
+    same(f"{e}#({a}):{p}", f"{e}#(({a}):{p})", exact=True)
+    same(f"{e}#(({a}):O)", f"{e}#({a})")
+
+
+@quick
+@given(thousandths, thousandths, thousandths)
+def test_priorities(a: str, b: str, c: str) -> None:
+    """/ over *, * over -, - over +."""
+    same(f"({a})*({b})/({c})", f"({a})*(({b})/({c}))", exact=True)
+    same(f"({a})+({b})-({c})", f"({a})+(({b})-({c}))", exact=True)
+    same(f"({a})-({b})*({c})", f"({a})-(({b})*({c}))", exact=True)
