@@ -1,0 +1,228 @@
+"""The committed images: built anew they are the same, and they hold nothing but 8080 code.
+
+The opcode table and the walk through the image are the test's own: from the restarts, along every jump and
+call, over the data that stands behind RST 1, RST 4, RST 5 (the calculator's byte-code) and calls of PUTSI.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+from romhelp import ROOT
+
+ROMS = ROOT / "roms"
+ROM_SIZE = 8192
+#: Options of asm/build.py for each image.
+VARIANTS = {"skg": [], "skg-8251": ["--set", "BRD51=1"], "skg-tty": ["--set", "PTTY=1"]}
+IMAGES = sorted(path.stem for path in ROMS.glob("*.bin"))
+
+REGISTERS = "BCDEHLMA"
+PAIRS = ["B", "D", "H", "SP"]
+CONDITIONS = ["NZ", "Z", "NC", "C", "PO", "PE", "P", "M"]
+
+
+def opcodes() -> dict[int, tuple[str, int]]:
+    """Mnemonic with its registers, and length, of each of the 8080's 244 documented opcodes."""
+    table: dict[int, tuple[str, int]] = {0x00: ("NOP", 1)}
+    for n, pair in enumerate(PAIRS):
+        table[0x01 + 16 * n] = (f"LXI {pair}", 3)
+        table[0x03 + 16 * n] = (f"INX {pair}", 1)
+        table[0x09 + 16 * n] = (f"DAD {pair}", 1)
+        table[0x0B + 16 * n] = (f"DCX {pair}", 1)
+        name = "PSW" if pair == "SP" else pair
+        table[0xC1 + 16 * n] = (f"POP {name}", 1)
+        table[0xC5 + 16 * n] = (f"PUSH {name}", 1)
+    for n, name in enumerate(["STAX B", "STAX D"]):
+        table[0x02 + 16 * n] = (name, 1)
+        table[0x0A + 16 * n] = (f"LDAX {name[-1]}", 1)
+    for n, name in enumerate(["SHLD", "STA"]):
+        table[0x22 + 16 * n] = (name, 3)
+        table[0x2A + 16 * n] = (["LHLD", "LDA"][n], 3)
+    for n, name in enumerate(["RLC", "RRC", "RAL", "RAR", "DAA", "CMA", "STC", "CMC"]):
+        table[0x07 + 8 * n] = (name, 1)
+    for n, register in enumerate(REGISTERS):
+        table[0x04 + 8 * n] = (f"INR {register}", 1)
+        table[0x05 + 8 * n] = (f"DCR {register}", 1)
+        table[0x06 + 8 * n] = (f"MVI {register}", 2)
+        for m, source in enumerate(REGISTERS):
+            table[0x40 + 8 * n + m] = (f"MOV {register},{source}", 1)
+    table[0x76] = ("HLT", 1)
+    for n, name in enumerate(["ADD", "ADC", "SUB", "SBB", "ANA", "XRA", "ORA", "CMP"]):
+        for m, source in enumerate(REGISTERS):
+            table[0x80 + 8 * n + m] = (f"{name} {source}", 1)
+    for n, name in enumerate(["ADI", "ACI", "SUI", "SBI", "ANI", "XRI", "ORI", "CPI"]):
+        table[0xC6 + 8 * n] = (name, 2)
+    for n, condition in enumerate(CONDITIONS):
+        table[0xC0 + 8 * n] = (f"R{condition}", 1)
+        table[0xC2 + 8 * n] = (f"J{condition}", 3)
+        table[0xC4 + 8 * n] = (f"C{condition}", 3)
+        table[0xC7 + 8 * n] = (f"RST {n}", 1)
+    table |= {0xC3: ("JMP", 3), 0xC9: ("RET", 1), 0xCD: ("CALL", 3), 0xD3: ("OUT", 2), 0xDB: ("IN", 2)}
+    table |= {0xE3: ("XTHL", 1), 0xE9: ("PCHL", 1), 0xEB: ("XCHG", 1), 0xF9: ("SPHL", 1)}
+    return table | {0xF3: ("DI", 1), 0xFB: ("EI", 1)}
+
+
+OPCODES = opcodes()
+
+#: Byte-code of the calculator (asm/calc.asm): its end, its return, and its jumps with a distance behind them.
+QEND, QRET, QJMP, QJUMPS = 0x00, 0x09, 0x08, (0x05, 0x06, 0x08)
+
+
+@dataclass
+class Walk:
+    """All instructions that can be reached, and the byte-code between them."""
+
+    image: bytes
+    putsi: int
+    code: set[int] = field(default_factory=set)
+    bytecode: set[int] = field(default_factory=set)
+
+    def follow(self, starts: list[int]) -> None:
+        """Walk from some addresses on."""
+        waiting = list(starts)
+        while waiting:
+            at = waiting.pop()
+            if at in self.code or at >= ROM_SIZE:
+                continue
+            self.code.add(at)
+            opcode = self.image[at]
+            assert opcode in OPCODES, f"{at:04X}: {opcode:02X} is no documented 8080 opcode"
+            name, length = OPCODES[opcode]
+            target = int.from_bytes(self.image[at + 1 : at + 3], "little") if length == 3 else 0
+            if name in ("JMP", "CALL") or (length == 3 and name[0] in "JC"):
+                waiting.append(target)
+            if name == "RST 4":
+                waiting.append(at + 2)
+            elif name == "RST 5":
+                waiting += self.calculator(at + 1)
+            elif name == "CALL" and target == self.putsi:
+                waiting.append(1 + next(n for n in range(at + 3, ROM_SIZE) if self.image[n] & 0x80))
+            elif name not in ("JMP", "RET", "PCHL", "RST 1", "HLT"):
+                waiting.append(at + length)
+
+    def calculator(self, start: int) -> list[int]:
+        """Walk byte-code; where machine code goes on behind it."""
+        after, waiting = [], [start]
+        while waiting:
+            at = waiting.pop()
+            if at in self.bytecode:
+                continue
+            self.bytecode.add(at)
+            operation = self.image[at]
+            if operation == QEND:
+                after.append(at + 1)
+            elif operation in QJUMPS:
+                distance = self.image[at + 1]
+                waiting.append(at + 1 + distance - (256 if distance > 127 else 0))
+                if operation != QJMP:
+                    waiting.append(at + 2)
+            elif operation != QRET:
+                waiting.append(at + 1)
+        return after
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of the listing with bytes in the image."""
+
+    at: int
+    data: bytes
+    mnemonic: str
+    operands: str
+
+
+def listed(name: str) -> list[Line]:
+    """Lines of the assembler's listing that made bytes."""
+    names = "|".join({"DB", "DW", "DS"} | {text.split()[0] for text, _ in OPCODES.values()})
+    shape = re.compile(rf"([0-9A-F]{{4}})   ((?:[0-9A-F]{{2}} )+) *(?:\w+: +)?({names})(?=   |$)([^;]*)")
+    found = map(shape.match, (ROMS / f"{name}.lst").read_text().splitlines())
+    return [Line(int(m[1], 16), bytes.fromhex(m[2]), m[3], m[4].strip()) for m in found if m]
+
+
+def symbols(name: str) -> dict[str, int]:
+    """The symbol file."""
+    rows = (line.split() for line in (ROMS / f"{name}.sym").read_text().splitlines())
+    return {symbol: int(address, 16) for address, symbol in rows}
+
+
+def test_every_image_is_known() -> None:
+    assert "skg" in IMAGES
+    assert set(IMAGES) <= set(VARIANTS)
+
+
+@pytest.mark.parametrize("name", IMAGES)
+def test_built_anew_it_is_the_same(name: str, tmp_path: Path) -> None:
+    out = tmp_path / f"rebuilt-{name}"
+    command = [sys.executable, ROOT / "asm" / "build.py", *VARIANTS[name], out]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    for suffix in (".bin", ".hex", ".sym", ".lst"):
+        committed = (ROMS / name).with_suffix(suffix)
+        assert out.with_suffix(suffix).read_bytes() == committed.read_bytes(), f"{committed}: make rom"
+
+
+@pytest.mark.parametrize("name", IMAGES)
+def test_size_and_hex(name: str) -> None:
+    image = (ROMS / f"{name}.bin").read_bytes()
+    assert len(image) == ROM_SIZE
+    assert symbols(name)
+    rows = (ROMS / f"{name}.hex").read_text().split()
+    records = [bytes.fromhex(row[1:]) for row in rows]
+    assert all(row[0] == ":" for row in rows)
+    assert all(sum(record) & 0xFF == 0 and len(record) == record[0] + 5 for record in records)
+    assert records[-1] == bytes([0, 0, 0, 1, 0xFF])
+    assert b"".join(record[4:-1] for record in records[:-1]) == image
+
+
+@pytest.mark.parametrize("name", IMAGES)
+def test_only_8080_code_is_reached(name: str) -> None:
+    image = (ROMS / f"{name}.bin").read_bytes()
+    lines = listed(name)
+    starts = list(range(0, 0x40, 8))
+    for line in lines:
+        if line.mnemonic == "DW" and "+K" not in line.operands:  # (rows of table 2.1 lead to byte-code)
+            starts += [int.from_bytes(line.data[n : n + 2], "little") for n in range(0, len(line.data), 2)]
+    walk = Walk(image, symbols(name)["PUTSI"])
+    walk.follow(starts)
+    instructions = {line.at for line in lines if line.mnemonic not in ("DB", "DW", "DS")}
+    # The walk is the listing's code, but for a DB that is a CPI and skips the byte behind it.
+    strays = walk.code - instructions
+    assert all(image[at] == 0xFE for at in strays), sorted(map(hex, strays))
+    # What no jump leads to by name (an address loaded into a pair and pushed) is little.
+    assert len(instructions - walk.code) < len(instructions) / 20
+    assert not walk.code & walk.bytecode
+
+
+@pytest.mark.parametrize("name", IMAGES)
+def test_every_instruction_is_the_8080s(name: str) -> None:
+    """What the listing calls an instruction, the test's own table calls by the same name."""
+    image = (ROMS / f"{name}.bin").read_bytes()
+    count = 0
+    for line in listed(name):
+        assert image[line.at : line.at + len(line.data)] == line.data
+        if line.mnemonic in ("DB", "DW", "DS"):
+            continue
+        text, length = OPCODES[line.data[0]]
+        mnemonic, _, registers = text.partition(" ")
+        assert (line.mnemonic, len(line.data)) == (mnemonic, length), line
+        assert line.operands.replace(" ", "").startswith(registers), line
+        count += 1
+    assert count > 2000
+
+
+@pytest.mark.parametrize("name", IMAGES)
+def test_jumps_of_the_calculator_reach_their_labels(name: str) -> None:
+    """A distance is a signed byte; the assemblers cut off what is more without a word."""
+    places = symbols(name)
+    found = 0
+    for line in listed(name):
+        if target := re.fullmatch(r"(\w+)-\$", line.operands.strip()):
+            distance = int.from_bytes(line.data, signed=True)
+            assert line.at + distance == places[target[1]], line
+            found += 1
+    assert found > 10
