@@ -76,6 +76,14 @@ def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[byt
     return (work / "top.bin").read_bytes()[: symbols["ZBEND"]], symbols, (work / "top.lst").read_text()
 
 
+def check_jumps(listing: str, symbols: dict[str, int]) -> None:
+    """Fail when a jump of the calculator (`DB TARGET-$`) does not fit its signed byte; assemblers cut it off."""
+    for address, target in re.findall(r"^([0-9A-F]{4})\s+[0-9A-F]{2}\s+(?:\w+:)?\s*DB\s+(\w+)-\$", listing, re.M):
+        distance = symbols[target.upper()] - int(address, 16)
+        if not -128 <= distance <= 127:
+            fail(f"calculator jump at {address} to {target}: {distance} bytes do not fit")
+
+
 def intel_hex(image: bytes) -> str:
     """Intel hex, 16 bytes a record."""
     records = []
@@ -103,6 +111,7 @@ def main() -> None:
         options[name] = int(value)
     files = args.files.split(",") if args.files else FILES
     image, symbols, listing = assemble(files, options, ROOT / "build" / "asm" / args.out.name)
+    check_jumps(listing, symbols)
     if not args.quiet:
         marks = [symbols[f"ZB{file.upper()}"] for file in files] + [symbols["ZBEND"]]
         for file, begin, end in zip(files, marks, marks[1:], strict=False):

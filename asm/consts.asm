@@ -7,7 +7,7 @@
 
 Q0      EQU 0C0H
 Q1      EQU 0C1H
-Q2      EQU 0C2H
+QI64    EQU 0C2H
 QHALF   EQU 0C3H
 QMU     EQU 0C4H        ; 1 um
 Q90     EQU 0C5H
@@ -18,11 +18,10 @@ Q502    EQU 0C9H        ; halves of a um, and what lies 2 nm below
 QEPS    EQU 0CAH        ; directions this close (rad) are one line
 Q8DIG   EQU 0CBH        ; the greatest number on a tape
 QI180   EQU 0CCH
-QI64    EQU 0CDH
 
 CONTAB: DB      0,0,0,0,0               ; 0
         DB      81H,00H,00H,00H,00H     ; 1
-        DB      82H,00H,00H,00H,00H     ; 2
+        DB      7BH,00H,00H,00H,00H     ; 1/64
         DB      80H,00H,00H,00H,00H     ; 0.5
         DB      77H,03H,12H,6EH,98H     ; 0.001
         DB      87H,34H,00H,00H,00H     ; 90
@@ -33,4 +32,3 @@ CONTAB: DB      0,0,0,0,0               ; 0
         DB      70H,27H,0C5H,0ACH,47H   ; 1E-5
         DB      9BH,3EH,0BCH,1FH,0E0H   ; 99999999
         DB      79H,36H,0BH,60H,0B6H    ; 1/180
-        DB      7BH,00H,00H,00H,00H     ; 1/64

@@ -26,6 +26,7 @@ RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 RBACK   EQU CWORK+12    ; not 0 = RECUT may come: the buffer holds a route that is cut
 RBFULL  EQU CWORK+13    ; not 0 = the route has outgrown its buffer
+RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RMOVED  EQU CWORK+21    ; not 0 = wire positioned or moved since RUN
 RBEND   EQU CWORK+14    ; end of the route buffer, which begins behind PEND
 BLKNO   EQU CWORK+16    ; number of the last block, four decimal digits
@@ -117,10 +118,7 @@ ITEM2:  CALL    RECORD
 
 ; ITELM - a line or circle
 ; In:  A = its kind
-ITELM:  STA     NKIND
-        LXI     D,MA
-        LXI     H,MNEXT
-        CALL    COPY15
+ITELM:  CALL    PUTN
         CALL    NAMEIT
         CALL    ADDEL
         XRA     A
@@ -151,7 +149,8 @@ ITFIL:  LDA     RELEMS
         INR     A
         STA     RFILW
         RST     5
-        DB      LA0,SFI,QRET    ; -
+        DB      LA0,SFI         ; -
+ITPN3:  DB      QRET            ; (for ITPNT too)
 
 ; NOFIL - demands that no fillet waits
 ; Out: ERR 06   Clobbers A
@@ -181,10 +180,7 @@ ITPNT:  RST     5
         LXI     D,GBELT
         CALL    RUNBC           ; the line from P to D
         MVI     A,KLIN
-        STA     NKIND
-        LXI     D,MA
-        LXI     H,MNEXT
-        CALL    COPY15
+        CALL    PUTN
         LDA     RELEMS
         STA     RNAMED
         CALL    ADDEL
@@ -203,7 +199,13 @@ ITPN4:  DB      LDX,SPX,LDY,SPY ; -
         DB      QEND
         MVI     A,1
         JMP     ITDONE
-ITPN3:  DB      QRET
+
+; PUTN - makes the value the next element
+; In:  a0 a1 a2, A = kind   Clobbers A, DE, HL
+PUTN:   STA     NKIND
+        LXI     D,MA
+        LXI     H,MNEXT
+        JMP     COPY15
 
 ; GETR - wire offset of now; where none was set: 0
 ; Out: NR   Clobbers A, BC, DE, HL
@@ -249,8 +251,6 @@ ADDEL:  LDA     RELEMS
         CALL    SAMEC
         JZ      CORDON          ; the same curve goes on: no corner
 ADDEL1: CALL    OFFCHK
-        MVI     A,2
-        STA     RELEMS
         LDA     RFILW
         ORA     A
         CNZ     FILLET
@@ -260,6 +260,14 @@ ADDEL1: CALL    OFFCHK
 ; Clobbers all
 JOIN:   CALL    CORNER
         CALL    ADVANC
+        LXI     H,RELEMS
+        MOV     A,M
+        MVI     M,2
+        DCR     A
+        LXI     D,MKX
+        LXI     H,RCORN
+        MVI     A,10
+        CZ      COPY            ; the end of the first element is kept
         CALL    NTOC
 ; (fall into CORDON)
 
@@ -267,14 +275,13 @@ JOIN:   CALL    CORNER
 ; Clobbers A, HL
 CORDON: LXI     H,0
         SHLD    RFILW           ; and RTURN
-        XRA     A
-        STA     RNAMED
+        SHLD    RTURN           ; and RNAMED
         RET
 
 ; FIRST - N is the first element: the wire goes to it
 FIRST:  CALL    OFFCHK
-        MVI     A,1
-        STA     RELEMS
+        LXI     H,RELEMS
+        INR     M
         CALL    NTOC
         LXI     D,MNEXT
         LXI     H,MFIRST
@@ -376,9 +383,20 @@ FITARC: RST     5
         DB      LN1,LC1,QSUB,LT0,QMUL,LT3,QSUB,SA1 ; -
         DB      LKX,LC0,QSUB,LT2,QSUB,SB0       ; -     b = k-e
         DB      LKY,LC1,QSUB,LT3,QSUB,SB1       ; -
-        DB      QCRS,LC2,QSGN,QMUL              ; cross
+FITA9:  DB      QCRS,LC2,QSGN,QMUL              ; cross
         DB      LB0,LB1,QHYP,QMU,QMUL           ; cross 1um*|k-e|
         DB      QADD,QE6N,QRET                  ; -
+
+; PASSED - does the closing corner A on a circle come before the entry G, not past it?
+; In:  C, A, G; b = where the circle was left first   Out: ERR 06   Clobbers all
+PASSED: RST     5
+        DB      QCA,QJC         ; -
+        DB      PASS1-$
+        DB      QRET
+PASS1:  DB      LGX,LAX,QSUB,SA0,LGY,LAY,QSUB,SA1 ; -  a = g-a
+        DB      LB0,LAX,QSUB,SB0,LB1,LAY,QSUB,SB1 ; -
+        DB      QJMP
+        DB      FITA9-$
 
 ; OFFCHK - demands that the wire offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
@@ -626,8 +644,7 @@ ADVAN1: DB      LKX,LAX,QSUB    ; dx
 ADVAN3: CALL    SEGMNT
         RST     5
         DB      LKX,SAX,LKY,SAY ; -
-        DB      QRET
-ADVAN2: DB      QRET            ; no travel: the corner is the entry place
+ADVAN2: DB      QRET            ; (no travel: the corner is the entry place)
 
 ; SBACK - statement: BACK
 SBACK:  CALL    CHKEND
@@ -635,8 +652,8 @@ SBACK:  CALL    CHKEND
         ORA     A
         JZ      ERGEO           ; no route, or but a point
 SBACK1: CALL    CLOSE
-        MVI     A,1
-        STA     RBACK
+        LXI     H,RBACK
+        INR     M
 ; (fall into HOME)
 
 ; HOME - straight to the start hole
@@ -656,8 +673,8 @@ CLOSE:  LDA     RFSTP
         DB      LQR,SNR,QEND    ; -
         CALL    ITPNT
         CALL    NOFIL           ; a fillet there
-CLOSE1: LXI     H,RELEMS
-        DCR     M
+CLOSE1: LDA     RELEMS
+        DCR     A
         JZ      CLOSE4
         LDA     RLASTP
         ORA     A
@@ -673,6 +690,11 @@ CLOSE3: CALL    CLOSE5
         RST     5
         DB      LCR,LFR,QSUB,QE6D ; -
         DB      QEND
+        LXI     D,RCORN
+        LXI     H,MB
+        MVI     A,10
+        CALL    COPY            ; b = end of the first element
+        CALL    PASSED
         CALL    ADVANC
         JMP     RTDONE
 CLOSE4: CALL    CLOSE5

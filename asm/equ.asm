@@ -69,7 +69,6 @@ KTURN   EQU 4           ; angle, x, y: only as right side of #
 ; 00 ends a line. Printing ASCII stands for itself ( ( ) ] , ; : # * / + - = < > ).
 TEOL    EQU 00H
 TFLT    EQU 01H         ; five bytes of float follow
-TINT    EQU 02H         ; one byte follows: whole number 0...255
 ; 80H...B7H: a name; letter index * 4 + subscript high bits, then subscript low byte
 TNAME   EQU 80H
 NAMER   EQU 8800H       ; the name R, the wire offset
@@ -244,6 +243,7 @@ LRX     EQU 07EH
 SRX     EQU 0BEH
 LRY     EQU 07FH
 SRY     EQU 0BFH
+MKX     EQU RAM+170
 MNR     EQU RAM+100
 MO1     EQU RAM+235
 MBX     EQU RAM+280

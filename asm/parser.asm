@@ -101,8 +101,6 @@ OPND:   LXI     H,-STKLOW-STKROM
         RST     3
         CPI     TFLT
         JZ      OPFLT
-        CPI     TINT
-        JZ      OPINT
         CPI     CLPAR
         JZ      OPPAR
         CPI     CMINUS
@@ -184,14 +182,6 @@ OPFLT:  LHLD    TXTP
         CALL    COPY5
         XCHG
         SHLD    TXTP
-        JMP     SETNUM
-
-; OPINT - a whole number of one byte
-OPINT:  RST     3
-        MOV     L,A
-        MVI     H,0
-        LXI     D,MA
-        CALL    FITOF
 ; (fall into SETNUM)
 
 ; SETNUM - makes the value a number: a1 and a2 zero

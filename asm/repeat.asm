@@ -45,8 +45,8 @@ RECORD: LDA     RITEMS
         CALL    COPY15
         SHLD    RBEND
         RET
-RECO2:  MVI     A,1
-        STA     RBFULL
+RECO2:  LXI     H,RBFULL
+        INR     M
         RET
 
 ; FETCH - an item of the buffer as the value
@@ -266,5 +266,5 @@ SSCALE: CALL    EVNUM
         RST     5
         DB      LA0,SSC,QRET    ; -
 
-; SFIT - statement: FIT, not there yet
-SFIT:   JMP     ERSYN
+; FIT is not there yet
+SFIT    EQU ERSYN

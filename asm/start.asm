@@ -86,6 +86,7 @@ CHKEND: RST     4
 
 ; RESET - finds the RAM, readies the ports, keeps a sound program, signs on
 RESET:  LXI     SP,STKTOP
+        CALL    CALINI
         CALL    IOINIT
         LXI     H,0
         SHLD    KEYB            ; and LOADF

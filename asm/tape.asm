@@ -196,6 +196,22 @@ PUTB9:  DB      QEND
         RST     1
         DB      ETAPE
 
+; Operations of the calculator that the tape adds
+
+; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
+XRND:   RST     5
+        DB      Q1000,QMUL              ; um
+        DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
+        DB      QFLR,QSWP,QSGN,QMUL     ; whole
+        DB      Q8DIG,QOVR,QABS,QSUB    ; whole room
+        DB      QJN
+        DB      PUTB9-$
+        DB      QRET            ; whole
+; QVK: V = K in whole um
+XVK:    RST     5
+        DB      LKX,QRND,SVX            ; -
+        DB      LKY,QRND,SVY,QRET       ; -
+
 ; TRAVEL - F of a point (head of this file)
 ; In:  HL -> u v, t5 = r   Out: t0 = F, A = quadrant 1...4   Clobbers all
 TRAVEL: PUSH    H
@@ -271,19 +287,3 @@ PUT1D:  ANI     0FH
         ORI     CZERO
         RST     2
         RET
-
-; Operations of the calculator that the tape adds
-
-; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
-XRND:   RST     5
-        DB      Q1000,QMUL              ; um
-        DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
-        DB      QFLR,QSWP,QSGN,QMUL     ; whole
-        DB      Q8DIG,QOVR,QABS,QSUB    ; whole room
-        DB      QJN
-        DB      PUTB9-$
-        DB      QRET            ; whole
-; QVK: V = K in whole um
-XVK:    RST     5
-        DB      LKX,QRND,SVX            ; -
-        DB      LKY,QRND,SVY,QRET       ; -
