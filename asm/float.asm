@@ -32,10 +32,12 @@ FT      EQU FWORK+5     ; bytes 1...3 of a partial product; mask of FSQR
 FBIG    EQU FWORK       ; number of DECIN and DECOUT: 16 bytes whole, 22 bytes fraction
 BIGEND  EQU FWORK+38
 UNITS   EQU FBIG+15
-DIGS    EQU FSTK+50     ; digits of DECOUT: 5 zeros, then up to 10
+DIGS    EQU FSTK+50     ; digits of DECOUT: 5 zeros, then 10
 SIGN    EQU FWORK+43    ; bit 7: sign of the result
 EXPO    EQU FWORK+44    ; exponent of the result
-SHIFT   EQU FWORK+45    ; difference of exponents; decimal exponent
+SHIFT   EQU FWORK+45    ; difference of exponents
+POWER   EQU FWORK+45    ; digits of DECOUT before the point
+FWEND   EQU FWORK+46    ; end of the cells, FSP follows
 
 ; FSUB - x - y
 ; FADD - x + y
@@ -233,48 +235,21 @@ FMUL1:  LDA     FY
 
 ; FMUL2 - 8 * 16 bits
 ; In:  A, DE, BC = added   Out: BC, A = low byte of the product   Clobbers HL
-; Cycles: 310 on average
-FMUL2:  ADD     A
-        LXI     H,0
-        JNC     FMUL3
-        MOV     H,D
-        MOV     L,E
+; Cycles: 460, for A = 0 66
+FMUL2:  LXI     H,0
+        ORA     A
+        JZ      FMUL5           ; many a float ends in bytes of zeros
+        PUSH    B
+        MVI     B,8
 FMUL3:  DAD     H
         RAL
         JNC     FMUL4
         DAD     D
         ACI     0
-FMUL4:  DAD     H
-        RAL
-        JNC     FMUL5
-        DAD     D
-        ACI     0
-FMUL5:  DAD     H
-        RAL
-        JNC     FMUL6
-        DAD     D
-        ACI     0
-FMUL6:  DAD     H
-        RAL
-        JNC     FMUL7
-        DAD     D
-        ACI     0
-FMUL7:  DAD     H
-        RAL
-        JNC     FMUL8
-        DAD     D
-        ACI     0
-FMUL8:  DAD     H
-        RAL
-        JNC     FMUL9
-        DAD     D
-        ACI     0
-FMUL9:  DAD     H
-        RAL
-        JNC     FMULB
-        DAD     D
-        ACI     0
-FMULB:  DAD     B
+FMUL4:  DCR     B
+        JNZ     FMUL3
+        POP     B
+FMUL5:  DAD     B
         ACI     0
         MOV     B,A
         MOV     C,H
@@ -849,46 +824,43 @@ FATG3:  DB      QEND
 ; Decimal numbers.  FBIG holds one with 16 bytes before and 22 behind the point,
 ; first byte first: every float exactly.
 
-; FCLR - clears FBIG and DIGS
+; FCLR - clears FBIG, DIGS and the cells behind FBIG
 ; Clobbers A, DE
 FCLR:   LXI     D,DIGS-5
 FCLR1:  XRA     A
         STAX    D
         INX     D
         MOV     A,E
-        CPI     BIGEND&255
+        CPI     FWEND&255
         JNZ     FCLR1
         RET
 
-; FM10 - multiplies by 10 and adds
-; In:  HL -> last byte, B = bytes, C = added   Out: C = carry   Clobbers all
-; Cycles: 50 a byte that stays 0, else 158
-FM10:   MOV     A,M
-        ORA     C
-        JZ      FM101
+; FM10 - multiplies FBIG by 10 and adds
+; In:  HL -> last byte, BC = added   Out: C = carry   Clobbers all
+; Cycles: 159 a byte
+FM10:   PUSH    H
         MOV     E,M
         MVI     D,0
-        PUSH    H
         MOV     H,D
         MOV     L,E
         DAD     H
         DAD     H
         DAD     D
         DAD     H
-        MOV     E,C
-        DAD     D
+        DAD     B
         MOV     C,H
         MOV     A,L
         POP     H
         MOV     M,A
-FM101:  DCX     H
-        DCR     B
-        JNZ     FM10
+        DCX     H
+        MOV     A,L
+        ORA     A
+        JM      FM10            ; FBIG begins at 80H of a page
         RET
 
-; FD10 - divides by 10, from the first byte on
-; In:  B = bytes   Out: A = remainder, Z: it was zero   Clobbers all
-; Cycles: 54 a byte that stays 0, else 490
+; FD10 - divides FBIG by 10
+; In:  B = bytes, from the first on   Out: A = remainder, Z: it was zero
+; Clobbers all   Cycles: 54 a byte that stays 0, else 490
 FD10:   LXI     D,FBIG
         LXI     H,0
         MVI     C,1
@@ -953,8 +925,6 @@ DECOUT: MOV     A,M
         INX     H
         POP     B
         MOV     M,C
-        XRA     A
-        STA     SHIFT
 ; times 10 until it is whole or has ten digits before the point
 DECO1:  LDA     FBIG+11
         ORA     A
@@ -965,13 +935,11 @@ DECO2:  DCX     H
         ORA     A
         JZ      DECO2
         MOV     A,L
-        SUI     (FBIG-1)&255
-        MOV     B,A             ; bytes down to here
-        CPI     17
+        CPI     (UNITS+1)&255
         JC      DECO3
-        MVI     C,0
+        LXI     B,0
         CALL    FM10
-        LXI     H,SHIFT
+        LXI     H,POWER
         DCR     M
         JMP     DECO1
 ; digits, the last first, each put in front
@@ -986,7 +954,7 @@ DECO4:  MOV     B,M
         INX     H
         DCR     C
         JNZ     DECO4
-        LXI     H,SHIFT
+        LXI     H,POWER
         INR     M
         JMP     DECO3
 ; round
@@ -997,236 +965,195 @@ DECO5:  POP     B
         MVI     H,DIGS/256
         MOV     A,M
         CPI     5
-        JNC     DECO7
+        CMC
 DECO6:  DCX     H
         MOV     A,M
-        ORA     A
-        JZ      DECO6
-        JMP     DECO8
-DECO7:  MVI     M,0
-        DCX     H
-        INR     M
-        MOV     A,M
-        CPI     10
-        JNC     DECO7
-DECO8:  LXI     D,DIGS          ; HL -> last digit that is not 0, DE -> first
-        LDA     SHIFT
+        ACI     0
+        MOV     M,A
+        JZ      DECO6           ; no zeros at the end
+        SUI     10
+        JNZ     DECO7
+        MOV     M,A
+        STC
+        JMP     DECO6
+DECO7:  LXI     D,DIGS          ; HL -> last digit, DE -> first
+        LDA     POWER
         MOV     C,A             ; C = digits before the point
         LDA     DIGS-1
         ORA     A
-        JZ      DECO9
+        JZ      DECO8
         DCX     D
         INR     C
-DECO9:  MOV     A,B
-        ADI     5
-        MOV     B,A
+DECO8:  MVI     B,0             ; B = exponent, 0: none
         MOV     A,C
         ADI     4
-        CMP     B
-        MVI     B,0             ; no exponent
-        JC      DECOA
+        CPI     13
+        JC      DECO9
         MOV     B,C
         DCR     B
         MVI     C,1
-DECOA:  MOV     A,C             ; 0 before the point
+DECO9:  MOV     A,C             ; zeros in front
         DCR     A
-        JP      DECOB
+        JP      DECOA
         DCX     D
         INR     C
-        JMP     DECOA
-DECOB:  LDAX    D
+        JMP     DECO9
+DECOA:  LDAX    D
         ADI     CZERO
         RST     2
         MOV     A,E
         CMP     L               ; CY: there are more
         INX     D
         DCR     C
-        JZ      DECOC
-        JP      DECOB
-        JC      DECOB
-DECOC:  MVI     A,CPOINT
-        JNC     DECOD
+        JZ      DECOB
+        JP      DECOA
+        JC      DECOA
+DECOB:  MVI     A,CPOINT
+        JNC     DECOC
         RST     2
-        JMP     DECOB
-DECOD:  MOV     A,B
+        JMP     DECOA
+DECOC:  MOV     A,B
         ORA     A
         RZ
         MVI     A,CLTE
         RST     2
-        MOV     A,B
-        ORA     A
-        JP      DECOE
+        XRA     A
+        MOV     H,A
+        MOV     L,B
+        SUB     B
+        JM      PRDEC
+        MOV     L,A
         MVI     A,CMINUS
         RST     2
-        XRA     A
-        SUB     B
-DECOE:  MVI     C,CZERO-1
-DECOF:  INR     C
-        SUI     10
-        JNC     DECOF
-        ADI     CZERO+10
-        MOV     B,A
-        MOV     A,C
-        CPI     CZERO
-        CNZ     PUTC
-        MOV     A,B
-        RST     2
-        RET
-CPOINT  EQU 2EH         ; .
-CPLUS   EQU 2BH         ; +
-CLTE    EQU 45H
+        JMP     PRDEC
 
-; DECIN - reads a number
+; DECIN - reads a number; it is rounded to 9 digits first
 ; In:  HL -> text, a digit or a point, DE -> float
 ; Out: float, HL -> first character behind it; CY: it is no number; ERR 05
 ; Clobbers all
 DECIN:  PUSH    D
         CALL    FCLR
-        LXI     B,0             ; B = digits taken, C = digits, bit 7: point seen
-        LXI     D,0             ; to be multiplied by 10^(D-E)
-DECI1:  CALL    DECIC
-        CALL    DIGIT
-        JNC     DECI5
-        INR     C
-        PUSH    H
-        MOV     L,A
-        MOV     A,B
-        CPI     9
-        JC      DECI3
+        LXI     B,0             ; B = digits that count, C = 0FFH behind the point
+        LXI     D,0FFH          ; D = power of ten, E = 0FFH: no digit yet
+DECI1:  CALL    LEXCH
+        CPI     CPOINT
         JNZ     DECI2
-        INR     B
-        MOV     A,L
-        CPI     5
-        JC      DECI2
-        LXI     H,UNITS+1       ; the tenth digit rounds
-DECIA:  DCX     H
-        INR     M
-        JZ      DECIA
-DECI2:  MOV     A,C
+        MOV     A,C
         ORA     A
-        JM      DECI4
-        INR     D               ; left out before the point
-        JMP     DECI4
-DECI3:  ORA     L
-        JZ      DECIB           ; a zero in front
-        INR     B
-        PUSH    B
-        PUSH    D
-        MOV     C,L
-        LXI     H,UNITS
-        MVI     B,16
-        CALL    FM10
-        POP     D
-        POP     B
-DECIB:  MOV     A,C
-        ORA     A
-        JP      DECI4
-        INR     E               ; taken behind the point
-DECI4:  POP     H
+        JNZ     DECI6           ; the second
+        DCR     C
+        INX     H
         JMP     DECI1
-DECI5:  CPI     (CPOINT-CZERO)&255
-        JNZ     DECI6
-        MOV     A,C
-        XRI     80H
-        MOV     C,A
-        JM      DECI1
-        MVI     A,CPOINT        ; a second point: the end
-DECI6:  MOV     B,A
-        MOV     A,C
-        ADD     A
-        JZ      DECIE           ; no digit at all
+DECI2:  CALL    DIGIT
+        JNC     DECI6
+        INX     H
+        MOV     E,A
+        MOV     A,D
+        ADD     C
+        MOV     D,A
         MOV     A,B
-        ANI     0DFH
-        CPI     CLTE-CZERO
-        JNZ     DECI9
+        ORA     E
+        JZ      DECI1           ; a zero in front does not count
+        INR     B
+        MOV     A,B
+        CPI     10
+        JC      DECI5
+        JNZ     DECI4
+        MOV     A,E
+        CPI     5
+        JC      DECI4
         PUSH    H
-        CALL    DECIC
-        MOV     C,A             ; sign
-        CPI     CMINUS
+        LXI     H,UNITS+1       ; the tenth digit rounds
+DECI3:  DCX     H
+        INR     M
+        JZ      DECI3
+        POP     H
+DECI4:  INR     D
+        JMP     DECI1
+DECI5:  PUSH    H
+        PUSH    D
+        PUSH    B
+        LXI     H,UNITS
+        MOV     C,E
+        MVI     B,0
+        CALL    FM10
+        POP     B
+        POP     D
+        POP     H
+        JMP     DECI1
+DECI6:  INR     E
+        JZ      DECIE           ; no digit at all
+        CALL    LEXCH
+        CPI     CLTE
+        JNZ     DECIA
+        INX     H
+        CALL    LEXCH
+        SUI     CPLUS
+        MOV     C,A             ; 2: minus
         JZ      DECI7
-        CPI     CPLUS
-        JZ      DECI7
-        DCX     H
-DECI7:  MVI     B,0
-        CALL    DECID
-        JNC     DECIF
-DECI8:  PUSH    H
-        MOV     L,A
+        CPI     CMINUS-CPLUS
+        JNZ     DECI8
+DECI7:  INX     H
+DECI8:  MVI     B,0             ; B = exponent
+        MVI     E,0FFH
+DECI9:  CALL    LEXCH
+        CALL    DIGIT
+        JNC     DECIX
+        INX     H
+        MOV     E,A
         MOV     A,B
-        CPI     12
-        JC      DECIG
-        MVI     A,12
-DECIG:  MOV     B,A
+        CPI     10
+        JNC     FOVF
         ADD     A
         ADD     A
         ADD     B
         ADD     A
-        ADD     L
+        ADD     E
         MOV     B,A
-        POP     H
-        CALL    DECID
-        JC      DECI8
-        INX     SP
-        INX     SP
-        MOV     A,C
-        CPI     CMINUS
-        MOV     A,B
-        JZ      DECIH
-        ADD     D
-        MOV     D,A
         JMP     DECI9
-DECIH:  ADD     E
-        MOV     E,A
-DECI9:  DCX     H
-        XTHL
-        PUSH    H               ; text, address
-DECIJ:  MOV     A,D
-        CMP     E
-        JZ      DECIL
+DECIX:  INR     E
+        JZ      DECIE
+        MOV     A,C
+        CPI     CMINUS-CPLUS
+        MOV     A,D
+        JZ      DECIS
+        ADD     B
+        DB      0FEH            ; CPI: skips the SUB
+DECIS:  SUB     B
+        MOV     D,A
+DECIA:  PUSH    H
+DECIB:  MOV     A,D
+        ORA     A
+        JZ      DECID
         PUSH    D
-        JC      DECIK
+        JM      DECIC
         LXI     H,UNITS
-        LXI     B,1000H
+        LXI     B,0
         CALL    FM10
         MOV     A,C
         ORA     A
         JNZ     FOVF
         POP     D
         DCR     D
-        JMP     DECIJ
-DECIK:  MVI     B,38
+        JMP     DECIB
+DECIC:  MVI     B,38
         CALL    FD10
         POP     D
-        DCR     E
-        JMP     DECIJ
-DECIL:  CALL    DECIM
-        POP     H
-        ORA     A
-        RET
-DECIF:  POP     H               ; behind the E
-        MOV     A,C
-        CPI     CMINUS
-        JZ      DECIE
-        CPI     CPLUS
-        JNZ     DECI9
-DECIE:  POP     D
-        STC
-        RET
-
-; FBIG to float; on the stack below the return: address
-DECIM:  POP     H
+        INR     D
+        JMP     DECIB
+DECID:  POP     H               ; text
         XTHL
+        LXI     D,DECIF
+        PUSH    D
         PUSH    H
-        XRA     A
-        STA     SIGN
         LXI     H,FBIG-1
-DECIN1: INX     H
+DECIG:  INX     H
         MOV     A,L
         CPI     (FBIG+32)&255
         JZ      FZERO
         MOV     A,M
         ORA     A
-        JZ      DECIN1
+        JZ      DECIG
         MOV     A,L
         ADD     A
         ADD     A
@@ -1238,12 +1165,12 @@ DECIN1: INX     H
         INX     H
         MOV     L,M
         JMP     FNRM1
-
-; next character that is no blank, is it a digit?
-DECID:  CALL    DECIC
-        JMP     DIGIT
-DECIC:  MOV     A,M
-        INX     H
-        CPI     CBLANK
-        JZ      DECIC
+DECIF:  POP     H
+        ORA     A
         RET
+DECIE:  POP     D
+        STC
+        RET
+CPOINT  EQU 2EH         ; .
+CPLUS   EQU 2BH         ; +
+CLTE    EQU 45H
