@@ -1,7 +1,7 @@
 ; io.asm - teletype, punch and reader
 ; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF PRDEC, BREAK, PUNON PUNOFF,
-;         GETLIN, IOINIT
-; Uses:   monitor (the cells), start
+;         GETLIN
+; Uses:   monitor (the cells), float (DECOUT FITOF)
 ; Room:   280 bytes
 ;
 ; OUTSEL says where characters go: bit 0 paper, bit 1 punch.
@@ -26,31 +26,6 @@ TXRDY   EQU     02H
         ENDIF
 CBEL    EQU     07H
 WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
-
-; IOINIT - readies both serial ports: 8 bits, 2 stop bits, clock / 16
-; Clobbers A, HL
-        IF      BRD51
-IOINIT: LXI     H,IOTAB
-IOIN1:  MOV     A,M
-        INX     H
-        OUT     TTYST
-        OUT     PUNST
-        CPI     37H
-        JNZ     IOIN1
-        RET
-IOTAB:  DB      0,0,0           ; ends whatever it was waiting for
-        DB      40H             ; reset
-        DB      0CEH            ; mode
-        DB      37H             ; command: transmitter and receiver on
-        ELSE
-IOINIT: MVI     A,03H           ; reset
-        OUT     TTYST
-        OUT     PUNST
-        MVI     A,11H
-        OUT     TTYST
-        OUT     PUNST
-        RET
-        ENDIF
 
 ; PUTC1 - the work of RST 2
 ; In:  A = B = character; PSW, HL and BC on the stack   Clobbers nothing
@@ -161,22 +136,13 @@ PUTS:   MOV     A,M
         RET
 
 ; PRDEC - prints a whole number
-; In:  HL = number   Clobbers A, BC, DE, HL
-PRDEC:  LXI     B,-10
-        LXI     D,-1
-PRD1:   INX     D
-        DAD     B
-        JC      PRD1            ; DE = number / 10, L = remainder - 10
-        MVI     A,CZERO+10
-        ADD     L
-        PUSH    PSW
-        XCHG
-        MOV     A,H
-        ORA     L
-        CNZ     PRDEC
-        POP     PSW
-        RST     2
-        RET
+; In:  HL = number   Clobbers all, and t0
+PRDEC:  LXI     D,MT0
+        PUSH    D
+        CALL    FITOF
+        POP     H
+        MVI     B,8
+        JMP     DECOUT
 
 ; INCHR - waits for the next character, from the reader in LOAD, else from the teletype
 ; Out: A; ctrl-Z when the reader has stopped   Clobbers DE, HL

@@ -52,30 +52,28 @@ LEXW2:  CALL    LEXCH
         CPI     14
         JC      LEXNAM
         MOV     A,B
-        STAX    D
-        INX     D
         CPI     TREM
-        JNZ     LEX1
-        MOV     A,M
+        JNZ     LEXN3
+        STAX    D
         MVI     C,TEOL
-        DCX     D
+        MOV     A,M
         CPI     CBLANK          ; LIST puts one blank after REM
         JZ      LEXRAW
         DCX     H
 ; (fall into LEXRAW)
 
-; LEXRAW - the text behind HL goes as it is, up to the character C
+; LEXRAW - the text behind HL goes as it is, up to the character C or the end
 LEXRAW: INX     H
         INX     D
         MOV     A,M
         STAX    D
-        CMP     C
-        JZ      LEXRA1
         ORA     A
+        JZ      LEX3
+        CMP     C
         JNZ     LEXRAW
-        JMP     ERSYN           ; no second quote
-LEXRA1: ORA     A
-        JNZ     LEX2
+LEX2:   INX     H               ; the character stands for itself
+        INX     D
+        JMP     LEX1
 LEX3:   INX     D
         INX     H
         RET
@@ -94,9 +92,21 @@ LEXW4:  LDAX    D               ; to the next word
 LEX4:   CPI     CDOT
         JZ      LEXNUM
         CPI     CZERO
-        JNC     LEXNUM
-LEX2:   INX     H               ; the character stands for itself
+        JC      LEX2
+; (fall into LEXNUM)
+
+; LEXNUM - a number
+LEXNUM: MVI     A,TFLT
+        STAX    D
         INX     D
+        PUSH    D
+        CALL    DECIN
+        JC      ERSYN
+        XTHL
+        LXI     D,5
+        DAD     D
+        XCHG
+        POP     H
         JMP     LEX1
 
 ; LEXNAM - a name, or its letter and the bracket of a computed subscript
@@ -137,23 +147,8 @@ LEXN2:  MOV     A,C
         STAX    D
         INX     D
         MOV     A,B
-        STAX    D
+LEXN3:  STAX    D
         INX     D
-        JMP     LEX1
-
-; LEXNUM - a number
-LEXNUM: PUSH    D
-        MVI     A,TFLT
-        STAX    D
-        INX     D
-        CALL    DECIN
-        POP     D
-        JC      LEX2            ; none: the character stays
-        PUSH    H
-        LXI     H,6
-        DAD     D
-        XCHG
-        POP     H
         JMP     LEX1
 
 ; LEXCH - next character that counts

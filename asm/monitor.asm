@@ -4,8 +4,9 @@
 ; Uses:   everything
 ; Room:   600 bytes
 ;
-; A program line: length of the record, line number (low byte first), tokens, 00.
-; A zero length ends the program; PEND-> it.
+; A program line: length of the record, line number (low byte first), tokens, 00, a byte
+; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
+; it.
 
 ; ---- Cells -----------------------------------------------------------------
 TXTP    EQU     MWORK           ; next token
@@ -19,17 +20,15 @@ OUTSEL  EQU     MWORK+13        ; bit 0 paper, bit 1 punch; bit 2: INPUT waits f
 KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader
 LASTC   EQU     MWORK+16        ; last character on the paper
-LINUM   EQU     MWORK+17        ; number of the line typed, 0: none
 LSTTO   EQU     MWORK+19        ; last line to list
-DATP    EQU     MWORK+21        ; in front of the next DATA item: its comma, or a line's last byte
+DATP    EQU     MWORK+21        ; in front of the next DATA item: its comma, or a line's 00
 INPNAM  EQU     MWORK+23        ; name that INPUT asks for
 INPTXT  EQU     MWORK+25        ; TXTP while it does
-SIGNED  EQU     MWORK+27        ; SIGNAT when the RAM holds a program
+VSUM    EQU     MWORK+17        ; check sum of the variables, as of the last prompt
 GSP     EQU     MWORK+29        ; top of the GOSUB stack
 GSTK    EQU     MWORK+31        ; 12 lines to go back to, downwards
 GSTKE   EQU     MWORK+55
 
-SIGNAT  EQU     0A55AH
 TOKS    EQU     2300H           ; the typed line's tokens, at a page's start in TOKBUF
 TOKROM  EQU     176             ; how many bytes of them; LINBUF reaches up to TOKS
 LASTLN  EQU     9999            ; greatest line number
@@ -93,6 +92,7 @@ ERR2:   CALL    CRLF
 ; READY - the prompt: takes lines for ever
 READY:  LXI     SP,STKTOP
         CALL    CALINI
+        CALL    VARSUM
         LXI     H,0
         SHLD    NXTP
         LDA     LOADF
@@ -122,27 +122,25 @@ READY:  LXI     SP,STKTOP
         DAD     D
         POP     H
         JC      ERSYN
-READ1:  SHLD    LINUM
-        LHLD    TXTP
-        PUSH    H               ; -> the statement
+READ1:  PUSH    H               ; line number, 0: none
         RST     6
+        PUSH    H               ; -> the statement
         CNZ     STMT
 ; (fall into CHKED)
 
 ; CHKED - the line is understood: stores it or carries it out
-CHKED:  LXI     SP,STKTOP-4
+CHKED:  LXI     SP,STKTOP-6
         POP     H
         SHLD    TXTP
-        LHLD    LINUM
-        MOV     A,H
-        ORA     L
+        POP     D
+        MOV     A,D
+        ORA     E
         JZ      DIRECT
 ; (fall into STORE)
 
 ; STORE - puts the line into the program, or takes it out
-; In:  HL = its number, TXTP-> its tokens, on the stack: -> behind them
-STORE:  XCHG                    ; DE = number
-        POP     B
+; In:  DE = its number, TXTP-> its tokens, on the stack: -> behind them
+STORE:  POP     B
         RST     3
         CPI     TRUN
         JNC     ERSYN           ; commands do not go into a program
@@ -156,6 +154,15 @@ STORE:  XCHG                    ; DE = number
         JZ      STOR1           ; the number alone: no record
         MOV     A,C
         SUB     L
+        INR     A
+        MOV     M,A
+        PUSH    H
+        MOV     B,A
+        DCR     B
+        CALL    SUMREC
+        MOV     M,A
+        POP     H
+        MOV     A,M
 STOR1:  MOV     M,A
         MOV     C,A             ; C = length
         PUSH    H
@@ -292,88 +299,19 @@ SRETN:  RST     7
 
 ; SGOSUB - statement: GOSUB n
 SGOSUB: CALL    LNEND
-        PUSH    D
         LHLD    NXTP
-        XCHG
+        PUSH    H
         LHLD    GSP
         MOV     A,L
         CPI     GSTK & 255
         JZ      ERLINE
+        POP     B
         DCX     H
-        MOV     M,D
+        MOV     M,B
         DCX     H
-        MOV     M,E
+        MOV     M,C
         SHLD    GSP
-        POP     D
         JMP     GOLINE
-
-; SGOTO - statement: GOTO n
-SGOTO:  CALL    LNEND
-        JMP     GOLINE
-
-; SRUN - command: RUN, RUN n
-SRUN:   CALL    OPTLN
-        PUSH    D
-        CALL    CLEAR
-        POP     D
-        LXI     H,PROG
-        MOV     A,D
-        ORA     E
-        JZ      RUN1
-; (fall into GOLINE)
-
-; GOLINE - goes on with a line
-; In:  DE = its number; ERR 02
-GOLINE: CALL    FINDLN
-        JNZ     ERLINE
-RUN1:   SHLD    NXTP
-; (fall into RUNLP)
-
-; RUNLP - runs the program from NXTP on; to READY when a direct line is done
-RUNLP:  LXI     SP,STKTOP
-        LHLD    NXTP
-        MOV     A,H
-        ORA     A
-        JZ      READY
-        MOV     A,M
-        ORA     A
-        JZ      END1            ; past the last line
-        PUSH    H
-        CALL    ADDA
-        SHLD    NXTP
-        POP     H
-        INX     H
-        MOV     E,M
-        INX     H
-        MOV     D,M
-        INX     H
-        SHLD    TXTP
-        XCHG
-        SHLD    CURLIN
-        CALL    BREAK
-DIRECT: LXI     H,0100H
-        SHLD    CHKF            ; (nothing new to a line of the program)
-        CALL    STMT
-        JMP     RUNLP
-
-ERLINE: RST     1
-        DB      ELINE
-
-; STMT - one statement
-; In:  TXTP   Clobbers all
-STMT:   RST     6
-        CPI     TFROM
-        JC      ASSIGN
-        RST     3
-        SUI     TFROM
-        LXI     H,STTAB
-        JMP     JTAB
-
-; The statements in the order of their tokens
-STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
-        DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
-        DW      SSCALE,SSYM,SREP,SRECUT,SFIT
-        DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
 
 ; SIF - statement: IF expression relation expression GOTO n
 SIF:    CALL    EVNUM
@@ -420,6 +358,72 @@ SIF3:   CMP     B
         RNZ
         JMP     GOLINE
 
+; SGOTO - statement: GOTO n
+SGOTO:  CALL    LNEND
+; (fall into GOLINE)
+
+; GOLINE - goes on with a line
+; In:  DE = its number; ERR 02
+GOLINE: CALL    FINDLN
+        JZ      RUN1
+ERLINE: RST     1
+        DB      ELINE
+
+; SRUN - command: RUN, RUN n
+SRUN:   CALL    OPTLN
+        PUSH    D
+        CALL    CLEAR
+        POP     D
+        LXI     H,PROG
+        MOV     A,D
+        ORA     E
+        JNZ     GOLINE
+RUN1:   SHLD    NXTP
+; (fall into RUNLP)
+
+; RUNLP - runs the program from NXTP on; to READY when a direct line is done
+RUNLP:  LXI     SP,STKTOP
+        LHLD    NXTP
+        MOV     A,H
+        ORA     A
+        JZ      READY
+        MOV     A,M
+        ORA     A
+        JZ      END1            ; past the last line
+        PUSH    H
+        CALL    ADDA
+        SHLD    NXTP
+        POP     H
+        INX     H
+        MOV     E,M
+        INX     H
+        MOV     D,M
+        INX     H
+        SHLD    TXTP
+        XCHG
+        SHLD    CURLIN
+        CALL    BREAK
+DIRECT: LXI     H,0100H
+        SHLD    CHKF            ; (nothing new to a line of the program)
+        CALL    STMT
+        JMP     RUNLP
+
+; STMT - one statement
+; In:  TXTP   Clobbers all
+STMT:   RST     6
+        CPI     TFROM
+        JC      ASSIGN
+        RST     3
+        SUI     TFROM
+        LXI     H,STTAB
+        JMP     JTAB
+
+; The statements in the order of their tokens
+STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
+        DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
+        DW      SSCALE,SSYM,SREP,SRECUT,SFIT
+        DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
+
 ; SEND - statement: END
 SEND:   RST     7
 END1:   CALL    CENDST
@@ -441,6 +445,7 @@ SPRI2:  CALL    MORE
         JMP     SPRI1
 SPRI3:  RST     3               ; the quote
 SPRI4:  RST     3
+        JZ      ERSYN           ; no second quote
         CPI     CQUOTE
         JZ      SPRI2
         RST     2
@@ -467,6 +472,7 @@ SDAT1:  CALL    EVAL
 SREST:  CALL    OPTLN
         CALL    FINDLN
 REST1:  DCX     H
+        DCX     H
         SHLD    DATP
         RET
 
@@ -484,7 +490,8 @@ READI:  CALL    CHKRET
         MOV     A,M
         CPI     CCOMMA
         JZ      READI3
-        INX     H               ; next line
+        INX     H               ; the line that follows the 00 and the check byte
+        INX     H
 READI1: MOV     A,M
         ORA     A
         JZ      ERDATA
@@ -511,8 +518,6 @@ READI3: INX     H
         SHLD    TXTP
         POP     D
         JMP     SETREF
-ERDATA: RST     1
-        DB      EDATA
 
 ; SINPUT - statement: INPUT name, ...; a direct one asks for one name, its line being
 ;          overwritten by the answer
@@ -558,33 +563,24 @@ ASK1:   MVI     A,5
         RET
 
 ; SLIST - command: LIST, LIST n, LIST n,m
-SLIST:  RST     6
+SLIST:  LXI     H,-1
+        SHLD    LSTTO
+        RST     6
         LXI     H,0
-        LXI     D,-1
         JZ      SLIS2
         CALL    LINENO
+        SHLD    LSTTO           ; one number: that line
         PUSH    H
         RST     6
-        CPI     CCOMMA
-        POP     H
-        MOV     D,H
-        MOV     E,L             ; one number: that line
-        JNZ     SLIS2
-        PUSH    H
-        RST     3
+        JZ      SLIS1
+        RST     4
+        DB      CCOMMA
         CALL    LINENO
-        XCHG
-        POP     H
-SLIS2:  PUSH    D
-        CALL    LNEND1          ; DE = first
-        POP     H
-; (fall into LISTPR)
-
-; LISTPR - prints the program from line DE to line HL
-; Clobbers all
-LISTPR: SHLD    LSTTO
+        SHLD    LSTTO
+SLIS1:  POP     H
+SLIS2:  CALL    LNEND1          ; DE = first
         CALL    FINDLN
-LISTP1: MOV     A,M
+SLIS3:  MOV     A,M
         ORA     A
         RZ
         INX     H
@@ -605,14 +601,14 @@ LISTP1: MOV     A,M
         RST     2
         POP     H
         CALL    LISTOK
-        JMP     LISTP1
+        INX     H               ; check byte
+        JMP     SLIS3
 
-; SSAVE - command: SAVE; ctrl-Z tells LOAD where the tape ends
-SSAVE:  RST     7
-        CALL    PUNON
-        LXI     D,0
-        LXI     H,-1
-        CALL    LISTPR
+; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
+SSAVE:  LDA     CHKF
+        ORA     A
+        CZ      PUNON
+        CALL    SLIST
         MVI     A,CEOF
         RST     2
         JMP     PUNOFF
@@ -627,7 +623,7 @@ NEW1:   LXI     H,PROG
 ; CLEAR - forgets variables and route: the state in which a run starts
 ; Clobbers all
 CLEAR:  CALL    CLRVAR
-        CALL    RUNINI
+CLEAR1: CALL    RUNINI
 ; (fall into CLRPTR)
 
 ; CLRPTR - forgets what points into the program: DATA at its start, no GOSUB

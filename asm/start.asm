@@ -1,8 +1,8 @@
 ; start.asm - restarts and what happens at reset
 ; Offers: the restarts of equ.asm and the routines in the gaps between them
-;         (DIGIT, ADDA, SREM), CHKEND, RESET
-; Uses:   io (PUTC1), calc (CALC), monitor
-; Room:   140 bytes
+;         (DIGIT, ADDA, SREM, ERDATA), CHKEND, RESET, SUMREC, VARSUM
+; Uses:   io (PUTC1, the ports), calc (CALC), monitor
+; Room:   200 bytes
 ;
 ; The DS lines fill each gap up to the next restart: a routine that grows past it
 ; makes the count negative, and the assembler refuses it.
@@ -41,6 +41,7 @@ NEXT:   RST     6
 
 ; SREM - statement REM: nothing
 SREM:   RET
+
         DS      20H-$
 
 ; RST 4 - EXPECT: takes a token, which must be the one that follows the RST
@@ -73,6 +74,9 @@ PEEK:   LHLD    TXTP
         MOV     A,M
         ORA     A
         RET
+
+ERDATA: RST     1
+        DB      EDATA
         DS      38H-$
 
 ; RST 7 - CHKEND: the statement must end here; in check mode it is left for good
@@ -84,44 +88,99 @@ CHKEND: RST     4
         RZ
         JMP     CHKED
 
-; RESET - finds the RAM, readies the ports, keeps a sound program, signs on
+; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
+;         sound in it, signs on
 RESET:  LXI     SP,STKTOP
-        CALL    CALINI
-        CALL    IOINIT
+        IF      BRD51
+        LXI     H,IOTAB
+RESE1:  MOV     A,M
+        INX     H
+        OUT     TTYST
+        OUT     PUNST
+        CPI     37H
+        JNZ     RESE1
+        ELSE
+        MVI     A,03H           ; reset
+        OUT     TTYST
+        OUT     PUNST
+        MVI     A,11H
+        OUT     TTYST
+        OUT     PUNST
+        ENDIF
         LXI     H,0
         SHLD    KEYB            ; and LOADF
-        INR     H               ; no check mode, paper on
-        SHLD    CHKF
+        INR     H
+        SHLD    CHKF            ; no check mode, paper on
         LXI     H,RAM
-RES1:   MOV     A,M             ; does this page keep what is written?
+RESE2:  MOV     A,M             ; does this page keep what is written?
         CMA
         MOV     M,A
         CMP     M
         CMA
         MOV     M,A             ; (flags stay)
-        JNZ     RES2
+        JNZ     RESE3
         INR     H
-        JNZ     RES1
-RES2:   DCX     H               ; HL-> last byte of RAM
+        JNZ     RESE2
+RESE3:  DCX     H               ; HL-> last byte of RAM
         XCHG
         LHLD    VTOP
         CALL    CPHD
         XCHG
         SHLD    VTOP
-        JNZ     RES3            ; not the RAM that it was
-        LHLD    SIGNED
-        LXI     D,SIGNAT
-        CALL    CPHD
-        XCHG
-        SHLD    SIGNED
-        CNZ     NEW1
-        CALL    RUNINI
-        JMP     RES4
-RES3:   LXI     H,SIGNAT
-        SHLD    SIGNED
-        CALL    NEW1
-RES4:   CALL    CRLF
+        CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
+        CALL    CRLF
+        LXI     H,PROG
+RESE4:  SHLD    PEND            ; sound so far
+        MOV     A,M
+        ORA     A
+        JZ      RESE5
+        MOV     B,A
+        CALL    SUMREC
+        ORA     A
+        JZ      RESE4
+        LHLD    PEND
+        MVI     M,0             ; from here on it is lost
+        CALL    PUTSI
+        DB      "DAMAGED",CCR,CLF+80H
+RESE5:  CALL    VARSUM
+        CNZ     CLRVAR
+        CALL    CLEAR1
         CALL    PUTSI
         DB      "SKG",0A0H
         CALL    FREE1
         JMP     READY
+
+        IF      BRD51
+IOTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for
+        DB      40H             ; reset
+        DB      0CEH            ; mode
+        DB      37H             ; command: transmitter and receiver on
+        ENDIF
+
+; SUMREC - check sum: a sound record of the program sums up to 0
+; In:  HL-> bytes, B = how many   Out: A = 0 less their sum; HL behind   Clobbers B
+SUMREC: XRA     A
+SUMR1:  SUB     M
+        INX     H
+        DCR     B
+        JNZ     SUMR1
+        RET
+
+; VARSUM - check sum of the variables, to VSUM
+; Out: Z when it is the same as last time   Clobbers A, B, DE, HL
+VARSUM: LHLD    VTOP
+        XCHG
+        LHLD    VBOT
+        MVI     B,1
+VARS1:  MOV     A,B
+        RLC
+        ADD     M
+        MOV     B,A
+        CALL    CPHD
+        INX     H
+        JC      VARS1
+        LXI     H,VSUM
+        MOV     A,M
+        MOV     M,B
+        CMP     B
+        RET
