@@ -21,6 +21,9 @@ from skg.ref import run as reference
 
 #: µm; see above.
 ROUNDING = 2e-4
+#: µm: up to here the reference notes how near a rounding was. A crossing so shallow that it would take more
+#: (a sine of 0.02 or less) is a close call by itself.
+NOTED = 1e-3
 #: Sine of the crossing angle up to which `ROUNDING` has room enough.
 SHALLOW = 0.1
 #: Printed numbers are equal to 7 digits, or to 10⁻⁷ of the drawing's size (100 mm) where digits cancelled.
@@ -43,6 +46,8 @@ def close_call(result: Result) -> str:
     """The decision that 32 bits cannot be asked to take, if there is one."""
     shallowest = min((n.margin for n in result.near if n.kind == "shallow crossing"), default=SHALLOW)
     needed = ROUNDING * max(1.0, SHALLOW / max(shallowest, 1e-12))
+    if needed > NOTED:
+        return f"crossing at a sine of {shallowest:.1e}"
     for n in result.near:
         if n.kind == "shallow crossing":
             continue

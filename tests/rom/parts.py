@@ -237,8 +237,55 @@ def crossings(rng: Random) -> Statements:
     return [*lines, "PRINT " + ",".join(names), "R=0", "CUT " + ",".join(names[:5]), "BACK"]
 
 
+def copied(rng: Random) -> Statements:
+    """A wheel by REP: one tooth of points, lines or an arc, at times a fillet that waits for the join."""
+    count = rng.randint(2, 9)
+    outer, inner = rng.uniform(25, 45), rng.uniform(14, 22)
+    half = 180 / count
+    x, y = rng.choice([(0.0, 0.0), somewhere(rng)])
+    about = f":{point(x, y)}" if (x, y) != (0, 0) else rng.choice(["", ":O"])
+    tooth = [f"P1={point(x, y)}+({outer:.2f}#0)", f"P2={point(x, y)}+({inner:.2f}#{half:.6g})"]
+    if rng.random() < 0.4:
+        tooth += [f"P3={point(x, y)}+({outer:.2f}#{half / 2:.6g})", f"C1={point(x, y)}/P1"]
+        items = ["P1", ",C1", ",P3", ",P2"]
+    else:
+        items = ["P1", ",P2"]
+    if rng.random() < 0.4:
+        items.append(f",{rng.uniform(0.2, 0.9):.2f}")
+    step = f"360/{count}" if rng.random() < 0.5 else f"{360 / count:.9g}"
+    return [*tooth, *offset(rng), *split(rng, items), f"REP {count},{step}{about}", *rng.choice(AGAIN)]
+
+
+def mirrored(rng: Random) -> Statements:
+    """Half a contour by points, some of them rounded, and its image by SYM; entered on the mirror."""
+    x, y = somewhere(rng)
+    count = rng.randint(1, 4)
+    step = 40 / count
+    corners = [point(x + rng.uniform(4, 30), y + step * (n + rng.uniform(0.2, 0.8))) for n in range(count)]
+    items = [point(x, y), f",{point(x + rng.uniform(5, 30), y)}"]
+    for corner in corners:
+        items.append(f",{corner}")
+        if rng.random() < 0.3:
+            items.append(f",{rng.uniform(0.2, 1.5):.2f}")
+    items.append(f",{point(x, y + 45)}")
+    mirror = rng.choice([f"SYM {point(x, y + 50)}:{point(x, y)}", f"SYM Y:{x:.3f}"])
+    return [*offset(rng), *split(rng, items), mirror, *rng.choice(AGAIN)]
+
+
+#: The route is closed, and cut again by some.
+AGAIN = [["BACK"], ["BACK"], ["BACK", "R=0.05", "RECUT"], ["BACK", "R=0", "RECUT", "RECUT"]]
+
+
+def scaled(rng: Random) -> Statements:
+    """Another route, enlarged or made smaller, then the scale set back."""
+    factor = rng.choice(["2", "0.5", "1.02", decimal(rng, 0.6, 1.5)])
+    route = rng.choice([points, arcs, slots, whole_circle])(rng)
+    return [f"SCALE {factor}", *route, "SCALE 1"]
+
+
 #: The families, the more telling ones twice.
 ROUTES = [points, arcs, notched] * 2 + [open_points, belt, whole_circle, wheel, slots, crossings]
+ROUTES += [copied, mirrored, scaled]
 
 # ---- Arithmetic ----
 

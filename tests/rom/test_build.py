@@ -69,8 +69,8 @@ def opcodes() -> dict[int, tuple[str, int]]:
 
 OPCODES = opcodes()
 
-#: Byte-code of the calculator (asm/calc.asm): its end, its return, and its jumps with a distance behind them.
-QEND, QRET, QJMP, QJUMPS = 0x00, 0x09, 0x08, (0x05, 0x06, 0x08)
+#: Operations of the calculator (asm/calc.asm, ops.asm) with a distance behind them; the last always jumps.
+JUMPS = ["QJN", "QJZ", "QJC", "QJMP"]
 
 
 @dataclass
@@ -78,7 +78,7 @@ class Walk:
     """All instructions that can be reached, and the byte-code between them."""
 
     image: bytes
-    putsi: int
+    names: dict[str, int]
     code: set[int] = field(default_factory=set)
     bytecode: set[int] = field(default_factory=set)
 
@@ -100,7 +100,7 @@ class Walk:
                 waiting.append(at + 2)
             elif name == "RST 5":
                 waiting += self.calculator(at + 1)
-            elif name == "CALL" and target == self.putsi:
+            elif name == "CALL" and target == self.names["PUTSI"]:
                 waiting.append(1 + next(n for n in range(at + 3, ROM_SIZE) if self.image[n] & 0x80))
             elif name not in ("JMP", "RET", "PCHL", "RST 1", "HLT"):
                 waiting.append(at + length)
@@ -114,14 +114,14 @@ class Walk:
                 continue
             self.bytecode.add(at)
             operation = self.image[at]
-            if operation == QEND:
+            if operation == self.names["QEND"]:
                 after.append(at + 1)
-            elif operation in QJUMPS:
+            elif operation in [self.names[jump] for jump in JUMPS]:
                 distance = self.image[at + 1]
                 waiting.append(at + 1 + distance - (256 if distance > 127 else 0))
-                if operation != QJMP:
+                if operation != self.names["QJMP"]:
                     waiting.append(at + 2)
-            elif operation != QRET:
+            elif operation != self.names["QRET"]:
                 waiting.append(at + 1)
         return after
 
@@ -187,7 +187,7 @@ def test_only_8080_code_is_reached(name: str) -> None:
     for line in lines:
         if line.mnemonic == "DW" and "+K" not in line.operands:  # (rows of table 2.1 lead to byte-code)
             starts += [int.from_bytes(line.data[n : n + 2], "little") for n in range(0, len(line.data), 2)]
-    walk = Walk(image, symbols(name)["PUTSI"])
+    walk = Walk(image, symbols(name))
     walk.follow(starts)
     instructions = {line.at for line in lines if line.mnemonic not in ("DB", "DW", "DS")}
     # The walk is the listing's code, but for a DB that is a CPI and skips the byte behind it.
