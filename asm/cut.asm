@@ -17,6 +17,7 @@
 CKIND   EQU MCUR+20     ; kinds of the elements
 NKIND   EQU MNEXT+20
 FKIND   EQU MFIRST+20
+ROPEN   EQU CWORK+4     ; not 0 = a route is open, from its first item on
 RITEMS  EQU CWORK+5     ; items written so far: 0 = no route, 1, 2 = more
 RELEMS  EQU CWORK+6     ; elements of them that did not merge: 0, 1, 2 = more
 RLASTP  EQU CWORK+7     ; 1 = last item was a point
@@ -112,6 +113,7 @@ ITEM2:  CALL    RECORD
         ORA     A
         JZ      ITFIL
         STA     RMOVED
+        STA     ROPEN
         CPI     KPNT
         JZ      ITPNT
 ; (fall into ITELM)
@@ -710,8 +712,8 @@ CLOSE5: CALL    NOFIL           ; a fillet without a corner
 
 ; RTDONE - the route is over; the buffer keeps it for RECUT
 ; Clobbers B, HL
-RTDONE: LXI     H,RITEMS
-        MVI     B,RBACK-RITEMS
+RTDONE: LXI     H,ROPEN
+        MVI     B,RBACK-ROPEN
 RTDON1: MVI     M,0
         INX     H
         DCR     B
@@ -782,7 +784,7 @@ CENDST: CALL    ENDRT
         JMP     PUNDS
 
 ; ROUTER - after an error: D when a route was open, which is forgotten
-ROUTER: LDA     RITEMS
+ROUTER: LDA     ROPEN
         PUSH    PSW
         CALL    RTNEW
         POP     PSW

@@ -1086,6 +1086,7 @@ DECI6:  INR     E
         CALL    LEXCH
         CPI     CLTE
         JNZ     DECIA
+        PUSH    H               ; -> E, which may begin a word
         INX     H
         CALL    LEXCH
         SUI     CPLUS
@@ -1112,7 +1113,9 @@ DECI9:  CALL    LEXCH
         MOV     B,A
         JMP     DECI9
 DECIX:  INR     E
-        JZ      DECIE
+        JZ      DECIY
+        XTHL
+        POP     H
         MOV     A,C
         CPI     CMINUS-CPLUS
         MOV     A,D
@@ -1168,6 +1171,8 @@ DECIG:  INX     H
 DECIF:  POP     H
         ORA     A
         RET
+DECIY:  POP     H               ; the E is not ours
+        JMP     DECIA
 DECIE:  POP     D
         STC
         RET

@@ -57,9 +57,16 @@ ARC:    DB      ST3             ; -             t3 < 0: more than half a turn
 ARC1:   DB      QCRS,QJN        ; -           long and past the start again:
         DB      ARC2-$
         DB      Q1,ST4          ; -             a pass more
-ARC2:   DB      LA0,LA1,QHYP    ; radius
-        DB      QHALF,QADD,QFLR,ST5 ; -         t5 = r
-        DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
+ARC2:   DB      LA0,LA1,QHYP    ; radius        t5 = r: first, not too great ...
+        DB      QHALF,QADD,QMU,QSUB,QFLR,ST5 ; -
+        DB      LA0,LT5,QSUB    ; x-r
+        DB      LA0,LT5,QADD,QMUL ; x^2-r^2     ... then from whole numbers:
+        DB      LA1,QSQ,QADD    ; n-r^2         n = x^2+y^2 > r^2+r: nearer to r+1
+        DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
+        DB      QJN
+        DB      ARC9-$
+        DB      LT5,Q1,QADD,ST5 ; -
+ARC9:   DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
         DB      QEND
         LXI     H,MA
         CALL    QUAD
