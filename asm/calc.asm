@@ -61,50 +61,54 @@ CALINI: LXI     H,FSTK
 
 ; CALC - runs byte-code (RST 5 jumps here)
 ; In:  on the stack: code pointer   Clobbers all
-; Cycles: an operation 238 + its own, a load 319, a store 299
-CALC:   POP     H
-CALC1:  MOV     A,M
-        INX     H
-        PUSH    H
-        ORA     A
-        RZ                      ; QEND: on behind it
-        LXI     H,CALC
-        PUSH    H               ; every operation returns there
-        MOV     L,A
-        MVI     H,0
+; Cycles: a load 332, a store 370, a constant 359, an operation 241 + its own
+CALC:   POP     B
+CALC1:  LDAX    B
+        INX     B
         CPI     40H
         JC      CALC3
+        LXI     H,CALC1
+        PUSH    H
+        MOV     L,A
+        MVI     H,0
         MOV     D,H
         MOV     E,L
         DAD     H
         DAD     H
         DAD     D               ; HL = 5*code
-        LXI     D,CONTAB-5*0C0H
-        CPI     0C0H
-        JNC     CALC2
-        LXI     D,MREG-5*80H
-        CPI     80H
-        JNC     CALC4
         LXI     D,MREG-5*40H
+        CPI     80H
+        JC      CALC2
+        LXI     D,MREG-5*80H
+        CPI     0C0H
+        JC      CALC4
+        LXI     D,CONTAB-5*0C0H
 CALC2:  DAD     D
-        XCHG                    ; DE -> register or constant
+ODUP:   XCHG                    ; DE -> register or constant
 ; (fall into OOVR)
 
 ; OOVR - QOVR: pushes a float
-; In:  DE -> float   Clobbers all
+; In:  DE -> float   Out: DE -> behind it   Clobbers A, HL
 OOVR:   LHLD    FSP
         CALL    COPY5
         SHLD    FSP
         RET
 
-CALC3:  LXI     D,OPTAB-2
-        DAD     H
-        DAD     D
+; an operation, or QEND
+CALC3:  PUSH    B
+        ORA     A
+        RZ                      ; QEND: on behind it
+        LXI     H,CALC
+        PUSH    H               ; every operation returns there
+        LXI     H,OPTAB-2
+        MOV     C,A
+        MVI     B,0
+        DAD     B
+        DAD     B
         MOV     E,M
         INX     H
         MOV     D,M
         PUSH    D               ; operation
-        MOV     B,A
         LHLD    FSP
         MOV     A,L             ; FSTK lies within a page
         SUI     5
@@ -112,7 +116,7 @@ CALC3:  LXI     D,OPTAB-2
         SUI     5
         MOV     E,A
         MOV     D,H             ; DE -> second
-        MOV     A,B
+        MOV     A,C
         CPI     QPOP+1
         RNC
         SHLD    FSP
@@ -175,14 +179,12 @@ OJMP2:  MOV     E,A
         SBB     A
         MOV     D,A
         DAD     D
-        JMP     CALC1
+        PUSH    H
+        JMP     CALC
 
 ORET:   POP     H               ; CALC
         POP     H               ; code pointer
         RET
-
-ODUP:   XCHG
-        JMP     OOVR
 
 OSWP:   MVI     C,5
 OSWP1:  LDAX    D
