@@ -1,5 +1,5 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: CALC, CALINI, COPY5, the operations QADD ... QOVR, and OPTAB
+; Offers: CALC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, and OPTAB
 ; Uses:   float
 ; Room:   210 bytes
 ;
@@ -124,6 +124,8 @@ CALC3:  PUSH    B
 
 CALC4:  DAD     D               ; HL -> register
         XCHG
+        DB      0FEH            ; CPI: skips the POP
+FUN1:   POP     D
 ; (fall into CALPOP)
 
 ; CALPOP - pops a float
@@ -160,6 +162,17 @@ COPY5:  LDAX    D
         INX     D
         INX     H
 ODRP:   RET
+
+; FUN - puts x on the float stack; when the routine that called FUN returns, what is
+;       on top there goes back to x
+; In:  HL -> x   Out: HL -> behind the copy   Clobbers all
+FUN:    XCHG
+        POP     H
+        PUSH    D
+        LXI     B,FUN1
+        PUSH    B
+        PUSH    H
+        JMP     OOVR
 
 OJN:    INX     H
         MOV     A,M

@@ -281,9 +281,6 @@ FEXP:   MOV     B,A
         SHLD    FY+2
         POP     H
         JMP     FLOAD
-FEXP1:  POP     H
-        JC      FOVF
-        JMP     FZERO
 
 ; FDIV - x / y
 ; In:  DE -> x, HL -> y   Out: x; ERR 05 too when y is 0   Clobbers all
@@ -488,6 +485,8 @@ FRND:   MOV     A,L
 FOVF:   RST     1
         DB      ERANGE
 
+FEXP1:  POP     H               ; exponent out of range: drops the return to FMUL, FDIV
+        JC      FOVF
 FZERO:  LXI     B,0
         MOV     D,B
         MOV     E,B
@@ -548,13 +547,11 @@ FSGN:   MOV     A,M
 ; FITOF - whole number to float
 ; In:  HL = 0...65535, DE -> float   Clobbers all
 FITOF:  PUSH    D
-        MOV     B,H
-        MOV     C,L
-        LXI     D,0
+        XCHG
+        LXI     B,0
         XRA     A
         STA     SIGN
-        LXI     H,9000H         ; exponent of 2^16
-        JMP     FNRM
+        JMP     FFLR1
 
 ; FTOI16 - float to whole number
 ; In:  HL -> x   Out: HL = x; CY: it is negative, not whole or above 65535
@@ -692,21 +689,8 @@ FSQR4:  MOV     M,A
         MOV     E,A
         JMP     FNRME
 
-; Functions of angles, in degrees.  They work on a copy of x on the calculator's
-; stack.
-
-; FUN - puts x on the calculator's stack; when the routine that called FUN returns,
-;       what is on top there goes back to x
-; In:  HL -> x   Out: HL -> behind the copy   Clobbers all
-FUN:    XCHG
-        POP     H
-        PUSH    D
-        LXI     B,FUN1
-        PUSH    B
-        PUSH    H
-        JMP     OOVR
-FUN1:   POP     D
-        JMP     CALPOP
+; Functions of angles, in degrees.  FUN puts a copy of x on the calculator's stack
+; and has the result fetched from there.
 
 ; FTG - tangent, sine by cosine
 ; In:  HL -> x   Out: x; ERR 05 for odd multiples of 90   Clobbers all
@@ -835,9 +819,11 @@ FCLR1:  XRA     A
         JNZ     FCLR1
         RET
 
-; FM10 - multiplies FBIG by 10 and adds
-; In:  HL -> last byte, BC = added   Out: C = carry   Clobbers all
+; FM10W - multiplies the whole part of FBIG by 10 and adds
+; FM10  - multiplies FBIG by 10 and adds
+; In:  HL -> last byte (FM10 alone), BC = added   Out: C = carry   Clobbers all
 ; Cycles: 159 a byte
+FM10W:  LXI     H,UNITS
 FM10:   PUSH    H
         MOV     E,M
         MVI     D,0
@@ -1073,10 +1059,9 @@ DECI4:  INR     D
 DECI5:  PUSH    H
         PUSH    D
         PUSH    B
-        LXI     H,UNITS
         MOV     C,E
         MVI     B,0
-        CALL    FM10
+        CALL    FM10W
         POP     B
         POP     D
         POP     H
@@ -1130,9 +1115,8 @@ DECIB:  MOV     A,D
         JZ      DECID
         PUSH    D
         JM      DECIC
-        LXI     H,UNITS
         LXI     B,0
-        CALL    FM10
+        CALL    FM10W
         MOV     A,C
         ORA     A
         JNZ     FOVF
