@@ -4,7 +4,7 @@
     asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] OUT
 
 writes OUT.bin (padded to 8,192 bytes), OUT.hex, OUT.lst and OUT.sym and prints bytes per source file.
-The assembler is z88dk-z80asm when it is on the PATH (or SKG_ASM=z88dk), else asm80 from node_modules; both give the same bytes.
+The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from node_modules.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ ROOT = ASM.parent
 ROM_SIZE = 8192
 #: Source files in the order in which they stand in the ROM; equ.asm first, since it only names things.
 FILES = [
-    "equ", "start", "io", "calc", "ops", "consts", "float", "parser", "geom", "cut", "tape", "repeat", "lexer", "monitor",
+    "equ", "start", "io", "calc", "ops", "consts", "float",
+    "parser", "geom", "cut", "tape", "repeat", "lexer", "monitor",
 ]
 OPTIONS = {"BRD51": 0, "PTTY": 0}
 

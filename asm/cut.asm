@@ -87,6 +87,10 @@ SCUT:   RST     6
         CPI     CSEMI
         JNZ     SCUT2
 SCUT1:  RST     3               ; ";": the corner to come turns right
+        LDA     CHKF
+        ORA     A
+        JNZ     SCUT2
+        INR     A
         STA     RTURN
 SCUT2:  CALL    EVAL
         LDA     CHKF
@@ -174,8 +178,7 @@ ITPNT:  RST     5
         JZ      ITPN1
         RST     5
         DB      LPX,SA0,LPY,SA1 ; -
-        DB      QDIF,QHYP       ; distance
-        DB      QMU,QSUB        ; -             within 1 um: the same point
+        DB      QDIF,QFAR       ; negative: within 1 um, the same point
         DB      QJN
         DB      ITPN3-$
         DB      QEND
@@ -639,7 +642,7 @@ ADVANC: RST     5
         JMP     ADVAN3
 ADVAN1: DB      LKX,LAX,QSUB    ; dx
         DB      LKY,LAY,QSUB    ; dx dy
-        DB      QHYP,QMU,QSUB   ; chord-1um
+        DB      QFAR            ; negative: the chord is within 1 um
         DB      QJN             ; -
         DB      ADVAN2-$
         DB      QEND

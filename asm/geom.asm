@@ -354,6 +354,10 @@ XDIF:   RST     5
 XHYP:   RST     5
         DB      QSQ,QSWP,QSQ,QADD       ; x^2+y^2
         DB      QSQRT,QRET              ; length
+; QFAR: is a vector longer than 1 um?  (no square root)
+XFAR:   RST     5
+        DB      QSQ,QSWP,QSQ,QADD       ; x^2+y^2
+        DB      QMU,QSQ,QSUB,QRET       ; -1um^2
 ; QCEN: the centre of a turn along the normal a0 a1
 XCEN:   RST     5
         DB      LA0,LB1,QMUL            ; a0*x

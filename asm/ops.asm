@@ -24,7 +24,8 @@ QVK     EQU QOWN+17     ; ->      V = K in whole um
 QJC     EQU QOWN+18     ; ->      jump when a is a circle
 QONEL   EQU QOWN+19     ; ->      ERR 06 when the point b is not on the element a
 QNORM   EQU QOWN+20     ; ->      a0 a1 = right normal of a at the point b
+QFAR    EQU QOWN+21     ; x y -> negative when x*x+y*y is less than 1 um squared
 
         DW      XDOT,XCRS,XDIF,XHYP,XCEN,XREFL,XROTV,XTCH
         DW      XSGN,XMAX,XE6N,XE6D,XE6Z,XE5Z
-        DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM
+        DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR

@@ -91,6 +91,7 @@ CHKEND: RST     4
 ; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
 ;         sound in it, signs on
 RESET:  LXI     SP,STKTOP
+        CALL    CALINI
         IF      BRD51
         LXI     H,IOTAB
 RESE1:  MOV     A,M

@@ -209,11 +209,14 @@ PUTB9:  DB      QEND
 XRND:   RST     5
         DB      Q1000,QMUL              ; um
         DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
-        DB      QFLR,QSWP,QSGN,QMUL     ; whole
-        DB      Q8DIG,QOVR,QABS,QSUB    ; whole room
+        DB      QFLR,QDUP               ; um |whole| |whole|
+        DB      Q8DIG,QSWP,QSUB         ; um |whole| room
         DB      QJN
         DB      PUTB9-$
-        DB      QRET            ; whole
+        DB      QSWP,QJN                ; |whole|
+        DB      XRND1-$
+        DB      QRET
+XRND1:  DB      QNEG,QRET               ; -|whole|
 ; QVK: V = K in whole um
 XVK:    RST     5
         DB      LKX,QRND,SVX            ; -

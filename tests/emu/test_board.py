@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from asm8080 import assemble
 from conftest import monitor
+
 from skg.machine import Machine
 
 

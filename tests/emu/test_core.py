@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from asm8080 import assemble
+
 from skg.machine import Machine
 
 ROOT = Path(__file__).resolve().parents[2]

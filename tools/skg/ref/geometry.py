@@ -272,11 +272,8 @@ def nearest(curve: Curve, p: Point) -> Point:
 
 def check_on(curve: Curve, p: Point) -> None:
     """Error 6 when the curve does not pass the point within 1 µm."""
-    if isinstance(curve, Line):
-        miss = abs(curve.distance(p))
-    else:
-        miss = abs((p - curve.centre).length() - abs(curve.r))
-    if not near.at_most(miss, MICRON, "point on curve"):
+    off = curve.distance(p) if isinstance(curve, Line) else (p - curve.centre).length() - abs(curve.r)
+    if not near.at_most(abs(off), MICRON, "point on curve"):
         raise Fault(Code.GEOMETRY)
 
 
