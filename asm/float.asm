@@ -1163,3 +1163,5 @@ DECIE:  POP     D
 CPOINT  EQU 2EH         ; .
 CPLUS   EQU 2BH         ; +
 CLTE    EQU 45H
+
+FLTEND  EQU     $               ; (for the table of bytes)
