@@ -700,12 +700,25 @@ CLOSE3: CALL    CLOSE5
         MVI     A,10
         CALL    COPY            ; b = end of the first element
         CALL    PASSED
-        CALL    ADVANC
+CLOSE8: CALL    ADVANC
         JMP     RTDONE
-CLOSE4: CALL    CLOSE5
-        LDA     CKIND
+CLOSE4: LDA     CKIND           ; one element alone
         CPI     KCIR
-        JNZ     ERGEO           ; a line alone
+        JNZ     ERGEO           ; a line
+        LDA     RLASTP
+        ORA     A
+        JZ      CLOSE6
+        CALL    PATC            ; by way of the last point
+        CALL    ADVANC
+CLOSE6: CALL    CLOSE5
+        RST     5
+        DB      LAX,LKX,QSUB    ; dx
+        DB      LAY,LKY,QSUB    ; dx dy
+        DB      QFAR,QJN        ; -             at the entry still?
+        DB      CLOSE7-$
+        DB      QEND
+        JMP     CLOSE8
+CLOSE7: DB      QEND
         CALL    WHOLE
         JMP     RTDONE
 CLOSE5: CALL    NOFIL           ; a fillet without a corner

@@ -17,9 +17,9 @@ TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
 TZNUM   EQU CWORK+20    ; its number
 
 ; SEGMNT - the wire goes along C to K
-; In:  C, A (entry), K, W   Out: W   Clobbers all
+; In:  C, VKIND its kind, A (entry), K, W   Out: W   Clobbers all
 SEGMNT: RST     5
-        DB      QVK,QCA,QJC     ; -
+        DB      QVK,QJC         ; -             (ADVANC made a = C)
         DB      SEGM1-$
         DB      QEND
         JMP     MOVE
