@@ -7,7 +7,7 @@
 ; OUTSEL says where characters go: bit 0 paper, bit 1 punch.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
 ; until somebody asks (BREAK), ctrl-S holds all output until the next key.
-; In a line, a control character that is no editing key counts as a blank.
+; In a line, a control character that is no editing key means nothing.
 
         IF      BRD51
 TTYDT   EQU     10H             ; teletype: data
@@ -179,28 +179,27 @@ GETL2:  PUSH    H
         CALL    INCHR
         POP     H
         CPI     CEOF
-        JZ      GETL7
+        JZ      GETL6
         CPI     CCR
-        JZ      GETL6
+        JZ      GETL5
         CPI     CLF
-        JZ      GETL6
+        JZ      GETL5
         CPI     CCTLU
         JZ      GETL1
         CPI     CRUB
-        JZ      GETL5
+        JZ      GETL4
         CPI     CBS
-        JZ      GETL5
+        JZ      GETL4
         CPI     CBLANK
-        JNC     GETL3
-        MVI     A,CBLANK
-GETL3:  MOV     M,A
+        JC      GETL2
+        MOV     M,A
         INR     L               ; (LINBUF ends with a page)
-        JNZ     GETL4
+        JNZ     GETL3
         DCR     L               ; full: stays, so that the line is refused
         MVI     A,CBEL
-GETL4:  RST     2
+GETL3:  RST     2
         JMP     GETL2
-GETL5:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
+GETL4:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
         ORA     A
         JNZ     GETL2
         MOV     A,L
@@ -210,14 +209,18 @@ GETL5:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
         CALL    PUTSI
         DB      CBS,CBLANK,CBS+80H
         JMP     GETL2
-GETL6:  MVI     M,0
+GETL5:  MVI     M,0
         CALL    CRLF
         INR     L
         RNZ
         JMP     ERMEM
-GETL7:  MOV     A,L             ; the tape ends: at a line's start?
+GETL6:  MOV     A,L             ; the tape ends: at a line's start?
         CPI     LINBUF & 255
         JNZ     ERTAPE
+        IF      PTTY
+        MVI     A,CXOFF         ; the teletype's reader off
+        RST     2
+        ENDIF
         XRA     A
         STA     LOADF
         JMP     READY

@@ -61,7 +61,9 @@ ERR1:   PUSH    B
         XRA     A
         STA     LOADF
         IF      PTTY
-        MVI     A,CDC4
+        MVI     A,CDC4          ; the teletype's punch and reader off
+        RST     2
+        MVI     A,CXOFF
         RST     2
         ENDIF
         LDA     LASTC
@@ -635,6 +637,10 @@ CLRPTR: LXI     H,GSTKE
 
 ; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it
 SLOAD:  RST     7
+        IF      PTTY
+        MVI     A,CXON          ; the teletype's reader on
+        RST     2
+        ENDIF
 SLOA1:  CALL    BREAK
         IF      PTTY
         ORA     A
