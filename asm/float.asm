@@ -46,6 +46,9 @@ FSUB:   MVI     A,80H           ; turns the sign of y
         DB      0FEH            ; CPI: skips the XRA
 FADD:   XRA     A
         MOV     C,A             ; C = turn in y's sign
+        MOV     A,M
+        ORA     A
+        RZ                      ; nothing to add
         PUSH    D
         MVI     B,0             ; B = turn in the larger one's
         LDAX    D
@@ -65,7 +68,7 @@ FADD1:  STA     SHIFT
         STA     SIGN
         LDAX    D
         ORA     A
-        JZ      FADD4           ; nothing to add
+        JZ      FADD4           ; nothing to add to
         INX     D
         LDAX    D
         XRA     M
@@ -235,21 +238,26 @@ FMUL1:  LDA     FY
 
 ; FMUL2 - 8 * 16 bits
 ; In:  A, DE, BC = added   Out: BC, A = low byte of the product   Clobbers HL
-; Cycles: 460, for A = 0 66
+; Cycles: 400, for A = 0 66
 FMUL2:  LXI     H,0
         ORA     A
-        JZ      FMUL5           ; many a float ends in bytes of zeros
+        JZ      FMUL6           ; many a float ends in bytes of zeros
         PUSH    B
-        MVI     B,8
-FMUL3:  DAD     H
+        MVI     B,4
+FMUL3:  DAD     H               ; two bits a turn
         RAL
         JNC     FMUL4
         DAD     D
         ACI     0
-FMUL4:  DCR     B
+FMUL4:  DAD     H
+        RAL
+        JNC     FMUL5
+        DAD     D
+        ACI     0
+FMUL5:  DCR     B
         JNZ     FMUL3
         POP     B
-FMUL5:  DAD     B
+FMUL6:  DAD     B
         ACI     0
         MOV     B,A
         MOV     C,H
@@ -431,18 +439,11 @@ FNRME:  LDA     EXPO
 FNRM:   MOV     A,B
         ORA     A
         JM      FRND
-        JNZ     FNRM2
-        MOV     B,C             ; a byte at a time
-        MOV     C,D
-        MOV     D,E
-        MOV     E,L
-        MVI     L,0
-        MOV     A,H
-        SUI     8
-        MOV     H,A
-        JC      FZERO
-        JNZ     FNRM
-        JMP     FZERO
+        ORA     C
+        ORA     D
+        ORA     E
+        ORA     L
+        JZ      FZERO
 FNRM2:  MOV     A,L
         ADD     A
         MOV     L,A
