@@ -61,7 +61,7 @@ CALINI: LXI     H,FSTK
 
 ; CALC - runs byte-code (RST 5 jumps here)
 ; In:  on the stack: code pointer   Clobbers all
-; Cycles: a load 332, a store 370, a constant 359, an operation 241 + its own
+; Cycles: a load 332, a store 370, a constant 359, an operation 235 + its own
 CALC:   POP     B
 CALC1:  LDAX    B
         INX     B
@@ -101,9 +101,9 @@ CALC3:  PUSH    B
         LXI     H,CALC
         PUSH    H               ; every operation returns there
         LXI     H,OPTAB-2
+        ADD     A
         MOV     C,A
         MVI     B,0
-        DAD     B
         DAD     B
         MOV     E,M
         INX     H
@@ -117,7 +117,7 @@ CALC3:  PUSH    B
         MOV     E,A
         MOV     D,H             ; DE -> second
         MOV     A,C
-        CPI     QPOP+1
+        CPI     2*QPOP+1
         RNC
         SHLD    FSP
         RET
@@ -180,7 +180,7 @@ OJN:    INX     H
         JMP     OJMP1
 OJZ:    MOV     A,M
         SUI     1               ; CY: zero
-        JMP     OJMP1
+        DB      06H             ; MVI B: skips the STC
 OJMP:   STC
 OJMP1:  POP     H               ; CALC
         POP     H

@@ -946,10 +946,10 @@ DECO4:  MOV     B,M
         JMP     DECO3
 ; round
 DECO5:  POP     B
-        MVI     A,DIGS&255
+        LXI     H,DIGS
+        MOV     A,L
         ADD     B
         MOV     L,A
-        MVI     H,DIGS/256
         MOV     A,M
         CPI     5
         CMC
@@ -963,14 +963,15 @@ DECO6:  DCX     H
         MOV     M,A
         STC
         JMP     DECO6
-DECO7:  LXI     D,DIGS          ; HL -> last digit, DE -> first
+DECO7:  LXI     D,DIGS-1        ; HL -> last digit, DE -> first
         LDA     POWER
+        INR     A
         MOV     C,A             ; C = digits before the point
-        LDA     DIGS-1
+        LDAX    D
         ORA     A
-        JZ      DECO8
-        DCX     D
-        INR     C
+        JNZ     DECO8
+        INX     D
+        DCR     C
 DECO8:  MVI     B,0             ; B = exponent, 0: none
         MOV     A,C
         ADI     4
@@ -979,12 +980,12 @@ DECO8:  MVI     B,0             ; B = exponent, 0: none
         MOV     B,C
         DCR     B
         MVI     C,1
-DECO9:  MOV     A,C             ; zeros in front
+DECO9:  MOV     A,C
         DCR     A
         JP      DECOA
-        DCX     D
-        INR     C
-        JMP     DECO9
+        ADD     E               ; zeros in front, one before the point
+        MOV     E,A
+        MVI     C,1
 DECOA:  LDAX    D
         ADI     CZERO
         RST     2
