@@ -72,7 +72,7 @@ LEXRAW: INX     H
         CMP     C
         JNZ     LEXRAW
 LEX2:   INX     H               ; the character stands for itself
-        INX     D
+LEX5:   INX     D
         JMP     LEX1
 LEX3:   INX     D
         INX     H
@@ -148,8 +148,7 @@ LEXN2:  MOV     A,C
         INX     D
         MOV     A,B
 LEXN3:  STAX    D
-        INX     D
-        JMP     LEX1
+        JMP     LEX5
 
 ; LEXCH - next character that counts
 ; In:  HL-> text   Out: A = it, in upper case; HL-> it   Clobbers nothing else
@@ -159,9 +158,7 @@ LEXCH:  MOV     A,M
         JZ      LEXC1
         CPI     CLOWA
         RC
-        CPI     CLOWZ+1
-        RNC
-        SUI     20H
+        ANI     5FH             ; (what comes behind z turns into [ \ ] ^)
         RET
 
 ; LISTOK - prints a line's tokens as text that LEX reads back into the same tokens

@@ -13,7 +13,7 @@ TXTP    EQU     MWORK           ; next token
 PEND    EQU     MWORK+2         ; end of the program
 VBOT    EQU     MWORK+4         ; lowest byte of the variables
 VTOP    EQU     MWORK+6         ; last byte of RAM
-NXTP    EQU     MWORK+8         ; the line to run next, 0: none, the line is a direct one
+NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
 CURLIN  EQU     MWORK+10        ; number of the line that runs
 CHKF    EQU     MWORK+12        ; 0: statements work; 1: they are only parsed; 2: at the prompt
 OUTSEL  EQU     MWORK+13        ; bit 0 paper, bit 1 punch; bit 2: INPUT waits for an answer
@@ -32,10 +32,6 @@ GSTKE   EQU     MWORK+55
 TOKS    EQU     2300H           ; the typed line's tokens, at a page's start in TOKBUF
 TOKROM  EQU     176             ; how many bytes of them; LINBUF reaches up to TOKS
 LASTLN  EQU     9999            ; greatest line number
-LIF     EQU     7FH             ; M63: left side of IF
-SIF63   EQU     0BFH
-LIF2    EQU     7EH             ; M62: right side
-SIF62   EQU     0BEH
 CPRMPT  EQU     3EH             ; >
 CMARK   EQU     5EH             ; ^
 CDOT    EQU     2EH
@@ -44,7 +40,6 @@ CLESS   EQU     3CH
 CGT     EQU     3EH
 CLBRK   EQU     5BH
 CLOWA   EQU     61H             ; a
-CLOWZ   EQU     7AH             ; z
 
 ; ERR - prints the error, after what belongs before it, and goes to READY
 ; In:  A = number, the stack empty
@@ -93,10 +88,9 @@ ERR2:   CALL    CRLF
 
 ; READY - the prompt: takes lines for ever
 READY:  LXI     SP,STKTOP
-        CALL    CALINI
         CALL    VARSUM
-        LXI     H,0
-        SHLD    NXTP
+        XRA     A
+        STA     NXTP+1
         LDA     LOADF
         XRI     1
         MOV     H,A
@@ -156,11 +150,10 @@ STORE:  POP     B
         JZ      STOR1           ; the number alone: no record
         MOV     A,C
         SUB     L
+        MOV     B,A
         INR     A
         MOV     M,A
         PUSH    H
-        MOV     B,A
-        DCR     B
         CALL    SUMREC
         MOV     M,A
         POP     H
@@ -318,7 +311,7 @@ SGOSUB: CALL    LNEND
 ; SIF - statement: IF expression relation expression GOTO n
 SIF:    CALL    EVNUM
         RST     5
-        DB      LA0,SIF63,QEND
+        DB      LA0,QEND        ; left
         RST     3
         MOV     B,A             ; B, C = what makes it true
         MOV     C,A
@@ -328,24 +321,21 @@ SIF:    CALL    EVNUM
         DCR     A
         JZ      SIF2            ; =
         RST     6
-        CPI     CEQU
-        JZ      SIF1            ; <= >=
-        CPI     CGT
-        JNZ     SIF2
-        CMP     B
-        JZ      SIF2
-SIF1:   MOV     C,A             ; <>
-        RST     3
+        SUI     CEQU
+        CPI     CGT-CEQU+1
+        JNC     SIF2
+        RST     3               ; <= >= <>
+        MOV     C,A
 SIF2:   PUSH    B
         CALL    EVNUM
         RST     5
-        DB      LA0,SIF62,QEND
+        DB      LA0,QEND        ; left right
         RST     4
         DB      TGOTO
         CALL    LNEND
         PUSH    D
         RST     5
-        DB      LIF,SA0,LIF2,SB0,QEND
+        DB      SB0,SA0,QEND    ; -
         CALL    CMPNE
         POP     D
         POP     B
@@ -376,7 +366,8 @@ SRUN:   CALL    OPTLN
         PUSH    D
         CALL    CLEAR
         POP     D
-        LXI     H,PROG
+        INX     H
+        INX     H               ; HL = PROG
         MOV     A,D
         ORA     E
         JNZ     GOLINE
@@ -412,7 +403,8 @@ DIRECT: LXI     H,0100H
 
 ; STMT - one statement
 ; In:  TXTP   Clobbers all
-STMT:   RST     6
+STMT:   CALL    CALINI
+        RST     6
         CPI     TFROM
         JC      ASSIGN
         RST     3
@@ -623,7 +615,7 @@ NEW1:   LXI     H,PROG
 ; (fall into CLEAR)
 
 ; CLEAR - forgets variables and route: the state in which a run starts
-; Clobbers all
+; Out: HL = PROG-2   Clobbers all
 CLEAR:  CALL    CLRVAR
 CLEAR1: CALL    RUNINI
 ; (fall into CLRPTR)
@@ -649,7 +641,9 @@ SLOA1:  CALL    BREAK
         ANI     RXRDY
         ENDIF
         JZ      SLOA1
+        IF      BRD51+PTTY
         MVI     A,1
+        ENDIF                   ; (RXRDY of the 6850 is 1)
         STA     LOADF
         RET
 

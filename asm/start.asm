@@ -174,7 +174,6 @@ VARSUM: LHLD    VTOP
         LHLD    VBOT
         MVI     B,1
 VARS1:  MOV     A,B
-        RLC
         ADD     M
         MOV     B,A
         CALL    CPHD
