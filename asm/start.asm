@@ -4,8 +4,8 @@
 ; Uses:   io (PUTC1, the ports), calc (CALC), monitor
 ; Room:   200 bytes
 ;
-; The DS lines fill each gap up to the next restart: a routine that grows past it
-; makes the count negative, and the assembler refuses it.
+; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
+; grows past it; a test looks at the GAP labels.
 
 ; RST 0 - reset
         JMP     RESET
@@ -15,14 +15,14 @@
 DIGIT:  SUI     CZERO
         CPI     10
         RET
-        DS      08H-$
+GAP08:  DS      08H-$
 
 ; RST 1 - ERROR: the statement ends, with the error whose number follows the RST
 ERROR:  POP     H
         MOV     A,M             ; A = number
         LXI     SP,STKTOP
         JMP     ERR
-        DS      10H-$
+GAP10:  DS      10H-$
 
 ; RST 2 - PUTC: prints, and punches when the punch is on
 ; In:  A   Clobbers nothing
@@ -31,7 +31,7 @@ PUTC:   PUSH    PSW
         PUSH    B
         MOV     B,A
         JMP     PUTC1
-        DS      18H-$
+GAP18:  DS      18H-$
 
 ; RST 3 - NEXT: takes a token
 ; In:  TXTP   Out: A = token, Z at the line's end; TXTP behind it   Clobbers HL
@@ -42,7 +42,7 @@ NEXT:   RST     6
 ; SREM - statement REM: nothing
 SREM:   RET
 
-        DS      20H-$
+GAP20:  DS      20H-$
 
 ; RST 4 - EXPECT: takes a token, which must be the one that follows the RST
 ; In:  TXTP   Out: A = token; ERR 01   Clobbers HL
@@ -54,7 +54,7 @@ EXPECT: RST     3
         RZ
         RST     1
         DB      ESYN
-        DS      28H-$
+GAP28:  DS      28H-$
 
 ; RST 5 - CALC: byte-code follows the RST
         JMP     CALC
@@ -66,7 +66,7 @@ ADDA:   ADD     L
         RNC
         INR     H
         RET
-        DS      30H-$
+GAP30:  DS      30H-$
 
 ; RST 6 - PEEK: looks at the next token
 ; In:  TXTP   Out: A = token, Z at the line's end; HL = TXTP   Clobbers nothing else
@@ -77,7 +77,7 @@ PEEK:   LHLD    TXTP
 
 ERDATA: RST     1
         DB      EDATA
-        DS      38H-$
+GAP38:  DS      38H-$
 
 ; RST 7 - CHKEND: the statement must end here; in check mode it is left for good
 ; In:  TXTP, CHKF   Out: ERR 01   Clobbers A, HL

@@ -43,6 +43,13 @@ def board() -> Board:
     return Board()
 
 
+def test_the_routines_between_the_restarts_fit() -> None:
+    names = symbols()
+    for vector in range(0x08, 0x40, 0x08):
+        assert names.get(f"GAP{vector:02X}", 0) <= vector
+    assert names["GAP38"] and names["CHKEND"] == 0x38
+
+
 # The line editor
 
 
