@@ -1,7 +1,7 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
 ; Offers: CALC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, and OPTAB
 ; Uses:   float
-; Room:   210 bytes
+; Room:   240 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;

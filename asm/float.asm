@@ -1,7 +1,8 @@
 ; float.asm - numbers of 40 bits
-; Offers: FADD FSUB FMUL FDIV FNEG FABS FSGN FITOF FTOI16
-; Uses:   FWORK, ERROR (RST 1)
-; Room:   1500 bytes
+; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
+;         FITOF FTOI16, DECIN DECOUT
+; Uses:   calc, start (ERROR PUTC DIGIT), lexer (LEXCH), io (PRDEC)
+; Room:   1650 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -21,6 +22,8 @@
 ; Rule of calling: FADD FSUB FMUL FDIV take DE -> x and HL -> y and leave the result
 ; in x; x and y may be the same.  Functions of one number take HL -> x and leave
 ; the result there.  All registers are lost unless said otherwise.
+;
+; To compare, subtract: FSUB and FSGN, or QSUB and QJN, QJZ on the calculator.
 ;
 ; Inside, a mantissa stands in B C D E with its first bit 1 and a guard byte in L
 ; behind it; H = exponent, bit 7 of SIGN = sign, the address of the result on the
@@ -210,16 +213,14 @@ FMULA:  LHLD    FT              ; L = guard
 
 ; FNRM1 - ends FMUL and FDIV
 ; In:  B C D E L = mantissa from 1/4 up, EXPO for one below 1/2
-FNRM1:  LDA     EXPO
+FNRM1:  MOV     A,B
+        RLC
+        LDA     EXPO
         INR     A
-        MOV     H,A
-        MOV     A,B
-        ORA     A
-        JP      FNRM2
-        MOV     A,H
-        ORA     A
-        JZ      FOVF
-        JMP     FRND
+        MOV     H,A             ; H = exponent for a mantissa from 1/2 up
+        JNC     FNRM2
+        JNZ     FRND
+        JMP     FOVF
 
 ; FMUL1 - 16 * 32 bits
 ; In:  DE, FY, BC = added   Out: BC, FT+2, FT+1, FT = product without its low byte
@@ -328,7 +329,9 @@ FDIV:   PUSH    D
         JMP     FNRM1
 
 ; FDIV1 - eight bits of the quotient
-; In:  B C D E = remainder, FY = divisor   Out: A, B C D E   Clobbers HL
+; FDIVA - as many as A has zeros above its only 1, and one: 40H two bits
+; In:  B C D E = remainder, FY = divisor   Out: A, B C D E, CY set   Clobbers HL
+; Cycles: 210 a bit
 FDIV1:  MVI     A,1             ; ready when this bit comes out
 FDIVA:  STA     FQ
 FDIV2:  MOV     A,E
@@ -701,15 +704,19 @@ FTG:    CALL    FUN
         DB      QRET
 
 ; FCOS - cosine
-; In:  HL -> x   Out: x   Clobbers all
+; In:  HL -> x   Out: x; ERR 05 as FSIN   Clobbers all
 FCOS:   CALL    FUN
         RST     5
         DB      QABS,Q90,QSWP,QSUB      ; 90-|x|
         DB      QSIN,QRET               ; cos x
 
 ; FSIN - sine
-; In:  HL -> x   Out: x   Clobbers all
-FSIN:   CALL    FUN
+; In:  HL -> x   Out: x; ERR 05 from 2^33 on, where the turns are too many to count
+; Clobbers all
+FSIN:   MOV     A,M
+        CPI     0A2H
+        JNC     FOVF
+        CALL    FUN
         RST     5
         DB      QDUP,QI180,QMUL         ; x x/180
         DB      QHALF,QADD,QFLR         ; x k           k half turns

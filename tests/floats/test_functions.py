@@ -93,7 +93,16 @@ def test_no_tangent(firmware: Firmware) -> None:
 
 
 def test_far_away(firmware: Firmware) -> None:
-    """ATG of the largest numbers is 90; tiny angles keep their sign and size."""
+    """Angles: good up to 2^33 degrees, an error beyond; tiny ones keep their size. ATG of the largest is 90."""
+    for power in (30, 33, 34):
+        number = Fraction(2) ** power - 1000 * (power < 34)
+        for name in ("FSIN", "FCOS"):
+            got, _ = firmware.unary(name, from_rows(rows([number])))
+            if power == 34:
+                assert (got == 255).all()
+            else:
+                true = float(TRUE[name](mp.mpf(int(number))))
+                assert abs(float(value(got[0])) / true - 1) <= BOUND
     got, _ = firmware.unary("FATG", from_rows(rows([Fraction(10) ** 38, -Fraction(10) ** 38])))
     assert [value(row) for row in got] == [90, -90]
     tiny = Fraction(1, 10**30)
