@@ -6,5 +6,7 @@ node_modules/.bin/asm80: package.json package-lock.json
 
 rom: asm80
 	@$(PYTHON) asm/build.py roms/skg
+	@$(PYTHON) asm/build.py --variant --set BRD51=1 roms/skg-8251
+	@$(PYTHON) asm/build.py --variant --set PTTY=1 roms/skg-tty
 
 .PHONY: asm80 rom

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Assemble the SKG firmware and say where the bytes went.
 
-    asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] OUT
+    asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] [--variant] OUT
 
-writes OUT.bin (padded to 8,192 bytes), OUT.hex, OUT.lst and OUT.sym and prints bytes per source file.
+writes OUT.bin (padded to 8,192 bytes), OUT.hex, OUT.lst and OUT.sym and prints bytes per source file. A variant of the
+ROM for another board differs in few lines: --variant writes the image alone, .bin and .hex, and prints one line.
 The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from node_modules.
 """
 
@@ -15,6 +16,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ASM = Path(__file__).resolve().parent
@@ -54,9 +56,7 @@ def run(command: list[str], cwd: Path) -> str:
 
 
 def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[bytes, dict[str, int], str]:
-    """Image, symbols and listing of the given files."""
-    shutil.rmtree(work, ignore_errors=True)
-    work.mkdir(parents=True)
+    """Image, symbols and listing of the given files, assembled in the empty directory `work`."""
     for file in files:
         shutil.copy(ASM / f"{file}.asm", work)
     wanted = os.environ.get("SKG_ASM", "")
@@ -101,7 +101,7 @@ def main() -> None:
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE")
     parser.add_argument("--files", help="other source files, comma separated")
     parser.add_argument("--limit", type=int, default=ROM_SIZE)
-    parser.add_argument("--quiet", action="store_true", help="no table of bytes")
+    parser.add_argument("--variant", action="store_true", help="the image alone, and no table of bytes")
     parser.add_argument("out", type=Path)
     args = parser.parse_args()
     options = dict(OPTIONS)
@@ -111,9 +111,12 @@ def main() -> None:
             fail(f"--set {item}: one of {', '.join(options)} with 0 or 1")
         options[name] = int(value)
     files = args.files.split(",") if args.files else FILES
-    image, symbols, listing = assemble(files, options, ROOT / "build" / "asm" / args.out.name)
+    with tempfile.TemporaryDirectory() as work:
+        image, symbols, listing = assemble(files, options, Path(work))
     check_jumps(listing, symbols)
-    if not args.quiet:
+    if args.variant:
+        print(f"  {args.out.name:12} {len(image):5}   left {args.limit - len(image)} of {args.limit}")
+    else:
         marks = [symbols[f"ZB{file.upper()}"] for file in files] + [symbols["ZBEND"]]
         for file, begin, end in zip(files, marks, marks[1:], strict=False):
             print(f"  {file + '.asm':12} {end - begin:5}")
@@ -124,6 +127,8 @@ def main() -> None:
     padded = image.ljust(ROM_SIZE, b"\xff")
     args.out.with_suffix(".bin").write_bytes(padded)
     args.out.with_suffix(".hex").write_text(intel_hex(padded))
+    if args.variant:
+        return
     args.out.with_suffix(".lst").write_text(listing)
     names = sorted((v, k) for k, v in symbols.items() if not k.startswith("ZB"))
     args.out.with_suffix(".sym").write_text("".join(f"{v:04X} {k}\n" for v, k in names))

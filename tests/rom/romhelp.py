@@ -1,6 +1,6 @@
 """Short ways to ask the firmware, and to tell its answer from the reference's.
 
-The image is `roms/skg.bin`, or the one that the environment variable SKG_ROM names.
+The image is `roms/skg.bin`, or the one that the environment variable SKG_ROM names; other boards' images are beside it.
 """
 
 from __future__ import annotations
@@ -9,11 +9,14 @@ import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from skg.machine import Machine
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
+#: The boards that there is a ROM for, by its image's name, and what `Machine` must know of each.
+BOARDS: dict[str, dict[str, Any]] = {"skg": {}, "skg-8251": {"board": "8251"}, "skg-tty": {"punch_tty": True}}
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 
 #: A program that is still at work after so many cycles (16 minutes of the 2 MHz board) hangs.
@@ -26,6 +29,11 @@ BLOCK = re.compile(r"\d{4} B\d+B\d+B\d+G[XY](L|NR|SR)[1-4]|DD?")
 Fault = tuple[int, int | None]
 
 
+def image(kind: str) -> Path:
+    """The ROM of one of the `BOARDS`."""
+    return ROM if kind == "skg" else ROM.with_name(f"{kind}.bin")
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What the firmware did: the punch's bytes, the paper without prompts and blocks, the last ERR."""
@@ -36,10 +44,10 @@ class Outcome:
 
 
 class Board:
-    """A board at its first prompt, with an operator who reads what is printed."""
+    """A board of one of the `BOARDS` at its first prompt, with an operator who reads what is printed."""
 
-    def __init__(self, ram_kib: int = 8) -> None:
-        self.machine = Machine(ROM, ram_kib)
+    def __init__(self, ram_kib: int = 8, kind: str = "skg") -> None:
+        self.machine = Machine(image(kind), ram_kib, **BOARDS[kind])
         assert self.machine.run() == "prompt", self.machine.tty
         self.machine.clear()
 
