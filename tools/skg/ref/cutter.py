@@ -70,7 +70,6 @@ class Cutter:
 
     def element(self, value: Point | Circle | Line, right: bool, offset: Real) -> None:
         """An element of CUT."""
-        self._end_curve()
         self._feed(enlarged(value, self.scale), offset, right)
 
     def _feed(self, value: Point | Circle | Line, offset: Real, right: bool = False) -> None:
@@ -82,7 +81,6 @@ class Cutter:
 
     def fillet(self, radius: Real, right: bool) -> None:
         """A number of CUT."""
-        self._end_curve()
         if radius <= 0:
             raise Fault(Code.RANGE)
         self._open_route().wait_fillet(radius * self.scale, right)
@@ -95,17 +93,15 @@ class Cutter:
 
     def mirror(self, mirror: Line, right: bool, offset: Real) -> None:
         """SYM."""
-        self._end_curve()
         self._open_route().mirror(enlarged(mirror, self.scale), offset, right)
 
     def repeat(self, count: int, angle: Real, about: Point, right: bool, offset: Real) -> None:
         """REP."""
-        self._end_curve()
         self._open_route().repeat(count, angle, enlarged(about, self.scale), offset, right)
 
     def back(self) -> None:
         """BACK."""
-        self._end_curve()
+        self.end_curve()
         route = self._open_route()
         closed = Closed(tuple(route.items), route.fillet)
         route.close()
@@ -115,7 +111,6 @@ class Cutter:
 
     def recut(self, offset: Real) -> None:
         """RECUT."""
-        self._end_curve()
         closed = self.closed
         if closed is None or self.route is not None:
             raise Fault(Code.GEOMETRY)
@@ -141,13 +136,14 @@ class Cutter:
             raise Fault(Code.GEOMETRY)
         return self.route
 
-    def _end_curve(self) -> None:
+    def end_curve(self) -> None:
+        """A statement that cuts otherwise ends the run of FIT."""
         if self.curve is not None:
             curve, self.curve = self.curve, None
             curve.finish()
 
     def _end_route(self) -> None:
-        self._end_curve()
+        self.end_curve()
         if self.route is not None:
             self.route.finish()
             self.route = None

@@ -51,7 +51,7 @@ def joint(p: Point, t: Point, q: Point, u: Point) -> Point:
     v = q - p
     along = v.dot(t + u)
     below = along + real.mp.sqrt(along**2 + 2 * max(1 - t.dot(u), real.ZERO) * v.dot(v))
-    if near.at_most(below, NEARLY * v.length(), "biarc"):
+    if near.at_most(below, NEARLY, "biarc"):
         raise Fault(Code.GEOMETRY)
     d = v.dot(v) / below
     return (p + t * d + q - u * d) * (real.ONE / 2)

@@ -246,11 +246,14 @@ class Interpreter:
             case From(point):
                 self.cutter.position(self._expect(point, "P"))
             case Cut(items):
+                self.cutter.end_curve()
                 for right, item in items:
                     self._cut(right, self.evaluate(item))
             case Sym(right, mirror):
+                self.cutter.end_curve()
                 self.cutter.mirror(self._expect(mirror, "S"), right, self.offset)
             case Rep():
+                self.cutter.end_curve()
                 self._rep(s)
             case Fit(node, angle):
                 self._fit(self._expect(node, "P"), None if angle is None else self.number(angle))
