@@ -14,6 +14,8 @@ from skg.ref.values import Circle, Point
 #: |t × w| in mm up to which an arc goes out as its chord, and the radius in mm from which it does.
 FLAT = Real("0.002")
 STRAIGHT = Real(50000)
+#: Relative distance to these that is a close call: 32 bits know |t × w| to some 10⁻⁷ mm.
+FLAT_NEAR = Real("1e-4")
 
 
 @dataclass(frozen=True)
@@ -61,10 +63,11 @@ def arc(p: Point, t: Point, q: Point) -> Circle | None:
     """The arc from p to q that starts in the unit direction t, or None where its chord goes out."""
     w = q - p
     bulge = t.cross(w)
-    if near.at_most(abs(bulge), FLAT, "flat arc"):
+    near.note("flat arc", (abs(bulge) - FLAT) / FLAT, FLAT_NEAR)
+    if abs(bulge) <= FLAT:
         return None
     r = w.dot(w) / (2 * bulge)
-    near.note("flat arc", (abs(r) - STRAIGHT) / STRAIGHT, near.RELATIVE)
+    near.note("flat arc", (abs(r) - STRAIGHT) / STRAIGHT, FLAT_NEAR)
     if abs(r) >= STRAIGHT:
         return None
     centre = p + t.left() * r
