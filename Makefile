@@ -33,7 +33,7 @@ run: build/skg80
 	@echo
 	@echo "The tape is in build/run.3b."
 
-test: venv asm80 emu tools
+test: venv asm80 emu tools altairz80
 	$(PY) -m pytest -q -n 2 tests
 	$(VENV)/bin/ruff check --config tools/pyproject.toml tools asm tests
 

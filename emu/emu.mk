@@ -51,7 +51,17 @@ build/asan/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/asan/i8080.o
 build/emu/%.com: tests/emu/%.asm tests/emu/asm8080.py
 	@mkdir -p $(@D); $(PYTHON) tests/emu/asm8080.py $< $@
 
+# SIMH's Altair, in which tests run core and ROM. Who may install it gets it; without it these tests are skipped.
+altairz80:
+	@command -v altairz80 >/dev/null || { [ "$$(id -u)" = 0 ] && apt-get update -q && apt-get install -qy simh; } \
+		|| echo "No SIMH, some tests are skipped: sudo apt-get install simh"
+
+# The core's test programs and the ROM with the examples, in SIMH.
+simh: venv emu altairz80
+	@command -v altairz80 >/dev/null
+	$(PY) -m pytest -q -n 2 tests/emu/test_simh.py tests/rom/test_altair.py
+
 bench-emu: build/emu/bench build/emu/mix.com
 	@build/emu/bench build/emu/mix.com
 
-.PHONY: emu bench-emu
+.PHONY: emu altairz80 simh bench-emu

@@ -50,7 +50,7 @@ def program(seed: int) -> bytes:
     return assemble(text)[0]
 
 
-@pytest.mark.skipif(ALTAIR is None, reason="simh is not installed (apt-get install simh)")
+@pytest.mark.skipif(ALTAIR is None, reason="SIMH is not installed and could not be (make altairz80)")
 @pytest.mark.parametrize("seed", [1, 2])
 def test_same_crc_as_simh(tmp_path: Path, seed: int) -> None:
     """A CRC over the states after some hundred thousand instructions."""

@@ -1,0 +1,157 @@
+"""The standard ROM, unchanged, in somebody else's machine: SIMH's Altair with its 2SIO (Debian's package `simh`).
+
+The program is typed at SIMH's console, the punch is port 2 of its 2SIO, `ptp`, the reader `ptr`. `set sio nosleep`
+keeps SIMH from sleeping whenever the ROM looks for a key and finds none.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pty
+import select
+import shutil
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from romhelp import ROM, Board
+from test_examples import EXAMPLES, marked
+
+ALTAIR = shutil.which("altairz80")
+pytestmark = pytest.mark.skipif(ALTAIR is None, reason="SIMH is not installed and could not be (make altairz80)")
+
+CTRL_E = b"\x05"
+#: How the paper ends when the machine waits for a line; SAVE leaves the ctrl-Z of its tape in front of the prompt.
+PROMPT = (b"\r\n>", b"\r\n\x1a>")
+#: What keys that edit print: RUBOUT, ctrl-U.
+ECHO = {0x7F: b"\b \b", 0x15: b"\r\n"}
+#: Seconds for anything that SIMH is asked to do.
+PATIENCE = 20.0
+#: The whole 64 KiB are RAM but for the ROM.
+RAM_KIB = 56
+SCRIPT = """set cpu 8080
+set cpu noaltairrom
+set sio nosleep,nomap
+load {rom} 0
+{attach}
+go 0
+"""
+
+
+class Altair:
+    """SIMH in a pseudo-terminal, with the ROM at its prompt."""
+
+    def __init__(self, directory: Path, reader: Path | None = None) -> None:
+        self.tape = directory / "punched.3b"
+        script = directory / "altair.ini"
+        attached = [f"attach ptp {self.tape}", *([f"attach ptr {reader}"] if reader else [])]
+        script.write_text(SCRIPT.format(rom=ROM, attach="\n".join(attached)))
+        assert ALTAIR
+        self.pid, self.line = pty.fork()
+        if self.pid == 0:
+            os.execv(ALTAIR, [ALTAIR, str(script)])
+        self.paper = b""
+        self.until(b"\r\n>")
+        self.paper = self.paper[self.paper.index(b"\r\nSKG") :]
+
+    def until(self, end: bytes | tuple[bytes, ...], start: int = 0) -> None:
+        """Wait until the paper, from a place on, ends like this (or like one of these)."""
+        deadline = time.monotonic() + PATIENCE
+        while not self.paper[start:].endswith(end):
+            assert time.monotonic() < deadline, f"no {end!r} after {self.paper[-300:]!r}"
+            if select.select([self.line], [], [], 0.1)[0]:
+                self.paper += os.read(self.line, 4096)
+
+    def press(self, keys: str) -> None:
+        """Type keys, each as soon as the echo of the one before it is there."""
+        for key in keys.encode():
+            start = len(self.paper)
+            os.write(self.line, bytes([key]))
+            self.until(ECHO.get(key, bytes([key])), start)
+
+    def type(self, line: str) -> str:
+        """What is printed after a line has been typed."""
+        self.press(line)
+        start = len(self.paper)
+        os.write(self.line, b"\r")
+        self.until(PROMPT, start)
+        return self.paper[start:].decode()
+
+    def punched(self) -> bytes:
+        """Leave SIMH, which closes the punch's file."""
+        os.write(self.line, CTRL_E)
+        self.until(b"sim> ")
+        os.write(self.line, b"quit\r")
+        with contextlib.suppress(OSError):  # it has gone
+            self.until(b"Goodbye\r\n")
+        self.close()
+        return self.tape.read_bytes()
+
+    def close(self) -> None:
+        """End it, whatever it does."""
+        if self.pid:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(self.pid, signal.SIGKILL)
+            os.waitpid(self.pid, 0)
+            os.close(self.line)
+        self.pid = 0
+
+
+@contextlib.contextmanager
+def altair(directory: Path, reader: Path | None = None) -> Iterator[Altair]:
+    """An Altair that is switched off at the end."""
+    machine = Altair(directory, reader)
+    try:
+        yield machine
+    finally:
+        machine.close()
+
+
+@pytest.mark.parametrize("part", map(marked, EXAMPLES))
+def test_typed_and_punched(part: Path, tmp_path: Path) -> None:
+    """The committed tape, byte for byte, and the same paper as in our emulator."""
+    ours = Board(RAM_KIB)
+    with altair(tmp_path) as theirs:
+        for line in [*part.read_text().splitlines(), "RUN", "LIST", "FREE"]:
+            printed = theirs.type(line)
+            assert printed == "\r\n" + "".join(f"{text}\r\n" for text in ours.type(line)) + ">", line
+        assert theirs.punched() == part.with_suffix(".3b").read_bytes()
+
+
+@pytest.mark.parametrize("name", ["xy-star", "plate-fillets"])
+def test_loaded_from_the_reader(name: str, tmp_path: Path) -> None:
+    part = next(part for part in EXAMPLES if part.stem == name)
+    with altair(tmp_path, reader=part) as theirs:
+        theirs.type("LOAD")
+        theirs.type("RUN")
+        assert theirs.punched() == part.with_suffix(".3b").read_bytes()
+
+
+def test_saved(tmp_path: Path) -> None:
+    part = EXAMPLES[0]
+    with altair(tmp_path) as theirs:
+        for line in part.read_text().splitlines():
+            theirs.type(line)
+        listed = theirs.type("LIST").removeprefix("\r\n").removesuffix(">")
+        theirs.type("SAVE")
+        assert theirs.punched() == listed.encode() + b"\x1a"
+
+
+def test_editing_and_errors(tmp_path: Path) -> None:
+    """RUBOUT, ctrl-U, a mark, errors, ctrl-C in a loop, functions to their last digit."""
+    ours = Board(RAM_KIB)
+    lines = ["10 PRINT )", "PRINT 1/0", "10 GOTO 10", "GOTO 20", "A=P", "PRINT A", "CUT X;Y,X", "BACK", "LIST"]
+    lines += [f"PRINT SIN {a},COS {a},TG {a},ATG {a},SQR {a}" for a in (0.001, 1, 29.99, 45, 60.123, 89)]
+    with altair(tmp_path) as theirs:
+        for line in lines:
+            assert theirs.type(line) == "\r\n" + "".join(f"{text}\r\n" for text in ours.type(line)) + ">", line
+        assert theirs.type("PRIMX\x7f\x7fNT 3\x15PRIMX\x7f\x7fNT 4") == "\r\n4\r\n>"
+        theirs.press("RUN")
+        start = len(theirs.paper)
+        os.write(theirs.line, b"\r")
+        theirs.until(b"\r\n", start)
+        os.write(theirs.line, b"\x03")
+        theirs.until(b"\r\nERR 10 LINE 10\r\n>", start)
