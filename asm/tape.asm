@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: MOVE SEGMNT WHOLE and the operations QRND QVK
 ; Uses:   calc, float, io
-; Room:   500 bytes
+; Room:   480 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values.  An arc is looked at from its rounded centre, mirrored when it runs
@@ -10,7 +10,9 @@
 ;
 ;       (u,v) going round counter-clockwise from (r,0): u falls from r to -r in the
 ;       upper half plane, rises again in the lower.  F = r-u there, 3r+u here, is the
-;       travel counted since (r,0); J = F(end) - F(start) + 4r for every pass of (r,0).
+;       travel counted since (r,0): F = 2r - (u+r) * sign of v.  J = F(end) - F(start),
+;       and 4r more when (r,0) was passed.  That is so when the difference is below -r,
+;       or below r when the arc is more than half a turn: nothing between comes up.
 
 TGAX    EQU CWORK+18    ; block: letter of the count direction
 TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
@@ -44,36 +46,29 @@ ARC:    DB      ST3             ; -             t3 < 0: more than half a turn
         DB      LC2,QSGN        ; sense
         DB      QDUP,LA1,QMUL,SA1 ; sense
         DB      LB1,QMUL,SB1    ; -             mirrored when clockwise
-        DB      Q0,ST4          ; -             t4 = passes of (r,0)
-        DB      QDOT,QJN        ; -           ends far apart: no doubt
-        DB      ARC2-$
+        DB      QDOT,QJN        ; -             ends far apart: no doubt
+        DB      ARC1-$
         DB      LT3,QJN         ; -
         DB      ARC1-$
         DB      QHALF,QCRS,QSUB ; -             short; sweep not positive:
         DB      QJN
-        DB      ARC2-$
+        DB      ARC1-$
         DB      QEND
         JMP     MOVE            ; a line
-ARC1:   DB      QCRS,QJN        ; -           long and past the start again:
-        DB      ARC2-$
-        DB      Q1,ST4          ; -             a pass more
-ARC2:   DB      LA0,LA1,QHYP    ; radius        t5 = r: first, not too great ...
+ARC1:   DB      LA0,LA1,QHYP    ; radius        t5 = r: first, not too great ...
         DB      QHALF,QADD,QMU,QSUB,QFLR,ST5 ; -
         DB      LA0,LT5,QSUB    ; x-r
         DB      LA0,LT5,QADD,QMUL ; x^2-r^2     ... then from whole numbers:
         DB      LA1,QSQ,QADD    ; n-r^2         n = x^2+y^2 > r^2+r: nearer to r+1
         DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
         DB      QJN
-        DB      ARC9-$
+        DB      ARC2-$
         DB      LT5,Q1,QADD,ST5 ; -
-ARC9:   DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
+ARC2:   DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
         DB      QEND
-        LXI     H,MA
         CALL    QUAD
-        MOV     C,A
         LXI     H,MC2
         CALL    FSGN
-        ORA     A
         MVI     B,CLTN
         JP      ARC3
         MVI     A,5             ; clockwise quadrants are mirrored ones
@@ -81,65 +76,37 @@ ARC9:   DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
         MOV     C,A
         MVI     B,CLTS
 ARC3:   CALL    SETZ
-        LXI     H,MT0
-        CALL    FSGN
-        DCR     A
         CALL    SETG
         JNZ     ARC4
         RST     5               ; count along Y: turned by a quarter
         DB      LA1,LA0,QNEG,SA1,SA0 ; -
         DB      LB1,LB0,QNEG,SB1,SB0 ; -
         DB      QEND
-ARC4:   LXI     H,MA
-        CALL    TRAVEL
-        PUSH    PSW
-        RST     5
-        DB      LT0,ST1,QEND    ; -             t1 = F(start)
-        LXI     H,MB
-        CALL    TRAVEL          ; t0 = F(end)
-        POP     B
-        CMP     B               ; quadrants: end, start
-        JC      ARC5
-        JNZ     ARC6
-        RST     5               ; in the same one: the cross product tells
-        DB      QCRS,QJN
-        DB      ARC7-$
-        DB      QEND
-        JMP     ARC6
-ARC5:   RST     5
-ARC7:   DB      LT4,Q1,QADD,ST4,QEND ; -
-ARC6:   RST     5
-        DB      LT5,LT4,QMUL    ; r*n
-        DB      QDUP,QADD,QDUP,QADD ; 4*r*n
-        DB      LT0,QADD,LT1,QSUB,QABS ; J
-        DB      QDUP,SBJ,QJZ    ; -
-        DB      ARC8-$
+ARC4:   RST     5
+        DB      LA0,LT5,QADD,LA1,QSGN,QMUL ; 2r-F(start)
+        DB      LB0,LT5,QADD,LB1,QSGN,QMUL,QSUB ; d     = F(end)-F(start)
+        DB      QDUP,LT5,LT3,QSGN,QMUL,QADD ; d d+r     long: d-r; below 0 when (r,0)
+        DB      QSGN,Q1,QSWP,QSUB ; d 0         was passed, then 2
+        DB      LT5,QMUL,QDUP,QADD,QADD ; J
+        DB      QABS,QDUP,SBJ,QJZ ; -
+        DB      MOVE0-$         ; counted as nothing: a line
         DB      QEND
         JMP     PUTBLK
-ARC8:   DB      QEND
-
-; (fall into MOVE: counted as nothing, the arc goes out as a line)
 
 ; MOVE - a straight move of the wire
 ; In:  W, V   Out: W = V   Clobbers all
 MOVE:   RST     5
-        DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
+MOVE0:  DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
         DB      LVY,LWY,QSUB,QDUP,SA1,QABS,SBY ; -
         DB      LBX,LBY,QMAX,SBJ ; -
         DB      LBY,LBX,QSUB,ST0,QEND ; -
-        LXI     H,MA
         CALL    QUAD
-        MOV     C,A
         MVI     B,CLTL
         CALL    SETZ
-        LXI     H,MT0
-        CALL    FSGN
-        ORA     A
         JNZ     MOVE1
         MOV     A,C             ; x = y: along Y in quadrants 1 and 3
         ANI     1
-MOVE1:  DCR     A
-        CALL    SETG
+MOVE1:  CALL    SETG
 ; (fall into PUTBLK)
 
 ; PUTBLK - lists and punches a block; J = 0 is none
@@ -208,51 +175,26 @@ PUTB9:  DB      QEND
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   RST     5
         DB      Q1000,QMUL              ; um
-        DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
-        DB      QFLR,QDUP               ; um |whole| |whole|
-        DB      Q8DIG,QSWP,QSUB         ; um |whole| room
+        DB      QDUP,QSGN,QSWP          ; sign um
+        DB      QABS,Q502,QADD,QFLR     ; sign |whole|
+        DB      QDUP,Q8DIG,QSWP,QSUB    ; sign |whole| room
         DB      QJN
         DB      PUTB9-$
-        DB      QSWP,QJN                ; |whole|
-        DB      XRND1-$
-        DB      QRET
-XRND1:  DB      QNEG,QRET               ; -|whole|
+        DB      QMUL,QRET               ; whole
 ; QVK: V = K in whole um
 XVK:    RST     5
         DB      LKX,QRND,SVX            ; -
         DB      LKY,QRND,SVY,QRET       ; -
 
-; TRAVEL - F of a point (head of this file)
-; In:  HL -> u v, t5 = r   Out: t0 = F, A = quadrant 1...4   Clobbers all
-TRAVEL: PUSH    H
-        CALL    QUAD
-        POP     D
-        PUSH    PSW
-        LXI     H,MT0
-        CALL    COPY5
-        POP     PSW
-        PUSH    PSW
-        CPI     3
-        JNC     TRAV1
-        RST     5
-        DB      LT5,LT0,QSUB,ST0,QEND ; -
-        POP     PSW
-        RET
-TRAV1:  RST     5
-        DB      LT5,QDUP,QDUP,QADD,QADD ; 3r
-        DB      LT0,QADD,ST0,QEND ; -
-        POP     PSW
-        RET
-
-; QUAD - quadrant of a vector, each with its first axis (counter-clockwise)
-; In:  HL -> x y   Out: A = 1...4   Clobbers all
-QUAD:   CALL    FSGN
+; QUAD - quadrant of the vector a, each with its first axis (counter-clockwise)
+; Out: C = 1...4   Clobbers all
+QUAD:   LXI     H,MA
+        CALL    FSGN
         MOV     C,A
         ADD     A
         ADD     C
         MOV     C,A             ; 3 * sign of x
-        LXI     D,5
-        DAD     D
+        LXI     H,MA+5
         CALL    FSGN
         ADD     C
         ADI     4
@@ -260,23 +202,25 @@ QUAD:   CALL    FSGN
         MVI     D,0
         LXI     H,QUADS
         DAD     D
-        MOV     A,M
+        MOV     C,M
         RET
 
 ;               x-y-  x-y0  x-y+  x0y-  none  x0y+  x+y-  x+y0  x+y+
 QUADS:  DB      3,    3,    2,    4,    1,    2,    4,    1,    1
 
 ; SETZ - B, C = letter and number of Z
+; Out: A = sign of t0: 0, 1 or 0FFH, flags of it   Clobbers HL
 SETZ:   MOV     A,C
         ADI     CZERO
         MOV     H,A
         MOV     L,B
         SHLD    TZLET
-        RET
+        LXI     H,MT0
+        JMP     FSGN
 
-; SETG - count direction: A = 0 for Y, else X
-; Out: flags of A   Clobbers A
-SETG:   ORA     A
+; SETG - count direction: A = 1 for Y, else X
+; Out: Z = Y   Clobbers A
+SETG:   DCR     A
         MVI     A,CLTX
         JNZ     SETG1
         INR     A
