@@ -175,12 +175,15 @@ PUTB9:  DB      QEND
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   RST     5
         DB      Q1000,QMUL              ; um
-        DB      QDUP,QSGN,QSWP          ; sign um
-        DB      QABS,Q502,QADD,QFLR     ; sign |whole|
-        DB      QDUP,Q8DIG,QSWP,QSUB    ; sign |whole| room
+        DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
+        DB      QFLR,QDUP               ; um |whole| |whole|
+        DB      Q8DIG,QSWP,QSUB         ; um |whole| room
         DB      QJN
         DB      PUTB9-$
-        DB      QMUL,QRET               ; whole
+        DB      QSWP,QJN                ; |whole|
+        DB      XRND1-$
+        DB      QRET
+XRND1:  DB      QNEG,QRET               ; -|whole|
 ; QVK: V = K in whole um
 XVK:    RST     5
         DB      LKX,QRND,SVX            ; -
