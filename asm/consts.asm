@@ -18,6 +18,7 @@ Q502    EQU 0C9H        ; halves of a um, and what lies 2 nm below
 QEPS    EQU 0CAH        ; directions this close (rad) are one line
 Q8DIG   EQU 0CBH        ; the greatest number on a tape
 QI180   EQU 0CCH
+Q10     EQU 0CDH
 
 CONTAB: DB      0,0,0,0,0               ; 0
         DB      81H,00H,00H,00H,00H     ; 1
@@ -32,3 +33,4 @@ CONTAB: DB      0,0,0,0,0               ; 0
         DB      70H,27H,0C5H,0ACH,47H   ; 1E-5
         DB      9BH,3EH,0BCH,1FH,0E0H   ; 99999999
         DB      79H,36H,0BH,60H,0B6H    ; 1/180
+        DB      84H,20H,00H,00H,00H     ; 10

@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
 ;         FITOF FTOI16, DECIN DECOUT
-; Uses:   calc, start (ERROR PUTC DIGIT), lexer (LEXCH), io (PRDEC)
+; Uses:   calc, start (ERROR PUTC DIGIT), lexer (LEXCH), io (PRDEC), parser (ERSYN)
 ; Room:   1650 bytes
 ;
 ;   byte    0          1          2          3          4
@@ -32,15 +32,9 @@
 FY      EQU FWORK       ; mantissa of y, low byte first
 FQ      EQU FWORK+4     ; byte of the quotient that grows
 FT      EQU FWORK+5     ; bytes 1...3 of a partial product; mask of FSQR
-FBIG    EQU FWORK       ; number of DECIN and DECOUT: 16 bytes whole, 22 bytes fraction
-BIGEND  EQU FWORK+38
-UNITS   EQU FBIG+15
-DIGS    EQU FSTK+50     ; digits of DECOUT: 5 zeros, then 10
 SIGN    EQU FWORK+43    ; bit 7: sign of the result
 EXPO    EQU FWORK+44    ; exponent of the result
 SHIFT   EQU FWORK+45    ; difference of exponents
-POWER   EQU FWORK+45    ; digits of DECOUT before the point
-FWEND   EQU FWORK+46    ; end of the cells, FSP follows
 
 ; FSUB - x - y
 ; FADD - x + y
@@ -813,201 +807,163 @@ FATG3:  DB      QEND
         RST     5
         DB      QNEG,QRET
 
-; Decimal numbers.  FBIG holds one with 16 bytes before and 22 behind the point,
-; first byte first: every float exactly.
+; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
+; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
+; 9 digits from DECOUT give that float again, from 1E-4 to 1E22; beyond, powers are
+; taken in steps of 10^16, and the error is at most 10 units of 2^-32.
 
-; FCLR - clears FBIG, DIGS and the cells behind FBIG
-; Clobbers A, DE
-FCLR:   LXI     D,DIGS-5
-FCLR1:  XRA     A
-        STAX    D
-        INX     D
-        MOV     A,E
-        CPI     FWEND&255
-        JNZ     FCLR1
-        RET
-
-; FM10W - multiplies the whole part of FBIG by 10 and adds
-; FM10  - multiplies FBIG by 10 and adds
-; In:  HL -> last byte (FM10 alone), BC = added   Out: C = carry   Clobbers all
-; Cycles: 159 a byte
-FM10W:  LXI     H,UNITS
-FM10:   PUSH    H
-        MOV     E,M
-        MVI     D,0
-        MOV     H,D
-        MOV     L,E
-        DAD     H
-        DAD     H
-        DAD     D
-        DAD     H
-        DAD     B
-        MOV     C,H
-        MOV     A,L
-        POP     H
-        MOV     M,A
-        DCX     H
-        MOV     A,L
+; FTEN  - |t0| / 10^A
+; FTEN1 - the same of the number on the calculator's stack
+; In:  A = -128...127   Out: on the calculator's stack; ERR 05   Clobbers all
+FTEN:   PUSH    PSW
+        RST     5
+        DB      LT0,QABS,QEND
+        POP     PSW
+FTEN1:  MOV     C,A             ; C = sign
         ORA     A
-        JM      FM10            ; FBIG begins at 80H of a page
-        RET
-
-; FD10 - divides FBIG by 10
-; In:  B = bytes, from the first on   Out: A = remainder, Z: it was zero
-; Clobbers all   Cycles: 54 a byte that stays 0, else 490
-FD10:   LXI     D,FBIG
-        LXI     H,0
-        MVI     C,1
-FD101:  LDAX    D
-        MOV     L,A
-        ORA     H
-        JZ      FD104
-        MVI     C,8
-FD102:  DAD     H               ; H = remainder, L = quotient behind the dividend
-        MOV     A,H
-        SUI     10
-        JC      FD103
-        MOV     H,A
-        INR     L
-FD103:  DCR     C
-        JNZ     FD102
-        MOV     A,L
-        STAX    D
-FD104:  INX     D
+        JP      FTEN2
+        CMA
+        INR     A
+FTEN2:  ORA     A
+        RZ
+        MOV     B,A             ; B = power to go
+        PUSH    B
+        RST     5
+        DB      Q1,QEND         ; x p
+FTEN3:  RST     5
+        DB      Q10,QMUL,QEND   ; x p
+        POP     B
         DCR     B
-        JNZ     FD101
-        DCR     C
-        MOV     A,H
+        PUSH    B
+        MOV     A,B
+        ANI     0FH
+        JNZ     FTEN3           ; larger powers in steps of 10^16
+        ORA     C
+        JM      FTEN5
+        RST     5
+        DB      QDIV            ; x/p
+FTEN4:  DB      QEND
+        POP     B
+        MOV     A,B
+        JMP     FTEN2
+FTEN5:  RST     5
+        DB      QMUL,QJMP       ; x*p
+        DB      FTEN4-$
+
+; FDIG - divides a whole number by 10
+; In:  D E H L   Out: D E H L, A = remainder, Z: it is 0, CY clear, B = 0, C = C+1
+; Cycles: 2,500
+FDIG:   XRA     A
+        MVI     B,32
+FDIG1:  XCHG
+        DAD     H
+        RAL                     ; A = remainder, quotient comes in behind the number
+        XCHG
+        DAD     H
+        JNC     FDIG2
+        INX     D
+FDIG2:  CPI     10
+        JC      FDIG3
+        SUI     10
+        INR     L
+FDIG3:  DCR     B
+        JNZ     FDIG1
+        INR     C
+        ORA     A
         RET
 
 ; DECOUT - prints a number
-; In:  HL -> x, B = most significant digits (8 or 9)   Clobbers all
-DECOUT: MOV     A,M
-        ORA     A
+; In:  HL -> x, B = most significant digits (8 or 9)   Clobbers all, and t0
+; Cycles: whole numbers below 2^26 2,600 a digit, others 60,000 to 150,000
+DECOUT: CALL    FSGN
         MVI     A,CZERO
         JZ      PUTC
-        PUSH    B
-        CALL    FCLR
-        MOV     B,M
-        INX     H
-        MOV     A,M
-        RLC
         MVI     A,CMINUS
-        CC      PUTC
+        CM      PUTC
+        XCHG
+        LXI     H,MT0
+        CALL    COPY5
+        MVI     C,0
         PUSH    B
-        CALL    FLOAD
-        POP     PSW
-        PUSH    PSW
-        CMA
-        INR     A
-        ANI     7
-        CALL    FSHR            ; so that bytes of B C D E L are bytes of FBIG
-        POP     PSW
-        PUSH    H
-        ADI     7
-        RAR
-        RRC
-        RRC
-        ANI     3FH             ; bytes from 2^-128 up
-        CMA
-        ADI     (FBIG+33)&255
-        MOV     L,A
-        MVI     H,FBIG/256
-        MOV     M,B
-        INX     H
-        CALL    FPAC1
-        INX     H
+        LXI     H,MT0
+        MOV     A,M
+        CPI     9BH
+        JNC     DECO1
+        CALL    FWHOLE
+        MOV     A,L
+        ORA     A
+        JZ      DECO4           ; whole and below 2^26
+; C = the power of ten that leaves B digits before the point, from the exponent of
+; two: right or one too large
+DECO1:  POP     B
+        LDA     MT0
+        LXI     H,TENLOG
+        LXI     D,77            ; 256 * log 2
+DECO2:  DAD     D
+        DCR     A
+        JNZ     DECO2
+        MOV     A,H
+        SUB     B
+        MOV     C,A
+DECO3:  DCR     C
+        PUSH    B
+        MOV     A,C
+        CALL    FTEN            ; s
+        RST     5
+        DB      QDUP,Q1,QEND
         POP     B
-        MOV     M,C
-; times 10 until it is whole or has ten digits before the point
-DECO1:  LDA     FBIG+11
-        ORA     A
-        JNZ     DECO3
-        LXI     H,BIGEND
-DECO2:  DCX     H
-        MOV     A,M
-        ORA     A
-        JZ      DECO2
-        MOV     A,L
-        CPI     (UNITS+1)&255
-        JC      DECO3
-        LXI     B,0
-        CALL    FM10
-        LXI     H,POWER
-        DCR     M
-        JMP     DECO1
-; digits, the last first, each put in front
-DECO3:  MVI     B,16
-        CALL    FD10
+        PUSH    B
+        MVI     A,1
+        SUB     B
+        CALL    FTEN1           ; s s 10^(B-1)
+        RST     5
+        DB      QSUB,QJN        ; s
+        DB      DECOE-$
+        DB      QHALF,QADD,ST0,QEND
+        LXI     H,MT0
+        CALL    FWHOLE
+; digits, the last first, onto the stack; no zeros at the end
+DECO4:  XCHG
+        MOV     D,B
+        MOV     E,C
+        POP     B
+        XRA     A
+        STC                     ; CY: behind the last digit
+        PUSH    PSW
+DECO5:  CALL    FDIG            ; C = digits before the point so far
         JZ      DECO5
-        LXI     H,DIGS
-        MVI     C,10
-DECO4:  MOV     B,M
-        MOV     M,A
-        MOV     A,B
-        INX     H
-        DCR     C
-        JNZ     DECO4
-        LXI     H,POWER
-        INR     M
-        JMP     DECO3
-; round
-DECO5:  POP     B
-        LXI     H,DIGS
-        MOV     A,L
-        ADD     B
-        MOV     L,A
-        MOV     A,M
-        CPI     5
-        CMC
-DECO6:  DCX     H
-        MOV     A,M
-        ACI     0
-        MOV     M,A
-        JZ      DECO6           ; no zeros at the end
-        SUI     10
+DECO6:  PUSH    PSW
+        MOV     A,D
+        ORA     E
+        ORA     H
+        ORA     L
         JNZ     DECO7
-        MOV     M,A
-        STC
-        JMP     DECO6
-DECO7:  LXI     D,DIGS-1        ; HL -> last digit, DE -> first
-        LDA     POWER
-        INR     A
-        MOV     C,A             ; C = digits before the point
-        LDAX    D
-        ORA     A
-        JNZ     DECO8
-        INX     D
-        DCR     C
-DECO8:  MVI     B,0             ; B = exponent, 0: none
         MOV     A,C
         ADI     4
         CPI     13
-        JC      DECO9
-        MOV     B,C
+        JNC     DECO8
+        SUI     5
+        JP      DECO9
+DECO7:  CALL    FDIG            ; also zeros in front, up to the one before the point
+        JMP     DECO6
+DECO8:  MOV     B,C             ; B = exponent, 0: none
         DCR     B
         MVI     C,1
-DECO9:  MOV     A,C
-        DCR     A
-        JP      DECOA
-        ADD     E               ; zeros in front, one before the point
-        MOV     E,A
-        MVI     C,1
-DECOA:  LDAX    D
-        ADI     CZERO
-        RST     2
-        MOV     A,E
-        CMP     L               ; CY: there are more
-        INX     D
+DECO9:  INR     C
+DECOA:  POP     PSW
         DCR     C
-        JZ      DECOB
-        JP      DECOA
-        JC      DECOA
-DECOB:  MVI     A,CPOINT
-        JNC     DECOC
+        JNC     DECOB
+        DCR     C
+        JM      DECOD           ; the end, behind the point or just before it
+        INR     C
+        PUSH    PSW             ; zeros up to the point
+DECOB:  JNZ     DECOC
+        PUSH    PSW
+        MVI     A,CPOINT-CZERO
+DECOC:  ADI     CZERO
         RST     2
         JMP     DECOA
-DECOC:  MOV     A,B
+DECOD:  MOV     A,B
         ORA     A
         RZ
         MVI     A,CLTE
@@ -1021,79 +977,71 @@ DECOC:  MOV     A,B
         MVI     A,CMINUS
         RST     2
         JMP     PRDEC
+DECOE:  DB      QDRP,QEND
+        POP     B
+        JMP     DECO3
 
-; DECIN - reads a number; it is rounded to 9 digits first
+; DECIN - reads a number; digits count up to 2^31, those behind only for the power
 ; In:  HL -> text, a digit or a point, DE -> float
-; Out: float, HL -> first character behind it; CY: it is no number; ERR 05
-; Clobbers all
+; Out: float, HL -> first character behind it, CY clear; ERR 05, ERR 01 for a lone point
+; Clobbers all, and t0 t1
 DECIN:  PUSH    D
-        CALL    FCLR
-        LXI     B,0             ; B = digits that count, C = 0FFH behind the point
-        LXI     D,0FFH          ; D = power of ten, E = 0FFH: no digit yet
+        XRA     A
+        STA     MT0
+        MVI     C,0FFH          ; C = 0 behind the point
+        LXI     D,0FFH          ; D = power of ten to divide by, E = 0FFH: no digit yet
 DECI1:  CALL    LEXCH
-        CPI     CPOINT
-        JNZ     DECI2
-        MOV     A,C
-        ORA     A
-        JNZ     DECI6           ; the second
-        DCR     C
+        CALL    DIGIT
+        JC      DECI2
+        XRA     C               ; (C = 0 lets no point come out as 1)
+        DCR     A
+        JNZ     DECI3           ; no point, or the second
+        INR     C
         INX     H
         JMP     DECI1
-DECI2:  CALL    DIGIT
-        JNC     DECI6
-        INX     H
+DECI2:  INX     H
         MOV     E,A
+        LDA     MT0
+        CPI     0A0H            ; CY: there is room for a digit
+        PUSH    PSW
         MOV     A,D
-        ADD     C
+        ADC     C
         MOV     D,A
-        MOV     A,B
-        ORA     E
-        JZ      DECI1           ; a zero in front does not count
-        INR     B
-        MOV     A,B
-        CPI     10
-        JC      DECI5
-        JNZ     DECI4
-        MOV     A,E
-        CPI     5
-        JC      DECI4
+        POP     PSW
+        JNC     DECI1
         PUSH    H
-        LXI     H,UNITS+1       ; the tenth digit rounds
-DECI3:  DCX     H
-        INR     M
-        JZ      DECI3
-        POP     H
-DECI4:  INR     D
-        JMP     DECI1
-DECI5:  PUSH    H
         PUSH    D
         PUSH    B
-        MOV     C,E
-        MVI     B,0
-        CALL    FM10W
+        MOV     L,E
+        MVI     H,0
+        LXI     D,MT0+5
+        CALL    FITOF
+        RST     5
+        DB      LT0,Q10,QMUL,LT1,QADD,ST0,QEND
         POP     B
         POP     D
         POP     H
         JMP     DECI1
-DECI6:  INR     E
-        JZ      DECIE           ; no digit at all
+DECI3:  INR     E
+        JZ      ERSYN           ; no digit at all
         CALL    LEXCH
         CPI     CLTE
-        JNZ     DECIA
+        JNZ     DECI9
         PUSH    H               ; -> E, which may begin a word
         INX     H
+        MVI     C,0FFH          ; C = 0 for a negative exponent
         CALL    LEXCH
-        SUI     CPLUS
-        MOV     C,A             ; 2: minus
-        JZ      DECI7
-        CPI     CMINUS-CPLUS
-        JNZ     DECI8
-DECI7:  INX     H
-DECI8:  MVI     B,0             ; B = exponent
+        CPI     CPLUS
+        JZ      DECI4
+        CPI     CMINUS
+        JNZ     DECI5
+        INR     C
+DECI4:  INX     H
+DECI5:  MVI     B,0             ; B = exponent
         MVI     E,0FFH
-DECI9:  CALL    LEXCH
+DECI6:  CALL    LEXCH
         CALL    DIGIT
-        JNC     DECIX
+        JNC     DECI7
         INX     H
         MOV     E,A
         MOV     A,B
@@ -1105,70 +1053,26 @@ DECI9:  CALL    LEXCH
         ADD     A
         ADD     E
         MOV     B,A
-        JMP     DECI9
-DECIX:  INR     E
-        JZ      DECIY
-        XTHL
-        POP     H
-        MOV     A,C
-        CPI     CMINUS-CPLUS
-        MOV     A,D
-        JZ      DECIS
-        ADD     B
-        DB      0FEH            ; CPI: skips the SUB
-DECIS:  SUB     B
+        JMP     DECI6
+DECI7:  INR     E
+        JZ      DECI8           ; the E is not ours
+        POP     PSW
+        MOV     A,B
+        XRA     C
+        SUB     C               ; -exponent unless it is negative
+        ADD     D
         MOV     D,A
-DECIA:  PUSH    H
-DECIB:  MOV     A,D
-        ORA     A
-        JZ      DECID
-        PUSH    D
-        JM      DECIC
-        LXI     B,0
-        CALL    FM10W
-        MOV     A,C
-        ORA     A
-        JNZ     FOVF
-        POP     D
-        DCR     D
-        JMP     DECIB
-DECIC:  MVI     B,38
-        CALL    FD10
-        POP     D
-        INR     D
-        JMP     DECIB
-DECID:  POP     H               ; text
-        XTHL
-        LXI     D,DECIF
-        PUSH    D
         PUSH    H
-        LXI     H,FBIG-1
-DECIG:  INX     H
-        MOV     A,L
-        CPI     (FBIG+32)&255
-        JZ      FZERO
-        MOV     A,M
-        ORA     A
-        JZ      DECIG
-        MOV     A,L
-        ADD     A
-        ADD     A
-        ADD     A
-        CMA
-        STA     EXPO
-        MOV     A,M
-        CALL    FLOA1
-        INX     H
-        MOV     L,M
-        JMP     FNRM1
-DECIF:  POP     H
-        ORA     A
+DECI8:  POP     H
+DECI9:  XTHL
+        PUSH    H
+        MOV     A,D
+        CALL    FTEN
+        POP     D
+        CALL    CALPOP
+        POP     H
         RET
-DECIY:  POP     H               ; the E is not ours
-        JMP     DECIA
-DECIE:  POP     D
-        STC
-        RET
+TENLOG  EQU 0DB87H      ; of exponent 0: high byte = digits before the point + 1, rounded up
 CPOINT  EQU 2EH         ; .
 CPLUS   EQU 2BH         ; +
 CLTE    EQU 45H

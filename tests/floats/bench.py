@@ -1,8 +1,8 @@
 """Cycles and bytes of the firmware's floats, beside the figures they are held against. `make bench-floats` prints it.
 
 Operands are a drawing's: uniform in -1000...1000; angles in -180...180, ATG of -10...10, SQR of 0...1000; in decimal
-whole numbers of 8 digits. In brackets: Microsoft's floats of 24 bits; for SQR DAI's too. A routine's bytes are those
-from its label to the next one in the table; what several share is shown by itself.
+whole numbers of 8 digits (below 2^26 to print). In brackets: Microsoft's floats of 24 bits; for SQR DAI's too. A
+routine's bytes are those from its label to the next one in the table; what several share is shown by itself.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ PARTS = {
     "FSIN": ("FSIN", "45,000", "44,617"),
     "FSER": ("series of FSIN and FATG", "", ""),
     "CATG": ("FATG", "50,000", "56,939"),
-    "FCLR": ("decimal times and by 10", "", ""),
+    "FTEN": ("powers of ten, digits", "", ""),
     "DECOUT": ("DECOUT", "60,000", ""),
     "DECIN": ("DECIN", "", ""),
     "FLTEND": ("", "", ""),
@@ -50,6 +50,7 @@ def measure(board: Printer) -> dict[str, Batch]:
     """Calls of each routine, by its label in PARTS."""
     random = np.random.default_rng(12)
     whole = random.integers(10**7, 10**8, N).tolist()
+    lengths = random.integers(10**7, 1 << 26, N).tolist()
     pairs = uniform(random, -1000, 1000), uniform(random, -1000, 1000)
     angles = uniform(random, -180, 180)
     return {
@@ -62,8 +63,8 @@ def measure(board: Printer) -> dict[str, Batch]:
         "FCOS": board.unary("FCOS", angles)[1],
         "FSIN": board.unary("FSIN", angles)[1],
         "CATG": board.unary("FATG", uniform(random, -10, 10))[1],
-        "DECOUT": board.printed(np.array([list(nearest(Fraction(n))) for n in whole], np.uint8), 8)[1],
-        "DECIN": board.read([f"{n % 100000 / 1000:.3f}" for n in whole])[3],
+        "DECOUT": board.printed(np.array([list(nearest(Fraction(n))) for n in lengths], np.uint8), 8)[1],
+        "DECIN": board.read([f"{n % 100000 / 1000:.3f}" for n in whole])[2],
     }
 
 

@@ -22,7 +22,7 @@ ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
 #: Where the tests keep operands and stack: free RAM, away from the calculator's cells.
 X, Y, STACK = 0x3000, 0x3008, 0x3F00
 ERROR = 0x0008
-ERANGE = 5
+ESYN, ERANGE = 1, 5
 HIDDEN = np.uint64(1 << 31)
 RETURNED, STOPPED = ENDS.index("returned"), ENDS.index("stop")
 #: What an operation answers when the result is too large: no float has these bytes.
@@ -270,15 +270,16 @@ class Printer(Firmware):
         lines = (batch.outputs[start : start + self.WIDTH] for start in starts)
         return [line.rstrip(b"\0").decode("ascii") for line in lines], batch
 
-    def read(self, texts: list[str]) -> tuple[list[bytes], list[str], list[bool], Batch]:
-        """What DECIN makes of texts: floats (OVERFLOW for ERR), what it leaves, whether it refuses; the calls."""
+    def read(self, texts: list[str]) -> tuple[list[bytes], list[str], Batch]:
+        """What DECIN makes of texts: floats (OVERFLOW for ERR), what it leaves; the calls."""
         length = max(map(len, texts)) + 1
         inputs = np.array([list(text.encode() + b"\r" * (length - len(text))) for text in texts], np.uint8)
         out = X + 256
         rows, batch = results(self.batch("DECIN", inputs, out, 5, hl=X, de=out))
         ends = batch.registers["hl"].tolist()
         left = [text[end - X :] for text, end in zip(texts, ends, strict=True)]
-        return [row.tobytes() for row in rows], left, (batch.registers["f"] & 1 == 1).tolist(), batch
+        assert not (batch.registers["f"][batch.ends == RETURNED] & 1).any()  # carry would be "no number"
+        return [row.tobytes() for row in rows], left, batch
 
 
 def results(batch: Batch) -> tuple[NDArray[np.uint8], Batch]:
