@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, replace
 
 import click
@@ -10,8 +11,11 @@ from tqdm import tqdm
 
 from skg import tape as tapes
 from skg.controller import Outcome, run_block
-from skg.placed import closed_moves
+from skg.placed import closed_moves, positions_option
 from skg.tape import Block, Tape
+
+#: A place or a move in whole µm.
+Pair = tuple[int, int]
 
 #: A progress bar appears on tapes of more steps than this (about a second's worth).
 _LONG = 50_000_000
@@ -77,11 +81,30 @@ def expected_steps(block: Block) -> int:
     return block.x + block.y if block.is_line else 2 * block.j
 
 
-def simulate(tape: Tape, feed: float = 5.0, progress: bool = False) -> Report:
+def _follow(blocks: list[Block], moves: list[Pair], drift: Pair,
+            progress: Callable[[int], object] = lambda steps: None) -> list[tuple[Block, Pair, Outcome]]:
+    """Run blocks that should make these moves; `drift` is how far the controller is off before them, µm."""
+    made = []
+    for block, should in zip(blocks, moves, strict=True):
+        outcome = run_block(block, drift, progress)
+        made.append((block, should, outcome))
+        drift = drift[0] + outcome.move[0] - should[0], drift[1] + outcome.move[1] - should[1]
+    return made
+
+
+def _total(moves: Iterable[Pair]) -> Pair:
+    """The sum of moves."""
+    moves = list(moves)
+    return sum(x for x, _ in moves), sum(y for _, y in moves)
+
+
+def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: str = "auto") -> Report:
     """Follow every block of `tape`.
 
-    `feed` is in mm/min; `progress` shows a bar on stderr when that is a terminal and the tape long. Where a
-    block should start is the sum of the moves (`closed_moves`) that the blocks before it should have made.
+    `feed` is in mm/min; `progress` shows a bar on stderr when that is a terminal and the tape long. `positions`
+    (see `positions_option`): "programmed" takes a block to start where the moves (`closed_moves`) that the
+    blocks before it should have made add up to, "machine" where the controller stands, as a tape without drift
+    means it; "auto" takes the second for routes that close so and not as programmed.
     """
     each: list[BlockReport] = []
     routes: list[Route] = []
@@ -105,9 +128,13 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False) -> Report:
     with bar:
         stretches = tape.stretches()
         for at, blocks in enumerate(stretches):
-            for block, should in zip(blocks, closed_moves(blocks), strict=True):
-                drift = real[0] - programmed[0], real[1] - programmed[1]
-                outcome: Outcome = run_block(block, drift, bar.update)
+            moves, drift = closed_moves(blocks), (real[0] - programmed[0], real[1] - programmed[1])
+            made = _follow(blocks, moves, drift, bar.update)
+            as_made = [outcome.move for _, _, outcome in made]
+            closes_so = _total(as_made) == (0, 0) != _total(moves)
+            if positions == "machine" or (positions == "auto" and closes_so):
+                made = _follow(blocks, as_made, drift)
+            for block, should, outcome in made:
                 each.append(BlockReport(block.number, str(block), should, outcome.move, outcome.steps,
                                         outcome.off_curve))
                 real = real[0] + outcome.move[0], real[1] + outcome.move[1]
@@ -190,17 +217,19 @@ def _pair(point: tuple[int, int]) -> str:
 @click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
 @click.option("--feed", default=5.0, show_default=True, type=click.FloatRange(0, min_open=True),
               help="Feed in mm/min, for the time.")
+@positions_option
 @click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
 @click.option("--json", "as_json", is_flag=True,
               help="Write the figures as JSON (µm, seconds), one list for all tapes.")
 @click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
-def command(tapes_: tuple[str, ...], feed: float, blocks: bool, as_json: bool, strict_close: bool) -> None:
+def command(tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, as_json: bool,
+            strict_close: bool) -> None:
     """Follow TAPE step by step as a 3B controller does.
 
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
     and whether the path closes. TAPE - is the standard input.
     """
-    reports = [simulate(tapes.read(name), feed, progress=True) for name in tapes_]
+    reports = [simulate(tapes.read(name), feed, progress=True, positions=positions) for name in tapes_]
     if as_json:
         kept = reports if blocks else [replace(report, each=()) for report in reports]
         click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))

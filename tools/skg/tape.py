@@ -88,9 +88,17 @@ class Block:
         return round_sqrt(self.x**2 + self.y**2)
 
     @property
+    def turn(self) -> int:
+        """Where the controller passes an axis on an arc: the least whole number whose square + 1 is x² + y²
+        or more. A tape without drift counts it as the radius (docs/drift.md).
+        """
+        square = self.x**2 + self.y**2 - 1
+        return isqrt(square - 1) + 1 if square > 0 else 0
+
+    @property
     def is_full_circle(self) -> bool:
         """True for an arc that counts four radii."""
-        return not self.is_line and self.j == 4 * self.radius
+        return not self.is_line and self.j in (4 * self.radius, 4 * self.turn)
 
     def count_end(self) -> tuple[int, int]:
         """Return (distance from the centre along the count axis, quadrant) of an arc's end.
@@ -185,7 +193,7 @@ class Block:
             found.append(f"{self.code} needs {axis.lower()} > 0: wrong quadrant for its x and y")
         if self.j == 0:
             found.append("J is 0")
-        elif self.j > 4 * self.radius:
+        elif self.j > 4 * max(self.radius, self.turn):
             found.append(f"J = {self.j} is more than a full circle, {4 * self.radius}")
         elif not self.is_full_circle:
             distance = self.count_end()[0]

@@ -33,13 +33,19 @@ def _text(path: Path) -> str:
     type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="What the operator answers to INPUT, one line each.",
 )
-def command(part: Path, output: Path | None, answers: Path | None) -> None:
+@click.option(
+    "--drift/--no-drift",
+    default=True,
+    show_default=True,
+    help="Let the controller's misses at the ends of arcs add up, or start each block where it really stands.",
+)
+def command(part: Path, output: Path | None, answers: Path | None, drift: bool) -> None:
     """Run PART (an SKG program) in 50-digit arithmetic: the exact 3B tape that it must give.
 
     The tape goes to standard output, the teletype's paper to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
-    result = run(_text(part), _text(answers).splitlines() if answers else [])
+    result = run(_text(part), _text(answers).splitlines() if answers else [], drift=drift)
     sys.stderr.write(result.paper)
     if output is None:
         sys.stdout.buffer.write(result.tape)

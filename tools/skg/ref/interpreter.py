@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from skg.errors import UserError
 from skg.ref import real
 from skg.ref.cutter import Cutter
+from skg.ref.drift import DriftlessTape
 from skg.ref.fault import Code, Fault
 from skg.ref.geometry import negate
 from skg.ref.near import Near, Watch, watching
@@ -90,11 +91,11 @@ class _End(Exception):
 class Interpreter:
     """One machine: a program, variables, a tape."""
 
-    def __init__(self, inputs: Iterable[str], watch: Watch) -> None:
+    def __init__(self, inputs: Iterable[str], watch: Watch, tape: Tape) -> None:
         self.answers = iter(inputs)
         self.watch = watch
         self.program: dict[int, Statement] = {}
-        self.tape = Tape()
+        self.tape = tape
         self.path: list[Segment] = []
         self.paper: list[str] = []
         self._clear()
@@ -404,14 +405,16 @@ def _lines(source: str) -> list[str]:
     return [line for line in lines if line.strip()]
 
 
-def run(source: str, inputs: Iterable[str] = (), bits: int | None = None) -> Result:
+def run(source: str, inputs: Iterable[str] = (), bits: int | None = None, drift: bool = True) -> Result:
     """Load a program and RUN it; `inputs` are the operator's answers to INPUT.
+
+    Without `drift` each block starts where the controller really stands after the one before (docs/drift.md).
 
     With `bits`, everything is computed with a mantissa of that many bits instead of 50 digits. A program
     whose tape comes out differently at 33 bits is ill-conditioned for the machine's own floats.
     """
     with watching() as watch, real.mp.workprec(bits or real.mp.prec):
-        machine = Interpreter(inputs, watch)
+        machine = Interpreter(inputs, watch, Tape() if drift else DriftlessTape())
         error = machine.load(source)
         if error is None:
             error = machine.run()

@@ -49,10 +49,11 @@ def line_block(dx: int, dy: int) -> str:
     """The block of a straight move, which is not zero."""
     x, y = abs(dx), abs(dy)
     axis = "Y" if y > x or (x == y and dx * dy > 0) else "X"
-    return _block(x, y, max(x, y), axis, f"L{quadrant_into(dx, dy)}")
+    return block(x, y, max(x, y), axis, f"L{quadrant_into(dx, dy)}")
 
 
-def _block(x: int, y: int, j: int, axis: str, z: str) -> str:
+def block(x: int, y: int, j: int, axis: str, z: str) -> str:
+    """A block; error 10 when a number has more than 8 digits."""
     if max(x, y, j) >= TOO_LONG:
         raise Fault(Code.TAPE)
     return f"B{x}B{y}B{j}G{axis}{z}"
@@ -80,7 +81,7 @@ def arc_block(start: Grid, end: Grid, clockwise: bool, true_sweep: Real) -> str 
         return None
     quadrant = quadrant_into(xs, ys)
     z = f"SR{5 - quadrant}" if clockwise else f"NR{quadrant}"
-    return _block(abs(xs), abs(ys), travel, axis, z)
+    return block(abs(xs), abs(ys), travel, axis, z)
 
 
 def _nearest_turns(rounded: Real, true_sweep: Real) -> int:
