@@ -8,5 +8,6 @@ rom: asm80
 	@$(PYTHON) asm/build.py roms/skg
 	@$(PYTHON) asm/build.py --variant --set BRD51=1 roms/skg-8251
 	@$(PYTHON) asm/build.py --variant --set PTTY=1 roms/skg-tty
+	@$(PYTHON) asm/build.py --variant --set NODRIFT=1 roms/skg-nodrift
 
 .PHONY: asm80 rom

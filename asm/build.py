@@ -27,7 +27,7 @@ FILES = [
     "equ", "start", "io", "calc", "ops", "consts", "float",
     "parser", "geom", "cut", "tape", "repeat", "lexer", "monitor",
 ]
-OPTIONS = {"BRD51": 0, "PTTY": 0}
+OPTIONS = {"BRD51": 0, "PTTY": 0, "NODRIFT": 0}
 
 
 def fail(message: str) -> None:

@@ -4,6 +4,7 @@
 ; ---- Board options (the build sets them in the top file) -----------------
 ;   BRD51   1 = two Intel 8251, 0 = two Motorola 6850
 ;   PTTY    1 = the punch is the teletype's own (DC2 ... DC4)
+;   NODRIFT 1 = each block starts where the controller really stands (docs/drift.md)
 
 ; ---- Characters -----------------------------------------------------------
 CNUL    EQU 00H

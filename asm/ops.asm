@@ -25,7 +25,11 @@ QJC     EQU QOWN+18     ; ->      jump when a is a circle
 QONEL   EQU QOWN+19     ; ->      ERR 06 when the point b is not on the element a
 QNORM   EQU QOWN+20     ; ->      a0 a1 = right normal of a at the point b
 QFAR    EQU QOWN+21     ; x y -> negative when x*x+y*y is less than 1 um squared
+QROOT   EQU QOWN+22     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT)
 
         DW      XDOT,XCRS,XDIF,XHYP,XCEN,XREFL,XROTV,XTCH
         DW      XSGN,XMAX,XE6N,XE6D,XE6Z,XE5Z
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR
+        IF      NODRIFT
+        DW      XROOT
+        ENDIF

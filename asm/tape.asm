@@ -39,13 +39,33 @@ WHOLE:  RST     5
 ARC:    DB      ST3             ; -             t3 < 0: more than half a turn
         DB      LC0,QRND,ST0    ; -
         DB      LC1,QRND,ST1    ; -
-        DB      LWX,LT0,QSUB,QDUP,SA0,QABS,SBX ; -      a = start
-        DB      LWY,LT1,QSUB,QDUP,SA1,QABS,SBY ; -
+        DB      LWX,LT0,QSUB,SA0 ; -                    a = start
+        DB      LWY,LT1,QSUB,SA1 ; -
         DB      LVX,LT0,QSUB,SB0 ; -                    b = end
         DB      LVY,LT1,QSUB,SB1 ; -
         DB      LC2,QSGN        ; sense
         DB      QDUP,LA1,QMUL,SA1 ; sense
         DB      LB1,QMUL,SB1    ; -             mirrored when clockwise
+        IF      NODRIFT
+        DB      QDIF,ST1,ST0    ; -             t0 t1 = chord d
+        DB      LT0,QSQ,LT1,QSQ,QADD,ST4 ; -    t4 = |d|^2
+        DB      QDOT,QJN        ; -             ends far apart: no doubt
+        DB      ARC0-$
+        DB      LT3,QJN         ; -             nearly round: any shift is too much
+        DB      ARC1-$
+        DB      LA0,LA1,QHYP,QDUP,QADD ; 2r
+        DB      LT4,QSUB,QJN    ; -             short; |d|^2 <= 2r, within 1/4 um:
+        DB      ARC0-$
+        DB      QEND
+        JMP     MOVE            ; a line
+; the centre goes along the chord to where both ends are equally far from it
+ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
+        DB      LT4,QDIV,QHALF,QADD,ST2 ; -     t2 = shift / d
+        DB      LA0,LT2,LT0,QMUL,Q502,QADD,QFLR,QSUB,SA0 ; -
+        DB      LA1,LT2,LT1,QMUL,Q502,QADD,QFLR,QSUB,SA1 ; -
+        DB      LA0,LT0,QADD,SB0,LA1,LT1,QADD,SB1 ; -
+ARC1:   DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
+        ELSE
         DB      QDOT,QJN        ; -             ends far apart: no doubt
         DB      ARC1-$
         DB      LT3,QJN         ; -
@@ -64,7 +84,10 @@ ARC1:   DB      LA0,LA1,QHYP    ; radius        t5 = r: first, not too great ...
         DB      QJN
         DB      ARC2-$
         DB      LT5,Q1,QADD,ST5 ; -
-ARC2:   DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
+ARC2:
+        ENDIF
+        DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
+        DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
         DB      QEND
         CALL    QUAD
         LXI     H,MC2
@@ -90,6 +113,21 @@ ARC4:   RST     5
         DB      LT5,QMUL,QDUP,QADD,QADD ; J
         DB      QABS,QDUP,SBJ,QJZ ; -
         DB      MOVE0-$         ; counted as nothing: a line
+        IF      NODRIFT
+; V = where the controller will stand: the step that ends the block goes from w+1 to w
+        DB      LB1,QSGN,ST1    ; -             t1 = sign of v
+        DB      LB0,LT1,QMUL,QDUP ; w w
+        DB      QSGN,Q1,QSUB,QHALF,QMUL ; w 0   -1 when w < 0
+        DB      QSWP,Q1,QADD,QROOT,QADD ; |v|
+        DB      LT1,QMUL,LB1,QSUB ; dv          v less that of b
+        DB      LT0,QNEG,QJN    ; dv            back into the drawing's axes
+        DB      ARC5-$
+        DB      LC2,QSGN,QMUL,LVY,QADD,SVY ; -
+        DB      QJMP
+        DB      ARC6-$
+ARC5:   DB      LVX,QSWP,QSUB,SVX ; -
+ARC6:
+        ENDIF
         DB      QEND
         JMP     PUTBLK
 
@@ -184,6 +222,20 @@ XRND:   RST     5
         DB      XRND1-$
         DB      QRET
 XRND1:  DB      QNEG,QRET               ; -|whole|
+        IF      NODRIFT
+; QROOT: w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
+XROOT:  RST     5
+        DB      ST2             ; -             t4: first, not too great ...
+        DB      LA0,QSQ,LA1,QSQ,QADD,LT2,QSQ,QSUB,QABS ; n-w^2
+        DB      QSQRT,QMU,QSUB,QFLR,Q1,QADD,ST4 ; -
+        DB      LT4                     ; root  ... then from whole numbers:
+        DB      LA0,LT4,QADD,LA0,LT4,QSUB,QMUL ; root x^2-root^2
+        DB      LA1,LT2,QADD,LA1,LT2,QSUB,QMUL ; root x^2-root^2 y^2-w^2
+        DB      QADD,QNEG,QJN           ; root
+        DB      XROOT1-$
+        DB      QRET
+XROOT1: DB      Q1,QADD,QRET            ; root+1
+        ENDIF
 ; QVK: V = K in whole um
 XVK:    RST     5
         DB      LKX,QRND,SVX            ; -
