@@ -25,6 +25,7 @@ VARIANTS = {
     "skg": ([], ALL),
     "skg-8251": (["--set", "BRD51=1"], IMAGE),
     "skg-tty": (["--set", "PTTY=1"], IMAGE),
+    "skg-nodrift": (["--set", "NODRIFT=1"], IMAGE),
 }
 
 REGISTERS = "BCDEHLMA"
