@@ -3,20 +3,21 @@
 ; Uses:   calc (this file must follow it), geom, cut, tape
 ; Room:   2 bytes an operation
 
-QDOT    EQU QOWN        ; -> a0*b0+a1*b1
+; The entry QOWN itself is INT, which belongs behind FFLR there (OPFN, parser.asm); byte-code
+; would have to see that x is a0
 QCRS    EQU QOWN+1      ; -> a0*b1-a1*b0
 QDIF    EQU QOWN+2      ; -> b0-a0 b1-a1
 QHYP    EQU QOWN+3      ; x y -> square root of x*x+y*y
-QCEN    EQU QOWN+4      ; -> a0*b1+a1*b2
+QDOT    EQU QOWN+4      ; -> a0*b0+a1*b1
 QREFL   EQU QOWN+5      ; k ->    a0 a1 less k times b0 b1
-QROTV   EQU QOWN+6      ; ->      a0 a1 turned by b0 degrees
-QTCH    EQU QOWN+7      ; gap ->  negative: the curves cross
-QSGN    EQU QOWN+8      ; x -> 1 or -1
+QROTV   EQU QOWN+6      ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
+QLEG    EQU QOWN+7      ; gap -> h  crossing of a line and a circle: distance from the foot
+QSIG    EQU QOWN+8      ; x y -> x, or -x when y is negative
 QMAX    EQU QOWN+9      ; x y -> the greater
 QE6N    EQU QOWN+10     ; x ->    ERR 06 when negative
 QE6D    EQU QOWN+11     ; x ->    ERR 06 when more than 1 um from 0
-QE6Z    EQU QOWN+12     ; x -> x  ERR 06 when nearly 0
-QE5Z    EQU QOWN+13     ; x -> x  ERR 05 when nearly 0
+QUNIT   EQU QOWN+12     ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
+QXCH    EQU QOWN+13     ; ->      a and b exchanged
 QCA     EQU QOWN+14     ; ->      a = C
 QNA     EQU QOWN+15     ; ->      a = N
 QRND    EQU QOWN+16     ; mm -> whole um
@@ -25,11 +26,12 @@ QJC     EQU QOWN+18     ; ->      jump when a is a circle
 QONEL   EQU QOWN+19     ; ->      ERR 06 when the point b is not on the element a
 QNORM   EQU QOWN+20     ; ->      a0 a1 = right normal of a at the point b
 QFAR    EQU QOWN+21     ; x y -> negative when x*x+y*y is less than 1 um squared
-QROOT   EQU QOWN+22     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT)
+QSGN    EQU QOWN+22     ; x -> 1 or -1
+QROOT   EQU QOWN+23     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
-        DW      XDOT,XCRS,XDIF,XHYP,XCEN,XREFL,XROTV,XTCH
-        DW      XSGN,XMAX,XE6N,XE6D,XE6Z,XE5Z
-        DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR
+        DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
+        DW      XSIG,XMAX,XE6N,XE6D,XUNIT,XXCH
+        DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSGN
         IF      NODRIFT
         DW      XROOT
         ENDIF

@@ -1,6 +1,6 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL EVNUM EVINT ASSIGN GETREF SETREF PRVAL CMPNE CLRVAR CHKRET,
-;         COPY and the stubs ERSYN ERKIND ERRNG ERGEO ERMEM ERUNS
+; Offers: EVAL EVNUM EVINT ASSIGN GETREF SETREF PRVAL PRNUM CMPNE CLRVAR CHKRET,
+;         KINDIS, COPY and the stubs ERSYN ERKIND ERRNG ERMEM ERUNS
 ; Uses:   calc, float, geom (BINOP), monitor (CHKEND, the pointers)
 ; Room:   700 bytes
 ;
@@ -58,9 +58,7 @@ EVA3:   POP     PSW
         PUSH    B
         MOV     A,C
         CALL    EVALR
-        LXI     H,MB
-        LXI     D,MA
-        CALL    COPY15          ; right value to b0 b1 b2
+        CALL    XXCH            ; right value to b0 b1 b2
         POP     B
         LXI     H,0
         DAD     SP
@@ -115,17 +113,18 @@ OPND:   LXI     H,-STKLOW-STKROM
 ; In:  A = its token   Out: as EVAL   Clobbers all
 OPFN:   PUSH    PSW
         CALL    OPND
-        POP     PSW
-        MOV     C,A
+        POP     B
         CALL    CHKRET
-        MOV     A,C
+        MOV     A,B
         SUI     TK1
         JNC     OPK
         CALL    NUMBER
         LXI     H,MA
+        MOV     A,B
+        CPI     TABS
+        JZ      FABS
         XCHG
         LXI     H,FNTAB
-        MOV     A,C
         SUI     TSQR
 ; (fall into JTAB)
 
@@ -143,27 +142,23 @@ JTAB:   ADD     A
         XCHG
         RET
 
-FNTAB:  DW      FSQR,FSIN,FCOS,FTG,FATG,FABS,FINT       ; TSQR ... TINTF
+; SQR SIN COS TG ATG, FFLR in the place of ABS, INT: the calculator's operations, in order
+FNTAB   EQU OPTAB+2*(QSQRT-1)
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
 OPK:    MOV     B,A
         LDA     VKIND
-        CPI     KNUM
-        JZ      ERKIND
-        CPI     KTURN
-        JZ      ERKIND
-        SUI     KPNT
-        JNZ     OPK1
-        MVI     A,1
         CMP     B
-        JC      ERKIND          ; a point has two
-OPK1:   LXI     H,MA
-        LXI     D,5
-OPK2:   DCR     B
-        JM      OPK3
-        DAD     D
-        JMP     OPK2
-OPK3:   XCHG
+        JC      ERKIND          ; a point (1) has no third
+        DCR     A
+        CPI     KTURN-1
+        JNC     ERKIND          ; a number has none
+        MOV     A,B
+        ADD     A
+        ADD     A
+        ADD     B
+        MOV     E,A
+        MVI     D,MA/256        ; (a0 begins a page)
         LXI     H,MA
         CALL    COPY5
         JMP     SETNUM
@@ -192,15 +187,14 @@ SETNUM: XRA     A
 ; SETK - makes the value one of kind A: the floats that it has not are zero
 ; In:  A = kind   Out: VKIND   Clobbers A, B, HL
 SETK:   STA     VKIND
-        LXI     H,MA+10
-        MVI     B,5
-        CPI     KPNT
-        JZ      SETK1
-        RNC                     ; three floats
-        LXI     H,MA+5
+        LXI     H,MA+14
         MVI     B,10
+        CPI     KPNT
+        JC      SETK1           ; a number
+        RNZ                     ; three floats
+        MVI     B,5
 SETK1:  MVI     M,0
-        INX     H
+        DCX     H
         DCR     B
         JNZ     SETK1
         RET
@@ -208,18 +202,13 @@ SETK1:  MVI     M,0
 ; OPNAM - value of a name
 ; In:  A = its first token   Out: as EVAL; ERR 03 when it has none
 OPNAM:  CALL    NAME
-        MOV     A,D
-        CALL    KINDOF
-        MOV     A,B
-        STA     VKIND
         CALL    CHKRET
         CALL    FIND
         JC      ERUNS
         XCHG
         LXI     H,MA
-        MOV     A,C
-        CALL    COPY
-        LDA     VKIND
+        CALL    COPY15          ; (all of them, whatever follows a shorter one)
+        MOV     A,B
         JMP     SETK
 
 ; OPNEG - negates an operand
@@ -232,14 +221,15 @@ NEGVAL: CALL    CHKRET
         LDA     VKIND
         CPI     KTURN
         JZ      ERKIND
-        LXI     H,MA+10
         CPI     KCIR
-        JZ      FNEG
-        CALL    FNEG
-        LXI     H,MA+5
-        CALL    FNEG
-        LXI     H,MA
-        JMP     FNEG
+        JZ      NEGV1
+        RST     5
+        DB      LA0,QNEG,SA0    ; -
+        DB      LA1,QNEG,SA1    ; -
+        DB      QEND
+NEGV1:  RST     5
+        DB      LA2,QNEG,SA2    ; -
+        DB      QRET
 
 ; NAME - a name with its subscript worked out
 ; In:  A = its first token, taken   Out: DE = name   Clobbers all
@@ -249,7 +239,6 @@ NAME:   CPI     TNAME
         JC      NAME1
         CPI     TSUB+14
         JNC     ERSYN
-        SUI     TSUB
         PUSH    PSW
         CALL    EVINT
         PUSH    H
@@ -260,7 +249,7 @@ NAME:   CPI     TNAME
         DAD     D
         JC      ERRNG
         POP     PSW
-        ADD     A
+        ADD     A               ; (4 * TSUB is 0 in a byte)
         ADD     A
         ORI     TNAME
         ORA     D
@@ -285,14 +274,14 @@ KINDOF: LXI     B,KNUM*256+5
         INR     B               ; S X Y
         RET
 
-; FIND - looks a name up, the predefined ones first
+; FIND - looks a name up, the predefined ones last
 ; In:  DE = name
-; Out: CY clear: HL -> value, C = its bytes.  CY set: it has none
+; Out: CY clear: HL -> value, B = its kind, C = its bytes.  CY set: it has none
 ; Clobbers A, BC, HL
-FIND:   LXI     H,PREDEF
+FIND:   LHLD    VBOT
         CALL    FIND1
         RNC
-        LHLD    VBOT
+        LXI     H,PREDEF
 FIND1:  MOV     A,M
         ORA     A
         STC
@@ -329,35 +318,33 @@ ASSIGN: CALL    GETREF
         DB      CEQU
         CALL    EVAL
         POP     D
-        CALL    CHKEND
+        RST     7
 ; (fall into SETREF)
 
 ; SETREF - gives a name the value
 ; In:  DE = name; a0 a1 a2, VKIND   Clobbers all
-SETREF: CALL    CHKRET
-        MOV     A,D
+SETREF: MOV     A,D
         CALL    KINDOF
-        LDA     VKIND
-        CMP     B
-        JNZ     ERKIND
+        MOV     A,B
+        CALL    KINDIS
+        PUSH    B
         CALL    FIND
+        POP     B
         JC      SETR2
 SETR1:  MOV     A,C
         LXI     D,MA
         JMP     COPY
-SETR2:  MOV     A,D
-        CALL    KINDOF
-        MVI     B,-1 & 255
-        MOV     A,C
-        CMA
-        DCR     A
-        PUSH    B
-        MOV     C,A             ; BC = -(bytes + 2)
-        LHLD    VBOT
-        DAD     B
+SETR2:  LHLD    VBOT
+        MOV     A,L
+        SUB     C
+        MOV     L,A
+        MOV     A,H
+        SBI     0
+        MOV     H,A
+        DCX     H
+        DCX     H
         CALL    ROOM            ; does it fit above the route buffer?
         SHLD    VBOT
-        POP     B
         MOV     M,D
         INX     H
         MOV     M,E
@@ -377,6 +364,7 @@ GETREF: RST     3
         CALL    NAME
         CALL    CHKRET
         CALL    FIND
+        RC
         MOV     A,H
         CPI     RAM/256
         RNC
@@ -385,27 +373,20 @@ ERUNS:  RST     1
 
 ; PRVAL - prints the value: a number, or (x,y), (x,y,r), (alpha,beta,gamma)
 ; In:  a0 a1 a2, VKIND   Clobbers all
-PRVAL:  LXI     H,MA
-        MVI     B,8
+PRVAL:  CALL    CHKRET
+        LXI     H,MA
+        LXI     B,8*256+2       ; B = digits, C = floats
         LDA     VKIND
         ORA     A
-        JZ      DECOUT
+        JZ      PRNUM
         CPI     KTURN
         JZ      ERKIND
-        MVI     C,2
         CPI     KPNT
         JZ      PRV1
         INR     C
 PRV1:   MVI     A,CLPAR
 PRV2:   RST     2
-        PUSH    B
-        PUSH    H
-        MVI     B,8
-        CALL    DECOUT
-        POP     H
-        POP     B
-        LXI     D,5
-        DAD     D
+        CALL    PRNUM
         MVI     A,CCOMMA
         DCR     C
         JNZ     PRV2
@@ -413,13 +394,22 @@ PRV2:   RST     2
         RST     2
         RET
 
+; PRNUM - prints one of several floats
+; In:  HL -> it, B = most significant digits (8 or 9)
+; Out: HL -> behind it   Clobbers A, DE
+PRNUM:  PUSH    B
+        PUSH    H
+        CALL    DECOUT
+        POP     H
+        POP     B
+        LXI     D,5
+        DAD     D
+        RET
+
 ; EVINT - value of an expression that must be a whole number
 ; In:  TXTP -> it   Out: HL = 0...65535 (0 in check mode); ERR 05   Clobbers all
 EVINT:  CALL    EVNUM
-        LXI     H,0
-        LDA     CHKF
-        ORA     A
-        RNZ
+        CALL    CHKRET
         CALL    NRINT
         JNZ     ERRNG
         LXI     H,MB
@@ -434,10 +424,15 @@ EVNUM:  CALL    EVAL
 ; (fall into NUMBER)
 
 ; NUMBER - demands that the value is a number
-; In:  VKIND   Clobbers A
+; In:  VKIND   Clobbers A, HL
 NUMBER: CALL    CHKRET
-        LDA     VKIND
-        ORA     A
+        XRA     A
+; (fall into KINDIS)
+
+; KINDIS - demands that the value is of kind A
+; In:  A, VKIND   Clobbers HL
+KINDIS: LXI     H,VKIND
+        CMP     M
         RZ
 ERKIND: RST     1
         DB      EKIND
@@ -445,15 +440,14 @@ ERSYN:  RST     1
         DB      ESYN
 ERMEM:  RST     1
         DB      EMEM
-ERGEO:  RST     1
-        DB      EGEOM
 
 ; CHKRET - in check mode leaves the routine that called it
-; In:  CHKF   Clobbers A (HL in check mode)
+; In:  CHKF   Out: in check mode HL = 0   Clobbers A
 CHKRET: LDA     CHKF
         ORA     A
         RZ
         POP     H
+        LXI     H,0
         RET
 
 ; FINT - INT: greatest whole number not above, nearly whole ones taken as whole
@@ -489,9 +483,9 @@ CMPNE:  RST     5
         DB      QJN             ; -
         DB      CMPN1-$
         DB      QEND
-        LXI     H,MT0
-        CALL    FSGN            ; A = 0FFH when a < b, else 1
-        ADD     A               ; CY = a < b; never zero
+        LDA     MT0+1
+        ORI     1
+        ADD     A               ; CY = sign: a < b; never zero
         RET
 CMPN1:  DB      QEND
         XRA     A
