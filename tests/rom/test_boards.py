@@ -26,7 +26,8 @@ def typed(board: Board, part: Path) -> None:
 
 
 def test_the_boards_are_all_that_there_are_images_for() -> None:
-    assert {path.stem for path in image("skg").parent.glob("*.bin")} == set(BOARDS) == set(OPTIONS)
+    images = {path.stem for path in image("skg").parent.glob("*.bin")}
+    assert images - {"skg-nodrift"} == set(BOARDS) == set(OPTIONS)  # that one is for the standard board
 
 
 @every_board
