@@ -16,6 +16,7 @@ COMMANDS = {
     "from-dxf": "skg.from_dxf:command",
     "gcode": "skg.gcode:command",
     "plot": "skg.plot:command",
+    "quality": "skg.quality:command",
     "ref": "skg.ref.command:command",
     "sim": "skg.sim:command",
     "term": "skg.term:command",

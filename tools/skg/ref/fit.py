@@ -17,6 +17,9 @@ STRAIGHT = Real(50000)
 #: Relative distance to these that is a close call: 32 bits know |t × w| to some 10⁻⁷ mm.
 FLAT_NEAR = Real("1e-4")
 
+#: How many nodes TOL may pass over between two that it keeps.
+MOST_PASSED = 15
+
 
 @dataclass(frozen=True)
 class Node:
@@ -44,19 +47,53 @@ def circle_tangent(a: Point, b: Point, c: Point) -> Point:
     return t * (1 / t.length())
 
 
-def joint(p: Point, t: Point, q: Point, u: Point) -> Point:
-    """Where the two arcs of a biarc from p (unit tangent t) to q (unit tangent u) meet.
+def corners(p: Point, t: Point, q: Point, u: Point) -> tuple[Point, Point]:
+    """Where the tangents at the ends of a biarc from p (unit tangent t) to q (unit tangent u) meet that at its joint.
 
-    Both tangent lengths are d = v·v / (v·(t+u) + √((v·(t+u))² + 2(1 - t·u) v·v)) with v = q - p; the joint is
-    halfway between p + d·t and q - d·u. Error 6 when there is no positive d.
+    All tangent lengths are d = v·v / (v·(t+u) + √((v·(t+u))² + 2(1 - t·u) v·v)) with v = q - p, so the corners are
+    p + d·t and q - d·u, and the joint is halfway between them. Error 6 when there is no positive d.
     """
     v = q - p
     along = v.dot(t + u)
     below = along + real.mp.sqrt(along**2 + 2 * max(1 - t.dot(u), real.ZERO) * v.dot(v))
-    if near.at_most(below, NEARLY, "biarc"):
+    if near.at_most(below, NEARLY * v.length(), "biarc"):
         raise Fault(Code.GEOMETRY)
     d = v.dot(v) / below
-    return (p + t * d + q - u * d) * (real.ONE / 2)
+    return p + t * d, q - u * d
+
+
+def joint(p: Point, t: Point, q: Point, u: Point) -> Point:
+    """Where the two arcs of a biarc meet; error 6 as in `corners`."""
+    c, d = corners(p, t, q, u)
+    return (c + d) * (real.ONE / 2)
+
+
+def within(a: Node, b: Node, passed: list[Node], tolerance: Real) -> bool:
+    """Whether a biarc from a to b exists and all passed nodes lie within the tolerance of it (TOL, docs/curves.md).
+
+    The joint's tangent parts the nodes: those before it are compared with the arc at a, the others with the arc
+    at b, walked backwards. With the arc's start p, its direction t and its chord w, and q the node from p, the arc
+    has the curvature 2k, k = t×w / w·w, and the node is within e of it when |k (q·q - e²) - t×q| <= e, exactly, and
+    of a line too (k = 0). Each arc of a biarc turns less than half round, so q·t >= 0 is all that is left to ask.
+    """
+    try:
+        c, d = corners(a.point, a.tangent, b.point, b.tangent)
+    except Fault:
+        return False
+    middle, across = (c + d) * (real.ONE / 2), d - c
+    ends = [(n.point, t, middle - n.point) for n, t in ((a, a.tangent), (b, -b.tangent))]
+    for node in passed:
+        side = (node.point - middle).dot(across)
+        near.note("side of the joint", side, NEARLY)
+        p, t, w = ends[side > 0]
+        q = node.point - p
+        k = t.cross(w) / w.dot(w)
+        near.note("passed node", q.dot(t), NEARLY)
+        miss = abs(k * (q.dot(q) - tolerance**2) - t.cross(q))
+        near.note("passed node", miss - tolerance, NEARLY)
+        if q.dot(t) < 0 or miss > tolerance:
+            return False
+    return True
 
 
 def arc(p: Point, t: Point, q: Point) -> Circle | None:
@@ -75,11 +112,19 @@ def arc(p: Point, t: Point, q: Point) -> Circle | None:
 
 
 class Curve:
-    """A run of FIT statements. `feed` takes points and arcs with their R, in the order of the route."""
+    """A run of FIT statements. `feed` takes points and arcs with their R, in the order of the route.
 
-    def __init__(self, feed: Callable[[Point | Circle, Real], None]) -> None:
+    With a tolerance (mm on the tape) nodes are passed over: a span is held back until the next node, and goes on to
+    that one when the biarc from the last kept node still comes within the tolerance of every node between.
+    """
+
+    def __init__(self, feed: Callable[[Point | Circle, Real], None], tolerance: Real = real.ZERO) -> None:
         self.feed = feed
+        self.tolerance = tolerance
         self.nodes: list[Node] = []
+        # With a tolerance: the last kept node, and the nodes after it, of which the last ends the span held back.
+        self.kept: Node | None = None
+        self.after: list[Node] = []
 
     def add(self, node: Node) -> None:
         """The next node; puts out the spans that it makes known."""
@@ -93,6 +138,8 @@ class Curve:
     def finish(self) -> None:
         """No more nodes: put out what is left."""
         self._advance(last=True)
+        if self.after:
+            self._span(self.kept, self.after[-1])
 
     def _advance(self, last: bool) -> None:
         while len(self.nodes) >= 2:
@@ -102,8 +149,20 @@ class Curve:
             b = self.nodes[1]
             if a.tangent is None:
                 a = replace(a, tangent=reflected(b.tangent, b.point - a.point))
-            self._span(a, b)
+            if self.tolerance:
+                self._hold(a, b)
+            else:
+                self._span(a, b)
             del self.nodes[0]
+
+    def _hold(self, a: Node, b: Node) -> None:
+        """Hold back the span to b, in the place of the one to a when it can be, else after that one."""
+        if self.after:
+            if len(self.after) <= MOST_PASSED and within(self.kept, b, self.after, self.tolerance):
+                self.after.append(b)
+                return
+            self._span(self.kept, a)
+        self.kept, self.after = a, [b]
 
     def _find_tangent(self, last: bool) -> bool:
         """Find the second node's tangent; False when it takes another node."""
