@@ -99,6 +99,11 @@ void i8080_poke(i8080 *c, uint16_t address, uint8_t value)
     }
 }
 
+bool i8080_fetched(const i8080 *c, uint16_t address)
+{
+    return c->code[address] != c->handlers[HANDLE_UNDECODED];
+}
+
 void i8080_break(i8080 *c, uint16_t address, bool on)
 {
     forget_code(c, address);
@@ -322,6 +327,10 @@ static void store(i8080 *c, uint64_t address, uint64_t value)
     unsigned at = address & 0xffff;
     uint8_t mark = c->mark[at];
     if (mark & MARK_NOT_RAM) {
+        if (!(mark & MARK_OPEN)) {
+            c->rom_writes++;
+            c->rom_written = (uint16_t)at;
+        }
         return;
     }
     if (mark) {

@@ -48,6 +48,8 @@ typedef struct i8080 {
 
     /* Since i8080_init: never reset by the core itself. */
     uint64_t cycles, instructions;
+    uint64_t rom_writes;            /* writes that did nothing, since there was ROM */
+    uint16_t rom_written;           /* where the last of them went */
 
     /* What i8080_watch() switches on. */
     bool watching;
@@ -88,6 +90,9 @@ void i8080_map(i8080 *c, uint16_t first, uint16_t last, i8080_kind kind);
 /* Memory as the host sees it: poke writes ROM too, and does nothing on an open bus. */
 uint8_t i8080_peek(const i8080 *c, uint16_t address);
 void i8080_poke(i8080 *c, uint16_t address, uint8_t value);
+
+/* True when an instruction was fetched there since the byte was last written. (Not while watching.) */
+bool i8080_fetched(const i8080 *c, uint16_t address);
 
 /* Ends the run before the instruction at that address; on = false takes the breakpoint away again. */
 void i8080_break(i8080 *c, uint16_t address, bool on);
