@@ -93,17 +93,17 @@ def difference(outcome: Outcome, result: Result) -> str:
     return ""
 
 
-def compare(program: str) -> Verdict:
+def compare(program: str, answers: tuple[str, ...] = ()) -> Verdict:
     """Run a program on a new board and through the reference."""
-    result = reference(program)
+    result = reference(program, answers)
     blocks = sum(line.startswith("B") for line in result.tape.decode().split())
-    found = difference(run(program), result)
+    found = difference(run(program, answers), result)
     if not found:
         return Verdict(blocks)
     # Only a program that came out differently needs an excuse.
     aside = close_call(result)
     if not aside:
-        rough = reference(program, bits=33)
+        rough = reference(program, answers, bits=33)
         if (rough.tape, rough.error) != (result.tape, result.error):
             aside = "the reference's tape is another one at 33 bits"
         elif not same_paper(lines(rough.paper), lines(result.paper)):

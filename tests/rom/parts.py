@@ -1,8 +1,12 @@
 """Random parts: whole programs of the kind that people write, made so that most of them can be cut.
 
-Each family makes the statements of one route or of one piece of arithmetic; `part` puts some of them together
+Each family makes the statements of one route or of one piece of arithmetic; `session` puts some of them together
 with FROM, BACK and END. A share is then spoilt on purpose, so that errors and what they leave on the tape are
 compared too.
+
+Among the statements of a family `*L5` is a mark, to which `GOTO L5`, `GOSUB L5` and `RESTORE L5` lead (to
+`*LOOP`, of which there may be several, a `GOTO LOOP` behind it), and `? 3` an answer that the operator has ready for an
+INPUT.
 """
 
 from __future__ import annotations
@@ -172,8 +176,14 @@ def whole_circle(rng: Random) -> Statements:
     return [text, *offset(rng), *cut]
 
 
+def mark(rng: Random) -> str:
+    """A name for a place in the program that no other has."""
+    return f"L{rng.randrange(10**9)}"
+
+
 def wheel(rng: Random) -> Statements:
     """A toothed wheel by a loop of computed points, names or turns."""
+    loop = mark(rng)
     count = rng.choice([3, 4, 5, 6, 8, 9, 10, 12])
     outer, inner = rng.uniform(25, 45), rng.uniform(12, 22)
     lines = [*offset(rng), f"I={rng.choice(['0', '1'])}", f"J=I+{count}"]
@@ -196,7 +206,7 @@ def wheel(rng: Random) -> Statements:
             f"CUT P[I+1]#(-1:O),{rng.uniform(0.1, 0.6):.2f},P[I+1],P[I+1]#(A:O)#-A",
         ]
     relation = rng.choice(["<", "<>", "<"])
-    return [*lines, "*LOOP", *body, "I=I+1", f"IF I{relation}J GOTO LOOP", "BACK"]
+    return [*lines, f"*{loop}", *body, "I=I+1", f"IF I{relation}J GOTO {loop}", "BACK"]
 
 
 def slots(rng: Random) -> Statements:
@@ -279,13 +289,128 @@ AGAIN = [["BACK"], ["BACK"], ["BACK", "R=0.05", "RECUT"], ["BACK", "R=0", "RECUT
 def scaled(rng: Random) -> Statements:
     """Another route, enlarged or made smaller, then the scale set back."""
     factor = rng.choice(["2", "0.5", "1.02", decimal(rng, 0.6, 1.5)])
-    route = rng.choice([points, arcs, slots, whole_circle])(rng)
+    route = rng.choice([points, arcs, slots, whole_circle, called, tabled, copied, mirrored])(rng)
     return [f"SCALE {factor}", *route, "SCALE 1"]
+
+
+def skimmed(rng: Random) -> Statements:
+    """A route cut again and again in a loop, with less offset each time."""
+    route = rng.choice([points, slots, copied, mirrored, whole_circle])(rng)
+    again = mark(rng)
+    passes = rng.randint(1, 4)
+    body = [f"*{again}", rng.choice(["R=R*0.5", "R=R-0.01", f"R={passes}*0.1-I*0.07"]), "RECUT", "I=I+1"]
+    return [*route, "I=0", "R=0.2", *body, f"IF I<{passes} GOTO {again}"]
+
+
+def called(rng: Random) -> Statements:
+    """Holes cut by a subroutine: called one by one or in a loop, with a subroutine of its own or not."""
+    hole, inner, go, loop = (mark(rng) for _ in range(4))
+    x, y = somewhere(rng)
+    shape = rng.choice(
+        [
+            ["C=P:D", "CUT C", "BACK"],
+            ["CUT P+(-D,-D),P+(D,-D),P+(D,D),P+(-D,D),P+(-D,-D)"],
+            ["CUT P+(D#0),P+(D#120),P+(D#240)", "BACK"],
+            ["S1=X:K2 P-D", "S2=Y:-(K1 P+D)", "P9=S1*S2", "CUT P9,P,P9+(D,D)", "BACK"],
+        ]
+    )
+    sub = [f"*{hole}", "FROM P", *shape]
+    if rng.random() < 0.4:
+        sub += [f"GOSUB {inner}"]
+        sub += [f"GOTO {go}R", f"*{inner}", "D=D*1.03", *rng.choice([[], ["PRINT D,P"]]), "RETURN", f"*{go}R"]
+    lines = [*offset(rng), f"D={decimal(rng, 1, 4)}", f"GOTO {go}", *sub, "RETURN", f"*{go}"]
+    if rng.random() < 0.5:
+        for _ in range(rng.randint(1, 4)):
+            lines += [f"P={point(*somewhere(rng))}", f"GOSUB {hole}"]
+        return lines
+    step = f"({rng.uniform(5, 12):.2f}#{rng.randint(0, 359)})"
+    lines += ["I=0", f"P={point(x, y)}", f"*{loop}", f"GOSUB {hole}", f"P=P+{step}", "I=I+1"]
+    return [*lines, f"IF I<{rng.randint(2, 6)} GOTO {loop}"]
+
+
+def nested(rng: Random) -> Statements:
+    """Points of an open route from a subroutine that calls itself, as deep as there are levels."""
+    sub, out, go = (mark(rng) for _ in range(3))
+    x, y = somewhere(rng)
+    deepest = rng.choice([1, 2, 4, 7, 8, 8])
+    body = [f"*{sub}", "J=J+1", f"CUT {point(x, y)}+({rng.uniform(5, 30):.2f}*J#{rng.randint(10, 50)}*J)"]
+    body += [f"IF J>={deepest} GOTO {out}", f"GOSUB {sub}", f"*{out}", "J1=J1+J", "RETURN"]
+    return [*offset(rng), "J=0", "J1=0", f"GOTO {go}", *body, f"*{go}", f"GOSUB {sub}", "PRINT J,J1"]
+
+
+def tabled(rng: Random) -> Statements:
+    """A polygon from DATA, with radii or not, read in a loop; at times read twice, or past the end."""
+    table, loop, done = (mark(rng) for _ in range(3))
+    count = rng.randint(3, 9)
+    corners = around(rng, count, somewhere(rng), 10, 40)
+    radii = rng.random() < 0.4
+    items = [f"{count if rng.random() < 0.95 else count + 3}"]
+    for corner in corners:
+        items.append(rng.choice([corner, f"{corner}+O", f"P0+{corner}", f"{corner}#(360:O)", f"-(-{corner})"]))
+        if radii:
+            items.append(rng.choice([f"{rng.uniform(0.2, 1.5):.2f}", "A/2", "0.25*2"]))
+    data, line = [], ""
+    for item in items:
+        if line and (len(line) + len(item) > 70 or rng.random() < 0.2):
+            data.append(f"DATA {line}")
+            line = ""
+        line += f",{item}" if line else item
+    data.append(f"DATA {line}")
+    data.insert(rng.randrange(1, len(data) + 1), "REM between")
+    cut = "CUT P,D" if radii else "CUT P"
+    # Entered in the middle of the last edge, so that every corner can be rounded.
+    enter = [f"P8={corners[-1]}", f"P9={corners[0]}", "CUT P8+(P9-P8)*0.5"]
+    reads = [f"*{loop}", rng.choice(["READ P,D", "READ P", "READ P,D"]) if not radii else "READ P,D", cut]
+    if not radii:
+        reads[1] = "READ P"
+    body = [f"RESTORE {table}", "READ J", *enter, "I=0", *reads, "I=I+1", f"IF I<J GOTO {loop}", "BACK"]
+    if rng.random() < 0.2:
+        body += ["RESTORE", f"RESTORE {table}", "READ J,P", "PRINT J,P"]
+    lines = [*offset(rng), "A=1", "P0=(0,0)"]
+    return [*lines, *data_around(rng, table, data, body, done)]
+
+
+def data_around(rng: Random, table: str, data: Statements, body: Statements, done: str) -> Statements:
+    """DATA before the statements that read it, or behind."""
+    rows = [f"*{table}", *data]
+    return [*rows, *body] if rng.random() < 0.5 else [*body, f"GOTO {done}", *rows, f"*{done}"]
+
+
+def asked(rng: Random) -> Statements:
+    """A route by the numbers, points and circle that the operator gives, some only after wrong answers."""
+    x, y = somewhere(rng)
+
+    def answers(right: str, *more: str) -> Statements:
+        """Wrong answers, at times, and then the right one."""
+        wrong = ["", "1/0", "Z", "P77", "(1,2,3)", "SQR -1", "1+", '"A"', "10 END", "X*X", "1E99", "A[1.5]", "=", *more]
+        tries = [rng.choice(wrong) for _ in range(rng.choice([0, 0, 1, 3]))]
+        return [f"? {answer}" for answer in [*tries, rng.choice([right, f" {right} ", right.lower()])]]
+
+    lines = ["INPUT D,P1", *answers(decimal(rng, 4, 9), "(1,2)", "X"), *answers(point(x, y), "3", "C7")]
+    lines += ["INPUT C1", *answers(f"P1:{decimal(rng, 12, 20)}", "P1", "7")]
+    lines += ["I=2", "INPUT P[I],A", *answers("P1+(D,0)", "D")]
+    lines += answers(rng.choice(["45", "-30", "ATG 1", "D*10"]), "P1")
+    lines += ["PRINT D,P1,C1,P2,A"]
+    lines += rng.choice([["CUT C1", "BACK"], ["CUT P1,P2,P2#(A:P1)", "BACK"], ["CUT P1,P2#(A:P1),P2,P1"]])
+    return lines[: len(lines) - rng.choice([0, 0, 0, 1])]
+
+
+def decided(rng: Random) -> Statements:
+    """Sums that come near a number, and every relation of them, told by what is printed and cut."""
+    step = rng.choice(["0.1", "1/3", "0.7", "SQR 2", "1.1"])
+    times = rng.randint(2, 12)
+    loop = mark(rng)
+    lines = ["A=0", "I=0", f"*{loop}", f"A=A+{step}", "I=I+1", f"IF I<{times} GOTO {loop}", f"D=({step})*{times}"]
+    for relation in rng.sample(["=", "<>", "<", ">", "<=", ">="], rng.randint(2, 6)):
+        yes = mark(rng)
+        other = rng.choice(["D", "D", f"{times}", "D+1E-5", "D-0.001", "INT D", "INT(A+0.5)"])
+        lines += [f"IF A{relation}{other} GOTO {yes}", f'PRINT "NOT {relation}",INT A', f"*{yes}"]
+    return [*lines, *rng.choice([points, whole_circle])(rng)]
 
 
 #: The families, the more telling ones twice.
 ROUTES = [points, arcs, notched] * 2 + [open_points, belt, whole_circle, wheel, slots, crossings]
-ROUTES += [copied, mirrored, scaled]
+ROUTES += [copied, mirrored, scaled, skimmed, called, nested, tabled, tabled, asked, decided]
 
 # ---- Arithmetic ----
 
@@ -374,22 +499,30 @@ def arithmetic(rng: Random) -> Statements:
 
 
 def numbered(statements: Statements) -> str:
-    """Line numbers, and GOTOs to the place of their mark (a statement `*LOOP`)."""
+    """The program's text: line numbers, marks resolved, answers left out."""
     lines: list[str] = []
-    mark = 0
+    marks: dict[str, int] = {}
+    loop = ""
     for statement in statements:
         number = 10 * (len(lines) + 1)
-        if statement == "*LOOP":
-            mark = number
-        else:
-            lines.append(f"{number} {statement.replace('GOTO LOOP', f'GOTO {mark}')}")
-    return "\n".join(lines) + "\n"
+        if statement[0] == "*":
+            marks[statement[1:]] = number
+            loop = f"GOTO {number}"
+        elif statement[0] != "?":
+            lines.append(f"{number} {statement.replace('GOTO LOOP', loop)}")
+    if statements[-1][0] == "*":
+        lines.append(f"{10 * (len(lines) + 1)} REM the end")
+    text = "\n".join([*lines, ""])
+    return re.sub(r"\bL\d{2,}R?\b", lambda name: str(marks[name[0]]), text)
 
 
 def spoilt(rng: Random, program: str) -> str:
-    """A program with something wrong in it: a line lost, a constant changed, a turn the other way."""
+    """A program with something wrong in it: a line lost, a constant changed, a turn the other way.
+
+    What counts a loop's turns stays as it is, so that every program ends.
+    """
     lines = program.splitlines()
-    at = rng.randrange(len(lines))
+    at = rng.choice([n for n, line in enumerate(lines) if not re.match(r"\d+ [IJ]=", line)])
     match rng.randrange(5):
         case 0:
             del lines[at]
@@ -408,8 +541,8 @@ def spoilt(rng: Random, program: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def part(rng: Random) -> str:
-    """A program of one to three routes."""
+def session(rng: Random) -> tuple[str, tuple[str, ...]]:
+    """A program of one to three routes, and the operator's answers to its INPUTs."""
     statements: Statements = []
     if rng.random() < 0.8:
         statements.append(f"FROM {point(*somewhere(rng))}")
@@ -422,4 +555,13 @@ def part(rng: Random) -> str:
     if rng.random() < 0.7:
         statements.append("END")
     program = numbered(statements)
-    return spoilt(rng, program) if rng.random() < 0.12 else program
+    answers = tuple(statement[2:] for statement in statements if statement[0] == "?")
+    return spoilt(rng, program) if rng.random() < 0.12 else program, answers
+
+
+def part(rng: Random) -> str:
+    """A program that asks nothing."""
+    while True:
+        program, answers = session(rng)
+        if not answers:
+            return program

@@ -25,6 +25,8 @@ RUN_LIMIT = 2_000_000_000
 ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
 BLOCK = re.compile(r"\d{4} B\d+B\d+B\d+G[XY](L|NR|SR)[1-4]|DD?")
 
+CTRL_C = 3
+
 #: An error's number and line (None: no line).
 Fault = tuple[int, int | None]
 
@@ -70,13 +72,19 @@ class Board:
         return self.type("LOAD")
 
     def outcome(self, source: str, answers: tuple[str, ...] = ()) -> Outcome:
-        """LOAD and, when nothing was wrong, RUN."""
+        """LOAD and, when nothing was wrong, RUN; INPUT that finds no answer left is broken off."""
         self.machine.clear()
         printed = self.load(source)
         if fault(printed) is None:
             start = len(self.machine.tty)
-            self.machine.type("RUN\r" + "".join(f"{answer}\r" for answer in answers))
-            reason = self.machine.run(RUN_LIMIT)
+            self.machine.type("RUN\r")
+            waiting = iter(answers)
+            while (reason := self.machine.run(RUN_LIMIT)) == "input":
+                answer = next(waiting, None)
+                if answer is None:
+                    self.machine.press(CTRL_C)
+                else:
+                    self.machine.type(f"{answer}\r")
             assert reason == "prompt", f"RUN ends in {reason}: {self.machine.tty[-300:]!r}"
             printed += self.machine.tty[start:].removesuffix(">").split("\r\n")[1:-1]
         words = [line for line in printed if line not in ("", ">") and not BLOCK.fullmatch(line)]

@@ -1,7 +1,8 @@
 """Random programs, firmware against reference: tape byte for byte, paper to 7 digits, errors and their lines.
 
-Another seed: SKG_SEED=number. A failure prints the program; put into tests/rom/regressions/NAME.skg it is run
-for ever. What is set aside, and why it may be: compare.py.
+Another seed: SKG_SEED=number, more of it: SKG_BLOCKS=number. A failure prints the program; put into
+tests/rom/regressions/NAME.skg it is run for ever; lines there that begin with `? ` are the operator's answers.
+What is set aside, and why it may be: compare.py.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from random import Random
 
 import pytest
 from compare import Verdict, compare, difference
-from parts import arithmetic, givens, numbered, part
+from parts import arithmetic, givens, numbered, part, session
 from romhelp import Board
 
 from skg.ref import run as reference
@@ -26,7 +27,7 @@ Record = Callable[[str, object], None]
 
 #: The work is cut into shares, so that several test processes can take them.
 SHARES = range(8)
-BLOCKS_A_SHARE = 400
+BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "10400")) // len(SHARES)
 PRINTS_A_SHARE = 150
 #: Of all programs, so many may be close calls.
 MOST_ASIDE = 0.02
@@ -49,9 +50,9 @@ def test_parts(share: int, record_property: Record) -> None:
     blocks = programs = 0
     aside = []
     while blocks < BLOCKS_A_SHARE:
-        program = part(rng)
-        verdict = compare(program)
-        check(verdict, program)
+        program, answers = session(rng)
+        verdict = compare(program, answers)
+        check(verdict, program + "".join(f"? {answer}\n" for answer in answers))
         programs += 1
         blocks += verdict.blocks
         if verdict.aside:
@@ -84,9 +85,18 @@ def test_one_board_after_another_program() -> None:
         assert not difference(board.outcome(program), reference(program)), program
 
 
+@pytest.mark.xfail(strict=True, reason="the ROM has twelve levels (docs/decisions.md: eight)")
+def test_nine_levels_of_gosub() -> None:
+    program = "10 I=0\n20 I=I+1\n30 PRINT I\n40 GOSUB 20\n"
+    verdict = compare(program)
+    check(verdict, program)
+    assert not verdict.aside
+
+
 @pytest.mark.parametrize("path", REGRESSIONS, ids=lambda path: path.stem)
 def test_regression(path: Path) -> None:
-    program = path.read_text()
-    verdict = compare(program)
+    lines = path.read_text().splitlines()
+    program = "\n".join([line for line in lines if not line.startswith("?")] + [""])
+    verdict = compare(program, tuple(line[2:] for line in lines if line.startswith("?")))
     check(verdict, program)
     assert not verdict.aside, verdict.aside
