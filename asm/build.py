@@ -25,7 +25,7 @@ ROM_SIZE = 8192
 #: Source files in the order in which they stand in the ROM; equ.asm first, since it only names things.
 FILES = [
     "equ", "start", "io", "calc", "ops", "consts", "float",
-    "parser", "geom", "cut", "tape", "repeat", "lexer", "monitor",
+    "parser", "geom", "cut", "tape", "repeat", "fit", "lexer", "monitor",
 ]
 OPTIONS = {"BRD51": 0, "PTTY": 0, "NODRIFT": 0}
 

@@ -25,12 +25,14 @@ RFSTP   EQU CWORK+8     ; 1 = first item was a point
 RFILW   EQU CWORK+9     ; not 0 = a fillet waits
 RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
-RBACK   EQU CWORK+12    ; not 0 = RECUT may come: the buffer holds a route that is cut
-RBFULL  EQU CWORK+13    ; not 0 = the route has outgrown its buffer
-RCORN   EQU CWORK+33    ; where the first element was left: two floats
-RMOVED  EQU CWORK+21    ; not 0 = wire positioned or moved since RUN
-RBEND   EQU CWORK+14    ; end of the route buffer, which begins behind PEND
+FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
+RBACK   EQU CWORK+13    ; not 0 = RECUT may come: the buffer holds a route that is cut
+RBFULL  EQU CWORK+14    ; not 0 = the route has outgrown its buffer
 BLKNO   EQU CWORK+16    ; number of the last block, four decimal digits
+RMOVED  EQU CWORK+21    ; not 0 = wire positioned or moved since RUN
+RCORN   EQU CWORK+33    ; where the first element was left: two floats
+RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
+RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -38,7 +40,6 @@ RUNINI: RST     5
         DB      Q1,SSC          ; -
         DB      Q0,SHX,Q0,SHY   ; -
         DB      Q0,SWX,Q0,SWY   ; -
-        DB      Q0,SHU,Q0,SHV   ; -
         DB      QEND
         LXI     H,0
         SHLD    BLKNO
@@ -83,7 +84,8 @@ ROOM1:  XCHG
         RET
 
 ; SCUT - statement: CUT item, item; item ...
-SCUT:   RST     6
+SCUT:   CALL    FITEND
+        RST     6
         CPI     CSEMI
         JNZ     SCUT2
 SCUT1:  RST     3               ; ";": the corner to come turns right
@@ -93,9 +95,7 @@ SCUT1:  RST     3               ; ";": the corner to come turns right
         INR     A
         STA     RTURN
 SCUT2:  CALL    EVAL
-        LDA     CHKF
-        ORA     A
-        CZ      ITEM
+        CALL    ITEM
         RST     6
         CPI     CSEMI
         JZ      SCUT1
@@ -105,14 +105,16 @@ SCUT2:  CALL    EVAL
         JMP     SCUT2
 
 ; ITEM - takes one item into the route
-; In:  a0 a1 a2, VKIND; RTURN   Clobbers all
-ITEM:   LDA     VKIND
+; In:  a0 a1 a2, VKIND; RTURN   Clobbers all (nothing in check mode)
+ITEM:   CALL    CHKRET
+        LDA     VKIND
         CPI     KTURN
         JZ      ERKIND
         CALL    SCALED
 ; ITEM2 - the same for an item in the scale of the tape
-ITEM2:  CALL    RECORD
-        CALL    GETR
+ITEM2:  CALL    GETR
+; ITEM3 - the same with the wire offset in NR
+ITEM3:  CALL    RECORD
         LDA     VKIND
         ORA     A
         JZ      ITFIL
@@ -148,15 +150,20 @@ ITFIL:  LDA     RELEMS
         ORA     A
         JZ      ERGEO           ; before or at the entry
         CALL    NOFIL           ; two in a row
-        LXI     H,MA
-        CALL    FSGN
-        DCR     A
-        JNZ     ERRNG           ; zero or negative
+        CALL    POSIT
         INR     A
         STA     RFILW
         RST     5
         DB      LA0,SFI         ; -
 ITPN3:  DB      QRET            ; (for ITPNT too)
+
+; POSIT - demands that the value is a positive number
+; In:  a0   Out: A = 0; ERR 05   Clobbers HL
+POSIT:  LXI     H,MA
+        CALL    FSGN
+        DCR     A
+        RZ
+        JMP     ERRNG
 
 ; NOFIL - demands that no fillet waits
 ; Out: ERR 06   Clobbers A
@@ -192,8 +199,8 @@ ITPNT:  RST     5
         JMP     ITPN2
 ITPN0:  RST     5               ; the first item
         DB      LDX,SQX,LDY,SQY ; -
-        DB      LNR,SQR,QEND    ; -
-        JMP     ITPN2
+        DB      LNR,SQR,QJMP    ; -
+        DB      ITPN4-$
 ITPN1:  CALL    NOFIL           ; a fillet between an element and a point
         RST     5
         DB      QCA,QONEL       ; -
@@ -224,15 +231,13 @@ GETR1:  LXI     H,MNR
 
 ; SCALED - the value in the scale of the tape
 ; In:  a0 a1 a2, VKIND   Out: a0 a1 a2   Clobbers all
-SCALED: LDA     VKIND
-        CPI     KLIN
-        JZ      SCAL1
-        RST     5
-        DB      LA0,LSC,QMUL,SA0 ; -
-        DB      LA1,LSC,QMUL,SA1 ; -
-        DB      QEND
-SCAL1:  RST     5
+SCALED: RST     5
         DB      LA2,LSC,QMUL,SA2 ; -
+        DB      QJC             ; -             (points too)
+        DB      SCAL1-$
+        DB      QRET
+SCAL1:  DB      LA0,LSC,QMUL,SA0 ; -
+        DB      LA1,LSC,QMUL,SA1 ; -
         DB      QRET
 
 ; NAMEIT - when the last item was a point, it names the corner before N
@@ -291,13 +296,13 @@ FIRST:  CALL    OFFCHK
         LXI     D,MNEXT
         LXI     H,MFIRST
         CALL    CPYEL
+        LXI     H,FIRST1
+        PUSH    H
         LDA     RFSTP           ; set when a point was written before
         ORA     A
-        JZ      FIRST1
-        CALL    PATC
-        JMP     FIRST2
-FIRST1: CALL    PLACE
-FIRST2: RST     5
+        JNZ     PATC
+        JMP     PLACE
+FIRST1: RST     5
         DB      LKX,QDUP,SAX,SGX ; -
         DB      LKY,QDUP,SAY,SGY ; -            A = G = K
         DB      QVK,QEND
@@ -323,7 +328,7 @@ CPYEL:  MVI     A,ELSIZE
 FILLET: RST     5
         DB      Q0,SO1,Q0,SO2   ; -
         DB      QEND
-        CALL    NOMCOR
+        CALL    CORNO
         CALL    NORMS
         RST     5
         DB      QCRS,QABS       ; |sine of the turn|
@@ -331,16 +336,11 @@ FILLET: RST     5
         DB      QJN
         DB      FILL9-$
         DB      LCR,LNR,QSUB,QE6D ; -
-        DB      QCRS,QSGN,LFI   ; sign FI
-        DB      QMUL,QNEG       ; -fi
+        DB      LFI,QCRS,QSIG,QNEG ; -fi
         DB      QDUP,SO1,SO2    ; -
-        DB      QCA,LO1,QEND    ; -fi
-        CALL    SENSE
-        JC      ERGEO
-        RST     5
-        DB      QNA,LO1,QEND    ; -fi
-        CALL    SENSE
-        JC      ERGEO
+        DB      QCA,LO1,QSENS,QE6N ; -
+        DB      QNA,LO1,QSENS,QE6N ; -
+        DB      QEND
         LXI     H,MO1
         CALL    FSGN            ; 0FFH for a left turn
         INR     A
@@ -348,22 +348,19 @@ FILLET: RST     5
         PUSH    PSW
         CALL    XING            ; centre of the arc
         LXI     D,MNEXT
-        LXI     H,MKEPT
+        LXI     H,RKEPT
         CALL    CPYEL
-        MVI     A,KCIR
-        STA     NKIND
         RST     5
-        DB      LA0,SN0,LA1,SN1 ; -
-        DB      LO1,QNEG,SN2    ; -
+        DB      LO1,QNEG,SA2    ; -
         DB      QEND
-        LDA     CKIND
-        CPI     KCIR
-        CZ      FITARC
+        MVI     A,KCIR
+        CALL    PUTN
+        CALL    FITARC
         XRA     A
         STA     RNAMED
         CALL    OFFCHK
         CALL    JOIN
-        LXI     D,MKEPT
+        LXI     D,RKEPT
         LXI     H,MNEXT
         CALL    CPYEL
         POP     PSW
@@ -373,10 +370,14 @@ FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
 
 ; FITARC - does the fillet's touching point on the circle C come before the corner?
 ; In:  C, A, N = fillet, K = corner, O1 = -fillet   Out: ERR 06   Clobbers all
+; (nothing when C is a line: ADVANC looks after that)
 ; All seen from C's centre, on C itself: e entry, t touching point, k corner; t is
 ; passed before k when t-e, k-e turn as C does.
 FITARC: RST     5
-        DB      LC2             ; r
+        DB      QCA,QJC         ; -
+        DB      FITA1-$
+        DB      QRET
+FITA1:  DB      LC2             ; r
         DB      LC2,LCR,QADD    ; r r+R
         DB      QDIV,ST1        ; -
         DB      LC2             ; r
@@ -388,9 +389,13 @@ FITARC: RST     5
         DB      LN1,LC1,QSUB,LT0,QMUL,LT3,QSUB,SA1 ; -
         DB      LKX,LC0,QSUB,LT2,QSUB,SB0       ; -     b = k-e
         DB      LKY,LC1,QSUB,LT3,QSUB,SB1       ; -
-FITA9:  DB      QCRS,LC2,QSGN,QMUL              ; cross
-        DB      LB0,LB1,QHYP,QMU,QMUL           ; cross 1um*|k-e|
-        DB      QADD,QE6N,QRET                  ; -
+FITA2:  DB      QCRS,LC2,QSIG,QJN               ; -
+        DB      FITA3-$
+        DB      QRET
+FITA3:  DB      LA0,LA1,QFAR,QJN                ; -             t is e within 1 um
+        DB      FITA4-$
+        DB      QDIF,QFAR,QNEG,QE6N             ; -             or k
+FITA4:  DB      QRET
 
 ; PASSED - does the closing corner A on a circle come before the entry G, not past it?
 ; In:  C, A, G; b = where the circle was left first   Out: ERR 06   Clobbers all
@@ -401,68 +406,46 @@ PASSED: RST     5
 PASS1:  DB      LGX,LAX,QSUB,SA0,LGY,LAY,QSUB,SA1 ; -  a = g-a
         DB      LB0,LAX,QSUB,SB0,LB1,LAY,QSUB,SB1 ; -
         DB      QJMP
-        DB      FITA9-$
+        DB      FITA2-$
 
 ; OFFCHK - demands that the wire offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
 OFFCHK: RST     5
-        DB      QNA,LNR,QEND    ; R
-        CALL    SENSE
-        RNC
+        DB      QNA,LNR,QSENS,QJN ; -
+        DB      OFFCH1-$
+        DB      QRET
+OFFCH1: DB      QEND
         RST     1
         DB      EOFFS
 
-; SENSE - does a circle keep its sense when it is offset?
-; In:  a = element, VKIND; on the float stack the offset
-; Out: CY set when a circle does not; float stack without it   Clobbers all
-SENSE:  RST     5
-        DB      QJC
-        DB      SENSE1-$
-        DB      QDRP,QJMP       ; -
-        DB      SENSE2-$
-SENSE1: DB      LA2,QADD        ; r'
-        DB      LA2,QMUL        ; r*r'
-        DB      QNEAR,QSWP,QSUB ; eps-r*r'
-        DB      QJN
-        DB      SENSE2-$
-        DB      QEND
-        STC
-        RET
-SENSE2: DB      QEND
-        ORA     A
-        RET
-
-; CORNER - the corner between C and N as offset
-; In:  C, N, RTURN, RNAMED, P   Out: K   Clobbers all
-CORNER: RST     5
-        DB      LCR,SO1,LNR,SO2 ; -
-        DB      LCR,QABS,LNR,QABS,QADD ; |R|+|R|
-        DB      QJZ             ; -
-        DB      CORN1-$
-        DB      QEND
-        LDA     RNAMED
-        ORA     A
-        JNZ     NAMED
-        RST     5
-CORN1:  DB      QEND
-; (fall into NOMCOR)
-
-; NOMCOR - the corner between C and N offset by O1 and O2; a point is the corner itself
-; In:  C, N, O1, O2, RTURN, RNAMED, P   Out: K   Clobbers all
-NOMCOR: LDA     RNAMED
-        ORA     A
-        JZ      NOMC1
+; PTOK - K = P
+; Clobbers all
 PTOK:   RST     5
         DB      LPX,SKX,LPY,SKY ; -
-        DB      QRET
-NOMC1:  CALL    XING
-ATOK:   RST     5
-ATOK1:  DB      LA0,SKX,LA1,SKY ; -
+CORN9:  DB      QRET
+
+; a corner that no point names: the crossing
+CROSS:  CALL    XING
+        RST     5
+ATOK:   DB      LA0,SKX,LA1,SKY ; -
         DB      QRET
 
-; NAMED - the corner at P between offset elements: of the crossings the one nearest
-; to P; where both run the same way through P, P moved R to the right
-NAMED:  CALL    PTOK
+; CORNER - the corner between C and N as offset
+; In:  C, N, RTURN, RNAMED, P   Out: K, O1, O2   Clobbers all
+CORNER: RST     5
+        DB      LCR,SO1,LNR,SO2,QEND ; -
+; CORNO - the corner between C and N offset by O1 and O2
+; In:  C, N, O1, O2, RTURN, RNAMED, P   Out: K   Clobbers all
+; A named one is P itself when there is no offset; else of the crossings the one nearest to P,
+; where both run the same way through P, P moved R to the right.
+CORNO:  LDA     RNAMED
+        ORA     A
+        JZ      CROSS
+        CALL    PTOK
+        RST     5
+        DB      LO1,QABS,LO2,QABS,QADD,QJZ ; -
+        DB      CORN9-$
+        DB      QEND
         CALL    NORMS
         RST     5
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
@@ -473,7 +456,7 @@ NAMED:  CALL    PTOK
         DB      Q0,STL,QEND     ; -             crossings, however flat
         XRA     A
         STA     RTURN
-        CALL    NOMC1
+        CALL    CROSS
         MVI     A,1
         STA     RTURN
         CALL    XING
@@ -486,23 +469,42 @@ NAMED:  CALL    PTOK
         DB      LKY,LPY,QSUB    ; d2 dx dy
         DB      QHYP,QSUB       ; d2-d1
         DB      QJN             ; -
-        DB      ATOK1-$
+        DB      ATOK-$
         DB      QRET
 NAMED1: DB      QDOT,QE6N       ; -             there and back
         DB      LCR,LNR,QSUB    ; dR
         DB      QE6D            ; -             no crossing any more
-NAMED2: DB      LA0,LCR,QMUL,LKX,QADD,SKX ; -
-        DB      LA1,LCR,QMUL,LKY,QADD,SKY ; -
+NAMED2: DB      LCR,ST0         ; -
+NAMED3: DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a
+        DB      LA1,LT0,QMUL,LKY,QADD,SKY ; -
         DB      QRET
+
+; PLACE - place on C, as offset, that is nearest to the start hole
+; Out: K   Clobbers all
+PLACE:  RST     5
+        DB      LHX,QDUP,SKX,SB0 ; -            b = K = H
+        DB      LHY,QDUP,SKY,SB1 ; -
+        DB      QCA             ; -
+        DB      LC2,LCR,QADD,ST0 ; -            t0 = gamma or r as offset
+        DB      QJC             ; -
+        DB      PLACE1-$
+        DB      LT0,QDOT,QSUB,ST0 ; -           t0 = as far to the right
+        DB      QJMP
+        DB      NAMED3-$
+PLACE1: DB      LC0,SKX,LC1,SKY ; -             K = centre
+        DB      QDIF,QFAR,QJN   ; -
+        DB      PLACE2-$
+        DB      QNORM,QJMP      ; -
+        DB      NAMED3-$
+PLACE2: DB      LT0,QSGN,SA0,Q0,SA1,QJMP ; -    the +X side
+        DB      NAMED3-$
 
 ; NORMS - right normals of C and N at K
 ; Out: a0 a1 of C, b0 b1 of N   Clobbers all
 NORMS:  RST     5
         DB      LKX,SB0,LKY,SB1 ; -
-        DB      QNA,QNORM       ; -
-        DB      LA0,ST0,LA1,ST1 ; -
-        DB      QCA,QNORM       ; -
-        DB      LT0,SB0,LT1,SB1 ; -
+        DB      QNA,QNORM,LA0,LA1 ; x y
+        DB      QCA,QNORM,SB1,SB0 ; -
         DB      QRET
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
@@ -537,32 +539,30 @@ XING:   RST     5
 
 ; SAMEF - is N as written the first element?   SAMEC - does N go on along C?
 ; Out: Z set when it is   Clobbers all
-SAMEF:  RST     5
-        DB      LF0,SA0,LF1,SA1,LF2,SA2 ; -
+SAMEF:  LXI     D,MFIRST
+        LDA     FKIND
+        CALL    XNA1            ; a = F
+        RST     5
         DB      LGX,ST0,LGY,ST1,LFR,ST2 ; -
         DB      QEND
-        LDA     FKIND
         JMP     SAME
 SAMEC:  RST     5
         DB      QCA             ; -
         DB      LAX,ST0,LAY,ST1,LCR,ST2 ; -
         DB      QEND
-        LDA     CKIND
 ; (fall into SAME)
 
 ; SAME - are an element and N the same curve in the same direction?
-; In:  a = element, A = its kind; (t0,t1) where it was entered, t2 its offset
+; In:  a = element, VKIND; (t0,t1) where it was entered, t2 its offset
 ; Out: Z set when they are   Clobbers all
-SAME:   LXI     H,NKIND
+SAME:   LDA     VKIND
+        LXI     H,NKIND
         CMP     M
         RNZ
         RST     5
         DB      LN0,SB0,LN1,SB1,LN2,SB2 ; -
-        DB      QEND
-        LDA     NKIND
-        CPI     KCIR
-        JZ      SAME2
-        RST     5
+        DB      QJC
+        DB      SAME2-$
         DB      QDOT            ; cosine
         DB      QJN             ; -             opposite
         DB      SAME9-$
@@ -580,8 +580,7 @@ SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|
         DB      QEND
         XRA     A
         RET
-SAME2:  RST     5
-        DB      QDIF,QHYP       ; distance of the centres
+SAME2:  DB      QDIF,QHYP       ; distance of the centres
         DB      LA2,LB2,QSUB    ; distance dr
         DB      QABS,QMAX       ; greater
         DB      QJMP
@@ -604,31 +603,6 @@ SAMEL:  LDA     RLASTP
         DB      QHYP            ; distance
         DB      QJMP
         DB      SAME1-$
-
-; PLACE - place on C, as offset, that is nearest to the start hole
-; Out: K   Clobbers all
-PLACE:  RST     5
-        DB      LHX,SB0,LHY,SB1 ; -
-        DB      QCA             ; -
-        DB      LA2,LCR,QADD,SA2 ; -
-        DB      QJC
-        DB      PLACE1-$
-        DB      QDOT,LA2,QSUB,ST0 ; -           t0 = right of C by
-        DB      LB0,LT0,LA0,QMUL,QSUB,SKX ; -
-        DB      LB1,LT0,LA1,QMUL,QSUB,SKY ; -
-        DB      QRET
-PLACE1: DB      LA1,SKY         ; -
-        DB      LA2,QABS,LA0,QADD,SKX ; -       at the +X side
-        DB      QDIF,QHYP,ST0   ; -             t0 = from the centre
-        DB      QMU,LT0,QSUB    ; 1um-t0
-        DB      QJN             ; -
-        DB      PLACE2-$
-        DB      QRET
-PLACE2: DB      LA2,QABS,LT0,QDIV,ST0 ; -
-        DB      QDIF            ; dx dy
-        DB      LT0,QMUL,LA1,QADD,SKY ; dx
-        DB      LT0,QMUL,LA0,QADD,SKX ; -
-        DB      QRET
 
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K   Out: A = K; ERR 06 when K lies behind A on a line   Clobbers all
@@ -653,6 +627,7 @@ ADVAN2: DB      QRET            ; (no travel: the corner is the entry place)
 
 ; SBACK - statement: BACK
 SBACK:  CALL    CHKEND
+        CALL    FITEND
         LDA     RELEMS
         ORA     A
         JZ      ERGEO           ; no route, or but a point
@@ -663,8 +638,8 @@ SBACK1: CALL    CLOSE
 
 ; HOME - straight to the start hole
 HOME:   RST     5
-        DB      LHU,SVX,LHV,SVY ; -
-        DB      QEND
+        DB      LHX,SKX,LHY,SKY ; -
+        DB      QVK,QEND        ; -
         JMP     MOVE
 
 ; CLOSE - closes the route onto its first element, up to where it was entered
@@ -738,7 +713,8 @@ RTDON1: MVI     M,0
 
 ; ENDRT - ends the open route: closed when its last item is its first, else open
 ; Clobbers all
-ENDRT:  LDA     RITEMS
+ENDRT:  CALL    FITEND
+        LDA     RITEMS
         ORA     A
         RZ
         DCR     A
@@ -750,15 +726,11 @@ ENDRT:  LDA     RITEMS
         ORA     A
         JZ      ERGEO           ; the end is no point
         CALL    PATC
-        CALL    ADVANC
-        JMP     RTDONE
+        JMP     CLOSE8
 
 ; SFROM - statement: FROM point
-SFROM:  CALL    EVAL
+SFROM:  CALL    EVPNT
         CALL    CHKEND
-        LDA     VKIND
-        CPI     KPNT
-        JNZ     ERKIND
         CALL    SCALED
         LXI     H,RMOVED
         MOV     A,M
@@ -766,16 +738,14 @@ SFROM:  CALL    EVAL
         JNZ     SFROM1
         INR     M
         RST     5
-        DB      LA0,QDUP,SHX,QRND,QDUP,SHU,SWX ; -
-        DB      LA1,QDUP,SHY,QRND,QDUP,SHV,SWY ; -
+        DB      LA0,QDUP,SHX,QRND,SWX ; -
+        DB      LA1,QDUP,SHY,QRND,SWY ; -
         DB      QRET
 SFROM1: RST     5
         DB      LA0,LA1,QEND    ; x y           kept while the route ends
         CALL    ENDRT
         RST     5
-        DB      QDUP,SHY,QRND,SHV ; x
-        DB      QDUP,SHX,QRND,SHU ; -
-        DB      QEND
+        DB      SHY,SHX,QEND    ; -
         CALL    STOP
         CALL    HOME
 ; (fall into STOP)
@@ -819,6 +789,14 @@ XNA:    LXI     D,MNEXT
 XNA1:   STA     VKIND
         LXI     H,MA
         JMP     COPY15
+; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
+XSENS:  RST     5
+        DB      QJC
+        DB      XSENS1-$
+        DB      QABS,QRET       ; >= 0
+XSENS1: DB      LA2,QADD        ; r'
+        DB      LA2,QMUL        ; r*r'
+        DB      QNEAR,QSUB,QRET ; r*r'-eps
 ; QJC: jumps when a is a circle, not a line
 XJC:    LDA     VKIND
         SUI     KLIN            ; CY: jump
@@ -827,20 +805,18 @@ XJC:    LDA     VKIND
 XONEL:  RST     5
         DB      QJC
         DB      XONEL1-$
-        DB      QDOT,LA2,QSUB   ; off
-        DB      QE6D,QRET       ; -
+        DB      QDOT,LA2        ; place gamma
+        DB      QJMP
+        DB      XONEL2-$
 XONEL1: DB      QDIF,QHYP       ; distance
-        DB      LA2,QABS,QSUB   ; off
-        DB      QE6D,QRET       ; -
+        DB      LA2,QABS        ; distance |r|
+XONEL2: DB      QSUB,QE6D,QRET  ; -
 ; QNORM: a0 a1 = right normal of the element a at the point b
 XNORM:  RST     5
         DB      QJC
         DB      XNORM1-$
         DB      QRET
 XNORM1: DB      QDIF            ; dx dy
-        DB      QOVR,QOVR,QHYP  ; dx dy d
-        DB      LA2,QSGN,QMUL   ; dx dy +-d
-        DB      QSWP,QOVR       ; dx +-d dy +-d
-        DB      QDIV,SA1        ; dx +-d
-        DB      QDIV,SA0        ; -
-        DB      QRET
+        DB      LA2,QSIG,QSWP   ; +-dy dx
+        DB      LA2,QSIG,QSWP   ; +-dx +-dy
+        DB      QUNIT,QRET      ; -

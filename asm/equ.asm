@@ -122,7 +122,8 @@ MT0     EQU RAM+30      ; temporary registers
 MCUR    EQU RAM+60      ; elements: three numbers, offset, kind
 MNEXT   EQU RAM+85
 MFIRST  EQU RAM+110
-MKEPT   EQU RAM+135
+MNODE1  EQU RAM+135     ; nodes of FIT: tangent, place
+MNODE2  EQU RAM+295
 ELSIZE  EQU 21          ; bytes of an element
 LA0     EQU 040H
 SA0     EQU 080H        ; M0
@@ -172,14 +173,16 @@ LF2     EQU 058H
 SF2     EQU 098H        ; M24
 LFR     EQU 059H
 SFR     EQU 099H        ; M25 its wire offset
-LX0     EQU 05BH
-SX0     EQU 09BH        ; M27 element kept while a fillet goes first: canonical numbers
-LX1     EQU 05CH
-SX1     EQU 09CH        ; M28
-LX2     EQU 05DH
-SX2     EQU 09DH        ; M29
-LXR     EQU 05EH
-SXR     EQU 09EH        ; M30 its wire offset
+L1U     EQU 05BH
+S1U     EQU 09BH        ; M27 node 1 of FIT: unit tangent, 0 0 when not known
+L1V     EQU 05CH
+S1V     EQU 09CH        ; M28
+L1X     EQU 05DH
+S1X     EQU 09DH        ; M29 and place
+L1Y     EQU 05EH
+S1Y     EQU 09EH        ; M30
+LRT     EQU 05FH
+SRT     EQU 09FH        ; M31 what SYM and REP do to items, how many times
 LAX     EQU 060H
 SAX     EQU 0A0H        ; M32 where the wire entered C
 LAY     EQU 061H
@@ -224,21 +227,27 @@ LVX     EQU 074H
 SVX     EQU 0B4H        ; M52 end of the move, whole um
 LVY     EQU 075H
 SVY     EQU 0B5H        ; M53
-LHU     EQU 076H
-SHU     EQU 0B6H        ; M54 start hole, whole um
-LHV     EQU 077H
-SHV     EQU 0B7H        ; M55
-LBX     EQU 078H
-SBX     EQU 0B8H        ; M56 block: x
-LBY     EQU 079H
-SBY     EQU 0B9H        ; M57 block: y
-LBJ     EQU 07AH
-SBJ     EQU 0BAH        ; M58 block: J
-LQR     EQU 07BH
-SQR     EQU 0BBH        ; M59 its wire offset
-LTL     EQU 07CH
-STL     EQU 0BCH        ; M60 how far curves may cross and still be taken as touching, mm
-LRA     EQU 07DH        ; M61, M62, M63: what SYM and REP do to items
+LBX     EQU 076H
+SBX     EQU 0B6H        ; M54 block: x
+LBY     EQU 077H
+SBY     EQU 0B7H        ; M55 block: y
+LBJ     EQU 078H
+SBJ     EQU 0B8H        ; M56 block: J
+LQR     EQU 079H
+SQR     EQU 0B9H        ; M57 wire offset of the first item
+LTL     EQU 07AH
+STL     EQU 0BAH        ; M58 how far curves may cross and still be taken as touching, mm
+L2U     EQU 07BH
+S2U     EQU 0BBH        ; M59 node 2 of FIT: as node 1
+L2V     EQU 07CH
+S2V     EQU 0BCH        ; M60
+L2X     EQU 07DH
+S2X     EQU 0BDH        ; M61
+L2Y     EQU 07EH
+S2Y     EQU 0BEH        ; M62
+L2R     EQU 07FH
+S2R     EQU 0BFH        ; M63 and wire offset
+LRA     EQU 07DH        ; M61, M62, M63 too: what SYM and REP do to items (they end a curve first)
 SRA     EQU 0BDH
 LRX     EQU 07EH
 SRX     EQU 0BEH
@@ -247,7 +256,7 @@ SRY     EQU 0BFH
 MKX     EQU RAM+170
 MNR     EQU RAM+100
 MO1     EQU RAM+235
-MBX     EQU RAM+280
+MBX     EQU RAM+270
 MC2     EQU RAM+70
 
 ; ---- RAM -------------------------------------------------------------------

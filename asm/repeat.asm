@@ -13,7 +13,6 @@ RSTOP   EQU CWORK+24    ; -> behind the last one
 RJOIN   EQU CWORK+26    ; turn at the corner that SYM or REP makes
 ROP     EQU CWORK+27    ; operation on the items: rank
 ROPK    EQU CWORK+28    ; and kind of its right operand
-RTIMES  EQU CWORK+29    ; its first number is multiplied by this
 RCOUNT  EQU CWORK+31    ; copies that are wanted
 
 ; RECORD - notes an item in the route buffer
@@ -25,15 +24,14 @@ RECORD: LDA     RITEMS
         ORA     A
         RNZ
         LHLD    RBEND
+        PUSH    H
         LXI     D,16
         DAD     D
         XCHG
         LHLD    VBOT
         CALL    CPHD
+        POP     H
         JC      RECO2
-        XCHG
-        LXI     D,-16
-        DAD     D
         LDA     RTURN
         ADI     0FFH            ; CY: right
         LDA     VKIND
@@ -72,11 +70,8 @@ IMAGE:  CALL    FETCH
         LDA     VKIND
         ORA     A
         JZ      IMAG1
-        LHLD    RTIMES
-        LXI     D,MT0
-        CALL    FITOF
         RST     5
-        DB      LRA,LT0,QMUL,SB0 ; -
+        DB      LRA,LRT,QMUL,SB0 ; -
         DB      LRX,SB1,LRY,SB2 ; -
         DB      QEND
         LHLD    ROP             ; L = rank, H = kind
@@ -110,7 +105,7 @@ OPENR2: LHLD    PEND
 ; STEP - to the next item
 ; Out: HL = RSRC, Z: that is RSTOP   Clobbers A, DE
 STEP:   LXI     D,16
-        LHLD    RSRC
+STEP1:  LHLD    RSRC            ; (for STEPB)
         DAD     D
         SHLD    RSRC
         XCHG
@@ -118,9 +113,10 @@ STEP:   LXI     D,16
         XCHG
         JMP     CPHD
 
-; JOINT - takes the ";" that SYM and REP may begin with
-; Out: RJOIN   Clobbers A, HL
-JOINT:  RST     6
+; JOINT - ends a curve, takes the ";" that SYM and REP may begin with
+; Out: RJOIN   Clobbers all
+JOINT:  CALL    FITEND
+        RST     6
         CPI     CSEMI
         MVI     A,0
         JNZ     JOINT1
@@ -136,28 +132,24 @@ SREP:   CALL    JOINT
         RST     4
         DB      CCOMMA
         CALL    EVAL
-        POP     B
         RST     7
-        MOV     A,B
-        ORA     C
-        JZ      ERRNG
-        MOV     H,B
-        MOV     L,C
+        POP     H
         SHLD    RCOUNT
+        MOV     A,H
+        ORA     L
+        JZ      ERRNG
         LDA     VKIND
         ORA     A
         JZ      SREP1
         CPI     KTURN
         JNZ     ERKIND
 SREP1:  RST     5
-        DB      LA0,SRA         ; -
+        DB      LA0,SRA,Q0,SRT  ; -
         DB      LA1,LSC,QMUL,SRX ; -
         DB      LA2,LSC,QMUL,SRY ; -
         DB      QEND
         LXI     H,KTURN*256+2   ; #
         SHLD    ROP
-        LXI     H,0
-        SHLD    RTIMES
         CALL    OPENRT
 SREP2:  LHLD    RCOUNT
         DCX     H
@@ -165,9 +157,8 @@ SREP2:  LHLD    RCOUNT
         MOV     A,H
         ORA     L
         RZ
-        LHLD    RTIMES
-        INX     H
-        SHLD    RTIMES
+        RST     5
+        DB      LRT,Q1,QADD,SRT,QEND ; -
         CALL    OPENR2
         LDA     RJOIN
         JMP     SREP4
@@ -179,7 +170,7 @@ SREP4:  CALL    IMAGE
 
 ; SSYM - statement: SYM line
 ; The items come last to first, each with the turn of the one behind it; a fillet stays
-; behind a point, and between two elements.
+; behind a point and goes before an element, so that it is between two elements again.
 SSYM:   CALL    JOINT
         CALL    EVAL
         RST     7
@@ -187,58 +178,52 @@ SSYM:   CALL    JOINT
         CPI     KLIN
         JNZ     ERKIND
         RST     5
-        DB      LA0,SRA,LA1,SRX ; -
+        DB      LA0,SRA,Q1,SRT,LA1,SRX ; -
         DB      LA2,LSC,QMUL,SRY ; -
         DB      QEND
         LXI     H,KLIN*256+7    ; /
         SHLD    ROP
-        LXI     H,1
-        SHLD    RTIMES
         LDA     RELEMS
         ORA     A
         JZ      ERGEO           ; but a point
         CALL    OPENRT
         LHLD    RSTOP
         SHLD    RSRC
-SYM1:   LHLD    RSRC
-        LXI     D,-16
-        DAD     D
-        SHLD    RSRC
+SYM1:   CALL    STEPB
         XCHG
         LHLD    PEND
         CALL    CPHD
         RNC                     ; that was the first
-        XCHG
-        MOV     A,M
+        LDAX    D
         ADD     A               ; 2 * kind
-        JNZ     SYM2
-        LXI     D,-16           ; a fillet
-        DAD     D
-        MOV     A,M
-        ADD     A
+        JZ      SYM1            ; a fillet goes with the item before it
         CPI     2*KPNT
-        CNZ     IMAGE0
-        JMP     SYM1
-SYM2:   MOV     A,M
+        PUSH    PSW
+        CNZ     SYMFIL
+        LHLD    RSRC
+        MOV     A,M
         LXI     H,RJOIN
         MOV     B,M
         MOV     M,A
         MOV     A,B
         CALL    IMAGE
-        LHLD    RSRC
-        MOV     A,M
-        ADD     A
-        CPI     2*KPNT
-        JNZ     SYM1
-        PUSH    H
-        CALL    STEP
-        JZ      SYM3
+        POP     PSW
+        CZ      SYMFIL
+        JMP     SYM1
+
+; SYMFIL - feeds the item behind RSRC when it is a fillet
+; Clobbers all
+SYMFIL: CALL    STEP
+        JZ      STEPB
         MOV     A,M
         ADD     A
         CZ      IMAGE0
-SYM3:   POP     H
-        SHLD    RSRC
-        JMP     SYM1
+; (fall into STEPB)
+
+; STEPB - to the item before
+; Out: HL = RSRC   Clobbers A, DE
+STEPB:  LXI     D,-16
+        JMP     STEP1
 
 ; SRECUT - statement: RECUT
 SRECUT: RST     7
@@ -256,15 +241,9 @@ SREC1:  MOV     A,M
 ; SSCALE - statement: SCALE number
 SSCALE: CALL    EVNUM
         RST     7
-        LXI     H,MA
-        CALL    FSGN
-        DCR     A
-        JNZ     ERRNG
+        CALL    POSIT
         LDA     RITEMS
         ORA     A
         JNZ     ERGEO
         RST     5
         DB      LA0,SSC,QRET    ; -
-
-; FIT is not there yet
-SFIT    EQU ERSYN

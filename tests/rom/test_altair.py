@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 from romhelp import ROM, Board
-from test_examples import EXAMPLES, marked
+from test_examples import EXAMPLES, stem
 
 ALTAIR = shutil.which("altairz80")
 pytestmark = pytest.mark.skipif(ALTAIR is None, reason="SIMH is not installed and could not be (make altairz80)")
@@ -110,7 +110,7 @@ def altair(directory: Path, reader: Path | None = None) -> Iterator[Altair]:
         machine.close()
 
 
-@pytest.mark.parametrize("part", map(marked, EXAMPLES))
+@pytest.mark.parametrize("part", EXAMPLES, ids=stem)
 def test_typed_and_punched(part: Path, tmp_path: Path) -> None:
     """The committed tape, byte for byte, and the same paper as in our emulator."""
     ours = Board(RAM_KIB)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, Board, image
-from test_examples import EXAMPLES, marked
+from test_examples import EXAMPLES, stem
 
 CTRL_C, XON, DC2, XOFF, DC4, CTRL_Z = 3, 0x11, 0x12, 0x13, 0x14, 26
 SECOND = 2_000_000
@@ -31,7 +31,7 @@ def test_the_boards_are_all_that_there_are_images_for() -> None:
 
 
 @every_board
-@pytest.mark.parametrize("part", map(marked, EXAMPLES))
+@pytest.mark.parametrize("part", EXAMPLES, ids=stem)
 def test_typed_and_punched(kind: str, part: Path) -> None:
     board = Board(kind=kind)
     typed(board, part)

@@ -9,28 +9,17 @@ from pathlib import Path
 import pytest
 from romhelp import EXAMPLES, ROM, ROOT, run
 
-#: Statements that this ROM does not have yet. Their examples must fail, so that this list shrinks with them.
-MISSING = ["FIT"]
 
-
-def missing(part: Path) -> list[str]:
-    """The statements of a part that the ROM does not have."""
-    words = re.findall(r"^\d+ *([A-Z]+)", part.read_text(), re.M)
-    return sorted(set(words) & set(MISSING))
-
-
-def marked(part: Path) -> object:
-    """A part as a test's parameter."""
-    lacks = missing(part)
-    marks = [pytest.mark.xfail(strict=True, reason=f"not in the ROM: {', '.join(lacks)}")] if lacks else []
-    return pytest.param(part, id=part.stem, marks=marks)
+def stem(part: Path) -> str:
+    """A part's name, for pytest."""
+    return part.stem
 
 
 def test_there_are_enough_parts() -> None:
     assert len(EXAMPLES) >= 20
 
 
-@pytest.mark.parametrize("part", map(marked, EXAMPLES))
+@pytest.mark.parametrize("part", EXAMPLES, ids=stem)
 def test_tape(part: Path) -> None:
     outcome = run(part.read_text())
     assert outcome.error is None, outcome.paper
