@@ -209,11 +209,10 @@ GCXC:   DB      QDIF,QXCH,QUNIT,QXCH    ; -             t3 = d
         DB      LB2,LA2,QADD,QMUL       ; r2^2-r1^2
         DB      LT3,QDIV,LT3,QSUB       ; -2c
         DB      QHALF,QMUL              ; -c
-        DB      LT3,LA2,QABS            ; -c d |r1|
-        DB      LB2,QABS,QADD,QSUB      ; -c d-|r1|-|r2|
-        DB      LA2,QABS                ; -c outer |r1|
-        DB      LB2,QABS,QSUB,QABS      ; -c outer ||r1|-|r2||
-        DB      LT3,QSUB,QMAX           ; -c gap        they miss by this
+        DB      LA2,QABS,LB2,QABS,QMAX  ; -c m          the greater one's radius
+        DB      LT3,QOVR,QSUB,QABS,QADD ; -c m+|d-m|
+        DB      LA2,QABS,QSUB           ;
+        DB      LB2,QABS,QSUB           ; -c gap        = |d-m| less the other radius
         DB      LA2,LB2,QSIG,SA2        ; -c gap        the crossing's sign
         DB      QJMP
         DB      GSXC1-$
@@ -331,13 +330,21 @@ XSIG1:  DB      QNEG,QRET               ; -x
 ; QSGN: 1, or -1 for a negative number
 XSGN:   RST     5
         DB      Q1,QSWP,QSIG,QRET       ; +-1
-; QMAX: the greater of two
-XMAX:   RST     5
-        DB      QOVR,QOVR,QSUB          ; a b a-b
-        DB      QJN             ; a b
-        DB      XMAX1-$
-        DB      QDRP,QRET               ; a
-XMAX1:  DB      QSWP,QDRP,QRET          ; b
+; QMAX: the greater of two that are not negative: their bytes can be compared one by one
+XMAX:   SHLD    FSP             ; (HL -> the second one: takes it)
+        PUSH    H
+        PUSH    D
+XMAX1:  LDAX    D
+        CMP     M
+        INX     D
+        INX     H
+        JZ      XMAX1           ; (past the end of equal ones, which does not matter)
+        POP     D
+        POP     H
+        RNC
+        XCHG
+        JMP     COPY5
+
 ; QE6D: takes a distance, ERR 06 when it is more than 1 um
 XE6D:   RST     5
         DB      QABS,QMU,QSWP,QSUB      ; room
