@@ -96,15 +96,16 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      GFOOT-GSUB,RTRN+OPS
         DB      GMIRR-GFOOT,RDIV+OPS,RDIV+OCS
         DB      GMIRS-GMIRR,RDIV+OSS
-        DB      GMULT-GMIRS,RMUL+ONN,RMUL+OPN
-        DB      GPARC-GMULT,RCOL+OSP,RCOL+OSC
+        DB      GPARC-GMIRS,RCOL+OSP,RCOL+OSC
         DB      GROTS-GPARC,RTRN+OSN,RTRN+OST
         DB      GPAR-GROTS,RCOL+OSN
         DB      GDIV-GPAR,RDIV+ONN,RDIV+OPN
         DB      GROTP-GDIV,RTRN+OPN,RTRN+OCN,RTRN+OPT,RTRN+OCT
-        DB      KINDS+KPNT,RTRN+ONN
-        DB      GNMUL-GROTP,RMUL+ONP
-        DB      GSXS-GNMUL,RMUL+OSS
+        DB      GMULT-GROTP,RMUL+ONN,RMUL+OPN
+        DB      KINDS+KPNT
+        DB      GNMUL-GMULT,RMUL+ONP
+        DB      GPOLAR-GNMUL,RTRN+ONN
+        DB      GSXS-GPOLAR,RMUL+OSS
         DB      GCXS-GSXS,RMUL+OCS
         DB      GSXC-GCXS,RMUL+OSC
         DB      KEY1-1,GCXC-GSXC-KEY1+1,RMUL+OCC
@@ -136,9 +137,6 @@ GMIRS:  DB      QDOT,QDUP,QADD          ; 2c            c = n1*n2
         DB      LA2,QOVR,LB2,QMUL       ; 2c gamma 2c*g
         DB      QSUB,SA2                ; 2c
         DB      QREFL,QRET              ; -
-; P*D, D*D
-GMULT:  DB      QXCH,QJMP               ; -
-        DB      GNMUL-$
 ; S:P, S:C: the parallel that leaves C along its direction
 GPARC:  DB      QDOT,LB2,QJMP           ; n*c r
         DB      GPAR1-$
@@ -167,14 +165,17 @@ XUNIT1: DB      QDUP,ST3,QABS           ; x y |d|
 XUNIT2: DB      LT3,QDIV,SA1            ; x
         DB      LT3,QDIV,SA0,QRET       ; -
 
-; P#A, C#A, P#(A:P), C#(A:P); D#A: polar point, (D,0)#A
+; P#A, C#A, P#(A:P), C#(A:P)
 GROTP:  DB      LB1,LA0,QSUB,SA0        ; -
         DB      LB2,LA1,QSUB,SA1        ; -             to the centre of the turn
         DB      QROTV                   ; -
         DB      QDIF,SA1,SA0,QRET       ; -             back from there
-; D*P: 0 - (-D)*P
+; P*D, D*D; D*P: 0 - (-D)*P
+GMULT:  DB      QXCH                    ; -
 GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
         DB      QREFL,QRET              ; -
+; D#A: polar point, (D,0) turned
+GPOLAR: DB      QROTV,QRET              ; -
 
 ; S*S: crossing by Cramer's rule; ERR 06 when they are parallel
 GSXS:   DB      LA2,LB1,QMUL            ;
@@ -185,35 +186,33 @@ GSXS:   DB      LA2,LB1,QMUL            ;
         DB      XUNIT1-$
 
 ; C*S = S*-C
-GCXS:   DB      LA2,QNEG,SA2,QJMP       ; -
-        DB      GSXC0-$
+GCXS:   DB      LA2,QNEG,SA2,QXCH       ; -
 ; S*C: foot of the centre, then along the line; to the left of S and C turning
 ; counter-clockwise that is forward
-GSXC:   DB      QXCH                    ; -
-GSXC0:  DB      QDOT,LB2,QSUB           ; e             centre right of S
+GSXC:   DB      QDOT,LA2,QSUB           ; e             centre right of S
         DB      QDUP,QABS               ; e |e|
-        DB      LA2,QABS,QSUB           ; e gap
-; (and the end of GCXC) Crossing of the circle a with a line, given by its normal b0 b1;
+        DB      LB2,QABS,QSUB           ; e gap
+; (and the end of GCXC) Crossing of a line, given by its normal a0 a1, with the circle b;
 ; on the stack: how far the centre lies to its right, how far they miss
-GSXC1:  DB      QOVR,ST2,LA2,ST3,QLEG   ; e h
-        DB      LA2,QSIG                ; e +-h
+GSXC1:  DB      QOVR,ST2,LB2,ST3,QLEG   ; e h
+        DB      LB2,QSIG,QXCH           ; e +-h
         DB      QSWP,QREFL              ; +-h           the foot
         DB      LB1,LB0,QNEG,SB1,SB0    ; +-h           b = backwards
         DB      QREFL,QRET              ; -
 ; C1*C2: the crossing of C1 with the line through both crossings, whose right
-; normal is the unit vector b from centre to centre, at c = (d^2+r1^2-r2^2)/2d
-; from the first centre.
-GCXC:   DB      QDIF,QXCH,QUNIT,QXCH    ; -             t3 = d
+; normal is the unit vector a from centre to centre, at c = (d^2+r1^2-r2^2)/2d
+; from the first centre, which goes to b.
+GCXC:   DB      QDIF,QXCH,QUNIT         ; -             t3 = d
         DB      LT3,QMU,QSUB,QE6N       ; -             concentric?
-        DB      LB2,LA2,QSUB            ; r2-r1
-        DB      LB2,LA2,QADD,QMUL       ; r2^2-r1^2
+        DB      LA2,LB2,QSUB            ; r2-r1
+        DB      LA2,LB2,QADD,QMUL       ; r2^2-r1^2
         DB      LT3,QDIV,LT3,QSUB       ; -2c
         DB      QHALF,QMUL              ; -c
         DB      LA2,QABS,LB2,QABS,QMAX  ; -c m          the greater one's radius
         DB      LT3,QOVR,QSUB,QABS,QADD ; -c m+|d-m|
         DB      LA2,QABS,QSUB           ;
         DB      LB2,QABS,QSUB           ; -c gap        = |d-m| less the other radius
-        DB      LA2,LB2,QSIG,SA2        ; -c gap        the crossing's sign
+        DB      LB2,LA2,QSIG,SB2        ; -c gap        the crossing's sign
         DB      QJMP
         DB      GSXC1-$
 
@@ -322,11 +321,14 @@ XLEG1:  DB      LT3,LT2,QSUB            ; r-e
         DB      LT3,LT2,QADD            ; r-e r+e
         DB      QMUL,QSQRT,QRET         ; h
 ; QSIG: a number with its sign changed when a second one is negative
-XSIG:   RST     5
-        DB      QJN             ; x
-        DB      XSIG1-$
-        DB      QRET
-XSIG1:  DB      QNEG,QRET               ; -x
+XSIG:   SHLD    FSP             ; (HL -> the second one: takes it)
+        INX     H
+        MOV     A,M
+        ORA     A
+        RP
+        XCHG
+        JMP     FNEG
+
 ; QSGN: 1, or -1 for a negative number
 XSGN:   RST     5
         DB      Q1,QSWP,QSIG,QRET       ; +-1

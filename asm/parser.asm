@@ -455,8 +455,8 @@ CHKRET: LDA     CHKF
 FINT:   CALL    NRINT
         LXI     H,MA
         JNZ     FFLR
-        LXI     D,MB
-        JMP     COPY5
+        RST     5
+        DB      LB0,SA0,QRET    ; -
 
 ; NRINT - nearest whole number
 ; In:  a0   Out: b0 = it, Z set when a0 is nearly equal to it   Clobbers all
