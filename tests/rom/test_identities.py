@@ -1,4 +1,4 @@
-"""The identities of the SKG book, sections 5 to 8, at the prompt, with values of every size."""
+"""The identities of the SKG book, sections 5 to 8, at the prompt, with values of every size; and the table of pairs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import cache
 
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from romhelp import Board, fault
+from romhelp import ROM, Board, fault
 
 #: 7 digits, or as much of the drawing's size.
 CLOSE = 1e-6
@@ -156,3 +156,49 @@ def test_priorities(a: str, b: str, c: str) -> None:
     same(f"({a})*({b})/({c})", f"({a})*(({b})/({c}))", exact=True)
     same(f"({a})+({b})-({c})", f"({a})+(({b})-({c}))", exact=True)
     same(f"({a})-({b})*({c})", f"({a})-(({b})*({c}))", exact=True)
+
+
+#: language.md, table 2.1: operators in the order of their ranks, with the pairs of kinds that each combines.
+KINDS = "DPCST"
+PAIRS = {
+    ",": "DD PP PS SP SS",
+    "#": "DD PD CD SD PT CT ST PP PS",
+    ":": "PD CD SD SP SC PP CC CP PC DP",
+    "+": "DD PP",
+    "-": "DD PP",
+    "*": "DD SS SC CS CC PD DP PP",
+    "/": "DD PD PS CS SS PP",
+}
+#: A value of each kind; none is special for any other.
+SOME = {"D": "3", "P": "(25,32)", "C": "((40,30):28)", "S": "(X:20#50)", "T": "(30:(4,5))"}
+
+
+def test_table_of_pairs_holds_together() -> None:
+    """GEOTAB: its distances lead to labels of byte-code, its keys are the pairs of table 2.1, each of them once."""
+    image = ROM.read_bytes()
+    rows = [row.split() for row in ROM.with_suffix(".sym").read_text().splitlines()]
+    names = {name: int(address, 16) for address, name in rows}
+    at, keys, labels = names["GADD"], [], {address for name, address in names.items() if name[0] == "G"}
+    for byte in image[names["GEOTAB"] : names["GADD"]]:
+        if byte < names["KEY1"]:
+            at += byte
+        elif byte < names["KINDS"]:
+            assert at in labels, f"{at:04X}"
+            keys.append(byte)
+    assert byte == names["KINDS"] + names["KTURN"] + 1
+    wanted = [
+        25 * rank + 5 * KINDS.index(pair[0]) + KINDS.index(pair[1])
+        for rank, pairs in enumerate(PAIRS.values(), 1)
+        for pair in pairs.split()
+    ]
+    assert sorted(keys) == sorted(wanted)
+
+
+def test_pairs_that_combine() -> None:
+    """Every other pair is error 4. (A turn, D:P, is a right operand only, and cannot be printed.)"""
+    for operator, pairs in PAIRS.items():
+        for left in KINDS:
+            for right in KINDS:
+                expression = f"({SOME[left]}{operator}{SOME[right]})"
+                combine = left + right in pairs.split() and (operator, left, right) != (":", "D", "P")
+                assert (value(expression) != 4) == combine, expression
