@@ -31,7 +31,7 @@
 
 FY      EQU FWORK       ; mantissa of y, low byte first
 FQ      EQU FWORK+4     ; byte of the quotient that grows
-FT      EQU FWORK+5     ; bytes 1...3 of a partial product; mask of FSQR
+FT      EQU FWORK+5     ; bytes 1 and 2 of a partial product; mask of FSQR
 SIGN    EQU FWORK+43    ; bit 7: sign of the result
 EXPO    EQU FWORK+44    ; exponent of the result
 SHIFT   EQU FWORK+45    ; difference of exponents
@@ -187,22 +187,7 @@ FMUL:   PUSH    D
         JC      FZERO
         ADD     M               ; CY,A = exponents + 127
         CALL    FEXP
-        PUSH    B
-        LXI     B,0
-        CALL    FMUL1           ; low half of x * y
-        POP     D
-        PUSH    B
-        LHLD    FT+1
-        MOV     B,H
-        MOV     C,L
-        CALL    FMUL1           ; high half * y + carry
-        LHLD    FT+1
-        POP     D
-        DAD     D
-        XCHG
-        JNC     FMULA
-        INX     B
-FMULA:  LHLD    FT              ; L = guard
+        CALL    FMANT
 ; (fall into FNRM1)
 
 ; FNRM1 - ends FMUL and FDIV
@@ -216,8 +201,32 @@ FNRM1:  MOV     A,B
         JNZ     FRND
         JMP     FOVF
 
+; FMANT - product of two mantissas or fractions
+; In:  B C D E, FY   Out: B C D E L = product, cut off   Clobbers A, H
+; Cycles: 2,800, 500 less for every byte of FY that is 0
+FMANT:  PUSH    B
+        LXI     B,0
+        CALL    FMUL1           ; low half * y
+        POP     D
+        PUSH    B
+        MOV     B,A
+        LDA     FT+1
+        MOV     C,A
+        CALL    FMUL1           ; high half * y + carry
+        MOV     H,A
+        LDA     FT+1
+        MOV     L,A
+        POP     D
+        DAD     D
+        XCHG
+        LHLD    FT              ; L = guard
+        RNC
+        INX     B
+        RET
+
 ; FMUL1 - 16 * 32 bits
-; In:  DE, FY, BC = added   Out: BC, FT+2, FT+1, FT = product without its low byte
+; In:  DE, FY, BC = added   Out: BC, A, FT+1, FT = product without its low byte
+; Clobbers HL
 FMUL1:  LDA     FY
         CALL    FMUL2
         LDA     FY+1
@@ -227,19 +236,19 @@ FMUL1:  LDA     FY
         CALL    FMUL2
         STA     FT+1
         LDA     FY+3
-        CALL    FMUL2
-        STA     FT+2
-        RET
+; (fall into FMUL2)
 
 ; FMUL2 - 8 * 16 bits
 ; In:  A, DE, BC = added   Out: BC, A = low byte of the product   Clobbers HL
-; Cycles: 400, for A = 0 66
+; Cycles: 313, for A = 0 66
 FMUL2:  LXI     H,0
         ORA     A
-        JZ      FMUL6           ; many a float ends in bytes of zeros
-        PUSH    B
-        MVI     B,4
-FMUL3:  DAD     H               ; two bits a turn
+        JZ      FMULB           ; many a float ends in bytes of zeros
+        RAL                     ; a bit at a time, the first one simpler
+        JNC     FMUL3
+        MOV     H,D
+        MOV     L,E
+FMUL3:  DAD     H
         RAL
         JNC     FMUL4
         DAD     D
@@ -249,10 +258,32 @@ FMUL4:  DAD     H
         JNC     FMUL5
         DAD     D
         ACI     0
-FMUL5:  DCR     B
-        JNZ     FMUL3
-        POP     B
-FMUL6:  DAD     B
+FMUL5:  DAD     H
+        RAL
+        JNC     FMUL6
+        DAD     D
+        ACI     0
+FMUL6:  DAD     H
+        RAL
+        JNC     FMUL7
+        DAD     D
+        ACI     0
+FMUL7:  DAD     H
+        RAL
+        JNC     FMUL8
+        DAD     D
+        ACI     0
+FMUL8:  DAD     H
+        RAL
+        JNC     FMUL9
+        DAD     D
+        ACI     0
+FMUL9:  DAD     H
+        RAL
+        JNC     FMULB
+        DAD     D
+        ACI     0
+FMULB:  DAD     B
         ACI     0
         MOV     B,A
         MOV     C,H
