@@ -35,7 +35,7 @@ def least_root(start: Grid, w: int) -> int:
     if square == 0:
         return 0
     root = isqrt(square - 1) + 1
-    near.note("end of an arc", min(square - (root - 1) ** 2, root**2 - square + 1) / n, 4 / EXACT)
+    near.note("end of an arc", min(square - (root - 1) ** 2, root**2 - square + 1) / max(n, 1), 4 / EXACT)
     return root
 
 
