@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: MOVE SEGMNT WHOLE and the operations QRND QVK
 ; Uses:   calc, float, io
-; Room:   480 bytes
+; Room:   450 bytes, 530 with NODRIFT
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values.  An arc is looked at from its rounded centre, mirrored when it runs
@@ -13,6 +13,9 @@
 ;       travel counted since (r,0): F = 2r - (u+r) * sign of v.  J = F(end) - F(start),
 ;       and 4r more when (r,0) was passed.  That is so when the difference is below -r,
 ;       or below r when the arc is more than half a turn: nothing between comes up.
+;
+; With the option NODRIFT W is where the controller really stands, and the centre of
+; an arc is moved, so that the arc from there passes V (docs/drift.md).
 
 TGAX    EQU CWORK+18    ; block: letter of the count direction
 TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
@@ -27,7 +30,7 @@ SEGMNT: RST     5
         JMP     MOVE
 SEGM1:  DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
         DB      LKX,LC0,QSUB,SB0,LKY,LC1,QSUB,SB1 ; -
-        DB      QCRS,LC2,QMUL   ; s             < 0: more than half a turn
+        DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
         DB      QJMP
         DB      ARC-$
 
@@ -43,9 +46,8 @@ ARC:    DB      ST3             ; -             t3 < 0: more than half a turn
         DB      LWY,LT1,QSUB,SA1 ; -
         DB      LVX,LT0,QSUB,SB0 ; -                    b = end
         DB      LVY,LT1,QSUB,SB1 ; -
-        DB      LC2,QSGN        ; sense
-        DB      QDUP,LA1,QMUL,SA1 ; sense
-        DB      LB1,QMUL,SB1    ; -             mirrored when clockwise
+        DB      LA1,LC2,QSIG,SA1 ; -
+        DB      LB1,LC2,QSIG,SB1 ; -            mirrored when clockwise
         IF      NODRIFT
         DB      QDIF,ST1,ST0    ; -             t0 t1 = chord d
         DB      LT0,QSQ,LT1,QSQ,QADD,ST4 ; -    t4 = |d|^2
@@ -75,11 +77,9 @@ ARC1:   DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
         DB      ARC1-$
         DB      QEND
         JMP     MOVE            ; a line
-ARC1:   DB      LA0,LA1,QHYP    ; radius        t5 = r: first, not too great ...
-        DB      QHALF,QADD,QMU,QSUB,QFLR,ST5 ; -
-        DB      LA0,LT5,QSUB    ; x-r
-        DB      LA0,LT5,QADD,QMUL ; x^2-r^2     ... then from whole numbers:
-        DB      LA1,QSQ,QADD    ; n-r^2         n = x^2+y^2 > r^2+r: nearer to r+1
+ARC1:   DB      LA0,QSQ,LA1,QSQ,QADD ; n        t5 = r: the root cut off ...
+        DB      QDUP,QSQRT,QFLR,ST5 ; n
+        DB      LT5,QSQ,QSUB    ; n-r^2         ... n > r^2+r: nearer to r+1
         DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
         DB      QJN
         DB      ARC2-$
@@ -106,23 +106,22 @@ ARC3:   CALL    SETZ
         DB      LB1,LB0,QNEG,SB1,SB0 ; -
         DB      QEND
 ARC4:   RST     5
-        DB      LA0,LT5,QADD,LA1,QSGN,QMUL ; 2r-F(start)
-        DB      LB0,LT5,QADD,LB1,QSGN,QMUL,QSUB ; d     = F(end)-F(start)
-        DB      QDUP,LT5,LT3,QSGN,QMUL,QADD ; d d+r     long: d-r; below 0 when (r,0)
-        DB      QSGN,Q1,QSWP,QSUB ; d 0         was passed, then 2
-        DB      LT5,QMUL,QDUP,QADD,QADD ; J
+        DB      LA0,LT5,QADD,LA1,QSIG ; 2r-F(start)
+        DB      LB0,LT5,QADD,LB1,QSIG,QSUB ; d  = F(end)-F(start)
+        DB      QDUP,LT5,LT3,QSIG,QADD ; d d+r  long: d-r; below 0 when (r,0) was passed
+        DB      LT5,QDUP,QADD,QSWP,QSIG,QSUB ; d-2r     then d+2r
+        DB      LT5,QDUP,QADD,QADD ; J
         DB      QABS,QDUP,SBJ,QJZ ; -
         DB      MOVE0-$         ; counted as nothing: a line
         IF      NODRIFT
 ; V = where the controller will stand: the step that ends the block goes from w+1 to w
-        DB      LB1,QSGN,ST1    ; -             t1 = sign of v
-        DB      LB0,LT1,QMUL,QDUP ; w w
-        DB      QSGN,Q1,QSUB,QHALF,QMUL ; w 0   -1 when w < 0
-        DB      QSWP,Q1,QADD,QROOT,QADD ; |v|
-        DB      LT1,QMUL,LB1,QSUB ; dv          v less that of b
+        DB      LB0,LB1,QSIG,ST1 ; -            t1 = w
+        DB      LT1,Q1,QADD,QROOT ; |v|
+        DB      QHALF,LT1,QSIG,QADD,QHALF,QSUB ; |v|    less 1 when w < 0
+        DB      LB1,QSIG,LB1,QSUB ; dv          v less that of b
         DB      LT0,QNEG,QJN    ; dv            back into the drawing's axes
         DB      ARC5-$
-        DB      LC2,QSGN,QMUL,LVY,QADD,SVY ; -
+        DB      LC2,QSIG,LVY,QADD,SVY ; -
         DB      QJMP
         DB      ARC6-$
 ARC5:   DB      LVX,QSWP,QSUB,SVX ; -
@@ -224,17 +223,10 @@ XRND:   RST     5
 XRND1:  DB      QNEG,QRET               ; -|whole|
         IF      NODRIFT
 ; QROOT: w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
+; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
 XROOT:  RST     5
-        DB      ST2             ; -             t4: first, not too great ...
-        DB      LA0,QSQ,LA1,QSQ,QADD,LT2,QSQ,QSUB,QABS ; n-w^2
-        DB      QSQRT,QMU,QSUB,QFLR,Q1,QADD,ST4 ; -
-        DB      LT4                     ; root  ... then from whole numbers:
-        DB      LA0,LT4,QADD,LA0,LT4,QSUB,QMUL ; root x^2-root^2
-        DB      LA1,LT2,QADD,LA1,LT2,QSUB,QMUL ; root x^2-root^2 y^2-w^2
-        DB      QADD,QNEG,QJN           ; root
-        DB      XROOT1-$
-        DB      QRET
-XROOT1: DB      Q1,QADD,QRET            ; root+1
+        DB      QSQ,LA0,QSQ,LA1,QSQ,QADD,QSUB ; w^2-n
+        DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root
         ENDIF
 ; QVK: V = K in whole um
 XVK:    RST     5
