@@ -294,4 +294,5 @@ def curve_part(rng: Random, families: list[Family] = FAMILIES) -> str:
     if rng.random() < 0.7:
         statements.append("END")
     program = numbered(statements)
-    return spoilt(rng, program) if rng.random() < 0.08 else program
+    # A loop that is spoilt may never end.
+    return spoilt(rng, program) if rng.random() < 0.08 and " GOTO " not in program else program

@@ -42,7 +42,7 @@ SHARES = range(8)
 BLOCKS_A_SHARE = 650
 FLAT_BLOCKS = 300
 #: Of all programs, so many may be set aside, and of all blocks, so many may be arcs with a doubtful centre.
-MOST_ASIDE, MOST_CENTRES = 0.03, 0.03
+MOST_ASIDE, MOST_CENTRES = 0.03, 0.06
 #: The same where all arcs are flat.
 MOST_FLAT_ASIDE, MOST_FLAT_CENTRES = 0.2, 0.2
 

@@ -17,6 +17,9 @@ STRAIGHT = Real(50000)
 #: Relative distance to these that is a close call: 32 bits know |t × w| to some 10⁻⁷ mm.
 FLAT_NEAR = Real("1e-4")
 
+#: Sums that are smaller than their terms by this have lost bits: the biarc's denominator where the tangents run back,
+#: the tangent of a circle where the nodes do.
+BACKWARDS = Real("1e-2")
 #: How many nodes TOL may pass over between two that it keeps.
 MOST_PASSED = 15
 
@@ -43,6 +46,7 @@ def circle_tangent(a: Point, b: Point, c: Point) -> Point:
     if same_point(a, c):
         raise Fault(Code.GEOMETRY)
     v, w = b - a, c - b
+    near.note("there and back", (c - a).length() / (v.length() + w.length()), BACKWARDS)
     t = v * w.dot(w) + w * v.dot(v)
     return t * (1 / t.length())
 
@@ -56,7 +60,8 @@ def corners(p: Point, t: Point, q: Point, u: Point) -> tuple[Point, Point]:
     v = q - p
     along = v.dot(t + u)
     below = along + real.mp.sqrt(along**2 + 2 * max(1 - t.dot(u), real.ZERO) * v.dot(v))
-    if near.at_most(below, NEARLY * v.length(), "biarc"):
+    near.note("backward tangents", below / v.length(), BACKWARDS)
+    if below <= NEARLY * v.length():
         raise Fault(Code.GEOMETRY)
     d = v.dot(v) / below
     return p + t * d, q - u * d
