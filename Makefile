@@ -3,7 +3,7 @@
 #   make          the emulator, build/skg80: needs gcc alone
 #   make rom      roms/skg.bin .hex .lst .sym and the other boards' images from asm/: needs Python and node
 #   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
-#   make fuzz     hours of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
+#   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
 PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python

@@ -20,7 +20,7 @@ SHARES = range(8)
 BYTES_A_SHARE = 1_250_000
 SANITIZED_A_SHARE = 125_000
 BYTES_A_BOARD = 500_000
-BOARDS = {"skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"]}
+BOARDS = {"skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"], "skg-nodrift": []}
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -34,7 +34,8 @@ class Emulator:
     def __init__(self, directory: Path, rom: str = "skg", *options: str) -> None:
         self.link = directory / "port"
         self.punch, self.paper = directory / "punch", directory / "paper"
-        self.command = [SKG80, "--pty", "--rom", ROMS / f"{rom}.bin", "--punch", self.punch, "--tty", self.paper, *options]
+        files = ["--rom", ROMS / f"{rom}.bin", "--punch", self.punch, "--tty", self.paper]
+        self.command = [SKG80, "--pty", *files, *options]
         self.plug()
 
     def plug(self) -> None:
