@@ -496,7 +496,7 @@ PLACE1: DB      LC0,SKX,LC1,SKY ; -             K = centre
         DB      PLACE2-$
         DB      QNORM,QJMP      ; -
         DB      NAMED3-$
-PLACE2: DB      LT0,QSGN,SA0,Q0,SA1,QJMP ; -    the +X side
+PLACE2: DB      Q1,LT0,QSIG,SA0,Q0,SA1,QJMP ; - the +X side
         DB      NAMED3-$
 
 ; NORMS - right normals of C and N at K
@@ -526,8 +526,7 @@ XING:   RST     5
         ORA     A
         CNZ     NEGVAL
         RST     5
-        DB      LA0,SB0,LA1,SB1,LA2,SB2 ; -
-        DB      QCA             ; -
+        DB      QXCH,QCA        ; -             b = N
         DB      LA2,LO1,QADD,SA2 ; -
         DB      QEND
         LHLD    VKIND           ; left kind

@@ -16,10 +16,8 @@
 ; In, Out: as EVAL; ERR 04   Clobbers all
 EVPNT:  CALL    EVAL
         CALL    CHKRET
-        LDA     VKIND
-        CPI     KPNT
-        RZ
-        JMP     ERKIND
+        MVI     A,KPNT
+        JMP     KINDIS
 
 ; SFIT - statement: FIT point; FIT point, angle
 SFIT:   CALL    EVPNT

@@ -329,9 +329,6 @@ XSIG:   SHLD    FSP             ; (HL -> the second one: takes it)
         XCHG
         JMP     FNEG
 
-; QSGN: 1, or -1 for a negative number
-XSGN:   RST     5
-        DB      Q1,QSWP,QSIG,QRET       ; +-1
 ; QMAX: the greater of two that are not negative: their bytes can be compared one by one
 XMAX:   SHLD    FSP             ; (HL -> the second one: takes it)
         PUSH    H

@@ -26,13 +26,12 @@ QJC     EQU QOWN+18     ; ->      jump when a is a circle
 QONEL   EQU QOWN+19     ; ->      ERR 06 when the point b is not on the element a
 QNORM   EQU QOWN+20     ; ->      a0 a1 = right normal of a at the point b
 QFAR    EQU QOWN+21     ; x y -> negative when x*x+y*y is less than 1 um squared
-QSGN    EQU QOWN+22     ; x -> 1 or -1
-QSENS   EQU QOWN+23     ; R ->    negative when a is a circle that R would turn inside out
-QROOT   EQU QOWN+24     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
+QSENS   EQU QOWN+22     ; R ->    negative when a is a circle that R would turn inside out
+QROOT   EQU QOWN+23     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
         DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
         DW      XSIG,XMAX,XE6N,XE6D,XUNIT,XXCH
-        DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSGN,XSENS
+        DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
         IF      NODRIFT
         DW      XROOT
         ENDIF

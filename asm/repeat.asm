@@ -174,9 +174,8 @@ SREP4:  CALL    IMAGE
 SSYM:   CALL    JOINT
         CALL    EVAL
         RST     7
-        LDA     VKIND
-        CPI     KLIN
-        JNZ     ERKIND
+        MVI     A,KLIN
+        CALL    KINDIS
         RST     5
         DB      LA0,SRA,Q1,SRT,LA1,SRX ; -
         DB      LA2,LSC,QMUL,SRY ; -

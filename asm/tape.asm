@@ -175,17 +175,10 @@ PUTBLK: RST     5
         RST     2
         CALL    PUNON
         LXI     H,MBX
-        MVI     C,3
+        LXI     B,8*256+3       ; digits, numbers
 PUTB1:  MVI     A,CLTB
         RST     2
-        PUSH    B
-        PUSH    H
-        MVI     B,8
-        CALL    DECOUT
-        POP     H
-        POP     B
-        LXI     D,5
-        DAD     D
+        CALL    PRNUM
         DCR     C
         JNZ     PUTB1
         MVI     A,CLTG
