@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import re
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,22 +15,15 @@ ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 FAST, SANITIZED = "build/fuzz", "build/asan/fuzz-rom"
 
+#: pytest's record_property.
+Record = Callable[[str, object], None]
+
 #: The work is cut into shares, so that several test processes can take them.
 SHARES = range(8)
 BYTES_A_SHARE = 1_250_000
 SANITIZED_A_SHARE = 125_000
 BYTES_A_BOARD = 500_000
 BOARDS = {"skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"], "skg-nodrift": []}
-
-
-@pytest.fixture(scope="session", autouse=True)
-def built() -> None:
-    """Both builds; one of several test processes builds, the others wait."""
-    (ROOT / "build").mkdir(exist_ok=True)
-    with (ROOT / "build" / "emu.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        done = subprocess.run(["make", "-s", FAST, SANITIZED], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def fuzz(program: str, seed: int, count: int, *options: str | Path) -> subprocess.CompletedProcess[str]:
@@ -45,27 +38,28 @@ def listed(*options: str | Path) -> list[str | Path]:
     return [*options, "--lst", ROM.with_suffix(".lst")]
 
 
-def check(done: subprocess.CompletedProcess[str], count: int) -> None:
-    """The run ended well, and did what it was asked for."""
+def check(record: Record, done: subprocess.CompletedProcess[str], count: int) -> None:
+    """The run ended well, and did what it was asked for; what that was goes to the summary (conftest.py)."""
     assert done.returncode == 0, done.stdout[-6000:] + done.stderr[-3000:]
     typed = re.match(r"(\d+) bytes typed", done.stdout)
     assert typed and int(typed[1]) >= count, done.stdout
-    print(done.stdout)
+    record("typed", int(typed[1]))
 
 
 @pytest.mark.parametrize("share", SHARES)
-def test_typing(share: int) -> None:
-    check(fuzz(FAST, 1983 + share, BYTES_A_SHARE, *listed()), BYTES_A_SHARE)
+def test_typing(share: int, record_property: Record) -> None:
+    check(record_property, fuzz(FAST, 1983 + share, BYTES_A_SHARE, *listed()), BYTES_A_SHARE)
 
 
 @pytest.mark.parametrize("share", SHARES)
-def test_typing_under_the_sanitizers(share: int) -> None:
-    check(fuzz(SANITIZED, 1978 + 1000 * share, SANITIZED_A_SHARE, *listed()), SANITIZED_A_SHARE)
+def test_typing_under_the_sanitizers(share: int, record_property: Record) -> None:
+    check(record_property, fuzz(SANITIZED, 1978 + 1000 * share, SANITIZED_A_SHARE, *listed()), SANITIZED_A_SHARE)
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_typing_at_other_boards(name: str) -> None:
-    check(fuzz(FAST, 1, BYTES_A_BOARD, *BOARDS[name], "--rom", ROM.with_name(f"{name}.bin")), BYTES_A_BOARD)
+def test_typing_at_other_boards(name: str, record_property: Record) -> None:
+    options = [*BOARDS[name], "--rom", ROM.with_name(f"{name}.bin")]
+    check(record_property, fuzz(FAST, 1, BYTES_A_BOARD, *options), BYTES_A_BOARD)
 
 
 #: Faults to plant: where, what machine code, and what the fuzzer says of it.
