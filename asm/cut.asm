@@ -28,8 +28,8 @@ RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
 RBACK   EQU CWORK+13    ; not 0 = RECUT may come: the buffer holds a route that is cut
 RBFULL  EQU CWORK+14    ; not 0 = the route has outgrown its buffer
+RMOVED  EQU CWORK+15    ; not 0 = wire positioned or moved since RUN
 BLKNO   EQU CWORK+16    ; number of the last block, four decimal digits
-RMOVED  EQU CWORK+21    ; not 0 = wire positioned or moved since RUN
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
@@ -43,8 +43,7 @@ RUNINI: RST     5
         DB      QEND
         LXI     H,0
         SHLD    BLKNO
-        XRA     A
-        STA     RMOVED
+        SHLD    RMOVED
 ; (fall into RTNEW)
 
 ; RTNEW - forgets the open route and the route buffer
@@ -88,26 +87,28 @@ SCUT:   CALL    FITEND
         RST     6
         CPI     CSEMI
         JNZ     SCUT2
-SCUT1:  RST     3               ; ";": the corner to come turns right
-        LDA     CHKF
-        ORA     A
-        JNZ     SCUT2
-        INR     A
-        STA     RTURN
-SCUT2:  CALL    EVAL
+SCUT1:  RST     3
+SCUT2:  PUSH    PSW             ; ";": the corner to come turns right
+        CALL    EVAL
+        POP     PSW
         CALL    ITEM
         RST     6
         CPI     CSEMI
         JZ      SCUT1
         CPI     CCOMMA
-        JNZ     CHKEND
-        RST     3
-        JMP     SCUT2
+        JZ      SCUT1
+        RST     7
+        RET
 
 ; ITEM - takes one item into the route
-; In:  a0 a1 a2, VKIND; RTURN   Clobbers all (nothing in check mode)
-ITEM:   CALL    CHKRET
-        LDA     VKIND
+; In:  a0 a1 a2, VKIND, A = token in front of it   Clobbers all (A, B in check mode)
+ITEM:   MOV     B,A
+        CALL    CHKRET
+        MOV     A,B
+        CPI     CSEMI
+        JNZ     ITEM1
+        STA     RTURN
+ITEM1:  LDA     VKIND
         CPI     KTURN
         JZ      ERKIND
         CALL    SCALED
@@ -146,9 +147,7 @@ ITDONE: STA     RLASTP
         RET
 
 ; ITFIL - a fillet radius
-ITFIL:  LDA     RELEMS
-        ORA     A
-        JZ      ERGEO           ; before or at the entry
+ITFIL:  CALL    NEEDEL          ; before or at the entry
         CALL    NOFIL           ; two in a row
         CALL    POSIT
         INR     A
@@ -164,6 +163,13 @@ POSIT:  LXI     H,MA
         DCR     A
         RZ
         JMP     ERRNG
+
+; NEEDEL - demands that the route has an element
+; Out: ERR 06   Clobbers A
+NEEDEL: LDA     RELEMS
+        ORA     A
+        RNZ
+        JMP     ERGEO
 
 ; NOFIL - demands that no fillet waits
 ; Out: ERR 06   Clobbers A
@@ -369,44 +375,35 @@ FILLET: RST     5
 FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
 
 ; FITARC - does the fillet's touching point on the circle C come before the corner?
-; In:  C, A, N = fillet, K = corner, O1 = -fillet   Out: ERR 06   Clobbers all
-; (nothing when C is a line: ADVANC looks after that)
-; All seen from C's centre, on C itself: e entry, t touching point, k corner; t is
-; passed before k when t-e, k-e turn as C does.
+; In:  C, A, N = fillet, K = corner   Out: ERR 06   Clobbers all
 FITARC: RST     5
-        DB      QCA,QJC         ; -
-        DB      FITA1-$
-        DB      QRET
-FITA1:  DB      LC2             ; r
-        DB      LC2,LCR,QADD    ; r r+R
-        DB      QDIV,ST1        ; -
-        DB      LC2             ; r
-        DB      LC2,LO1,QADD    ; r r-fi
-        DB      QDIV,ST0        ; -
-        DB      LAX,LC0,QSUB,LT1,QMUL,ST2       ; -     e
-        DB      LAY,LC1,QSUB,LT1,QMUL,ST3       ; -
-        DB      LN0,LC0,QSUB,LT0,QMUL,LT2,QSUB,SA0 ; -  a = t-e
-        DB      LN1,LC1,QSUB,LT0,QMUL,LT3,QSUB,SA1 ; -
-        DB      LKX,LC0,QSUB,LT2,QSUB,SB0       ; -     b = k-e
-        DB      LKY,LC1,QSUB,LT3,QSUB,SB1       ; -
-FITA2:  DB      QCRS,LC2,QSIG,QJN               ; -
-        DB      FITA3-$
-        DB      QRET
-FITA3:  DB      LA0,LA1,QFAR,QJN                ; -             t is e within 1 um
-        DB      FITA4-$
-        DB      QDIF,QFAR,QNEG,QE6N             ; -             or k
-FITA4:  DB      QRET
+        DB      LN0,ST0,LN1,ST1,LKX,ST4,LKY,ST5 ; -
+        DB      QEND
+; (fall into PASSED)
 
-; PASSED - does the closing corner A on a circle come before the entry G, not past it?
-; In:  C, A, G; b = where the circle was left first   Out: ERR 06   Clobbers all
+; PASSED - on the way along the circle C from its entry A, does T = (t0,t1) come before
+;          K = (t4,t5)?  All as seen from the centre
+; In:  C, A, t0 t1, t4 t5   Out: ERR 06 when not (never on a line: ADVANC looks after that)
+; Clobbers all
+; It does when the chords to T and K turn as C does.
 PASSED: RST     5
         DB      QCA,QJC         ; -
         DB      PASS1-$
         DB      QRET
-PASS1:  DB      LGX,LAX,QSUB,SA0,LGY,LAY,QSUB,SA1 ; -  a = g-a
-        DB      LB0,LAX,QSUB,SB0,LB1,LAY,QSUB,SB1 ; -
-        DB      QJMP
-        DB      FITA2-$
+PASS1:  DB      LT0,SB0,LT1,SB1,QNORM,LA0,LA1 ; tx ty
+        DB      QCA,LT4,SB0,LT5,SB1,QNORM,LA0,LA1 ; tx ty kx ky
+        DB      QCA,LAX,SB0,LAY,SB1,QNORM ; tx ty kx ky  a = of the entry
+        DB      LA1,QSUB,LC2,QMUL,SB1 ; tx ty kx        b = chord to K
+        DB      LA0,QSUB,LC2,QMUL,SB0 ; tx ty
+        DB      LA1,QSUB,LC2,QMUL,QSWP ; dy tx          a = chord to T
+        DB      LA0,QSUB,LC2,QMUL,SA0,SA1 ; -
+        DB      QCRS,LC2,QSIG,QJN ; -
+        DB      PASS2-$
+        DB      QRET
+PASS2:  DB      LA0,LA1,QFAR,QJN ; -            T is the entry within 1 um
+        DB      PASS3-$
+        DB      QDIF,QFAR,QNEG,QE6N ; -         or K
+PASS3:  DB      QRET
 
 ; OFFCHK - demands that the wire offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
@@ -606,30 +603,27 @@ SAMEL:  LDA     RLASTP
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K   Out: A = K; ERR 06 when K lies behind A on a line   Clobbers all
 ADVANC: RST     5
+        DB      LKX,LAX,QSUB,SB0 ; -
+        DB      LKY,LAY,QSUB,SB1 ; -            b = chord
         DB      QCA,QJC         ; -
         DB      ADVAN1-$
-        DB      LKY,LAY,QSUB,LC0,QMUL   ; dy*alpha
-        DB      LKX,LAX,QSUB,LC1,QMUL   ; dy*alpha dx*beta
-        DB      QSUB,QMU,QADD,QE6N      ; -
-        DB      QEND
-        JMP     ADVAN3
-ADVAN1: DB      LKX,LAX,QSUB    ; dx
-        DB      LKY,LAY,QSUB    ; dx dy
-        DB      QFAR            ; negative: the chord is within 1 um
+        DB      QCRS            ; forward
+        DB      QMU,QADD,QE6N   ; -
+        DB      QJMP
+        DB      ADVAN3-$
+ADVAN1: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -
         DB      ADVAN2-$
-        DB      QEND
-ADVAN3: CALL    SEGMNT
+ADVAN3: DB      QEND
+        CALL    SEGMNT
         RST     5
         DB      LKX,SAX,LKY,SAY ; -
 ADVAN2: DB      QRET            ; (no travel: the corner is the entry place)
 
 ; SBACK - statement: BACK
-SBACK:  CALL    CHKEND
+SBACK:  RST     7
         CALL    FITEND
-        LDA     RELEMS
-        ORA     A
-        JZ      ERGEO           ; no route, or but a point
+        CALL    NEEDEL          ; no route, or but a point
 SBACK1: CALL    CLOSE
         LXI     H,RBACK
         INR     M
@@ -665,17 +659,16 @@ CLOSE2: LXI     D,MFIRST
         CALL    CPYEL
         CALL    NAMEIT
         CALL    ADDEL
-CLOSE3: CALL    CLOSE5
+CLOSE3: CALL    CLOSEG
         RST     5
         DB      LCR,LFR,QSUB,QE6D ; -
-        DB      QEND
+        DB      LGX,ST0,LGY,ST1,QEND ; -
         LXI     D,RCORN
-        LXI     H,MB
+        LXI     H,MT0+20
         MVI     A,10
-        CALL    COPY            ; b = end of the first element
-        CALL    PASSED
-CLOSE8: CALL    ADVANC
-        JMP     RTDONE
+        CALL    COPY            ; t4 t5 = end of the first element
+        CALL    PASSED          ; the corner lies before the entry, not past it
+        JMP     CLOSE8
 CLOSE4: LDA     CKIND           ; one element alone
         CPI     KCIR
         JNZ     ERGEO           ; a line
@@ -684,21 +677,15 @@ CLOSE4: LDA     CKIND           ; one element alone
         JZ      CLOSE6
         CALL    PATC            ; by way of the last point
         CALL    ADVANC
-CLOSE6: CALL    CLOSE5
+CLOSE6: CALL    CLOSEG
         RST     5
         DB      LAX,LKX,QSUB    ; dx
         DB      LAY,LKY,QSUB    ; dx dy
         DB      QFAR,QJN        ; -             at the entry still?
         DB      CLOSE7-$
         DB      QEND
-        JMP     CLOSE8
-CLOSE7: DB      QEND
-        CALL    WHOLE
-        JMP     RTDONE
-CLOSE5: CALL    NOFIL           ; a fillet without a corner
-        RST     5
-        DB      LGX,SKX,LGY,SKY ; -
-        DB      QRET
+CLOSE8: CALL    ADVANC
+; (fall into RTDONE)
 
 ; RTDONE - the route is over; the buffer keeps it for RECUT
 ; Clobbers B, HL
@@ -709,6 +696,17 @@ RTDON1: MVI     M,0
         DCR     B
         JNZ     RTDON1
         RET
+
+CLOSE7: DB      QEND            ; (CLOSE of a circle alone)
+        CALL    WHOLE
+        JMP     RTDONE
+
+; CLOSEG - K = G, where the route was entered
+; Out: K; ERR 06 when a fillet waits, which has no corner   Clobbers all
+CLOSEG: CALL    NOFIL
+        RST     5
+        DB      LGX,SKX,LGY,SKY ; -
+        DB      QRET
 
 ; ENDRT - ends the open route: closed when its last item is its first, else open
 ; Clobbers all
@@ -729,7 +727,7 @@ ENDRT:  CALL    FITEND
 
 ; SFROM - statement: FROM point
 SFROM:  CALL    EVPNT
-        CALL    CHKEND
+        RST     7
         CALL    SCALED
         LXI     H,RMOVED
         MOV     A,M

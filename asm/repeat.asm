@@ -182,9 +182,7 @@ SSYM:   CALL    JOINT
         DB      QEND
         LXI     H,KLIN*256+7    ; /
         SHLD    ROP
-        LDA     RELEMS
-        ORA     A
-        JZ      ERGEO           ; but a point
+        CALL    NEEDEL          ; but a point
         CALL    OPENRT
         LHLD    RSTOP
         SHLD    RSRC
