@@ -104,11 +104,18 @@ def run_block(block: Block, drift: tuple[int, int] = (0, 0),
                    _distance(block, state.f_max, state.f_min), _distance(block, state.d_max, state.d_min))
 
 
+def trace_array(block: Block) -> ctypes.Array:
+    """Return the controller's places as one array x, y, x, y, … of 64-bit numbers.
+
+    A place for each step, µm, relative to `block.start`'s origin.
+    """
+    count = run_block(block).steps
+    buffer = (ctypes.c_int64 * (2 * count))()
+    _library().skgsim_run(ctypes.byref(_state(block, (0, 0))), count, buffer)
+    return buffer
+
+
 def trace_block(block: Block) -> list[tuple[int, int]]:
     """Return the controller's position after each step, µm, relative to `block.start`'s origin."""
-    state = _state(block, (0, 0))
-    room = 16 * (block.x + block.y) + 64
-    buffer = (ctypes.c_int64 * (2 * room))()
-    if _library().skgsim_run(ctypes.byref(state), room, buffer) == _STALLED:
-        raise _stalled(block)
-    return [(buffer[2 * k], buffer[2 * k + 1]) for k in range(state.steps)]
+    places = trace_array(block)
+    return list(zip(places[::2], places[1::2], strict=True))
