@@ -35,6 +35,7 @@ FT      EQU FWORK+5     ; bytes 1 and 2 of a partial product; mask of FSQR
 SIGN    EQU FWORK+43    ; bit 7: sign of the result
 EXPO    EQU FWORK+44    ; exponent of the result
 SHIFT   EQU FWORK+45    ; difference of exponents
+ODD     EQU FWORK+42    ; bit 0: what FFLR found is odd
 
 ; FSUB - x - y
 ; FADD - x + y
@@ -50,13 +51,13 @@ FADD:   XRA     A
         MVI     B,0             ; B = turn in the larger one's
         LDAX    D
         SUB     M
-        XCHG
-        JNC     FADD1           ; HL -> x is the larger, DE -> y
-        XCHG
+        JNC     FADD1
         MOV     B,C
         CMA
         INR     A
-FADD1:  STA     SHIFT
+        DB      0FEH            ; CPI: skips the XCHG
+FADD1:  XCHG                    ; HL -> the larger, DE -> the smaller
+        STA     SHIFT
         MOV     A,M
         STA     EXPO
         INX     H
@@ -107,28 +108,21 @@ FADD1:  STA     SHIFT
         JNC     FNRME
         MVI     H,1
         CALL    FSHR2           ; carry comes in
-        LDA     EXPO
+        STC
+; (fall into FNRMC)
+
+; FNRMC - ends FADD after a carry, FMUL and FDIV
+; In:  B C D E L = mantissa, EXPO one less than for a first bit 1, CY = first bit
+FNRMC:  LDA     EXPO
         INR     A
         MOV     H,A
+        JNC     FNRM2
         JNZ     FRND
         JMP     FOVF
 
 FADD4:  CALL    FLOAD
         MVI     L,0
         JMP     FNRME
-
-; FLOAD - takes a mantissa
-; In:  HL -> byte 1   Out: B C D E, HL -> byte 4   Clobbers A
-FLOAD:  MOV     A,M
-        ORI     80H
-FLOA1:  MOV     B,A
-        INX     H
-        MOV     C,M
-        INX     H
-        MOV     D,M
-        INX     H
-        MOV     E,M
-        RET
 
 ; FSHR - shifts a mantissa right
 ; In:  B C D E, A = bits   Out: B C D E L, bit 0 of L also set when a 1 was lost
@@ -194,12 +188,7 @@ FMUL:   PUSH    D
 ; In:  B C D E L = mantissa from 1/4 up, EXPO for one below 1/2
 FNRM1:  MOV     A,B
         RLC
-        LDA     EXPO
-        INR     A
-        MOV     H,A             ; H = exponent for a mantissa from 1/2 up
-        JNC     FNRM2
-        JNZ     FRND
-        JMP     FOVF
+        JMP     FNRMC
 
 ; FMANT - product of two mantissas or fractions
 ; In:  B C D E, FY   Out: B C D E L = product, cut off   Clobbers A, H
@@ -308,13 +297,31 @@ FEXP:   MOV     B,A
         STA     SIGN
         PUSH    D
         CALL    FLOAD
-        XCHG
+        CALL    FSTY
+        POP     H
+; (fall into FLOAD)
+
+; FLOAD - takes a mantissa
+; In:  HL -> byte 1   Out: B C D E, HL -> byte 4   Clobbers A
+FLOAD:  MOV     A,M
+        ORI     80H
+        MOV     B,A
+        INX     H
+        MOV     C,M
+        INX     H
+        MOV     D,M
+        INX     H
+        MOV     E,M
+        RET
+
+; FSTY - stores a mantissa
+; In:  B C D E   Out: FY   Clobbers DE, HL
+FSTY:   XCHG
         SHLD    FY
         MOV     H,B
         MOV     L,C
         SHLD    FY+2
-        POP     H
-        JMP     FLOAD
+        RET
 
 ; FDIV - x / y
 ; In:  DE -> x, HL -> y   Out: x; ERR 05 too when y is 0   Clobbers all
@@ -607,7 +614,8 @@ FTOI1:  CALL    FWHOLE
 ; In:  HL -> x, not 0   Out: CY set: B C D E = |x| cut off, L = 0 when that is x,
 ;      SIGN; CY clear: x is 2^32 or more   Clobbers A, H
 FWHOLE: MVI     A,0A0H
-        SUB     M               ; bits behind the units
+; FALIGN - the same for x * 2^(A-0A0H)
+FALIGN: SUB     M               ; bits behind the units
         CMC
         RNC
         PUSH    PSW
@@ -633,7 +641,9 @@ FFLR:   PUSH    H
         ORA     E
         JNZ     FFLR1
         INX     B
-FFLR1:  LXI     H,0A000H
+FFLR1:  MOV     A,E
+        STA     ODD
+        LXI     H,0A000H
         JMP     FNRM
 FFLR2:  POP     H
         RET
@@ -745,58 +755,112 @@ FSIN:   MOV     A,M
         RST     5
         DB      QDUP,QI180,QMUL         ; x x/180
         DB      QHALF,QADD,QFLR         ; x k           k half turns
-        DB      QSWP,QOVR,Q180,QMUL     ; k x k*180
-        DB      QSUB                    ; k r           -90...90
-        DB      QSWP,QHALF,QMUL         ; r k/2
-        DB      QDUP,QFLR,QSUB          ; r 0 or 1/2
-        DB      QJZ
-        DB      FSIN1-$
-        DB      QNEG                    ; r             after an odd number: the other way
-FSIN1:  DB      QI64,QMUL,QEND          ; r/64
-        LXI     D,CSIN
+        DB      Q180,QMUL,QSUB          ; r             -90...90
+        DB      QI64,QMUL,QEND          ; r/64
+        LDA     ODD
+        RRC
+        JNC     FSIN1
+        RST     5
+        DB      QNEG,QEND               ; after an odd number of them: the other way
+FSIN1:  LXI     D,CSIN
 ; (fall into FSER)
 
-; FSER - y + y * a polynomial in y*y: that way the error of the polynomial hardly
-;        counts
-; In:  y on the calculator's stack, DE -> coefficients, highest first, and a 0
-; Out: the sum instead of y   Clobbers all
-FSER:   PUSH    D
-        RST     5
-        DB      QDUP,QSQ,Q0,QEND        ; y z 0         z = y*y
-FSER1:  RST     5
-        DB      QOVR,QMUL,QEND          ; y z s*z
-        POP     D
-        CALL    OOVR                    ; y z s*z c
+; FSER - y + y*P(y*y): that way the error of the polynomial P hardly counts
+; In:  y on the calculator's stack, DE -> table   Out: the sum instead of y   Clobbers all
+;
+; P(z) = c1 - z*Q(z).  Q is computed with fractions of 32 bits, by
+; s = coefficient - Z*s, where Z = z / 2^e is below 1; s stays between 0 and 1.  The
+; table: c1, a float; 80H+e; the coefficients times 2^e, 2^2e ..., the highest power's
+; first, low byte first and not 0; 0.
+FSER:   CALL    OOVR            ; y c1
         PUSH    D
         RST     5
-        DB      QADD,QEND               ; y z s
+        DB      QOVR,QSQ,QDUP,QEND      ; y c1 z z
         POP     D
-        PUSH    D
-        LDAX    D
-        ORA     A
-        JNZ     FSER1
-        POP     D
+        CALL    FSER1           ; y c1 z Q
         RST     5
-        DB      QSWP,QDRP               ; y s
-        DB      QOVR,QMUL,QADD          ; y+y*s
-        DB      QRET
+        DB      QMUL,QSUB       ; y P
+        DB      QOVR,QMUL,QADD,QRET     ; y+y*P
 
-; sin(64 y) = y + y*P(y*y) for |y| <= 90/64, to 2^-35
-CSIN:   DB      069H,0ADH,021H,0E3H,00AH        ; -8.06E-8
-        DB      06FH,07AH,005H,06DH,015H        ;  7.451E-6
-        DB      075H,0E1H,0B3H,026H,0F5H        ; -0.00043048823
-        DB      07AH,06DH,06CH,0A2H,077H        ;  0.01449123254
-        DB      07EH,0EDH,0DCH,010H,05FH        ; -0.2322847898
-        DB      07DH,06FH,0A3H,051H,028H        ;  0.1170107212
+; FSER1 - z to Q(z), on top of the calculator's stack
+; In:  DE -> table from 80H+e on   Clobbers all
+FSER1:  LHLD    FSP
+        LXI     B,-5
+        DAD     B
+        PUSH    H               ; -> z, for FNRM
+        LDAX    D
+        INX     D
+        PUSH    PSW
+        PUSH    D
+        CALL    FALIGN          ; Z
+        POP     H
+        PUSH    B
+        PUSH    D
+        XRA     A               ; Z*s = 0 to begin with
+        MOV     B,A
+        MOV     C,A
+        MOV     D,A
+        MOV     E,A
+FSER2:  MOV     A,M             ; s = coefficient - Z*s - CY
+        SBB     E
+        MOV     E,A
+        INX     H
+        MOV     A,M
+        SBB     D
+        MOV     D,A
+        INX     H
+        MOV     A,M
+        SBB     C
+        MOV     C,A
+        INX     H
+        MOV     A,M
+        SBB     B
+        MOV     B,A
+        INX     H
+        MOV     A,M
+        ORA     A
+        JZ      FSER3
+        PUSH    H
+        CALL    FSTY
+        POP     H
+        POP     D
+        POP     B
+        PUSH    B
+        PUSH    D
+        PUSH    H
+        CALL    FMANT
+        MOV     A,L             ; rounds
+        ADD     A
+        POP     H
+        JMP     FSER2
+FSER3:  POP     H
+        POP     H
+        POP     PSW
+        CMA
+        INR     A
+        MOV     H,A             ; exponent 80H-e: Q = s / 2^e
+        MVI     L,0
+        JMP     FNRM            ; (SIGN is that of z)
+
+; sin(64 y) for |y| <= 90/64, to 2^-35; the last coefficient is one less than the best, so
+; that 30 and 90 degrees come out exactly
+CSIN:   DB      07DH,06FH,0A3H,051H,029H        ; 0.1170107213
+        DB      082H
+        DB      049H,06AH,005H,000H             ; 8.262902789e-5
+        DB      03DH,004H,07DH,000H             ; 0.001907601364
+        DB      0E3H,099H,00DH,007H             ; 0.02755128654
+        DB      0BCH,028H,05BH,03BH             ; 0.2318597277
+        DB      060H,010H,0DCH,0EDH             ; 0.9291391598
         DB      0
-; atan(y)/64 = y + y*P(y*y) for |y| <= 1/2, to 2^-32
-CATG:   DB      07CH,00CH,0BAH,07DH,06BH        ;  0.03435753815
-        DB      07DH,091H,0DFH,09BH,0BDH        ; -0.07122728033
-        DB      07DH,048H,070H,0C7H,0D1H        ;  0.0978713618
-        DB      07EH,082H,0D3H,035H,01BH        ; -0.1277588175
-        DB      07EH,037H,057H,04AH,03BH        ;  0.1790439223
-        DB      07FH,098H,0C9H,0E8H,075H        ; -0.2984154361
-        DB      07DH,0D6H,088H,0F9H,06EH        ; -0.1047534453
+; 64*atan(y/64) for |y| <= 32, to 2^-32
+CATG:   DB      07DH,0D6H,088H,0F9H,06FH        ; -0.1047534453
+        DB      08CH
+        DB      07CH,00CH,0C5H,008H             ; 0.03425672548
+        DB      037H,0FAH,036H,012H             ; 0.07115138848
+        DB      03CH,0B1H,00CH,019H             ; 0.0978499194
+        DB      060H,09EH,0B4H,020H             ; 0.1277560219
+        DB      0CAH,0CFH,0D5H,02DH             ; 0.1790437573
+        DB      02BH,0F4H,064H,04CH             ; 0.2984154325
         DB      0
 
 ; FATG - arc tangent
@@ -816,22 +880,22 @@ FATG:   CALL    FUN
         JC      FATG1           ; below 2
         RST     5
         DB      Q90,QSWP                ; 90 x
-        DB      Q1,QNEG,QSWP,QDIV       ; 90 -1/x
+        DB      Q1,QNEG,QSWP            ; 90 -1 x
         DB      QJMP
         DB      FATG3-$
 FATG1:  RST     5
         DB      Q90,QHALF,QMUL,QSWP     ; 45 x
         DB      QDUP,Q1,QSUB            ; 45 x x-1
-        DB      QSWP,Q1,QADD,QDIV       ; 45 (x-1)/(x+1)
+        DB      QSWP,Q1,QADD            ; 45 x-1 x+1
         DB      QJMP
         DB      FATG3-$
 FATG2:  RST     5
-        DB      Q0,QSWP                 ; 0 x
-FATG3:  DB      QEND
+        DB      Q0,QSWP,Q1              ; 0 x 1
+FATG3:  DB      QI64,QMUL,QDIV,QEND     ; base y        y = 64 times the quotient
         LXI     D,CATG
         CALL    FSER
         RST     5
-        DB      QI64,QDIV,QADD,QEND     ; atan |x|
+        DB      QADD,QEND               ; atan |x|
         POP     PSW
         RLC
         RNC

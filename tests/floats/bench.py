@@ -18,9 +18,10 @@ N = 2000
 #: Labels of float.asm in their order: what a part is, the limit for its mean, the known figure.
 PARTS = {
     "FSUB": ("FADD and FSUB", "1,000", "927"),
-    "FLOAD": ("unpack, align", "", ""),
+    "FNRMC": ("end of + * /", "", ""),
+    "FSHR": ("align", "", ""),
     "FMUL": ("FMUL", "3,600", "4,040"),
-    "FEXP": ("exponents of * and /", "", ""),
+    "FEXP": ("unpack, exponents of * /", "", ""),
     "FDIV": ("FDIV", "9,000", "8,521"),
     "FADD2": ("FADD, signs differ", "", ""),
     "FNRME": ("normalize, round, pack", "", ""),
@@ -31,8 +32,9 @@ PARTS = {
     "FTG": ("FTG", "", ""),
     "FCOS": ("FCOS", "", ""),
     "FSIN": ("FSIN", "45,000", "44,617"),
-    "FSER": ("series of FSIN and FATG", "", ""),
-    "CATG": ("FATG", "50,000", "56,939"),
+    "FSER": ("series", "", ""),
+    "CSIN": ("coefficients", "", ""),
+    "FATG": ("FATG", "50,000", "56,939"),
     "FTEN": ("powers of ten, digits", "", ""),
     "DECOUT": ("DECOUT", "60,000", ""),
     "DECIN": ("DECIN", "", ""),
@@ -62,7 +64,7 @@ def measure(board: Printer) -> dict[str, Batch]:
         "FTG": board.unary("FTG", angles)[1],
         "FCOS": board.unary("FCOS", angles)[1],
         "FSIN": board.unary("FSIN", angles)[1],
-        "CATG": board.unary("FATG", uniform(random, -10, 10))[1],
+        "FATG": board.unary("FATG", uniform(random, -10, 10))[1],
         "DECOUT": board.printed(np.array([list(nearest(Fraction(n))) for n in lengths], np.uint8), 8)[1],
         "DECIN": board.read([f"{n % 100000 / 1000:.3f}" for n in whole])[2],
     }
