@@ -2,7 +2,7 @@
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
 ;         FITOF FTOI16, DECIN DECOUT
 ; Uses:   calc, start (ERROR PUTC DIGIT), lexer (LEXCH), io (PRDEC), parser (ERSYN)
-; Room:   1650 bytes
+; Room:   1574 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -29,13 +29,14 @@
 ; behind it; H = exponent, bit 7 of SIGN = sign, the address of the result on the
 ; 8080 stack.
 
-FY      EQU FWORK       ; mantissa of y, low byte first
+FY      EQU FWORK       ; mantissa of y, or Z of FSER, low byte first
 FQ      EQU FWORK+4     ; byte of the quotient that grows
 FT      EQU FWORK+5     ; bytes 1 and 2 of a partial product; mask of FSQR
-SIGN    EQU FWORK+43    ; bit 7: sign of the result
-EXPO    EQU FWORK+44    ; exponent of the result
-SHIFT   EQU FWORK+45    ; difference of exponents
-ODD     EQU FWORK+42    ; bit 0: what FFLR found is odd
+SIGN    EQU FWORK+7     ; bit 7: sign of the result
+EXPO    EQU FWORK+8     ; exponent of the result
+SHIFT   EQU FWORK+9     ; difference of exponents
+ODD     EQU FWORK+10    ; bit 0: what FFLR found is odd
+                        ; (35 bytes are free, then comes FSP)
 
 ; FSUB - x - y
 ; FADD - x + y
@@ -630,7 +631,7 @@ FALIGN: SUB     M               ; bits behind the units
 ; In:  HL -> x   Out: x   Clobbers all
 FFLR:   PUSH    H
         CALL    FWHOLE
-        JNC     FFLR2
+        JNC     DECIA           ; large ones are whole: POP H, RET (end of DECIN)
         LDA     SIGN
         ADD     A
         SBB     A
@@ -645,8 +646,6 @@ FFLR1:  MOV     A,E
         STA     ODD
         LXI     H,0A000H
         JMP     FNRM
-FFLR2:  POP     H
-        RET
 
 ; FSQR - square root
 ; In:  HL -> x   Out: x; ERR 05 when it is negative   Clobbers all
@@ -792,10 +791,9 @@ FSER1:  LHLD    FSP
         INX     D
         PUSH    PSW
         PUSH    D
-        CALL    FALIGN          ; Z
+        CALL    FALIGN
+        CALL    FSTY            ; FY = Z
         POP     H
-        PUSH    B
-        PUSH    D
         XRA     A               ; Z*s = 0 to begin with
         MOV     B,A
         MOV     C,A
@@ -821,26 +819,16 @@ FSER2:  MOV     A,M             ; s = coefficient - Z*s - CY
         ORA     A
         JZ      FSER3
         PUSH    H
-        CALL    FSTY
-        POP     H
-        POP     D
-        POP     B
-        PUSH    B
-        PUSH    D
-        PUSH    H
         CALL    FMANT
         MOV     A,L             ; rounds
         ADD     A
         POP     H
         JMP     FSER2
-FSER3:  POP     H
-        POP     H
-        POP     PSW
+FSER3:  POP     PSW
         CMA
         INR     A
         MOV     H,A             ; exponent 80H-e: Q = s / 2^e
-        MVI     L,0
-        JMP     FNRM            ; (SIGN is that of z)
+        JMP     FNRM            ; (SIGN is z's; what L has hardly counts)
 
 ; sin(64 y) for |y| <= 90/64, to 2^-35; the last coefficient is one less than the best, so
 ; that 30 and 90 degrees come out exactly
@@ -975,12 +963,13 @@ DECOUT: CALL    FSGN
         JZ      PUTC
         MVI     A,CMINUS
         CM      PUTC
-        XCHG
-        LXI     H,MT0
-        CALL    COPY5
         MVI     C,0
         PUSH    B
+        XCHG
         LXI     H,MT0
+        PUSH    H
+        CALL    COPY5
+        POP     H
         MOV     A,M
         CPI     9BH
         JNC     DECO1
@@ -1083,8 +1072,8 @@ DECOE:  DB      QDRP,QEND
 DECIN:  PUSH    D
         XRA     A
         STA     MT0
-        MVI     C,0FFH          ; C = 0 behind the point
-        LXI     D,0FFH          ; D = power of ten to divide by, E = 0FFH: no digit yet
+        LXI     B,0FFH          ; B = power of ten to divide by, C = 0 behind the point
+        MVI     E,0FFH          ; E = 0FFH: no digit yet
 DECI1:  CALL    LEXCH
         CALL    DIGIT
         JC      DECI2
@@ -1099,13 +1088,12 @@ DECI2:  INX     H
         LDA     MT0
         CPI     0A0H            ; CY: there is room for a digit
         PUSH    PSW
-        MOV     A,D
+        MOV     A,B
         ADC     C
-        MOV     D,A
+        MOV     B,A
         POP     PSW
         JNC     DECI1
         PUSH    H
-        PUSH    D
         PUSH    B
         MOV     L,E
         MVI     H,0
@@ -1114,8 +1102,8 @@ DECI2:  INX     H
         RST     5
         DB      LT0,Q10,QMUL,LT1,QADD,ST0,QEND
         POP     B
-        POP     D
         POP     H
+        MOV     E,H             ; (not 0FFH)
         JMP     DECI1
 DECI3:  INR     E
         JZ      ERSYN           ; no digit at all
@@ -1132,40 +1120,39 @@ DECI3:  INR     E
         JNZ     DECI5
         INR     C
 DECI4:  INX     H
-DECI5:  MVI     B,0             ; B = exponent
-        MVI     E,0FFH
+DECI5:  LXI     D,0FFH          ; D = exponent, E = 0FFH: no digit yet
 DECI6:  CALL    LEXCH
         CALL    DIGIT
         JNC     DECI7
         INX     H
         MOV     E,A
-        MOV     A,B
+        MOV     A,D
         CPI     10
         JNC     FOVF
         ADD     A
         ADD     A
-        ADD     B
+        ADD     D
         ADD     A
         ADD     E
-        MOV     B,A
+        MOV     D,A
         JMP     DECI6
 DECI7:  INR     E
         JZ      DECI8           ; the E is not ours
         POP     PSW
-        MOV     A,B
+        MOV     A,D
         XRA     C
         SUB     C               ; -exponent unless it is negative
-        ADD     D
-        MOV     D,A
+        ADD     B
+        MOV     B,A
         PUSH    H
 DECI8:  POP     H
 DECI9:  XTHL
         PUSH    H
-        MOV     A,D
+        MOV     A,B
         CALL    FTEN
         POP     D
         CALL    CALPOP
-        POP     H
+DECIA:  POP     H               ; (FFLR comes here too)
         RET
 TENLOG  EQU 0DB87H      ; of exponent 0: high byte = digits before the point + 1, rounded up
 CPOINT  EQU 2EH         ; .
