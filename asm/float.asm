@@ -2,7 +2,7 @@
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
 ;         FITOF FTOI16, DECIN DECOUT
 ; Uses:   calc, start (ERROR PUTC DIGIT), lexer (LEXCH), io (PRDEC), parser (ERSYN)
-; Room:   1574 bytes
+; Room:   1570 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -770,7 +770,7 @@ FSIN1:  LXI     D,CSIN
 ; P(z) = c1 - z*Q(z).  Q is computed with fractions of 32 bits, by
 ; s = coefficient - Z*s, where Z = z / 2^e is below 1; s stays between 0 and 1.  The
 ; table: c1, a float; 80H+e; the coefficients times 2^e, 2^2e ..., the highest power's
-; first, low byte first and not 0; 0.
+; first, low byte first and odd; 80H-e, which is even.
 FSER:   CALL    OOVR            ; y c1
         PUSH    D
         RST     5
@@ -789,7 +789,6 @@ FSER1:  LHLD    FSP
         PUSH    H               ; -> z, for FNRM
         LDAX    D
         INX     D
-        PUSH    PSW
         PUSH    D
         CALL    FALIGN
         CALL    FSTY            ; FY = Z
@@ -816,18 +815,15 @@ FSER2:  MOV     A,M             ; s = coefficient - Z*s - CY
         MOV     B,A
         INX     H
         MOV     A,M
-        ORA     A
-        JZ      FSER3
+        RRC
+        JNC     FSER3
         PUSH    H
         CALL    FMANT
         MOV     A,L             ; rounds
         ADD     A
         POP     H
         JMP     FSER2
-FSER3:  POP     PSW
-        CMA
-        INR     A
-        MOV     H,A             ; exponent 80H-e: Q = s / 2^e
+FSER3:  MOV     H,M             ; exponent: Q = s / 2^e
         JMP     FNRM            ; (SIGN is z's; what L has hardly counts)
 
 ; sin(64 y) for |y| <= 90/64, to 2^-35; the last coefficient is one less than the best, so
@@ -837,19 +833,19 @@ CSIN:   DB      07DH,06FH,0A3H,051H,029H        ; 0.1170107213
         DB      049H,06AH,005H,000H             ; 8.262902789e-5
         DB      03DH,004H,07DH,000H             ; 0.001907601364
         DB      0E3H,099H,00DH,007H             ; 0.02755128654
-        DB      0BCH,028H,05BH,03BH             ; 0.2318597277
-        DB      060H,010H,0DCH,0EDH             ; 0.9291391598
-        DB      0
+        DB      0BDH,028H,05BH,03BH             ; 0.2318597277
+        DB      061H,010H,0DCH,0EDH             ; 0.9291391598
+        DB      07EH
 ; 64*atan(y/64) for |y| <= 32, to 2^-32
 CATG:   DB      07DH,0D6H,088H,0F9H,06FH        ; -0.1047534453
         DB      08CH
-        DB      07CH,00CH,0C5H,008H             ; 0.03425672548
+        DB      07DH,00CH,0C5H,008H             ; 0.03425672548
         DB      037H,0FAH,036H,012H             ; 0.07115138848
-        DB      03CH,0B1H,00CH,019H             ; 0.0978499194
-        DB      060H,09EH,0B4H,020H             ; 0.1277560219
-        DB      0CAH,0CFH,0D5H,02DH             ; 0.1790437573
+        DB      03DH,0B1H,00CH,019H             ; 0.0978499194
+        DB      061H,09EH,0B4H,020H             ; 0.1277560219
+        DB      0CBH,0CFH,0D5H,02DH             ; 0.1790437573
         DB      02BH,0F4H,064H,04CH             ; 0.2984154325
-        DB      0
+        DB      074H
 
 ; FATG - arc tangent
 ; In:  HL -> x   Out: x, between -90 and 90   Clobbers all
