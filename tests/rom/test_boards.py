@@ -85,6 +85,18 @@ def test_broken_off(kind: str) -> None:
     assert board.machine.punch == b""
 
 
+@pytest.mark.xfail(strict=True, reason="repeat.asm does not look for a break between two copies")
+def test_broken_off_where_no_block_goes_out() -> None:
+    """Copies of a circle about its own centre are the circle: a thousand of them, and no block."""
+    board = Board()
+    for line in ["10 CUT O:1.5", "20 REP 1000,10", "30 END"]:
+        assert board.type(line) == []
+    board.machine.type("RUN\r")
+    assert board.machine.run(2 * SECOND) == "cycles"
+    board.machine.press(CTRL_C)
+    assert board.machine.run(2 * SECOND) == "prompt"
+
+
 @every_board
 def test_a_torn_tape(kind: str) -> None:
     """The reader runs out in a line: ERR 10, the prompt, and typed lines come from the keyboard again."""

@@ -27,6 +27,7 @@ FAULTS = {
     "tangency-point-of-two-circles": "geom.asm takes the foot of the radical line",
     "fillet-between-different-offsets": "two errors at once: which comes first?",
     "gosub-nine-levels": "the ROM has twelve levels",
+    "rep-of-too-many-copies": "the ROM has no limit",
 }
 
 #: pytest's record_property.
