@@ -74,17 +74,19 @@ def joint(p: Point, t: Point, q: Point, u: Point) -> Point:
 
 
 def within(a: Node, b: Node, passed: list[Node], tolerance: Real) -> bool:
-    """Whether a biarc from a to b exists and all passed nodes lie within the tolerance of it (TOL, docs/curves.md).
+    """Whether all passed nodes lie within the tolerance of the biarc from a to b (TOL, docs/curves.md).
 
-    The joint's tangent parts the nodes: those before it are compared with the arc at a, the others with the arc
-    at b, walked backwards. With the arc's start p, its direction t and its chord w, and q the node from p, the arc
-    has the curvature 2k, k = t×w / w·w, and the node is within e of it when |k (q·q - e²) - t×q| <= e, exactly, and
-    of a line too (k = 0). Each arc of a biarc turns less than half round, so q·t >= 0 is all that is left to ask.
+    The biarc must begin and end forwards on the whole: v·(t+u) > 0, v the chord; it exists then. The joint's tangent
+    parts the nodes: those before it are compared with the arc at a, the others with the arc at b, walked backwards.
+    With the arc's start p, its direction t and its chord w, and q the node from p, the arc has the curvature 2k,
+    k = t×w / w·w, and the node is within e of it when |k (q·q - e²) - t×q| <= e, exactly, and of a line too (k = 0).
+    Each arc of a biarc turns less than half round, so q·t >= 0 is all that is left to ask.
     """
-    try:
-        c, d = corners(a.point, a.tangent, b.point, b.tangent)
-    except Fault:
+    forwards = (b.point - a.point).dot(a.tangent + b.tangent)
+    near.note("passed node", forwards, NEARLY)
+    if forwards <= 0:
         return False
+    c, d = corners(a.point, a.tangent, b.point, b.tangent)
     middle, across = (c + d) * (real.ONE / 2), d - c
     ends = [(n.point, t, middle - n.point) for n, t in ((a, a.tangent), (b, -b.tangent))]
     for node in passed:
