@@ -33,6 +33,7 @@ BLKNO   EQU CWORK+16    ; number of the last block, four decimal digits
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
+RITCHK  EQU CWORK+66    ; kinds of the items of a CUT that is checked
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -84,6 +85,8 @@ ROOM1:  XCHG
 
 ; SCUT - statement: CUT item, item; item ...
 SCUT:   CALL    FITEND
+        MVI     A,9*KTURN       ; twice KTURN
+        STA     RITCHK
         RST     6
         CPI     CSEMI
         JNZ     SCUT2
@@ -103,7 +106,9 @@ SCUT2:  PUSH    PSW             ; ";": the corner to come turns right
 ; ITEM - takes one item into the route
 ; In:  a0 a1 a2, VKIND, A = token in front of it   Clobbers all (A, B in check mode)
 ITEM:   MOV     B,A
-        CALL    CHKRET
+        LDA     CHKF
+        ORA     A
+        JNZ     ITCHK
         MOV     A,B
         CPI     CSEMI
         JNZ     ITEM1
@@ -145,6 +150,26 @@ ITDONE: STA     RLASTP
         DCR     M               ; it is the first one
         STA     RFSTP
         RET
+
+; ITCHK - in check mode: refuses a fillet that the line itself shows to have no place: after
+;         another one, and between an element and a point
+; In:  VKIND, KTURN when the line does not show it; RITCHK   Out: RITCHK; ERR 01   Clobbers A, B, HL
+ITCHK:  LDA     VKIND
+        MOV     B,A
+        LXI     H,RITCHK        ; kinds of the last items, three bits each
+        MOV     A,M
+        ADD     A
+        ADD     A
+        ADD     A
+        ORA     B
+        MOV     M,A
+        ANI     3FH             ; number, number
+        JZ      ERSYN
+        MOV     A,M
+        ANI     0BFH            ; circle (2) or line (3), number, point
+        CPI     81H
+        RNZ
+        JMP     ERSYN
 
 ; ITFIL - a fillet radius
 ITFIL:  CALL    NEEDEL          ; before or at the entry

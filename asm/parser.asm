@@ -202,7 +202,13 @@ SETK1:  MVI     M,0
 ; OPNAM - value of a name
 ; In:  A = its first token   Out: as EVAL; ERR 03 when it has none
 OPNAM:  CALL    NAME
-        CALL    CHKRET
+        MOV     A,D
+        CALL    KINDOF
+        MOV     A,B
+        STA     VKIND
+        LDA     CHKF
+        ORA     A
+        RNZ
         CALL    FIND
         JC      ERUNS
         XCHG
@@ -441,11 +447,13 @@ ERSYN:  RST     1
 ERMEM:  RST     1
         DB      EMEM
 
-; CHKRET - in check mode leaves the routine that called it
-; In:  CHKF   Out: in check mode HL = 0   Clobbers A
+; CHKRET - in check mode leaves the routine that called it; the kind of the value is not known then
+; In:  CHKF   Out: in check mode HL = 0, VKIND = KTURN   Clobbers A
 CHKRET: LDA     CHKF
         ORA     A
         RZ
+        MVI     A,KTURN         ; (a kind that no name and no constant has)
+        STA     VKIND
         POP     H
         LXI     H,0
         RET

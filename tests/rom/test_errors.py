@@ -178,9 +178,16 @@ def test_ctrl_c_in_a_loop(board: Board) -> None:
     assert board.listing() == before
 
 
-@pytest.mark.xfail(strict=True, reason="two fillets in a row are seen when the line runs, not when it is typed")
-def test_two_fillets_are_refused_when_typed(board: Board) -> None:
-    expect(board, "10 CUT X,2,3,Y", 1)
+@pytest.mark.parametrize("items", ["X,2,3,Y", "2;3", "X,A,P1", "P2,C1;A[I],O", "A,D,S1"])
+def test_a_fillet_without_a_place_is_refused_when_typed(board: Board, items: str) -> None:
+    expect(board, f"10 CUT {items}", 1)
+
+
+@pytest.mark.parametrize(
+    "items", ["P1,2,P2", "2,X,2", "X,2,Y,3,S1", "X,A+1,2", "X,2,P1+P2", "X,-2,P1", "C1,SQR A,P1", "A,P1", "X,2,K1 P1"]
+)
+def test_a_fillet_that_may_have_a_place_is_stored(board: Board, items: str) -> None:
+    assert board.type(f"10 CUT {items}") == []
 
 
 def test_load_stops_at_a_line_that_is_not_understood() -> None:

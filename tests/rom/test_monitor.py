@@ -206,7 +206,7 @@ TEXTS = st.text(st.characters(min_codepoint=32, max_codepoint=126, exclude_chara
 STATEMENTS = st.one_of(
     st.tuples(NAMES, EXPRESSIONS).map(lambda pair: f"{pair[0]}={pair[1]}"),
     EXPRESSIONS.map(lambda text: f"FROM {text}"),
-    st.tuples(EXPRESSIONS, EXPRESSIONS, EXPRESSIONS).map(lambda items: f"CUT ;{items[0]};{items[1]},{items[2]}"),
+    st.tuples(EXPRESSIONS, EXPRESSIONS, EXPRESSIONS).map(lambda items: f"CUT ;-{items[0]};-{items[1]},-{items[2]}"),
     st.tuples(EXPRESSIONS, TEXTS).map(lambda pair: f'PRINT {pair[0]},"{pair[1]}"'),
     st.tuples(EXPRESSIONS, st.sampled_from(["=", "<>", "<", ">", "<=", ">="]), EXPRESSIONS).map(
         lambda parts: f"IF {''.join(parts)} GOTO 10"
