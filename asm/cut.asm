@@ -26,14 +26,15 @@ RFILW   EQU CWORK+9     ; not 0 = a fillet waits
 RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
-RBACK   EQU CWORK+13    ; not 0 = RECUT may come: the buffer holds a route that is cut
-RBFULL  EQU CWORK+14    ; not 0 = the route has outgrown its buffer
-RMOVED  EQU CWORK+15    ; not 0 = wire positioned or moved since RUN
-BLKNO   EQU CWORK+16    ; number of the last block, four decimal digits
+FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up to P
+RBACK   EQU CWORK+14    ; not 0 = RECUT may come: the buffer holds a route that is cut
+RBFULL  EQU CWORK+15    ; not 0 = the route has outgrown its buffer
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
 RITCHK  EQU CWORK+66    ; kinds of the items of a CUT that is checked
+RMOVED  EQU CWORK+67    ; not 0 = wire positioned or moved since RUN
+BLKNO   EQU CWORK+68    ; number of the last block, four decimal digits
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -233,6 +234,9 @@ ITPN0:  RST     5               ; the first item
         DB      LNR,SQR,QJMP    ; -
         DB      ITPN4-$
 ITPN1:  CALL    NOFIL           ; a fillet between an element and a point
+        LDA     FITSM
+        ORA     A
+        JNZ     ITPN2           ; no need to look
         RST     5
         DB      QCA,QONEL       ; -
         DB      QJMP
@@ -277,6 +281,9 @@ NAMEIT: LDA     RLASTP
         STA     RNAMED
         ORA     A
         RZ
+        LDA     FITSM
+        ORA     A
+        RNZ
         RST     5
         DB      LPX,SB0,LPY,SB1 ; -
         DB      QNA,QONEL,QRET  ; -
@@ -468,6 +475,9 @@ CORNO:  LDA     RNAMED
         DB      LO1,QABS,LO2,QABS,QADD,QJZ ; -
         DB      CORN9-$
         DB      QEND
+        LDA     FITSM
+        ORA     A
+        JNZ     CORN1
         CALL    NORMS
         RST     5
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
@@ -493,8 +503,13 @@ CORNO:  LDA     RNAMED
         DB      QJN             ; -
         DB      ATOK-$
         DB      QRET
+CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
+        DB      LPX,LC0,QSUB,LC2,QDIV,SA0 ; -
+        DB      LPY,LC1,QSUB,LC2,QDIV,SA1 ; -
+        DB      QJMP
+        DB      NAMED4-$
 NAMED1: DB      QDOT,QE6N       ; -             there and back
-        DB      LCR,LNR,QSUB    ; dR
+NAMED4: DB      LCR,LNR,QSUB    ; dR
         DB      QE6D            ; -             no crossing any more
 NAMED2: DB      LCR,ST0         ; -
 NAMED3: DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a

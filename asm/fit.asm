@@ -143,8 +143,9 @@ FITEND: CALL    CHKRET
         LDA     FITN
         CPI     2
         CZ      FITE1
-        XRA     A
-        JMP     FITN1
+        LXI     H,0
+        SHLD    FITN            ; and FITSM
+        RET
 FITE1:  RST     5
         DB      L1U,QABS,L1V,QABS,QADD,QJZ ; -
         DB      FITE3-$
@@ -177,7 +178,7 @@ CHORD:  RST     5
 
 ; FITCIR - the arc between a node and the joint goes out; a flat one not: the point at its end
 ;          brings the chord
-; In:  DE -> node, joint on the float stack   Out: 1U 1V = joint   Clobbers all
+; In:  DE -> node, joint on the float stack   Out: 1U 1V = joint, FITSM   Clobbers all
 FITCIR: LXI     H,MA
         MVI     A,20
         CALL    COPY            ; a0 a1 = tangent, a2 b0 = node
@@ -191,20 +192,25 @@ FITCIR: LXI     H,MA
         DB      QCRS,QABS,QSUB  ; w*w limit-|t x w|
         DB      QJN             ; w*w
         DB      FITC1-$
-        DB      QDRP,QRET       ; -
+        DB      QDRP,QEND       ; -
+        XRA     A
+FITC2:  STA     FITSM
+        RET
 FITC1:  DB      QCRS,QDUP,QADD,QDIV ; r
         DB      LA2,QOVR,LA1,QMUL,QSUB ; r x
         DB      QOVR,LA0,QMUL   ; r x
         DB      L1V,LB1,QSUB,QADD,SA1 ; r x
         DB      SA0,SA2,QEND    ; -
         MVI     A,KCIR
-        DB      01H             ; LXI B: skips the MVI
-; (fall into FITPNT)
+        CALL    FITITM
+        MVI     A,1
+        JMP     FITC2
 
 ; FITPNT - the point a goes into the route, with the R of node 2
 ; Clobbers all
 FITPNT: MVI     A,KPNT
-        STA     VKIND
+; FITITM - the same for a value of kind A
+FITITM: STA     VKIND
         RST     5
         DB      L2R,SNR,QEND    ; -
         JMP     ITEM3

@@ -157,6 +157,7 @@ SREP2:  LHLD    RCOUNT
         MOV     A,H
         ORA     L
         RZ
+        CALL    BREAK           ; (copies may need no block)
         RST     5
         DB      LRT,Q1,QADD,SRT,QEND ; -
         CALL    OPENR2
