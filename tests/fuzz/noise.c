@@ -291,9 +291,8 @@ void noise_statement(noise *n)
         expression(n, 'S', noise_random(n, 2));
         break;
     case 21:
-        /* Copies that fall on each other give no block, and between these the ROM is deaf to ctrl-C: so not thousands. */
         puts_(n, "REP ");
-        puts_(n, (const char *const[]){ "0", "1", "2", "3", "7", "20", "1.5", "-1", "1E9", "I", "P" }[noise_random(n, 11)]);
+        expression(n, 'D', 0);
         put(n, ',');
         expression(n, 'D', 0);
         if (chance(n, 30)) {

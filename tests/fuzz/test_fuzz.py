@@ -73,7 +73,7 @@ FAULTS = {
     "stack that leaves its room for a moment": (
         "SDATA", "21 00 00 39 31 A0 23 E5 E1 F9 C9", "the stack left its room"),
     "no prompt after ctrl-C": ("SRETN", "C3 SRETN", "no prompt"),
-    "PRINT that changes the program": ("SPRINT", "21 02 26 34 C9", "(the program has changed|the program is not sound)"),
+    "PRINT that changes the program": ("SPRINT", "21 02 26 34 C9", "the program (has changed|is not sound)"),
     "RUN that forgets the program": ("SRUN", "C3 SNEW", "the program has changed"),
     "control character on the paper": ("SEND", "3E 02 D7 C9", "on the paper"),
 }  # fmt: skip

@@ -85,7 +85,6 @@ def test_broken_off(kind: str) -> None:
     assert board.machine.punch == b""
 
 
-@pytest.mark.xfail(strict=True, reason="repeat.asm does not look for a break between two copies")
 def test_broken_off_where_no_block_goes_out() -> None:
     """Copies of a circle about its own centre are the circle: a thousand of them, and no block."""
     board = Board()
