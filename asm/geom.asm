@@ -193,10 +193,11 @@ GSXC:   DB      QDOT,LA2,QSUB           ; e             centre right of S
         DB      QDUP,QABS               ; e |e|
         DB      LB2,QABS,QSUB           ; e gap
 ; (and the end of GCXC) Crossing of a line, given by its normal a0 a1, with the circle b;
-; on the stack: how far the centre lies to its right, how far they miss
-GSXC1:  DB      QOVR,ST2,LB2,ST3,QLEG   ; e h
-        DB      LB2,QSIG,QXCH           ; e +-h
-        DB      QSWP,QREFL              ; +-h           the foot
+; on the stack: how far the centre lies to its right, how far they miss; when they touch,
+; the place is on that circle
+GSXC1:  DB      QSWP,ST2,LB2,QABS,ST3,QLEG ; h
+        DB      LB2,QSIG,QXCH           ; +-h
+        DB      LT2,QREFL               ; +-h           the foot
         DB      LB1,LB0,QNEG,SB1,SB0    ; +-h           b = backwards
         DB      QREFL,QRET              ; -
 ; C1*C2: the crossing of C1 with the line through both crossings, whose right
@@ -257,6 +258,7 @@ GBISEC: DB      QDIF                    ; dx dy
 ; to the right by the angle whose cosine is e/d and whose sine h/d.
 GBELT:  DB      LA0,LA1                 ; x y
         DB      QDIF,QUNIT              ; x y           t3 = d
+        DB      LT3,QMU,QSUB,QE6N       ; x y           concentric?
         DB      LA2,LB2,QSUB            ; x y e
         DB      QDUP,ST2,QABS           ; x y |e|       t2 = e
         DB      LT3,QSUB,QLEG           ; x y h

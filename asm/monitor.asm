@@ -26,7 +26,7 @@ INPNAM  EQU     MWORK+23        ; name that INPUT asks for
 INPTXT  EQU     MWORK+25        ; TXTP while it does
 VSUM    EQU     MWORK+17        ; check sum of the variables, as of the last prompt
 GSP     EQU     MWORK+29        ; top of the GOSUB stack
-GSTK    EQU     MWORK+31        ; 12 lines to go back to, downwards
+GSTK    EQU     GSTKE-16        ; 8 lines to go back to, downwards
 GSTKE   EQU     MWORK+55
 
 TOKS    EQU     2300H           ; the typed line's tokens, at a page's start in TOKBUF

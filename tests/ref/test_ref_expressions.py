@@ -123,12 +123,13 @@ def test_priorities_and_spelling(expression: str, printed: str) -> None:
 
 
 def test_touching_curves_give_the_point_of_tangency() -> None:
-    assert value("X*((0,5):5.0009)") == "(0,0)"
-    assert value("X*((0,5):4.9991)") == "(0,0)"
-    assert value("(O:5)*((12,0):7.0005)") == "(4.99975,0)"
-    # One inside the other: halfway between 10 and 5.0005 + 5.
-    assert value("(O:10)*((5,0):5.0005)") == "(10.00025,0)"
-    assert value("(O:10):((4,0):6.0006)") == "(1,0,10.0003)"
+    """The place of the circle, of two circles that of the first."""
+    assert value("X*((0,5):5.0009)") == "(0,-0.0009)"
+    assert value("X*((0,5):4.9991)") == "(0,0.0009)"
+    assert value("(O:5)*((12,0):7.0005)") == "(5,0)"
+    assert value("(O:10)*((5,0):5.0005)") == "(10,0)"
+    assert value("((5,0):5.0005)*(O:10)") == "(10.0005,0)"
+    assert value("(O:10):((4,0):6.0006)") == "(1,0,10)"
 
 
 @pytest.mark.parametrize(

@@ -22,14 +22,6 @@ from skg.ref import run as reference
 SEED = os.environ.get("SKG_SEED", "1983")
 REGRESSIONS = sorted((Path(__file__).parent / "regressions").glob("*.skg"))
 
-#: What the firmware does not do right yet. These must fail, so that the list shrinks with them.
-FAULTS = {
-    "tangency-point-of-two-circles": "geom.asm takes the foot of the radical line",
-    "fillet-between-different-offsets": "two errors at once: which comes first?",
-    "gosub-nine-levels": "the ROM has twelve levels",
-    "rep-of-too-many-copies": "the ROM has no limit",
-}
-
 #: pytest's record_property.
 Record = Callable[[str, object], None]
 
@@ -93,13 +85,7 @@ def test_one_board_after_another_program() -> None:
         assert not difference(board.outcome(program), reference(program)), program
 
 
-def marked(path: Path) -> object:
-    """A regression as a test's parameter."""
-    marks = [pytest.mark.xfail(strict=True, reason=FAULTS[path.stem])] if path.stem in FAULTS else []
-    return pytest.param(path, id=path.stem, marks=marks)
-
-
-@pytest.mark.parametrize("path", map(marked, REGRESSIONS))
+@pytest.mark.parametrize("path", REGRESSIONS, ids=lambda path: path.stem)
 def test_regression(path: Path) -> None:
     lines = path.read_text().splitlines()
     program = "\n".join([line for line in lines if not line.startswith("?")] + [""])

@@ -62,8 +62,8 @@ class Crossings:
 def crossings(e: Curve, f: Curve, *, snap: bool = True) -> Crossings:
     """Both crossings of two curves; error 6 when there is none.
 
-    Curves that miss each other, or cross, by 1 µm or less touch: one point. With `snap` false, curves that
-    do cross keep both of their crossings however little they do.
+    Curves that miss each other, or cross, by 1 µm or less touch: one point, on the circle (of two, on the first).
+    With `snap` false, curves that do cross keep both of their crossings however little they do.
     """
     if isinstance(e, Line):
         if isinstance(f, Line):
@@ -101,7 +101,8 @@ def _line_circle(e: Line, c: Circle, snap: bool) -> Crossings:
     foot = c.centre - e.normal * distance
     gap = abs(distance) - abs(c.r)
     if _touch(gap, snap):
-        return Crossings(foot, foot, gap)
+        p = c.centre - e.normal * (abs(c.r) if distance > 0 else -abs(c.r))
+        return Crossings(p, p, gap)
     half_chord = real.mp.sqrt(c.r**2 - distance**2)
     near.note("shallow crossing", half_chord / c.r, SHALLOW)
     ahead = e.direction * (half_chord if c.r > 0 else -half_chord)
@@ -117,14 +118,7 @@ def _circle_circle(c1: Circle, c2: Circle, snap: bool) -> Crossings:
     outer, inner = d - (r1 + r2), abs(r1 - r2) - d
     gap = max(outer, inner)
     if _touch(gap, snap):
-        # Halfway between the two circles, on the line of centres.
-        if outer >= inner:
-            along = (d + r1 - r2) / 2
-        elif r1 > r2:
-            along = (d + r1 + r2) / 2
-        else:
-            along = (d - r1 - r2) / 2
-        p = c1.centre + to_second * along
+        p = c1.centre + to_second * (r1 if outer >= inner or r1 > r2 else -r1)
         return Crossings(p, p, gap)
     along = (d**2 + r1**2 - r2**2) / (2 * d)
     half_chord = real.mp.sqrt(r1**2 - along**2)
@@ -142,18 +136,14 @@ def belt(c1: Circle, c2: Circle) -> Line:
     """
     v = c2.centre - c1.centre
     d = v.length()
-    points = c1.r == 0 and c2.r == 0
-    if near.at_most(d, NEARLY, "same point") or (
-        c1.r != 0 and c2.r != 0 and near.at_most(d, MICRON, "concentric")
-    ):
+    if near.at_most(d, MICRON, "concentric"):
         raise Fault(Code.GEOMETRY)
     along = v * (1 / d)
     difference = c1.r - c2.r
     gap = abs(difference) - d
-    if not points and difference != 0 and near.at_most(abs(gap), MICRON, "touching"):
+    if difference != 0 and near.at_most(abs(gap), MICRON, "touching"):
         normal = along if difference > 0 else -along
-        g = (normal.dot(c1.centre) + c1.r + normal.dot(c2.centre) + c2.r) / 2
-        return Line(normal.x, normal.y, g)
+        return Line(normal.x, normal.y, normal.dot(c1.centre) + c1.r)
     if gap > 0:
         raise Fault(Code.GEOMETRY)
     k = difference / d

@@ -269,9 +269,9 @@ class Route:
             start = end
         else:
             circle, touch_e, touch_f = arc
-            rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start)
             if not _same_offset(e.offset, f.offset):
                 raise Fault(Code.GEOMETRY)
+            rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start)
             end = self._travel(e, e.place(touch_e), "cut")
             start = self._travel(replace(rounding, start=end), rounding.place(touch_f), "fillet")
         return start
