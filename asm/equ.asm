@@ -77,42 +77,44 @@ NAMER   EQU 8800H       ; the name R, the wire offset
 ; expression follow, then "]"
 TSUB    EQU 0C0H
 ; letter indices: A D R I J (numbers) P O V (points) C B T (circles) S X Y (lines)
-; words: functions first, then statements, then commands
-TSQR    EQU 0D0H
-TSIN    EQU 0D1H
-TCOS    EQU 0D2H
-TTG     EQU 0D3H
-TATG    EQU 0D4H
-TABS    EQU 0D5H
-TINTF   EQU 0D6H        ; INT
-TK1     EQU 0D7H
-TK2     EQU 0D8H
-TK3     EQU 0D9H
-TFROM   EQU 0DAH
-TCUT    EQU 0DBH
-TBACK   EQU 0DCH
-TEND    EQU 0DDH
-TREM    EQU 0DEH
-TPRINT  EQU 0DFH
-TGOTO   EQU 0E0H
-TIF     EQU 0E1H
-TGOSUB  EQU 0E2H
-TRETN   EQU 0E3H
-TREAD   EQU 0E4H
-TDATA   EQU 0E5H
-TREST   EQU 0E6H        ; RESTORE
-TINPUT  EQU 0E7H
-TSCALE  EQU 0E8H
-TSYM    EQU 0E9H
-TREP    EQU 0EAH
-TRECUT  EQU 0EBH
-TFIT    EQU 0ECH
-TRUN    EQU 0EDH        ; from here on: commands, not kept in a program
-TLIST   EQU 0EEH
-TNEW    EQU 0EFH
-TLOAD   EQU 0F0H
-TSAVE   EQU 0F1H
-TFREE   EQU 0F2H
+; words: functions first, then statements, then commands; the letters, which end KEYTAB,
+; come to the end of a byte
+TSQR    EQU 0CFH
+TSIN    EQU 0D0H
+TCOS    EQU 0D1H
+TTG     EQU 0D2H
+TATG    EQU 0D3H
+TABS    EQU 0D4H
+TINTF   EQU 0D5H        ; INT
+TK1     EQU 0D6H
+TK2     EQU 0D7H
+TK3     EQU 0D8H
+TFROM   EQU 0D9H
+TCUT    EQU 0DAH
+TBACK   EQU 0DBH
+TEND    EQU 0DCH
+TREM    EQU 0DDH
+TPRINT  EQU 0DEH
+TGOTO   EQU 0DFH
+TIF     EQU 0E0H
+TGOSUB  EQU 0E1H
+TRETN   EQU 0E2H
+TREAD   EQU 0E3H
+TDATA   EQU 0E4H
+TREST   EQU 0E5H        ; RESTORE
+TINPUT  EQU 0E6H
+TSCALE  EQU 0E7H
+TSYM    EQU 0E8H
+TREP    EQU 0E9H
+TRECUT  EQU 0EAH
+TFIT    EQU 0EBH
+TRUN    EQU 0ECH        ; from here on: commands, not kept in a program
+TLIST   EQU 0EDH
+TNEW    EQU 0EEH
+TLOAD   EQU 0EFH
+TSAVE   EQU 0F0H
+TFREE   EQU 0F1H
+TLETR   EQU 0F2H        ; ...0FFH: in KEYTAB, the letters of the names
 
 ; ---- Calculator registers M0...M63 -------------------------------------------
 ; Lxx pushes a register, Sxx pops into it: one byte of byte-code each.
@@ -266,10 +268,9 @@ FSTK    EQU 2140H       ; float stack of the calculator, 12 floats
 FWORK   EQU 2180H       ; work cells of float.asm and calc.asm (48 bytes)
 MWORK   EQU 21B0H       ; cells of monitor, lexer and io (80 bytes)
 CWORK   EQU 2200H       ; cells of parser, geom, cut and tape (128 bytes)
-LINBUF  EQU 2280H       ; the line being typed: LINMAX characters and CR
-LINMAX  EQU 100
-TOKBUF  EQU 22E8H       ; the same line as tokens
-TOKMAX  EQU 200
+LINBUF  EQU 2280H       ; the line being typed, 126 characters; reaches up to TOKS
+TOKS    EQU 2300H       ; the same line as tokens, at a page's start
+TOKROM  EQU 176         ; how many bytes of them
 STKLOW  EQU 23B0H       ; the stack may not grow below this
 STKTOP  EQU 2600H       ; 8080 stack, downwards
 PROG    EQU 2600H       ; program lines from here up; variables from the top of RAM down

@@ -1,13 +1,13 @@
 ; lexer.asm - text to tokens and back
 ; Offers: LEX LISTOK KEYTAB
-; Uses:   float (DECIN DECOUT FTOI16), io (PUTS PRDEC CRLF), start (DIGIT ADDA)
+; Uses:   float (DECIN), parser (PRNUM), io (PUTS PRDEC CRLF), start (DIGIT ADDA)
 ; Room:   480 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
-; what it does not know.  TOKS begins a page and so the low byte of a token's address is its distance from the
-; line's start; what is longer than TOKROM is refused after LEX, the stack having room
-; for what the longest line can make.
+; what it does not know.  TOKS begins a page, so that the low byte of a token's address is
+; its distance from the line's start; what is longer than TOKROM is refused after LEX, the
+; stack having room for what the longest line can make.
 
 ; LEXALL - makes tokens of the text in LINBUF
 ; Out: TXTP-> the first; DE-> behind the last token, HL-> behind its text; ERR 01, ERR 05
@@ -30,8 +30,10 @@ LEX1:   LDA     TXTP
         MOV     C,A
         CPI     CQUOTE
         JZ      LEXRAW
-        CPI     CCOLON
-        JC      LEX4
+        CALL    DIGIT
+        JC      LEXNUM
+        CPI     (CDOT-CZERO) & 255
+        JZ      LEXNUM
         PUSH    D
         LXI     D,KEYTAB        ; a word or a name's letter?
         MVI     B,TSQR          ; B = its token
@@ -48,10 +50,8 @@ LEXW2:  CALL    LEXCH
         POP     PSW             ; yes: HL-> behind it
         POP     D
         MOV     A,B
-        SUI     TFREE+1
-        CPI     14
-        JC      LEXNAM
-        MOV     A,B
+        CPI     TLETR
+        JNC     LEXNAM
         CPI     TREM
         JNZ     LEXN3
         STAX    D
@@ -83,17 +83,10 @@ LEXW4:  LDAX    D               ; to the next word
         INX     D
         ORA     A
         JP      LEXW4
-        INR     B
-        MOV     A,B
-        CPI     (TFREE+15) & 255
+        INR     B               ; (the last one's token is 0FFH)
         JNZ     LEXW1
         POP     D
         JMP     LEX2
-LEX4:   CPI     CDOT
-        JZ      LEXNUM
-        CPI     CZERO
-        JC      LEX2
-; (fall into LEXNUM)
 
 ; LEXNUM - a number
 LEXNUM: MVI     A,TFLT
@@ -101,18 +94,16 @@ LEXNUM: MVI     A,TFLT
         INX     D
         PUSH    D
         CALL    DECIN
-        JC      ERSYN
-        XTHL
-        LXI     D,5
-        DAD     D
-        XCHG
-        POP     H
-        JMP     LEX1
+        POP     D
+        INX     D
+        INX     D
+        INX     D
+        INX     D
+        JMP     LEX5
 
 ; LEXNAM - a name, or its letter and the bracket of a computed subscript
-; In:  A = index of the letter
-LEXNAM: MOV     C,A
-        ADI     TSUB
+; In:  A = B = the letter's token
+LEXNAM: SUI     TLETR-TSUB
         STAX    D
         CALL    LEXCH
         CPI     CLBRK
@@ -137,10 +128,10 @@ LEXN1:  CALL    LEXCH
         POP     H
         JNC     LEXN1
         JMP     ERRNG
-LEXN2:  MOV     A,C
+LEXN2:  MOV     A,B
         ADD     A
         ADD     A
-        ADI     TNAME
+        ADI     (TNAME-4*TLETR) & 255
         ADD     D
         MOV     B,E
         POP     D
@@ -171,12 +162,8 @@ LISTOK: MOV     A,M
         JM      LIST2
         CPI     TFLT
         JNZ     LIST1           ; stands for itself
-        PUSH    H
         MVI     B,9
-        CALL    DECOUT
-        POP     H
-        LXI     D,5
-        DAD     D
+        CALL    PRNUM
         JMP     LISTOK
 LIST2:  CPI     TSQR
         JC      LIST4
@@ -186,8 +173,7 @@ LIST2:  CPI     TSQR
         LDA     LASTC           ; GOTO behind something else: a blank between
         CPI     CBLANK
         MVI     A,CBLANK
-        JZ      LIST3
-        RST     2
+        CNZ     PUTC
 LIST3:  CALL    PRWORD
         MOV     A,M
         ORA     A
@@ -220,22 +206,21 @@ LIST5:  CALL    PRLET
 ; PRWORD - prints the word with token B
 ; Clobbers A, B
 PRLET:  ANI     0FH
-        ADI     TFREE+1
+        ADI     TLETR
         MOV     B,A
 PRWORD: PUSH    H
-        LXI     H,KEYTAB
-PRWO1:  MOV     A,B
+        LXI     H,KEYEND        ; back to the last character of the word in front of it
         DCR     B
-        CPI     TSQR
-        JZ      PRWO3
-PRWO2:  MOV     A,M             ; skip a word
-        INX     H
+PRWO1:  DCX     H
+        MOV     A,M
         ORA     A
-        JP      PRWO2
-        JMP     PRWO1
-PRWO3:  CALL    PUTS
+        JP      PRWO1
+        INR     B
+        JNZ     PRWO1
+        INX     H
+        CALL    PUTS
         POP     H
-        RET
+        RET                     ; (bit 7 set: for SQR, the word in front)
 
 ; The words in the order of their tokens, then the letters of the names; bit 7 set in the
 ; last character
@@ -278,3 +263,4 @@ KEYTAB: DB      "SQ",0D2H       ; SQR
         DB      0D0H,0CFH,0D6H                          ; P O V
         DB      0C3H,0C2H,0D4H                          ; C B T
         DB      0D3H,0D8H,0D9H                          ; S X Y
+KEYEND:

@@ -29,13 +29,10 @@ GSP     EQU     MWORK+29        ; top of the GOSUB stack
 GSTK    EQU     GSTKE-16        ; 8 lines to go back to, downwards
 GSTKE   EQU     MWORK+55
 
-TOKS    EQU     2300H           ; the typed line's tokens, at a page's start in TOKBUF
-TOKROM  EQU     176             ; how many bytes of them; LINBUF reaches up to TOKS
 LASTLN  EQU     9999            ; greatest line number
 CPRMPT  EQU     3EH             ; >
 CMARK   EQU     5EH             ; ^
 CDOT    EQU     2EH
-CCOLON  EQU     3AH
 CLESS   EQU     3CH
 CGT     EQU     3EH
 CLBRK   EQU     5BH
