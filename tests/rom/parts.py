@@ -329,10 +329,10 @@ def called(rng: Random) -> Statements:
 
 
 def nested(rng: Random) -> Statements:
-    """Points of an open route from a subroutine that calls itself, as deep as there are levels."""
+    """Points of an open route from a subroutine that calls itself, at times deeper than there are levels."""
     sub, out, go = (mark(rng) for _ in range(3))
     x, y = somewhere(rng)
-    deepest = rng.choice([1, 2, 4, 7, 8, 8])
+    deepest = rng.choice([1, 2, 4, 7, 8, 8, 9, 12])
     body = [f"*{sub}", "J=J+1", f"CUT {point(x, y)}+({rng.uniform(5, 30):.2f}*J#{rng.randint(10, 50)}*J)"]
     body += [f"IF J>={deepest} GOTO {out}", f"GOSUB {sub}", f"*{out}", "J1=J1+J", "RETURN"]
     return [*offset(rng), "J=0", "J1=0", f"GOTO {go}", *body, f"*{go}", f"GOSUB {sub}", "PRINT J,J1"]
