@@ -57,7 +57,7 @@ EGEOM   EQU 6           ; geometry impossible
 EOFFS   EQU 7           ; wire offset larger than an inner radius
 EDATA   EQU 8           ; out of DATA
 EMEM    EQU 9           ; memory full
-ETAPE   EQU 10          ; block does not fit, reader ran out, operator broke in
+ETAPE   EQU 10H         ; 10: block does not fit, reader ran out, operator broke in
 
 ; ---- Kinds of value --------------------------------------------------------
 KNUM    EQU 0           ; one float

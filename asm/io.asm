@@ -1,13 +1,11 @@
 ; io.asm - teletype, punch and reader
-; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF PRDEC, BREAK, PUNON PUNOFF,
-;         GETLIN
+; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF PRDEC, BREAK, PUNON PUNOFF, INCHR
 ; Uses:   monitor (the cells), float (DECOUT FITOF)
 ; Room:   280 bytes
 ;
 ; OUTSEL says where characters go: bit 0 paper, bit 1 punch.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
 ; until somebody asks (BREAK), ctrl-S holds all output until the next key.
-; In a line, a control character that is no editing key means nothing.
 
         IF      BRD51
 TTYDT   EQU     10H             ; teletype: data
@@ -31,6 +29,7 @@ WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
 ; In:  A = B = character; PSW, HL and BC on the stack   Clobbers nothing
 PUTC1:  LDA     OUTSEL
         RAR
+        MOV     C,A             ; bit 0: punch
         JNC     PUTC2
         MOV     A,B
         STA     LASTC
@@ -43,12 +42,10 @@ PAPER:  CALL    POLL
         IF      PTTY
 PUTC2:
         ELSE
-        LDA     OUTSEL
+PUTC2:  MOV     A,C
         RAR
-PUTC2:  RAR
         JNC     PUTC3
-PUNCH:  CALL    POLL
-        IN      PUNST
+PUNCH:  IN      PUNST
         ANI     TXRDY
         JZ      PUNCH
         MOV     A,B
@@ -110,10 +107,8 @@ ERTAPE: RST     1
 
 ; CRLF - ends the paper's line
 ; Clobbers A
-CRLF:   MVI     A,CCR
-        RST     2
-        MVI     A,CLF
-        RST     2
+CRLF:   CALL    PUTSI
+        DB      CCR,CLF+80H
         RET
 
 ; PUTSI - prints the text that follows the call
@@ -158,69 +153,14 @@ INCH1:  CALL    BREAK
         RZ
         IF      PTTY
         ELSE
-        MVI     M,0             ; keys do not count
         IN      PUNST
         ANI     RXRDY
         JZ      INCH1
         IN      PUNDT
-        MOV     M,A
+        DB      0FEH            ; CPI: skips the MOV
         ENDIF
 INCH2:  MOV     A,M
         ANI     7FH
         JZ      INCH1
-        MVI     M,0
+        MVI     M,0             ; (in LOAD keys do not count)
         RET
-
-; GETLIN - reads a line into LINBUF, 00 behind it
-; Out: ERR 09 when it is too long; to READY at the end of the tape   Clobbers all
-GETL1:  CALL    CRLF            ; ctrl-U: again
-GETLIN: LXI     H,LINBUF
-GETL2:  PUSH    H
-        CALL    INCHR
-        POP     H
-        CPI     CEOF
-        JZ      GETL6
-        CPI     CCR
-        JZ      GETL5
-        CPI     CLF
-        JZ      GETL5
-        CPI     CCTLU
-        JZ      GETL1
-        CPI     CRUB
-        JZ      GETL4
-        CPI     CBS
-        JZ      GETL4
-        CPI     CBLANK
-        JC      GETL2
-        MOV     M,A
-        INR     L               ; (LINBUF ends with a page)
-        JNZ     GETL3
-        DCR     L               ; full: stays, so that the line is refused
-        MVI     A,CBEL
-GETL3:  RST     2
-        JMP     GETL2
-GETL4:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
-        ORA     A
-        JNZ     GETL2
-        MOV     A,L
-        CPI     LINBUF & 255
-        JZ      GETL2
-        DCR     L
-        CALL    PUTSI
-        DB      CBS,CBLANK,CBS+80H
-        JMP     GETL2
-GETL5:  MVI     M,0
-        CALL    CRLF
-        INR     L
-        RNZ
-        JMP     ERMEM
-GETL6:  MOV     A,L             ; the tape ends: at a line's start?
-        CPI     LINBUF & 255
-        JNZ     ERTAPE
-        IF      PTTY
-        MVI     A,CXOFF         ; the teletype's reader off
-        RST     2
-        ENDIF
-        XRA     A
-        STA     LOADF
-        JMP     READY

@@ -1,7 +1,7 @@
-; lexer.asm - text to tokens and back
-; Offers: LEX LISTOK KEYTAB
-; Uses:   float (DECIN), parser (PRNUM), io (PUTS PRDEC CRLF), start (DIGIT ADDA)
-; Room:   480 bytes
+; lexer.asm - a line: typed, made tokens of, listed
+; Offers: GETLIN LEX LISTOK KEYTAB
+; Uses:   float (DECIN), parser (PRNUM), io (INCHR PUTS PRDEC CRLF), start (DIGIT ADDA)
+; Room:   560 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
@@ -9,14 +9,66 @@
 ; its distance from the line's start; what is longer than TOKROM is refused after LEX, the
 ; stack having room for what the longest line can make.
 
-; LEXALL - makes tokens of the text in LINBUF
-; Out: TXTP-> the first; DE-> behind the last token, HL-> behind its text; ERR 01, ERR 05
-; Clobbers all
-LEXALL: LXI     H,TOKS
+; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
+;          nothing is printed (OUTSEL = 0).  A control character that is no editing key
+;          means nothing
+; Out: TXTP-> the first token, DE-> behind the last; ERR 09 when the line is too long,
+;      ERR 01, ERR 05; to READY at the end of the tape   Clobbers all
+GETL1:  CALL    CRLF            ; ctrl-U: again
+GETLIN: LXI     B,LINBUF
+GETL2:  CALL    INCHR
+        CPI     CEOF
+        JZ      GETL5
+        CPI     CCR
+        JZ      GETL6
+        CPI     CLF
+        JZ      GETL6
+        CPI     CCTLU
+        JZ      GETL1
+        CPI     CRUB
+        JZ      GETL4
+        CPI     CBS
+        JZ      GETL4
+        CPI     CBLANK
+        JC      GETL2
+        STAX    B
+        INR     C               ; (LINBUF ends with a page)
+        JNZ     GETL3
+        DCR     C               ; full: stays, so that the line is refused
+        MVI     A,CBEL
+GETL3:  RST     2
+        JMP     GETL2
+GETL4:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
+        ORA     A
+        JNZ     GETL2
+        DCR     C
+        JP      GETLIN          ; (LINBUF begins at 80H of its page) none was there
+        CALL    PUTSI
+        DB      CBS,CBLANK,CBS+80H
+        JMP     GETL2
+GETL5:  MOV     A,C             ; the tape ends: at a line's start?
+        ADD     A
+        JNZ     ERTAPE
+        IF      PTTY
+        MVI     A,CXOFF         ; the teletype's reader off
+        RST     2
+        XRA     A
+        ENDIF
+        STA     LOADF
+        JMP     READY
+GETL6:  CALL    CRLF
+        XRA     A
+        STAX    B
+        STA     OUTSEL
+        INR     C
+        JZ      ERMEM
+        LXI     H,TOKS
         SHLD    TXTP
 ; (fall into LEX)
 
-; LEX - the same, but no further than the token in front of TXTP, when TXTP is not TOKS
+; LEX - makes tokens of the text in LINBUF, but no further than the token in front of
+;       TXTP, when TXTP is not TOKS
+; Out: DE-> behind the last token, HL-> behind its text; ERR 01, ERR 05   Clobbers all
 LEX:    LXI     H,LINBUF
         LXI     D,TOKS
 LEX1:   LDA     TXTP

@@ -1,5 +1,5 @@
 ; monitor.asm - prompt, program lines, running them, errors
-; Offers: READY RUNLP STMT ERR CHKED LINENO FINDLN CPHD NEW1 FREE1 CLEAR and the
+; Offers: READY RUNLP DIRECT STMT ERR LINENO FINDLN CPHD NEW1 FREE1 CLEAR and the
 ;         statements and commands that do not cut; the cells below
 ; Uses:   everything
 ; Room:   600 bytes
@@ -14,20 +14,20 @@ PEND    EQU     MWORK+2         ; end of the program
 VBOT    EQU     MWORK+4         ; lowest byte of the variables
 VTOP    EQU     MWORK+6         ; last byte of RAM
 NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
-CURLIN  EQU     MWORK+10        ; number of the line that runs
-CHKF    EQU     MWORK+12        ; 0: statements work; 1: they are only parsed; 2: at the prompt
-OUTSEL  EQU     MWORK+13        ; bit 0 paper, bit 1 punch; bit 2: INPUT waits for an answer
+CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: after an error
+OUTSEL  EQU     MWORK+11        ; bit 0 paper, bit 1 punch
+CURLIN  EQU     MWORK+12        ; number of the line that runs
 KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader
 LASTC   EQU     MWORK+16        ; last character on the paper
+VSUM    EQU     MWORK+17        ; check sum of the variables, as of the last prompt
 LSTTO   EQU     MWORK+19        ; last line to list
 DATP    EQU     MWORK+21        ; in front of the next DATA item: its comma, or a line's 00
-INPNAM  EQU     MWORK+23        ; name that INPUT asks for
-INPTXT  EQU     MWORK+25        ; TXTP while it does
-VSUM    EQU     MWORK+17        ; check sum of the variables, as of the last prompt
-GSP     EQU     MWORK+29        ; top of the GOSUB stack
-GSTK    EQU     GSTKE-16        ; 8 lines to go back to, downwards
-GSTKE   EQU     MWORK+55
+GSP     EQU     MWORK+23        ; top of the GOSUB stack
+GSTK    EQU     CWORK-16        ; 8 lines to go back to, downwards
+GSTKE   EQU     CWORK
+LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record
+STMT0   EQU     TOKS+6          ; its statement, behind the number token
 
 LASTLN  EQU     9999            ; greatest line number
 CPRMPT  EQU     3EH             ; >
@@ -39,17 +39,20 @@ CLBRK   EQU     5BH
 CLOWA   EQU     61H             ; a
 
 ; ERR - prints the error, after what belongs before it, and goes to READY
-; In:  A = number, the stack empty
+; In:  A = number (10 as 10H), the stack empty
 ERR:    MOV     B,A
-        LXI     H,OUTSEL
-        MOV     A,M
-        MVI     M,1
-        ANI     4
-        JZ      ERR1
-        MOV     A,B
+        LHLD    CHKF            ; L = CHKF, H = OUTSEL
         CPI     EMEM
-        JC      ASKAGN          ; a wrong answer
-ERR1:   PUSH    B
+        JNC     ERR1
+        MOV     A,H
+        ORA     L
+        JZ      ASKAGN          ; a wrong answer
+        DB      0FEH            ; CPI: skips the DAD
+ERR1:   DAD     H               ; (1 becomes 2: no mark)
+        MOV     C,L
+        PUSH    B
+        LXI     H,0102H         ; paper on; an error while the mark is made needs none
+        SHLD    CHKF
         XRA     A
         STA     LOADF
         IF      PTTY
@@ -58,174 +61,91 @@ ERR1:   PUSH    B
         MVI     A,CXOFF
         RST     2
         ENDIF
-        LDA     LASTC
+        DCR     C
+        PUSH    PSW
+        JNZ     ERR3
+        LXI     H,LINBUF        ; while parsing: the line again, and a mark under the end
+        CALL    PUTS            ; of the token in front of TXTP
+        CALL    CRLF
+        CALL    LEX
+        MVI     A,CBLANK
+        DCR     L
+ERR2:   DCR     L               ; (LINBUF begins at 80H of its page)
+        CM      PUTC
+        JM      ERR2
+        MVI     A,CMARK
+        RST     2
+ERR3:   LDA     LASTC
         CPI     CLF
         CNZ     CRLF
-        LXI     H,CHKF
-        MOV     A,M
-        MVI     M,2             ; (an error while MARK works needs no mark)
-        DCR     A
-        CZ      MARK            ; while parsing: show the place
+        POP     PSW
         CM      ROUTER          ; while working: the route ends
         CALL    PUTSI
         DB      "ERR",0A0H
         POP     PSW
-        ORA     A
-        DAA
         CALL    PUT2D
         LDA     NXTP+1
         ORA     A
-        JZ      ERR2
+        JZ      ERR5
         CALL    PUTSI
         DB      " LINE",0A0H
         LHLD    CURLIN
-        CALL    PRDEC
-ERR2:   CALL    CRLF
+ERR4:   CALL    PRDEC           ; FREE ends here too
+ERR5:   CALL    CRLF
 ; (fall into READY)
 
-; READY - the prompt: takes lines for ever
+; READY - the prompt: takes a line, for ever; it is parsed, then CHKED is the place
 READY:  LXI     SP,STKTOP
         CALL    VARSUM
-        XRA     A
-        STA     NXTP+1
+        LXI     H,0100H
+        SHLD    NXTP+1          ; and CHKF: parse only
         LDA     LOADF
         XRI     1
-        MOV     H,A
-        MVI     L,2
-        SHLD    CHKF            ; a tape's lines are not printed
+        STA     OUTSEL          ; a tape's lines are not printed
         MVI     A,CPRMPT
         RST     2
         CALL    GETLIN
-        LXI     H,1
-        SHLD    CHKF            ; parse only, print nothing
-        CALL    LEXALL
         LXI     H,-TOKS-TOKROM-1
         DAD     D
         JC      ERMEM
         PUSH    D               ; -> behind the tokens
         RST     6
-        JZ      READY
-        LXI     H,0
-        CPI     TFLT
-        JNZ     READ1           ; no number: a direct line
+        DCR     A               ; TFLT?
+        JNZ     STMT            ; no number: a direct line
         CALL    LINENO
-        PUSH    H
+        SHLD    LINUM
         DCX     H
         LXI     D,-LASTLN
         DAD     D
-        POP     H
         JC      ERSYN
-READ1:  PUSH    H               ; line number, 0: none
+; (fall into STMT)
+
+; STMT - one statement
+; In:  TXTP   Clobbers all
+STMT:   CALL    CALINI
         RST     6
-        PUSH    H               ; -> the statement
-        CNZ     STMT
-; (fall into CHKED)
-
-; CHKED - the line is understood: stores it or carries it out
-CHKED:  LXI     SP,STKTOP-6
-        POP     H
-        SHLD    TXTP
-        POP     D
-        MOV     A,D
-        ORA     E
-        JZ      DIRECT
-; (fall into STORE)
-
-; STORE - puts the line into the program, or takes it out
-; In:  DE = its number, TXTP-> its tokens, on the stack: -> behind them
-STORE:  POP     B
+        JZ      CHKEND          ; none at all
+        CPI     TFROM
+        JC      ASSIGN
         RST     3
-        CPI     TRUN
-        JNC     ERSYN           ; commands do not go into a program
-        DCX     H
-        DCX     H
-        MOV     M,D             ; the record's head takes the place of the number token
-        DCX     H
-        MOV     M,E
-        DCX     H
-        ORA     A
-        JZ      STOR1           ; the number alone: no record
-        MOV     A,C
-        SUB     L
-        MOV     B,A
-        INR     A
-        MOV     M,A
-        PUSH    H
-        CALL    SUMREC
-        MOV     M,A
-        POP     H
-        MOV     A,M
-STOR1:  MOV     M,A
-        MOV     C,A             ; C = length
-        PUSH    H
-        CALL    FINDLN          ; HL-> its place
-        MVI     A,0
-        JNZ     STOR2
-        MOV     A,M             ; A = length of the line that it replaces
-STOR2:  PUSH    H
-        MOV     D,H
-        MOV     E,L
-        CALL    ADDA
-        XCHG                    ; DE-> the program behind it
-        MOV     A,C
-        CALL    ADDA            ; HL-> where that must go
-        LDA     PEND
-        SUB     E
-        MOV     C,A
-        LDA     PEND+1
-        SBB     D
-        MOV     B,A
-        INX     B               ; BC = its length
-        PUSH    D
-        PUSH    H
-        DAD     B
-        DCX     H
-        XCHG
-        LHLD    VBOT
-        XCHG
-        CALL    CPHD
-        JNC     ERMEM
-        SHLD    PEND
-        POP     H
-        POP     D
-        CALL    CPHD
-        JC      STOR4
-        DAD     B               ; move up: last byte first
-        XCHG
-        DAD     B
-        XCHG
-STOR3:  DCX     D
-        DCX     H
-        LDAX    D
-        MOV     M,A
-        DCX     B
-        MOV     A,B
-        ORA     C
-        JNZ     STOR3
-        JMP     STOR5
-STOR4:  LDAX    D               ; move down
-        MOV     M,A
-        INX     D
-        INX     H
-        DCX     B
-        MOV     A,B
-        ORA     C
-        JNZ     STOR4
-STOR5:  POP     H
-        POP     D
-        LDAX    D
-        ORA     A
-        CNZ     COPY
-        CALL    RTNEW           ; the route buffer began at PEND
-        CALL    CLRPTR
-        JMP     READY
+        SUI     TFROM
+        LXI     H,STTAB
+        JMP     JTAB
+
+; The statements in the order of their tokens
+STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
+        DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
+        DW      SSCALE,SSYM,SREP,SRECUT,SFIT
+        DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
 
 ; FINDLN - finds a line
 ; In:  DE = number
-; Out: HL-> the first line with that number or a higher one; Z: it is that number;
-;      CY: no such line, HL-> the end   Clobbers A
+; Out: HL-> the first line with that number or a higher one, or the end; Z: it is that
+;      number, A = length of its record
 FINDLN: LXI     H,PROG
-FIND1L: MOV     A,M
+        XRA     A
+FIND1L: CALL    ADDA
+        MOV     A,M
         SUI     1
         RC                      ; (Z clear)
         PUSH    H
@@ -236,10 +156,22 @@ FIND1L: MOV     A,M
         MOV     L,A
         CALL    CPHD
         POP     H
-        RNC
         MOV     A,M
-        CALL    ADDA
-        JMP     FIND1L
+        JC      FIND1L
+        RET
+
+; LINE - takes the head of a program line
+; In:  HL-> its record   Out: DE = number, HL-> tokens, A = bytes from there to the next
+;      record; CY: the program ends here   Clobbers nothing else
+LINE:   MOV     A,M
+        SUI     3
+        RC
+        INX     H
+        MOV     E,M
+        INX     H
+        MOV     D,M
+        INX     H
+        RET
 
 ; CPHD - compares
 ; In:  HL, DE   Out: flags of HL - DE: CY less, Z equal   Clobbers A
@@ -270,16 +202,15 @@ OPTLN:  RST     6
 ; LNEND - takes a line number and demands the statement's end
 ; Out: DE = number   Clobbers all
 LNEND:  CALL    LINENO
-LNEND1: PUSH    H
+LNEND1: XCHG
         RST     7
-        POP     D
         RET
 
 ; SRETN - statement: RETURN
 SRETN:  RST     7
         LHLD    GSP
         MOV     A,L
-        CPI     GSTKE & 255
+        ORA     A               ; (GSTKE begins a page)
         JZ      ERLINE
         MOV     E,M
         INX     H
@@ -325,27 +256,25 @@ SIF:    CALL    EVNUM
         MOV     C,A
 SIF2:   PUSH    B
         CALL    EVNUM
-        RST     5
-        DB      LA0,QEND        ; left right
         RST     4
         DB      TGOTO
-        CALL    LNEND
-        PUSH    D
+        LDA     CHKF
+        ORA     A
+        JNZ     SGOTO
         RST     5
-        DB      SB0,SA0,QEND    ; -
+        DB      LA0,SB0,SA0,QEND ; -            a = left, b = right
         CALL    CMPNE
-        POP     D
         POP     B
         MVI     A,CEQU
         JZ      SIF3
-        MVI     A,CLESS
-        JC      SIF3
-        MVI     A,CGT
+        SBB     A               ; less: 0FFH
+        ADD     A
+        ADI     CGT             ; < or >
 SIF3:   CMP     B
-        JZ      GOLINE
+        JZ      SGOTO
         CMP     C
         RNZ
-        JMP     GOLINE
+; (fall into SGOTO)
 
 ; SGOTO - statement: GOTO n
 SGOTO:  CALL    LNEND
@@ -377,19 +306,11 @@ RUNLP:  LXI     SP,STKTOP
         MOV     A,H
         ORA     A
         JZ      READY
-        MOV     A,M
-        ORA     A
-        JZ      END1            ; past the last line
-        PUSH    H
+        CALL    LINE
+        JC      END1            ; past the last line
+        SHLD    TXTP
         CALL    ADDA
         SHLD    NXTP
-        POP     H
-        INX     H
-        MOV     E,M
-        INX     H
-        MOV     D,M
-        INX     H
-        SHLD    TXTP
         XCHG
         SHLD    CURLIN
         CALL    BREAK
@@ -397,23 +318,6 @@ DIRECT: LXI     H,0100H
         SHLD    CHKF            ; (nothing new to a line of the program)
         CALL    STMT
         JMP     RUNLP
-
-; STMT - one statement
-; In:  TXTP   Clobbers all
-STMT:   CALL    CALINI
-        RST     6
-        CPI     TFROM
-        JC      ASSIGN
-        RST     3
-        SUI     TFROM
-        LXI     H,STTAB
-        JMP     JTAB
-
-; The statements in the order of their tokens
-STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
-        DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
-        DW      SSCALE,SSYM,SREP,SRECUT,SFIT
-        DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
 
 ; SEND - statement: END
 SEND:   RST     7
@@ -477,81 +381,73 @@ SREAD:  CALL    GETREF
 ; In:  DE = name; ERR 08   Clobbers all
 READI:  CALL    CHKRET
         PUSH    D
+        LHLD    TXTP
+        PUSH    H
         LHLD    DATP
         MOV     A,M
         CPI     CCOMMA
-        JZ      READI3
-        INX     H               ; the line that follows the 00 and the check byte
-        INX     H
-READI1: MOV     A,M
-        ORA     A
-        JZ      ERDATA
-        MOV     D,H
-        MOV     E,L
-        CALL    ADDA
-        INX     D
-        INX     D
-        INX     D
-        LDAX    D
+        JZ      READI2
+        MVI     A,2             ; over the 00 and the check byte
+READI1: CALL    ADDA
+        CALL    LINE
+        JC      ERDATA
+        MOV     B,A
+        MOV     A,M
         CPI     TDATA
+        MOV     A,B
         JNZ     READI1
-        XCHG
-READI3: INX     H
-        XCHG
-        LHLD    TXTP
-        PUSH    H
-        XCHG
+READI2: INX     H
         SHLD    TXTP
         CALL    EVAL
         LHLD    TXTP
         SHLD    DATP
-        POP     H
-        SHLD    TXTP
+; (fall into READI3)
+
+; READI3 - ends READI and ASK; the stack keeps what it holds for ASKAGN until all is well
+; In:  on the stack: TXTP, name; a0 a1 a2, VKIND
+READI3: POP     H
         POP     D
-        JMP     SETREF
+        PUSH    D
+        PUSH    H
+        SHLD    TXTP
+        CALL    SETREF
+        POP     H
+        POP     H
+        RET
 
 ; SINPUT - statement: INPUT name, ...; a direct one asks for one name, its line being
 ;          overwritten by the answer
 SINPUT: CALL    GETREF
         CALL    ASK
-SINP1:  LXI     H,NXTP+1
-        LDA     CHKF
-        ORA     M
+        LHLD    NXTP+1          ; L = its high byte, H = CHKF
+        MOV     A,H
+        ORA     L
         RZ
+        MVI     A,1
+        STA     OUTSEL
         CALL    MORE
         JMP     SINPUT
 
-; ASKAGN - after a wrong answer: the stack is empty
-ASKAGN: LXI     H,RUNLP
-        PUSH    H
-        LXI     H,SINP1
-        PUSH    H
+; ASKAGN - after a wrong answer: A = 0, and on the stack is still what ASK needs
+ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
+        INR     A
+        STA     OUTSEL
         JMP     ASK1
 
-; ASK - asks for a value
+; ASK - asks for a value; a wrong answer is known by OUTSEL = 0 (GETLIN) in a statement
+;       that works
 ; In:  DE = name   Clobbers all
 ASK:    CALL    CHKRET
-        XCHG
-        SHLD    INPNAM
+        PUSH    D
         LHLD    TXTP
-        SHLD    INPTXT
-ASK1:   MVI     A,5
-        STA     OUTSEL
-        CALL    PUTSI
+        PUSH    H
+ASK1:   CALL    PUTSI
         DB      "?",0A0H
         CALL    GETLIN
-        CALL    LEXALL
         CALL    EVAL
         RST     4
         DB      TEOL
-        LHLD    INPNAM
-        XCHG
-        CALL    SETREF
-        MVI     A,1
-        STA     OUTSEL
-        LHLD    INPTXT
-        SHLD    TXTP
-        RET
+        JMP     READI3
 
 ; SLIST - command: LIST, LIST n, LIST n,m
 SLIST:  LXI     H,-1
@@ -571,14 +467,8 @@ SLIST:  LXI     H,-1
 SLIS1:  POP     H
 SLIS2:  CALL    LNEND1          ; DE = first
         CALL    FINDLN
-SLIS3:  MOV     A,M
-        ORA     A
-        RZ
-        INX     H
-        MOV     E,M
-        INX     H
-        MOV     D,M
-        INX     H
+SLIS3:  CALL    LINE
+        RC
         LDA     LSTTO
         SUB     E
         LDA     LSTTO+1
@@ -588,17 +478,14 @@ SLIS3:  MOV     A,M
         CALL    BREAK
         XCHG
         CALL    PRDEC
-        MVI     A,CBLANK
-        RST     2
         POP     H
-        CALL    LISTOK
+        MVI     A,CBLANK
+        CALL    LIST1
         INX     H               ; check byte
         JMP     SLIS3
 
 ; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
-SSAVE:  LDA     CHKF
-        ORA     A
-        CZ      PUNON
+SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
         CALL    SLIST
         MVI     A,CEOF
         RST     2
@@ -655,23 +542,4 @@ FREE1:  LHLD    PEND
         MOV     A,H
         SBB     D
         MOV     H,A
-        CALL    PRDEC
-        JMP     CRLF
-
-; MARK - prints the typed line again and a mark under the end of the token in front of TXTP
-; Out: sign flag clear   Clobbers all
-MARK:   LXI     H,LINBUF
-        CALL    PUTS
-        CALL    CRLF
-        CALL    LEX
-        MOV     A,L
-        SUI     LINBUF & 255
-        MOV     B,A
-        MVI     A,CBLANK
-MARK1:  DCR     B
-        JZ      MARK2
-        RST     2
-        JMP     MARK1
-MARK2:  MVI     A,CMARK
-        RST     2
-        JMP     CRLF
+        JMP     ERR4

@@ -1,8 +1,8 @@
-; start.asm - restarts and what happens at reset
+; start.asm - restarts, what becomes of a line that is understood, and reset
 ; Offers: the restarts of equ.asm and the routines in the gaps between them
-;         (DIGIT, ADDA, SREM, ERDATA), CHKEND, RESET, SUMREC, VARSUM
+;         (DIGIT, ADDA, ERDATA), SREM, RESET, VARSUM
 ; Uses:   io (PUTC1, the ports), calc (CALC), monitor
-; Room:   200 bytes
+; Room:   330 bytes
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
 ; grows past it; a test looks at the GAP labels.
@@ -38,10 +38,7 @@ GAP18:  DS      18H-$
 NEXT:   RST     6
         INX     H
         SHLD    TXTP
-
-; SREM - statement REM: nothing
-SREM:   RET
-
+        RET
 GAP20:  DS      20H-$
 
 ; RST 4 - EXPECT: takes a token, which must be the one that follows the RST
@@ -83,10 +80,108 @@ GAP38:  DS      38H-$
 ; In:  TXTP, CHKF   Out: ERR 01   Clobbers A, HL
 CHKEND: RST     4
         DB      TEOL
-        LDA     CHKF
+; SREM - statement: REM text
+SREM:   LDA     CHKF
         ORA     A
         RZ
-        JMP     CHKED
+; (fall into CHKED)
+
+; CHKED - the line is understood: stores it or carries it out
+; In:  on the stack, below STKTOP: -> behind its tokens
+CHKED:  LXI     SP,STKTOP-2
+        POP     B               ; C = low byte of it
+        LXI     H,TOKS
+        SHLD    TXTP
+        MOV     A,M
+        DCR     A               ; TFLT?
+        JNZ     DIRECT
+; (fall into STORE)
+
+; STORE - puts the line into the program, or takes it out; to READY
+; In:  LINUM = its number, C = low byte of -> behind its tokens
+STORE:  MVI     L,STMT0 & 255
+        SHLD    TXTP
+        RST     3
+        CPI     TRUN
+        JNC     ERSYN           ; commands do not go into a program
+        MVI     L,(LINUM-1) & 255 ; the record's head takes the place of the number token
+        ORA     A
+        JZ      STOR1           ; the number alone: no record
+        MOV     A,C
+        SUB     L
+        MOV     B,A
+        INR     A
+        MOV     M,A
+        PUSH    H
+        CALL    SUMREC
+        MOV     M,A
+        POP     H
+        MOV     A,M
+STOR1:  MOV     M,A
+        MOV     C,A             ; C = length
+        PUSH    H
+        LHLD    LINUM
+        XCHG
+        CALL    FINDLN          ; HL-> its place
+        JZ      STOR2           ; A = length of the line that it replaces
+        XRA     A
+STOR2:  PUSH    H
+        MOV     D,H
+        MOV     E,L
+        CALL    ADDA
+        XCHG                    ; DE-> the program behind it
+        MOV     A,C
+        CALL    ADDA            ; HL-> where that must go
+        LDA     PEND
+        SUB     E
+        MOV     C,A
+        LDA     PEND+1
+        SBB     D
+        MOV     B,A
+        INX     B               ; BC = its length
+        PUSH    D
+        PUSH    H
+        DAD     B
+        DCX     H
+        XCHG
+        LHLD    VBOT
+        XCHG
+        CALL    CPHD
+        JNC     ERMEM
+        SHLD    PEND
+        POP     H
+        POP     D
+        CALL    CPHD
+        JC      STOR4
+        DAD     B               ; move up: last byte first
+        XCHG
+        DAD     B
+        XCHG
+STOR3:  DCX     D
+        DCX     H
+        LDAX    D
+        MOV     M,A
+        DCX     B
+        MOV     A,B
+        ORA     C
+        JNZ     STOR3
+        JMP     STOR5
+STOR4:  LDAX    D               ; move down
+        MOV     M,A
+        INX     D
+        INX     H
+        DCX     B
+        MOV     A,B
+        ORA     C
+        JNZ     STOR4
+STOR5:  POP     H
+        POP     D
+        LDAX    D
+        ORA     A
+        CNZ     COPY
+        CALL    RTNEW           ; the route buffer began at PEND
+        CALL    CLRPTR
+        JMP     READY
 
 ; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
 ;         sound in it, signs on
@@ -112,14 +207,13 @@ RESE1:  MOV     A,M
         SHLD    KEYB            ; and LOADF
         INR     H
         SHLD    CHKF            ; no check mode, paper on
-        LXI     H,RAM
+        MVI     H,RAM/256
 RESE2:  MOV     A,M             ; does this page keep what is written?
-        CMA
-        MOV     M,A
+        INR     A
+        INR     M
         CMP     M
-        CMA
-        MOV     M,A             ; (flags stay)
         JNZ     RESE3
+        DCR     M
         INR     H
         JNZ     RESE2
 RESE3:  DCX     H               ; HL-> last byte of RAM
@@ -148,8 +242,7 @@ RESE5:  CALL    VARSUM
         CALL    CLEAR1
         CALL    PUTSI
         DB      "SKG",0A0H
-        CALL    FREE1
-        JMP     READY
+        JMP     FREE1
 
         IF      BRD51
 IOTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for
