@@ -432,6 +432,7 @@ SINPUT: CALL    GETREF
 ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
         INR     A
         STA     OUTSEL
+        CALL    CALINI          ; (the wrong answer's floats)
         JMP     ASK1
 
 ; ASK - asks for a value; a wrong answer is known by OUTSEL = 0 (GETLIN) in a statement

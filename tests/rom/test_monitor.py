@@ -397,6 +397,14 @@ def test_a_wrong_answer_is_asked_again(board: Board) -> None:
     assert paper == [*(f"? {text}" for text in [*wrong, "5", "5", "(1,2)"]), "5 (1,2)", "DD"]
 
 
+def test_wrong_answers_leave_nothing_behind(board: Board) -> None:
+    """What an answer has computed before it turns out wrong does not pile up."""
+    lines(board, "10 INPUT A,P", "20 PRINT A,P")
+    listed = board.listing()
+    assert answer(board, *["1/0"] * 40, "5", *["TG 90"] * 40, "(1,2)")[-2:] == ["5 (1,2)", "DD"]
+    assert board.listing() == listed
+
+
 def test_ctrl_c_at_input(board: Board) -> None:
     lines(board, "10 INPUT A")
     board.machine.type("RUN\r")
