@@ -94,6 +94,7 @@ def stepped(block: str, at: Grid) -> NDArray[np.int64]:
     return np.vstack([[parsed.start], places]) - parsed.start + at
 
 
+@cache
 def farthest(part: Path, drift: bool) -> tuple[float, Grid]:
     """Largest distance of the controller's places from the exact path, µm, and where it ends less where it began.
 

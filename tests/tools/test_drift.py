@@ -22,6 +22,8 @@ from skg.tape import Block, parse_block
 
 #: µm; docs/drift.md says why it cannot be 1.
 FARTHEST = 2.41
+DRIFT_PAGE = ROOT / "docs" / "drift.md"
+TABLE_HEAD = "| part | gap | off | without drift: off |\n|---|---|---|---|\n"
 
 examples = pytest.mark.parametrize("part", EXAMPLES, ids=lambda part: part.stem)
 
@@ -156,3 +158,26 @@ def test_cad_tape_is_for_the_standard() -> None:
     text = (ROOT / "examples" / "cad-tape.skg").read_text()
     assert b"B50100B100B100000GYNR1" in reference(text).tape
     assert b"B50100B100B100002GYNR1" in reference(text, drift=False).tape
+
+
+def row(part: Path) -> str:
+    """The line of docs/drift.md for a part."""
+    gap = simulate(tapes.read(str(part.with_suffix(".3b")))).gap
+    shown = "open" if part.stem in OPEN else f"{gap[0]}, {gap[1]}"
+    return f"| {part.stem} | {shown} | {farthest(part, drift=True)[0]:.2f} | {farthest(part, drift=False)[0]:.2f} |"
+
+
+def test_table_of_the_manual() -> None:
+    text = DRIFT_PAGE.read_text()
+    assert text[text.index(TABLE_HEAD) + len(TABLE_HEAD) :].split("\n")[:-1] == list(map(row, EXAMPLES))
+
+
+def write_table() -> None:
+    """Put the measured table into docs/drift.md."""
+    text = DRIFT_PAGE.read_text()
+    head = text[: text.index(TABLE_HEAD) + len(TABLE_HEAD)]
+    DRIFT_PAGE.write_text(head + "".join(f"{row(part)}\n" for part in EXAMPLES))
+
+
+if __name__ == "__main__":
+    write_table()
