@@ -40,7 +40,6 @@ ERROR = re.compile(r"^\| (?P<number>\d\d) \| [^|]+ \| (?P<example>`[^|]+`) \|", 
 #: A block as the teletype lists it.
 BLOCK = re.compile(r"\d{4} (B|D)")
 #: A row of the README's table of what the ROM has: words, yes or no.
-STATUS = re.compile(r"^\| (?P<words>`[A-Z`, ]+`) \| (?P<state>yes|no) \|", re.M)
 
 
 @dataclass
@@ -134,13 +133,12 @@ def test_operations_are_complete() -> None:
 
 
 def test_statements_are_complete() -> None:
-    """Every word of the grammar stands in the appendix of statements, and in the README's table."""
+    """Every word of the grammar stands in the appendix of statements."""
     grammar = (ROOT / "tools" / "skg" / "ref" / "skg.lark").read_text()
     words = set(re.findall(r"^_([A-Z]+)\.2", grammar, re.M))
     appendix = PAGE.read_text().split("## Appendix A")[1].split("## Appendix B")[0]
     shown = set(re.findall(r"^\| `([A-Z]+)", appendix, re.M))
     assert words <= shown
-    assert words <= set(status())
 
 
 def pictures() -> list[Example]:
@@ -169,18 +167,6 @@ def test_every_picture_is_used() -> None:
 
 # The same on the firmware
 
-def status() -> dict[str, bool]:
-    """Which words the ROM knows, by the README's table."""
-    return {word: row["state"] == "yes" for row in STATUS.finditer(README.read_text())
-            for word in re.findall(r"[A-Z]+", row["words"])}
-
-
-def missing(source: str) -> bool:
-    """Does a program use a word that the README says the ROM does not know?"""
-    words = "|".join(word for word, known in status().items() if not known)
-    return bool(words and re.search(rf"\b({words})\b", re.sub(r"REM.*|\"[^\"]*\"", "", source)))
-
-
 def on_the_board(source: str, answers: list[str], folder: Path) -> tuple[str, str]:
     """Paper (without the listing of blocks) and tape of a program on the firmware."""
     (folder / "part.skg").write_text(source)
@@ -195,8 +181,6 @@ def on_the_board(source: str, answers: list[str], folder: Path) -> tuple[str, st
 @pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
 @pytest.mark.parametrize("example", examples(), ids=by_line)
 def test_example_on_the_board(example: Example, tmp_path: Path) -> None:
-    if missing(example.source):
-        pytest.skip("README: not in the ROM yet")
     paper, tape = on_the_board(example.source, example.answers, tmp_path)
     assert paper == (example.paper or "")
     assert example.tape is None or tape == example.tape
@@ -209,15 +193,6 @@ def test_operations_on_the_board(tmp_path: Path) -> None:
     source = "".join(f"{n} PRINT {row['example']}\n" for n, row in enumerate(table, 1))
     paper, _ = on_the_board(source, [], tmp_path)
     assert paper.splitlines() == [row["result"] for row in table]
-
-
-@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
-def test_what_is_missing_is_refused() -> None:
-    """What the README calls missing is; that what it has works, the examples show."""
-    lines = [line for example in examples() for line in example.source.splitlines()]
-    for word in (word for word, known in status().items() if not known):
-        line = next(line for line in lines if re.match(rf"\d+ {word}\b", line))
-        assert "ERR 01" in said_by_the_board(f">{line}\n"), f"{word} works: README.md"
 
 
 def said_by_the_board(session: str) -> str:
