@@ -494,9 +494,8 @@ CORNO:  LDA     RNAMED
         CALL    XING
         RST     5
         DB      QMU,STL         ; -
-        DB      LA0,LPX,QSUB    ; dx
-        DB      LA1,LPY,QSUB    ; dx dy
-        DB      QHYP            ; d2
+        DB      LPX,SB0,LPY,SB1 ; -
+        DB      QDIF,QHYP       ; d2
         DB      LKX,LPX,QSUB    ; d2 dx
         DB      LKY,LPY,QSUB    ; d2 dx dy
         DB      QHYP,QSUB       ; d2-d1

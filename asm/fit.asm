@@ -46,9 +46,9 @@ SFIT3:  DB      QEND
         ORA     A
         JZ      SFIT4
         RST     5
-        DB      LT2,L2X,QSUB    ; y x v u dx
-        DB      LT3,L2Y,QSUB    ; y x v u dx dy
-        DB      QFAR,QJN        ; y x v u       within 1 um: the same node
+        DB      LT2,L2X,QSUB,SB0 ; y x v u      b = w
+        DB      LT3,L2Y,QSUB,SB1
+        DB      LB0,LB1,QFAR,QJN ; y x v u      within 1 um: the same node
         DB      SFIT6-$
         DB      QEND
         LDA     FITN
@@ -82,15 +82,14 @@ SPAN2:  DB      QEND            ; (for SPAN: tangent 1 mirrors tangent 2)
 
 ; MIDDLE - node 2 gets the tangent of the circle through node 1, it, and the node that arrives;
 ;          then the span to it goes out
-; In:  t2 t3 = node that arrives   Out: ERR 06 when it is node 1   Clobbers all
+; In:  t2 t3 = node that arrives, b = w: to it from node 2   Out: ERR 06 when it is node 1
+; Clobbers all
 MIDDLE: RST     5
         DB      LT2,L1X,QSUB    ; dx
         DB      LT3,L1Y,QSUB    ; dx dy
         DB      QFAR,QE6N       ; -
         DB      L2X,L1X,QSUB,SA0 ; -            a = v
         DB      L2Y,L1Y,QSUB,SA1 ; -
-        DB      LT2,L2X,QSUB,SB0 ; -            b = w
-        DB      LT3,L2Y,QSUB,SB1 ; -
         DB      LA0,QSQ,LA1,QSQ,QADD,ST4 ; -    t4 = v*v
         DB      LB0,QSQ,LB1,QSQ,QADD,ST5 ; -    t5 = w*w
         DB      LA0,LT4,QDIV,LB0,LT5,QDIV,QADD ; x
@@ -107,14 +106,15 @@ SPAN1:  DB      QEND
         CALL    CHORD
         RST     5
         DB      QDUP,QSQ        ; along along^2
-        DB      L1U,L2U,QSUB,QDUP,ST2,QSQ ; along along^2 .. t2 t3 = t-u
-        DB      L1V,L2V,QSUB,QDUP,ST3,QSQ
-        DB      QADD,LT1,QMUL   ; along along^2 |t-u|^2*v*v
+        DB      L2U,L1U,QSUB,QDUP,SB0,QSQ ; along along^2 ..    b = u-t
+        DB      L2V,L1V,QSUB,QDUP,SB1,QSQ
+        DB      QADD,LT1,QMUL   ; along along^2 |u-t|^2*v*v
         DB      QADD,QSQRT,QADD ; below
         DB      QDUP,QNEAR,QSUB,QE6N ; below
-        DB      LT1,QSWP,QDIV,ST1 ; -           t1 = d
-        DB      L1X,L2X,QADD,LT1,LT2,QMUL,QADD,QHALF,QMUL ; mx
-        DB      L1Y,L2Y,QADD,LT1,LT3,QMUL,QADD,QHALF,QMUL ; mx my
+        DB      L1X,L2X,QADD,SA0 ; below        a = P+Q
+        DB      L1Y,L2Y,QADD,SA1
+        DB      LT1,QSWP,QDIV,QREFL ; -         a = P+Q + d*(t-u)
+        DB      LA0,QHALF,QMUL,LA1,QHALF,QMUL ; mx my
         DB      QEND
         LXI     D,MNODE1
         CALL    FITCIR
