@@ -22,14 +22,13 @@ TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
 TZNUM   EQU CWORK+20    ; its number
 
 ; SEGMNT - the wire goes along C to K
-; In:  C, VKIND its kind, A (entry), K, W   Out: W   Clobbers all
+; In:  C, VKIND its kind, A (entry), K, b = chord from A to K, W   Out: W   Clobbers all
 SEGMNT: RST     5
-        DB      QVK,QJC         ; -             (ADVANC made a = C)
+        DB      QVK,QJC         ; -
         DB      SEGM1-$
         DB      QEND
         JMP     MOVE
 SEGM1:  DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
-        DB      LKX,LC0,QSUB,SB0,LKY,LC1,QSUB,SB1 ; -
         DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
         DB      QJMP
         DB      ARC-$
@@ -210,10 +209,7 @@ XRND:   RST     5
         DB      Q8DIG,QSWP,QSUB         ; um |whole| room
         DB      QJN
         DB      PUTB9-$
-        DB      QSWP,QJN                ; |whole|
-        DB      XRND1-$
-        DB      QRET
-XRND1:  DB      QNEG,QRET               ; -|whole|
+        DB      QSWP,QSIG,QRET          ; whole
         IF      NODRIFT
 ; QROOT: w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
 ; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
