@@ -1,5 +1,5 @@
 ; consts.asm - constants of the calculator
-; Offers: CONTAB, the byte-codes Q0 ... that push them
+; Offers: CONTAB, the byte-codes Q0 ... that push them; PREDEF
 ; Room:   5 bytes each
 ;
 ; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see
@@ -20,6 +20,17 @@ Q8DIG   EQU 0CBH        ; the greatest number on a tape
 QI180   EQU 0CCH
 Q10     EQU 0CDH
 
+; O, X and Y, as variables in ROM; the list ends with the zero that comes next, on which FIND
+; stops when there is no such name
+PREDEF: DB      TNAME+24,0      ; O = (0,0)
+        DB      0,0,0,0,0, 0,0,0,0,0
+        DB      TNAME+48,0      ; X = (0,-1,0)
+        DB      0,0,0,0,0
+        DB      81H,80H,0,0,0
+        DB      0,0,0,0,0
+        DB      TNAME+52,0      ; Y = (1,0,0)
+        DB      81H,0,0,0,0
+        DB      0,0,0,0,0, 0,0,0,0,0
 CONTAB: DB      0,0,0,0,0               ; 0
         DB      81H,00H,00H,00H,00H     ; 1
         DB      7BH,00H,00H,00H,00H     ; 1/64

@@ -234,9 +234,6 @@ ITPN0:  RST     5               ; the first item
         DB      LNR,SQR,QJMP    ; -
         DB      ITPN4-$
 ITPN1:  CALL    NOFIL           ; a fillet between an element and a point
-        LDA     FITSM
-        ORA     A
-        JNZ     ITPN2           ; no need to look
         RST     5
         DB      QCA,QONEL       ; -
         DB      QJMP
@@ -257,11 +254,9 @@ PUTN:   STA     NKIND
 ; GETR - wire offset of now; where none was set: 0
 ; Out: NR   Clobbers A, BC, DE, HL
 GETR:   LXI     D,NAMER
-        CALL    FIND
+        CALL    FIND            ; when there is none: HL -> CONTAB, which begins with 0
         XCHG
-        JNC     GETR1
-        LXI     D,PREDEF+2      ; a zero
-GETR1:  LXI     H,MNR
+        LXI     H,MNR
         JMP     COPY5
 
 ; SCALED - the value in the scale of the tape
@@ -281,9 +276,6 @@ NAMEIT: LDA     RLASTP
         STA     RNAMED
         ORA     A
         RZ
-        LDA     FITSM
-        ORA     A
-        RNZ
         RST     5
         DB      LPX,SB0,LPY,SB1 ; -
         DB      QNA,QONEL,QRET  ; -
@@ -605,8 +597,7 @@ SAME:   LDA     VKIND
         DB      QSUB            ; -
         DB      QJN             ; -
         DB      SAME9-$
-        DB      LT0,LB0,QMUL    ; place along N's normal
-        DB      LT1,LB1,QMUL,QADD
+        DB      LT0,SA0,LT1,SA1,QDOT ; place along N's normal
         DB      LB2,QSUB,LT2,QSUB ; off
         DB      QABS            ; |off|
 SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|
@@ -797,8 +788,7 @@ PUNDS1: MVI     A,CLTD
         RST     2
         DCR     B
         JNZ     PUNDS1
-        CALL    CRLF
-        JMP     PUNOFF
+        JMP     PUTB3
 
 ; CENDST - what END does to the tape: the route ended, DD
 CENDST: CALL    ENDRT
@@ -837,8 +827,11 @@ XSENS1: DB      LA2,QADD        ; r'
 XJC:    LDA     VKIND
         SUI     KLIN            ; CY: jump
         JMP     OJMP1
-; QONEL: demands that the point b lies on the element a
-XONEL:  RST     5
+; QONEL: demands that the point b lies on the element a; along a fitted curve it does
+XONEL:  LDA     FITSM
+        ORA     A
+        RNZ
+        RST     5
         DB      QJC
         DB      XONEL1-$
         DB      QDOT,LA2        ; place gamma

@@ -1,6 +1,6 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5)
 ; Offers: SFIT FITEND EVPNT
-; Uses:   cut (ITEM3 GETR FITN), parser, calc
+; Uses:   cut (ITEM3 GETR CPYEL FITN), parser, calc
 ; Room:   430 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
@@ -130,8 +130,7 @@ SPAN3:  RST     5               ; (SFIT comes here with the first node)
         CALL    FITPNT
         LXI     D,MNODE2
         LXI     H,MNODE1
-        MVI     A,20
-        CALL    COPY
+        CALL    CPYEL           ; (a byte too much, which nobody minds)
         MVI     A,1
 FITN1:  STA     FITN
         RET
@@ -180,8 +179,7 @@ CHORD:  RST     5
 ;          brings the chord
 ; In:  DE -> node, joint on the float stack   Out: 1U 1V = joint, FITSM   Clobbers all
 FITCIR: LXI     H,MA
-        MVI     A,20
-        CALL    COPY            ; a0 a1 = tangent, a2 b0 = node
+        CALL    CPYEL           ; a0 a1 = tangent, a2 b0 = node
         RST     5
         DB      S1V,S1U         ; -
         DB      L1V,LB0,QSUB,SB1 ; -

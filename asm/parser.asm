@@ -304,18 +304,6 @@ FIND2:  MVI     B,0
         DAD     B
         JMP     FIND1
 
-; O, X and Y, as variables in ROM
-PREDEF: DB      TNAME+24,0      ; O = (0,0)
-        DB      0,0,0,0,0, 0,0,0,0,0
-        DB      TNAME+48,0      ; X = (0,-1,0)
-        DB      0,0,0,0,0
-        DB      81H,80H,0,0,0
-        DB      0,0,0,0,0
-        DB      TNAME+52,0      ; Y = (1,0,0)
-        DB      81H,0,0,0,0
-        DB      0,0,0,0,0, 0,0,0,0,0
-        DB      0
-
 ; ASSIGN - statement: name = expression
 ; In:  TXTP -> name   Clobbers all
 ASSIGN: CALL    GETREF

@@ -192,7 +192,7 @@ PUTB1:  MVI     A,CLTB
         RST     2
 PUTB2:  LDA     TZNUM
         RST     2
-        CALL    CRLF
+PUTB3:  CALL    CRLF            ; (PUNDS ends here too)
         JMP     PUNOFF
 PUTB8:  DB      QRET
 PUTB9:  DB      QEND
