@@ -3,7 +3,7 @@
 ; Uses:   monitor (the cells), float (DECOUT FITOF)
 ; Room:   280 bytes
 ;
-; OUTSEL says where characters go: bit 0 paper, bit 1 punch.
+; OUTSEL says where characters go: 0 nowhere, 1 paper, 2 paper and punch.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
 ; until somebody asks (BREAK), ctrl-S holds all output until the next key.
 
@@ -26,11 +26,12 @@ CBEL    EQU     07H
 WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
 
 ; PUTC1 - the work of RST 2
-; In:  A = B = character; PSW, HL and BC on the stack   Clobbers nothing
-PUTC1:  LDA     OUTSEL
-        RAR
-        MOV     C,A             ; bit 0: punch
-        JNC     PUTC2
+; In:  A = character; PSW, HL and BC on the stack   Clobbers nothing
+PUTC1:  MOV     B,A
+        LDA     OUTSEL
+        MOV     C,A
+        ORA     A
+        JZ      PUTC2
         MOV     A,B
         STA     LASTC
 PAPER:  CALL    POLL
@@ -40,18 +41,16 @@ PAPER:  CALL    POLL
         MOV     A,B
         OUT     TTYDT
         IF      PTTY
-PUTC2:
         ELSE
-PUTC2:  MOV     A,C
-        RAR
-        JNC     PUTC3
+        DCR     C
+        JZ      PUTC2
 PUNCH:  IN      PUNST
         ANI     TXRDY
         JZ      PUNCH
         MOV     A,B
         OUT     PUNDT
         ENDIF
-PUTC3:  POP     B
+PUTC2:  POP     B
         POP     H
         POP     PSW
         RET
@@ -78,22 +77,22 @@ POLL2:  MOV     A,M
         IF      PTTY
 PUNON:  MVI     A,CDC2
         RST     2
-        RET
         ELSE
-PUNON:  MVI     A,3
+PUNON:  MVI     A,2
         STA     OUTSEL
-        RET
         ENDIF
+        RET
 
 ; PUNOFF - punch off; the place for a break, since the block is complete
+; PAPON - paper on: the same where the punch is not the teletype's
 ; Clobbers A, HL
+PUNOFF:
         IF      PTTY
-PUNOFF: MVI     A,CDC4
+        MVI     A,CDC4
         RST     2
-        ELSE
-PUNOFF: MVI     A,1
-        STA     OUTSEL
         ENDIF
+PAPON:  MVI     A,1
+        STA     OUTSEL
 ; (fall into BREAK)
 
 ; BREAK - has the operator broken in?
@@ -121,12 +120,10 @@ PUTSI:  XTHL
 ; PUTS - prints a text whose last character has bit 7 set, or which ends with 00
 ; In:  HL-> it   Out: HL-> behind it   Clobbers A
 PUTS:   MOV     A,M
-        ANI     7FH
-        RZ
-        RST     2
-        MOV     A,M
-        INX     H
         ORA     A
+        RZ
+        RST     2               ; (without bit 7)
+        INX     H
         JP      PUTS
         RET
 
@@ -136,8 +133,7 @@ PRDEC:  LXI     D,MT0
         PUSH    D
         CALL    FITOF
         POP     H
-        MVI     B,8
-        JMP     DECOUT
+        JMP     DECOUT          ; (B does not matter, the number being whole and small)
 
 ; INCHR - waits for the next character, from the reader in LOAD, else from the teletype
 ; Out: A; ctrl-Z when the reader has stopped   Clobbers DE, HL

@@ -15,7 +15,7 @@ VBOT    EQU     MWORK+4         ; lowest byte of the variables
 VTOP    EQU     MWORK+6         ; last byte of RAM
 NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
 CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: after an error
-OUTSEL  EQU     MWORK+11        ; bit 0 paper, bit 1 punch
+OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper; 2: paper and punch
 CURLIN  EQU     MWORK+12        ; number of the line that runs
 KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader
@@ -167,7 +167,7 @@ LINE:   MOV     A,M
         SUI     3
         RC
         INX     H
-        MOV     E,M
+LINE1:  MOV     E,M             ; (RETURN takes its line here)
         INX     H
         MOV     D,M
         INX     H
@@ -212,10 +212,7 @@ SRETN:  RST     7
         MOV     A,L
         ORA     A               ; (GSTKE begins a page)
         JZ      ERLINE
-        MOV     E,M
-        INX     H
-        MOV     D,M
-        INX     H
+        CALL    LINE1
         SHLD    GSP
         XCHG
         JMP     RUN1
@@ -423,8 +420,7 @@ SINPUT: CALL    GETREF
         MOV     A,H
         ORA     L
         RZ
-        MVI     A,1
-        STA     OUTSEL
+        CALL    PAPON
         CALL    MORE
         JMP     SINPUT
 
@@ -451,10 +447,11 @@ ASK1:   CALL    PUTSI
         JMP     READI3
 
 ; SLIST - command: LIST, LIST n, LIST n,m
-SLIST:  LXI     H,-1
+SLIST:  RST     6
+        LXI     H,-1
         SHLD    LSTTO
-        RST     6
-        LXI     H,0
+        INX     H
+        XCHG
         JZ      SLIS2
         CALL    LINENO
         SHLD    LSTTO           ; one number: that line
@@ -465,8 +462,8 @@ SLIST:  LXI     H,-1
         DB      CCOMMA
         CALL    LINENO
         SHLD    LSTTO
-SLIS1:  POP     H
-SLIS2:  CALL    LNEND1          ; DE = first
+SLIS1:  POP     D
+SLIS2:  RST     7               ; DE = first
         CALL    FINDLN
 SLIS3:  CALL    LINE
         RC

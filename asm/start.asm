@@ -25,11 +25,11 @@ ERROR:  POP     H
 GAP10:  DS      10H-$
 
 ; RST 2 - PUTC: prints, and punches when the punch is on
-; In:  A   Clobbers nothing
+; In:  A, whose bit 7 does not count   Clobbers nothing
 PUTC:   PUSH    PSW
         PUSH    H
         PUSH    B
-        MOV     B,A
+        ANI     7FH
         JMP     PUTC1
 GAP18:  DS      18H-$
 
@@ -137,12 +137,10 @@ STOR2:  PUSH    H
         MOV     C,A
         LDA     PEND+1
         SBB     D
-        MOV     B,A
-        INX     B               ; BC = its length
+        MOV     B,A             ; BC = its length - 1
         PUSH    D
         PUSH    H
         DAD     B
-        DCX     H
         XCHG
         LHLD    VBOT
         XCHG
@@ -152,29 +150,27 @@ STOR2:  PUSH    H
         POP     H
         POP     D
         CALL    CPHD
-        JC      STOR4
-        DAD     B               ; move up: last byte first
+        JC      STOR3           ; down: first byte first
+        DAD     B               ; up: last byte first
         XCHG
         DAD     B
         XCHG
-STOR3:  DCX     D
+STOR3:  INR     B
+        INR     C
+STOR4:  LDAX    D               ; (from here on CY: down)
+        MOV     M,A
+        JC      STOR5
+        DCX     D
+        DCX     D
         DCX     H
-        LDAX    D
-        MOV     M,A
-        DCX     B
-        MOV     A,B
-        ORA     C
-        JNZ     STOR3
-        JMP     STOR5
-STOR4:  LDAX    D               ; move down
-        MOV     M,A
-        INX     D
+        DCX     H
+STOR5:  INX     D
         INX     H
-        DCX     B
-        MOV     A,B
-        ORA     C
+        DCR     C
         JNZ     STOR4
-STOR5:  POP     H
+        DCR     B
+        JNZ     STOR4
+        POP     H
         POP     D
         LDAX    D
         ORA     A
@@ -223,7 +219,6 @@ RESE3:  DCX     H               ; HL-> last byte of RAM
         XCHG
         SHLD    VTOP
         CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
-        CALL    CRLF
         LXI     H,PROG
 RESE4:  SHLD    PEND            ; sound so far
         MOV     A,M
@@ -236,12 +231,12 @@ RESE4:  SHLD    PEND            ; sound so far
         LHLD    PEND
         MVI     M,0             ; from here on it is lost
         CALL    PUTSI
-        DB      "DAMAGED",CCR,CLF+80H
+        DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
 RESE5:  CALL    VARSUM
         CNZ     CLRVAR
         CALL    CLEAR1
         CALL    PUTSI
-        DB      "SKG",0A0H
+        DB      CCR,CLF,"SKG",0A0H
         JMP     FREE1
 
         IF      BRD51
