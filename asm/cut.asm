@@ -224,10 +224,7 @@ ITPNT:  RST     5
         LXI     D,GBELT
         CALL    RUNBC           ; the line from P to D
         MVI     A,KLIN
-        CALL    PUTN
-        LDA     RELEMS
-        STA     RNAMED
-        CALL    ADDEL
+        CALL    ITELM
         JMP     ITPN2
 ITPN0:  RST     5               ; the first item
         DB      LDX,SQX,LDY,SQY ; -
@@ -557,12 +554,9 @@ XING:   RST     5
         DB      QXCH,QCA        ; -             b = N
         DB      LA2,LO1,QADD,SA2 ; -
         DB      QEND
-        LHLD    VKIND           ; left kind
-        MOV     B,L
         LDA     NKIND
-        STA     VKIND
         MVI     C,RSTAR
-        JMP     BINOP
+        JMP     BINOPK
 
 ; SAMEF - is N as written the first element?   SAMEC - does N go on along C?
 ; Out: Z set when it is   Clobbers all
@@ -812,7 +806,7 @@ XCA:    LXI     D,MCUR
         JMP     XNA1
 XNA:    LXI     D,MNEXT
         LDA     NKIND
-XNA1:   STA     VKIND
+XNA1:   STA     VKIND           ; (for FETCH and SAMEF too)
         LXI     H,MA
         JMP     COPY15
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense

@@ -1,5 +1,5 @@
 ; geom.asm - the operations of language.md table 2.1, as calculator code
-; Offers: BINOP, RUNBC, XXCH, GBELT, ERGEO and the operations QDOT ... QXCH of ops.asm
+; Offers: BINOP, BINOPK, RUNBC, XXCH, GBELT, ERGEO and the operations QDOT ... QXCH of ops.asm
 ; Uses:   calc, float, parser (SETK, CHKRET, error stubs)
 ; Room:   600 bytes
 ;
@@ -7,6 +7,13 @@
 ; a point is a circle of radius 0, a number a point on the X axis, a turn about O one
 ; about (0,0).  The result goes to a0 a1 a2.  Byte-code lines carry the float stack
 ; behind them, top last.
+
+; BINOPK - carries out an operator
+; In:  VKIND = kind of a, A = kind of b, C = rank   Out: as BINOP   Clobbers all
+BINOPK: LXI     H,VKIND
+        MOV     B,M
+        MOV     M,A
+; (fall into BINOP)
 
 ; BINOP - carries out an operator
 ; In:  B = kind of a, VKIND = kind of b, C = rank of the operator (parser.asm)

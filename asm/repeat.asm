@@ -57,11 +57,9 @@ FETCH:  LXI     H,RTURN         ; (a fillet may have said so before)
         LHLD    RSRC
         MOV     A,M
         ANI     7FH
-        STA     VKIND
         INX     H
         XCHG
-        LXI     H,MA
-        JMP     COPY15
+        JMP     XNA1
 
 ; IMAGE - feeds the item at RSRC, mirrored or turned
 ; In:  bit 7 of A: its corner turns right   Clobbers all
@@ -75,12 +73,9 @@ IMAGE:  CALL    FETCH
         DB      LRX,SB1,LRY,SB2 ; -
         DB      QEND
         LHLD    ROP             ; L = rank, H = kind
-        LDA     VKIND
-        MOV     B,A
         MOV     C,L
         MOV     A,H
-        STA     VKIND
-        CALL    BINOP
+        CALL    BINOPK
         JMP     ITEM2
 IMAG1:  LDA     RFILW
         ORA     A
@@ -121,7 +116,7 @@ JOINT:  CALL    FITEND
         MVI     A,0
         JNZ     JOINT1
         RST     3
-        MVI     A,80H
+        RRC                     ; bit 7
 JOINT1: STA     RJOIN
         RET
 
