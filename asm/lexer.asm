@@ -15,8 +15,11 @@
 ; Out: TXTP-> the first token, DE-> behind the last; ERR 09 when the line is too long,
 ;      ERR 01, ERR 05; to READY at the end of the tape   Clobbers all
 GETL1:  CALL    CRLF            ; ctrl-U: again
+GETL2:  POP     H
 GETLIN: LXI     B,LINBUF
-GETL2:  CALL    INCHR
+GETL3:  LXI     H,GETL3         ; every key returns there
+        PUSH    H
+        CALL    INCHR
         CPI     CEOF
         JZ      GETL5
         CPI     CCR
@@ -30,22 +33,22 @@ GETL2:  CALL    INCHR
         CPI     CBS
         JZ      GETL4
         CPI     CBLANK
-        JC      GETL2
+        RC
         STAX    B
         INR     C               ; (LINBUF ends with a page)
-        JNZ     GETL3
+        JNZ     PUTC
         DCR     C               ; full: stays, so that the line is refused
         MVI     A,CBEL
-GETL3:  RST     2
-        JMP     GETL2
+        RST     2
+        RET
 GETL4:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
         ORA     A
-        JNZ     GETL2
+        RNZ
         DCR     C
-        JP      GETLIN          ; (LINBUF begins at 80H of its page) none was there
+        JP      GETL2           ; (LINBUF begins at 80H of its page) none was there
         CALL    PUTSI
         DB      CBS,CBLANK,CBS+80H
-        JMP     GETL2
+        RET
 GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ADD     A
         JNZ     ERTAPE
@@ -56,7 +59,8 @@ GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ENDIF
         STA     LOADF
         JMP     READY
-GETL6:  CALL    CRLF
+GETL6:  POP     H
+        CALL    CRLF
         XRA     A
         STAX    B
         STA     OUTSEL
@@ -70,11 +74,14 @@ GETL6:  CALL    CRLF
 ;       TXTP, when TXTP is not TOKS
 ; Out: DE-> behind the last token, HL-> behind its text; ERR 01, ERR 05   Clobbers all
 LEX:    LXI     H,LINBUF
-        LXI     D,TOKS
-LEX1:   LDA     TXTP
+        LXI     D,TOKS-1
+LEX1:   INX     D
+        LDA     TXTP
         DCR     A
         CMP     E
         RC                      ; TXTP reached
+        LXI     B,LEX1          ; every token returns there
+        PUSH    B
         CALL    LEXCH
         STAX    D
         ORA     A
@@ -124,9 +131,9 @@ LEXRAW: INX     H
         CMP     C
         JNZ     LEXRAW
 LEX2:   INX     H               ; the character stands for itself
-LEX5:   INX     D
-        JMP     LEX1
-LEX3:   INX     D
+        RET
+LEX3:   POP     B
+        INX     D
         INX     H
         RET
 
@@ -138,7 +145,8 @@ LEXW4:  LDAX    D               ; to the next word
         INR     B               ; (the last one's token is 0FFH)
         JNZ     LEXW1
         POP     D
-        JMP     LEX2
+        INX     H               ; no: the character stands for itself
+        RET
 
 ; LEXNUM - a number
 LEXNUM: MVI     A,TFLT
@@ -151,7 +159,7 @@ LEXNUM: MVI     A,TFLT
         INX     D
         INX     D
         INX     D
-        JMP     LEX5
+        RET
 
 ; LEXNAM - a name, or its letter and the bracket of a computed subscript
 ; In:  A = B = the letter's token
@@ -191,7 +199,7 @@ LEXN2:  MOV     A,B
         INX     D
         MOV     A,B
 LEXN3:  STAX    D
-        JMP     LEX5
+        RET
 
 ; LEXCH - next character that counts
 ; In:  HL-> text   Out: A = it, in upper case; HL-> it   Clobbers nothing else
@@ -206,34 +214,35 @@ LEXCH:  MOV     A,M
 
 ; LISTOK - prints a line's tokens as text that LEX reads back into the same tokens
 ; In:  HL-> tokens   Out: HL-> behind their end   Clobbers all
-LIST1:  RST     2
 LISTOK: MOV     A,M
         INX     H
         ORA     A
         JZ      CRLF
-        JM      LIST2
+        LXI     D,LISTOK        ; every token returns there
+        PUSH    D
+        JM      LIST1
         CPI     TFLT
-        JNZ     LIST1           ; stands for itself
+        JNZ     PUTC            ; stands for itself
         MVI     B,9
-        CALL    PRNUM
-        JMP     LISTOK
-LIST2:  CPI     TSQR
-        JC      LIST4
+        JMP     PRNUM
+LIST1:  CPI     TSQR
+        JC      LIST3
         MOV     B,A             ; a word
         CPI     TFROM
-        JC      LIST3
+        JC      LIST2
         LDA     LASTC           ; GOTO behind something else: a blank between
         CPI     CBLANK
         MVI     A,CBLANK
         CNZ     PUTC
-LIST3:  CALL    PRWORD
+LIST2:  CALL    PRWORD
         MOV     A,M
         ORA     A
-        JZ      LISTOK          ; no blank at the line's end
+        RZ                      ; no blank at the line's end
         MVI     A,CBLANK
-        JMP     LIST1
-LIST4:  CPI     TSUB
-        JNC     LIST5
+        RST     2
+        RET
+LIST3:  CPI     TSUB
+        JNC     LIST4
         MOV     D,A
         RRC
         RRC
@@ -244,15 +253,20 @@ LIST4:  CPI     TSUB
         ANI     3
         MOV     D,A             ; DE = subscript
         ORA     E
-        JZ      LISTOK          ; P0 is P
-        PUSH    H
+        RZ                      ; P0 is P
+; (fall into LISTDE)
+
+; LISTDE - prints the number DE
+; Clobbers all but HL
+LISTDE: PUSH    H
         XCHG
         CALL    PRDEC
         POP     H
-        JMP     LISTOK
-LIST5:  CALL    PRLET
+        RET
+LIST4:  CALL    PRLET
         MVI     A,CLBRK
-        JMP     LIST1
+        RST     2
+        RET
 
 ; PRLET - prints the letter with index A (low half)
 ; PRWORD - prints the word with token B

@@ -343,6 +343,15 @@ SPRI4:  RST     3
         RST     2
         JMP     SPRI4
 
+; SDATA - statement: DATA expression, ...: nothing, until READ comes
+SDATA:  LDA     CHKF
+        ORA     A
+        RZ
+SDAT1:  LXI     H,SDAT1         ; where MORE returns to
+        PUSH    H
+        CALL    EVAL
+; (fall into MORE)
+
 ; MORE - in a list: takes the comma; where there is none the statement must end, and
 ;        the routine that called is left
 ; Clobbers A, HL
@@ -351,14 +360,6 @@ MORE:   RST     6
         JZ      NEXT
         POP     H
         JMP     CHKEND
-
-; SDATA - statement: DATA expression, ...: nothing, until READ comes
-SDATA:  LDA     CHKF
-        ORA     A
-        RZ
-SDAT1:  CALL    EVAL
-        CALL    MORE
-        JMP     SDAT1
 
 ; SREST - statement: RESTORE, RESTORE n
 SREST:  CALL    OPTLN
@@ -474,11 +475,11 @@ SLIS3:  CALL    LINE
         RC
         PUSH    H
         CALL    BREAK
-        XCHG
-        CALL    PRDEC
         POP     H
+        CALL    LISTDE
         MVI     A,CBLANK
-        CALL    LIST1
+        RST     2
+        CALL    LISTOK
         INX     H               ; check byte
         JMP     SLIS3
 

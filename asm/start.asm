@@ -109,17 +109,14 @@ STORE:  MVI     L,STMT0 & 255
         JZ      STOR1           ; the number alone: no record
         MOV     A,C
         SUB     L
-        MOV     B,A
         INR     A
-        MOV     M,A
-        PUSH    H
-        CALL    SUMREC
-        MOV     M,A
-        POP     H
-        MOV     A,M
 STOR1:  MOV     M,A
         MOV     C,A             ; C = length
         PUSH    H
+        MOV     B,A
+        DCR     B
+        CALL    SUMREC
+        MOV     M,A             ; (no record: somewhere in the stack's free room)
         LHLD    LINUM
         XCHG
         CALL    FINDLN          ; HL-> its place
