@@ -3,7 +3,7 @@
 ; Uses:   monitor (the cells), float (DECOUT FITOF)
 ; Room:   280 bytes
 ;
-; OUTSEL says where characters go: 0 nowhere, 1 paper, 2 paper and punch.
+; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
 ; until somebody asks (BREAK), ctrl-S holds all output until the next key.
 
@@ -43,7 +43,7 @@ PAPER:  CALL    POLL
         IF      PTTY
         ELSE
         DCR     C
-        JZ      PUTC2
+        JNZ     PUTC2
 PUNCH:  IN      PUNST
         ANI     TXRDY
         JZ      PUNCH
@@ -78,7 +78,7 @@ POLL2:  MOV     A,M
 PUNON:  MVI     A,CDC2
         RST     2
         ELSE
-PUNON:  MVI     A,2
+PUNON:  MVI     A,1
         STA     OUTSEL
         ENDIF
         RET
@@ -91,7 +91,7 @@ PUNOFF:
         MVI     A,CDC4
         RST     2
         ENDIF
-PAPON:  MVI     A,1
+PAPON:  MVI     A,2
         STA     OUTSEL
 ; (fall into BREAK)
 

@@ -15,7 +15,7 @@ VBOT    EQU     MWORK+4         ; lowest byte of the variables
 VTOP    EQU     MWORK+6         ; last byte of RAM
 NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
 CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: after an error
-OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper; 2: paper and punch
+OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper and punch; else paper
 CURLIN  EQU     MWORK+12        ; number of the line that runs
 KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader
@@ -51,7 +51,7 @@ ERR:    MOV     B,A
 ERR1:   DAD     H               ; (1 becomes 2: no mark)
         MOV     C,L
         PUSH    B
-        LXI     H,0102H         ; paper on; an error while the mark is made needs none
+        LXI     H,0202H         ; paper on; an error while the mark is made needs none
         SHLD    CHKF
         XRA     A
         STA     LOADF
@@ -100,7 +100,7 @@ READY:  LXI     SP,STKTOP
         LXI     H,0100H
         SHLD    NXTP+1          ; and CHKF: parse only
         LDA     LOADF
-        XRI     1
+        DCR     A
         STA     OUTSEL          ; a tape's lines are not printed
         MVI     A,CPRMPT
         RST     2
@@ -128,8 +128,7 @@ STMT:   CALL    CALINI
         CPI     TFROM
         JC      ASSIGN
         RST     3
-        SUI     TFROM
-        LXI     H,STTAB
+        LXI     H,STTAB-2*TFROM+256 ; (JTAB takes 2*A in a byte)
         JMP     JTAB
 
 ; The statements in the order of their tokens
@@ -311,7 +310,7 @@ RUNLP:  LXI     SP,STKTOP
         XCHG
         SHLD    CURLIN
         CALL    BREAK
-DIRECT: LXI     H,0100H
+DIRECT: LXI     H,0200H
         SHLD    CHKF            ; (nothing new to a line of the program)
         CALL    STMT
         JMP     RUNLP
@@ -425,10 +424,9 @@ SINPUT: CALL    GETREF
         CALL    MORE
         JMP     SINPUT
 
-; ASKAGN - after a wrong answer: A = 0, and on the stack is still what ASK needs
+; ASKAGN - after a wrong answer: what ASK needs is still on the stack
 ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
-        INR     A
-        STA     OUTSEL
+        CALL    PAPON
         CALL    CALINI          ; (the wrong answer's floats)
         JMP     ASK1
 
@@ -443,8 +441,7 @@ ASK1:   CALL    PUTSI
         DB      "?",0A0H
         CALL    GETLIN
         CALL    EVAL
-        RST     4
-        DB      TEOL
+        RST     7
         JMP     READI3
 
 ; SLIST - command: LIST, LIST n, LIST n,m

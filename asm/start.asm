@@ -198,7 +198,7 @@ RESE1:  MOV     A,M
         ENDIF
         LXI     H,0
         SHLD    KEYB            ; and LOADF
-        INR     H
+        DCR     H
         SHLD    CHKF            ; no check mode, paper on
         MVI     H,RAM/256
 RESE2:  MOV     A,M             ; does this page keep what is written?
