@@ -187,14 +187,14 @@ FITCIR: LXI     H,MA
         DB      LB0,QSQ,LB1,QSQ,QADD ; w*w
         DB      QDUP,QEPS,QMUL  ; w*w limit     r = 50 m
         DB      QMU,QDUP,QADD,QMAX ; w*w limit  or |t x w| = 2 um
-        DB      QCRS,QABS,QSUB  ; w*w limit-|t x w|
+        DB      QCRS,QDUP,ST0,QABS,QSUB ; w*w limit-|t x w|
         DB      QJN             ; w*w
         DB      FITC1-$
         DB      QDRP,QEND       ; -
         XRA     A
 FITC2:  STA     FITSM
         RET
-FITC1:  DB      QCRS,QDUP,QADD,QDIV ; r
+FITC1:  DB      LT0,QDUP,QADD,QDIV ; r
         DB      LA2,QOVR,LA1,QMUL,QSUB ; r x
         DB      QOVR,LA0,QMUL   ; r x
         DB      L1V,LB1,QSUB,QADD,SA1 ; r x

@@ -67,14 +67,14 @@ ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
         DB      LA0,LT0,QADD,SB0,LA1,LT1,QADD,SB1 ; -
 ARC1:   DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
         ELSE
-        DB      QDOT,QJN        ; -             ends far apart: no doubt
+        DB      QHALF,QCRS,QSUB ; -
+        DB      QJN
         DB      ARC1-$
         DB      LT3,QJN         ; -
         DB      ARC1-$
-        DB      QHALF,QCRS,QSUB ; -             short; sweep not positive:
-        DB      QJN
+        DB      QDOT,QJN        ; -             far apart: no doubt
         DB      ARC1-$
-        DB      QEND
+        DB      QEND            ;               short, and the sweep is not positive:
         JMP     MOVE            ; a line
 ARC1:   DB      LA0,QSQ,LA1,QSQ,QADD ; n        t5 = r: the root cut off ...
         DB      QDUP,QSQRT,QFLR,ST5 ; n
