@@ -109,11 +109,11 @@ LEXW2:  CALL    LEXCH
         POP     PSW             ; yes: HL-> behind it
         POP     D
         MOV     A,B
+        STAX    D
         CPI     TLETR
         JNC     LEXNAM
         CPI     TREM
-        JNZ     LEXN3
-        STAX    D
+        RNZ
         MVI     C,TEOL
         MOV     A,M
         CPI     CBLANK          ; LIST puts one blank after REM
@@ -198,7 +198,7 @@ LEXN2:  MOV     A,B
         STAX    D
         INX     D
         MOV     A,B
-LEXN3:  STAX    D
+        STAX    D
         RET
 
 ; LEXCH - next character that counts

@@ -378,7 +378,7 @@ SREAD:  CALL    GETREF
 ; In:  DE = name; ERR 08   Clobbers all
 READI:  CALL    CHKRET
         PUSH    D
-        LHLD    TXTP
+        RST     6               ; HL = TXTP
         PUSH    H
         LHLD    DATP
         MOV     A,M
@@ -393,10 +393,9 @@ READI1: CALL    ADDA
         CPI     TDATA
         MOV     A,B
         JNZ     READI1
-READI2: INX     H
-        SHLD    TXTP
+READI2: CALL    NEXT1           ; TXTP = HL+1
         CALL    EVAL
-        LHLD    TXTP
+        RST     6
         SHLD    DATP
 ; (fall into READI3)
 
@@ -435,7 +434,7 @@ ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
 ; In:  DE = name   Clobbers all
 ASK:    CALL    CHKRET
         PUSH    D
-        LHLD    TXTP
+        RST     6               ; HL = TXTP
         PUSH    H
 ASK1:   CALL    PUTSI
         DB      "?",0A0H
