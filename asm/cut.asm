@@ -315,20 +315,7 @@ CORDON: LXI     H,0
         SHLD    RTURN           ; and RNAMED
         RET
 
-; FIRST - N is the first element: the wire goes to it
-FIRST:  CALL    OFFCHK
-        LXI     H,RELEMS
-        INR     M
-        CALL    NTOC
-        LXI     D,MNEXT
-        LXI     H,MFIRST
-        CALL    CPYEL
-        LXI     H,FIRST1
-        PUSH    H
-        LDA     RFSTP           ; set when a point was written before
-        ORA     A
-        JNZ     PATC
-        JMP     PLACE
+; FIRST goes on when it has K: the wire goes there
 FIRST1: RST     5
         DB      LKX,QDUP,SAX,SGX ; -
         DB      LKY,QDUP,SAY,SGY ; -            A = G = K
@@ -503,6 +490,21 @@ NAMED2: DB      LCR,ST0         ; -
 NAMED3: DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a
         DB      LA1,LT0,QMUL,LKY,QADD,SKY ; -
         DB      QRET
+
+; FIRST - N is the first element: the wire goes to it
+FIRST:  CALL    OFFCHK
+        LXI     H,RELEMS
+        INR     M
+        CALL    NTOC
+        LXI     D,MNEXT
+        LXI     H,MFIRST
+        CALL    CPYEL
+        LXI     H,FIRST1
+        PUSH    H
+        LDA     RFSTP           ; set when a point was written before
+        ORA     A
+        JNZ     PATC
+; (fall into PLACE)
 
 ; PLACE - place on C, as offset, that is nearest to the start hole
 ; Out: K   Clobbers all

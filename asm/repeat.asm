@@ -83,8 +83,10 @@ IMAG1:  LDA     RFILW
         JMP     ITEM2
 
 ; OPENRT - demands an open route that is in memory whole
-; Out: RSTOP, HL = its first item = RSRC   ERR 06, ERR 09   Clobbers A
-OPENRT: LDA     RITEMS
+; In:  HL = operation on its items   Out: ROP, RSTOP, HL = its first item = RSRC; ERR 06, ERR 09
+; Clobbers A
+OPENRT: SHLD    ROP
+        LDA     RITEMS
         ORA     A
         JZ      ERGEO
 OPENR1: LDA     RBFULL
@@ -144,7 +146,6 @@ SREP1:  RST     5
         DB      LA2,LSC,QMUL,SRY ; -
         DB      QEND
         LXI     H,KTURN*256+2   ; #
-        SHLD    ROP
         CALL    OPENRT
 SREP2:  LHLD    RCOUNT
         DCX     H
@@ -177,7 +178,6 @@ SSYM:   CALL    JOINT
         DB      LA2,LSC,QMUL,SRY ; -
         DB      QEND
         LXI     H,KLIN*256+7    ; /
-        SHLD    ROP
         CALL    NEEDEL          ; but a point
         CALL    OPENRT
         LHLD    RSTOP
