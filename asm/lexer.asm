@@ -256,9 +256,10 @@ LIST3:  CPI     TSUB
         RZ                      ; P0 is P
 ; (fall into LISTDE)
 
-; LISTDE - prints the number DE
+; LISTDE - prints the number DE; the place for a break
 ; Clobbers all but HL
 LISTDE: PUSH    H
+        CALL    BREAK
         XCHG
         CALL    PRDEC
         POP     H

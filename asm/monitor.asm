@@ -313,7 +313,7 @@ RUNLP:  LXI     SP,STKTOP
 DIRECT: LXI     H,0200H
         SHLD    CHKF            ; (nothing new to a line of the program)
         CALL    STMT
-        JMP     RUNLP
+DIREC1: JMP     RUNLP           ; (its address lies at PROG-2, where DATP may point: no comma)
 
 ; SEND - statement: END
 SEND:   RST     7
@@ -446,21 +446,22 @@ ASK1:   CALL    PUTSI
 ; SLIST - command: LIST, LIST n, LIST n,m
 SLIST:  RST     6
         LXI     H,-1
-        SHLD    LSTTO
-        INX     H
-        XCHG
+        LXI     D,0
         JZ      SLIS2
         CALL    LINENO
-        SHLD    LSTTO           ; one number: that line
         PUSH    H
+        PUSH    H               ; one number: that line
         RST     6
         JZ      SLIS1
+        POP     H
         RST     4
         DB      CCOMMA
         CALL    LINENO
-        SHLD    LSTTO
-SLIS1:  POP     D
-SLIS2:  RST     7               ; DE = first
+        PUSH    H
+SLIS1:  POP     H
+        POP     D
+SLIS2:  SHLD    LSTTO
+        RST     7               ; DE = first
         CALL    FINDLN
 SLIS3:  CALL    LINE
         RC
@@ -469,9 +470,6 @@ SLIS3:  CALL    LINE
         LDA     LSTTO+1
         SBB     D
         RC
-        PUSH    H
-        CALL    BREAK
-        POP     H
         CALL    LISTDE
         MVI     A,CBLANK
         RST     2

@@ -50,6 +50,11 @@ def test_the_routines_between_the_restarts_fit() -> None:
     assert names["GAP38"] and names["CHKEND"] == 0x38
 
 
+def test_no_comma_in_front_of_the_program() -> None:
+    """Where DATA begins, READ looks at PROG-2, which holds the low byte of the return address of STMT."""
+    assert symbols()["DIREC1"] & 0xFF != ord(",")
+
+
 # The line editor
 
 
