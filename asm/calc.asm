@@ -44,13 +44,13 @@ QOVR    EQU 0BH         ; x y -> x y x
 QSWP    EQU 0CH         ; x y -> y x
 QSQ     EQU 0DH         ; x -> x*x
 QNEG    EQU 0EH         ; x -> -x
-QABS    EQU 0FH         ; x -> |x|
+QFLR    EQU 0FH         ; x -> greatest whole number not above
 QSQRT   EQU 10H         ; x -> square root
 QSIN    EQU 11H         ; x -> sine of x degrees
 QCOS    EQU 12H
 QTG     EQU 13H
 QATG    EQU 14H         ; x -> arc tangent in degrees
-QFLR    EQU 15H         ; x -> greatest whole number not above
+QABS    EQU 15H         ; x -> |x|
 QOWN    EQU 16H         ; number of the first operation that another file adds
 
 ; CALINI - empties the float stack
@@ -221,6 +221,6 @@ OPTAB:  DW      FADD,FSUB,FMUL,FDIV
         DW      OJN,OJZ,ODRP
         DW      OJMP,ORET
         DW      ODUP,OOVR,OSWP,OSQ
-        DW      FNEG,FABS,FSQR
+        DW      FNEG,FFLR,FSQR
         DW      FSIN,FCOS,FTG,FATG
-        DW      FFLR
+        DW      FABS

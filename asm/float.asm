@@ -824,7 +824,8 @@ FSER2:  MOV     A,M             ; s = coefficient - Z*s - CY
         POP     H
         JMP     FSER2
 FSER3:  MOV     H,M             ; exponent: Q = s / 2^e
-        JMP     FNRM            ; (SIGN is z's; what L has hardly counts)
+        MVI     L,0             ; guard (the table's last coefficient counts on it)
+        JMP     FNRM            ; (SIGN is z's)
 
 ; sin(64 y) for |y| <= 90/64, to 2^-35; the last coefficient is one less than the best, so
 ; that 30 and 90 degrees come out exactly
@@ -888,8 +889,9 @@ FATG3:  DB      QI64,QMUL,QDIV,QEND     ; base y        y = 64 times the quotien
 
 ; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
 ; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
-; 9 digits from DECOUT give that float again, from 1E-4 to 1E22; beyond, powers are
-; taken in steps of 10^16, and the error is at most 10 units of 2^-32.
+; 9 digits from DECOUT give that float again, from 1E-4 to 1E13, and up to 1E22 unless
+; they end in zeros; beyond, powers are taken in steps of 10^16, and the error is at most
+; 10 units of 2^-32.
 
 ; FTEN  - |t0| / 10^A
 ; FTEN1 - the same of the number on the calculator's stack
@@ -1007,7 +1009,8 @@ DECO4:  XCHG
         MOV     D,B
         MOV     E,C
         POP     B
-        XRA     A
+; PRDEC comes in here with D E H L = the number, not 0, C = 0
+DECOU1: XRA     A
         STC                     ; CY: behind the last digit
         PUSH    PSW
 DECO5:  CALL    FDIG            ; C = digits before the point so far
@@ -1063,7 +1066,7 @@ DECOE:  DB      QDRP,QEND
 
 ; DECIN - reads a number; digits count up to 2^31, those behind only for the power
 ; In:  HL -> text, a digit or a point, DE -> float
-; Out: float, HL -> first character behind it, CY clear; ERR 05, ERR 01 for a lone point
+; Out: float, DE -> behind it, HL -> first character behind the text; ERR 05, ERR 01 for a lone point
 ; Clobbers all, and t0 t1
 DECIN:  PUSH    D
         XRA     A
@@ -1148,6 +1151,7 @@ DECI9:  XTHL
         CALL    FTEN
         POP     D
         CALL    CALPOP
+        XCHG
 DECIA:  POP     H               ; (FFLR comes here too)
         RET
 TENLOG  EQU 0DB87H      ; of exponent 0: high byte = digits before the point + 1, rounded up

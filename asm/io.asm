@@ -128,12 +128,10 @@ PUTS:   MOV     A,M
         RET
 
 ; PRDEC - prints a whole number
-; In:  HL = number   Clobbers all, and t0
-PRDEC:  LXI     D,MT0
-        PUSH    D
-        CALL    FITOF
-        POP     H
-        JMP     DECOUT          ; (B does not matter, the number being whole and small)
+; In:  HL = number, not 0   Clobbers all
+PRDEC:  LXI     D,0
+        MOV     C,D
+        JMP     DECOU1
 
 ; INCHR - waits for the next character, from the reader in LOAD, else from the teletype
 ; Out: A; ctrl-Z when the reader has stopped   Clobbers DE, HL

@@ -53,6 +53,8 @@ GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ADD     A
         JNZ     ERTAPE
         IF      PTTY
+        LXI     H,OUTSEL
+        INR     M               ; paper on
         MVI     A,CXOFF         ; the teletype's reader off
         RST     2
         XRA     A
@@ -152,13 +154,8 @@ LEXW4:  LDAX    D               ; to the next word
 LEXNUM: MVI     A,TFLT
         STAX    D
         INX     D
-        PUSH    D
         CALL    DECIN
-        POP     D
-        INX     D
-        INX     D
-        INX     D
-        INX     D
+        DCX     D               ; -> its last byte
         RET
 
 ; LEXNAM - a name, or its letter and the bracket of a computed subscript

@@ -248,6 +248,9 @@ SIF:    CALL    EVNUM
         SUI     CEQU
         CPI     CGT-CEQU+1
         JNC     SIF2
+        ADD     B
+        CPI     CGT+CGT-CEQU
+        JZ      ERSYN           ; >>
         RST     3               ; <= >= <>
         MOV     C,A
 SIF2:   PUSH    B

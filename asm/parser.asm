@@ -119,12 +119,9 @@ OPFN:   PUSH    PSW
         SUI     TK1
         JNC     OPK
         CALL    NUMBER
-        LXI     H,MA
-        MOV     A,B
-        CPI     TABS
-        JZ      FABS
-        XCHG
+        LXI     D,MA
         LXI     H,FNTAB
+        MOV     A,B
         SUI     TSQR
 ; (fall into JTAB)
 
@@ -142,7 +139,7 @@ JTAB:   ADD     A
         XCHG
         RET
 
-; SQR SIN COS TG ATG, FFLR in the place of ABS, INT: the calculator's operations, in order
+; SQR SIN COS TG ATG ABS INT: the calculator's operations, in order
 FNTAB   EQU OPTAB+2*(QSQRT-1)
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
@@ -171,7 +168,7 @@ OPPAR:  XRA     A
         RET
 
 ; OPFLT - a number of five bytes
-OPFLT:  LHLD    TXTP
+OPFLT:  RST     6
         XCHG
         LXI     H,MA
         CALL    COPY5
@@ -430,8 +427,6 @@ KINDIS: LXI     H,VKIND
         RZ
 ERKIND: RST     1
         DB      EKIND
-ERSYN:  RST     1
-        DB      ESYN
 ERMEM:  RST     1
         DB      EMEM
 

@@ -39,6 +39,9 @@ NEXT:   RST     6
 NEXT1:  INX     H               ; (READI takes an item here)
         SHLD    TXTP
         RET
+
+ERSYN:  RST     1
+        DB      ESYN
 GAP20:  DS      20H-$
 
 ; RST 4 - EXPECT: takes a token, which must be the one that follows the RST

@@ -107,7 +107,6 @@ def test_a_torn_tape(kind: str) -> None:
     assert board.listing() == ["10 END"]
 
 
-@pytest.mark.xfail(strict=True, reason="io.asm sends DC3 at a tape's end while the paper is off")
 def test_a_teletype_alone_is_told_what_to_do() -> None:
     """DC2 and DC4 around each block and each stop, DC1 and DC3 around what is loaded, and an error ends both."""
     board = Board(kind="skg-tty")
