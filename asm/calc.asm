@@ -5,7 +5,7 @@
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;
-;   00      QEND    the program goes on in machine code behind it
+;   00      QEND    the program goes on in machine code behind it, A = 0, Z set, CY clear
 ;   01-3F           operation n of OPTAB
 ;   40-7F           push register M0 ... M63
 ;   80-BF           pop into register M0 ... M63
@@ -38,7 +38,7 @@ QJZ     EQU 06H         ; x ->
 QDRP    EQU 07H         ; x ->
 QPOP    EQU 07H         ; the last that pops
 QJMP    EQU 08H
-QRET    EQU 09H         ; ends the byte-code and returns from the routine
+QRET    EQU 09H         ; ends the byte-code and returns from the routine, A not 0
 QDUP    EQU 0AH         ; x -> x x
 QOVR    EQU 0BH         ; x y -> x y x
 QSWP    EQU 0CH         ; x y -> y x

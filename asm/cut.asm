@@ -237,8 +237,8 @@ ITPN1:  CALL    NOFIL           ; a fillet between an element and a point
         DB      ITPN4-$
 ITPN2:  RST     5
 ITPN4:  DB      LDX,SPX,LDY,SPY ; -
-        DB      QEND
-        MVI     A,1
+        DB      QEND            ;               (leaves A = 0)
+        INR     A
         JMP     ITDONE
 
 ; PUTN - makes the value the next element
@@ -345,9 +345,7 @@ FILLET: RST     5
         CALL    CORNO
         CALL    NORMS
         RST     5
-        DB      QCRS,QABS       ; |sine of the turn|
-        DB      QMU,QSUB        ; -             0.001 rad
-        DB      QJN
+        DB      QJN             ; -
         DB      FILL9-$
         DB      LCR,LNR,QSUB,QE6D ; -
         DB      LFI,QCRS,QSIG,QNEG ; -fi
@@ -456,16 +454,13 @@ CORNO:  LDA     RNAMED
         JNZ     CORN1
         CALL    NORMS
         RST     5
-        DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QJN             ; -
         DB      NAMED1-$
         DB      QEND
         RST     5
-        DB      Q0,STL,QEND     ; -             crossings, however flat
-        XRA     A
+        DB      Q0,STL,QEND     ; -             crossings, however flat (A = 0)
         STA     RTURN
-        CALL    CROSS
-        MVI     A,1
+        CALL    CROSS           ; (QRET leaves A not 0)
         STA     RTURN
         CALL    XING
         RST     5
@@ -527,11 +522,13 @@ PLACE2: DB      Q1,LT0,QSIG,SA0,Q0,SA1,QJMP ; - the +X side
         DB      NAMED3-$
 
 ; NORMS - right normals of C and N at K
-; Out: a0 a1 of C, b0 b1 of N   Clobbers all
+; Out: a0 a1 of C, b0 b1 of N; on the float stack: negative when they differ by less than 0.001 rad
+; Clobbers all
 NORMS:  RST     5
         DB      LKX,SB0,LKY,SB1 ; -
         DB      QNA,QNORM,LA0,LA1 ; x y
         DB      QCA,QNORM,SB1,SB0 ; -
+        DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
@@ -599,8 +596,7 @@ SAME:   LDA     VKIND
 SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|
         DB      QJN             ; -
         DB      SAME9-$
-        DB      QEND
-        XRA     A
+        DB      QEND            ;               (leaves A = 0, Z set)
         RET
 SAME2:  DB      QDIF,QHYP       ; distance of the centres
         DB      LA2,LB2,QSUB    ; distance dr
@@ -608,7 +604,7 @@ SAME2:  DB      QDIF,QHYP       ; distance of the centres
         DB      QJMP
         DB      SAME1-$
 SAME9:  DB      QEND
-        ORI     1
+        INR     A
         RET
 
 ; SAMEL - is the last item, as written, the first one?

@@ -190,8 +190,7 @@ FITCIR: LXI     H,MA
         DB      QCRS,QDUP,ST0,QABS,QSUB ; w*w limit-|t x w|
         DB      QJN             ; w*w
         DB      FITC1-$
-        DB      QDRP,QEND       ; -
-        XRA     A
+        DB      QDRP,QEND       ; -             (leaves A = 0)
 FITC2:  STA     FITSM
         RET
 FITC1:  DB      LT0,QDUP,QADD,QDIV ; r

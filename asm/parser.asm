@@ -478,6 +478,5 @@ CMPNE:  RST     5
         ORI     1
         ADD     A               ; CY = sign: a < b; never zero
         RET
-CMPN1:  DB      QEND
-        XRA     A
+CMPN1:  DB      QEND            ;               (leaves A = 0, Z set)
         RET

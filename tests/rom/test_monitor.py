@@ -310,8 +310,8 @@ def test_if(board: Board, relation: str, truth: str) -> None:
         assert board.type("RUN") == [expected, "DD"], left
 
 
-@pytest.mark.parametrize("bad", ["IF 1=>2 GOTO 5", "IF 1><2 GOTO 5", "IF 1>>2 GOTO 5", "IF 1==2 GOTO 5", "IF 1 GOTO 5", "IF 1=2",
-                                 "IF 1=2 5", "IF 1=2 GOTO", "IF =2 GOTO 5"])  # fmt: skip
+@pytest.mark.parametrize("bad", ["IF 1=>2 GOTO 5", "IF 1><2 GOTO 5", "IF 1>>2 GOTO 5", "IF 1==2 GOTO 5", "IF 1 GOTO 5",
+                                 "IF 1=2", "IF 1=2 5", "IF 1=2 GOTO", "IF =2 GOTO 5"])  # fmt: skip
 def test_if_that_is_none(board: Board, bad: str) -> None:
     assert fault(board.type(bad)) == (1, None)
 
