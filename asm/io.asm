@@ -28,12 +28,13 @@ WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
 ; PUTC1 - the work of RST 2
 ; In:  A = character; PSW, HL and BC on the stack   Clobbers nothing
 PUTC1:  MOV     B,A
+        STA     LASTC
+        LXI     H,COLS
+        INR     M
         LDA     OUTSEL
         MOV     C,A
         ORA     A
         JZ      PUTC2
-        MOV     A,B
-        STA     LASTC
 PAPER:  CALL    POLL
         IN      TTYST
         ANI     TXRDY

@@ -51,6 +51,7 @@ GETL4:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
         RET
 GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ADD     A
+        CNZ     CRLF            ; (nobody sees it; ERR looks at LASTC)
         JNZ     ERTAPE
         IF      PTTY
         LXI     H,OUTSEL

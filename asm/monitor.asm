@@ -19,11 +19,12 @@ OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper and punch; els
 CURLIN  EQU     MWORK+12        ; number of the line that runs
 KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader
-LASTC   EQU     MWORK+16        ; last character on the paper
+LASTC   EQU     MWORK+16        ; last character printed
 VSUM    EQU     MWORK+17        ; check sum of the variables, as of the last prompt
 LSTTO   EQU     MWORK+19        ; last line to list
 DATP    EQU     MWORK+21        ; in front of the next DATA item: its comma, or a line's 00
 GSP     EQU     MWORK+23        ; top of the GOSUB stack
+COLS    EQU     MWORK+25        ; characters printed: STORE wants to know
 GSTK    EQU     CWORK-16        ; 8 lines to go back to, downwards
 GSTKE   EQU     CWORK
 LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record

@@ -107,7 +107,23 @@ STORE:  MVI     L,STMT0 & 255
         RST     3
         CPI     TRUN
         JNC     ERSYN           ; commands do not go into a program
-        MVI     L,(LINUM-1) & 255 ; the record's head takes the place of the number token
+        PUSH    B               ; it is listed, unseen: is it a line that LOAD takes?
+        XRA     A
+        STA     COLS
+        STA     OUTSEL
+        LHLD    LINUM
+        XCHG
+        CALL    LISTDE
+        MVI     A,CBLANK
+        RST     2
+        LXI     H,STMT0
+        CALL    LISTOK
+        LDA     COLS
+        CPI     126+2+1         ; CR and LF count
+        JNC     ERMEM
+        POP     B
+        LXI     H,LINUM-1       ; the record's head takes the place of the number token
+        LDA     STMT0
         ORA     A
         JZ      STOR1           ; the number alone: no record
         MOV     A,C

@@ -694,3 +694,15 @@ def test_noise_at_the_teletype() -> None:
         assert (machine.lowest_sp or 0xFFFF) >= names["STKLOW"]
         machine.clear()
     assert "9990 REM kept" in board.listing()
+
+
+@pytest.mark.parametrize("number", ["1", "9999"])
+def test_a_line_that_lists_too_long_is_not_stored(number: str) -> None:
+    """LIST may make a line longer than it was typed; what LOAD would not take again is refused at once."""
+    board = Board()
+    room = 126 - len(f'{number} PRINT {"10000000," * 12}""')
+    for length, fits in ((room, True), (room + 1, False)):
+        board.type("NEW")
+        paper = board.type(f'{number}PRINT{"1E7," * 12}"{"x" * length}"')
+        assert fault(paper) == (None if fits else (9, None))
+        assert [len(line) for line in board.listing()] == [126] * fits
