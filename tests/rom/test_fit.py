@@ -37,7 +37,7 @@ REGRESSIONS = sorted((Path(__file__).parent / "regressions").glob("fit-*.skg"))
 Record = Callable[[str, object], None]
 
 #: µm by which 32 bits may miss the centre of an arc at 100 mm, times sin² of half its sweep.
-CENTRE = 4e-5
+CENTRE = 8e-5
 SHARES = range(8)
 BLOCKS_A_SHARE = 650
 FLAT_BLOCKS = 300
