@@ -7,10 +7,8 @@
 ;   NODRIFT 1 = each block starts where the controller really stands (docs/drift.md)
 
 ; ---- Characters -----------------------------------------------------------
-CNUL    EQU 00H
 CCTLC   EQU 03H         ; break
 CBS     EQU 08H
-CTAB    EQU 09H
 CLF     EQU 0AH
 CCR     EQU 0DH
 CXON    EQU 11H         ; ctrl-Q

@@ -542,7 +542,7 @@ FPACK:  MOV     A,H
         ANA     B               ; sign for the first bit
         MOV     M,A
         INX     H
-FPAC1:  MOV     M,C
+        MOV     M,C
         INX     H
         MOV     M,D
         INX     H

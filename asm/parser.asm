@@ -19,7 +19,6 @@
 ; The newest lies lowest, at VBOT; a zero byte at VTOP ends the list.
 
 VKIND   EQU CWORK       ; kind of the value in a0 a1 a2
-RFUNC   EQU 8           ; rank of a function: tighter than any operator
 STKROM  EQU 64          ; stack bytes that the deepest operation may need
 SUBMAX  EQU 999         ; greatest subscript
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import subprocess
 import sys
 from collections.abc import Callable
@@ -22,13 +21,9 @@ TARGETS = ["emu", "build/emu/compare", "build/emu/bench", "build/asan/compare", 
 
 
 @pytest.fixture(scope="session", autouse=True)
-def built() -> None:
-    """Everything that these tests run; one of several test processes builds, the others wait."""
-    (ROOT / "build").mkdir(exist_ok=True)
-    with (ROOT / "build" / "emu.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        done = subprocess.run(["make", "-s", "-j2", *TARGETS], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
+def built(build: Callable[..., None]) -> None:
+    """Everything that these tests run."""
+    build("-j2", *TARGETS)
 
 
 SETUP = {

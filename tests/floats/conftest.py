@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import fcntl
-import subprocess
+from collections.abc import Callable
 
 import pytest
-from floathelp import ROM, ROOT, Firmware
+from floathelp import ROM, Firmware
 
 
 @pytest.fixture(scope="session")
-def firmware() -> Firmware:
-    """A board at its prompt; one of several test processes builds the emulator, the others wait."""
-    (ROOT / "build").mkdir(exist_ok=True)
-    with (ROOT / "build" / "emu.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        done = subprocess.run(["make", "-s", "emu"], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
+def firmware(build: Callable[..., None]) -> Firmware:
+    """A board at its prompt."""
+    build("emu")
     assert ROM.exists(), f"{ROM}: make rom"
     return Firmware()
 

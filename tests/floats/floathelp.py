@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from skg.machine import ENDS, Batch, Machine
+from skg.machine import ENDS, Batch, Machine, symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
@@ -27,12 +27,6 @@ HIDDEN = np.uint64(1 << 31)
 RETURNED, STOPPED = ENDS.index("returned"), ENDS.index("stop")
 #: What an operation answers when the result is too large: no float has these bytes.
 OVERFLOW = bytes([255] * 5)
-
-
-def symbols(rom: Path = ROM) -> dict[str, int]:
-    """Names and addresses of the image's labels."""
-    lines = rom.with_suffix(".sym").read_text().splitlines()
-    return {name: int(address, 16) for address, name in map(str.split, lines)}
 
 
 @dataclass(frozen=True)
@@ -213,7 +207,7 @@ class Firmware:
     """A board whose subroutines are called."""
 
     def __init__(self) -> None:
-        self.symbols = symbols()
+        self.symbols = symbols(ROM.with_suffix(".sym").read_text())
         self.machine = Machine(ROM)
         assert self.machine.run() == "prompt"
 

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-import fcntl
-import subprocess
-from pathlib import Path
+from collections.abc import Callable
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
 TARGETS = ["build/fuzz", "build/asan/fuzz-rom"]
 
 
 @pytest.fixture(scope="session", autouse=True)
-def built() -> None:
-    """Both builds; one of several test processes builds, the others wait."""
-    (ROOT / "build").mkdir(exist_ok=True)
-    with (ROOT / "build" / "emu.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        done = subprocess.run(["make", "-s", *TARGETS], cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
+def built(build: Callable[..., None]) -> None:
+    """Both builds."""
+    build(*TARGETS)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from skg.machine import symbols
+
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
@@ -28,8 +30,8 @@ BOARDS = {"skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"], "skg-nodr
 
 def fuzz(program: str, seed: int, count: int, *options: str | Path) -> subprocess.CompletedProcess[str]:
     """Type `count` bytes at the ROM, or at the one that `options` name."""
-    symbols = ROM.with_suffix(".sym")
-    command = [ROOT / program, "--rom", ROM, "--sym", symbols, "--seed", str(seed), "--bytes", str(count)]
+    labels = ROM.with_suffix(".sym")
+    command = [ROOT / program, "--rom", ROM, "--sym", labels, "--seed", str(seed), "--bytes", str(count)]
     return subprocess.run([*command, *options, *EXAMPLES], capture_output=True, text=True, timeout=500)
 
 
@@ -84,8 +86,7 @@ FAULTS = {
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_found(fault: str, tmp_path: Path) -> None:
     where, code, said = FAULTS[fault]
-    rows = (line.split() for line in ROM.with_suffix(".sym").read_text().splitlines())
-    names = {name: int(at, 16) for at, name in rows}
+    names = symbols(ROM.with_suffix(".sym").read_text())
     planted = b"".join(
         names[word].to_bytes(2, "little") if word in names and len(word) > 2 else bytes.fromhex(word)
         for word in code.split()

@@ -9,6 +9,8 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from romhelp import ROM, Board, fault
 
+from skg.machine import symbols
+
 #: 7 digits, or as much of the drawing's size.
 CLOSE = 1e-6
 
@@ -176,8 +178,7 @@ SOME = {"D": "3", "P": "(25,32)", "C": "((40,30):28)", "S": "(X:20#50)", "T": "(
 def test_table_of_pairs_holds_together() -> None:
     """GEOTAB: its distances lead to labels of byte-code, its keys are the pairs of table 2.1, each of them once."""
     image = ROM.read_bytes()
-    rows = [row.split() for row in ROM.with_suffix(".sym").read_text().splitlines()]
-    names = {name: int(address, 16) for address, name in rows}
+    names = symbols(ROM.with_suffix(".sym").read_text())
     at, keys, labels = names["GADD"], [], {address for name, address in names.items() if name[0] == "G"}
     for byte in image[names["GEOTAB"] : names["GADD"]]:
         if byte < names["KEY1"]:

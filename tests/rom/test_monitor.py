@@ -7,27 +7,24 @@ import random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from romhelp import ROM, RUN_LIMIT, Board, fault
+from romhelp import BOARDS, ROM, RUN_LIMIT, Board, fault
 
-from skg.machine import Machine
+from skg.machine import Machine, symbols
 
 CTRL_C, BEL, BS, CTRL_Q, CTRL_S, CTRL_U, CTRL_Z, RUBOUT = 3, 7, 8, 17, 19, 21, 26, 127
 #: Cycles in which nothing more happens on a board that waits or is held.
 A_WHILE = 3_000_000
 SECOND = 2_000_000
-#: ROM images of the boards, beside the standard one: what `Machine` must know of them.
-BOARDS = {"skg": {}, "skg-8251": {"board": "8251"}, "skg-tty": {"punch_tty": True}}
 
 
-def symbols() -> dict[str, int]:
-    """Addresses by name, from the file beside the image."""
-    lines = ROM.with_suffix(".sym").read_text().splitlines()
-    return {name: int(address, 16) for address, name in (line.split() for line in lines)}
+def labels() -> dict[str, int]:
+    """Addresses by label, of the image."""
+    return symbols(ROM.with_suffix(".sym").read_text())
 
 
 def program(board: Board) -> bytes:
     """The program's records in memory, as they are kept."""
-    names = symbols()
+    names = labels()
     end = board.machine.peek16(names["PEND"])
     return board.machine.peek(names["PROG"], end - names["PROG"])
 
@@ -44,7 +41,7 @@ def board() -> Board:
 
 
 def test_the_routines_between_the_restarts_fit() -> None:
-    names = symbols()
+    names = labels()
     for vector in range(0x08, 0x40, 0x08):
         assert names.get(f"GAP{vector:02X}", 0) <= vector
     assert names["GAP38"] and names["CHKEND"] == 0x38
@@ -52,7 +49,7 @@ def test_the_routines_between_the_restarts_fit() -> None:
 
 def test_no_comma_in_front_of_the_program() -> None:
     """Where DATA begins, READ looks at PROG-2, which holds the low byte of the return address of STMT."""
-    assert symbols()["DIREC1"] & 0xFF != ord(",")
+    assert labels()["DIREC1"] & 0xFF != ord(",")
 
 
 # The line editor
@@ -556,12 +553,7 @@ PROGRAM = """10 REM everything, with Small letters
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_a_saved_tape_is_the_same_program(name: str) -> None:
-    image = ROM.with_name(f"{name}.bin") if name != "skg" else ROM
-    if not image.exists():
-        pytest.skip(f"{image.name} is not built")
-    board = Board()
-    board.machine = Machine(image, 8, **BOARDS[name])
-    assert board.machine.run() == "prompt"
+    board = Board(kind=name)
     lines(board, *PROGRAM.splitlines())
     kept, listed = program(board), board.listing()
     board.machine.clear()
@@ -623,7 +615,7 @@ def test_reset_keeps_the_sound_lines_of_a_damaged_program(board: Board, place: i
     texts = [f"{number} PRINT A{number},{number}" for number in range(10, 60, 10)]
     lines(board, *texts)
     record = len(program(board)) // len(texts)
-    address = symbols()["PROG"] + place
+    address = labels()["PROG"] + place
     board.machine.poke(address, bytes([board.machine.peek(address)[0] ^ 0x10]))
     board.machine.clear()
     board.machine.reset()
@@ -658,7 +650,7 @@ def test_power_on_with_any_contents() -> None:
 @pytest.mark.parametrize("kib", [2, 3, 8, 33, 56])
 def test_ram_is_found(kib: int) -> None:
     board = Board(kib)
-    names = symbols()
+    names = labels()
     free = board.machine.ram_end - names["PROG"] - 1
     assert board.type("FREE") == [str(free)]
 
@@ -670,7 +662,7 @@ def test_noise_at_the_teletype() -> None:
     """200,000 random keys: the processor stays in the ROM, the stack in its room, the prompt comes back."""
     chance, board = random.Random(5), Board()
     machine = board.machine
-    names = symbols()
+    names = labels()
     lines(board, "9990 REM kept")
     machine.watch()
     words = [b"PRINT ", b"GOTO ", b"RUN\r", b"LIST\r", b"CUT ", b"FROM ", b"IF ", b"GOSUB ", b"INPUT ", b"READ ",

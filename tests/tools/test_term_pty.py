@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -20,12 +19,9 @@ PARTS = ["xy-star", "plate-fillets", "wrench"]
 
 
 @pytest.fixture(scope="session", autouse=True)
-def built() -> None:
-    """The emulator; one of several test processes builds, the others wait."""
-    (ROOT / "build").mkdir(exist_ok=True)
-    with (ROOT / "build" / "emu.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        subprocess.run(["make", "-s", "emu"], cwd=ROOT, check=True)
+def built(build: Callable[..., None]) -> None:
+    """The emulator."""
+    build("emu")
 
 
 class Emulator:

@@ -69,6 +69,11 @@ class _Job(ctypes.Structure):
     ]
 
 
+def symbols(text: str) -> dict[str, int]:
+    """Addresses by label, out of a .sym file's text (asm/build.py): lines of a hexadecimal address and a label."""
+    return {label: int(address, 16) for address, label in map(str.split, text.splitlines())}
+
+
 def _load() -> ctypes.CDLL:
     if not LIBRARY.exists():
         raise UserError(f"{LIBRARY}: not built; run `make emu`")

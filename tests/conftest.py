@@ -1,0 +1,26 @@
+"""What all tests share: the programs that they run are built once."""
+
+from __future__ import annotations
+
+import fcntl
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="session")
+def build() -> Callable[..., None]:
+    """Call it with make's targets (and options); one of several test processes builds, the others wait."""
+
+    def make(*targets: str) -> None:
+        (ROOT / "build").mkdir(exist_ok=True)
+        with (ROOT / "build" / "emu.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            done = subprocess.run(["make", "-s", *targets], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+    return make
