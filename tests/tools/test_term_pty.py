@@ -103,6 +103,15 @@ def test_at_a_real_lines_pace(tmp_path: Path) -> None:
     assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()
 
 
+def test_an_error_does_not_stop_the_sender(tmp_path: Path) -> None:
+    """A teletype alone has its reader stopped by DC3 after an error; the lines behind it go on from the prompt."""
+    part = tmp_path / "part.skg"
+    part.write_text("10 REM A\n20 XYZ=\n30 REM B\n")
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        paper = term(machine.link, "--send", part, "--batch", "--quiet", "1").stdout
+    assert b"ERR 01\r\n>30 REM B\r\n" in paper
+
+
 def test_the_machine_goes_away_and_comes_back(tmp_path: Path) -> None:
     """The sender waits, and goes on where it was; then the part is sent again, whole, and cut."""
     part, tape = ROOT / "examples" / "xy-star.skg", tmp_path / "part.3b"

@@ -29,6 +29,7 @@ from skg import tape
 from skg.errors import UserError
 
 XON, XOFF, DC2, DC4, ESCAPE = 0x11, 0x13, 0x12, 0x14, 0x1D
+LF, PROMPT = 0x0A, 0x3E
 #: Seconds between two tries to open a port that went away.
 _RETRY = 0.5
 #: Seconds of silence after which a line is sent though no prompt has come.
@@ -38,10 +39,15 @@ _TROUBLE = (OSError, ValueError, TypeError, termios.error)
 
 
 class Splitter:
-    """Takes a port's bytes apart: flow control, punch (between DC2 and DC4) and paper."""
+    """Takes a port's bytes apart: flow control, punch (between DC2 and DC4) and paper.
+
+    A board without a punch of its own stops the teletype's reader by XOFF after an error, and sends no XON: its
+    prompt says that it takes lines again.
+    """
 
     def __init__(self) -> None:
         self.punching = False
+        self.line_begins = True
         self.may_send = threading.Event()
         self.may_send.set()
 
@@ -60,6 +66,9 @@ class Splitter:
                     punch.append(byte)
                 if byte:
                     paper.append(byte)
+                if byte == PROMPT and self.line_begins:
+                    self.may_send.set()
+                self.line_begins = byte == LF
         return bytes(paper), bytes(punch)
 
 
