@@ -11,8 +11,8 @@ import pytest
 SKG = Path(sys.executable).with_name("skg")
 
 
-def skg(*arguments: str | Path) -> subprocess.CompletedProcess:
-    return subprocess.run([SKG, "ref", *arguments], capture_output=True, timeout=30)
+def skg(*arguments: str | Path, stdin: bytes = b"") -> subprocess.CompletedProcess:
+    return subprocess.run([SKG, "ref", *arguments], input=stdin, capture_output=True, timeout=30)
 
 
 @pytest.fixture
@@ -33,6 +33,13 @@ def test_tape_paper_and_answers(part: Path, tmp_path: Path) -> None:
     assert tape.read_bytes() == done.stdout
 
 
+def test_standard_input() -> None:
+    done = skg("-", stdin=b"10 CUT O,(1,0)\n")
+    assert (done.returncode, done.stdout) == (0, b"B1000B0B1000GXL1\r\nDD\r\n")
+    done = skg("-", stdin=b"\xff")
+    assert (done.returncode, done.stderr) == (2, b"skg: <stdin>: line 1: not plain ASCII\n")
+
+
 def test_error_ends_with_1(part: Path) -> None:
     done = skg(part)
     assert (done.returncode, done.stdout, done.stderr) == (
@@ -49,11 +56,14 @@ def test_syntax_error_runs_nothing(part: Path) -> None:
     assert done.stderr == b"ERR 01 LINE 20\n20 CUT (1,,2)\n          ^\n"
 
 
-@pytest.mark.parametrize("arguments", [[], ["no-such.skg"], ["--wrong"]])
-def test_wrong_usage(arguments: list[str]) -> None:
+@pytest.mark.parametrize(("arguments", "wrong"), [
+    ([], "Missing argument 'PART'"),
+    (["no-such.skg"], "Invalid value for 'PART': 'no-such.skg': No such file or directory"),
+    (["--wrong"], "No such option: --wrong"),
+])
+def test_wrong_usage(arguments: list[str], wrong: str) -> None:
     done = skg(*arguments)
-    assert done.returncode == 2
-    assert b"Traceback" not in done.stderr
+    assert (done.returncode, done.stderr.decode()) == (2, f"skg: {wrong} (see skg ref --help)\n")
 
 
 def test_foreign_characters_are_named(part: Path) -> None:

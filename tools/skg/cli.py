@@ -45,12 +45,23 @@ def cli() -> None:
 
 
 def main() -> None:
-    """Entry point: a `UserError` or an unreadable file becomes one line and exit code 2."""
+    """Entry point: wrong usage, a `UserError` or an unreadable file becomes one line and exit code 2."""
     try:
-        cli.main(standalone_mode=True)
+        # (click alone would take four lines for wrong usage)
+        sys.exit(cli.main(standalone_mode=False))
+    except click.UsageError as error:
+        name = error.ctx.command_path if error.ctx else "skg"
+        message = f"{error.format_message().rstrip('.')} (see {name} --help)"
+    except click.ClickException as error:
+        message = error.format_message()
     except UserError as error:
-        print(f"skg: {error}", file=sys.stderr)
-        sys.exit(2)
+        message = str(error)
+    except click.Abort:
+        sys.exit(130)
+    except BrokenPipeError:
+        sys.stdout = None
+        sys.exit(1)
     except OSError as error:
-        print(f"skg: {error.filename or 'file'}: {error.strerror}", file=sys.stderr)
-        sys.exit(2)
+        message = f"{error.filename or 'file'}: {error.strerror}"
+    print(f"skg: {message}", file=sys.stderr)
+    sys.exit(2)

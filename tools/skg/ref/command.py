@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
+from typing import BinaryIO
 
 import click
 
@@ -11,26 +11,28 @@ from skg.errors import UserError
 from skg.ref.interpreter import run
 
 
-def _text(path: Path) -> str:
+def _text(file: BinaryIO) -> str:
     try:
-        return path.read_bytes().decode("ascii")
+        return file.read().decode("ascii")
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
-        raise UserError(f"{path}: line {line}: not plain ASCII") from None
+        raise UserError(f"{file.name}: line {line}: not plain ASCII") from None
 
 
 @click.command("ref")
-@click.argument("part", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("part", type=click.File("rb"))
 @click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the tape goes; standard output without it.",
+    default="-",
+    show_default=True,
+    type=click.File("wb", lazy=True),
+    help="Where the tape goes.",
 )
 @click.option(
     "--input",
     "answers",
-    type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    type=click.File("rb"),
     help="What the operator answers to INPUT, one line each.",
 )
 @click.option(
@@ -39,17 +41,14 @@ def _text(path: Path) -> str:
     show_default=True,
     help="Let the controller's misses at the ends of arcs add up, or start each block where it really stands.",
 )
-def command(part: Path, output: Path | None, answers: Path | None, drift: bool) -> None:
-    """Run PART (an SKG program) in 50-digit arithmetic: the exact 3B tape that it must give.
+def command(part: BinaryIO, output: BinaryIO, answers: BinaryIO | None, drift: bool) -> None:
+    """Run PART (an SKG program; `-`: standard input) in 50-digit arithmetic: the exact 3B tape that it must give.
 
-    The tape goes to standard output, the teletype's paper to standard error. Exit code 1 when the run
+    The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
     result = run(_text(part), _text(answers).splitlines() if answers else [], drift=drift)
     sys.stderr.write(result.paper)
-    if output is None:
-        sys.stdout.buffer.write(result.tape)
-        sys.stdout.flush()
-    else:
-        output.write_bytes(result.tape)
+    output.write(result.tape)
+    output.flush()
     sys.exit(0 if result.error is None else 1)
