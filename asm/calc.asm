@@ -38,7 +38,7 @@ QJZ     EQU 06H         ; x ->
 QDRP    EQU 07H         ; x ->
 QPOP    EQU 07H         ; the last that pops
 QJMP    EQU 08H
-QRET    EQU 09H         ; ends the byte-code and returns from the routine, A not 0
+QRET    EQU 09H         ; ends the byte-code and returns from the routine, A not 0, Z clear
 QDUP    EQU 0AH         ; x -> x x
 QOVR    EQU 0BH         ; x y -> x y x
 QSWP    EQU 0CH         ; x y -> y x

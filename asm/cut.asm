@@ -170,7 +170,8 @@ ITCHK:  LDA     VKIND
         ANI     0BFH            ; circle (2) or line (3), number, point
         CPI     81H
         RNZ
-        JMP     ERSYN
+        RST     1
+        DB      ESYN
 
 ; ITFIL - a fillet radius
 ITFIL:  CALL    NEEDEL          ; before or at the entry
@@ -188,21 +189,24 @@ POSIT:  LXI     H,MA
         CALL    FSGN
         DCR     A
         RZ
-        JMP     ERRNG
+        RST     1
+        DB      ERANGE
 
 ; NEEDEL - demands that the route has an element
 ; Out: ERR 06   Clobbers A
 NEEDEL: LDA     RELEMS
         ORA     A
         RNZ
-        JMP     ERGEO
+        RST     1
+        DB      EGEOM
 
 ; NOFIL - demands that no fillet waits
 ; Out: ERR 06   Clobbers A
 NOFIL:  LDA     RFILW
         ORA     A
         RZ
-        JMP     ERGEO
+        RST     1
+        DB      EGEOM
 
 ; ITPNT - a point
 ITPNT:  RST     5
@@ -421,12 +425,6 @@ OFFCH1: DB      QEND
         RST     1
         DB      EOFFS
 
-; PTOK - K = P
-; Clobbers all
-PTOK:   RST     5
-        DB      LPX,SKX,LPY,SKY ; -
-CORN9:  DB      QRET
-
 ; a corner that no point names: the crossing
 CROSS:  CALL    XING
         RST     5
@@ -444,8 +442,8 @@ CORNER: RST     5
 CORNO:  LDA     RNAMED
         ORA     A
         JZ      CROSS
-        CALL    PTOK
         RST     5
+        DB      LPX,SKX,LPY,SKY ; -             K = P
         DB      LO1,QABS,LO2,QABS,QADD,QJZ ; -
         DB      CORN9-$
         DB      QEND
@@ -472,7 +470,7 @@ CORNO:  LDA     RNAMED
         DB      QHYP,QSUB       ; d2-d1
         DB      QJN             ; -
         DB      ATOK-$
-        DB      QRET
+CORN9:  DB      QRET
 CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
         DB      LPX,LC0,QSUB,LC2,QDIV,SA0 ; -
         DB      LPY,LC1,QSUB,LC2,QDIV,SA1 ; -
@@ -518,8 +516,7 @@ PLACE1: DB      LC0,SKX,LC1,SKY ; -             K = centre
         DB      PLACE2-$
         DB      QNORM,QJMP      ; -
         DB      NAMED3-$
-PLACE2: DB      Q1,LT0,QSIG,SA0,Q0,SA1,QJMP ; - the +X side
-        DB      NAMED3-$
+PLACE2: DB      LC0,LT0,QABS,QADD,SKX,QRET ; -  the +X side
 
 ; NORMS - right normals of C and N at K
 ; Out: a0 a1 of C, b0 b1 of N; on the float stack: negative when they differ by less than 0.001 rad
@@ -533,9 +530,9 @@ NORMS:  RST     5
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
-PATC:   CALL    PTOK
-        RST     5
-        DB      LPX,SB0,LPY,SB1 ; -
+PATC:   RST     5
+        DB      LPX,QDUP,SKX,SB0 ; -            b = K = P
+        DB      LPY,QDUP,SKY,SB1 ; -
         DB      QCA,QNORM       ; -             a = right normal
         DB      QJMP
         DB      NAMED2-$
@@ -545,14 +542,11 @@ PATC:   CALL    PTOK
 XING:   RST     5
         DB      QNA             ; -
         DB      LA2,LO2,QADD,SA2 ; -
-        DB      QEND
+        DB      QXCH,QCA        ; -             b = N
+        DB      LA2,LO1,QADD,SA2,QEND ; -
         LDA     RTURN
         ORA     A
-        CNZ     NEGVAL
-        RST     5
-        DB      QXCH,QCA        ; -             b = N
-        DB      LA2,LO1,QADD,SA2 ; -
-        DB      QEND
+        CNZ     NEGVAL          ; -C*N = C*-N
         LDA     NKIND
         MVI     C,RSTAR
         JMP     BINOPK
@@ -583,11 +577,7 @@ SAME:   LDA     VKIND
         DB      LN0,SB0,LN1,SB1,LN2,SB2 ; -
         DB      QJC
         DB      SAME2-$
-        DB      QDOT            ; cosine
-        DB      QJN             ; -             opposite
-        DB      SAME9-$
-        DB      QEPS,QCRS,QABS ; eps |sine|
-        DB      QSUB            ; -
+        DB      QEPS,QDIF,QHYP,QSUB ; eps-angle
         DB      QJN             ; -
         DB      SAME9-$
         DB      LT0,SA0,LT1,SA1,QDOT ; place along N's normal
@@ -603,9 +593,7 @@ SAME2:  DB      QDIF,QHYP       ; distance of the centres
         DB      QABS,QMAX       ; greater
         DB      QJMP
         DB      SAME1-$
-SAME9:  DB      QEND
-        INR     A
-        RET
+SAME9:  DB      QRET            ;               (leaves Z clear)
 
 ; SAMEL - is the last item, as written, the first one?
 ; Out: Z set when it is   Clobbers all
