@@ -295,21 +295,7 @@ ADDEL1: CALL    OFFCHK
         LDA     RFILW
         ORA     A
         CNZ     FILLET
-; (fall into JOIN)
-
-; JOIN - corner between C and N, C goes out, N is the current element
-; Clobbers all
-JOIN:   CALL    CORNER
-        CALL    ADVANC
-        LXI     H,RELEMS
-        MOV     A,M
-        MVI     M,2
-        DCR     A
-        LXI     D,MKX
-        LXI     H,RCORN
-        MVI     A,10
-        CZ      COPY            ; the end of the first element is kept
-        CALL    NTOC
+        CALL    JOINED
 ; (fall into CORDON)
 
 ; CORDON - the corner to come is not described yet
@@ -319,13 +305,19 @@ CORDON: LXI     H,0
         SHLD    RTURN           ; and RNAMED
         RET
 
-; FIRST goes on when it has K: the wire goes there
-FIRST1: RST     5
-        DB      LKX,QDUP,SAX,SGX ; -
-        DB      LKY,QDUP,SAY,SGY ; -            A = G = K
-        DB      QVK,QEND
-        CALL    MOVE
-        JMP     CORDON
+; JOINED - corner between C and N, C goes out, N is the current element
+; Clobbers all
+JOINED: CALL    CORNER
+        CALL    ADVANC
+        LXI     H,RELEMS
+        MOV     A,M
+        MVI     M,2
+        DCR     A
+        LXI     D,MKX
+        LXI     H,RCORN
+        MVI     A,10
+        CZ      COPY            ; the end of the first element is kept
+; (fall into NTOC)
 
 ; NTOC - the next element becomes the current one
 ; Clobbers A, DE, HL
@@ -347,9 +339,8 @@ FILLET: RST     5
         DB      Q0,SO1,Q0,SO2   ; -
         DB      QEND
         CALL    CORNO
-        CALL    NORMS
         RST     5
-        DB      QJN             ; -
+        DB      QNORMS,QJN      ; -
         DB      FILL9-$
         DB      LCR,LNR,QSUB,QE6D ; -
         DB      LFI,QCRS,QSIG,QNEG ; -fi
@@ -361,27 +352,22 @@ FILLET: RST     5
         CALL    FSGN            ; 0FFH for a left turn
         INR     A
         STA     RTURN
-        PUSH    PSW
-        CALL    XING            ; centre of the arc
         LXI     D,MNEXT
         LXI     H,RKEPT
         CALL    CPYEL
         RST     5
-        DB      LO1,QNEG,SA2    ; -
-        DB      QEND
+        DB      QXING           ; -             a = centre of the arc
+        DB      LO1,QNEG,SA2,QEND ; -
         MVI     A,KCIR
         CALL    PUTN
         CALL    FITARC
         XRA     A
         STA     RNAMED
         CALL    OFFCHK
-        CALL    JOIN
+        CALL    JOINED
         LXI     D,RKEPT
         LXI     H,MNEXT
-        CALL    CPYEL
-        POP     PSW
-        STA     RTURN
-        RET
+        JMP     CPYEL
 FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
 
 ; FITARC - does the fillet's touching point on the circle C come before the corner?
@@ -426,8 +412,8 @@ OFFCH1: DB      QEND
         DB      EOFFS
 
 ; a corner that no point names: the crossing
-CROSS:  CALL    XING
-        RST     5
+CROSS:  RST     5
+        DB      QXING           ; -
 ATOK:   DB      LA0,SKX,LA1,SKY ; -
         DB      QRET
 
@@ -450,9 +436,8 @@ CORNO:  LDA     RNAMED
         LDA     FITSM
         ORA     A
         JNZ     CORN1
-        CALL    NORMS
         RST     5
-        DB      QJN             ; -
+        DB      QNORMS,QJN      ; -
         DB      NAMED1-$
         DB      QEND
         RST     5
@@ -460,9 +445,8 @@ CORNO:  LDA     RNAMED
         STA     RTURN
         CALL    CROSS           ; (QRET leaves A not 0)
         STA     RTURN
-        CALL    XING
         RST     5
-        DB      QMU,STL         ; -
+        DB      QXING,QMU,STL   ; -
         DB      LPX,SB0,LPY,SB1 ; -
         DB      QDIF,QHYP       ; d2
         DB      LKX,LPX,QSUB    ; d2 dx
@@ -483,6 +467,14 @@ NAMED2: DB      LCR,ST0         ; -
 NAMED3: DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a
         DB      LA1,LT0,QMUL,LKY,QADD,SKY ; -
         DB      QRET
+
+; FIRST goes on when it has K: the wire goes there
+FIRST1: RST     5
+        DB      LKX,QDUP,SAX,SGX ; -
+        DB      LKY,QDUP,SAY,SGY ; -            A = G = K
+        DB      QVK,QEND
+        CALL    MOVE
+        JMP     CORDON
 
 ; FIRST - N is the first element: the wire goes to it
 FIRST:  CALL    OFFCHK
@@ -518,16 +510,6 @@ PLACE1: DB      LC0,SKX,LC1,SKY ; -             K = centre
         DB      NAMED3-$
 PLACE2: DB      LC0,LT0,QABS,QADD,SKX,QRET ; -  the +X side
 
-; NORMS - right normals of C and N at K
-; Out: a0 a1 of C, b0 b1 of N; on the float stack: negative when they differ by less than 0.001 rad
-; Clobbers all
-NORMS:  RST     5
-        DB      LKX,SB0,LKY,SB1 ; -
-        DB      QNA,QNORM,LA0,LA1 ; x y
-        DB      QCA,QNORM,SB1,SB0 ; -
-        DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
-        DB      QRET
-
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
 PATC:   RST     5
@@ -536,20 +518,6 @@ PATC:   RST     5
         DB      QCA,QNORM       ; -             a = right normal
         DB      QJMP
         DB      NAMED2-$
-
-; XING - the crossing of C offset by O1 and N offset by O2, as RTURN says
-; Out: a0 a1; ERR 06   Clobbers all
-XING:   RST     5
-        DB      QNA             ; -
-        DB      LA2,LO2,QADD,SA2 ; -
-        DB      QXCH,QCA        ; -             b = N
-        DB      LA2,LO1,QADD,SA2,QEND ; -
-        LDA     RTURN
-        ORA     A
-        CNZ     NEGVAL          ; -C*N = C*-N
-        LDA     NKIND
-        MVI     C,RSTAR
-        JMP     BINOPK
 
 ; SAMEF - is N as written the first element?   SAMEC - does N go on along C?
 ; Out: Z set when it is   Clobbers all
@@ -829,3 +797,23 @@ XNORM1: DB      QDIF            ; dx dy
         DB      LA2,QSIG,QSWP   ; +-dy dx
         DB      LA2,QSIG,QSWP   ; +-dx +-dy
         DB      QUNIT,QRET      ; -
+; QNORMS: a0 a1, b0 b1 = right normals of C and N at K; negative when they differ by less than
+; 0.001 rad
+XNORMS:  RST     5
+        DB      LKX,SB0,LKY,SB1 ; -
+        DB      QNA,QNORM,LA0,LA1 ; x y
+        DB      QCA,QNORM,SB1,SB0 ; -
+        DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
+        DB      QRET
+; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
+XXING:   RST     5
+        DB      QNA             ; -
+        DB      LA2,LO2,QADD,SA2 ; -
+        DB      QXCH,QCA        ; -             b = N
+        DB      LA2,LO1,QADD,SA2,QEND ; -
+        LDA     RTURN
+        ORA     A
+        CNZ     NEGVAL          ; -C*N = C*-N
+        LDA     NKIND
+        MVI     C,RSTAR
+        JMP     BINOPK
