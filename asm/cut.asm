@@ -468,16 +468,9 @@ NAMED3: DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a
         DB      LA1,LT0,QMUL,LKY,QADD,SKY ; -
         DB      QRET
 
-; FIRST goes on when it has K: the wire goes there
-FIRST1: RST     5
-        DB      LKX,QDUP,SAX,SGX ; -
-        DB      LKY,QDUP,SAY,SGY ; -            A = G = K
-        DB      QVK,QEND
-        CALL    MOVE
-        JMP     CORDON
-
 ; FIRST - N is the first element: the wire goes to it
 FIRST:  CALL    OFFCHK
+        CALL    CORDON
         LXI     H,RELEMS
         INR     M
         CALL    NTOC
@@ -578,26 +571,6 @@ SAMEL:  LDA     RLASTP
         DB      QJMP
         DB      SAME1-$
 
-; ADVANC - the wire travels C to the corner K
-; In:  C, A, K   Out: A = K; ERR 06 when K lies behind A on a line   Clobbers all
-ADVANC: RST     5
-        DB      LKX,LAX,QSUB,SB0 ; -
-        DB      LKY,LAY,QSUB,SB1 ; -            b = chord
-        DB      QCA,QJC         ; -
-        DB      ADVAN1-$
-        DB      QCRS            ; forward
-        DB      QMU,QADD,QE6N   ; -
-        DB      QJMP
-        DB      ADVAN3-$
-ADVAN1: DB      LB0,LB1,QFAR    ; negative: within 1 um
-        DB      QJN             ; -
-        DB      ADVAN2-$
-ADVAN3: DB      QEND
-        CALL    SEGMNT
-        RST     5
-        DB      LKX,SAX,LKY,SAY ; -
-ADVAN2: DB      QRET            ; (no travel: the corner is the entry place)
-
 ; SBACK - statement: BACK
 SBACK:  RST     7
         CALL    FITEND
@@ -605,13 +578,7 @@ SBACK:  RST     7
 SBACK1: CALL    CLOSE
         LXI     H,RBACK
         INR     M
-; (fall into HOME)
-
-; HOME - straight to the start hole
-HOME:   RST     5
-        DB      LHX,SKX,LHY,SKY ; -
-        DB      QVK,QEND        ; -
-        JMP     MOVE
+        JMP     HOME
 
 ; CLOSE - closes the route onto its first element, up to where it was entered
 ; Clobbers all
@@ -656,12 +623,8 @@ CLOSE4: LDA     CKIND           ; one element alone
         CALL    PATC            ; by way of the last point
         CALL    ADVANC
 CLOSE6: CALL    CLOSEG
-        RST     5
-        DB      LAX,LKX,QSUB    ; dx
-        DB      LAY,LKY,QSUB    ; dx dy
-        DB      QFAR,QJN        ; -             at the entry still?
-        DB      CLOSE7-$
-        DB      QEND
+        LXI     H,RELEMS
+        DCR     M               ; at the entry still: ADVANC takes the whole circle
 CLOSE8: CALL    ADVANC
 ; (fall into RTDONE)
 
@@ -674,10 +637,6 @@ RTDON1: MVI     M,0
         DCR     B
         JNZ     RTDON1
         RET
-
-CLOSE7: DB      QEND            ; (CLOSE of a circle alone)
-        CALL    WHOLE
-        JMP     RTDONE
 
 ; CLOSEG - K = G, where the route was entered
 ; Out: K; ERR 06 when a fillet waits, which has no corner   Clobbers all
@@ -817,3 +776,42 @@ XXING:   RST     5
         LDA     NKIND
         MVI     C,RSTAR
         JMP     BINOPK
+
+; FIRST goes on when it has K: the wire goes there
+FIRST1: RST     5
+        DB      LKX,SGX,LKY,SGY,QJMP ; -        G = K
+        DB      ADVAN1-$
+
+; HOME - straight to the start hole
+; Clobbers all
+HOME:   RST     5
+        DB      LHX,SKX,LHY,SKY,QJMP ; -
+        DB      HOME1-$
+
+; ADVANC - the wire travels C to the corner K
+; In:  C, A, K, W; RELEMS = 0: C is closed, no travel means the whole circle
+; Out: A = K, W; ERR 06 when K lies behind A on a line   Clobbers all
+ADVANC: RST     5
+        DB      LKX,LAX,QSUB,SB0 ; -
+        DB      LKY,LAY,QSUB,SB1 ; -            b = chord
+        DB      QCA,QJC         ; -
+        DB      ADVAN2-$
+        DB      QCRS            ; forward
+        DB      QMU,QADD,QE6N   ; -
+ADVAN1: DB      LKX,SAX,LKY,SAY ; -             A = K
+HOME1:  DB      QVK,QEND        ; -
+        JMP     MOVE
+ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
+        DB      QJN             ; -
+        DB      ADVAN3-$
+        DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
+        DB      LKX,SAX,LKY,SAY ; -
+        DB      QCRS,LC2,QSIG,QJMP ; s          < 0: more than half a turn
+        DB      ARC-$           ; (tape.asm)
+ADVAN3: DB      QEND            ; no travel: the corner is the entry place
+        LDA     RELEMS
+        ORA     A
+        RNZ
+        RST     5
+        DB      Q1,QNEG         ; s             as ARC takes it
+; (fall into ARC)

@@ -1,5 +1,5 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
-; Offers: MOVE SEGMNT WHOLE and the operations QRND QVK
+; Offers: MOVE ARC and the operations QRND QVK
 ; Uses:   calc, float, io
 ; Room:   450 bytes, 530 with NODRIFT
 ;
@@ -21,24 +21,11 @@ TGAX    EQU CWORK+18    ; block: letter of the count direction
 TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
 TZNUM   EQU CWORK+20    ; its number
 
-; SEGMNT - the wire goes along C to K
-; In:  C, VKIND its kind, A (entry), K, b = chord from A to K, W   Out: W   Clobbers all
-SEGMNT: RST     5
-        DB      QVK,QJC         ; -
-        DB      SEGM1-$
-        DB      QEND
-        JMP     MOVE
-SEGM1:  DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
-        DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
-        DB      QJMP
-        DB      ARC-$
-
-; WHOLE - the whole circle C, from K
-; In:  C, K, W   Clobbers all
-WHOLE:  RST     5
-        DB      QVK             ; -
-        DB      Q1,QNEG         ; s
-ARC:    DB      ST3             ; -             t3 < 0: more than half a turn
+; ARC - the wire goes along the circle C to K; byte-code that ADVANC (cut.asm, which must stand
+;       in front of it) falls into
+; In:  C, K, W; on the float stack: negative when it is more than half a turn   Out: W = V
+; Clobbers all
+ARC:    DB      QVK,ST3         ; -
         DB      LC0,QRND,ST0    ; -
         DB      LC1,QRND,ST1    ; -
         DB      LWX,LT0,QSUB,SA0 ; -                    a = start
