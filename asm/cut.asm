@@ -17,8 +17,7 @@
 CKIND   EQU MCUR+20     ; kinds of the elements
 NKIND   EQU MNEXT+20
 FKIND   EQU MFIRST+20
-ROPEN   EQU CWORK+4     ; not 0 = a route is open, from its first item on
-RITEMS  EQU CWORK+5     ; items written so far: 0 = no route, 1, 2 = more
+RITEMS  EQU CWORK+5     ; items written so far: 0 = no route is open, 1, 2 = more
 RELEMS  EQU CWORK+6     ; elements of them that did not merge: 0, 1, 2 = more
 RLASTP  EQU CWORK+7     ; 1 = last item was a point
 RFSTP   EQU CWORK+8     ; 1 = first item was a point
@@ -94,20 +93,17 @@ SCUT:   CALL    FITEND
 SCUT1:  RST     3
 SCUT2:  PUSH    PSW             ; ";": the corner to come turns right
         CALL    EVAL
-        POP     PSW
+        POP     B
         CALL    ITEM
         RST     6
         CPI     CSEMI
         JZ      SCUT1
-        CPI     CCOMMA
-        JZ      SCUT1
-        RST     7
-        RET
+        CALL    MORE
+        JMP     SCUT2
 
 ; ITEM - takes one item into the route
-; In:  a0 a1 a2, VKIND, A = token in front of it   Clobbers all (A, B in check mode)
-ITEM:   MOV     B,A
-        LDA     CHKF
+; In:  a0 a1 a2, VKIND, B = token in front of it   Clobbers all (A, B in check mode)
+ITEM:   LDA     CHKF
         ORA     A
         JNZ     ITCHK
         MOV     A,B
@@ -126,7 +122,6 @@ ITEM3:  CALL    RECORD
         ORA     A
         JZ      ITFIL
         STA     RMOVED
-        STA     ROPEN
         CPI     KPNT
         JZ      ITPNT
 ; (fall into ITELM)
@@ -135,9 +130,9 @@ ITEM3:  CALL    RECORD
 ; In:  A = its kind
 ITELM:  CALL    PUTN
         CALL    NAMEIT
-        CALL    ADDEL
         XRA     A
-; (fall into ITDONE)
+        CALL    ITDONE
+        JMP     ADDEL
 
 ; ITDONE - notes that an item was written
 ; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
@@ -512,9 +507,12 @@ PATC:   RST     5
         DB      QJMP
         DB      NAMED2-$
 
-; SAMEF - is N as written the first element?   SAMEC - does N go on along C?
+; SAMEF - is the last item N, which as written is the first element?   SAMEC - does N go on along C?
 ; Out: Z set when it is   Clobbers all
-SAMEF:  LXI     D,MFIRST
+SAMEF:  LDA     RLASTP
+        ORA     A
+        RNZ
+        LXI     D,MFIRST
         LDA     FKIND
         CALL    XNA1            ; a = F
         RST     5
@@ -594,12 +592,9 @@ CLOSE:  LDA     RFSTP
 CLOSE1: LDA     RELEMS
         DCR     A
         JZ      CLOSE4
-        LDA     RLASTP
-        ORA     A
-        JNZ     CLOSE2
         CALL    SAMEF
         JZ      CLOSE3          ; the last element is the first again
-CLOSE2: LXI     D,MFIRST
+        LXI     D,MFIRST
         LXI     H,MNEXT
         CALL    CPYEL
         CALL    NAMEIT
@@ -630,8 +625,8 @@ CLOSE8: CALL    ADVANC
 
 ; RTDONE - the route is over; the buffer keeps it for RECUT
 ; Clobbers B, HL
-RTDONE: LXI     H,ROPEN
-        MVI     B,RBACK-ROPEN
+RTDONE: LXI     H,RITEMS
+        MVI     B,RBACK-RITEMS
 RTDON1: MVI     M,0
         INX     H
         DCR     B
@@ -666,21 +661,20 @@ ENDRT:  CALL    FITEND
 SFROM:  CALL    EVPNT
         RST     7
         CALL    SCALED
+        RST     5
+        DB      LA0,LA1,QEND    ; x y           kept while the route ends
+        CALL    ENDRT
+        RST     5
+        DB      SHY,SHX,QEND    ; -
         LXI     H,RMOVED
         MOV     A,M
         ORA     A
         JNZ     SFROM1
         INR     M
         RST     5
-        DB      LA0,QDUP,SHX,QRND,SWX ; -
-        DB      LA1,QDUP,SHY,QRND,SWY ; -
+        DB      LHX,QRND,SWX,LHY,QRND,SWY ; -
         DB      QRET
-SFROM1: RST     5
-        DB      LA0,LA1,QEND    ; x y           kept while the route ends
-        CALL    ENDRT
-        RST     5
-        DB      SHY,SHX,QEND    ; -
-        CALL    STOP
+SFROM1: CALL    STOP
         CALL    HOME
 ; (fall into STOP)
 
@@ -703,7 +697,7 @@ CENDST: CALL    ENDRT
         JMP     PUNDS
 
 ; ROUTER - after an error: D when a route was open, which is forgotten
-ROUTER: LDA     ROPEN
+ROUTER: LDA     RITEMS
         PUSH    PSW
         CALL    RTNEW
         POP     PSW
