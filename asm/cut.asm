@@ -14,9 +14,8 @@
 ;
 ; Distances up to 1 um (QMU) are taken as none.
 
-CKIND   EQU MCUR+20     ; kinds of the elements
-NKIND   EQU MNEXT+20
-FKIND   EQU MFIRST+20
+CKIND   EQU MCUR        ; kinds of the elements
+NKIND   EQU MNEXT
 RITEMS  EQU CWORK+5     ; items written so far: 0 = no route is open, 1, 2 = more
 RELEMS  EQU CWORK+6     ; elements of them that did not merge: 0, 1, 2 = more
 RLASTP  EQU CWORK+7     ; 1 = last item was a point
@@ -32,19 +31,16 @@ RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
 RITCHK  EQU CWORK+66    ; kinds of the items of a CUT that is checked
-RMOVED  EQU CWORK+67    ; not 0 = wire positioned or moved since RUN
-BLKNO   EQU CWORK+68    ; number of the last block, four decimal digits
+RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN (H, W and these two lie together)
+BLKNO   EQU MHX+21      ; number of the last block, four decimal digits
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
 RUNINI: RST     5
-        DB      Q1,SSC          ; -
-        DB      Q0,SHX,Q0,SHY   ; -
-        DB      Q0,SWX,Q0,SWY   ; -
-        DB      QEND
-        LXI     H,0
-        SHLD    BLKNO
-        SHLD    RMOVED
+        DB      Q1,SSC,QEND     ; -
+        LXI     H,MHX           ; H, W, RMOVED, BLKNO
+        MVI     B,23
+        CALL    RTDON1
 ; (fall into RTNEW)
 
 ; RTNEW - forgets the open route and the route buffer
@@ -242,9 +238,14 @@ ITPN4:  DB      LDX,SPX,LDY,SPY ; -
 
 ; PUTN - makes the value the next element
 ; In:  a0 a1 a2, A = kind   Clobbers A, DE, HL
-PUTN:   STA     NKIND
+PUTN:   LXI     H,MNEXT
+; (fall into PUTVAL)
+
+; PUTVAL - puts the value into a record: kind, three numbers
+; In:  a0 a1 a2, A = kind, HL -> where to   Out: HL behind   Clobbers A, DE
+PUTVAL: MOV     M,A
+        INX     H
         LXI     D,MA
-        LXI     H,MNEXT
         JMP     COPY15
 
 ; GETR - wire offset of now; where none was set: 0
@@ -368,33 +369,31 @@ FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
 ; FITARC - does the fillet's touching point on the circle C come before the corner?
 ; In:  C, A, N = fillet, K = corner   Out: ERR 06   Clobbers all
 FITARC: RST     5
-        DB      LN0,ST0,LN1,ST1,LKX,ST4,LKY,ST5 ; -
-        DB      QEND
+        DB      LN0,SB0,LN1,SB1,QEND ; -
 ; (fall into PASSED)
 
-; PASSED - on the way along the circle C from its entry A, does T = (t0,t1) come before
-;          K = (t4,t5)?  All as seen from the centre
-; In:  C, A, t0 t1, t4 t5   Out: ERR 06 when not (never on a line: ADVANC looks after that)
+; PASSED - on the way along the circle C from its entry A, does the point T = b come before K?
+;          All as seen from the centre
+; In:  C, A, K, b   Out: ERR 06 when not (never on a line: ADVANC looks after that)
 ; Clobbers all
 ; It does when the chords to T and K turn as C does.
 PASSED: RST     5
         DB      QCA,QJC         ; -
         DB      PASS1-$
         DB      QRET
-PASS1:  DB      LT0,SB0,LT1,SB1,QNORM,LA0,LA1 ; tx ty
-        DB      QCA,LT4,SB0,LT5,SB1,QNORM,LA0,LA1 ; tx ty kx ky
+PASS1:  DB      QNORM,LA0,LA1   ; tx ty
+        DB      QCA,LKX,SB0,LKY,SB1,QNORM,LA0,LA1 ; tx ty kx ky
         DB      QCA,LAX,SB0,LAY,SB1,QNORM ; tx ty kx ky  a = of the entry
         DB      LA1,QSUB,LC2,QMUL,SB1 ; tx ty kx        b = chord to K
         DB      LA0,QSUB,LC2,QMUL,SB0 ; tx ty
         DB      LA1,QSUB,LC2,QMUL,QSWP ; dy tx          a = chord to T
         DB      LA0,QSUB,LC2,QMUL,SA0,SA1 ; -
-        DB      QCRS,LC2,QSIG,QJN ; -
+        DB      LA0,LA1,QFAR,QJN ; -            T is the entry within 1 um
         DB      PASS2-$
-        DB      QRET
-PASS2:  DB      LA0,LA1,QFAR,QJN ; -            T is the entry within 1 um
-        DB      PASS3-$
-        DB      QDIF,QFAR,QNEG,QE6N ; -         or K
-PASS3:  DB      QRET
+        DB      QDIF,QFAR,QJN   ; -             or K
+        DB      PASS2-$
+        DB      QCRS,LC2,QSIG,QE6N ; -
+PASS2:  DB      QRET
 
 ; OFFCHK - demands that the wire offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
@@ -513,22 +512,16 @@ SAMEF:  LDA     RLASTP
         ORA     A
         RNZ
         LXI     D,MFIRST
-        LDA     FKIND
-        CALL    XNA1            ; a = F
-        RST     5
-        DB      LGX,ST0,LGY,ST1,LFR,ST2 ; -
-        DB      QEND
         JMP     SAME
-SAMEC:  RST     5
-        DB      QCA             ; -
-        DB      LAX,ST0,LAY,ST1,LCR,ST2 ; -
-        DB      QEND
+SAMEC:  LXI     D,MCUR
 ; (fall into SAME)
 
 ; SAME - are an element and N the same curve in the same direction?
-; In:  a = element, VKIND; (t0,t1) where it was entered, t2 its offset
-; Out: Z set when they are   Clobbers all
-SAME:   LDA     VKIND
+; In:  DE -> C or F   Out: Z set when they are   Clobbers all
+SAME:   CALL    XNA1            ; a = the element
+        LXI     H,MT0
+        CALL    COPY15          ; t0 = its offset, (t1,t2) = where it was entered
+        LDA     VKIND
         LXI     H,NKIND
         CMP     M
         RNZ
@@ -539,8 +532,8 @@ SAME:   LDA     VKIND
         DB      QEPS,QDIF,QHYP,QSUB ; eps-angle
         DB      QJN             ; -
         DB      SAME9-$
-        DB      LT0,SA0,LT1,SA1,QDOT ; place along N's normal
-        DB      LB2,QSUB,LT2,QSUB ; off
+        DB      LT1,SA0,LT2,SA1,QDOT ; place along N's normal
+        DB      LB2,QSUB,LT0,QSUB ; off
         DB      QABS            ; |off|
 SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|
         DB      QJN             ; -
@@ -599,16 +592,15 @@ CLOSE1: LDA     RELEMS
         CALL    CPYEL
         CALL    NAMEIT
         CALL    ADDEL
-CLOSE3: CALL    CLOSEG
-        RST     5
+CLOSE3: RST     5
         DB      LCR,LFR,QSUB,QE6D ; -
-        DB      LGX,ST0,LGY,ST1,QEND ; -
+        DB      LGX,SB0,LGY,SB1,QEND ; -        b = G
         LXI     D,RCORN
-        LXI     H,MT0+20
+        LXI     H,MKX
         MVI     A,10
-        CALL    COPY            ; t4 t5 = end of the first element
+        CALL    COPY            ; K = end of the first element
         CALL    PASSED          ; the corner lies before the entry, not past it
-        JMP     CLOSE8
+        JMP     CLOSE7
 CLOSE4: LDA     CKIND           ; one element alone
         CPI     KCIR
         JNZ     ERGEO           ; a line
@@ -617,9 +609,11 @@ CLOSE4: LDA     CKIND           ; one element alone
         JZ      CLOSE6
         CALL    PATC            ; by way of the last point
         CALL    ADVANC
-CLOSE6: CALL    CLOSEG
-        LXI     H,RELEMS
+CLOSE6: LXI     H,RELEMS
         DCR     M               ; at the entry still: ADVANC takes the whole circle
+CLOSE7: CALL    NOFIL           ; there is no corner
+        RST     5
+        DB      LGX,SKX,LGY,SKY,QEND ; -        K = G, where the route was entered
 CLOSE8: CALL    ADVANC
 ; (fall into RTDONE)
 
@@ -632,13 +626,6 @@ RTDON1: MVI     M,0
         DCR     B
         JNZ     RTDON1
         RET
-
-; CLOSEG - K = G, where the route was entered
-; Out: K; ERR 06 when a fillet waits, which has no corner   Clobbers all
-CLOSEG: CALL    NOFIL
-        RST     5
-        DB      LGX,SKX,LGY,SKY ; -
-        DB      QRET
 
 ; ENDRT - ends the open route: closed when its last item is its first, else open
 ; Clobbers all
@@ -709,11 +696,12 @@ ROUTER: LDA     RITEMS
 
 ; QCA: a = C.  QNA: a = N.  VKIND with it
 XCA:    LXI     D,MCUR
-        LDA     CKIND
         JMP     XNA1
 XNA:    LXI     D,MNEXT
-        LDA     NKIND
-XNA1:   STA     VKIND           ; (for FETCH and SAMEF too)
+XNA1:   LDAX    D               ; (for SAME and FETCH too, which has a turn in bit 7)
+        ANI     7FH
+        STA     VKIND
+        INX     D
         LXI     H,MA
         JMP     COPY15
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense

@@ -119,10 +119,10 @@ TLETR   EQU 0F2H        ; ...0FFH: in KEYTAB, the letters of the names
 MA      EQU RAM         ; address of a0: value, and left operand
 MB      EQU RAM+15      ; address of b0: right operand
 MT0     EQU RAM+30      ; temporary registers
-MCUR    EQU RAM+60      ; elements: three numbers, offset, kind
-MNEXT   EQU RAM+85
-MFIRST  EQU RAM+110
-MNODE1  EQU RAM+135     ; nodes of FIT: tangent, place
+MCUR    EQU RAM+59      ; elements: kind, three numbers, offset; behind C and F the place of entry
+MNEXT   EQU RAM+94
+MFIRST  EQU RAM+139
+MNODE1  EQU RAM+170     ; nodes of FIT: tangent, place
 MNODE2  EQU RAM+295
 ELSIZE  EQU 21          ; bytes of an element
 LA0     EQU 040H
@@ -147,8 +147,6 @@ LT3     EQU 049H
 ST3     EQU 089H        ; M9
 LT4     EQU 04AH
 ST4     EQU 08AH        ; M10
-LT5     EQU 04BH
-ST5     EQU 08BH        ; M11
 LC0     EQU 04CH
 SC0     EQU 08CH        ; M12 current element: canonical numbers
 LC1     EQU 04DH
@@ -157,60 +155,62 @@ LC2     EQU 04EH
 SC2     EQU 08EH        ; M14
 LCR     EQU 04FH
 SCR     EQU 08FH        ; M15 its wire offset
-LN0     EQU 051H
-SN0     EQU 091H        ; M17 next element: canonical numbers
-LN1     EQU 052H
-SN1     EQU 092H        ; M18
-LN2     EQU 053H
-SN2     EQU 093H        ; M19
-LNR     EQU 054H
-SNR     EQU 094H        ; M20 its wire offset
-LF0     EQU 056H
-SF0     EQU 096H        ; M22 first element of the route: canonical numbers
-LF1     EQU 057H
-SF1     EQU 097H        ; M23
-LF2     EQU 058H
-SF2     EQU 098H        ; M24
-LFR     EQU 059H
-SFR     EQU 099H        ; M25 its wire offset
-L1U     EQU 05BH
-S1U     EQU 09BH        ; M27 node 1 of FIT: unit tangent, 0 0 when not known
-L1V     EQU 05CH
-S1V     EQU 09CH        ; M28
-L1X     EQU 05DH
-S1X     EQU 09DH        ; M29 and place
-L1Y     EQU 05EH
-S1Y     EQU 09EH        ; M30
-LRT     EQU 05FH
-SRT     EQU 09FH        ; M31 what SYM and REP do to items, how many times
-LAX     EQU 060H
-SAX     EQU 0A0H        ; M32 where the wire entered C
-LAY     EQU 061H
-SAY     EQU 0A1H        ; M33
-LKX     EQU 062H
-SKX     EQU 0A2H        ; M34 corner at the end of C
-LKY     EQU 063H
-SKY     EQU 0A3H        ; M35
-LGX     EQU 064H
-SGX     EQU 0A4H        ; M36 where the route was entered
-LGY     EQU 065H
-SGY     EQU 0A5H        ; M37
-LPX     EQU 066H
-SPX     EQU 0A6H        ; M38 last item, a point
-LPY     EQU 067H
-SPY     EQU 0A7H        ; M39
-LQX     EQU 068H
-SQX     EQU 0A8H        ; M40 first item, a point
-LQY     EQU 069H
-SQY     EQU 0A9H        ; M41
-LDX     EQU 06AH
-SDX     EQU 0AAH        ; M42 point that arrives
-LDY     EQU 06BH
-SDY     EQU 0ABH        ; M43
-LHX     EQU 06CH
-SHX     EQU 0ACH        ; M44 start hole: the FROM point
-LHY     EQU 06DH
-SHY     EQU 0ADH        ; M45
+LAX     EQU 050H
+SAX     EQU 090H        ; M16 where the wire entered C
+LAY     EQU 051H
+SAY     EQU 091H        ; M17
+LN0     EQU 053H
+SN0     EQU 093H        ; M19 next element: canonical numbers
+LN1     EQU 054H
+SN1     EQU 094H        ; M20
+LN2     EQU 055H
+SN2     EQU 095H        ; M21
+LNR     EQU 056H
+SNR     EQU 096H        ; M22 its wire offset
+LHX     EQU 057H
+SHX     EQU 097H        ; M23 start hole: the FROM point
+LHY     EQU 058H
+SHY     EQU 098H        ; M24
+LWX     EQU 059H
+SWX     EQU 099H        ; M25 wire, whole um
+LWY     EQU 05AH
+SWY     EQU 09AH        ; M26
+LF0     EQU 05CH
+SF0     EQU 09CH        ; M28 first element of the route: canonical numbers
+LF1     EQU 05DH
+SF1     EQU 09DH        ; M29
+LF2     EQU 05EH
+SF2     EQU 09EH        ; M30
+LFR     EQU 05FH
+SFR     EQU 09FH        ; M31 its wire offset
+LGX     EQU 060H
+SGX     EQU 0A0H        ; M32 where the route was entered
+LGY     EQU 061H
+SGY     EQU 0A1H        ; M33
+L1U     EQU 062H
+S1U     EQU 0A2H        ; M34 node 1 of FIT: unit tangent, 0 0 when not known
+L1V     EQU 063H
+S1V     EQU 0A3H        ; M35
+L1X     EQU 064H
+S1X     EQU 0A4H        ; M36 and place
+L1Y     EQU 065H
+S1Y     EQU 0A5H        ; M37
+LKX     EQU 066H
+SKX     EQU 0A6H        ; M38 corner at the end of C
+LKY     EQU 067H
+SKY     EQU 0A7H        ; M39
+LPX     EQU 068H
+SPX     EQU 0A8H        ; M40 last item, a point
+LPY     EQU 069H
+SPY     EQU 0A9H        ; M41
+LQX     EQU 06AH
+SQX     EQU 0AAH        ; M42 first item, a point
+LQY     EQU 06BH
+SQY     EQU 0ABH        ; M43
+LDX     EQU 06CH
+SDX     EQU 0ACH        ; M44 point that arrives
+LDY     EQU 06DH
+SDY     EQU 0ADH        ; M45
 LFI     EQU 06EH
 SFI     EQU 0AEH        ; M46 fillet radius that waits
 LO1     EQU 06FH
@@ -219,10 +219,10 @@ LO2     EQU 070H
 SO2     EQU 0B0H        ; M48 offset of N in a crossing
 LSC     EQU 071H
 SSC     EQU 0B1H        ; M49 scale
-LWX     EQU 072H
-SWX     EQU 0B2H        ; M50 wire, whole um
-LWY     EQU 073H
-SWY     EQU 0B3H        ; M51
+LT5     EQU 072H
+ST5     EQU 0B2H        ; M50
+LRT     EQU 073H
+SRT     EQU 0B3H        ; M51 what SYM and REP do to items, how many times
 LVX     EQU 074H
 SVX     EQU 0B4H        ; M52 end of the move, whole um
 LVY     EQU 075H
@@ -253,8 +253,9 @@ LRX     EQU 07EH
 SRX     EQU 0BEH
 LRY     EQU 07FH
 SRY     EQU 0BFH
-MKX     EQU RAM+170
-MNR     EQU RAM+100
+MKX     EQU RAM+190
+MNR     EQU RAM+110
+MHX     EQU RAM+115
 MO1     EQU RAM+235
 MBX     EQU RAM+270
 MC2     EQU RAM+70

@@ -37,10 +37,7 @@ RECORD: LDA     RITEMS
         LDA     VKIND
         RAL
         RRC                     ; bit 7
-        MOV     M,A
-        INX     H
-        LXI     D,MA
-        CALL    COPY15
+        CALL    PUTVAL
         SHLD    RBEND
         RET
 RECO2:  LXI     H,RBFULL
@@ -55,9 +52,6 @@ FETCH:  LXI     H,RTURN         ; (a fillet may have said so before)
         ORA     M
         MOV     M,A
         LHLD    RSRC
-        MOV     A,M
-        ANI     7FH
-        INX     H
         XCHG
         JMP     XNA1
 
