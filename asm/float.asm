@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
 ;         FITOF FTOI16, DECIN DECOUT
-; Uses:   calc, start (ERROR PUTC DIGIT), lexer (LEXCH), io (PRDEC), parser (ERSYN)
+; Uses:   calc, start (ERROR PUTC DIGIT ERSYN), lexer (LEXCH), io (PRDEC)
 ; Room:   1570 bytes
 ;
 ;   byte    0          1          2          3          4
@@ -119,7 +119,8 @@ FNRMC:  LDA     EXPO
         MOV     H,A
         JNC     FNRM2
         JNZ     FRND
-        JMP     FOVF
+        RST     1
+        DB      ERANGE
 
 FADD4:  CALL    FLOAD
         MVI     L,0

@@ -44,7 +44,8 @@ BIN1:   MOV     A,M
         MOV     B,A
         CPI     KTURN+1
         JC      BIN1
-        JMP     ERKIND          ; the end
+        RST     1               ; the end
+        DB      EKIND
 BIN2:   ADD     E               ; to the next byte-code
         MOV     E,A
         JNC     BIN1

@@ -185,7 +185,8 @@ LEXN1:  CALL    LEXCH
         DAD     D
         POP     H
         JNC     LEXN1
-        JMP     ERRNG
+        RST     1
+        DB      ERANGE
 LEXN2:  MOV     A,B
         ADD     A
         ADD     A

@@ -190,7 +190,8 @@ LINENO: RST     4
         LXI     H,MA
         CALL    FTOI16
         RNC
-        JMP     ERSYN
+        RST     1
+        DB      ESYN
 
 ; OPTLN - takes a line number, if there is one, and demands the statement's end
 ; Out: DE = number, else 0   Clobbers all

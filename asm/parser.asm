@@ -1,6 +1,6 @@
 ; parser.asm - expressions, names and variables
 ; Offers: EVAL EVNUM EVINT ASSIGN GETREF SETREF PRVAL PRNUM CMPNE CLRVAR CHKRET,
-;         KINDIS, COPY and the stubs ERSYN ERKIND ERRNG ERMEM ERUNS
+;         KINDIS, COPY and the stubs ERKIND ERRNG ERUNS
 ; Uses:   calc, float, geom (BINOP), monitor (CHKEND, the pointers)
 ; Room:   700 bytes
 ;
@@ -426,8 +426,6 @@ KINDIS: LXI     H,VKIND
         RZ
 ERKIND: RST     1
         DB      EKIND
-ERMEM:  RST     1
-        DB      EMEM
 
 ; CHKRET - in check mode leaves the routine that called it; the kind of the value is not known then
 ; In:  CHKF   Out: in check mode HL = 0, VKIND = KTURN   Clobbers A

@@ -1,6 +1,6 @@
 ; start.asm - restarts, what becomes of a line that is understood, and reset
 ; Offers: the restarts of equ.asm and the routines in the gaps between them
-;         (DIGIT, ADDA, ERDATA), SREM, RESET, VARSUM
+;         (DIGIT, ADDA, ERMEM, ERSYN, ERDATA), SREM, RESET, VARSUM
 ; Uses:   io (PUTC1, the ports), calc (CALC), monitor
 ; Room:   330 bytes
 ;
@@ -40,8 +40,8 @@ NEXT1:  INX     H               ; (READI takes an item here)
         SHLD    TXTP
         RET
 
-ERSYN:  RST     1
-        DB      ESYN
+ERMEM:  RST     1
+        DB      EMEM
 GAP20:  DS      20H-$
 
 ; RST 4 - EXPECT: takes a token, which must be the one that follows the RST
@@ -52,7 +52,7 @@ EXPECT: RST     3
         INX     H
         XTHL
         RZ
-        RST     1
+ERSYN:  RST     1
         DB      ESYN
 GAP28:  DS      28H-$
 
