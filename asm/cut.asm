@@ -106,9 +106,7 @@ ITEM:   LDA     CHKF
         CPI     CSEMI
         JNZ     ITEM1
         STA     RTURN
-ITEM1:  LDA     VKIND
-        CPI     KTURN
-        JZ      ERKIND
+ITEM1:  CALL    NOTURN
         CALL    SCALED
 ; ITEM2 - the same for an item in the scale of the tape
 ITEM2:  CALL    GETR
@@ -245,8 +243,7 @@ PUTN:   LXI     H,MNEXT
 ; In:  a0 a1 a2, A = kind, HL -> where to   Out: HL behind   Clobbers A, DE
 PUTVAL: MOV     M,A
         INX     H
-        LXI     D,MA
-        JMP     COPY15
+        JMP     PUTA
 
 ; GETR - wire offset of now; where none was set: 0
 ; Out: NR   Clobbers A, BC, DE, HL
@@ -702,8 +699,7 @@ XNA1:   LDAX    D               ; (for SAME and FETCH too, which has a turn in b
         ANI     7FH
         STA     VKIND
         INX     D
-        LXI     H,MA
-        JMP     COPY15
+        JMP     GETA
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
 XSENS:  RST     5
         DB      QJC

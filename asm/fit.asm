@@ -1,5 +1,5 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5)
-; Offers: SFIT FITEND EVPNT
+; Offers: SFIT FITEND
 ; Uses:   cut (ITEM3 GETR CPYEL FITN), parser, calc
 ; Room:   430 bytes
 ;
@@ -11,13 +11,6 @@
 ; d = v*v / (v*(t+u) + sqrt((v*(t+u))^2 + |t-u|^2 v*v)) its arcs meet in the joint
 ; M = (P+Q + d(t-u)) / 2.  Each arc is found from its node, tangent and w = M - node:
 ; r = w*w / 2(t x w), the centre lies r to the left of the node.
-
-; EVPNT - value of an expression that must be a point
-; In, Out: as EVAL; ERR 04   Clobbers all
-EVPNT:  CALL    EVAL
-        CALL    CHKRET
-        MVI     A,KPNT
-        JMP     KINDIS
 
 ; SFIT - statement: FIT point; FIT point, angle
 SFIT:   CALL    EVPNT

@@ -1,6 +1,6 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL EVNUM EVINT ASSIGN GETREF SETREF PRVAL PRNUM CMPNE CLRVAR CHKRET,
-;         KINDIS, COPY and the stubs ERKIND ERRNG ERUNS
+; Offers: EVAL EVNUM EVPNT EVKIND EVINT ASSIGN GETREF SETREF PRVAL PRNUM CMPNE CLRVAR
+;         CHKRET NOTURN, GETA PUTA COPY and the stubs ERKIND ERRNG ERUNS
 ; Uses:   calc, float, geom (BINOP), monitor (CHKEND, the pointers)
 ; Room:   700 bytes
 ;
@@ -49,11 +49,10 @@ EVA3:   POP     PSW
         RST     3               ; NEXT: take the operator
         LDA     VKIND
         MOV     B,A             ; B = left kind, C = rank
-        LXI     H,-16
+        LXI     H,-15
         DAD     SP
         SPHL
-        LXI     D,MA
-        CALL    COPY15          ; left value waits on the stack
+        CALL    PUTA            ; left value waits on the stack
         PUSH    B
         MOV     A,C
         CALL    EVALR
@@ -62,15 +61,23 @@ EVA3:   POP     PSW
         LXI     H,0
         DAD     SP
         XCHG
-        LXI     H,MA
-        CALL    COPY15
-        INX     D               ; DE = stack before the left value
+        CALL    GETA            ; DE = stack before the left value
         XCHG
         SPHL
         CALL    BINOP
         JMP     EVA1
 
 OPCHRS: DB      "/*-+:#,"       ; operators, tightest (rank 7) first
+
+; PUTA - copies the value in a0 a1 a2
+; In:  HL -> to   Out: DE, HL behind   Clobbers A
+PUTA:   LXI     D,MA
+        JMP     COPY15
+
+; GETA - copies a value to a0 a1 a2
+; In:  DE -> from   Out: DE, HL behind   Clobbers A
+GETA:   LXI     H,MA
+; (fall into COPY15)
 
 ; COPY15 - copies a value (three floats)
 ; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
@@ -117,25 +124,22 @@ OPFN:   PUSH    PSW
         MOV     A,B
         SUI     TK1
         JNC     OPK
-        CALL    NUMBER
-        LXI     D,MA
-        LXI     H,FNTAB
+        XRA     A
+        CALL    KINDIS          ; of a number
+        LXI     H,FNTAB-2*TSQR+256 ; (JTAB takes 2*A in a byte)
         MOV     A,B
-        SUI     TSQR
 ; (fall into JTAB)
 
 ; JTAB - jumps to entry A of a table of addresses
-; In:  A = index, HL -> table   Out: the entry runs with HL = the DE given
-; Clobbers A, BC, DE
+; In:  A = index, 2*A taken as a byte, HL -> table   Out: the entry runs with HL -> a0
+; Clobbers A, BC
 JTAB:   ADD     A
-        MOV     C,A
-        MVI     B,0
-        DAD     B
+        CALL    ADDA
         MOV     C,M
         INX     H
         MOV     B,M
         PUSH    B
-        XCHG
+        LXI     H,MA
         RET
 
 ; SQR SIN COS TG ATG ABS INT: the calculator's operations, in order
@@ -149,15 +153,11 @@ OPK:    MOV     B,A
         DCR     A
         CPI     KTURN-1
         JNC     ERKIND          ; a number has none
-        MOV     A,B
-        ADD     A
-        ADD     A
-        ADD     B
-        MOV     E,A
-        MVI     D,MA/256        ; (a0 begins a page)
-        LXI     H,MA
-        CALL    COPY5
-        JMP     SETNUM
+OPK1:   DCR     B
+        JM      SETNUM
+        LXI     D,MA+5          ; each comes one place down
+        CALL    GETA
+        JMP     OPK1
 
 ; OPPAR - an expression in parentheses; in it the comma is an operator
 OPPAR:  XRA     A
@@ -183,15 +183,16 @@ SETNUM: XRA     A
 ; SETK - makes the value one of kind A: the floats that it has not are zero
 ; In:  A = kind   Out: VKIND   Clobbers A, B, HL
 SETK:   STA     VKIND
+        SUI     KCIR
+        RNC                     ; three floats
+        MOV     B,A
+        ADD     A
+        ADD     A
+        ADD     B               ; A = -5 for each float that is missing
         LXI     H,MA+14
-        MVI     B,10
-        CPI     KPNT
-        JC      SETK1           ; a number
-        RNZ                     ; three floats
-        MVI     B,5
 SETK1:  MVI     M,0
         DCX     H
-        DCR     B
+        INR     A
         JNZ     SETK1
         RET
 
@@ -208,8 +209,7 @@ OPNAM:  CALL    NAME
         CALL    FIND
         JC      ERUNS
         XCHG
-        LXI     H,MA
-        CALL    COPY15          ; (all of them, whatever follows a shorter one)
+        CALL    GETA            ; (all of them, whatever follows a shorter one)
         MOV     A,B
         JMP     SETK
 
@@ -220,9 +220,7 @@ OPNEG:  CALL    OPND
 ; NEGVAL - negates the value: of a circle the radius, else everything
 ; In:  a0 a1 a2, VKIND   Clobbers all
 NEGVAL: CALL    CHKRET
-        LDA     VKIND
-        CPI     KTURN
-        JZ      ERKIND
+        CALL    NOTURN
         CPI     KCIR
         JZ      NEGV1
         RST     5
@@ -243,10 +241,9 @@ NAME:   CPI     TNAME
         JNC     ERSYN
         PUSH    PSW
         CALL    EVINT
-        PUSH    H
+        XCHG
         RST     4
         DB      CRBRK
-        POP     D
         LXI     H,-SUBMAX-1
         DAD     D
         JC      ERRNG
@@ -366,13 +363,11 @@ ERUNS:  RST     1
 PRVAL:  CALL    CHKRET
         LXI     H,MA
         LXI     B,8*256+2       ; B = digits, C = floats
-        LDA     VKIND
+        CALL    NOTURN
         ORA     A
         JZ      PRNUM
-        CPI     KTURN
-        JZ      ERKIND
-        CPI     KPNT
-        JZ      PRV1
+        DCR     A
+        JZ      PRV1            ; a point
         INR     C
 PRV1:   MVI     A,CLPAR
 PRV2:   RST     2
@@ -397,7 +392,7 @@ PRNUM:  PUSH    B
         RET
 
 ; EVINT - value of an expression that must be a whole number
-; In:  TXTP -> it   Out: HL = 0...65535 (0 in check mode); ERR 05   Clobbers all
+; In:  TXTP -> it   Out: HL = 0...65535 (4 in check mode); ERR 05   Clobbers all
 EVINT:  CALL    EVNUM
         CALL    CHKRET
         CALL    NRINT
@@ -408,15 +403,18 @@ EVINT:  CALL    EVNUM
 ERRNG:  RST     1
         DB      ERANGE
 
-; EVNUM - value of an expression that must be a number
+; EVPNT - value of an expression that must be a point
+; EVNUM - of one that must be a number
+; EVKIND - of one that must be of kind A
 ; In, Out: as EVAL; ERR 04   Clobbers all
-EVNUM:  CALL    EVAL
-; (fall into NUMBER)
-
-; NUMBER - demands that the value is a number
-; In:  VKIND   Clobbers A, HL
-NUMBER: CALL    CHKRET
-        XRA     A
+EVPNT:  MVI     A,KPNT
+        DB      0FEH            ; CPI: skips the XRA
+EVNUM:  XRA     A
+EVKIND: PUSH    PSW
+        CALL    EVAL
+        POP     B
+        CALL    CHKRET
+        MOV     A,B
 ; (fall into KINDIS)
 
 ; KINDIS - demands that the value is of kind A
@@ -427,15 +425,22 @@ KINDIS: LXI     H,VKIND
 ERKIND: RST     1
         DB      EKIND
 
+; NOTURN - demands that the value is no turn
+; In:  VKIND   Out: A = VKIND   Clobbers nothing else
+NOTURN: LDA     VKIND
+        CPI     KTURN
+        RNZ
+        RST     1
+        DB      EKIND
+
 ; CHKRET - in check mode leaves the routine that called it; the kind of the value is not known then
-; In:  CHKF   Out: in check mode HL = 0, VKIND = KTURN   Clobbers A
+; In:  CHKF   Out: in check mode HL = 4, a number that does anywhere, and VKIND = KTURN   Clobbers A
 CHKRET: LDA     CHKF
         ORA     A
         RZ
-        MVI     A,KTURN         ; (a kind that no name and no constant has)
-        STA     VKIND
         POP     H
-        LXI     H,0
+        LXI     H,KTURN         ; (a kind that no name and no constant has)
+        SHLD    VKIND           ; (the cell behind it is free)
         RET
 
 ; FINT - INT: greatest whole number not above, nearly whole ones taken as whole

@@ -163,10 +163,9 @@ SREP4:  CALL    IMAGE
 ; The items come last to first, each with the turn of the one behind it; a fillet stays
 ; behind a point and goes before an element, so that it is between two elements again.
 SSYM:   CALL    JOINT
-        CALL    EVAL
-        RST     7
         MVI     A,KLIN
-        CALL    KINDIS
+        CALL    EVKIND
+        RST     7
         RST     5
         DB      LA0,SRA,Q1,SRT,LA1,SRX ; -
         DB      LA2,LSC,QMUL,SRY ; -
