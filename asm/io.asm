@@ -1,6 +1,6 @@
 ; io.asm - teletype, punch and reader
-; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF PRDEC, BREAK, PUNON PUNOFF, INCHR
-; Uses:   monitor (the cells), float (DECOUT FITOF)
+; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF PRDEC, BREAK, PUNON PUNOFF PAPON, INCHR, SSAVE
+; Uses:   monitor (the cells, SLIST), float (DECOUT FITOF)
 ; Room:   280 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
@@ -28,10 +28,12 @@ WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
 ; PUTC1 - the work of RST 2
 ; In:  A = character; PSW, HL and BC on the stack   Clobbers nothing
 PUTC1:  MOV     B,A
-        STA     LASTC
-        LXI     H,COLS
-        INR     M
-        LDA     OUTSEL
+        LXI     H,LASTC
+        MOV     M,A
+        DCX     H
+        INR     M               ; COLS
+        DCX     H
+        MOV     A,M             ; OUTSEL
         MOV     C,A
         ORA     A
         JZ      PUTC2
@@ -83,6 +85,13 @@ PUNON:  MVI     A,1
         STA     OUTSEL
         ENDIF
         RET
+
+; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
+SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
+        CALL    SLIST
+        MVI     A,CEOF
+        RST     2
+; (fall into PUNOFF)
 
 ; PUNOFF - punch off; the place for a break, since the block is complete
 ; PAPON - paper on: the same where the punch is not the teletype's

@@ -1,5 +1,5 @@
 ; lexer.asm - a line: typed, made tokens of, listed
-; Offers: GETLIN LEX LISTOK KEYTAB
+; Offers: GETLIN LEX LISTLN KEYTAB
 ; Uses:   float (DECIN), parser (PRNUM), io (INCHR PUTS PRDEC CRLF), start (DIGIT ADDA)
 ; Room:   560 bytes
 ;
@@ -211,6 +211,13 @@ LEXCH:  MOV     A,M
         ANI     5FH             ; (what comes behind z turns into [ \ ] ^)
         RET
 
+; LISTLN - prints a line
+; In:  DE = its number, HL-> tokens   Out: HL-> behind their end   Clobbers all
+LISTLN: CALL    LISTDE
+        MVI     A,CBLANK
+        RST     2
+; (fall into LISTOK)
+
 ; LISTOK - prints a line's tokens as text that LEX reads back into the same tokens
 ; In:  HL-> tokens   Out: HL-> behind their end   Clobbers all
 LISTOK: MOV     A,M
@@ -275,8 +282,7 @@ PRLET:  ANI     0FH
         ADI     TLETR
         MOV     B,A
 PRWORD: PUSH    H
-        LXI     H,KEYEND        ; back to the last character of the word in front of it
-        DCR     B
+        LXI     H,KEYEND-1      ; back to the last character of the word in front of it
 PRWO1:  DCX     H
         MOV     A,M
         ORA     A

@@ -16,15 +16,14 @@ VTOP    EQU     MWORK+6         ; last byte of RAM
 NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
 CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: after an error
 OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper and punch; else paper
-CURLIN  EQU     MWORK+12        ; number of the line that runs
+COLS    EQU     MWORK+12        ; characters printed: STORE wants to know
+LASTC   EQU     MWORK+13        ; last character printed
 KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader
-LASTC   EQU     MWORK+16        ; last character printed
-VSUM    EQU     MWORK+17        ; check sum of the variables, as of the last prompt
-LSTTO   EQU     MWORK+19        ; last line to list
-DATP    EQU     MWORK+21        ; in front of the next DATA item: its comma, or a line's 00
-GSP     EQU     MWORK+23        ; top of the GOSUB stack
-COLS    EQU     MWORK+25        ; characters printed: STORE wants to know
+VSUM    EQU     MWORK+16        ; check sum of the variables, as of the last prompt
+CURLIN  EQU     MWORK+17        ; number of the line that runs
+DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00
+GSP     EQU     MWORK+21        ; top of the GOSUB stack
 GSTK    EQU     CWORK-16        ; 8 lines to go back to, downwards
 GSTKE   EQU     CWORK
 LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record
@@ -141,7 +140,7 @@ STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
 ; FINDLN - finds a line
 ; In:  DE = number
 ; Out: HL-> the first line with that number or a higher one, or the end; Z: it is that
-;      number, A = length of its record
+;      number, A = length of its record   Clobbers A, HL
 FINDLN: LXI     H,PROG
         XRA     A
 FIND1L: CALL    ADDA
@@ -167,7 +166,7 @@ LINE:   MOV     A,M
         SUI     3
         RC
         INX     H
-LINE1:  MOV     E,M             ; (RETURN takes its line here)
+LINE1:  MOV     E,M             ; (STORE takes a number here, RETURN its line)
         INX     H
         MOV     D,M
         INX     H
@@ -302,8 +301,7 @@ RUN1:   SHLD    NXTP
 ; (fall into RUNLP)
 
 ; RUNLP - runs the program from NXTP on; to READY when a direct line is done
-RUNLP:  LXI     SP,STKTOP
-        LHLD    NXTP
+RUNLP:  LHLD    NXTP
         MOV     A,H
         ORA     A
         JZ      READY
@@ -315,7 +313,8 @@ RUNLP:  LXI     SP,STKTOP
         XCHG
         SHLD    CURLIN
         CALL    BREAK
-DIRECT: LXI     H,0200H
+DIRECT: LXI     SP,STKTOP
+        LXI     H,0200H
         SHLD    CHKF            ; (nothing new to a line of the program)
         CALL    STMT
 DIREC1: JMP     RUNLP           ; (its address lies at PROG-2, where DATP may point: no comma)
@@ -405,7 +404,7 @@ READI2: CALL    NEXT1           ; TXTP = HL+1
 ; (fall into READI3)
 
 ; READI3 - ends READI and ASK; the stack keeps what it holds for ASKAGN until all is well
-; In:  on the stack: TXTP, name; a0 a1 a2, VKIND
+; In:  on the stack: TXTP, name; a0 a1 a2, VKIND   Out: paper on
 READI3: POP     H
         POP     D
         PUSH    D
@@ -414,7 +413,7 @@ READI3: POP     H
         CALL    SETREF
         POP     H
         POP     H
-        RET
+        JMP     PAPON
 
 ; SINPUT - statement: INPUT name, ...; a direct one asks for one name, its line being
 ;          overwritten by the answer
@@ -424,7 +423,6 @@ SINPUT: CALL    GETREF
         MOV     A,H
         ORA     L
         RZ
-        CALL    PAPON
         CALL    MORE
         JMP     SINPUT
 
@@ -450,44 +448,35 @@ ASK1:   CALL    PUTSI
 
 ; SLIST - command: LIST, LIST n, LIST n,m
 SLIST:  RST     6
-        LXI     H,-1
-        LXI     D,0
+        LXI     B,-1            ; BC = last line to list
+        LXI     D,0             ; DE = first
         JZ      SLIS2
         CALL    LINENO
         PUSH    H
-        PUSH    H               ; one number: that line
         RST     6
-        JZ      SLIS1
         POP     H
+        PUSH    H               ; one number: that line
+        JZ      SLIS1
         RST     4
         DB      CCOMMA
         CALL    LINENO
-        PUSH    H
-SLIS1:  POP     H
-        POP     D
-SLIS2:  SHLD    LSTTO
-        RST     7               ; DE = first
+SLIS1:  POP     D
+        MOV     B,H
+        MOV     C,L
+SLIS2:  RST     7
         CALL    FINDLN
 SLIS3:  CALL    LINE
         RC
-        LDA     LSTTO
+        MOV     A,C
         SUB     E
-        LDA     LSTTO+1
+        MOV     A,B
         SBB     D
         RC
-        CALL    LISTDE
-        MVI     A,CBLANK
-        RST     2
-        CALL    LISTOK
+        PUSH    B
+        CALL    LISTLN
+        POP     B
         INX     H               ; check byte
         JMP     SLIS3
-
-; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
-SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
-        CALL    SLIST
-        MVI     A,CEOF
-        RST     2
-        JMP     PUNOFF
 
 ; SNEW - command: NEW
 SNEW:   RST     7

@@ -92,7 +92,6 @@ SREM:   LDA     CHKF
 ; CHKED - the line is understood: stores it or carries it out
 ; In:  on the stack, below STKTOP: -> behind its tokens
 CHKED:  LXI     SP,STKTOP-2
-        POP     B               ; C = low byte of it
         LXI     H,TOKS
         SHLD    TXTP
         MOV     A,M
@@ -101,43 +100,34 @@ CHKED:  LXI     SP,STKTOP-2
 ; (fall into STORE)
 
 ; STORE - puts the line into the program, or takes it out; to READY
-; In:  LINUM = its number, C = low byte of -> behind its tokens
+; In:  LINUM = its number, on the stack: -> behind its tokens
 STORE:  MVI     L,STMT0 & 255
         SHLD    TXTP
         RST     3
         CPI     TRUN
         JNC     ERSYN           ; commands do not go into a program
-        PUSH    B               ; it is listed, unseen: is it a line that LOAD takes?
-        XRA     A
-        STA     COLS
-        STA     OUTSEL
-        LHLD    LINUM
-        XCHG
-        CALL    LISTDE
-        MVI     A,CBLANK
-        RST     2
-        LXI     H,STMT0
-        CALL    LISTOK
+        XRA     A               ; it is listed, unseen (OUTSEL = 0, from GETLIN): is it a line
+        STA     COLS            ; that LOAD takes?
+        LXI     H,LINUM
+        CALL    LINE1
+        CALL    LISTLN
         LDA     COLS
         CPI     126+2+1         ; CR and LF count
         JNC     ERMEM
-        POP     B
+        POP     B               ; C = low byte of -> behind the tokens
         LXI     H,LINUM-1       ; the record's head takes the place of the number token
-        LDA     STMT0
-        ORA     A
-        JZ      STOR1           ; the number alone: no record
         MOV     A,C
-        SUB     L
-        INR     A
+        SUI     (STMT0+1) & 255
+        JZ      STOR1           ; the number alone: no record
+        ADI     STMT0+1-LINUM+2 ; (the check byte comes to the tokens)
 STOR1:  MOV     M,A
         MOV     C,A             ; C = length
         PUSH    H
-        MOV     B,A
-        DCR     B
+        DCR     A
         CALL    SUMREC
         MOV     M,A             ; (no record: somewhere in the stack's free room)
-        LHLD    LINUM
-        XCHG
+        LXI     H,LINUM
+        CALL    LINE1
         CALL    FINDLN          ; HL-> its place
         JZ      STOR2           ; A = length of the line that it replaces
         XRA     A
@@ -240,7 +230,6 @@ RESE4:  SHLD    PEND            ; sound so far
         MOV     A,M
         ORA     A
         JZ      RESE5
-        MOV     B,A
         CALL    SUMREC
         ORA     A
         JZ      RESE4
@@ -263,28 +252,29 @@ IOTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for
         ENDIF
 
 ; SUMREC - check sum: a sound record of the program sums up to 0
-; In:  HL-> bytes, B = how many   Out: A = 0 less their sum; HL behind   Clobbers B
-SUMREC: XRA     A
-SUMR1:  SUB     M
+; In:  HL-> bytes, A = how many   Out: A = 0 less their sum; HL behind; B = 0
+SUMREC: MOV     B,A
+        XRA     A
+SUMR1:  SUB     M               ; (VARSUM goes on with its sum here)
         INX     H
         DCR     B
         JNZ     SUMR1
         RET
 
 ; VARSUM - check sum of the variables, to VSUM
-; Out: Z when it is the same as last time   Clobbers A, B, DE, HL
-VARSUM: LHLD    VTOP
-        XCHG
-        LHLD    VBOT
-        MVI     B,1
-VARS1:  MOV     A,B
-        ADD     M
-        MOV     B,A
-        CALL    CPHD
-        INX     H
-        JC      VARS1
+; Out: Z when it is the same as last time   Clobbers A, B, C, HL
+VARSUM: LHLD    VBOT
+        XRA     A
+        SUB     L
+        MOV     B,A             ; to the end of the page
+VARS1:  CALL    SUMR1           ; then whole pages: B = 0
+        MOV     C,A
+        LDA     VTOP+1
+        INR     A
+        CMP     H
+        MOV     A,C
+        JNZ     VARS1
         LXI     H,VSUM
-        MOV     A,M
-        MOV     M,B
-        CMP     B
+        CMP     M
+        MOV     M,A
         RET
