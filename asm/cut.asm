@@ -99,8 +99,7 @@ SCUT2:  PUSH    PSW             ; ";": the corner to come turns right
 
 ; ITEM - takes one item into the route
 ; In:  a0 a1 a2, VKIND, B = token in front of it   Clobbers all (A, B in check mode)
-ITEM:   LDA     CHKF
-        ORA     A
+ITEM:   CALL    CHECK
         JNZ     ITCHK
         MOV     A,B
         CPI     CSEMI

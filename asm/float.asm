@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
 ;         FITOF FTOI16, DECIN DECOUT
-; Uses:   calc, start (ERROR PUTC DIGIT ERSYN), lexer (LEXCH), io (PRDEC)
+; Uses:   calc, start (ERROR PUTC ERSYN), lexer (LEXCH LEXDIG LEXDEC), io (PRDEC)
 ; Room:   1570 bytes
 ;
 ;   byte    0          1          2          3          4
@@ -1074,8 +1074,7 @@ DECIN:  PUSH    D
         STA     MT0
         LXI     B,0FFH          ; B = power of ten to divide by, C = 0 behind the point
         MVI     E,0FFH          ; E = 0FFH: no digit yet
-DECI1:  CALL    LEXCH
-        CALL    DIGIT
+DECI1:  CALL    LEXDIG
         JC      DECI2
         XRA     C               ; (C = 0 lets no point come out as 1)
         DCR     A
@@ -1120,31 +1119,19 @@ DECI3:  INR     E
         JNZ     DECI5
         INR     C
 DECI4:  INX     H
-DECI5:  LXI     D,0FFH          ; D = exponent, E = 0FFH: no digit yet
-DECI6:  CALL    LEXCH
-        CALL    DIGIT
-        JNC     DECI7
-        INX     H
-        MOV     E,A
+DECI5:  CALL    LEXDEC          ; DE = exponent
         MOV     A,D
-        CPI     10
+        ORA     A
+        JM      DECI8           ; no digit: the E is not ours
+        JNZ     FOVF
+        MOV     A,E
+        CPI     100
         JNC     FOVF
-        ADD     A
-        ADD     A
-        ADD     D
-        ADD     A
-        ADD     E
-        MOV     D,A
-        JMP     DECI6
-DECI7:  INR     E
-        JZ      DECI8           ; the E is not ours
-        POP     PSW
-        MOV     A,D
         XRA     C
         SUB     C               ; -exponent unless it is negative
         ADD     B
         MOV     B,A
-        PUSH    H
+        XTHL                    ; -> behind it, not -> E
 DECI8:  POP     H
 DECI9:  XTHL
         PUSH    H

@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
-; Offers: GETLIN LEX LISTLN KEYTAB
-; Uses:   float (DECIN), parser (PRNUM), io (INCHR PUTS PRDEC CRLF), start (DIGIT ADDA)
+; Offers: GETLIN LEX LEXCH LEXDIG LEXDEC LISTLN KEYTAB
+; Uses:   float (DECIN), parser (PRNUM), io (INCHR PUTS PRDEC CRLF), start (ADDA)
 ; Room:   560 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
@@ -167,10 +167,27 @@ LEXNAM: SUI     TLETR-TSUB
         CPI     CLBRK
         JZ      LEX2
         PUSH    D
-        LXI     D,0             ; DE = subscript
-LEXN1:  CALL    LEXCH
-        CALL    DIGIT
-        JNC     LEXN2
+        CALL    LEXDEC          ; DE = subscript
+        MOV     A,B
+        ADD     A
+        ADD     A
+        ADI     (TNAME-4*TLETR) & 255
+        ADD     D
+        ORI     TNAME           ; (no digits: D = 80H)
+        MOV     B,E
+        POP     D
+        STAX    D
+        INX     D
+        MOV     A,B
+        STAX    D
+        RET
+
+; LEXDEC - digits of a subscript or of an exponent of ten
+; In:  HL-> text   Out: DE = number, 0...SUBMAX, or 8000H when there is no digit; HL-> behind it;
+;      ERR 05   Clobbers A
+LEXDEC: LXI     D,8000H         ; (ten times that is 0)
+LEXD1:  CALL    LEXDIG
+        RNC
         INX     H
         PUSH    H
         MOV     H,D
@@ -179,25 +196,24 @@ LEXN1:  CALL    LEXCH
         DAD     H
         DAD     D
         DAD     H
-        CALL    ADDA            ; 10 * subscript + digit
+        CALL    ADDA            ; 10 * number + digit
         XCHG
         LXI     H,-SUBMAX-1
         DAD     D
         POP     H
-        JNC     LEXN1
+        JNC     LEXD1
         RST     1
         DB      ERANGE
-LEXN2:  MOV     A,B
-        ADD     A
-        ADD     A
-        ADI     (TNAME-4*TLETR) & 255
-        ADD     D
-        MOV     B,E
-        POP     D
-        STAX    D
-        INX     D
-        MOV     A,B
-        STAX    D
+
+; LEXDIG - is the next character that counts a digit?
+; In:  HL-> text   Out: as DIGIT; HL-> it   Clobbers nothing else
+LEXDIG: CALL    LEXCH
+; (fall into DIGIT)
+
+; DIGIT - is the character a digit?
+; In:  A   Out: CY set: yes, A = its value   Clobbers A
+DIGIT:  SUI     CZERO
+        CPI     10
         RET
 
 ; LEXCH - next character that counts

@@ -258,8 +258,7 @@ SIF2:   PUSH    B
         CALL    EVNUM
         RST     4
         DB      TGOTO
-        LDA     CHKF
-        ORA     A
+        CALL    CHECK
         JNZ     SGOTO
         RST     5
         DB      LA0,SB0,SA0,QEND ; -            a = left, b = right
@@ -347,8 +346,7 @@ SPRI4:  RST     3
         JMP     SPRI4
 
 ; SDATA - statement: DATA expression, ...: nothing, until READ comes
-SDATA:  LDA     CHKF
-        ORA     A
+SDATA:  CALL    CHECK
         RZ
 SDAT1:  LXI     H,SDAT1         ; where MORE returns to
         PUSH    H

@@ -203,8 +203,7 @@ OPNAM:  CALL    NAME
         CALL    KINDOF
         MOV     A,B
         STA     VKIND
-        LDA     CHKF
-        ORA     A
+        CALL    CHECK
         RNZ
         CALL    FIND
         JC      ERUNS
@@ -435,8 +434,7 @@ NOTURN: LDA     VKIND
 
 ; CHKRET - in check mode leaves the routine that called it; the kind of the value is not known then
 ; In:  CHKF   Out: in check mode HL = 4, a number that does anywhere, and VKIND = KTURN   Clobbers A
-CHKRET: LDA     CHKF
-        ORA     A
+CHKRET: CALL    CHECK
         RZ
         POP     H
         LXI     H,KTURN         ; (a kind that no name and no constant has)

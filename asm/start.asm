@@ -1,6 +1,6 @@
 ; start.asm - restarts, what becomes of a line that is understood, and reset
 ; Offers: the restarts of equ.asm and the routines in the gaps between them
-;         (DIGIT, ADDA, ERMEM, ERSYN, ERDATA), SREM, RESET, VARSUM
+;         (CHECK, ADDA, ERMEM, ERSYN, ERDATA), SREM, RESET, VARSUM
 ; Uses:   io (PUTC1, the ports), calc (CALC), monitor
 ; Room:   330 bytes
 ;
@@ -10,10 +10,10 @@
 ; RST 0 - reset
         JMP     RESET
 
-; DIGIT - is the character a digit?
-; In:  A   Out: CY set: yes, A = its value   Clobbers A
-DIGIT:  SUI     CZERO
-        CPI     10
+; CHECK - is the statement only parsed?
+; In:  CHKF   Out: A = CHKF, Z: no, it works   Clobbers nothing else
+CHECK:  LDA     CHKF
+        ORA     A
         RET
 GAP08:  DS      08H-$
 
@@ -84,8 +84,7 @@ GAP38:  DS      38H-$
 CHKEND: RST     4
         DB      TEOL
 ; SREM - statement: REM text
-SREM:   LDA     CHKF
-        ORA     A
+SREM:   CALL    CHECK
         RZ
 ; (fall into CHKED)
 
