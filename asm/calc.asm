@@ -1,5 +1,5 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: CALC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, and OPTAB
+; Offers: CALC, RUNBC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, and OPTAB
 ; Uses:   float
 ; Room:   240 bytes
 ;
@@ -58,6 +58,11 @@ QOWN    EQU 16H         ; number of the first operation that another file adds
 CALINI: LXI     H,FSTK
         SHLD    FSP
         RET
+
+; RUNBC - runs byte-code that ends with QEND and a RET, or with QRET
+; In:  DE -> byte-code   Clobbers all
+RUNBC:  PUSH    D
+; (fall into CALC)
 
 ; CALC - runs byte-code (RST 5 jumps here)
 ; In:  on the stack: code pointer   Clobbers all
@@ -210,10 +215,6 @@ OSWP1:  LDAX    D
         DCR     C
         JNZ     OSWP1
         RET
-
-OSQ:    MOV     D,H
-        MOV     E,L
-        JMP     FMUL
 
 ; OPTAB - addresses of the operations from 1 on.  It is left open: a file that
 ; comes next goes on with DW lines for QOWN, QOWN+1, ...

@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
-;         FITOF FTOI16, DECIN DECOUT
-; Uses:   calc, start (ERROR PUTC ERSYN), lexer (LEXCH LEXDIG LEXDEC), io (PRDEC)
+;         FITOF FTOI16, DECIN DECOUT PRDEC
+; Uses:   calc, start (ERROR PUTC ERSYN), lexer (LEXCH LEXDIG LEXDEC)
 ; Room:   1570 bytes
 ;
 ;   byte    0          1          2          3          4
@@ -171,6 +171,12 @@ FSHR2:  MOV     A,B
         DCR     H
         JNZ     FSHR1
         RET
+
+; OSQ - QSQ: x * x (an operation of the calculator)
+; In:  HL -> x   Out: x; ERR 05   Clobbers all
+OSQ:    MOV     D,H
+        MOV     E,L
+; (fall into FMUL)
 
 ; FMUL - x * y
 ; In:  DE -> x, HL -> y   Out: x; ERR 05   Clobbers all
@@ -1060,7 +1066,14 @@ DECOD:  MOV     A,B
         MOV     L,A
         MVI     A,CMINUS
         RST     2
-        JMP     PRDEC
+; (fall into PRDEC)
+
+; PRDEC - prints a whole number
+; In:  HL = number, not 0   Clobbers all
+PRDEC:  LXI     D,0
+        MOV     C,D
+        JMP     DECOU1
+
 DECOE:  DB      QDRP,QEND
         POP     B
         JMP     DECO3

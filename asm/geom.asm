@@ -1,5 +1,5 @@
 ; geom.asm - the operations of language.md table 2.1, as calculator code
-; Offers: BINOP, BINOPK, RUNBC, XXCH, GBELT, ERGEO and the operations QDOT ... QXCH of ops.asm
+; Offers: BINOP, BINOPK, XXCH, GBELT, ERGEO and the operations QDOT ... QXCH of ops.asm
 ; Uses:   calc, float, parser (SETK, CHKRET, error stubs)
 ; Room:   600 bytes
 ;
@@ -56,11 +56,6 @@ BIN3:   PUSH    B
         POP     B
         MOV     A,B
         JMP     SETK
-
-; RUNBC - runs byte-code that ends with QEND and a RET
-; In:  DE -> byte-code   Clobbers all
-RUNBC:  PUSH    D
-        JMP     CALC
 
 ; GEOTAB - which byte-code serves which operands.  It goes along the byte-codes, as they
 ; stand in memory:

@@ -1,6 +1,6 @@
 ; io.asm - teletype, punch and reader
-; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF PRDEC, BREAK, PUNON PUNOFF PAPON, INCHR, SSAVE
-; Uses:   monitor (the cells, SLIST), float (DECOUT FITOF)
+; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF, BREAK, PUNON PUNOFF PAPON, INCHR, SSAVE
+; Uses:   monitor (the cells, SLIST)
 ; Room:   280 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
@@ -136,12 +136,6 @@ PUTS:   MOV     A,M
         INX     H
         JP      PUTS
         RET
-
-; PRDEC - prints a whole number
-; In:  HL = number, not 0   Clobbers all
-PRDEC:  LXI     D,0
-        MOV     C,D
-        JMP     DECOU1
 
 ; INCHR - waits for the next character, from the reader in LOAD, else from the teletype
 ; Out: A; ctrl-Z when the reader has stopped   Clobbers DE, HL

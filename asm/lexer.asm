@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LEXCH LEXDIG LEXDEC LISTLN KEYTAB
-; Uses:   float (DECIN), parser (PRNUM), io (INCHR PUTS PRDEC CRLF), start (ADDA)
+; Uses:   float (DECIN PRDEC), parser (PRNUM), io (INCHR PUTS CRLF), start (ADDA)
 ; Room:   560 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins

@@ -1,5 +1,5 @@
 ; monitor.asm - prompt, program lines, running them, errors
-; Offers: READY RUNLP DIRECT STMT ERR LINENO FINDLN CPHD NEW1 FREE1 CLEAR and the
+; Offers: READY RUNLP DIRECT STMT ERR LINENO FINDLN NEW1 FREE1 CLEAR and the
 ;         statements and commands that do not cut; the cells below
 ; Uses:   everything
 ; Room:   600 bytes
@@ -170,15 +170,6 @@ LINE1:  MOV     E,M             ; (STORE takes a number here, RETURN its line)
         INX     H
         MOV     D,M
         INX     H
-        RET
-
-; CPHD - compares
-; In:  HL, DE   Out: flags of HL - DE: CY less, Z equal   Clobbers A
-CPHD:   MOV     A,H
-        CMP     D
-        RNZ
-        MOV     A,L
-        CMP     E
         RET
 
 ; LINENO - takes a line number

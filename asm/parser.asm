@@ -18,7 +18,7 @@
 ; A variable is its name (high byte, low byte), then one, two or three floats.
 ; The newest lies lowest, at VBOT; a zero byte at VTOP ends the list.
 
-VKIND   EQU CWORK       ; kind of the value in a0 a1 a2
+VKIND   EQU CWORK       ; kind of the value in a0 a1 a2; CHKRET writes the cell behind it too
 STKROM  EQU 64          ; stack bytes that the deepest operation may need
 SUBMAX  EQU 999         ; greatest subscript
 

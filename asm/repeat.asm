@@ -1,5 +1,5 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
-; Offers: SSYM SREP SRECUT SSCALE, RECORD
+; Offers: SSYM SREP SRECUT SSCALE, RECORD, CPHD
 ; Uses:   cut (ITEM2, CLOSE, HOME), parser, geom
 ; Room:   300 bytes
 ;
@@ -102,7 +102,16 @@ STEP1:  LHLD    RSRC            ; (for STEPB)
         XCHG
         LHLD    RSTOP
         XCHG
-        JMP     CPHD
+; (fall into CPHD)
+
+; CPHD - compares
+; In:  HL, DE   Out: flags of HL - DE: CY less, Z equal   Clobbers A
+CPHD:   MOV     A,H
+        CMP     D
+        RNZ
+        MOV     A,L
+        CMP     E
+        RET
 
 ; JOINT - ends a curve, takes the ";" that SYM and REP may begin with
 ; Out: RJOIN   Clobbers all
