@@ -138,12 +138,11 @@ FSHR:   PUSH    PSW
 FSHR3:  SUI     8
         RC
         MOV     H,A
-        MOV     A,L
-        ADI     0FFH            ; CY: something is lost
-        MOV     A,E
-        JNC     FSHR4
-        ORI     1
-FSHR4:  MOV     L,A
+        XRA     A
+        CMP     L               ; CY: something is lost
+        RAL
+        ORA     E
+        MOV     L,A
         MOV     E,D
         MOV     D,C
         MOV     C,B
@@ -430,9 +429,8 @@ FDIV6:  CMC
 
 ; FADD2 - the part of FADD for different signs
 ; In:  B C D E A = the smaller, aligned, HL -> last byte of the larger
-FADD2:  CMA                     ; 0 - guard
-        ADI     1
-        CMC
+FADD2:  ADI     0FFH            ; 0 - guard, CY: borrow
+        CMA
         PUSH    PSW
         MOV     A,M
         SBB     E
@@ -455,16 +453,16 @@ FADD2:  CMA                     ; 0 - guard
         POP     H
         MOV     L,H
         JNC     FNRME
-        XRA     A               ; it was the smaller after all: turn all (guard is 0)
+        XRA     A               ; it was the smaller after all: turn all (the guard L is 0)
         SUB     E
         MOV     E,A
-        MVI     A,0
+        MOV     A,L
         SBB     D
         MOV     D,A
-        MVI     A,0
+        MOV     A,L
         SBB     C
         MOV     C,A
-        MVI     A,0
+        MOV     A,L
         SBB     B
         MOV     B,A
         LDA     SIGN
@@ -607,8 +605,6 @@ FTOI16: MOV     A,M
         MOV     L,A
         RET
 FTOI1:  CALL    FWHOLE
-        CMC
-        RC
         LDA     SIGN
         ANI     80H
         ORA     B
@@ -619,13 +615,11 @@ FTOI1:  CALL    FWHOLE
         RET
 
 ; FWHOLE - whole part of a number
-; In:  HL -> x, not 0   Out: CY set: B C D E = |x| cut off, L = 0 when that is x,
-;      SIGN; CY clear: x is 2^32 or more   Clobbers A, H
+; In:  HL -> x, not 0   Out: B C D E = |x| cut off, L = 0 when that is x, SIGN
+;      (2^32 and more: B C D E = 0, L = 1)   Clobbers A, H
 FWHOLE: MVI     A,0A0H
 ; FALIGN - the same for x * 2^(A-0A0H)
-FALIGN: SUB     M               ; bits behind the units
-        CMC
-        RNC
+FALIGN: SUB     M               ; bits behind the units (too large: at least 161)
         PUSH    PSW
         INX     H
         MOV     A,M
@@ -636,9 +630,11 @@ FALIGN: SUB     M               ; bits behind the units
 
 ; FFLR - greatest whole number not above x
 ; In:  HL -> x   Out: x   Clobbers all
-FFLR:   PUSH    H
+FFLR:   MOV     A,M
+        CPI     0A0H
+        RNC                     ; large ones are whole
+        PUSH    H
         CALL    FWHOLE
-        JNC     DECIA           ; large ones are whole: POP H, RET (end of DECIN)
         LDA     SIGN
         ADD     A
         SBB     A
@@ -782,16 +778,15 @@ FSER:   CALL    OOVR            ; y c1
         PUSH    D
         RST     5
         DB      QOVR,QSQ,QDUP,QEND      ; y c1 z z
-        POP     D
+        POP     D                       ; (QDUP leaves HL = FSP)
         CALL    FSER1           ; y c1 z Q
         RST     5
         DB      QMUL,QSUB       ; y P
         DB      QOVR,QMUL,QADD,QRET     ; y+y*P
 
 ; FSER1 - z to Q(z), on top of the calculator's stack
-; In:  DE -> table from 80H+e on   Clobbers all
-FSER1:  LHLD    FSP
-        LXI     B,-5
+; In:  DE -> table from 80H+e on, HL = FSP   Clobbers all
+FSER1:  LXI     B,-5
         DAD     B
         PUSH    H               ; -> z, for FNRM
         LDAX    D
@@ -1153,7 +1148,7 @@ DECI9:  XTHL
         POP     D
         CALL    CALPOP
         XCHG
-DECIA:  POP     H               ; (FFLR comes here too)
+        POP     H
         RET
 TENLOG  EQU 0DB87H      ; of exponent 0: high byte = digits before the point + 1, rounded up
 CPOINT  EQU 2EH         ; .
