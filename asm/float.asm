@@ -345,63 +345,59 @@ FDIV:   PUSH    D
         MVI     A,1
         STA     FQ
         CALL    FDIV3           ; first bit: is x >= y?
-        PUSH    PSW
-        CALL    FDIV1
-        PUSH    PSW
-        CALL    FDIV1
-        PUSH    PSW
-        CALL    FDIV1
-        PUSH    PSW
+        CALL    FDIVX
+        PUSH    H
+        MVI     A,1
+FDIV0:  CALL    FDIVW           ; (FSQR comes in here)
+        PUSH    H
         MVI     A,40H
         CALL    FDIVA           ; two bits more
         RRC
         RRC
         MOV     L,A             ; guard
         POP     D
-        MOV     E,D
-        POP     PSW
-        MOV     D,A
         POP     B
-        MOV     C,B
-        POP     PSW
-        MOV     B,A
         JMP     FNRM1
 
+; FDIVW - 16 bits of the quotient, fewer by those that A has above its highest 1
+; FDIVX - the same when the first eight are in A
+; In:  B C D E = remainder, FY = divisor   Out: HL, B C D E   Clobbers A
+FDIVW:  CALL    FDIVA
+FDIVX:  PUSH    PSW
+        CALL    FDIV1
+        POP     H
+        MOV     L,A
+        RET
+
 ; FDIV1 - eight bits of the quotient
-; FDIVA - as many as A has zeros above its only 1, and one: 40H two bits
+; FDIVA - as many as A has zeros above its highest 1, and one: 40H two bits
 ; In:  B C D E = remainder, FY = divisor   Out: A, B C D E, CY set   Clobbers HL
-; Cycles: 210 a bit
+; Cycles: 240 a bit
 FDIV1:  MVI     A,1             ; ready when this bit comes out
 FDIVA:  STA     FQ
-FDIV2:  MOV     A,E
-        ADD     A
-        MOV     E,A
-        MOV     A,D
-        RAL
-        MOV     D,A
+FDIV2:  XCHG
+        DAD     H
+        XCHG
         MOV     A,C
         RAL
         MOV     C,A
         MOV     A,B
         RAL
         MOV     B,A
-        JC      FDIV5
-FDIV3:  LXI     H,FY+3
-        MOV     A,B
-        CMP     M
-        JNZ     FDIV4
-        DCX     H
-        MOV     A,C
-        CMP     M
-        JNZ     FDIV4
-        DCX     H
-        MOV     A,D
-        CMP     M
-        JNZ     FDIV4
-        DCX     H
+        JC      FDIV5           ; 2^32 and more: it goes
+FDIV3:  LXI     H,FY
         MOV     A,E
-        CMP     M
-FDIV4:  JC      FDIV6           ; smaller: bit 0
+        SUB     M
+        INX     H
+        MOV     A,D
+        SBB     M
+        INX     H
+        MOV     A,C
+        SBB     M
+        INX     H
+        MOV     A,B
+        SBB     M
+        JC      FDIV6           ; smaller: bit 0
 FDIV5:  LXI     H,FY
         MOV     A,E
         SUB     M
@@ -655,7 +651,9 @@ FFLR1:  MOV     A,E
 ;
 ; Bit by bit.  With Q the root so far and t half of the bit to be found, the step
 ; is FDIV's with the divisor Q + t: subtract when it goes, then the bit belongs to
-; Q.  The last two bits come from a plain division by Q.
+; Q.  The bits from the 24th on, together d, are what is left over 2Q + d.  There FDIV goes
+; on with one divisor: Q + 2^-24 is right for d = 0 and for the greatest d, so that next to
+; whole numbers all is exact; for those between the root is up to 2^-49 too small.
 FSQR:   MOV     A,M
         ORA     A
         RZ
@@ -663,7 +661,7 @@ FSQR:   MOV     A,M
         ADI     1
         RAR
         PUSH    PSW             ; CY set: even exponent
-        ADI     40H
+        ADI     3FH
         STA     EXPO
         INX     H
         MOV     A,M
@@ -673,15 +671,15 @@ FSQR:   MOV     A,M
         CALL    FLOAD
         LXI     H,0
         SHLD    FY
-        LXI     H,0A000H        ; Q = 1/2, t = 1/8
+        MVI     H,0A0H          ; Q = 1/2, t = 1/8
         SHLD    FY+2
         LXI     H,2080H         ; one bit, t = 20H of the first byte
         SHLD    FQ
-        LXI     H,FY+3
         MOV     A,B
         SUI     40H
         MOV     B,A             ; even: x - 1/4, to be doubled
         POP     PSW
+        LXI     H,FY+3
         PUSH    H
         LXI     H,FSQR2
         PUSH    H
@@ -691,13 +689,13 @@ FSQR:   MOV     A,M
         MOV     B,A             ; odd: 2 * (x/2 - 1/4)
         JMP     FDIV3
 FSQR1:  STA     FT              ; A = t, HL -> its byte
-        PUSH    H
         ORA     M
         MOV     M,A
+        PUSH    H
         MVI     A,80H
         CALL    FDIVA
 FSQR2:  POP     H
-        RRC
+        RRC                     ; CY = the bit
         LDA     FT
         JNC     FSQR3
         ADD     M               ; t + t: the bit of Q
@@ -711,24 +709,16 @@ FSQR4:  MOV     M,A
         LDA     FT
         RRC
         JNC     FSQR1
-        DCX     H
-        MOV     A,L
-        CPI     (FY-1)&255
-        MVI     A,80H
-        JNZ     FSQR1
-        MVI     A,40H
-        CALL    FDIVA
-        RRC                     ; bit 0: last bit, bit 7: the one behind it
+        DCR     L               ; the next byte, FY+2 or FY+1: 82H and 81H have even parity,
+        JPE     FSQR1           ; 80H has not
+        INX     H
+        INR     M               ; Q + 2^-24
+        MOV     A,M
+        STC
+        RAR                     ; seven bits are there, the lowest one is to come
         LHLD    FY+2
-        MOV     B,H
-        MOV     C,L
-        LHLD    FY
-        XCHG
-        MOV     L,A
-        ANI     1
-        ORA     E
-        MOV     E,A
-        JMP     FNRME
+        PUSH    H
+        JMP     FDIV0           ; FDIV finds it and the others
 
 ; Functions of angles, in degrees.  FUN puts a copy of x on the calculator's stack
 ; and has the result fetched from there.
