@@ -885,21 +885,22 @@ FATG3:  DB      QI64,QMUL,QDIV,QEND     ; base y        y = 64 times the quotien
 ; they end in zeros; beyond, powers are taken in steps of 10^16, and the error is at most
 ; 10 units of 2^-32.
 
-; FTEN  - |t0| / 10^A
-; FTEN1 - the same of the number on the calculator's stack
+; FTEN - |t0| / 10^A
 ; In:  A = -128...127   Out: on the calculator's stack; ERR 05   Clobbers all
-FTEN:   PUSH    PSW
-        RST     5
-        DB      LT0,QABS,QEND
-        POP     PSW
-FTEN1:  MOV     C,A             ; C = sign
+FTEN:   MOV     C,A             ; C = sign
         ORA     A
-        JP      FTEN2
+        JP      FTEN1
         CMA
         INR     A
-FTEN2:  ORA     A
+FTEN1:  MOV     B,A             ; B = power to go
+        PUSH    B
+        RST     5
+        DB      LT0,QABS
+FTEN2:  DB      QEND            ; x
+        POP     B
+        MOV     A,B
+        ORA     A
         RZ
-        MOV     B,A             ; B = power to go
         PUSH    B
         RST     5
         DB      Q1,QEND         ; x p
@@ -912,16 +913,13 @@ FTEN3:  RST     5
         ANI     0FH
         JNZ     FTEN3           ; larger powers in steps of 10^16
         ORA     C
-        JM      FTEN5
+        JM      FTEN4
         RST     5
-        DB      QDIV            ; x/p
-FTEN4:  DB      QEND
-        POP     B
-        MOV     A,B
-        JMP     FTEN2
-FTEN5:  RST     5
+        DB      QDIV,QJMP       ; x/p
+        DB      FTEN2-$
+FTEN4:  RST     5
         DB      QMUL,QJMP       ; x*p
-        DB      FTEN4-$
+        DB      FTEN2-$
 
 ; FDIG - divides a whole number by 10
 ; In:  D E H L   Out: D E H L, A = remainder, Z: it is 0, CY clear, B = 0, C = C+1
@@ -967,8 +965,7 @@ DECOUT: CALL    FSGN
         MOV     A,L
         ORA     A
         JZ      DECO4           ; whole and below 2^26
-; C = the power of ten that leaves B digits before the point, from the exponent of
-; two: right or one too large
+; C = the power of ten of the first digit, from the exponent of two: right or one too large
 DECO1:  POP     B
         LDA     MT0
         LXI     H,TENLOG
@@ -976,23 +973,26 @@ DECO1:  POP     B
 DECO2:  DAD     D
         DCR     A
         JNZ     DECO2
-        MOV     A,H
-        SUB     B
-        MOV     C,A
-DECO3:  DCR     C
+        MOV     C,H
+        PUSH    B
+DECO3:  DB      QEND            ; (for the 8080 a NOP)
+        POP     B
+        DCR     C
         PUSH    B
         MOV     A,C
+        CALL    FTEN
+        RST     5
+        DB      Q1,QSUB,QJN     ; -
+        DB      DECO3-$         ; below 1: that power is too large
+        DB      QEND
+        POP     B
+        MOV     A,C
+        INR     A
+        SUB     B
+        MOV     C,A             ; the power that leaves B digits before the point
+        PUSH    B
         CALL    FTEN            ; s
         RST     5
-        DB      QDUP,Q1,QEND
-        POP     B
-        PUSH    B
-        MVI     A,1
-        SUB     B
-        CALL    FTEN1           ; s s 10^(B-1)
-        RST     5
-        DB      QSUB,QJN        ; s
-        DB      DECOE-$
         DB      QHALF,QADD,ST0,QEND
         LXI     H,MT0
         CALL    FWHOLE
@@ -1058,10 +1058,6 @@ DECOD:  MOV     A,B
 PRDEC:  LXI     D,0
         MOV     C,D
         JMP     DECOU1
-
-DECOE:  DB      QDRP,QEND
-        POP     B
-        JMP     DECO3
 
 ; DECIN - reads a number; digits count up to 2^31, those behind only for the power
 ; In:  HL -> text, a digit or a point, DE -> float
@@ -1140,7 +1136,7 @@ DECI9:  XTHL
         XCHG
         POP     H
         RET
-TENLOG  EQU 0DB87H      ; of exponent 0: high byte = digits before the point + 1, rounded up
+TENLOG  EQU 0DA87H      ; of exponent 0: high byte = digits before the point, rounded up
 CPOINT  EQU 2EH         ; .
 CPLUS   EQU 2BH         ; +
 CLTE    EQU 45H
