@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: MOVE ARC and the operations QRND QVK
 ; Uses:   calc, float, io
-; Room:   450 bytes, 530 with NODRIFT
+; Room:   440 bytes, 520 with NODRIFT
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values.  An arc is looked at from its rounded centre, mirrored when it runs
@@ -13,6 +13,8 @@
 ;       travel counted since (r,0): F = 2r - (u+r) * sign of v.  J = F(end) - F(start),
 ;       and 4r more when (r,0) was passed.  That is so when the difference is below -r,
 ;       or below r when the arc is more than half a turn: nothing between comes up.
+;       r cancels out, and its square root is saved, when both ends lie in one half
+;       plane; a start on the axis does not matter: it is r or -r itself.
 ;
 ; With the option NODRIFT W is where the controller really stands, and the centre of
 ; an arc is moved, so that the arc from there passes V (docs/drift.md).
@@ -52,7 +54,6 @@ ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
         DB      LA0,LT2,LT0,QMUL,Q502,QADD,QFLR,QSUB,SA0 ; -
         DB      LA1,LT2,LT1,QMUL,Q502,QADD,QFLR,QSUB,SA1 ; -
         DB      LA0,LT0,QADD,SB0,LA1,LT1,QADD,SB1 ; -
-ARC1:   DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
         ELSE
         DB      QHALF,QCRS,QSUB ; -
         DB      QJN
@@ -63,16 +64,8 @@ ARC1:   DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
         DB      ARC1-$
         DB      QEND            ;               short, and the sweep is not positive:
         JMP     MOVE            ; a line
-ARC1:   DB      LA0,QSQ,LA1,QSQ,QADD ; n        t5 = r: the root cut off ...
-        DB      QDUP,QSQRT,QFLR,ST5 ; n
-        DB      LT5,QSQ,QSUB    ; n-r^2         ... n > r^2+r: nearer to r+1
-        DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
-        DB      QJN
-        DB      ARC2-$
-        DB      LT5,Q1,QADD,ST5 ; -
-ARC2:
         ENDIF
-        DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
+ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
         DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
         DB      QEND
         CALL    QUAD
@@ -92,12 +85,32 @@ ARC3:   CALL    SETZ
         DB      LB1,LB0,QNEG,SB1,SB0 ; -
         DB      QEND
 ARC4:   RST     5
-        DB      LA0,LT5,QADD,LA1,QSIG ; 2r-F(start)
+        DB      LT3,QJN         ; -             an arc of up to half a turn ...
+        DB      ARC5-$
+        DB      LA1,LB1,QSIG,QJN ; -            ... in one half plane needs no r
+        DB      ARC5-$
+        DB      LA0,LB0,QSUB,LB1,QSIG ; d       = F(end)-F(start)
+        DB      QDUP,QNEG,QJN   ; d             (below 0 when (r,0) was passed)
+        DB      ARC7-$
+        DB      QDRP            ; -
+ARC5:
+        IF      NODRIFT
+        DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
+        ELSE
+        DB      LA0,QSQ,LA1,QSQ,QADD ; n        t5 = r: the root cut off ...
+        DB      QDUP,QSQRT,QFLR,ST5 ; n
+        DB      LT5,QSQ,QSUB    ; n-r^2         ... n > r^2+r: nearer to r+1
+        DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
+        DB      QJN
+        DB      ARC6-$
+        DB      LT5,Q1,QADD,ST5 ; -
+        ENDIF
+ARC6:   DB      LA0,LT5,QADD,LA1,QSIG ; 2r-F(start)
         DB      LB0,LT5,QADD,LB1,QSIG,QSUB ; d  = F(end)-F(start)
         DB      QDUP,LT5,LT3,QSIG,QADD ; d d+r  long: d-r; below 0 when (r,0) was passed
         DB      LT5,QDUP,QADD,QSWP,QSIG,QSUB ; d-2r     then d+2r
         DB      LT5,QDUP,QADD,QADD ; J
-        DB      QABS,QDUP,SBJ,QJZ ; -
+ARC7:   DB      QABS,QDUP,SBJ,QJZ ; -
         DB      MOVE0-$         ; counted as nothing: a line
         IF      NODRIFT
 ; V = where the controller will stand: the step that ends the block goes from w+1 to w
@@ -106,12 +119,12 @@ ARC4:   RST     5
         DB      QHALF,LT1,QSIG,QADD,QHALF,QSUB ; |v|    less 1 when w < 0
         DB      LB1,QSIG,LB1,QSUB ; dv          v less that of b
         DB      LT0,QNEG,QJN    ; dv            back into the drawing's axes
-        DB      ARC5-$
+        DB      ARC8-$
         DB      LC2,QSIG,LVY,QADD,SVY ; -
         DB      QJMP
-        DB      ARC6-$
-ARC5:   DB      LVX,QSWP,QSUB,SVX ; -
-ARC6:
+        DB      ARC9-$
+ARC8:   DB      LVX,QSWP,QSUB,SVX ; -
+ARC9:
         ENDIF
         DB      QEND
         JMP     PUTBLK
@@ -192,8 +205,7 @@ PUTB9:  DB      QEND
 XRND:   RST     5
         DB      Q1000,QMUL              ; um
         DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
-        DB      QFLR,QDUP               ; um |whole| |whole|
-        DB      Q8DIG,QSWP,QSUB         ; um |whole| room
+        DB      QFLR,Q8DIG,QOVR,QSUB    ; um |whole| room
         DB      QJN
         DB      PUTB9-$
         DB      QSWP,QSIG,QRET          ; whole
