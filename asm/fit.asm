@@ -83,10 +83,10 @@ MIDDLE: RST     5
         DB      QFAR,QE6N       ; -
         DB      L2X,L1X,QSUB,SA0 ; -            a = v
         DB      L2Y,L1Y,QSUB,SA1 ; -
-        DB      LA0,QSQ,LA1,QSQ,QADD,ST4 ; -    t4 = v*v
-        DB      LB0,QSQ,LB1,QSQ,QADD,ST5 ; -    t5 = w*w
-        DB      LA0,LT4,QDIV,LB0,LT5,QDIV,QADD ; x
-        DB      LA1,LT4,QDIV,LB1,LT5,QDIV,QADD ; x y    v/(v*v) + w/(w*w)
+        DB      LA0,QSQ,LA1,QSQ,QADD ; v*v
+        DB      LB0,QSQ,LB1,QSQ,QADD,QDIV,ST4 ; -       t4 = v*v/(w*w)
+        DB      LA0,LB0,LT4,QMUL,QADD ; x
+        DB      LA1,LB1,LT4,QMUL,QADD ; x y     v + w * t4, along v/(v*v) + w/(w*w)
         DB      QUNIT,LA0,S2U,LA1,S2V,QEND ; -
 ; (fall into SPAN)
 
