@@ -75,29 +75,56 @@ CALC1:  LDAX    B
         LXI     H,CALC1
         PUSH    H
         MOV     L,A
-        MVI     H,0
-        MOV     D,H
-        MOV     E,L
-        DAD     H
-        DAD     H
-        DAD     D               ; HL = 5*code
-        LXI     D,MREG-5*40H
-        CPI     80H
-        JC      CALC2
-        LXI     D,MREG-5*80H
-        CPI     0C0H
-        JC      CALC4
-        LXI     D,CONTAB-5*0C0H
-CALC2:  DAD     D
-ODUP:   XCHG                    ; DE -> register or constant
+        ANI     3FH
+        MOV     E,A
+        ADD     A
+        ADD     A
+        ADD     E
+        MOV     E,A             ; CY,E = 5*number; the registers begin a page
+        MVI     A,MREG/256
+        ACI     0
+        MOV     D,A             ; DE -> register
+        MOV     A,L
+        ADD     A
+        JNC     OOVR            ; 01: push
+        JP      CALPOP          ; 10: pop
+        LXI     H,CONTAB-MREG   ; 11: constant
+        DAD     D
+ODUP:   XCHG                    ; DE -> float
 ; (fall into OOVR)
 
 ; OOVR - QOVR: pushes a float
-; In:  DE -> float   Out: DE -> behind it   Clobbers A, HL
+; In:  DE -> float   Out: DE, HL behind   Clobbers A
 OOVR:   LHLD    FSP
-        CALL    COPY5
-        SHLD    FSP
-        RET
+        MOV     A,L
+        ADI     5               ; FSTK lies within a page
+        STA     FSP
+; (fall into COPY5)
+
+; COPY5 - copies a float
+; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
+; Cycles: 130
+COPY5:  LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+        LDAX    D
+        MOV     M,A
+        INX     D
+        INX     H
+ODRP:   RET
 
 ; an operation, or QEND
 CALC3:  PUSH    B
@@ -127,46 +154,18 @@ CALC3:  PUSH    B
         SHLD    FSP
         RET
 
-CALC4:  DAD     D               ; HL -> register
-        XCHG
-        DB      0FEH            ; CPI: skips the POP
 FUN1:   POP     D
 ; (fall into CALPOP)
 
 ; CALPOP - pops a float
-; In:  DE -> where to   Clobbers A, DE, HL
+; In:  DE -> where to   Out: DE, HL behind   Clobbers A
 CALPOP: LHLD    FSP
         MOV     A,L
         SUI     5
         MOV     L,A
         SHLD    FSP
         XCHG
-; (fall into COPY5)
-
-; COPY5 - copies a float
-; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
-; Cycles: 130
-COPY5:  LDAX    D
-        MOV     M,A
-        INX     D
-        INX     H
-        LDAX    D
-        MOV     M,A
-        INX     D
-        INX     H
-        LDAX    D
-        MOV     M,A
-        INX     D
-        INX     H
-        LDAX    D
-        MOV     M,A
-        INX     D
-        INX     H
-        LDAX    D
-        MOV     M,A
-        INX     D
-        INX     H
-ODRP:   RET
+        JMP     COPY5
 
 ; FUN - puts x on the float stack; when the routine that called FUN returns, what is
 ;       on top there goes back to x
