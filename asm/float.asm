@@ -923,9 +923,14 @@ FTEN4:  RST     5
 
 ; FDIG - divides a whole number by 10
 ; In:  D E H L   Out: D E H L, A = remainder, Z: it is 0, CY clear, B = 0, C = C+1
-; Cycles: 2,500
-FDIG:   XRA     A
-        MVI     B,32
+; Cycles: 2,500; below 65536 1,300
+FDIG:   MVI     B,32
+        MOV     A,D
+        ORA     E
+        JNZ     FDIG0
+        MVI     B,16            ; the high half is 0: start behind it
+        XCHG
+FDIG0:  XRA     A
 FDIG1:  XCHG
         DAD     H
         RAL                     ; A = remainder, quotient comes in behind the number
