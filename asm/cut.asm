@@ -446,10 +446,11 @@ CORNO:  LDA     RNAMED
         DB      ATOK-$
 CORN9:  DB      QRET
 CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
-        DB      LPX,LC0,QSUB,LC2,QDIV,SA0 ; -
-        DB      LPY,LC1,QSUB,LC2,QDIV,SA1 ; -
-        DB      QJMP
-        DB      NAMED4-$
+        DB      LPX,LC0,QSUB,SA0 ; -            a = from the centre to P
+        DB      LPY,LC1,QSUB,SA1 ; -
+        DB      LCR,LNR,QSUB,QE6D ; -
+        DB      LCR,LC2,QDIV,ST0,QJMP ; -       t0 = R/r
+        DB      NAMED3-$
 NAMED1: DB      QDOT,QE6N       ; -             there and back
 NAMED4: DB      LCR,LNR,QSUB    ; dR
         DB      QE6D            ; -             no crossing any more
