@@ -5,23 +5,23 @@
 ; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see
 ; float.asm).  Add new ones at the end.
 
-Q0      EQU 0C0H
-Q1      EQU 0C1H
-QI64    EQU 0C2H
-QHALF   EQU 0C3H
-QMU     EQU 0C4H        ; 1 um
-Q90     EQU 0C5H
-Q180    EQU 0C6H
-Q1000   EQU 0C7H
-QNEAR   EQU 0C8H        ; numbers this close are equal
-Q502    EQU 0C9H        ; halves of a um, and what lies 2 nm below
-QEPS    EQU 0CAH        ; directions this close (rad) are one line
-Q8DIG   EQU 0CBH        ; the greatest number on a tape
-QI180   EQU 0CCH
-Q10     EQU 0CDH
+Q1      EQU 0C0H
+Q0      EQU 0C3H
+QI64    EQU 0C4H
+QHALF   EQU 0C5H
+QMU     EQU 0C6H        ; 1 um
+Q90     EQU 0C7H
+Q180    EQU 0C8H
+Q1000   EQU 0C9H
+QNEAR   EQU 0CAH        ; numbers this close are equal
+Q502    EQU 0CBH        ; halves of a um, and what lies 2 nm below
+QEPS    EQU 0CCH        ; directions this close (rad) are one line
+Q8DIG   EQU 0CDH        ; the greatest number on a tape
+QI180   EQU 0CEH
+Q10     EQU 0CFH
 
 ; O, X and Y, as variables in ROM; the list ends with the zero that comes next, on which FIND
-; stops when there is no such name
+; stops when there is no such name.  The value of Y is the beginning of CONTAB
 PREDEF: DB      TNAME+24,0      ; O = (0,0)
         DB      0,0,0,0,0, 0,0,0,0,0
         DB      TNAME+48,0      ; X = (0,-1,0)
@@ -29,10 +29,9 @@ PREDEF: DB      TNAME+24,0      ; O = (0,0)
         DB      81H,80H,0,0,0
         DB      0,0,0,0,0
         DB      TNAME+52,0      ; Y = (1,0,0)
-        DB      81H,0,0,0,0
+CONTAB: DB      81H,00H,00H,00H,00H     ; 1
         DB      0,0,0,0,0, 0,0,0,0,0
-CONTAB: DB      0,0,0,0,0               ; 0
-        DB      81H,00H,00H,00H,00H     ; 1
+        DB      0,0,0,0,0               ; 0, the end of the list
         DB      7BH,00H,00H,00H,00H     ; 1/64
         DB      80H,00H,00H,00H,00H     ; 0.5
         DB      77H,03H,12H,6EH,98H     ; 0.001

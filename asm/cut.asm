@@ -247,7 +247,7 @@ PUTVAL: MOV     M,A
 ; GETR - wire offset of now; where none was set: 0
 ; Out: NR   Clobbers A, BC, DE, HL
 GETR:   LXI     D,NAMER
-        CALL    FIND            ; when there is none: HL -> CONTAB, which begins with 0
+        CALL    FIND            ; when there is none: HL -> the 0 behind Y in CONTAB
         XCHG
         LXI     H,MNR
         JMP     COPY5
@@ -526,7 +526,7 @@ SAME:   CALL    XNA1            ; a = the element
         DB      LN0,SB0,LN1,SB1,LN2,SB2 ; -
         DB      QJC
         DB      SAME2-$
-        DB      QEPS,QDIF,QHYP,QSUB ; eps-angle
+        DB      QEPS,QSQ,QDIF,QSS,QSUB ; eps^2-angle^2
         DB      QJN             ; -
         DB      SAME9-$
         DB      LT1,SA0,LT2,SA1,QDOT ; place along N's normal

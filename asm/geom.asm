@@ -291,14 +291,14 @@ XCRS:   RST     5
 XDIF:   RST     5
         DB      LB0,LA0,QSUB            ; dx
         DB      LB1,LA1,QSUB,QRET       ; dx dy
-; QHYP: length of a vector
+; QSS: length of a vector, squared.  QHYP: length of a vector
+XSS:    RST     5
+        DB      QSQ,QSWP,QSQ,QADD,QRET  ; x^2+y^2
 XHYP:   RST     5
-        DB      QSQ,QSWP,QSQ,QADD       ; x^2+y^2
-        DB      QSQRT,QRET              ; length
+        DB      QSS,QSQRT,QRET          ; length
 ; QFAR: is a vector longer than 1 um?  (no square root)
 XFAR:   RST     5
-        DB      QSQ,QSWP,QSQ,QADD       ; x^2+y^2
-        DB      QMU,QSQ,QSUB,QRET       ; -1um^2
+        DB      QSS,QMU,QSQ,QSUB,QRET   ; -1um^2
 ; QREFL: a0 a1 moved by -k times b0 b1, k from the stack
 XREFL:  RST     5
         DB      LA0,QOVR,LB0,QMUL       ; k a0 k*b0

@@ -29,12 +29,13 @@ QFAR    EQU QOWN+21     ; x y -> negative when x*x+y*y is less than 1 um squared
 QSENS   EQU QOWN+22     ; R ->    negative when a is a circle that R would turn inside out
 QNORMS  EQU QOWN+23     ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
 QXING   EQU QOWN+24     ; ->      a0 a1 = crossing of C and N as offset
-QROOT   EQU QOWN+25     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
+QSS     EQU QOWN+25     ; x y -> x*x+y*y
+QROOT   EQU QOWN+26     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
         DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
         DW      XSIG,XMAX,XE6N,XE6D,XUNIT,XXCH
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
-        DW      XNORMS,XXING
+        DW      XNORMS,XXING,XSS
         IF      NODRIFT
         DW      XROOT
         ENDIF

@@ -38,7 +38,7 @@ ARC:    DB      QVK,ST3         ; -
         DB      LB1,LC2,QSIG,SB1 ; -            mirrored when clockwise
         IF      NODRIFT
         DB      QDIF,ST1,ST0    ; -             t0 t1 = chord d
-        DB      LT0,QSQ,LT1,QSQ,QADD,ST4 ; -    t4 = |d|^2
+        DB      LT0,LT1,QSS,ST4 ; -             t4 = |d|^2
         DB      QDOT,QJN        ; -             ends far apart: no doubt
         DB      ARC0-$
         DB      LT3,QJN         ; -             nearly round: any shift is too much
@@ -97,7 +97,7 @@ ARC5:
         IF      NODRIFT
         DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
         ELSE
-        DB      LA0,QSQ,LA1,QSQ,QADD ; n        t5 = r: the root cut off ...
+        DB      LA0,LA1,QSS ; n        t5 = r: the root cut off ...
         DB      QDUP,QSQRT,QFLR,ST5 ; n
         DB      LT5,QSQ,QSUB    ; n-r^2         ... n > r^2+r: nearer to r+1
         DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
@@ -213,7 +213,7 @@ XRND:   RST     5
 ; QROOT: w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
 ; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
 XROOT:  RST     5
-        DB      QSQ,LA0,QSQ,LA1,QSQ,QADD,QSUB ; w^2-n
+        DB      QSQ,LA0,LA1,QSS,QSUB ; w^2-n
         DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root
         ENDIF
 ; QVK: V = K in whole um
