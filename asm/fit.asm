@@ -83,8 +83,8 @@ MIDDLE: RST     5
         DB      QFAR,QE6N       ; -
         DB      L2X,L1X,QSUB,SA0 ; -            a = v
         DB      L2Y,L1Y,QSUB,SA1 ; -
-        DB      LA0,QSQ,LA1,QSQ,QADD ; v*v
-        DB      LB0,QSQ,LB1,QSQ,QADD,QDIV,ST4 ; -       t4 = v*v/(w*w)
+        DB      LA0,LA1,QSS ; v*v
+        DB      LB0,LB1,QSS,QDIV,ST4 ; -       t4 = v*v/(w*w)
         DB      LA0,LB0,LT4,QMUL,QADD ; x
         DB      LA1,LB1,LT4,QMUL,QADD ; x y     v + w * t4, along v/(v*v) + w/(w*w)
         DB      QUNIT,LA0,S2U,LA1,S2V,QEND ; -
@@ -163,7 +163,7 @@ MIRROR: CALL    CHORD
 CHORD:  RST     5
         DB      L2X,L1X,QSUB,SB0 ; -
         DB      L2Y,L1Y,QSUB,SB1 ; -
-        DB      LB0,QSQ,LB1,QSQ,QADD,ST1 ; -
+        DB      LB0,LB1,QSS,ST1 ; -
         DB      L1U,L2U,QADD,SA0 ; -
         DB      L1V,L2V,QADD,SA1 ; -
         DB      QDOT,QRET       ; along
@@ -177,7 +177,7 @@ FITCIR: LXI     H,MA
         DB      S1V,S1U         ; -
         DB      L1V,LB0,QSUB,SB1 ; -
         DB      L1U,LA2,QSUB,SB0 ; -            b = w
-        DB      LB0,QSQ,LB1,QSQ,QADD ; w*w
+        DB      LB0,LB1,QSS ; w*w
         DB      QDUP,QEPS,QMUL  ; w*w limit     r = 50 m
         DB      QMU,QDUP,QADD,QMAX ; w*w limit  or |t x w| = 2 um
         DB      QCRS,QDUP,ST0,QABS,QSUB ; w*w limit-|t x w|
