@@ -206,9 +206,7 @@ GSXC1:  DB      QSWP,ST2,LB2,QABS,ST3,QLEG ; h
 ; C1*C2: the crossing of C1 with the line through both crossings, whose right
 ; normal is the unit vector a from centre to centre, at c = (d^2+r1^2-r2^2)/2d
 ; from the first centre, which goes to b.
-GCXC:   DB      QDIF,QXCH,QUNIT         ; -             t3 = d
-        DB      LT3,QMU,QSUB,QE6N       ; -             concentric?
-        DB      LA2,LB2,QSUB            ; r2-r1
+GCXC:   DB      QDIF,QXCH,QCENT         ; r2-r1         t3 = d
         DB      LA2,LB2,QADD,QMUL       ; r2^2-r1^2
         DB      LT3,QDIV,LT3,QSUB       ; -2c
         DB      QHALF,QMUL              ; -c
@@ -260,9 +258,7 @@ GBISEC: DB      QDIF                    ; dx dy
 ; centre to centre, e = r1-r2 and h = sqrt(d^2-e^2): the unit vector along d, turned
 ; to the right by the angle whose cosine is e/d and whose sine h/d.
 GBELT:  DB      LA0,LA1                 ; x y
-        DB      QDIF,QUNIT              ; x y           t3 = d
-        DB      LT3,QMU,QSUB,QE6N       ; x y           concentric?
-        DB      LA2,LB2,QSUB            ; x y e
+        DB      QDIF,QCENT              ; x y e         t3 = d
         DB      QDUP,ST2,QABS           ; x y |e|       t2 = e
         DB      LT3,QSUB,QLEG           ; x y h
         DB      QNEG,LT3,QDIV,SB0       ; x y
@@ -291,6 +287,10 @@ XCRS:   RST     5
 XDIF:   RST     5
         DB      LB0,LA0,QSUB            ; dx
         DB      LB1,LA1,QSUB,QRET       ; dx dy
+; QCENT: QUNIT from centre to centre, then r of a less r of b; ERR 06 when they are concentric
+XCENT:  RST     5
+        DB      QUNIT,LT3,QMU,QSUB,QE6N ; -
+        DB      LA2,LB2,QSUB,QRET       ; e
 ; QSS: length of a vector, squared.  QHYP: length of a vector
 XSS:    RST     5
         DB      QSQ,QSWP,QSQ,QADD,QRET  ; x^2+y^2

@@ -30,12 +30,13 @@ QSENS   EQU QOWN+22     ; R ->    negative when a is a circle that R would turn 
 QNORMS  EQU QOWN+23     ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
 QXING   EQU QOWN+24     ; ->      a0 a1 = crossing of C and N as offset
 QSS     EQU QOWN+25     ; x y -> x*x+y*y
-QROOT   EQU QOWN+26     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
+QCENT   EQU QOWN+26     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within 1 um
+QROOT   EQU QOWN+27     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
         DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
         DW      XSIG,XMAX,XE6N,XE6D,XUNIT,XXCH
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
-        DW      XNORMS,XXING,XSS
+        DW      XNORMS,XXING,XSS,XCENT
         IF      NODRIFT
         DW      XROOT
         ENDIF
