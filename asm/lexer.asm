@@ -198,12 +198,9 @@ LEXD1:  CALL    LEXDIG
         DAD     H
         CALL    ADDA            ; 10 * number + digit
         XCHG
-        LXI     H,-SUBMAX-1
-        DAD     D
+        CALL    SUBCHK
         POP     H
-        JNC     LEXD1
-        RST     1
-        DB      ERANGE
+        JMP     LEXD1
 
 ; LEXDIG - is the next character that counts a digit?
 ; In:  HL-> text   Out: as DIGIT; HL-> it   Clobbers nothing else
@@ -254,13 +251,16 @@ LIST1:  CPI     TSQR
         JC      LIST2
         LDA     LASTC           ; GOTO behind something else: a blank between
         CPI     CBLANK
-        MVI     A,CBLANK
-        CNZ     PUTC
+        CNZ     BLANK
 LIST2:  CALL    PRWORD
         MOV     A,M
         ORA     A
         RZ                      ; no blank at the line's end
-        MVI     A,CBLANK
+; (fall into BLANK)
+
+; BLANK - prints a blank
+; Clobbers A
+BLANK:  MVI     A,CBLANK
         RST     2
         RET
 LIST3:  CPI     TSUB

@@ -68,10 +68,9 @@ ERR1:   DAD     H               ; (1 becomes 2: no mark)
         CALL    PUTS            ; of the token in front of TXTP
         CALL    CRLF
         CALL    LEX
-        MVI     A,CBLANK
         DCR     L
 ERR2:   DCR     L               ; (LINBUF begins at 80H of its page)
-        CM      PUTC
+        CM      BLANK
         JM      ERR2
         MVI     A,CMARK
         RST     2
@@ -237,12 +236,11 @@ SIF:    CALL    EVNUM
         DCR     A
         JZ      SIF2            ; =
         RST     6
+        CMP     B
+        JZ      SIF2            ; << and >> are none: EVNUM sees the second
         SUI     CEQU
         CPI     CGT-CEQU+1
         JNC     SIF2
-        ADD     B
-        CPI     CGT+CGT-CEQU
-        JZ      ERSYN           ; >>
         RST     3               ; <= >= <>
         MOV     C,A
 SIF2:   PUSH    B
@@ -251,15 +249,13 @@ SIF2:   PUSH    B
         DB      TGOTO
         CALL    CHECK
         JNZ     SGOTO
-        RST     5
-        DB      LA0,SB0,SA0,QEND ; -            a = left, b = right
-        CALL    CMPNE
+        CALL    CMPNE           ; right with left
         POP     B
         MVI     A,CEQU
         JZ      SIF3
-        SBB     A               ; less: 0FFH
-        ADD     A
-        ADI     CGT             ; < or >
+        SBB     A               ; right is less: 0FFH
+        ANI     CGT-CLESS
+        ADI     CLESS           ; > or <
 SIF3:   CMP     B
         JZ      SGOTO
         CMP     C
@@ -484,7 +480,7 @@ CLEAR1: CALL    RUNINI
 ; Clobbers A, HL
 CLRPTR: LXI     H,GSTKE
         SHLD    GSP
-        LXI     H,PROG
+        MVI     H,PROG/256      ; (both begin a page)
         JMP     REST1
 
 ; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it

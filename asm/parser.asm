@@ -243,9 +243,7 @@ NAME:   CPI     TNAME
         XCHG
         RST     4
         DB      CRBRK
-        LXI     H,-SUBMAX-1
-        DAD     D
-        JC      ERRNG
+        CALL    SUBCHK
         POP     PSW
         ADD     A               ; (4 * TSUB is 0 in a byte)
         ADD     A
@@ -316,11 +314,8 @@ SETREF: MOV     A,D
         PUSH    B
         CALL    FIND
         POP     B
-        JC      SETR2
-SETR1:  MOV     A,C
-        LXI     D,MA
-        JMP     COPY
-SETR2:  LHLD    VBOT
+        JNC     SETR1
+        LHLD    VBOT
         MOV     A,L
         SUB     C
         MOV     L,A
@@ -335,7 +330,9 @@ SETR2:  LHLD    VBOT
         INX     H
         MOV     M,E
         INX     H
-        JMP     SETR1
+SETR1:  MOV     A,C
+        LXI     D,MA
+        JMP     COPY
 
 ; CLRVAR - forgets all variables
 ; In:  VTOP = last byte of RAM   Out: VBOT   Clobbers HL
@@ -399,6 +396,14 @@ EVINT:  CALL    EVNUM
         LXI     H,MB
         CALL    FTOI16
         RNC
+        RST     1
+        DB      ERANGE
+
+; SUBCHK - demands that a subscript is not too large
+; In:  DE   Out: ERR 05   Clobbers HL
+SUBCHK: LXI     H,-SUBMAX-1
+        DAD     D
+        RNC
 ERRNG:  RST     1
         DB      ERANGE
 
@@ -454,15 +459,16 @@ FINT:   CALL    NRINT
 NRINT:  RST     5
         DB      LA0             ; a
         DB      QHALF,QADD      ; a+1/2
-        DB      QFLR,SB0        ; -
+        DB      QFLR            ; b
         DB      QEND
 ; (fall into CMPNE)
 
-; CMPNE - nearly-equal compare of a0 and b0
-; In:  a0, b0
-; Out: Z when they are closer than 1E-7 * max(1,|a0|,|b0|); else CY set when a0 < b0
+; CMPNE - nearly-equal compare of a0 with b on the float stack
+; In:  a0, b   Out: b0 = b; Z when they are closer than 1E-7 * max(1,|a|,|b|); else CY set
+;      when a < b
 ; Clobbers all
 CMPNE:  RST     5
+        DB      SB0             ; -
         DB      LA0,LB0,QSUB    ; a-b
         DB      QDUP,ST0        ; a-b
         DB      QABS            ; |a-b|

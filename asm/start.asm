@@ -89,9 +89,8 @@ SREM:   CALL    CHECK
 ; (fall into CHKED)
 
 ; CHKED - the line is understood: stores it or carries it out
-; In:  on the stack, below STKTOP: -> behind its tokens
-CHKED:  LXI     SP,STKTOP-2
-        LXI     H,TOKS
+; In:  at STKTOP-2: -> behind its tokens; the stack holds little more
+CHKED:  LXI     H,TOKS
         SHLD    TXTP
         MOV     A,M
         DCR     A               ; TFLT?
@@ -99,7 +98,7 @@ CHKED:  LXI     SP,STKTOP-2
 ; (fall into STORE)
 
 ; STORE - puts the line into the program, or takes it out; to READY
-; In:  LINUM = its number, on the stack: -> behind its tokens
+; In:  LINUM = its number, STKTOP-2
 STORE:  MVI     L,STMT0 & 255
         SHLD    TXTP
         RST     3
@@ -113,9 +112,8 @@ STORE:  MVI     L,STMT0 & 255
         LDA     COLS
         CPI     126+2+1         ; CR and LF count
         JNC     ERMEM
-        POP     B               ; C = low byte of -> behind the tokens
         LXI     H,LINUM-1       ; the record's head takes the place of the number token
-        MOV     A,C
+        LDA     STKTOP-2        ; low byte of -> behind the tokens
         SUI     (STMT0+1) & 255
         JZ      STOR1           ; the number alone: no record
         ADI     STMT0+1-LINUM+2 ; (the check byte comes to the tokens)
