@@ -1,5 +1,5 @@
 ; cut.asm - the route: from items to corners, fillets and closing
-; Offers: SFROM SCUT SBACK CENDST ROUTER RUNINI RTNEW ROOM
+; Offers: SFROM SCUT SBACK ENDRT PUNDS ROUTER RUNINI RTNEW RBEMP
 ; Uses:   parser, geom, calc, tape
 ; Room:   1500 bytes
 ;
@@ -61,22 +61,6 @@ RBNEW:  LXI     H,0
 RBEMP:  LHLD    PEND
         INX     H
         SHLD    RBEND
-        RET
-
-; ROOM - is memory free from HL up?  The route buffer is given up for it
-; In:  HL = lowest address wanted   Out: ERR 09 when not   Clobbers A
-ROOM:   PUSH    D
-        XCHG
-        LHLD    RBEND
-        CALL    CPHD
-        JC      ROOM1
-        MVI     A,1
-        STA     RBFULL
-        CALL    RBEMP
-        CALL    CPHD
-        JNC     ERMEM
-ROOM1:  XCHG
-        POP     D
         RET
 
 ; SCUT - statement: CUT item, item; item ...
@@ -674,11 +658,6 @@ PUNDS1: MVI     A,CLTD
         DCR     B
         JNZ     PUNDS1
         JMP     PUTB3
-
-; CENDST - what END does to the tape: the route ended, DD
-CENDST: CALL    ENDRT
-        MVI     B,2
-        JMP     PUNDS
 
 ; ROUTER - after an error: D when a route was open, which is forgotten
 ROUTER: LDA     RITEMS

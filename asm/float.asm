@@ -1,6 +1,6 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
-;         FITOF FTOI16, DECIN DECOUT PRDEC
+;         FITOF FTOI16, LEXNUM DECIN DECOUT PRDEC
 ; Uses:   calc, start (ERROR PUTC ERSYN), lexer (LEXCH LEXDIG LEXDEC)
 ; Room:   1570 bytes
 ;
@@ -1064,9 +1064,16 @@ PRDEC:  LXI     D,0
         MOV     C,D
         JMP     DECOU1
 
+; LEXNUM - makes a token of a number (LEX comes here): TFLT, float
+; In:  HL -> text, a digit or a point, DE -> token   Out, Clobbers: as DECIN
+LEXNUM: MVI     A,TFLT
+        STAX    D
+        INX     D
+; (fall into DECIN)
+
 ; DECIN - reads a number; digits count up to 2^31, those behind only for the power
 ; In:  HL -> text, a digit or a point, DE -> float
-; Out: float, DE -> behind it, HL -> first character behind the text; ERR 05, ERR 01 for a lone point
+; Out: float, DE -> its last byte, HL -> first character behind the text; ERR 05, ERR 01 for a lone point
 ; Clobbers all, and t0 t1
 DECIN:  PUSH    D
         XRA     A
@@ -1139,6 +1146,7 @@ DECI9:  XTHL
         POP     D
         CALL    CALPOP
         XCHG
+        DCX     D
         POP     H
         RET
 TENLOG  EQU 0DA87H      ; of exponent 0: high byte = digits before the point, rounded up

@@ -1,5 +1,5 @@
 ; io.asm - teletype, punch and reader
-; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF, BREAK, PUNON PUNOFF PAPON, INCHR, SSAVE
+; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF, BREAK, PUNON PUNOFF PAPON, SSAVE
 ; Uses:   monitor (the cells, SLIST)
 ; Room:   280 bytes
 ;
@@ -22,8 +22,6 @@ PUNDT   EQU     13H
 RXRDY   EQU     01H
 TXRDY   EQU     02H
         ENDIF
-CBEL    EQU     07H
-WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
 
 ; PUTC1 - the work of RST 2
 ; In:  A = character; PSW, HL and BC on the stack   Clobbers nothing
@@ -135,30 +133,4 @@ PUTS:   MOV     A,M
         RST     2               ; (without bit 7)
         INX     H
         JP      PUTS
-        RET
-
-; INCHR - waits for the next character, from the reader in LOAD, else from the teletype
-; Out: A; ctrl-Z when the reader has stopped   Clobbers DE, HL
-INCHR:  LXI     D,WAIT2
-INCH1:  CALL    BREAK
-        LDA     LOADF
-        ORA     A
-        JZ      INCH2
-        DCX     D
-        MOV     A,D
-        ORA     E
-        MVI     A,CEOF
-        RZ
-        IF      PTTY
-        ELSE
-        IN      PUNST
-        ANI     RXRDY
-        JZ      INCH1
-        IN      PUNDT
-        DB      0FEH            ; CPI: skips the MOV
-        ENDIF
-INCH2:  MOV     A,M
-        ANI     7FH
-        JZ      INCH1
-        MVI     M,0             ; (in LOAD keys do not count)
         RET

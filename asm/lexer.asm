@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LEXCH LEXDIG LEXDEC LISTLN KEYTAB
-; Uses:   float (DECIN PRDEC), parser (PRNUM), io (INCHR PUTS CRLF), start (ADDA)
+; Uses:   float (LEXNUM PRDEC), parser (PRNUM SUBCHK), io (BREAK PUTS CRLF, the ports), start (ADDA)
 ; Room:   560 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
@@ -8,6 +8,9 @@
 ; what it does not know.  TOKS begins a page, so that the low byte of a token's address is
 ; its distance from the line's start; what is longer than TOKROM is refused after LEX, the
 ; stack having room for what the longest line can make.
+
+CBEL    EQU     07H
+WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
 
 ; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
 ;          nothing is printed (OUTSEL = 0).  A control character that is no editing key
@@ -19,7 +22,27 @@ GETL2:  POP     H
 GETLIN: LXI     B,LINBUF
 GETL3:  LXI     H,GETL3         ; every key returns there
         PUSH    H
-        CALL    INCHR
+        LXI     D,WAIT2         ; waits for the next character, from the reader in LOAD, else
+INCH1:  CALL    BREAK           ; from the teletype
+        LDA     LOADF
+        ORA     A
+        JZ      INCH2
+        DCX     D
+        MOV     A,D
+        ORA     E
+        JZ      GETL5           ; the reader has stopped
+        IF      PTTY
+        ELSE
+        IN      PUNST
+        ANI     RXRDY
+        JZ      INCH1
+        IN      PUNDT
+        DB      0FEH            ; CPI: skips the MOV
+        ENDIF
+INCH2:  MOV     A,M             ; (HL-> KEYB, from BREAK)
+        ANI     7FH
+        JZ      INCH1
+        MVI     M,0             ; (in LOAD keys do not count)
         CPI     CEOF
         JZ      GETL5
         CPI     CCR
@@ -149,14 +172,6 @@ LEXW4:  LDAX    D               ; to the next word
         JNZ     LEXW1
         POP     D
         INX     H               ; no: the character stands for itself
-        RET
-
-; LEXNUM - a number
-LEXNUM: MVI     A,TFLT
-        STAX    D
-        INX     D
-        CALL    DECIN
-        DCX     D               ; -> its last byte
         RET
 
 ; LEXNAM - a name, or its letter and the bracket of a computed subscript

@@ -307,7 +307,9 @@ DIREC1: JMP     RUNLP           ; (its address lies at PROG-2, where DATP may po
 
 ; SEND - statement: END
 SEND:   RST     7
-END1:   CALL    CENDST
+END1:   CALL    ENDRT
+        MVI     B,2             ; DD
+        CALL    PUNDS
         JMP     READY
 
 ; SPRINT - statement: PRINT item, item ...

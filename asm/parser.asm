@@ -199,8 +199,7 @@ SETK1:  MVI     M,0
 ; OPNAM - value of a name
 ; In:  A = its first token   Out: as EVAL; ERR 03 when it has none
 OPNAM:  CALL    NAME
-        MOV     A,D
-        CALL    KINDOF
+        CALL    KINDD
         MOV     A,B
         STA     VKIND
         CALL    CHECK
@@ -256,8 +255,10 @@ NAME1:  MOV     D,A
         MOV     E,A
         RET
 
-; KINDOF - kind and size of a name's value, from the order of the letters
-; In:  A = name, high byte   Out: B = kind, C = bytes; A kept
+; KINDD - kind and size of the value of the name DE
+; KINDOF - the same of the name whose high byte is in A, from the order of the letters
+; Out: B = kind, C = bytes; A = the name's high byte   Clobbers nothing else
+KINDD:  MOV     A,D
 KINDOF: LXI     B,KNUM*256+5
         CPI     TNAME+20        ; A D R I J
         RC
@@ -307,8 +308,7 @@ ASSIGN: CALL    GETREF
 
 ; SETREF - gives a name the value
 ; In:  DE = name; a0 a1 a2, VKIND   Clobbers all
-SETREF: MOV     A,D
-        CALL    KINDOF
+SETREF: CALL    KINDD
         MOV     A,B
         CALL    KINDIS
         PUSH    B
@@ -324,7 +324,18 @@ SETREF: MOV     A,D
         MOV     H,A
         DCX     H
         DCX     H
-        CALL    ROOM            ; does it fit above the route buffer?
+        PUSH    D               ; does it fit above the route buffer?
+        XCHG
+        LHLD    RBEND
+        CALL    CPHD
+        JC      SETR2
+        MVI     A,1             ; no: that is given up for it
+        STA     RBFULL
+        CALL    RBEMP
+        CALL    CPHD
+        JNC     ERMEM
+SETR2:  XCHG
+        POP     D
         SHLD    VBOT
         MOV     M,D
         INX     H
