@@ -106,10 +106,41 @@ ITEM3:  CALL    RECORD
 ; ITELM - a line or circle
 ; In:  A = its kind
 ITELM:  CALL    PUTN
-        CALL    NAMEIT
-        XRA     A
-        CALL    ITDONE
-        JMP     ADDEL
+; (fall into ADDEL)
+
+; ADDEL - the element N follows: corner or merging, fillet.  When the last item was a point, that
+;         names the corner
+; In:  N; RLASTP, RTURN, RFILW, FI; first element: RFSTP, P or H
+; Out: ERR 06 when the point is not on N   Clobbers all
+ADDEL:  LDA     RLASTP
+        STA     RNAMED
+        ORA     A
+        JZ      ADDEL1
+        RST     5
+        DB      LPX,SB0,LPY,SB1 ; -
+        DB      QNA,QONEL,QEND  ; -             (leaves A = 0)
+ADDEL1: CALL    ITDONE
+        LDA     RELEMS
+        ORA     A
+        JZ      FIRST
+        LDA     RNAMED
+        ORA     A
+        JNZ     ADDEL2
+        CALL    SAMEC
+        JZ      CORDON          ; the same curve goes on: no corner
+ADDEL2: CALL    OFFCHK
+        LDA     RFILW
+        ORA     A
+        CNZ     FILLET
+        CALL    JOINED
+; (fall into CORDON)
+
+; CORDON - the corner to come is not described yet
+; Clobbers A, HL
+CORDON: LXI     H,0
+        SHLD    RFILW           ; and RTURN
+        SHLD    RTURN           ; and RNAMED
+        RET
 
 ; ITDONE - notes that an item was written
 ; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
@@ -153,7 +184,7 @@ ITFIL:  CALL    NEEDEL          ; before or at the entry
         STA     RFILW
         RST     5
         DB      LA0,SFI         ; -
-ITPN3:  DB      QRET            ; (for ITPNT too)
+ITPN4:  DB      QRET            ; (for ITPNT too)
 
 ; POSIT - demands that the value is a positive number
 ; In:  a0   Out: A = 0; ERR 05   Clobbers HL
@@ -183,36 +214,33 @@ NOFIL:  LDA     RFILW
 ; ITPNT - a point
 ITPNT:  RST     5
         DB      LA0,SDX,LA1,SDY ; -
-        DB      LA0,SB0,LA1,SB1 ; -             b = D
-        DB      Q0,SB2,Q0,SA2,QEND
-        LDA     RITEMS
-        ORA     A
-        JZ      ITPN0
+        DB      QXCH,Q0,SB2,Q0,SA2,QEND ; -     b = D
         LDA     RLASTP
         ORA     A
+        JNZ     ITPN2
+        LDA     RITEMS
+        ORA     A
         JZ      ITPN1
-        RST     5
-        DB      LPX,SA0,LPY,SA1 ; -
-        DB      QDIF,QFAR       ; negative: within 1 um, the same point
-        DB      QJN
-        DB      ITPN3-$
-        DB      QEND
-        LXI     D,GBELT
-        CALL    RUNBC           ; the line from P to D
-        MVI     A,KLIN
-        CALL    ITELM
-        JMP     ITPN2
-ITPN0:  RST     5               ; the first item
-        DB      LDX,SQX,LDY,SQY ; -
-        DB      LNR,SQR,QJMP    ; -
-        DB      ITPN4-$
-ITPN1:  CALL    NOFIL           ; a fillet between an element and a point
+        CALL    NOFIL           ; a fillet between an element and a point
         RST     5
         DB      QCA,QONEL       ; -
         DB      QJMP
-        DB      ITPN4-$
+        DB      ITPN3-$
+ITPN1:  RST     5               ; the first item
+        DB      LDX,SQX,LDY,SQY ; -
+        DB      LNR,SQR,QJMP    ; -
+        DB      ITPN3-$
 ITPN2:  RST     5
-ITPN4:  DB      LDX,SPX,LDY,SPY ; -
+        DB      LPX,SA0,LPY,SA1 ; -
+        DB      QDIF,QFAR       ; negative: within 1 um, the same point
+        DB      QJN
+        DB      ITPN4-$
+        DB      QEND
+        CALL    BELT            ; the line from P to D
+        MVI     A,KLIN
+        CALL    ITELM
+        RST     5
+ITPN3:  DB      LDX,SPX,LDY,SPY ; -
         DB      QEND            ;               (leaves A = 0)
         INR     A
         JMP     ITDONE
@@ -246,40 +274,6 @@ SCALED: RST     5
 SCAL1:  DB      LA0,LSC,QMUL,SA0 ; -
         DB      LA1,LSC,QMUL,SA1 ; -
         DB      QRET
-
-; NAMEIT - when the last item was a point, it names the corner before N
-; In:  N, RLASTP   Out: RNAMED; ERR 06 when the point is not on N   Clobbers all
-NAMEIT: LDA     RLASTP
-        STA     RNAMED
-        ORA     A
-        RZ
-        RST     5
-        DB      LPX,SB0,LPY,SB1 ; -
-        DB      QNA,QONEL,QRET  ; -
-
-; ADDEL - the element N follows: corner or merging, fillet
-; In:  N; RTURN, RNAMED, RFILW, FI; first element: RFSTP, P or H   Clobbers all
-ADDEL:  LDA     RELEMS
-        ORA     A
-        JZ      FIRST
-        LDA     RNAMED
-        ORA     A
-        JNZ     ADDEL1
-        CALL    SAMEC
-        JZ      CORDON          ; the same curve goes on: no corner
-ADDEL1: CALL    OFFCHK
-        LDA     RFILW
-        ORA     A
-        CNZ     FILLET
-        CALL    JOINED
-; (fall into CORDON)
-
-; CORDON - the corner to come is not described yet
-; Clobbers A, HL
-CORDON: LXI     H,0
-        SHLD    RFILW           ; and RTURN
-        SHLD    RTURN           ; and RNAMED
-        RET
 
 ; JOINED - corner between C and N, C goes out, N is the current element
 ; Clobbers all
@@ -327,30 +321,25 @@ FILLET: RST     5
         LXI     H,MO1
         CALL    FSGN            ; 0FFH for a left turn
         INR     A
-        STA     RTURN
+        MOV     L,A
+        MVI     H,0
+        SHLD    RTURN           ; and RNAMED
         LXI     D,MNEXT
         LXI     H,RKEPT
         CALL    CPYEL
         RST     5
-        DB      QXING           ; -             a = centre of the arc
+        DB      QXING           ; -             a = centre of the arc = b
+        DB      LA0,SB0,LA1,SB1 ; -
         DB      LO1,QNEG,SA2,QEND ; -
         MVI     A,KCIR
         CALL    PUTN
-        CALL    FITARC
-        XRA     A
-        STA     RNAMED
+        CALL    PASSED          ; its touching point comes before the corner
         CALL    OFFCHK
         CALL    JOINED
         LXI     D,RKEPT
         LXI     H,MNEXT
         JMP     CPYEL
 FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
-
-; FITARC - does the fillet's touching point on the circle C come before the corner?
-; In:  C, A, N = fillet, K = corner   Out: ERR 06   Clobbers all
-FITARC: RST     5
-        DB      LN0,SB0,LN1,SB1,QEND ; -
-; (fall into PASSED)
 
 ; PASSED - on the way along the circle C from its entry A, does the point T = b come before K?
 ;          All as seen from the centre
@@ -404,7 +393,7 @@ CORNO:  LDA     RNAMED
         JZ      CROSS
         RST     5
         DB      LPX,SKX,LPY,SKY ; -             K = P
-        DB      LO1,QABS,LO2,QABS,QADD,QJZ ; -
+        DB      LO1,LO2,QSS,QJZ ; -
         DB      CORN9-$
         DB      QEND
         LDA     FITSM
@@ -543,15 +532,6 @@ SAMEL:  LDA     RLASTP
         DB      QJMP
         DB      SAME1-$
 
-; SBACK - statement: BACK
-SBACK:  RST     7
-        CALL    FITEND
-        CALL    NEEDEL          ; no route, or but a point
-SBACK1: CALL    CLOSE
-        LXI     H,RBACK
-        INR     M
-        JMP     HOME
-
 ; CLOSE - closes the route onto its first element, up to where it was entered
 ; Clobbers all
 ; A first point is the closing corner, written once more.
@@ -571,7 +551,6 @@ CLOSE1: LDA     RELEMS
         LXI     D,MFIRST
         LXI     H,MNEXT
         CALL    CPYEL
-        CALL    NAMEIT
         CALL    ADDEL
 CLOSE3: RST     5
         DB      LCR,LFR,QSUB,QE6D ; -
@@ -738,6 +717,15 @@ XXING:   RST     5
 FIRST1: RST     5
         DB      LKX,SGX,LKY,SGY,QJMP ; -        G = K
         DB      ADVAN1-$
+
+; SBACK - statement: BACK
+SBACK:  RST     7
+        CALL    FITEND
+        CALL    NEEDEL          ; no route, or but a point
+SBACK1: CALL    CLOSE
+        LXI     H,RBACK
+        INR     M
+; (fall into HOME)
 
 ; HOME - straight to the start hole
 ; Clobbers all

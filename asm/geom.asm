@@ -1,5 +1,5 @@
 ; geom.asm - the operations of language.md table 2.1, as calculator code
-; Offers: BINOP, BINOPK, XXCH, GBELT, ERGEO and the operations QDOT ... QXCH of ops.asm
+; Offers: BINOP, BINOPK, XXCH, BELT, ERGEO and the operations QDOT ... QXCH of ops.asm
 ; Uses:   calc, float, parser (SETK, CHKRET, error stubs)
 ; Room:   600 bytes
 ;
@@ -257,6 +257,7 @@ GBISEC: DB      QDIF                    ; dx dy
 ; The belt line: alpha*xi + beta*yi + ri = gamma for both circles.  With d from
 ; centre to centre, e = r1-r2 and h = sqrt(d^2-e^2): the unit vector along d, turned
 ; to the right by the angle whose cosine is e/d and whose sine h/d.
+BELT:   RST     5               ; (for ITPNT: as a routine)
 GBELT:  DB      LA0,LA1                 ; x y
         DB      QDIF,QCENT              ; x y e         t3 = d
         DB      QDUP,ST2,QABS           ; x y |e|       t2 = e
