@@ -117,7 +117,7 @@ ADDEL:  LDA     RLASTP
         ORA     A
         JZ      ADDEL1
         RST     5
-        DB      LPX,SB0,LPY,SB1 ; -
+        DB      LPX,LPY,QTOK    ; -
         DB      QNA,QONEL,QEND  ; -             (leaves A = 0)
 ADDEL1: CALL    ITDONE
         LDA     RELEMS
@@ -344,15 +344,15 @@ FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
 ; PASSED - on the way along the circle C from its entry A, does the point T = b come before K?
 ;          All as seen from the centre
 ; In:  C, A, K, b   Out: ERR 06 when not (never on a line: ADVANC looks after that)
-; Clobbers all
+; Clobbers all, K too
 ; It does when the chords to T and K turn as C does.
 PASSED: RST     5
         DB      QCA,QJC         ; -
         DB      PASS1-$
         DB      QRET
 PASS1:  DB      QNORM,LA0,LA1   ; tx ty
-        DB      QCA,LKX,SB0,LKY,SB1,QNORM,LA0,LA1 ; tx ty kx ky
-        DB      QCA,LAX,SB0,LAY,SB1,QNORM ; tx ty kx ky  a = of the entry
+        DB      QCA,LKX,LKY,QTOK,QNORM,LA0,LA1 ; tx ty kx ky
+        DB      QCA,LAX,LAY,QTOK,QNORM ; tx ty kx ky  a = of the entry
         DB      LA1,QSUB,LC2,QMUL,SB1 ; tx ty kx        b = chord to K
         DB      LA0,QSUB,LC2,QMUL,SB0 ; tx ty
         DB      LA1,QSUB,LC2,QMUL,QSWP ; dy tx          a = chord to T
@@ -377,8 +377,7 @@ OFFCH1: DB      QEND
 ; a corner that no point names: the crossing
 CROSS:  RST     5
         DB      QXING           ; -
-ATOK:   DB      LA0,SKX,LA1,SKY ; -
-        DB      QRET
+ATOK:   DB      LA0,LA1,QTOK,QRET ; -
 
 ; CORNER - the corner between C and N as offset
 ; In:  C, N, RTURN, RNAMED, P   Out: K, O1, O2   Clobbers all
@@ -392,7 +391,7 @@ CORNO:  LDA     RNAMED
         ORA     A
         JZ      CROSS
         RST     5
-        DB      LPX,SKX,LPY,SKY ; -             K = P
+        DB      LPX,LPY,QTOK    ; -             K = P = b
         DB      LO1,LO2,QSS,QJZ ; -
         DB      CORN9-$
         DB      QEND
@@ -402,8 +401,6 @@ CORNO:  LDA     RNAMED
         RST     5
         DB      QNORMS,QJN      ; -
         DB      NAMED1-$
-        DB      QEND
-        RST     5
         DB      Q0,STL,QEND     ; -             crossings, however flat (A = 0)
         STA     RTURN
         CALL    CROSS           ; (QRET leaves A not 0)
@@ -411,10 +408,10 @@ CORNO:  LDA     RNAMED
         RST     5
         DB      QXING,QMU,STL   ; -
         DB      LPX,SB0,LPY,SB1 ; -
-        DB      QDIF,QHYP       ; d2
-        DB      LKX,LPX,QSUB    ; d2 dx
-        DB      LKY,LPY,QSUB    ; d2 dx dy
-        DB      QHYP,QSUB       ; d2-d1
+        DB      QDIF,QSS        ; d2^2
+        DB      LKX,LPX,QSUB    ; d2^2 dx
+        DB      LKY,LPY,QSUB    ; d2^2 dx dy
+        DB      QSS,QSUB        ; d2^2-d1^2
         DB      QJN             ; -
         DB      ATOK-$
 CORN9:  DB      QRET
@@ -427,8 +424,9 @@ CORN1:  RST     5               ; between arcs of a curve: both run the same way
 NAMED1: DB      QDOT,QE6N       ; -             there and back
 NAMED4: DB      LCR,LNR,QSUB    ; dR
         DB      QE6D            ; -             no crossing any more
-NAMED2: DB      LCR,ST0         ; -
-NAMED3: DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a
+NAMED2: DB      LCR             ; R
+NAMED3: DB      ST0             ; -
+        DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a
         DB      LA1,LT0,QMUL,LKY,QADD,SKY ; -
         DB      QRET
 
@@ -451,27 +449,25 @@ FIRST:  CALL    OFFCHK
 ; PLACE - place on C, as offset, that is nearest to the start hole
 ; Out: K   Clobbers all
 PLACE:  RST     5
-        DB      LHX,QDUP,SKX,SB0 ; -            b = K = H
-        DB      LHY,QDUP,SKY,SB1 ; -
+        DB      LHX,LHY,QTOK    ; -             b = K = H
         DB      QCA             ; -
-        DB      LC2,LCR,QADD,ST0 ; -            t0 = gamma or r as offset
-        DB      QJC             ; -
+        DB      LC2,LCR,QADD    ; g             gamma or r as offset
+        DB      QJC             ; g
         DB      PLACE1-$
-        DB      LT0,QDOT,QSUB,ST0 ; -           t0 = as far to the right
+        DB      QDOT,QSUB       ; t0            as far to the right
         DB      QJMP
         DB      NAMED3-$
-PLACE1: DB      LC0,SKX,LC1,SKY ; -             K = centre
-        DB      QDIF,QFAR,QJN   ; -
+PLACE1: DB      LC0,SKX,LC1,SKY ; r             K = centre
+        DB      QDIF,QFAR,QJN   ; r
         DB      PLACE2-$
-        DB      QNORM,QJMP      ; -
+        DB      QNORM,QJMP      ; r
         DB      NAMED3-$
-PLACE2: DB      LC0,LT0,QABS,QADD,SKX,QRET ; -  the +X side
+PLACE2: DB      QABS,LC0,QADD,SKX,QRET ; -      the +X side
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
 PATC:   RST     5
-        DB      LPX,QDUP,SKX,SB0 ; -            b = K = P
-        DB      LPY,QDUP,SKY,SB1 ; -
+        DB      LPX,LPY,QTOK    ; -             b = K = P
         DB      QCA,QNORM       ; -             a = right normal
         DB      QJMP
         DB      NAMED2-$
@@ -496,14 +492,14 @@ SAME:   CALL    XNA1            ; a = the element
         CMP     M
         RNZ
         RST     5
-        DB      LN0,SB0,LN1,SB1,LN2,SB2 ; -
+        DB      QXCH,QNA        ; -             a = N, b = the element
         DB      QJC
         DB      SAME2-$
         DB      QEPS,QSQ,QDIF,QSS,QSUB ; eps^2-angle^2
         DB      QJN             ; -
         DB      SAME9-$
-        DB      LT1,SA0,LT2,SA1,QDOT ; place along N's normal
-        DB      LB2,QSUB,LT0,QSUB ; off
+        DB      LT1,SB0,LT2,SB1,QDOT ; place along N's normal
+        DB      LA2,QSUB,LT0,QSUB ; off
         DB      QABS            ; |off|
 SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|
         DB      QJN             ; -
@@ -554,7 +550,7 @@ CLOSE1: LDA     RELEMS
         CALL    ADDEL
 CLOSE3: RST     5
         DB      LCR,LFR,QSUB,QE6D ; -
-        DB      LGX,SB0,LGY,SB1,QEND ; -        b = G
+        DB      LGX,LGY,QTOK,QEND ; -           b = G
         LXI     D,RCORN
         LXI     H,MKX
         MVI     A,10
@@ -573,7 +569,7 @@ CLOSE6: LXI     H,RELEMS
         DCR     M               ; at the entry still: ADVANC takes the whole circle
 CLOSE7: CALL    NOFIL           ; there is no corner
         RST     5
-        DB      LGX,SKX,LGY,SKY,QEND ; -        K = G, where the route was entered
+        DB      LGX,LGY,QTOK,QEND ; -           K = G, where the route was entered
 CLOSE8: CALL    ADVANC
 ; (fall into RTDONE)
 
@@ -692,16 +688,18 @@ XNORM1: DB      QDIF            ; dx dy
         DB      LA2,QSIG,QSWP   ; +-dy dx
         DB      LA2,QSIG,QSWP   ; +-dx +-dy
         DB      QUNIT,QRET      ; -
-; QNORMS: a0 a1, b0 b1 = right normals of C and N at K; negative when they differ by less than
+; QTOK: K = b = a point
+XTOK:   RST     5
+        DB      QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -
+; QNORMS: a0 a1, b0 b1 = right normals of C and N at K = b; negative when they differ by less than
 ; 0.001 rad
-XNORMS:  RST     5
-        DB      LKX,SB0,LKY,SB1 ; -
+XNORMS: RST     5
         DB      QNA,QNORM,LA0,LA1 ; x y
         DB      QCA,QNORM,SB1,SB0 ; -
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET
 ; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
-XXING:   RST     5
+XXING:  RST     5
         DB      QNA             ; -
         DB      LA2,LO2,QADD,SA2 ; -
         DB      QXCH,QCA        ; -             b = N
@@ -730,7 +728,7 @@ SBACK1: CALL    CLOSE
 ; HOME - straight to the start hole
 ; Clobbers all
 HOME:   RST     5
-        DB      LHX,SKX,LHY,SKY,QJMP ; -
+        DB      LHX,LHY,QTOK,QJMP ; -           K = H
         DB      HOME1-$
 
 ; ADVANC - the wire travels C to the corner K

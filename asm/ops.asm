@@ -31,12 +31,13 @@ QNORMS  EQU QOWN+23     ; ->      a0 a1, b0 b1 = right normals of C and N at K; 
 QXING   EQU QOWN+24     ; ->      a0 a1 = crossing of C and N as offset
 QSS     EQU QOWN+25     ; x y -> x*x+y*y
 QCENT   EQU QOWN+26     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within 1 um
-QROOT   EQU QOWN+27     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
+QTOK    EQU QOWN+27     ; x y ->  K = b0 b1 = x y
+QROOT   EQU QOWN+28     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
         DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
         DW      XSIG,XMAX,XE6N,XE6D,XUNIT,XXCH
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
-        DW      XNORMS,XXING,XSS,XCENT
+        DW      XNORMS,XXING,XSS,XCENT,XTOK
         IF      NODRIFT
         DW      XROOT
         ENDIF
