@@ -59,6 +59,19 @@ CALINI: LXI     H,FSTK
         SHLD    FSP
         RET
 
+; FUN - puts x on the float stack and runs the byte-code behind the call; when the routine that
+;       called FUN returns, what is on top there goes back to x
+; In:  HL -> x, on the stack: code pointer   Clobbers all
+FUN:    XCHG
+        POP     H
+        PUSH    D
+        LXI     B,FUN1
+        PUSH    B
+        PUSH    H
+        CALL    OOVR
+        POP     D
+; (fall into RUNBC)
+
 ; RUNBC - runs byte-code that ends with QEND and a RET, or with QRET
 ; In:  DE -> byte-code   Clobbers all
 RUNBC:  PUSH    D
@@ -166,17 +179,6 @@ CALPOP: LHLD    FSP
         SHLD    FSP
         XCHG
         JMP     COPY5
-
-; FUN - puts x on the float stack; when the routine that called FUN returns, what is
-;       on top there goes back to x
-; In:  HL -> x   Out: HL -> behind the copy   Clobbers all
-FUN:    XCHG
-        POP     H
-        PUSH    D
-        LXI     B,FUN1
-        PUSH    B
-        PUSH    H
-        JMP     OOVR
 
 OJN:    INX     H
         MOV     A,M

@@ -1,8 +1,8 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
 ;         FITOF FTOI16, LEXNUM DECIN DECOUT PRDEC
-; Uses:   calc, start (ERROR PUTC ERSYN), lexer (LEXCH LEXDIG LEXDEC)
-; Room:   1570 bytes
+; Uses:   calc, geom (QSIG), start (ERROR PUTC ERSYN), lexer (LEXCH LEXDIG LEXDEC)
+; Room:   1500 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -726,14 +726,12 @@ FSQR4:  MOV     M,A
 ; FTG - tangent, sine by cosine
 ; In:  HL -> x   Out: x; ERR 05 for odd multiples of 90   Clobbers all
 FTG:    CALL    FUN
-        RST     5
         DB      QDUP,QSIN,QSWP,QCOS,QDIV ; tan x
         DB      QRET
 
 ; FCOS - cosine
 ; In:  HL -> x   Out: x; ERR 05 as FSIN   Clobbers all
 FCOS:   CALL    FUN
-        RST     5
         DB      QABS,Q90,QSWP,QSUB      ; 90-|x|
         DB      QSIN,QRET               ; cos x
 
@@ -744,7 +742,6 @@ FSIN:   MOV     A,M
         CPI     0A2H
         JNC     FOVF
         CALL    FUN
-        RST     5
         DB      QDUP,QI180,QMUL         ; x x/180
         DB      QHALF,QADD,QFLR         ; x k           k half turns
         DB      Q180,QMUL,QSUB          ; r             -90...90
@@ -843,41 +840,30 @@ CATG:   DB      07DH,0D6H,088H,0F9H,06FH        ; -0.1047534453
 ; FATG - arc tangent
 ; In:  HL -> x   Out: x, between -90 and 90   Clobbers all
 FATG:   CALL    FUN
-        LXI     D,-4
-        DAD     D
+        DB      Q90,QOVR,QABS,QEND      ; x 90 s        s = |x|
+        DCX     H                       ; (QABS leaves HL -> byte 1)
         MOV     A,M
-        PUSH    PSW             ; sign
-        ANI     7FH
-        MOV     M,A
-        DCX     H
-        MOV     A,M
-        CPI     80H
-        JC      FATG2           ; below 1/2
         CPI     82H
-        JC      FATG1           ; below 2
+        JNC     FATG2           ; from 2 up
+        CPI     80H
+        JNC     FATG1           ; from 1/2 up
         RST     5
-        DB      Q90,QSWP                ; 90 x
-        DB      Q1,QNEG,QSWP            ; 90 -1 x
+        DB      QSWP,QDRP,Q0,QSWP,Q1    ; x 0 s 1
         DB      QJMP
         DB      FATG3-$
 FATG1:  RST     5
-        DB      Q90,QHALF,QMUL,QSWP     ; 45 x
-        DB      QDUP,Q1,QSUB            ; 45 x x-1
-        DB      QSWP,Q1,QADD            ; 45 x-1 x+1
+        DB      QSWP,QHALF,QMUL,QSWP    ; x 45 s
+        DB      QDUP,Q1,QSUB            ; x 45 s s-1
+        DB      QSWP,Q1,QADD            ; x 45 s-1 s+1
         DB      QJMP
         DB      FATG3-$
 FATG2:  RST     5
-        DB      Q0,QSWP,Q1              ; 0 x 1
-FATG3:  DB      QI64,QMUL,QDIV,QEND     ; base y        y = 64 times the quotient
+        DB      Q1,QNEG,QSWP            ; x 90 -1 s
+FATG3:  DB      QI64,QMUL,QDIV,QEND     ; x base y      y = 64 times the quotient
         LXI     D,CATG
         CALL    FSER
         RST     5
-        DB      QADD,QEND               ; atan |x|
-        POP     PSW
-        RLC
-        RNC
-        RST     5
-        DB      QNEG,QRET
+        DB      QADD,QSWP,QSIG,QRET     ; atan |x|, with the sign of x
 
 ; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
 ; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
@@ -1084,51 +1070,49 @@ DECI1:  CALL    LEXDIG
         JC      DECI2
         XRA     C               ; (C = 0 lets no point come out as 1)
         DCR     A
-        JNZ     DECI3           ; no point, or the second
+        JNZ     DECI4           ; no point, or the second
         INR     C
         INX     H
         JMP     DECI1
 DECI2:  INX     H
-        MOV     E,A
-        LDA     MT0
-        CPI     0A0H            ; CY: there is room for a digit
-        PUSH    PSW
-        MOV     A,B
-        ADC     C
-        MOV     B,A
-        POP     PSW
-        JNC     DECI1
         PUSH    H
-        PUSH    B
-        MOV     L,E
+        MOV     L,A
         MVI     H,0
+        MOV     A,B
+        ADD     C
+        MOV     B,A
+        LDA     MT0
+        CPI     0A0H            ; is there room for a digit?
+        JNC     DECI3
+        INR     B
+        PUSH    B
         LXI     D,MT0+5
         CALL    FITOF
         RST     5
         DB      LT0,Q10,QMUL,LT1,QADD,ST0,QEND
         POP     B
-        POP     H
+DECI3:  POP     H
         MOV     E,H             ; (not 0FFH)
         JMP     DECI1
-DECI3:  INR     E
+DECI4:  INR     E
         JZ      ERSYN           ; no digit at all
         CALL    LEXCH
         CPI     CLTE
-        JNZ     DECI9
+        JNZ     DECI8
         PUSH    H               ; -> E, which may begin a word
         INX     H
         MVI     C,0FFH          ; C = 0 for a negative exponent
         CALL    LEXCH
         CPI     CPLUS
-        JZ      DECI4
+        JZ      DECI5
         CPI     CMINUS
-        JNZ     DECI5
+        JNZ     DECI6
         INR     C
-DECI4:  INX     H
-DECI5:  CALL    LEXDEC          ; DE = exponent
+DECI5:  INX     H
+DECI6:  CALL    LEXDEC          ; DE = exponent
         MOV     A,D
         ORA     A
-        JM      DECI8           ; no digit: the E is not ours
+        JM      DECI7           ; no digit: the E is not ours
         JNZ     FOVF
         MOV     A,E
         CPI     100
@@ -1138,8 +1122,8 @@ DECI5:  CALL    LEXDEC          ; DE = exponent
         ADD     B
         MOV     B,A
         XTHL                    ; -> behind it, not -> E
-DECI8:  POP     H
-DECI9:  XTHL
+DECI7:  POP     H
+DECI8:  XTHL
         PUSH    H
         MOV     A,B
         CALL    FTEN
