@@ -372,7 +372,7 @@ FDIVX:  PUSH    PSW
 ; FDIV1 - eight bits of the quotient
 ; FDIVA - as many as A has zeros above its highest 1, and one: 40H two bits
 ; In:  B C D E = remainder, FY = divisor   Out: A, B C D E, CY set   Clobbers HL
-; Cycles: 240 a bit
+; Cycles: 210 a bit
 FDIV1:  MVI     A,1             ; ready when this bit comes out
 FDIVA:  STA     FQ
 FDIV2:  XCHG
@@ -966,7 +966,8 @@ DECO2:  DAD     D
         JNZ     DECO2
         MOV     C,H
         PUSH    B
-DECO3:  DB      QEND            ; (for the 8080 a NOP)
+        RST     5
+DECO3:  DB      QEND
         POP     B
         DCR     C
         PUSH    B
