@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
-; Offers: GETLIN LEX LEXCH LEXDIG LEXDEC LISTLN KEYTAB
-; Uses:   float (LEXNUM PRDEC), parser (PRNUM SUBCHK), io (BREAK PUTS CRLF, the ports), start (ADDA)
+; Offers: GETLIN LEX LEXCH LEXDIG LEXDEC LISTLN PRNUM KEYTAB
+; Uses:   float (LEXNUM PRDEC DECOUT), parser (SUBCHK), io (BREAK PUTS CRLF, the ports), start (ADDA)
 ; Room:   560 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
@@ -258,7 +258,20 @@ LISTOK: MOV     A,M
         CPI     TFLT
         JNZ     PUTC            ; stands for itself
         MVI     B,9
-        JMP     PRNUM
+; (fall into PRNUM)
+
+; PRNUM - prints one of several floats
+; In:  HL -> it, B = most significant digits (8 or 9)
+; Out: HL -> behind it   Clobbers A, DE
+PRNUM:  PUSH    B
+        PUSH    H
+        CALL    DECOUT
+        POP     H
+        POP     B
+        LXI     D,5
+        DAD     D
+        RET
+
 LIST1:  CPI     TSQR
         JC      LIST3
         MOV     B,A             ; a word

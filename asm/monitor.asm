@@ -1,5 +1,5 @@
 ; monitor.asm - prompt, program lines, running them, errors
-; Offers: READY RUNLP DIRECT STMT ERR LINENO FINDLN NEW1 FREE1 CLEAR and the
+; Offers: READY RUNLP DIRECT STMT ERR ERR4 LINENO FINDLN NEW1 CLEAR and the
 ;         statements and commands that do not cut; the cells below
 ; Uses:   everything
 ; Room:   600 bytes
@@ -504,16 +504,3 @@ SLOA1:  CALL    BREAK
         ENDIF                   ; (RXRDY of the 6850 is 1)
         STA     LOADF
         RET
-
-; SFREE - command: FREE
-SFREE:  RST     7
-FREE1:  LHLD    PEND
-        XCHG
-        LHLD    VBOT
-        MOV     A,L
-        SUB     E
-        MOV     L,A
-        MOV     A,H
-        SBB     D
-        MOV     H,A
-        JMP     ERR4

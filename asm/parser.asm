@@ -1,5 +1,5 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL EVNUM EVPNT EVKIND EVINT ASSIGN GETREF SETREF PRVAL PRNUM CMPNE CLRVAR
+; Offers: EVAL EVNUM EVPNT EVKIND EVINT ASSIGN GETREF SETREF PRVAL CMPNE CLRVAR
 ;         CHKRET NOTURN, GETA PUTA COPY and the stubs ERKIND ERRNG ERUNS
 ; Uses:   calc, float, geom (BINOP), monitor (CHKEND, the pointers)
 ; Room:   700 bytes
@@ -315,22 +315,21 @@ SETREF: CALL    KINDD
         CALL    FIND
         POP     B
         JNC     SETR1
+        PUSH    D
         LHLD    VBOT
         MOV     A,L
         SUB     C
-        MOV     L,A
+        MOV     E,A
         MOV     A,H
         SBI     0
-        MOV     H,A
-        DCX     H
-        DCX     H
-        PUSH    D               ; does it fit above the route buffer?
-        XCHG
-        LHLD    RBEND
+        MOV     D,A
+        DCX     D
+        DCX     D
+        LHLD    RBEND           ; does it fit above the route buffer?
         CALL    CPHD
         JC      SETR2
-        MVI     A,1             ; no: that is given up for it
-        STA     RBFULL
+        LXI     H,RBFULL        ; no: that is given up for it
+        INR     M
         CALL    RBEMP
         CALL    CPHD
         JNC     ERMEM
@@ -384,18 +383,6 @@ PRV2:   RST     2
         JNZ     PRV2
         MVI     A,CRPAR
         RST     2
-        RET
-
-; PRNUM - prints one of several floats
-; In:  HL -> it, B = most significant digits (8 or 9)
-; Out: HL -> behind it   Clobbers A, DE
-PRNUM:  PUSH    B
-        PUSH    H
-        CALL    DECOUT
-        POP     H
-        POP     B
-        LXI     D,5
-        DAD     D
         RET
 
 ; EVINT - value of an expression that must be a whole number

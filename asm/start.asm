@@ -1,6 +1,6 @@
 ; start.asm - restarts, what becomes of a line that is understood, and reset
 ; Offers: the restarts of equ.asm and the routines in the gaps between them
-;         (CHECK, ADDA, ERMEM, ERSYN, ERDATA), SREM, RESET, VARSUM
+;         (CHECK, ADDA, ERMEM, ERSYN, ERDATA), SREM, SFREE, RESET, VARSUM
 ; Uses:   io (PUTC1, the ports), calc (CALC), monitor
 ; Room:   330 bytes
 ;
@@ -239,7 +239,21 @@ RESE5:  CALL    VARSUM
         CALL    CLEAR1
         CALL    PUTSI
         DB      CCR,CLF,"SKG",0A0H
-        JMP     FREE1
+        DB      0FEH            ; CPI: skips the RST 7
+; (fall into SFREE)
+
+; SFREE - command: FREE
+SFREE:  RST     7
+        LHLD    PEND
+        XCHG
+        LHLD    VBOT
+        MOV     A,L
+        SUB     E
+        MOV     L,A
+        MOV     A,H
+        SBB     D
+        MOV     H,A
+        JMP     ERR4
 
         IF      BRD51
 IOTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for
