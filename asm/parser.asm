@@ -231,12 +231,11 @@ NEGV1:  RST     5
 
 ; NAME - a name with its subscript worked out
 ; In:  A = its first token, taken   Out: DE = name   Clobbers all
-NAME:   CPI     TNAME
-        JC      ERSYN
-        CPI     TSUB
-        JC      NAME1
-        CPI     TSUB+14
+NAME:   SUI     TNAME
+        CPI     TSUB+14-TNAME
         JNC     ERSYN
+        CPI     TSUB-TNAME
+        JC      NAME1
         PUSH    PSW
         CALL    EVINT
         XCHG
@@ -250,7 +249,8 @@ NAME:   CPI     TNAME
         ORA     D
         MOV     D,A
         RET
-NAME1:  MOV     D,A
+NAME1:  ORI     TNAME
+        MOV     D,A
         RST     3
         MOV     E,A
         RET

@@ -158,21 +158,19 @@ STOR2:  PUSH    H
         XCHG
         DAD     B
         XCHG
-STOR3:  INR     B
-        INR     C
-STOR4:  LDAX    D               ; (from here on CY: down)
+STOR3:  LDAX    D               ; (CY: down)
         MOV     M,A
-        JC      STOR5
+        JC      STOR4
         DCX     D
         DCX     D
         DCX     H
         DCX     H
-STOR5:  INX     D
+STOR4:  INX     D
         INX     H
-        DCR     C
-        JNZ     STOR4
-        DCR     B
-        JNZ     STOR4
+        DCX     B
+        MOV     A,B             ; below 0?
+        INR     A
+        JNZ     STOR3
         POP     H
         POP     D
         LDAX    D
