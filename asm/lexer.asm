@@ -43,7 +43,7 @@ INCH2:  MOV     A,M             ; (HL-> KEYB, from BREAK)
         ANI     7FH
         JZ      INCH1
         MVI     M,0             ; (in LOAD keys do not count)
-        CPI     CEOF
+        CPI     CEOF            ; (HL-> KEYB for every key)
         JZ      GETL5
         CPI     CCR
         JZ      GETL6
@@ -64,7 +64,8 @@ INCH2:  MOV     A,M             ; (HL-> KEYB, from BREAK)
         MVI     A,CBEL
         RST     2
         RET
-GETL4:  LDA     LOADF           ; take one back; a tape's RUBOUTs mean nothing
+GETL4:  INX     H               ; take one back; a tape's RUBOUTs mean nothing
+        MOV     A,M             ; LOADF, behind KEYB
         ORA     A
         RNZ
         DCR     C
@@ -76,14 +77,14 @@ GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ADD     A
         CNZ     CRLF            ; (nobody sees it; ERR looks at LASTC)
         JNZ     ERTAPE
+        INX     H               ; HL-> LOADF, A = 0
+        MOV     M,A
         IF      PTTY
         LXI     H,OUTSEL
         INR     M               ; paper on
         MVI     A,CXOFF         ; the teletype's reader off
         RST     2
-        XRA     A
         ENDIF
-        STA     LOADF
         JMP     READY
 GETL6:  POP     H
         CALL    CRLF

@@ -19,7 +19,7 @@ OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper and punch; els
 COLS    EQU     MWORK+12        ; characters printed: STORE wants to know
 LASTC   EQU     MWORK+13        ; last character printed
 KEYB    EQU     MWORK+14        ; key typed ahead
-LOADF   EQU     MWORK+15        ; 1: lines come from the reader
+LOADF   EQU     MWORK+15        ; 1: lines come from the reader (OUTSEL to VSUM are walked through)
 VSUM    EQU     MWORK+16        ; check sum of the variables, as of the last prompt
 CURLIN  EQU     MWORK+17        ; number of the line that runs
 DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00
@@ -96,11 +96,12 @@ ERR5:   CALL    CRLF
 ; READY - the prompt: takes a line, for ever; it is parsed, then CHKED is the place
 READY:  LXI     SP,STKTOP
         CALL    VARSUM
-        LXI     H,0100H
-        SHLD    NXTP+1          ; and CHKF: parse only
-        LDA     LOADF
+        DCX     H               ; from VSUM to LOADF
+        MOV     A,M
         DCR     A
         STA     OUTSEL          ; a tape's lines are not printed
+        LXI     H,0100H
+        SHLD    NXTP+1          ; and CHKF: parse only
         MVI     A,CPRMPT
         RST     2
         CALL    GETLIN
@@ -502,5 +503,6 @@ SLOA1:  CALL    BREAK
         IF      BRD51+PTTY
         MVI     A,1
         ENDIF                   ; (RXRDY of the 6850 is 1)
-        STA     LOADF
+        INX     H               ; BREAK leaves HL-> KEYB: the next is LOADF
+        MOV     M,A
         RET

@@ -106,13 +106,13 @@ STORE:  MVI     L,STMT0 & 255
         JNC     ERSYN           ; commands do not go into a program
         XRA     A               ; it is listed, unseen (OUTSEL = 0, from GETLIN): is it a line
         STA     COLS            ; that LOAD takes?
-        LXI     H,LINUM
+        MVI     L,LINUM & 255   ; (HL-> STMT0+1, from NEXT)
         CALL    LINE1
         CALL    LISTLN
         LDA     COLS
         CPI     126+2+1         ; CR and LF count
         JNC     ERMEM
-        LXI     H,LINUM-1       ; the record's head takes the place of the number token
+        MVI     L,(LINUM-1) & 255 ; the record's head takes the place of the number token
         LDA     STKTOP-2        ; low byte of -> behind the tokens
         SUI     (STMT0+1) & 255
         JZ      STOR1           ; the number alone: no record
@@ -271,7 +271,7 @@ SUMR1:  SUB     M               ; (VARSUM goes on with its sum here)
         RET
 
 ; VARSUM - check sum of the variables, to VSUM
-; Out: Z when it is the same as last time   Clobbers A, B, C, HL
+; Out: Z when it is the same as last time, HL-> VSUM   Clobbers A, B, C
 VARSUM: LHLD    VBOT
         XRA     A
         SUB     L
