@@ -30,7 +30,7 @@ RBFULL  EQU CWORK+15    ; not 0 = the route has outgrown its buffer
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
-RITCHK  EQU CWORK+66    ; kinds of the items of a CUT that is checked
+RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN (H, W and these two lie together)
 BLKNO   EQU MHX+21      ; number of the last block, four decimal digits
 
@@ -158,9 +158,10 @@ ITDONE: STA     RLASTP
 ; ITCHK - in check mode: refuses a fillet that the line itself shows to have no place: after
 ;         another one, and between an element and a point
 ; In:  VKIND, KTURN when the line does not show it; RITCHK   Out: RITCHK; ERR 01   Clobbers A, B, HL
-ITCHK:  LDA     VKIND
-        MOV     B,A
-        LXI     H,RITCHK        ; kinds of the last items, three bits each
+ITCHK:  LXI     H,VKIND
+        MOV     B,M
+        INX     H
+        INX     H               ; RITCHK: kinds of the last items, three bits each
         MOV     A,M
         ADD     A
         ADD     A
@@ -416,19 +417,17 @@ CORNO:  LDA     RNAMED
         DB      ATOK-$
 CORN9:  DB      QRET
 CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
-        DB      LPX,LC0,QSUB,SA0 ; -            a = from the centre to P
-        DB      LPY,LC1,QSUB,SA1 ; -
+        DB      QCA,QDIF,SA1,SA0 ; -            a = from the centre to P
         DB      LCR,LNR,QSUB,QE6D ; -
-        DB      LCR,LC2,QDIV,ST0,QJMP ; -       t0 = R/r
+        DB      LCR,LC2,QDIV,QJMP ; R/r
         DB      NAMED3-$
 NAMED1: DB      QDOT,QE6N       ; -             there and back
+        DB      LPX,LPY,QTOK    ; -
 NAMED4: DB      LCR,LNR,QSUB    ; dR
         DB      QE6D            ; -             no crossing any more
 NAMED2: DB      LCR             ; R
-NAMED3: DB      ST0             ; -
-        DB      LA0,LT0,QMUL,LKX,QADD,SKX ; -   K + t0*a
-        DB      LA1,LT0,QMUL,LKY,QADD,SKY ; -
-        DB      QRET
+NAMED3: DB      QXCH,QNEG,QREFL,QJMP ; -        b moved along a
+        DB      ATOK-$
 
 ; FIRST - N is the first element: the wire goes to it
 FIRST:  CALL    OFFCHK
@@ -457,12 +456,12 @@ PLACE:  RST     5
         DB      QDOT,QSUB       ; t0            as far to the right
         DB      QJMP
         DB      NAMED3-$
-PLACE1: DB      LC0,SKX,LC1,SKY ; r             K = centre
-        DB      QDIF,QFAR,QJN   ; r
+PLACE1: DB      QDIF,QFAR,QJN   ; r
         DB      PLACE2-$
-        DB      QNORM,QJMP      ; r
+        DB      QNORM           ; r
+        DB      LC0,SB0,LC1,SB1,QJMP ; r        b = centre
         DB      NAMED3-$
-PLACE2: DB      QABS,LC0,QADD,SKX,QRET ; -      the +X side
+PLACE2: DB      QABS,LC0,QADD,LC1,QTOK,QRET ; - the +X side
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
