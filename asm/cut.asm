@@ -393,7 +393,7 @@ CORNO:  LDA     RNAMED
         JZ      CROSS
         RST     5
         DB      LPX,LPY,QTOK    ; -             K = P = b
-        DB      LO1,LO2,QSS,QJZ ; -
+        DB      LO1,LO2,QMAX,QJZ ; -
         DB      CORN9-$
         DB      QEND
         LDA     FITSM

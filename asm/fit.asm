@@ -49,7 +49,7 @@ SFIT3:  DB      QEND
         CNZ     MIDDLE
         CALL    NODE
         RST     5
-        DB      L2U,L2V,QSS,QJZ ; -
+        DB      L2U,L2V,QMAX,QJZ ; -
         DB      SFIT5-$
         DB      QEND
         JMP     SPAN
@@ -93,7 +93,7 @@ MIDDLE: RST     5
 ; SPAN - the biarc from node 1 to node 2 goes out; node 2 becomes node 1
 ; In:  nodes 1 and 2, tangent 2 known   Out: FITN = 1; ERR 06   Clobbers all
 SPAN:   RST     5
-        DB      L1U,L1V,QSS,QJZ ; -
+        DB      L1U,L1V,QMAX,QJZ ; -
         DB      SPAN2-$
 SPAN1:  DB      QEND
         CALL    CHORD
@@ -139,7 +139,7 @@ FITEND: CALL    CHKRET
         SHLD    FITN            ; and FITSM
         RET
 FITE1:  RST     5
-        DB      L1U,L1V,QSS,QJZ ; -
+        DB      L1U,L1V,QMAX,QJZ ; -
         DB      FITE3-$
 FITE2:  DB      QEND
         CALL    MIRROR

@@ -13,7 +13,7 @@ QREFL   EQU QOWN+5      ; k ->    a0 a1 less k times b0 b1
 QROTV   EQU QOWN+6      ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
 QLEG    EQU QOWN+7      ; gap -> h  crossing of a line and a circle: distance from the foot
 QSIG    EQU QOWN+8      ; x y -> x, or -x when y is negative
-QMAX    EQU QOWN+9      ; x y -> the greater; neither may be negative
+QMAX    EQU QOWN+9      ; x y -> the greater; neither may be negative (else but: 0 when both are 0)
 QE6N    EQU QOWN+10     ; x ->    ERR 06 when negative
 QE6D    EQU QOWN+11     ; x ->    ERR 06 when more than 1 um from 0
 QUNIT   EQU QOWN+12     ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
