@@ -1,6 +1,6 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
 ; Offers: CALC, RUNBC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, and OPTAB
-; Uses:   float
+; Uses:   float, geom (three operations that pop)
 ; Room:   240 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
@@ -36,22 +36,25 @@ QDIV    EQU 04H         ; x y -> x/y
 QJN     EQU 05H         ; x ->
 QJZ     EQU 06H         ; x ->
 QDRP    EQU 07H         ; x ->
-QPOP    EQU 07H         ; the last that pops
-QJMP    EQU 08H
-QRET    EQU 09H         ; ends the byte-code and returns from the routine, A not 0, Z clear
-QDUP    EQU 0AH         ; x -> x x
-QOVR    EQU 0BH         ; x y -> x y x
-QSWP    EQU 0CH         ; x y -> y x
-QSQ     EQU 0DH         ; x -> x*x
-QNEG    EQU 0EH         ; x -> -x
-QFLR    EQU 0FH         ; x -> greatest whole number not above
-QSQRT   EQU 10H         ; x -> square root
-QSIN    EQU 11H         ; x -> sine of x degrees
-QCOS    EQU 12H
-QTG     EQU 13H
-QATG    EQU 14H         ; x -> arc tangent in degrees
-QABS    EQU 15H         ; x -> |x|
-QOWN    EQU 16H         ; number of the first operation that another file adds
+QSIG    EQU 08H         ; x y -> x, or -x when y is negative
+QMAX    EQU 09H         ; x y -> the greater; neither may be negative (else but: 0 when both are 0)
+QE6N    EQU 0AH         ; x ->    ERR 06 when negative
+QPOP    EQU 0AH         ; the last that pops
+QJMP    EQU 0BH
+QRET    EQU 0CH         ; ends the byte-code and returns from the routine, A not 0, Z clear
+QDUP    EQU 0DH         ; x -> x x
+QOVR    EQU 0EH         ; x y -> x y x
+QSWP    EQU 0FH         ; x y -> y x
+QSQ     EQU 10H         ; x -> x*x
+QNEG    EQU 11H         ; x -> -x
+QFLR    EQU 12H         ; x -> greatest whole number not above
+QSQRT   EQU 13H         ; x -> square root
+QSIN    EQU 14H         ; x -> sine of x degrees
+QCOS    EQU 15H
+QTG     EQU 16H
+QATG    EQU 17H         ; x -> arc tangent in degrees
+QABS    EQU 18H         ; x -> |x|
+QOWN    EQU 19H         ; number of the first operation that another file adds
 
 ; CALINI - empties the float stack
 ; Clobbers HL
@@ -221,6 +224,7 @@ OSWP1:  LDAX    D
 ; comes next goes on with DW lines for QOWN, QOWN+1, ...
 OPTAB:  DW      FADD,FSUB,FMUL,FDIV
         DW      OJN,OJZ,ODRP
+        DW      XSIG,XMAX,XE6N  ; (geom.asm)
         DW      OJMP,ORET
         DW      ODUP,OOVR,OSWP,OSQ
         DW      FNEG,FFLR,FSQR

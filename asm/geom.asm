@@ -327,8 +327,7 @@ XLEG1:  DB      LT3,LT2,QSUB            ; r-e
         DB      LT3,LT2,QADD            ; r-e r+e
         DB      QMUL,QSQRT,QRET         ; h
 ; QSIG: a number with its sign changed when a second one is negative
-XSIG:   SHLD    FSP             ; (HL -> the second one: takes it)
-        INX     H
+XSIG:   INX     H               ; -> sign of the second one
         MOV     A,M
         ORA     A
         RP
@@ -336,8 +335,7 @@ XSIG:   SHLD    FSP             ; (HL -> the second one: takes it)
         JMP     FNEG
 
 ; QMAX: the greater of two that are not negative: their bytes can be compared one by one
-XMAX:   SHLD    FSP             ; (HL -> the second one: takes it)
-        PUSH    H
+XMAX:   PUSH    H
         PUSH    D
 XMAX1:  LDAX    D
         CMP     M
@@ -355,8 +353,7 @@ XE6D:   RST     5
         DB      QABS,QMU,QSWP,QSUB      ; room
         DB      QE6N,QRET               ; -
 ; QE6N: takes a number, ERR 06 when it is negative
-XE6N:   SHLD    FSP             ; (HL -> it: takes it)
-        INX     H
+XE6N:   INX     H
         MOV     A,M
         ORA     A
         RP

@@ -12,30 +12,27 @@ QDOT    EQU QOWN+4      ; -> a0*b0+a1*b1
 QREFL   EQU QOWN+5      ; k ->    a0 a1 less k times b0 b1
 QROTV   EQU QOWN+6      ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
 QLEG    EQU QOWN+7      ; gap -> h  crossing of a line and a circle: distance from the foot
-QSIG    EQU QOWN+8      ; x y -> x, or -x when y is negative
-QMAX    EQU QOWN+9      ; x y -> the greater; neither may be negative (else but: 0 when both are 0)
-QE6N    EQU QOWN+10     ; x ->    ERR 06 when negative
-QE6D    EQU QOWN+11     ; x ->    ERR 06 when more than 1 um from 0
-QUNIT   EQU QOWN+12     ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
-QXCH    EQU QOWN+13     ; ->      a and b exchanged
-QCA     EQU QOWN+14     ; ->      a = C
-QNA     EQU QOWN+15     ; ->      a = N
-QRND    EQU QOWN+16     ; mm -> whole um
-QVK     EQU QOWN+17     ; ->      V = K in whole um
-QJC     EQU QOWN+18     ; ->      jump when a is a circle
-QONEL   EQU QOWN+19     ; ->      ERR 06 when the point b is not on the element a
-QNORM   EQU QOWN+20     ; ->      a0 a1 = right normal of a at the point b
-QFAR    EQU QOWN+21     ; x y -> negative when x*x+y*y is less than 1 um squared
-QSENS   EQU QOWN+22     ; R ->    negative when a is a circle that R would turn inside out
-QNORMS  EQU QOWN+23     ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
-QXING   EQU QOWN+24     ; ->      a0 a1 = crossing of C and N as offset
-QSS     EQU QOWN+25     ; x y -> x*x+y*y
-QCENT   EQU QOWN+26     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within 1 um
-QTOK    EQU QOWN+27     ; x y ->  K = b0 b1 = x y
-QROOT   EQU QOWN+28     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
+QE6D    EQU QOWN+8      ; x ->    ERR 06 when more than 1 um from 0
+QUNIT   EQU QOWN+9      ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
+QXCH    EQU QOWN+10     ; ->      a and b exchanged
+QCA     EQU QOWN+11     ; ->      a = C
+QNA     EQU QOWN+12     ; ->      a = N
+QRND    EQU QOWN+13     ; mm -> whole um
+QVK     EQU QOWN+14     ; ->      V = K in whole um
+QJC     EQU QOWN+15     ; ->      jump when a is a circle
+QONEL   EQU QOWN+16     ; ->      ERR 06 when the point b is not on the element a
+QNORM   EQU QOWN+17     ; ->      a0 a1 = right normal of a at the point b
+QFAR    EQU QOWN+18     ; x y -> negative when x*x+y*y is less than 1 um squared
+QSENS   EQU QOWN+19     ; R ->    negative when a is a circle that R would turn inside out
+QNORMS  EQU QOWN+20     ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
+QXING   EQU QOWN+21     ; ->      a0 a1 = crossing of C and N as offset
+QSS     EQU QOWN+22     ; x y -> x*x+y*y
+QCENT   EQU QOWN+23     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within 1 um
+QTOK    EQU QOWN+24     ; x y ->  K = b0 b1 = x y
+QROOT   EQU QOWN+25     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
         DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
-        DW      XSIG,XMAX,XE6N,XE6D,XUNIT,XXCH
+        DW      XE6D,XUNIT,XXCH
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
         DW      XNORMS,XXING,XSS,XCENT,XTOK
         IF      NODRIFT
