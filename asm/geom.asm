@@ -299,7 +299,7 @@ XHYP:   RST     5
         DB      QSS,QSQRT,QRET          ; length
 ; QFAR: is a vector longer than 1 um?  (no square root)
 XFAR:   RST     5
-        DB      QSS,QMU,QSQ,QSUB,QRET   ; -1um^2
+        DB      QSS,QMU2,QSUB,QRET      ; -1um^2
 ; QREFL: a0 a1 moved by -k times b0 b1, k from the stack
 XREFL:  RST     5
         DB      LA0,QOVR,LB0,QMUL       ; k a0 k*b0
