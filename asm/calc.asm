@@ -110,7 +110,7 @@ ODUP:   XCHG                    ; DE -> float
 ; (fall into OOVR)
 
 ; OOVR - QOVR: pushes a float
-; In:  DE -> float   Out: DE, HL behind   Clobbers A
+; In:  DE -> float   Out: DE, HL -> last bytes   Clobbers A
 OOVR:   LHLD    FSP
         MOV     A,L
         ADI     5               ; FSTK lies within a page
@@ -118,8 +118,8 @@ OOVR:   LHLD    FSP
 ; (fall into COPY5)
 
 ; COPY5 - copies a float
-; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
-; Cycles: 130
+; In:  DE -> from, HL -> to   Out: DE, HL -> last bytes   Clobbers A
+; Cycles: 120
 COPY5:  LDAX    D
         MOV     M,A
         INX     D
@@ -138,8 +138,6 @@ COPY5:  LDAX    D
         INX     H
         LDAX    D
         MOV     M,A
-        INX     D
-        INX     H
 ODRP:   RET
 
 ; an operation, or QEND
@@ -174,7 +172,7 @@ FUN1:   POP     D
 ; (fall into CALPOP)
 
 ; CALPOP - pops a float
-; In:  DE -> where to   Out: DE, HL behind   Clobbers A
+; In:  DE -> where to   Out: DE, HL -> last bytes   Clobbers A
 CALPOP: LHLD    FSP
         MOV     A,L
         SUI     5

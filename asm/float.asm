@@ -762,18 +762,19 @@ FSIN1:  LXI     D,CSIN
 ; table: c1, a float; 80H+e; the coefficients times 2^e, 2^2e ..., the highest power's
 ; first, low byte first and odd; 80H-e, which is even.
 FSER:   CALL    OOVR            ; y c1
+        INX     D
         PUSH    D
         RST     5
         DB      QOVR,QSQ,QDUP,QEND      ; y c1 z z
-        POP     D                       ; (QDUP leaves HL = FSP)
+        POP     D                       ; (QDUP leaves HL -> last byte of z)
         CALL    FSER1           ; y c1 z Q
         RST     5
         DB      QMUL,QSUB       ; y P
         DB      QOVR,QMUL,QADD,QRET     ; y+y*P
 
 ; FSER1 - z to Q(z), on top of the calculator's stack
-; In:  DE -> table from 80H+e on, HL = FSP   Clobbers all
-FSER1:  LXI     B,-5
+; In:  DE -> table from 80H+e on, HL -> last byte of z   Clobbers all
+FSER1:  LXI     B,-4
         DAD     B
         PUSH    H               ; -> z, for FNRM
         LDAX    D
@@ -1131,7 +1132,6 @@ DECI8:  XTHL
         POP     D
         CALL    CALPOP
         XCHG
-        DCX     D
         POP     H
         RET
 TENLOG  EQU 0DA87H      ; of exponent 0: high byte = digits before the point, rounded up

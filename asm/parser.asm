@@ -172,6 +172,7 @@ OPFLT:  RST     6
         LXI     H,MA
         CALL    COPY5
         XCHG
+        INX     H
         SHLD    TXTP
 ; (fall into SETNUM)
 
