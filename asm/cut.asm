@@ -631,7 +631,7 @@ PUNDS1: MVI     A,CLTD
         RST     2
         DCR     B
         JNZ     PUNDS1
-        JMP     PUTB3
+        JMP     PUTB2
 
 ; ROUTER - after an error: D when a route was open, which is forgotten
 ROUTER: LDA     RITEMS

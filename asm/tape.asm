@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: MOVE ARC and the operations QRND QVK
-; Uses:   calc, float, io
-; Room:   440 bytes, 520 with NODRIFT
+; Uses:   calc, float, io, start (ADDA)
+; Room:   400 bytes, 480 with NODRIFT
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values.  An arc is looked at from its rounded centre, mirrored when it runs
@@ -21,21 +21,20 @@
 
 TGAX    EQU CWORK+18    ; block: letter of the count direction
 TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
-TZNUM   EQU CWORK+20    ; its number
+TZNUM   EQU CWORK+20    ; its digit
 
 ; ARC - the wire goes along the circle C to K; byte-code that ADVANC (cut.asm, which must stand
 ;       in front of it) falls into
 ; In:  C, K, W; on the float stack: negative when it is more than half a turn   Out: W = V
 ; Clobbers all
 ARC:    DB      QVK,ST3         ; -
-        DB      LC0,QRND,ST0    ; -
-        DB      LC1,QRND,ST1    ; -
-        DB      LWX,LT0,QSUB,SA0 ; -                    a = start
-        DB      LWY,LT1,QSUB,SA1 ; -
-        DB      LVX,LT0,QSUB,SB0 ; -                    b = end
-        DB      LVY,LT1,QSUB,SB1 ; -
-        DB      LA1,LC2,QSIG,SA1 ; -
-        DB      LB1,LC2,QSIG,SB1 ; -            mirrored when clockwise
+        DB      LC0,QRND,SA0    ; -
+        DB      LC1,QRND,SA1    ; -
+        DB      LVX,SB0,LVY,SB1 ; -
+        DB      QDIF,LC2,QSIG   ; u v           of the end; mirrored when clockwise
+        DB      LWX,SB0,LWY,SB1 ; u v
+        DB      QDIF,LC2,QSIG   ; u v u v       of the start
+        DB      SA1,SA0,SB1,SB0 ; -             a = start, b = end
         IF      NODRIFT
         DB      QDIF,ST1,ST0    ; -             t0 t1 = chord d
         DB      LT0,LT1,QSS,ST4 ; -             t4 = |d|^2
@@ -46,8 +45,8 @@ ARC:    DB      QVK,ST3         ; -
         DB      LA0,LA1,QHYP,QDUP,QADD ; 2r
         DB      LT4,QSUB,QJN    ; -             short; |d|^2 <= 2r, within 1/4 um:
         DB      ARC0-$
-        DB      QEND
-        JMP     MOVE            ; a line
+ARCL:   DB      QEND            ;               a line (SEGMNT comes here too)
+        JMP     MOVE
 ; the centre goes along the chord to where both ends are equally far from it
 ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
         DB      LT4,QDIV,QHALF,QADD,ST2 ; -     t2 = shift / d
@@ -62,24 +61,23 @@ ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
         DB      ARC1-$
         DB      QDOT,QJN        ; -             far apart: no doubt
         DB      ARC1-$
-        DB      QEND            ;               short, and the sweep is not positive:
-        JMP     MOVE            ; a line
+ARCL:   DB      QJMP            ;               short, and the sweep is not positive:
+        DB      MOVE0-$         ; a line (SEGMNT comes here too)
         ENDIF
 ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
         DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
         DB      QEND
         CALL    QUAD
-        LXI     H,MC2
-        CALL    FSGN
+        LDA     MC2+1           ; sign
+        ORA     A
         MVI     B,CLTN
         JP      ARC3
-        MVI     A,5             ; clockwise quadrants are mirrored ones
+        MVI     A,2*CZERO+5     ; clockwise quadrants are mirrored ones
         SUB     C
         MOV     C,A
         MVI     B,CLTS
-ARC3:   CALL    SETZ
-        CALL    SETG
-        JNZ     ARC4
+ARC3:   CALL    SETZG
+        JPO     ARC4
         RST     5               ; count along Y: turned by a quarter
         DB      LA1,LA0,QNEG,SA1,SA0 ; -
         DB      LB1,LB0,QNEG,SB1,SB0 ; -
@@ -126,8 +124,8 @@ ARC7:   DB      QABS,QDUP,SBJ,QJZ ; -
 ARC8:   DB      LVX,QSWP,QSUB,SVX ; -
 ARC9:
         ENDIF
-        DB      QEND
-        JMP     PUTBLK
+        DB      QJMP
+        DB      PUTB0-$
 
 ; MOVE - a straight move of the wire
 ; In:  W, V   Out: W = V   Clobbers all
@@ -135,26 +133,23 @@ MOVE:   RST     5
 MOVE0:  DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
         DB      LVY,LWY,QSUB,QDUP,SA1,QABS,SBY ; -
         DB      LBX,LBY,QMAX,SBJ ; -
-        DB      LBY,LBX,QSUB,ST0,QEND ; -
+        DB      QHALF,LA0,QSIG,LA1,QSIG ; 1/2   x = y: along Y in quadrants 1 and 3
+        DB      LBY,QADD,LBX,QSUB,ST0,QEND ; -
         CALL    QUAD
         MVI     B,CLTL
-        CALL    SETZ
-        JNZ     MOVE1
-        MOV     A,C             ; x = y: along Y in quadrants 1 and 3
-        ANI     1
-MOVE1:  CALL    SETG
+        CALL    SETZG
 ; (fall into PUTBLK)
 
 ; PUTBLK - lists and punches a block; J = 0 is none
 ; In:  BX BY BJ, TGAX TZLET TZNUM, V   Out: W = V; ERR 10 when too long   Clobbers all
 PUTBLK: RST     5
-        DB      LVX,SWX,LVY,SWY ; -
+PUTB0:  DB      LVX,SWX,LVY,SWY ; -
         DB      Q8DIG           ; 99999999
         DB      LBX,LBY,QMAX,LBJ,QMAX ; 99999999 max
         DB      QSUB,QJN        ; -
-        DB      PUTB9-$
+        DB      PUTB4-$
         DB      LBJ,QJZ         ; -
-        DB      PUTB8-$
+        DB      PUTB3-$
         DB      QEND
         LXI     H,BLKNO
         MOV     A,M             ; decimal, low two digits first
@@ -182,20 +177,20 @@ PUTB1:  MVI     A,CLTB
         JNZ     PUTB1
         MVI     A,CLTG
         RST     2
-        LDA     TGAX
+        LHLD    TGAX            ; and TZLET
+        MOV     A,L
         RST     2
-        LDA     TZLET
+        MOV     A,H
         RST     2
         CPI     CLTL
         MVI     A,CLTR
-        JZ      PUTB2
+        CNZ     PUTC
+        LDA     TZNUM
         RST     2
-PUTB2:  LDA     TZNUM
-        RST     2
-PUTB3:  CALL    CRLF            ; (PUNDS ends here too)
+PUTB2:  CALL    CRLF            ; (PUNDS ends here too)
         JMP     PUNOFF
-PUTB8:  DB      QRET
-PUTB9:  DB      QEND
+PUTB3:  DB      QRET
+PUTB4:  DB      QEND
         RST     1
         DB      ETAPE
 
@@ -207,7 +202,7 @@ XRND:   RST     5
         DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
         DB      QFLR,Q8DIG,QOVR,QSUB    ; um |whole| room
         DB      QJN
-        DB      PUTB9-$
+        DB      PUTB4-$
         DB      QSWP,QSIG,QRET          ; whole
         IF      NODRIFT
 ; QROOT: w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
@@ -222,45 +217,37 @@ XVK:    RST     5
         DB      LKY,QRND,SVY,QRET       ; -
 
 ; QUAD - quadrant of the vector a, each with its first axis (counter-clockwise)
-; Out: C = 1...4   Clobbers all
+; Out: C = its digit   Clobbers A, HL
 QUAD:   LXI     H,MA
         CALL    FSGN
         MOV     C,A
         ADD     A
         ADD     C
         MOV     C,A             ; 3 * sign of x
-        LXI     H,MA+5
+        MVI     L,(MA+5)&255    ; (a0 begins a page)
         CALL    FSGN
         ADD     C
         ADI     4
-        MOV     E,A
-        MVI     D,0
         LXI     H,QUADS
-        DAD     D
+        CALL    ADDA
         MOV     C,M
         RET
 
-;               x-y-  x-y0  x-y+  x0y-  none  x0y+  x+y-  x+y0  x+y+
-QUADS:  DB      3,    3,    2,    4,    1,    2,    4,    1,    1
+; by the signs of x and y: -- -0 -+ 0- 00 0+ +- +0 ++
+QUADS:  DB      "332412411"
 
-; SETZ - B, C = letter and number of Z
-; Out: A = sign of t0: 0, 1 or 0FFH, flags of it   Clobbers HL
-SETZ:   MOV     A,C
-        ADI     CZERO
-        MOV     H,A
+; SETZG - B, C = letter and digit of Z; the count goes along Y when t0 > 0, else along X
+; Out: odd parity = X   Clobbers A, HL
+SETZG:  MOV     H,C
         MOV     L,B
         SHLD    TZLET
         LXI     H,MT0
-        JMP     FSGN
-
-; SETG - count direction: A = 1 for Y, else X
-; Out: Z = Y   Clobbers A
-SETG:   DCR     A
-        MVI     A,CLTX
-        JNZ     SETG1
+        CALL    FSGN            ; 1, or 0 or 0FFH
         INR     A
-        CMP     A               ; Z again
-SETG1:  STA     TGAX
+        ANI     2
+        RRC
+        ORI     CLTX            ; X has three bits set, Y four
+        STA     TGAX
         RET
 
 ; PUT2D - two decimal digits to the paper
