@@ -19,7 +19,6 @@ QEPS    EQU 0CCH        ; directions this close (rad) are one line
 Q8DIG   EQU 0CDH        ; the greatest number on a tape
 QI180   EQU 0CEH
 Q10     EQU 0CFH
-QMU2    EQU 0D0H        ; 1 um squared
 
 ; O, X and Y, as variables in ROM; the list ends with the zero that comes next, on which FIND
 ; stops when there is no such name.  The value of Y is the beginning of CONTAB
@@ -45,4 +44,3 @@ CONTAB: DB      81H,00H,00H,00H,00H     ; 1
         DB      9BH,3EH,0BCH,1FH,0E0H   ; 99999999
         DB      79H,36H,0BH,60H,0B6H    ; 1/180
         DB      84H,20H,00H,00H,00H     ; 10
-        DB      6DH,06H,37H,0BDH,06H    ; 1E-6

@@ -1,7 +1,7 @@
 ; geom.asm - the operations of language.md table 2.1, as calculator code
 ; Offers: BINOP, BINOPK, XXCH, BELT, ERGEO and the operations QDOT ... QXCH of ops.asm
 ; Uses:   calc, float, parser (SETK, CHKRET, error stubs)
-; Room:   600 bytes
+; Room:   610 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a turn about O one
@@ -298,8 +298,17 @@ XSS:    RST     5
 XHYP:   RST     5
         DB      QSS,QSQRT,QRET          ; length
 ; QFAR: is a vector longer than 1 um?  (no square root)
-XFAR:   RST     5
-        DB      QSS,QMU2,QSUB,QRET      ; -1um^2
+XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
+        ADI     80H-78H
+        MOV     C,A
+        LDAX    D
+        ADI     80H-78H
+        ORA     C
+        JM      XFAR1
+        RST     5
+        DB      QSS,QMU,QSQ,QSUB,QRET   ; -1um^2
+XFAR1:  RST     5
+        DB      QDRP,QABS,QRET          ; |x|
 ; QREFL: a0 a1 moved by -k times b0 b1, k from the stack
 XREFL:  RST     5
         DB      LA0,QOVR,LB0,QMUL       ; k a0 k*b0
