@@ -82,7 +82,7 @@ RUNBC:  PUSH    D
 
 ; CALC - runs byte-code (RST 5 jumps here)
 ; In:  on the stack: code pointer   Clobbers all
-; Cycles: a load 332, a store 370, a constant 359, an operation 235 + its own
+; Cycles: a load 283, a store 315, a constant 317, an operation 235 + its own
 CALC:   POP     B
 CALC1:  LDAX    B
         INX     B
