@@ -319,8 +319,8 @@ FILLET: RST     5
         DB      QCA,LO1,QSENS,QE6N ; -
         DB      QNA,LO1,QSENS,QE6N ; -
         DB      QEND
-        LXI     H,MO1
-        CALL    FSGN            ; 0FFH for a left turn
+        LDA     MO1+1           ; bit 7: sign, 1 for a left turn
+        ORI     7FH
         INR     A
         MOV     L,A
         MVI     H,0
