@@ -1,37 +1,33 @@
 ; consts.asm - constants of the calculator
-; Offers: CONTAB, the byte-codes Q0 ... that push them; PREDEF
+; Offers: CONTAB, the byte-codes Q0 ... that push them
 ; Room:   5 bytes each
 ;
 ; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see
 ; float.asm).  Add new ones at the end.
 
 Q1      EQU 0C0H
-Q0      EQU 0C3H
-QI64    EQU 0C4H
-QHALF   EQU 0C5H
-QMU     EQU 0C6H        ; 1 um
-Q90     EQU 0C7H
-Q180    EQU 0C8H
-Q1000   EQU 0C9H
-QNEAR   EQU 0CAH        ; numbers this close are equal
-Q502    EQU 0CBH        ; halves of a um, and what lies 2 nm below
-QEPS    EQU 0CCH        ; directions this close (rad) are one line
-Q8DIG   EQU 0CDH        ; the greatest number on a tape
-QI180   EQU 0CEH
-Q10     EQU 0CFH
+Q0      EQU 0C1H
+QM1     EQU 0C3H        ; -1
+QI64    EQU 0C5H
+QHALF   EQU 0C6H
+QMU     EQU 0C7H        ; 1 um
+Q90     EQU 0C8H
+Q180    EQU 0C9H
+Q1000   EQU 0CAH
+QNEAR   EQU 0CBH        ; numbers this close are equal
+Q502    EQU 0CCH        ; halves of a um, and what lies 2 nm below
+QEPS    EQU 0CDH        ; directions this close (rad) are one line
+Q8DIG   EQU 0CEH        ; the greatest number on a tape
+QI180   EQU 0CFH
+Q10     EQU 0D0H
 
-; O, X and Y, as variables in ROM; the list ends with the zero that comes next, on which FIND
-; stops when there is no such name.  The value of Y is the beginning of CONTAB
-PREDEF: DB      TNAME+24,0      ; O = (0,0)
-        DB      0,0,0,0,0, 0,0,0,0,0
-        DB      TNAME+48,0      ; X = (0,-1,0)
-        DB      0,0,0,0,0
-        DB      81H,80H,0,0,0
-        DB      0,0,0,0,0
-        DB      TNAME+52,0      ; Y = (1,0,0)
+; The table begins with Y (1,0,0), from whose 0 on stands O (0,0), from the next one X (0,-1,0):
+; FIND (parser.asm) finds them there; so these five must lie within a page.
 CONTAB: DB      81H,00H,00H,00H,00H     ; 1
-        DB      0,0,0,0,0, 0,0,0,0,0
-        DB      0,0,0,0,0               ; 0, the end of the list
+        DB      0,0,0,0,0               ; 0
+        DB      0,0,0,0,0
+        DB      81H,80H,00H,00H,00H     ; -1
+        DB      0,0,0,0,0
         DB      7BH,00H,00H,00H,00H     ; 1/64
         DB      80H,00H,00H,00H,00H     ; 0.5
         DB      77H,03H,12H,6EH,98H     ; 0.001

@@ -260,7 +260,7 @@ PUTVAL: MOV     M,A
 ; GETR - wire offset of now; where none was set: 0
 ; Out: NR   Clobbers A, BC, DE, HL
 GETR:   LXI     D,NAMER
-        CALL    FIND            ; when there is none: HL -> the 0 behind Y in CONTAB
+        CALL    FIND            ; when there is none: HL -> a 0 in CONTAB
         XCHG
         LXI     H,MNR
         JMP     COPY5
@@ -755,5 +755,5 @@ ADVAN3: DB      QEND            ; no travel: the corner is the entry place
         ORA     A
         RNZ
         RST     5
-        DB      Q1,QNEG         ; s             as ARC takes it
+        DB      QM1             ; s             as ARC takes it
 ; (fall into ARC)

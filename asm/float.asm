@@ -859,7 +859,7 @@ FATG1:  RST     5
         DB      QJMP
         DB      FATG3-$
 FATG2:  RST     5
-        DB      Q1,QNEG,QSWP            ; x 90 -1 s
+        DB      QM1,QSWP                ; x 90 -1 s
 FATG3:  DB      QI64,QMUL,QDIV,QEND     ; x base y      y = 64 times the quotient
         LXI     D,CATG
         CALL    FSER

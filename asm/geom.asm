@@ -128,7 +128,7 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      KINDS+KTURN+1
 
 ; P+P, D+D: a1 and b1 of a number are 0; P-P, D-D
-GADD:   DB      Q1,QNEG,QREFL,QRET      ; -
+GADD:   DB      QM1,QREFL,QRET          ; -
 GSUB:   DB      Q1,QREFL,QRET           ; -
 ; P#S: foot; P/S, C/S: mirror image; S/S: mirrored and reversed
 GFOOT:  DB      QDOT,LB2,QSUB           ; e
@@ -250,7 +250,7 @@ GCIR2:  DB      QEND
 
 ; P#P: perpendicular bisector, the first point on its left
 GBISEC: DB      QDIF                    ; dx dy
-        DB      Q1,QNEG,QREFL,QXCH      ; dx dy         b = a+b
+        DB      QM1,QREFL,QXCH          ; dx dy         b = a+b
         DB      QUNIT                   ; -
         DB      QDOT,QHALF,QMUL,SA2     ; -
         DB      QRET

@@ -279,7 +279,23 @@ KINDOF: LXI     B,KNUM*256+5
 FIND:   LHLD    VBOT
         CALL    FIND1
         RNC
-        LXI     H,PREDEF
+        MOV     A,E             ; none in RAM: O, X and Y are constants
+        ORA     A
+        STC
+        RNZ
+        MOV     A,D
+        CALL    KINDOF
+        LXI     H,CONTAB
+        CPI     TNAME+52        ; Y
+        RZ
+        MVI     L,(CONTAB+5) & 255
+        CPI     TNAME+24        ; O
+        RZ
+        MVI     L,(CONTAB+10) & 255
+        CPI     TNAME+48        ; X
+        RZ
+        STC
+        RET
 FIND1:  MOV     A,M
         ORA     A
         STC
