@@ -22,7 +22,7 @@ QI180   EQU 0CFH
 Q10     EQU 0D0H
 
 ; The table begins with Y (1,0,0), from whose 0 on stands O (0,0), from the next one X (0,-1,0):
-; FIND (parser.asm) finds them there; so these five must lie within a page.
+; FIND (parser.asm) finds them there; so all three must begin in one page (a test looks).
 CONTAB: DB      81H,00H,00H,00H,00H     ; 1
         DB      0,0,0,0,0               ; 0
         DB      0,0,0,0,0

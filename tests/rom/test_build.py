@@ -244,3 +244,9 @@ def test_jumps_of_the_calculator_reach_their_labels(name: str) -> None:
             assert line.at + distance == places[target[1]], line
             found += 1
     assert found > 10
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_o_and_x_lie_in_the_page_of_y(name: str) -> None:
+    """FIND loads the address of CONTAB, which is Y, and for O and X changes its low byte alone."""
+    assert labels(name)["CONTAB"] % 0x100 + 10 < 0x100
