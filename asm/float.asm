@@ -550,8 +550,11 @@ FPACK:  MOV     A,H
         MOV     M,E
         RET
 
+; FABS - |x|
 ; FNEG - -x
-; In:  HL -> x   Out: x   Clobbers A, HL
+; In:  HL -> x   Out: x   Clobbers A
+FABS:   CALL    FSGN
+        RP
 FNEG:   MOV     A,M
         ORA     A
         RZ
@@ -559,14 +562,7 @@ FNEG:   MOV     A,M
         MOV     A,M
         XRI     80H
         MOV     M,A
-        RET
-
-; FABS - |x|
-; In:  HL -> x   Out: x   Clobbers A, HL
-FABS:   INX     H
-        MOV     A,M
-        ANI     7FH
-        MOV     M,A
+        DCX     H
         RET
 
 ; FSGN - sign of x
@@ -842,8 +838,7 @@ CATG:   DB      07DH,0D6H,088H,0F9H,06FH        ; -0.1047534453
 ; In:  HL -> x   Out: x, between -90 and 90   Clobbers all
 FATG:   CALL    FUN
         DB      Q90,QOVR,QABS,QEND      ; x 90 s        s = |x|
-        DCX     H                       ; (QABS leaves HL -> byte 1)
-        MOV     A,M
+        MOV     A,M                     ; (QABS leaves HL -> s)
         CPI     82H
         JNC     FATG2           ; from 2 up
         CPI     80H
@@ -986,10 +981,9 @@ DECO3:  DB      QEND
         PUSH    B
         CALL    FTEN            ; s
         RST     5
-        DB      QHALF,QADD,ST0,QEND
-        LXI     H,MT0
-        CALL    FWHOLE
-; digits, the last first, onto the stack; no zeros at the end
+        DB      QHALF,QADD,QDRP,QEND
+        CALL    FWHOLE          ; (QDRP leaves HL -> what it drops)
+; D E H L = the whole number, C = the power of ten that it is to be multiplied by
 DECO4:  XCHG
         MOV     D,B
         MOV     E,C

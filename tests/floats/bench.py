@@ -25,7 +25,7 @@ PARTS = {
     "FDIV": ("FDIV", "9,000", "8,521"),
     "FADD2": ("FADD, signs differ", "", ""),
     "FNRME": ("normalize, round, pack", "", ""),
-    "FNEG": ("FNEG FABS FSGN", "", ""),
+    "FABS": ("FABS FNEG FSGN", "", ""),
     "FITOF": ("FITOF FTOI16", "", ""),
     "FFLR": ("FFLR", "", ""),
     "FSQR": ("FSQR", "25,000", "93,326; DAI 27,311"),
