@@ -176,8 +176,9 @@ LEXW4:  LDAX    D               ; to the next word
         RET
 
 ; LEXNAM - a name, or its letter and the bracket of a computed subscript
-; In:  A = B = the letter's token
+; In:  A = the letter's token
 LEXNAM: SUI     TLETR-TSUB
+        MOV     B,A
         STAX    D
         CALL    LEXCH
         CPI     CLBRK
@@ -185,9 +186,8 @@ LEXNAM: SUI     TLETR-TSUB
         PUSH    D
         CALL    LEXDEC          ; DE = subscript
         MOV     A,B
+        ADD     A               ; (4 * TSUB is 0 in a byte)
         ADD     A
-        ADD     A
-        ADI     (TNAME-4*TLETR) & 255
         ADD     D
         ORI     TNAME           ; (no digits: D = 80H)
         MOV     B,E

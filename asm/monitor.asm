@@ -350,7 +350,8 @@ MORE:   RST     6
         CPI     CCOMMA
         JZ      NEXT
         POP     H
-        JMP     CHKEND
+        RST     7
+        RET
 
 ; SREST - statement: RESTORE, RESTORE n
 SREST:  CALL    OPTLN

@@ -147,12 +147,11 @@ FNTAB   EQU OPTAB+2*(QSQRT-1)
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
 OPK:    MOV     B,A
-        LDA     VKIND
+        CALL    NOTURN
+        ORA     A
+        JZ      ERKIND          ; a number has none
         CMP     B
         JC      ERKIND          ; a point (1) has no third
-        DCR     A
-        CPI     KTURN-1
-        JNC     ERKIND          ; a number has none
 OPK1:   DCR     B
         JM      SETNUM
         LXI     D,MA+5          ; each comes one place down
