@@ -54,7 +54,7 @@ BIN2:   ADD     E               ; to the next byte-code
 BIN3:   PUSH    B
         CALL    RUNBC
         POP     B
-        MOV     A,B
+BIN4:   MOV     A,B             ; (OPNAM ends here too)
         JMP     SETK
 
 ; GEOTAB - which byte-code serves which operands.  It goes along the byte-codes, as they

@@ -208,8 +208,7 @@ OPNAM:  CALL    NAME
         JC      ERUNS
         XCHG
         CALL    GETA            ; (all of them, whatever follows a shorter one)
-        MOV     A,B
-        JMP     SETK
+        JMP     BIN4            ; (geom: the value is of kind B)
 
 ; OPNEG - negates an operand
 OPNEG:  CALL    OPND

@@ -161,9 +161,9 @@ SREP2:  LHLD    RCOUNT
         DB      LRT,Q1,QADD,SRT,QEND ; -
         CALL    OPENR2
         LDA     RJOIN
-        JMP     SREP4
+        DB      0FEH            ; CPI: skips the MOV
 SREP3:  MOV     A,M
-SREP4:  CALL    IMAGE
+        CALL    IMAGE
         CALL    STEP
         JNZ     SREP3
         JMP     SREP2
