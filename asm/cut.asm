@@ -16,6 +16,7 @@
 
 CKIND   EQU MCUR        ; kinds of the elements
 NKIND   EQU MNEXT
+HELDN   EQU CWORK+3     ; low byte: -> behind the last place in HELD, 0 = no span of FIT is held back
 RITEMS  EQU CWORK+5     ; items written so far: 0 = no route is open, 1, 2 = more
 RELEMS  EQU CWORK+6     ; elements of them that did not merge: 0, 1, 2 = more
 RLASTP  EQU CWORK+7     ; 1 = last item was a point
@@ -25,21 +26,21 @@ RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
 FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up to P
-RBACK   EQU CWORK+14    ; not 0 = RECUT may come: the buffer holds a route that is cut
-RBFULL  EQU CWORK+15    ; not 0 = the route has outgrown its buffer
+RBACK   EQU PROG-2      ; not 0 = RECUT may come: the buffer holds a route that is cut
+RBFULL  EQU PROG-1      ; not 0 = the route has outgrown its buffer
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
-RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN (H, W and these two lie together)
+RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN (tolerance, H, W and these two lie together)
 BLKNO   EQU MHX+21      ; number of the last block, four decimal digits
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
 RUNINI: RST     5
         DB      Q1,SSC,QEND     ; -
-        LXI     H,MHX           ; H, W, RMOVED, BLKNO
-        MVI     B,23
+        LXI     H,MTO           ; tolerance, H, W, RMOVED, BLKNO
+        MVI     B,28
         CALL    RTDON1
 ; (fall into RTNEW)
 
@@ -240,7 +241,7 @@ ITPN2:  RST     5
         CALL    BELT            ; the line from P to D
         MVI     A,KLIN
         CALL    ITELM
-        RST     5
+ITPN5:  RST     5
 ITPN3:  DB      LDX,SPX,LDY,SPY ; -
         DB      QEND            ;               (leaves A = 0)
         INR     A
@@ -537,6 +538,7 @@ CLOSE:  LDA     RFSTP
         DB      LQX,SA0,LQY,SA1 ; -
         DB      LQR,SNR,QEND    ; -
         CALL    ITPNT
+        CALL    ITPN5           ; (also when the last point lay within 1 um of it)
         CALL    NOFIL           ; a fillet there
 CLOSE1: LDA     RELEMS
         DCR     A
@@ -574,8 +576,8 @@ CLOSE8: CALL    ADVANC
 
 ; RTDONE - the route is over; the buffer keeps it for RECUT
 ; Clobbers B, HL
-RTDONE: LXI     H,RITEMS
-        MVI     B,RBACK-RITEMS
+RTDONE: LXI     H,HELDN
+        MVI     B,FITSM+1-HELDN
 RTDON1: MVI     M,0
         INX     H
         DCR     B

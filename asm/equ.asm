@@ -77,35 +77,36 @@ TSUB    EQU 0C0H
 ; letter indices: A D R I J (numbers) P O V (points) C B T (circles) S X Y (lines)
 ; words: functions first, then statements, then commands; the letters, which end KEYTAB,
 ; come to the end of a byte
-TSQR    EQU 0CFH
-TSIN    EQU 0D0H
-TCOS    EQU 0D1H
-TTG     EQU 0D2H
-TATG    EQU 0D3H
-TABS    EQU 0D4H
-TINTF   EQU 0D5H        ; INT
-TK1     EQU 0D6H
-TK2     EQU 0D7H
-TK3     EQU 0D8H
-TFROM   EQU 0D9H
-TCUT    EQU 0DAH
-TBACK   EQU 0DBH
-TEND    EQU 0DCH
-TREM    EQU 0DDH
-TPRINT  EQU 0DEH
-TGOTO   EQU 0DFH
-TIF     EQU 0E0H
-TGOSUB  EQU 0E1H
-TRETN   EQU 0E2H
-TREAD   EQU 0E3H
-TDATA   EQU 0E4H
-TREST   EQU 0E5H        ; RESTORE
-TINPUT  EQU 0E6H
-TSCALE  EQU 0E7H
-TSYM    EQU 0E8H
-TREP    EQU 0E9H
-TRECUT  EQU 0EAH
-TFIT    EQU 0EBH
+TSQR    EQU 0CEH
+TSIN    EQU 0CFH
+TCOS    EQU 0D0H
+TTG     EQU 0D1H
+TATG    EQU 0D2H
+TABS    EQU 0D3H
+TINTF   EQU 0D4H        ; INT
+TK1     EQU 0D5H
+TK2     EQU 0D6H
+TK3     EQU 0D7H
+TFROM   EQU 0D8H
+TCUT    EQU 0D9H
+TBACK   EQU 0DAH
+TEND    EQU 0DBH
+TREM    EQU 0DCH
+TPRINT  EQU 0DDH
+TGOTO   EQU 0DEH
+TIF     EQU 0DFH
+TGOSUB  EQU 0E0H
+TRETN   EQU 0E1H
+TREAD   EQU 0E2H
+TDATA   EQU 0E3H
+TREST   EQU 0E4H        ; RESTORE
+TINPUT  EQU 0E5H
+TSCALE  EQU 0E6H
+TSYM    EQU 0E7H
+TREP    EQU 0E8H
+TRECUT  EQU 0E9H
+TFIT    EQU 0EAH
+TTOL    EQU 0EBH
 TRUN    EQU 0ECH        ; from here on: commands, not kept in a program
 TLIST   EQU 0EDH
 TNEW    EQU 0EEH
@@ -116,160 +117,166 @@ TLETR   EQU 0F2H        ; ...0FFH: in KEYTAB, the letters of the names
 
 ; ---- Calculator registers M0...M63 -------------------------------------------
 ; Lxx pushes a register, Sxx pops into it: one byte of byte-code each.
-MA      EQU RAM         ; address of a0: value, and left operand
-MB      EQU RAM+15      ; address of b0: right operand
-MT0     EQU RAM+30      ; temporary registers
-MCUR    EQU RAM+59      ; elements: kind, three numbers, offset; behind C and F the place of entry
-MNEXT   EQU RAM+94
-MFIRST  EQU RAM+139
-MNODE1  EQU RAM+170     ; nodes of FIT: tangent, place
-MNODE2  EQU RAM+295
+MNODE1  EQU MREG        ; nodes of FIT, both in one page: place, tangent, offset
+MNODE2  EQU MREG+25
+MT0     EQU MREG+50     ; temporary registers; t4 and t5 lie in front of a
+MT4     EQU MREG+70
+MA      EQU MREG+80     ; address of a0: value, and left operand
+MB      EQU MREG+95     ; address of b0: right operand
+MCUR    EQU MREG+114    ; elements: kind, three numbers, offset; behind C and F the place of entry
+MC2     EQU MREG+125
+MNEXT   EQU MREG+149
+MNR     EQU MREG+165
+MTO     EQU MREG+170
+MHX     EQU MREG+175
+MFIRST  EQU MREG+199
+MKX     EQU MREG+230
+MO1     EQU MREG+280
+MBX     EQU MREG+290
 ELSIZE  EQU 21          ; bytes of an element
-LA0     EQU 040H
-SA0     EQU 080H        ; M0
-LA1     EQU 041H
-SA1     EQU 081H        ; M1
-LA2     EQU 042H
-SA2     EQU 082H        ; M2
-LB0     EQU 043H
-SB0     EQU 083H        ; M3
-LB1     EQU 044H
-SB1     EQU 084H        ; M4
-LB2     EQU 045H
-SB2     EQU 085H        ; M5
-LT0     EQU 046H
-ST0     EQU 086H        ; M6
-LT1     EQU 047H
-ST1     EQU 087H        ; M7
-LT2     EQU 048H
-ST2     EQU 088H        ; M8
-LT3     EQU 049H
-ST3     EQU 089H        ; M9
-LT4     EQU 04AH
-ST4     EQU 08AH        ; M10
-LC0     EQU 04CH
-SC0     EQU 08CH        ; M12 current element: canonical numbers
-LC1     EQU 04DH
-SC1     EQU 08DH        ; M13
-LC2     EQU 04EH
-SC2     EQU 08EH        ; M14
-LCR     EQU 04FH
-SCR     EQU 08FH        ; M15 its wire offset
-LAX     EQU 050H
-SAX     EQU 090H        ; M16 where the wire entered C
-LAY     EQU 051H
-SAY     EQU 091H        ; M17
-LN0     EQU 053H
-SN0     EQU 093H        ; M19 next element: canonical numbers
-LN1     EQU 054H
-SN1     EQU 094H        ; M20
-LN2     EQU 055H
-SN2     EQU 095H        ; M21
-LNR     EQU 056H
-SNR     EQU 096H        ; M22 its wire offset
-LHX     EQU 057H
-SHX     EQU 097H        ; M23 start hole: the FROM point
-LHY     EQU 058H
-SHY     EQU 098H        ; M24
-LWX     EQU 059H
-SWX     EQU 099H        ; M25 wire, whole um
-LWY     EQU 05AH
-SWY     EQU 09AH        ; M26
-LF0     EQU 05CH
-SF0     EQU 09CH        ; M28 first element of the route: canonical numbers
-LF1     EQU 05DH
-SF1     EQU 09DH        ; M29
-LF2     EQU 05EH
-SF2     EQU 09EH        ; M30
-LFR     EQU 05FH
-SFR     EQU 09FH        ; M31 its wire offset
-LGX     EQU 060H
-SGX     EQU 0A0H        ; M32 where the route was entered
-LGY     EQU 061H
-SGY     EQU 0A1H        ; M33
-L1U     EQU 062H
-S1U     EQU 0A2H        ; M34 node 1 of FIT: unit tangent, 0 0 when not known
-L1V     EQU 063H
-S1V     EQU 0A3H        ; M35
-L1X     EQU 064H
-S1X     EQU 0A4H        ; M36 and place
-L1Y     EQU 065H
-S1Y     EQU 0A5H        ; M37
-LKX     EQU 066H
-SKX     EQU 0A6H        ; M38 corner at the end of C
-LKY     EQU 067H
-SKY     EQU 0A7H        ; M39
-LPX     EQU 068H
-SPX     EQU 0A8H        ; M40 last item, a point
-LPY     EQU 069H
-SPY     EQU 0A9H        ; M41
-LQX     EQU 06AH
-SQX     EQU 0AAH        ; M42 first item, a point
-LQY     EQU 06BH
-SQY     EQU 0ABH        ; M43
-LDX     EQU 06CH
-SDX     EQU 0ACH        ; M44 point that arrives
-LDY     EQU 06DH
-SDY     EQU 0ADH        ; M45
-LFI     EQU 06EH
-SFI     EQU 0AEH        ; M46 fillet radius that waits
-LO1     EQU 06FH
-SO1     EQU 0AFH        ; M47 offset of C in a crossing
-LO2     EQU 070H
-SO2     EQU 0B0H        ; M48 offset of N in a crossing
-LSC     EQU 071H
-SSC     EQU 0B1H        ; M49 scale
-LT5     EQU 072H
-ST5     EQU 0B2H        ; M50
-LRT     EQU 073H
-SRT     EQU 0B3H        ; M51 what SYM and REP do to items, how many times
-LVX     EQU 074H
-SVX     EQU 0B4H        ; M52 end of the move, whole um
-LVY     EQU 075H
-SVY     EQU 0B5H        ; M53
-LBX     EQU 076H
-SBX     EQU 0B6H        ; M54 block: x
-LBY     EQU 077H
-SBY     EQU 0B7H        ; M55 block: y
-LBJ     EQU 078H
-SBJ     EQU 0B8H        ; M56 block: J
-LQR     EQU 079H
-SQR     EQU 0B9H        ; M57 wire offset of the first item
-LTL     EQU 07AH
-STL     EQU 0BAH        ; M58 how far curves may cross and still be taken as touching, mm
-L2U     EQU 07BH
-S2U     EQU 0BBH        ; M59 node 2 of FIT: as node 1
-L2V     EQU 07CH
-S2V     EQU 0BCH        ; M60
-L2X     EQU 07DH
-S2X     EQU 0BDH        ; M61
-L2Y     EQU 07EH
-S2Y     EQU 0BEH        ; M62
-L2R     EQU 07FH
-S2R     EQU 0BFH        ; M63 and wire offset
-LRA     EQU 07DH        ; M61, M62, M63 too: what SYM and REP do to items (they end a curve first)
-SRA     EQU 0BDH
-LRX     EQU 07EH
-SRX     EQU 0BEH
-LRY     EQU 07FH
-SRY     EQU 0BFH
-MKX     EQU RAM+190
-MNR     EQU RAM+110
-MHX     EQU RAM+115
-MO1     EQU RAM+235
-MBX     EQU RAM+270
-MC2     EQU RAM+70
+L1X     EQU 040H
+S1X     EQU 080H        ; M0 node 1 of FIT: place,
+L1Y     EQU 041H
+S1Y     EQU 081H        ; M1
+L1U     EQU 042H
+S1U     EQU 082H        ; M2 unit tangent, 0 0 when not known;
+L1V     EQU 043H
+S1V     EQU 083H        ; M3
+LRT     EQU 044H
+SRT     EQU 084H        ; M4 what SYM and REP do to items (they end a curve first): how many times
+L2X     EQU 045H
+S2X     EQU 085H        ; M5 node 2 of FIT: as node 1,
+L2Y     EQU 046H
+S2Y     EQU 086H        ; M6
+L2U     EQU 047H
+S2U     EQU 087H        ; M7
+L2V     EQU 048H
+S2V     EQU 088H        ; M8
+L2R     EQU 049H
+S2R     EQU 089H        ; M9 and its wire offset
+LRA     EQU 047H
+SRA     EQU 087H        ; M7, M8, M9 too: what SYM and REP do to items
+LRX     EQU 048H
+SRX     EQU 088H
+LRY     EQU 049H
+SRY     EQU 089H
+LT0     EQU 04AH
+ST0     EQU 08AH        ; M10 temporary
+LT1     EQU 04BH
+ST1     EQU 08BH        ; M11
+LT2     EQU 04CH
+ST2     EQU 08CH        ; M12
+LT3     EQU 04DH
+ST3     EQU 08DH        ; M13
+LT4     EQU 04EH
+ST4     EQU 08EH        ; M14 temporary
+LT5     EQU 04FH
+ST5     EQU 08FH        ; M15
+LA0     EQU 050H
+SA0     EQU 090H        ; M16 value, and left operand
+LA1     EQU 051H
+SA1     EQU 091H        ; M17
+LA2     EQU 052H
+SA2     EQU 092H        ; M18
+LB0     EQU 053H
+SB0     EQU 093H        ; M19 right operand
+LB1     EQU 054H
+SB1     EQU 094H        ; M20
+LB2     EQU 055H
+SB2     EQU 095H        ; M21
+LC0     EQU 057H
+SC0     EQU 097H        ; M23 current element: canonical numbers
+LC1     EQU 058H
+SC1     EQU 098H        ; M24
+LC2     EQU 059H
+SC2     EQU 099H        ; M25
+LCR     EQU 05AH
+SCR     EQU 09AH        ; M26 its wire offset
+LAX     EQU 05BH
+SAX     EQU 09BH        ; M27 where the wire entered C
+LAY     EQU 05CH
+SAY     EQU 09CH        ; M28
+LN0     EQU 05EH
+SN0     EQU 09EH        ; M30 next element: canonical numbers
+LN1     EQU 05FH
+SN1     EQU 09FH        ; M31
+LN2     EQU 060H
+SN2     EQU 0A0H        ; M32
+LNR     EQU 061H
+SNR     EQU 0A1H        ; M33 its wire offset
+LTO     EQU 062H
+STO     EQU 0A2H        ; M34 tolerance of FIT, mm
+LHX     EQU 063H
+SHX     EQU 0A3H        ; M35 start hole: the FROM point
+LHY     EQU 064H
+SHY     EQU 0A4H        ; M36
+LWX     EQU 065H
+SWX     EQU 0A5H        ; M37 wire, whole um
+LWY     EQU 066H
+SWY     EQU 0A6H        ; M38
+LF0     EQU 068H
+SF0     EQU 0A8H        ; M40 first element of the route: canonical numbers
+LF1     EQU 069H
+SF1     EQU 0A9H        ; M41
+LF2     EQU 06AH
+SF2     EQU 0AAH        ; M42
+LFR     EQU 06BH
+SFR     EQU 0ABH        ; M43 its wire offset
+LGX     EQU 06CH
+SGX     EQU 0ACH        ; M44 where the route was entered
+LGY     EQU 06DH
+SGY     EQU 0ADH        ; M45
+LKX     EQU 06EH
+SKX     EQU 0AEH        ; M46 corner at the end of C
+LKY     EQU 06FH
+SKY     EQU 0AFH        ; M47
+LPX     EQU 070H
+SPX     EQU 0B0H        ; M48 last item, a point
+LPY     EQU 071H
+SPY     EQU 0B1H        ; M49
+LQX     EQU 072H
+SQX     EQU 0B2H        ; M50 first item, a point
+LQY     EQU 073H
+SQY     EQU 0B3H        ; M51
+LDX     EQU 074H
+SDX     EQU 0B4H        ; M52 point that arrives; joint of a biarc
+LDY     EQU 075H
+SDY     EQU 0B5H        ; M53
+LFI     EQU 076H
+SFI     EQU 0B6H        ; M54 fillet radius that waits
+LSC     EQU 077H
+SSC     EQU 0B7H        ; M55 scale
+LVX     EQU 078H
+SVX     EQU 0B8H        ; M56 end of the move, whole um
+LVY     EQU 079H
+SVY     EQU 0B9H        ; M57
+LO1     EQU 078H
+SO1     EQU 0B8H        ; M56 too: offset of C in a crossing
+LO2     EQU 079H
+SO2     EQU 0B9H        ; M57 too: offset of N in a crossing
+LBX     EQU 07AH
+SBX     EQU 0BAH        ; M58 block: x
+LBY     EQU 07BH
+SBY     EQU 0BBH        ; M59 block: y
+LBJ     EQU 07CH
+SBJ     EQU 0BCH        ; M60 block: J
+LQR     EQU 07DH
+SQR     EQU 0BDH        ; M61 wire offset of the first item
+LTL     EQU 07EH
+STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as touching, mm
 
 ; ---- RAM -------------------------------------------------------------------
 RAM     EQU 2000H
-MREG    EQU RAM         ; 64 float registers of the calculator, 5 bytes each
-FSTK    EQU 2140H       ; float stack of the calculator, 12 floats
-FWORK   EQU 2180H       ; work cells of float.asm and calc.asm (48 bytes)
-MWORK   EQU 21B0H       ; cells of monitor, lexer and io (80 bytes)
-CWORK   EQU 2200H       ; cells of parser, geom, cut and tape (128 bytes)
+FSTK    EQU 2000H       ; float stack of the calculator, 12 floats, within a page
+CWORK   EQU 203CH       ; cells of parser, geom, cut and tape (68 bytes)
+FWORK   EQU 2080H       ; work cells of float.asm and calc.asm (48 bytes); FSQR counts on the 80H
+MWORK   EQU 20B0H       ; cells of monitor, lexer and io (55 bytes)
+KEPT    EQU 20E7H       ; the node of FIT that was kept last, in front of node 1
+MREG    EQU 2100H       ; 64 float registers of the calculator, 5 bytes each, from a page's start
 LINBUF  EQU 2280H       ; the line being typed, 126 characters; reaches up to TOKS
 TOKS    EQU 2300H       ; the same line as tokens, at a page's start
 TOKROM  EQU 176         ; how many bytes of them
 STKLOW  EQU 23B0H       ; the stack may not grow below this
-STKTOP  EQU 2600H       ; 8080 stack, downwards
-PROG    EQU 2600H       ; program lines from here up; variables from the top of RAM down
+STKTOP  EQU 25F0H       ; 8080 stack, downwards
+HELD    EQU 2600H       ; in front of it GOSUB's stack; places of the nodes that FIT has passed, 16
+PROG    EQU 26A2H       ; program lines from here up; variables from the top of RAM down

@@ -1,7 +1,7 @@
-; fit.asm - smooth curves through nodes: biarcs (language.md, section 5)
-; Offers: SFIT FITEND
-; Uses:   cut (ITEM3 GETR CPYEL FITN), parser, calc
-; Room:   430 bytes
+; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
+; Offers: SFIT STOL FITEND QWAY
+; Uses:   cut (ITEM3 GETR CPYEL, the cells FITN FITSM HELDN), parser, calc
+; Room:   600 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1 as well.  So a curve of any length needs
@@ -9,15 +9,31 @@
 ;
 ; A biarc from P (unit tangent t) to Q (unit tangent u): with v = Q-P and
 ; d = v*v / (v*(t+u) + sqrt((v*(t+u))^2 + |t-u|^2 v*v)) its arcs meet in the joint
-; M = (P+Q + d(t-u)) / 2.  Each arc is found from its node, tangent and w = M - node:
-; r = w*w / 2(t x w), the centre lies r to the left of the node.
+; M = P + (v + d(t-u)) / 2, which waits in D.  Each arc is found from its node, tangent and
+; w = M - node: r = w*w / 2(t x w), the centre lies r to the left of the node.
+;
+; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, and
+; HELD has the places of the nodes after that one, node 1's the last.  When node 2 comes and
+; the biarc from KEPT to it passes near all of them, that one is held back instead; else the
+; held span goes out, and node 1 is kept.  KEPT, node 1 and node 2 lie side by side in memory
+; and change places, since the byte-code knows but nodes 1 and 2.
+
+NODSIZ  EQU 25          ; bytes of a node: place, tangent, wire offset
+PLCSIZ  EQU 10          ; of a place in HELD
+
+; STOL - statement: TOL number
+STOL:   CALL    FITEND
+        CALL    EVNUM
+        RST     7
+        RST     5
+        DB      LA0,QSQRT,QSQ,STO,QRET ; -      (the root refuses what is negative)
 
 ; SFIT - statement: FIT point; FIT point, angle
 SFIT:   CALL    EVPNT
         RST     5
         DB      LA0,LA1,QEND    ; x y
         RST     6
-        PUSH    PSW
+        PUSH    PSW             ; Z: no angle
         JZ      SFIT1
         RST     4
         DB      CCOMMA
@@ -25,159 +41,246 @@ SFIT:   CALL    EVPNT
 SFIT1:  RST     7
         RST     5               ; (leaves a0 alone)
         DB      LSC,QMUL,QDUP,ST3,QSWP ; y x    t2 t3 = node that arrives
-        DB      LSC,QMUL,QDUP,ST2,QEND ; y x
-        POP     PSW             ; Z: no angle
+        DB      LSC,QMUL,QDUP,ST2 ; y x
+        DB      Q0,Q0,QEND      ; y x v u
+        POP     PSW
+        PUSH    PSW
         JZ      SFIT2
         RST     5
-        DB      LA0,QSIN,LA0,QCOS ; y x v u
-        DB      QJMP
-        DB      SFIT3-$
-SFIT2:  RST     5
-        DB      Q0,Q0           ; y x v u
-SFIT3:  DB      QEND
-        LDA     FITN
+        DB      QDRP,QDRP,LA0,QSIN,LA0,QCOS,QEND ; y x v u
+SFIT2:  LDA     FITN
         ORA     A
-        JZ      SFIT4
+        JZ      SFIT3
         RST     5
-        DB      LT2,L2X,QSUB,SB0 ; y x v u      b = w
-        DB      LT3,L2Y,QSUB,SB1
-        DB      LB0,LB1,QFAR,QJN ; y x v u      within 1 um: the same node
-        DB      SFIT6-$
+        DB      LT2,L2X,LT3,L2Y,QWAY ; y x v u w*w      b = w: to it from node 2
+        DB      ST5,LB0,LB1,QFAR,QJN ; y x v u         within 1 um: the same node
+        DB      SFIT4-$
         DB      QEND
         LDA     FITN
         DCR     A
         CNZ     MIDDLE
-        CALL    NODE
-        RST     5
-        DB      L2U,L2V,QMAX,QJZ ; -
-        DB      SFIT5-$
-        DB      QEND
-        JMP     SPAN
-SFIT4:  CALL    NODE            ; the first
-        JMP     SPAN3
-SFIT5:  DB      QEND
+        CALL    TAKE
+        POP     PSW
+        JNZ     SPAN
         MVI     A,2             ; the next node will tell its tangent
         JMP     FITN1
-SFIT6:  DB      QRET
+SFIT3:  CALL    TAKE            ; the first
+        POP     PSW
+        JMP     OUT2
+SFIT4:  DB      QEND
+        POP     PSW
+        RET
 
-; NODE - the node that waits on the float stack becomes node 2
+; TAKE - the node that waits on the float stack becomes node 2
 ; Clobbers all
-NODE:   CALL    GETR
+TAKE:   CALL    GETR
         RST     5
         DB      S2U,S2V,S2X,S2Y ; -
         DB      LNR,S2R,QRET    ; -
 
-SPAN2:  DB      QEND            ; (for SPAN: tangent 1 mirrors tangent 2)
-        CALL    MIRROR
+; LAST - the last node's tangent, which is not given, mirrors the one before it about the chord;
+;        two nodes without tangents have the chord's.  Then the span to it goes out
+; In:  nodes 1 and 2   Clobbers all
+LAST:   CALL    MIRROR          ; y x           b = chord
         RST     5
-        DB      S1U,S1V,QJMP    ; -
-        DB      SPAN1-$
+        DB      L1U,L1V,QFAR,QJN ; y x
+        DB      LAST1-$
+        DB      QJMP
+        DB      MIDD1-$
+LAST1:  DB      QDRP,QDRP,LB1,LB0,QJMP ; y x    (its length does not matter: both arcs are flat)
+        DB      MIDD1-$
 
 ; MIDDLE - node 2 gets the tangent of the circle through node 1, it, and the node that arrives;
 ;          then the span to it goes out
-; In:  t2 t3 = node that arrives, b = w: to it from node 2   Out: ERR 06 when it is node 1
+; In:  b = w: to the node that arrives from node 2, t5 = w*w   Out: ERR 06 when it is node 1
 ; Clobbers all
 MIDDLE: RST     5
-        DB      LT2,L1X,QSUB    ; dx
-        DB      LT3,L1Y,QSUB    ; dx dy
-        DB      QFAR,QE6N       ; -
-        DB      L2X,L1X,QSUB,SA0 ; -            a = v
-        DB      L2Y,L1Y,QSUB,SA1 ; -
-        DB      LA0,LA1,QSS ; v*v
-        DB      LB0,LB1,QSS,QDIV,ST4 ; -       t4 = v*v/(w*w)
-        DB      LA0,LB0,LT4,QMUL,QADD ; x
-        DB      LA1,LB1,LT4,QMUL,QADD ; x y     v + w * t4, along v/(v*v) + w/(w*w)
-        DB      QUNIT,LA0,S2U,LA1,S2V,QEND ; -
+        DB      QXCH,L1X,L2X,L1Y,L2Y,QWAY ; v*v a = w, b = -v: to node 1 from node 2
+        DB      QDIF,QFAR,QE6N  ; v*v
+        DB      LT5,QSWP,QDIV,QREFL ; -         a = w + v*(w*w)/(v*v)
+        DB      LA0,LA1,QUNIT,LA1,LA0 ; y x
+MIDD1:  DB      S2U,S2V,QEND    ; -
 ; (fall into SPAN)
 
-; SPAN - the biarc from node 1 to node 2 goes out; node 2 becomes node 1
+; SPAN - the biarc from node 1 to node 2 goes out, or is held back; node 2 becomes node 1
 ; In:  nodes 1 and 2, tangent 2 known   Out: FITN = 1; ERR 06   Clobbers all
-SPAN:   RST     5
-        DB      L1U,L1V,QMAX,QJZ ; -
-        DB      SPAN2-$
-SPAN1:  DB      QEND
-        CALL    CHORD
+SPAN:   LDA     MNODE1+10
+        LXI     H,MNODE1+15
+        ORA     M
+        CZ      SPAN1
+        LDA     MTO
+        ORA     A
+        JZ      OUT
+        CALL    SWAP            ; node 1 = KEPT
+        CALL    TRY
+        CNZ     SPAN2           ; what is held goes out, and KEPT = node 1
+        CALL    SWAP
+        LHLD    HELDN
+        MVI     H,HELD/256
+        LXI     D,MNODE2
+        MVI     A,PLCSIZ
+        CALL    COPY
+        SHLD    HELDN
+        JMP     OUT3
+
+SPAN1:  CALL    MIRROR          ; tangent 1 mirrors tangent 2
         RST     5
-        DB      QDUP,QSQ        ; along along^2
-        DB      L2U,L1U,QSUB,QDUP,SB0,QSQ ; along along^2 ..    b = u-t
-        DB      L2V,L1V,QSUB,QDUP,SB1,QSQ
-        DB      QADD,LT1,QMUL   ; along along^2 |u-t|^2*v*v
-        DB      QADD,QSQRT,QADD ; below
-        DB      QDUP,QNEAR,QSUB,QE6N ; below
-        DB      L1X,L2X,QADD,SA0 ; below        a = P+Q
-        DB      L1Y,L2Y,QADD,SA1
-        DB      LT1,QSWP,QDIV,QREFL ; -         a = P+Q + d*(t-u)
-        DB      LA0,QHALF,QMUL,LA1,QHALF,QMUL ; mx my
-        DB      QEND
+        DB      S1U,S1V,QRET    ; -
+
+SPAN2:  CALL    SWAP            ; (for SPAN, which exchanges them once more)
+; (fall into FLUSH)
+
+; FLUSH - the span that is held back, if there is one, goes out
+; Out: HELDN = 0, KEPT = node 1   Clobbers all
+FLUSH:  XRA     A
+        LXI     H,HELDN
+        CMP     M
+        MOV     M,A
+        RZ
+        CALL    ROTATE
+        CALL    ROTATE          ; node 1 = KEPT, node 2 = node 1
+        CALL    OUT
+; (fall into ROTATE)
+
+; ROTATE - KEPT goes behind node 2; node 1 goes where it was, and node 2 to node 1
+; Clobbers all
+ROTATE: MVI     C,2*NODSIZ
+SWAP1:  LXI     D,KEPT
+        LXI     H,MNODE1
+        JMP     OSWP1           ; (calc: exchanges C bytes, the first one first)
+
+; SWAP - exchanges KEPT and node 1
+; Clobbers all
+SWAP:   MVI     C,NODSIZ
+        JMP     SWAP1
+
+; OUT - the biarc from node 1 to node 2 goes out; node 2 becomes node 1
+; Out: FITN = 1; ERR 06   Clobbers all
+OUT:    CALL    CHORD
+        CALL    BIARC
         LXI     D,MNODE1
         CALL    FITCIR
         RST     5
-        DB      L1U,SA0,L1V,SA1,QEND ; -
-        CALL    FITPNT          ; the joint
-        RST     5
-        DB      L1U,L1V,QEND    ; mx my
-        LXI     D,MNODE2
-        CALL    FITCIR
-SPAN3:  RST     5               ; (SFIT comes here with the first node)
-        DB      L2X,SA0,L2Y,SA1,QEND ; -
+        DB      LDX,LDY,QEND    ; x y           the joint
         CALL    FITPNT
-        LXI     D,MNODE2
+        LXI     D,MNODE2        ; (FITPNT leaves D alone)
+        CALL    FITCIR
+OUT2:   RST     5               ; (SFIT comes here with the first node)
+        DB      L2X,L2Y,QEND    ; x y
+        CALL    FITPNT
+OUT3:   LXI     D,MNODE2        ; (SPAN comes here when it holds it back)
         LXI     H,MNODE1
-        CALL    CPYEL           ; (a byte too much, which nobody minds)
+        MVI     A,NODSIZ
+        CALL    COPY
         MVI     A,1
 FITN1:  STA     FITN
         RET
 
-; FITEND - ends a curve: a last tangent that is not given mirrors the one before it about the chord;
-;          two nodes without tangents have the chord's
+; TRY - may the span from node 1 to node 2 be held back?
+; In:  HELD   Out: Z: yes, all nodes in HELD lie near it   Clobbers all
+TRY:    LDA     HELDN
+        DCR     A
+        CPI     15*PLCSIZ
+        RNC                     ; none, or more than 15
+        CALL    CHORD
+        RST     5
+        DB      QDOT,QNEG,QJN   ; v*v
+        DB      TRY1-$
+        DB      QDRP,QRET       ; -             begins or ends backwards
+TRY1:   DB      QEND
+        CALL    BIARC
+        LXI     D,MNODE1
+        CALL    ARCW
+        CALL    MIRR1
+        RST     5
+        DB      ST2,ST3,QEND    ; -             t2 t3 = tangent at the joint
+        LXI     D,HELD
+TRY2:   LXI     H,MT0
+        MVI     A,PLCSIZ
+        CALL    COPY            ; t0 t1 = n
+        PUSH    D
+        LXI     D,MT0
+        CALL    ARCW
+        RST     5
+        DB      QDRP,QDOT,SO1,QEND ; -
+        LXI     D,MNODE1
+        LDA     MO1+1
+        ORA     A
+        JP      TRY3            ; before the joint: the arc from node 1
+        MVI     E,MNODE2 & 255
+TRY3:   CALL    ARCW
+        RST     5
+        DB      QCRS,QSWP,QDIV  ; k             half the curvature
+        DB      LT0,LT4,LT1,LT5,QWAY ; k q*q    b = q: to n from the arc's node
+        DB      LTO,QSQ,QSUB,QMUL ; k(q*q-d*d)
+        DB      QCRS,QSUB,QABS,LTO,QSWP,QSUB ; d-|k(q*q-d*d)-t*q|
+        DB      QJN             ; -
+        DB      TRY4-$
+        DB      QDOT,LO1,QSIG,QJN ; -           past the node, the wrong way
+        DB      TRY4-$
+        DB      QEND
+        POP     D
+        LDA     HELDN
+        CMP     E
+        JNZ     TRY2
+        RET
+TRY4:   DB      QEND
+        POP     D
+        INR     A
+        RET
+
+; FITEND - ends a curve
 ; Clobbers all (in check mode A)
 FITEND: CALL    CHKRET
         LDA     FITN
         CPI     2
-        CZ      FITE1
+        CZ      LAST
+        CALL    FLUSH
         LXI     H,0
         SHLD    FITN            ; and FITSM
         RET
-FITE1:  RST     5
-        DB      L1U,L1V,QMAX,QJZ ; -
-        DB      FITE3-$
-FITE2:  DB      QEND
-        CALL    MIRROR
-        RST     5
-        DB      S2U,S2V,QEND    ; -
-        JMP     SPAN
-FITE3:  DB      L2X,L1X,QSUB,S1U ; -            (its length does not matter: both arcs are flat)
-        DB      L2Y,L1Y,QSUB,S1V ; -
-        DB      QJMP
-        DB      FITE2-$
 
 ; MIRROR - a tangent that is not known: the other one mirrored about the chord
-; In:  nodes 1 and 2, the unknown tangent is 0 0   Out: on the float stack y x   Clobbers all
+; In:  nodes 1 and 2, the unknown tangent is 0 0   Out: on the float stack y x, b = chord
+; Clobbers all
 MIRROR: CALL    CHORD
-        RST     5
-        DB      QDUP,QADD,LT1,QDIV,QREFL ; -
+; MIRR1 - a vector mirrored about another
+; In:  a, b, on the float stack b*b   Out: on the float stack y x   Clobbers all
+MIRR1:  RST     5
+        DB      QDOT,QDUP,QADD,QSWP,QDIV,QREFL ; -
         DB      LA1,QNEG,LA0,QNEG,QRET  ; y x
 
 ; CHORD - prepares for a biarc
-; In:  nodes 1 and 2   Out: b = v, t1 = v*v, a = t+u; on the float stack v*(t+u)   Clobbers all
+; In:  nodes 1 and 2   Out: b = v, a = t+u; on the float stack v*v   Clobbers all
 CHORD:  RST     5
-        DB      L2X,L1X,QSUB,SB0 ; -
-        DB      L2Y,L1Y,QSUB,SB1 ; -
-        DB      LB0,LB1,QSS,ST1 ; -
         DB      L1U,L2U,QADD,SA0 ; -
         DB      L1V,L2V,QADD,SA1 ; -
-        DB      QDOT,QRET       ; along
+        DB      L2X,L1X,L2Y,L1Y,QWAY,QRET ; v*v
+
+; BIARC - where its arcs meet
+; In:  CHORD   Out: D = M; ERR 06   Clobbers all
+BIARC:  RST     5
+        DB      ST1,QDOT,QDUP,QSQ ; along along^2
+        DB      QXCH,L2U,L1U,L2V,L1V,QWAY ; along along^2 |u-t|^2  a = v, b = u-t
+        DB      LT1,QMUL,QADD,QSQRT,QADD ; below
+        DB      QDUP,QNEAR,QSUB,QE6N ; below
+        DB      LT1,QSWP,QDIV,QREFL ; -         a = v + d*(t-u)
+        DB      LA0,QHALF,QMUL,L1X,QADD,SDX ; -
+        DB      LA1,QHALF,QMUL,L1Y,QADD,SDY,QRET ; -
+
+; ARCW - from a node to the joint
+; In:  DE -> place and tangent   Out: t4 t5 = place, a = tangent, b = w; on the float stack w*w
+; Clobbers all
+ARCW:   LXI     H,MT4
+        CALL    CPYEL           ; (a byte too much, which nobody minds)
+        RST     5
+        DB      LDX,LT4,LDY,LT5,QWAY,QRET ; w*w
 
 ; FITCIR - the arc between a node and the joint goes out; a flat one not: the point at its end
 ;          brings the chord
-; In:  DE -> node, joint on the float stack   Out: 1U 1V = joint, FITSM   Clobbers all
-FITCIR: LXI     H,MA
-        CALL    CPYEL           ; a0 a1 = tangent, a2 b0 = node
+; In:  DE -> node, D   Out: FITSM   Clobbers all but D
+FITCIR: CALL    ARCW
         RST     5
-        DB      S1V,S1U         ; -
-        DB      L1V,LB0,QSUB,SB1 ; -
-        DB      L1U,LA2,QSUB,SB0 ; -            b = w
-        DB      LB0,LB1,QSS ; w*w
         DB      QDUP,QEPS,QMUL  ; w*w limit     r = 50 m
         DB      QMU,QDUP,QADD,QMAX ; w*w limit  or |t x w| = 2 um
         DB      QCRS,QDUP,ST0,QABS,QSUB ; w*w limit-|t x w|
@@ -186,21 +289,24 @@ FITCIR: LXI     H,MA
         DB      QDRP,QEND       ; -             (leaves A = 0)
 FITC2:  STA     FITSM
         RET
-FITC1:  DB      LT0,QDUP,QADD,QDIV ; r
-        DB      LA2,QOVR,LA1,QMUL,QSUB ; r x
-        DB      QOVR,LA0,QMUL   ; r x
-        DB      L1V,LB1,QSUB,QADD,SA1 ; r x
-        DB      SA0,SA2,QEND    ; -
+FITC1:  DB      LT0,QDUP,QADD,QDIV,SA2 ; -      r
+        DB      LT4,LA2,LA1,QMUL,QSUB ; x
+        DB      LA2,LA0,QMUL,LT5,QADD,QEND ; x y
         MVI     A,KCIR
         CALL    FITITM
         MVI     A,1
         JMP     FITC2
 
-; FITPNT - the point a goes into the route, with the R of node 2
-; Clobbers all
+; FITPNT - a point goes into the route, with the R of node 2
+; In:  x y on the float stack   Clobbers all
 FITPNT: MVI     A,KPNT
-; FITITM - the same for a value of kind A
+; FITITM - the same for a value of kind A: a2
 FITITM: STA     VKIND
         RST     5
-        DB      L2R,SNR,QEND    ; -
+        DB      SA1,SA0,L2R,SNR,QEND ; -
         JMP     ITEM3
+
+; QWAY: x2 x1 y2 y1 -> w*w; b = w: from (x1,y1) to (x2,y2)
+XWAY:   RST     5
+        DB      QSUB,SB1,QSUB,SB0 ; -
+        DB      LB0,QSQ,LB1,QSQ,QADD,QRET ; w*w

@@ -370,6 +370,7 @@ KEYTAB: DB      "SQ",0D2H       ; SQR
         DB      "RE",0D0H       ; REP
         DB      "RECU",0D4H     ; RECUT
         DB      "FI",0D4H       ; FIT
+        DB      "TO",0CCH       ; TOL
         DB      "RU",0CEH       ; RUN
         DB      "LIS",0D4H      ; LIST
         DB      "NE",0D7H       ; NEW

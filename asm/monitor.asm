@@ -22,10 +22,10 @@ KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader (OUTSEL to VSUM are walked through)
 VSUM    EQU     MWORK+16        ; check sum of the variables, as of the last prompt
 CURLIN  EQU     MWORK+17        ; number of the line that runs
-DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00
+DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00 (or PROG-2: RBACK, no comma)
 GSP     EQU     MWORK+21        ; top of the GOSUB stack
-GSTK    EQU     CWORK-16        ; 8 lines to go back to, downwards
-GSTKE   EQU     CWORK
+GSTK    EQU     HELD-16         ; 8 lines to go back to, downwards
+GSTKE   EQU     HELD
 LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record
 STMT0   EQU     TOKS+6          ; its statement, behind the number token
 
@@ -134,7 +134,7 @@ STMT:   CALL    CALINI
 ; The statements in the order of their tokens
 STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
         DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
-        DW      SSCALE,SSYM,SREP,SRECUT,SFIT
+        DW      SSCALE,SSYM,SREP,SRECUT,SFIT,STOL
         DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
 
 ; FINDLN - finds a line
@@ -304,7 +304,7 @@ DIRECT: LXI     SP,STKTOP
         LXI     H,0200H
         SHLD    CHKF            ; (nothing new to a line of the program)
         CALL    STMT
-DIREC1: JMP     RUNLP           ; (its address lies at PROG-2, where DATP may point: no comma)
+        JMP     RUNLP
 
 ; SEND - statement: END
 SEND:   RST     7
@@ -484,7 +484,7 @@ CLEAR1: CALL    RUNINI
 ; Clobbers A, HL
 CLRPTR: LXI     H,GSTKE
         SHLD    GSP
-        MVI     H,PROG/256      ; (both begin a page)
+        LXI     H,PROG
         JMP     REST1
 
 ; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it

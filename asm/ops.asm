@@ -29,12 +29,13 @@ QXING   EQU QOWN+21     ; ->      a0 a1 = crossing of C and N as offset
 QSS     EQU QOWN+22     ; x y -> x*x+y*y
 QCENT   EQU QOWN+23     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within 1 um
 QTOK    EQU QOWN+24     ; x y ->  K = b0 b1 = x y
-QROOT   EQU QOWN+25     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
+QWAY    EQU QOWN+25     ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
+QROOT   EQU QOWN+26     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
         DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
         DW      XE6D,XUNIT,XXCH
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
-        DW      XNORMS,XXING,XSS,XCENT,XTOK
+        DW      XNORMS,XXING,XSS,XCENT,XTOK,XWAY
         IF      NODRIFT
         DW      XROOT
         ENDIF

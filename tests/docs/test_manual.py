@@ -231,7 +231,6 @@ def test_memory_map() -> None:
     """The addresses of the page are those of the sources."""
     equates = dict(re.findall(r"^(\w+)\s+EQU\s+([0-9A-F]+)H\b", (ROOT / "asm" / "equ.asm").read_text()
                               + (ROOT / "asm" / "monitor.asm").read_text(), re.M))
-    equates["MREG"] = equates["RAM"]
     shown = re.findall(r"^\| ([0-9A-F]{4}) \| [^|]+ \| `(\w+)` \|", FIRMWARE.read_text(), re.M)
     assert len(shown) > 8
     assert [(place, name) for place, name in shown if equates[name].lstrip("0") != place] == []

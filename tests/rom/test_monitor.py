@@ -47,9 +47,16 @@ def test_the_routines_between_the_restarts_fit() -> None:
     assert names["GAP38"] and names["CHKEND"] == 0x38
 
 
-def test_no_comma_in_front_of_the_program() -> None:
-    """Where DATA begins, READ looks at PROG-2, which holds the low byte of the return address of STMT."""
-    assert labels()["DIREC1"] & 0xFF != ord(",")
+def test_no_comma_in_front_of_the_program(board: Board) -> None:
+    """Where DATA begins, READ looks at PROG-2, which holds RBACK, a flag: 0 or 1, however often RECUT comes."""
+    assert labels()["RBACK"] == labels()["PROG"] - 2
+    lines(board, "10 DATA 7", "20 CUT (0,0):5", "30 BACK")
+    board.type("RUN 20")
+    for _ in range(ord(",") + 2):
+        board.type("RECUT")
+    assert board.machine.peek(labels()["RBACK"]) == b"\1"
+    assert board.type("READ A") == []
+    assert board.type("PRINT A") == ["7"]
 
 
 # The line editor
