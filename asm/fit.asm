@@ -184,7 +184,7 @@ TRY:    LDA     HELDN
         RNC                     ; none, or more than 15
         CALL    CHORD
         RST     5
-        DB      QDOT,QNEG,QJN   ; v*v
+        DB      QMU,QDOT,QSUB,QJN ; v*v         (not of half a circle, where rounding decides)
         DB      TRY1-$
         DB      QDRP,QRET       ; -             begins or ends backwards
 TRY1:   DB      QEND
