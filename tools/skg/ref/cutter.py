@@ -9,7 +9,7 @@ from skg.ref.fault import Code, Fault
 from skg.ref.fit import Curve as FittedCurve
 from skg.ref.fit import Node
 from skg.ref.geometry import enlarged
-from skg.ref.real import NEARLY, ONE, Real
+from skg.ref.real import NEARLY, ONE, ZERO, Real
 from skg.ref.route import Item, Route, Segment
 from skg.ref.tape import Tape
 from skg.ref.values import ORIGIN, Circle, Line, Point
@@ -33,6 +33,7 @@ class Cutter:
         self.wire = ORIGIN
         self.from_point = ORIGIN
         self.scale = ONE
+        self.tolerance = ZERO
         self.moved = False
         self.route: Route | None = None
         self.curve: FittedCurve | None = None
@@ -88,8 +89,16 @@ class Cutter:
     def node(self, p: Point, tangent: Point | None, offset: Real) -> None:
         """FIT, `tangent` a unit vector where it is given."""
         if self.curve is None:
-            self.curve = FittedCurve(self._feed)
+            self.curve = FittedCurve(self._feed, self.tolerance)
         self.curve.add(Node(enlarged(p, self.scale), tangent, offset))
+
+    def tolerate(self, tolerance: Real) -> None:
+        """TOL, in mm on the tape."""
+        if tolerance:
+            near.note("tolerance", tolerance, NEARLY)
+        if tolerance < 0:
+            raise Fault(Code.RANGE)
+        self.tolerance = tolerance
 
     def mirror(self, mirror: Line, right: bool, offset: Real) -> None:
         """SYM."""

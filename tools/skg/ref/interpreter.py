@@ -41,6 +41,7 @@ from skg.ref.parser import (
     Simple,
     Statement,
     Sym,
+    Tol,
     parse_answer,
     parse_line,
     whole,
@@ -258,6 +259,9 @@ class Interpreter:
                 self._rep(s)
             case Fit(node, angle):
                 self._fit(self._expect(node, "P"), None if angle is None else self.number(angle))
+            case Tol(tolerance):
+                self.cutter.end_curve()
+                self.cutter.tolerate(self.number(tolerance))
             case Scale(factor):
                 self.cutter.enlarge(self.number(factor))
             case Read(names):

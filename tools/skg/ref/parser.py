@@ -131,6 +131,13 @@ class Fit:
 
 
 @dataclass(frozen=True)
+class Tol:
+    """TOL tolerance."""
+
+    tolerance: Expression
+
+
+@dataclass(frozen=True)
 class Scale:
     """SCALE factor."""
 
@@ -210,6 +217,7 @@ Statement = (
     | Sym
     | Rep
     | Fit
+    | Tol
     | Scale
     | Read
     | Data
@@ -313,6 +321,7 @@ class _Tree(Transformer):
 
     from_ = v_args(inline=True)(From)
     scale = v_args(inline=True)(Scale)
+    tol = v_args(inline=True)(Tol)
 
     def back(self, _: list) -> Simple:
         return Simple("BACK")
