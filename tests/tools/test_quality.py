@@ -17,6 +17,7 @@ from skg.quality import (
     Biarcs,
     Piece,
     Quality,
+    Run,
     Saving,
     arc_distance,
     denser,
@@ -46,13 +47,17 @@ parts = pytest.mark.parametrize("part", PARTS, ids=lambda part: part.stem)
 
 
 @cache
-def curves(part: Path) -> list[list[Node]]:
+def runs(part: Path) -> list[Run]:
     return fitted_runs(part.read_text())
+
+
+def curves(part: Path) -> list[list[Node]]:
+    return [run.nodes for run in runs(part)]
 
 
 @cache
 def measured(part: Path) -> list[Quality]:
-    return [measure(part, nodes) for nodes in curves(part)]
+    return [measure(part, run) for run in runs(part)]
 
 
 @cache
@@ -63,7 +68,7 @@ def saved(part: Path) -> list[Saving]:
 def test_all_curves_are_there() -> None:
     """What the project promised, by name, each with its true curve but the table of the airfoil."""
     promised = {"ellipse", "parabola", "spiral", "cycloid", "epicycloid", "hypocycloid", "gear", "cam", "roller"}
-    promised |= {"cam-constant", "cam-cycloidal", "envelope", "airfoil"}
+    promised |= {"cam-constant", "cam-cycloidal", "envelope", "airfoil", "tol-cam", "tol-ellipse"}
     assert {part.stem.removeprefix("fit-") for part in PARTS} == promised
     assert {part.stem for part in PARTS} == {*TRUE_CURVES, "fit-airfoil"}
     assert all(part.with_suffix(".3b").exists() for part in PARTS)
@@ -94,7 +99,7 @@ def test_estimated_tangents_where_the_curvature_jumps() -> None:
     """Second order: why the harmonic cam gives its tangents."""
     part = next(p for p in PARTS if p.stem == "fit-cam")
     bare = [replace(n, tangent=None) if 0 < i < 30 else n for i, n in enumerate(curves(part)[0])]
-    for factor in measure(part, bare).factors:
+    for factor in measure(part, Run(bare)).factors:
         assert 3.5 < factor < 4.5
 
 
@@ -109,7 +114,7 @@ def test_tol_against_the_optimum(part: Path) -> None:
 def test_pieces_are_what_is_cut(part: Path) -> None:
     """The arcs measured here are arcs of the reference's route."""
     cut = {(c.x, c.y, c.r) for s in reference(part.read_text()).path if isinstance(c := s.nominal, Circle)}
-    made = [piece.circle for nodes in curves(part) for piece in pieces(nodes) if piece.circle]
+    made = [piece.circle for run in runs(part) for piece in pieces(run.nodes, run.tolerance) if piece.circle]
     assert made
     assert {(c.x, c.y, c.r) for c in made} <= cut
 
@@ -121,13 +126,15 @@ def circle_nodes(count: int, step: float) -> list[Node]:
     return [node(complex(10 * np.exp(1j * n * step)), None) for n in range(count)]
 
 
-def test_distance_is_a_distance() -> None:
-    """Four nodes of a 60 x 36 ellipse; the farthest place by brute force."""
+@pytest.mark.parametrize(("step", "tolerance", "blocks"), [(9, "0", 8), (3, "1", 12)])
+def test_distance_is_a_distance(step: int, tolerance: str, blocks: int) -> None:
+    """Some nodes of a 64 x 36 ellipse, all kept or not; the farthest place by brute force."""
     true = TRUE_CURVES["fit-ellipse"]
     nodes = curves(next(p for p in PARTS if p.stem == "fit-ellipse"))[0]
-    few = nodes[::9]
-    parameters = true.nodes[::9]
-    made = pieces(few)
+    few = nodes[::step]
+    parameters = true.nodes[::step]
+    made = pieces(few, Real(tolerance))
+    assert len(made) == blocks
     everywhere = true.at(np.linspace(0, 360, 200001))
     by_hand = max(np.min(np.abs(everywhere - z)) for piece in made for z in piece.places(quality.SAMPLES))
     assert distance(made, true, parameters) == pytest.approx(by_hand, rel=1e-6)

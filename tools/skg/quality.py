@@ -16,7 +16,7 @@ import numpy as np
 
 from skg.errors import UserError
 from skg.ref import real
-from skg.ref.fit import Curve, Node, circle_tangent, reflected
+from skg.ref.fit import MOST_PASSED, Curve, Node, circle_tangent, reflected
 from skg.ref.geometry import enlarged
 from skg.ref.interpreter import Interpreter
 from skg.ref.near import Watch
@@ -32,8 +32,8 @@ GOLDEN = (5**0.5 - 1) / 2
 ON_CURVE = 1e-6
 #: Directions that differ by no more than this (radians) are one.
 SMOOTH = 1e-6
-#: Nodes are doubled twice; TOL is tried on so many times the nodes that the program has.
-DOUBLINGS, DENSER = 2, (1, 4)
+#: Nodes are doubled twice; TOL is tried on the program's nodes and on so many times these, up to a limit.
+DOUBLINGS, DENSER, MOST_NODES = 2, 4, 300
 #: Radius (mm) from which double precision, and so this module, takes a circle for a line.
 LARGEST = Real("1e8")
 
@@ -76,23 +76,31 @@ class Biarcs(Curve):
         self.feed(q, offset)
 
 
+@dataclass(frozen=True)
+class Run:
+    """One run of FIT statements: its nodes, and the TOL (mm) that holds for it."""
+
+    nodes: list[Node]
+    tolerance: Real = ZERO
+
+
 class Recorder(Interpreter):
-    """A machine that keeps the nodes of every run of FIT statements."""
+    """A machine that keeps every run of FIT statements."""
 
     def __init__(self) -> None:
-        self.runs: list[list[Node]] = []
+        self.runs: list[Run] = []
         super().__init__((), Watch(), Tape())
 
     def _fit(self, node: Point, angle: Real | None) -> None:
         if self.cutter.curve is None:
-            self.runs.append([])
+            self.runs.append(Run([], self.cutter.tolerance))
         super()._fit(node, angle)
         tangent = None if angle is None else Point(real.cos(angle), real.sin(angle))
-        self.runs[-1].append(Node(enlarged(node, self.cutter.scale), tangent, self.offset))
+        self.runs[-1].nodes.append(Node(enlarged(node, self.cutter.scale), tangent, self.offset))
 
 
-def fitted_runs(source: str) -> list[list[Node]]:
-    """The nodes of each run of FIT statements that a program makes; a program that ends in ERR is a UserError."""
+def fitted_runs(source: str) -> list[Run]:
+    """The runs of FIT statements that a program makes; a program that ends in ERR is a UserError."""
     machine = Recorder()
     if machine.load(source) or machine.run():
         raise UserError(f"the program ends in {machine.paper[-1].strip()}")
@@ -124,19 +132,20 @@ def tangent_jump(curve: list[Piece]) -> float:
 
 
 def distance(curve: list[Piece], true: TrueCurve, parameters: np.ndarray) -> float:
-    """The largest distance (mm) of the fitted path from the true curve, node to node.
+    """The largest distance (mm) of the fitted path from the true curve, kept node to kept node.
 
     For each place the nearest point of the true curve between the same two nodes is looked for by golden section.
     """
     ends = true.at(parameters)
-    path, low, high, span = [], [], [], 0
+    path, low, high, kept = [], [], [], 0
     for piece in curve:
         path.append(piece.places(SAMPLES))
-        low.append(np.full(SAMPLES, parameters[span]))
-        high.append(np.full(SAMPLES, parameters[span + 1]))
-        if abs(path[-1][-1] - ends[span + 1]) <= ON_CURVE:
-            span += 1
-    assert span == len(parameters) - 1
+        low.append(np.full(SAMPLES, parameters[kept]))
+        reached = np.flatnonzero(abs(path[-1][-1] - ends[kept + 1 : kept + MOST_PASSED + 2]) <= ON_CURVE)
+        if len(reached):  # else the piece ends at a joint
+            kept += 1 + int(reached[0])
+            high += [np.full(SAMPLES, parameters[kept])] * (len(path) - len(high))
+    assert kept == len(parameters) - 1
     p, a, b = np.concatenate(path), np.concatenate(low), np.concatenate(high)
     for _ in range(SECTIONS):
         c, d = b - GOLDEN * (b - a), a + GOLDEN * (b - a)
@@ -160,7 +169,7 @@ def denser(true: TrueCurve, nodes: list[Node], times: int) -> tuple[np.ndarray, 
     parameters = np.interp(np.arange(count * times + 1) / times, np.arange(count + 1), true.nodes)
     given = [n.tangent is not None for n in nodes]
     told = [given[i // times] and given[-(-i // times)] for i in range(len(parameters))]
-    ways = true.way(parameters) if true.way and any(told) else np.zeros(len(parameters))
+    ways = true.way(parameters) if any(told) else np.zeros(len(parameters))
     return parameters, [
         node(complex(z), complex(w) if t else None) for z, w, t in zip(true.at(parameters), ways, told, strict=True)
     ]
@@ -180,8 +189,9 @@ def true_curve(part: Path, nodes: list[Node]) -> TrueCurve | None:
 @dataclass(frozen=True)
 class Quality:
     """Of one curve: nodes, blocks, how many of these are chords of flat arcs, the largest jump of the tangent
-    (radians) and the largest distance from the true curve (mm; None: not known). `biarcs` are that distance before
-    flat arcs become chords, with the program's nodes and with twice, four times as many; the jump too is theirs."""
+    (radians, before flat arcs become chords) and the largest distance from the true curve (mm; None: not known), all
+    by the program's own TOL. `biarcs` are that distance before flat arcs become chords and with every node kept, with
+    the program's nodes and with twice, four times as many."""
 
     part: str
     curve: str
@@ -198,12 +208,13 @@ class Quality:
         return [a / b for a, b in pairwise(self.biarcs)]
 
 
-def measure(part: Path, nodes: list[Node]) -> Quality:
+def measure(part: Path, run: Run) -> Quality:
     """The quality of one curve of a part."""
+    nodes = run.nodes
     true = true_curve(part, nodes)
-    made = pieces(nodes)
+    made = pieces(nodes, run.tolerance)
     flat = sum(piece.circle is None for piece in made)
-    jump = tangent_jump(pieces(nodes, kind=Biarcs))
+    jump = tangent_jump(pieces(nodes, run.tolerance, Biarcs))
     if true is None:
         return Quality(part.stem, "only its nodes are known", len(nodes), len(made), flat, jump)
     sets = [(true.nodes, nodes)] + [denser(true, nodes, 2**n) for n in range(1, DOUBLINGS + 1)]
@@ -310,11 +321,11 @@ def saving(part: Path, nodes: list[Node], tolerance: str) -> Saving:
 
 
 def savings(part: Path, nodes: list[Node], tolerance: str) -> list[Saving]:
-    """The same for the program's nodes and, where the true curve is known, for denser ones."""
+    """The same for the program's nodes and, where the true curve is known, for denser ones if they are not too many."""
     true = true_curve(part, nodes)
     found = [saving(part, nodes, tolerance)]
-    if true:
-        found += [saving(part, denser(true, nodes, times)[1], tolerance) for times in DENSER[1:]]
+    if true and DENSER * len(nodes) <= MOST_NODES:
+        found.append(saving(part, denser(true, nodes, DENSER)[1], tolerance))
     return found
 
 
@@ -374,12 +385,14 @@ def command(parts: tuple[Path, ...], tol: float | None) -> None:
     One row for each run of FIT statements: nodes, blocks, blocks that are chords of flat arcs, and before these
     became chords the largest jump of the tangent (radians). For the examples in examples/, whose true curves are
     known, the largest distance from it (µm): of the blocks; of the biarcs, with the nodes of the program, with twice
-    and four times as many; by how much each doubling divides it.
+    and four times as many; by how much each doubling divides it. A TOL in the program counts but for the biarcs, which
+    keep every node.
 
-    With --tol, what TOL (docs/curves.md) does to the number of blocks, with the program's nodes and four times as many.
+    With --tol, what TOL (docs/curves.md) does to the number of blocks, with the program's nodes and four times as many,
+    if these are no more than 300; a TOL in the program does not count.
     """
-    curves = [(part, nodes) for part in parts for nodes in fitted_runs(part.read_text()) if len(nodes) > 2]
+    curves = [(part, run) for part in parts for run in fitted_runs(part.read_text()) if len(run.nodes) > 2]
     if tol is None:
-        click.echo(quality_table([measure(part, nodes) for part, nodes in curves]), nl=False)
+        click.echo(quality_table([measure(part, run) for part, run in curves]), nl=False)
     else:
-        click.echo(saving_table([s for part, nodes in curves for s in savings(part, nodes, str(tol))]), nl=False)
+        click.echo(saving_table([s for part, run in curves for s in savings(part, run.nodes, str(tol))]), nl=False)

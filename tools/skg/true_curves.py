@@ -97,6 +97,26 @@ def roller_follower() -> TrueCurve:
     return replace(pitch, name="cam of a roller follower", at=lambda a: pitch.at(a) + 6j * pitch.way(a))
 
 
+def three_lobes() -> TrueCurve:
+    """A cam with a radius of 22 to 26 mm, three times a turn."""
+    return cam(
+        "cam of three lobes",
+        lambda a: 24 + 2 * np.cos(np.radians(3 * a)),
+        lambda a: -6 * np.sin(np.radians(3 * a)),
+        steps(0, 360, 1.8),
+    )
+
+
+def ellipse(a: float, b: float, step: float) -> TrueCurve:
+    """An ellipse with the semi-axes a and b."""
+    return TrueCurve(
+        "ellipse",
+        lambda t: a * np.cos(np.radians(t)) + 1j * b * np.sin(np.radians(t)),
+        steps(0, 360, step),
+        lambda t: unit(-a * np.sin(np.radians(t)) + 1j * b * np.cos(np.radians(t))),
+    )
+
+
 def trochoid(name: str, fixed: float, rolling: float, last: float, step: float) -> TrueCurve:
     """Epicycloid (rolling > 0, outside) or hypocycloid (rolling < 0, inside) of a circle on a fixed one."""
     distance = fixed + rolling
@@ -114,18 +134,16 @@ def involute() -> TrueCurve:
     start = -(90 / 20 + np.degrees(np.tan(np.radians(20))) - 20)
     tip = np.degrees(np.sqrt((22 / base) ** 2 - 1))
     return TrueCurve(
-        "involute", lambda a: base * (1 - 1j * np.radians(a)) * turn(a + start), np.linspace(0, tip, 7)
+        "involute",
+        lambda a: base * (1 - 1j * np.radians(a)) * turn(a + start),
+        np.linspace(0, tip, 7),
+        lambda a: turn(a + start),
     )
 
 
 #: By the name of the example's file.
 TRUE_CURVES = {
-    "fit-ellipse": TrueCurve(
-        "ellipse",
-        lambda a: 32 * np.cos(np.radians(a)) + 18j * np.sin(np.radians(a)),
-        steps(0, 360, 10),
-        lambda a: unit(-32 * np.sin(np.radians(a)) + 18j * np.cos(np.radians(a))),
-    ),
+    "fit-ellipse": ellipse(32, 18, 10),
     "fit-parabola": TrueCurve(
         "parabola", lambda x: x + 1j * x * x / 60, steps(40, -40, -5), lambda x: -unit(1 + 1j * x / 30)
     ),
@@ -139,6 +157,8 @@ TRUE_CURVES = {
     "fit-cam": cam("harmonic cam", harmonic, harmonic_slope, steps(0, 360, 12)),
     "fit-cam-constant": cam("constant-speed cam", lambda a: 20 + a / 15, None, steps(0, 150, 10)),
     "fit-cam-cycloidal": cam("cycloidal cam", cycloidal, cycloidal_slope, steps(0, 360, 10)),
+    "fit-tol-cam": three_lobes(),
+    "fit-tol-ellipse": ellipse(30, 18, 3),
     "fit-envelope": flat_follower(),
     "fit-roller": roller_follower(),
 }
