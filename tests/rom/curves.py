@@ -296,3 +296,136 @@ def curve_part(rng: Random, families: list[Family] = FAMILIES) -> str:
     program = numbered(statements)
     # A loop that is spoilt may never end.
     return spoilt(rng, program) if rng.random() < 0.08 and " GOTO " not in program else program
+
+
+# Curves that leave out nodes (TOL). Their nodes lie close together, or the tolerance is large.
+
+
+def tol(rng: Random, least: float = 0.001, most: float = 0.5) -> str:
+    """The statement; four digits, so that no distance between written places is likely to be the tolerance."""
+    return f"TOL {math.exp(rng.uniform(math.log(least), math.log(most))):.4g}"
+
+
+def dense(rng: Random) -> Statements:
+    """A closed curve or a wavy line of many written nodes."""
+    if rng.random() < 0.5:
+        nodes = ring(rng, rng.randint(16, 40), somewhere(rng), rng.uniform(5, 40), rng.uniform(0, 0.2))
+        if rng.random() < 0.4:
+            nodes = [(place, way + 180) for place, way in reversed(nodes)]
+        nodes.append(nodes[0])
+        return [tol(rng, 0.003, 1), *offset(rng), *fitted(rng, nodes, ends=0.9), *rng.choice(AGAIN)]
+    nodes = wave(rng, rng.randint(12, 40), somewhere(rng), rng.uniform(0.4, 2), rng.uniform(0.3, 5))
+    return [tol(rng), *offset(rng), *fitted(rng, nodes)]
+
+
+def dense_loop(rng: Random) -> Statements:
+    """An ellipse, a cam or a spiral of up to 150 nodes by a loop; tangents at the seam alone, at all nodes, at none."""
+    count = rng.randint(40, 150)
+    big = rng.uniform(10, 45)
+    small, lobes = big * rng.uniform(0.4, 0.95), rng.randint(2, 4)
+    lines = [tol(rng), *offset(rng), f"FROM ({big + 5:.1f},-1)"]
+    node = [
+        f"({big:.2f}*COS A,{small:.2f}*SIN A)",
+        f"({small:.2f}+{rng.uniform(0.02, 0.1) * small:.2f}*COS ({lobes}*A))#A",
+        f"({small:.2f}+A/{rng.uniform(40, 200):.1f})#A",
+    ][(kind := rng.randrange(3))]
+    seam = ["I=0", "*LOOP", f"A=I*{360 / count:.6g}", f"FIT {node}", "I=I+1", f"IF I<={count} GOTO LOOP"]
+    if kind == 0 and rng.random() < 0.6:
+        seam[3] += f",(X,O:(-{big:.2f}*SIN A,{small:.2f}*COS A))"
+    return [*lines, *seam, rng.choice(["BACK", f"CUT ({big / 9:.2f},0)"])]
+
+
+def on_a_circle(rng: Random) -> Statements:
+    """Nodes of one circle, to the last bit of the arithmetic: part of a turn, one turn, or more; either sense."""
+    x, y = somewhere(rng)
+    count, way = rng.randint(3, 60), rng.choice(["", "-"])
+    step = rng.choice([rng.uniform(1, 20), rng.uniform(1, 20), 360 / count, rng.uniform(20, 80)])
+    fit = f"FIT P+({rng.uniform(3, 40):.3f}#{way}A)"
+    if rng.random() < 0.3:
+        fit += f",{way}(A+90)"
+    body = [f"A={rng.uniform(-90, 90):.1f}+I*{step:.6g}", fit, "I=I+1", f"IF I<={count} GOTO LOOP"]
+    return [tol(rng, most=3), *offset(rng), f"P={point(x, y)}", "I=0", "*LOOP", *body]
+
+
+def on_a_line(rng: Random) -> Statements:
+    """Nodes on a line, then on an arc that goes on from it, then on a line again."""
+    x, y = somewhere(rng)
+    step, radius, turns = rng.uniform(0.3, 3), rng.uniform(2, 15), rng.randint(6, 30)
+    right, bend = x + 9 * step, rng.uniform(90, 180)
+    way = f"({step:.3f}#{bend:.2f})"
+    lines = [f"P={point(x, y)}", f"V={point(right, y + radius)}", "I=0"]
+    lines += ["*LOOP", f"FIT P+({step:.3f}*I,0)", "I=I+1", "IF I<9 GOTO LOOP", "I=0"]
+    lines += ["*LOOP", f"A={bend / turns:.5g}*I", f"FIT V+({radius:.3f}#A-90)", "I=I+1", f"IF I<={turns} GOTO LOOP"]
+    lines += ["I=1", "*LOOP", f"FIT V+({radius:.3f}#A-90)+{way}*I", "I=I+1", "IF I<12 GOTO LOOP"]
+    return [tol(rng), *offset(rng), *lines]
+
+
+def rounds(rng: Random) -> Statements:
+    """A spiral of several turns, its nodes far apart: a longer biarc's circles pass near nodes, its arcs do not."""
+    step, count = rng.choice([rng.uniform(25, 75), rng.uniform(150, 215)]), rng.randint(6, 30)
+    grow = rng.choice([0, rng.uniform(0.1, 2)])
+    body = [f"FIT P+(({rng.uniform(5, 20):.2f}+{grow:.3f}*I)#I*{step:.3f})", "I=I+1", f"IF I<={count} GOTO LOOP"]
+    return [tol(rng, 0.05, 6), f"P={point(*somewhere(rng))}", "I=0", "*LOOP", *body]
+
+
+def coarse(rng: Random) -> Statements:
+    """Any other family with a large tolerance."""
+    family = rng.choice([closed, plate, computed, between_circles, wide, straight, copied, mirrored, scaled, two_nodes])
+    return [tol(rng, 0.02, 3), *family(rng)]
+
+
+def two_tols(rng: Random) -> Statements:
+    """The tolerance changes in mid-curve, which ends it there; the node may be said again, for a corner."""
+    nodes = wave(rng, rng.randint(12, 30), somewhere(rng), rng.uniform(0.4, 2), rng.uniform(0.3, 5))
+    at = rng.randrange(3, len(nodes) - 3)
+    second = rng.choice([tol(rng), tol(rng), "TOL 0", "TOL A1"])
+    parts = [fitted(rng, nodes[:at]), fitted(rng, nodes[at - rng.randint(0, 1) :])]
+    return ["A1=0.0371", rng.choice([tol(rng), "TOL 0"]), *offset(rng), *parts[0], second, *parts[1]]
+
+
+def odd_nodes(rng: Random) -> Statements:
+    """Among many nodes: another R, a node twice, one off the curve, one with a tangent that does not fit."""
+    nodes = wave(rng, rng.randint(12, 30), somewhere(rng), rng.uniform(0.5, 2), rng.uniform(0.3, 4))
+    lines = fitted(rng, nodes)
+    for _ in range(rng.randint(1, 3)):
+        at = rng.randrange(2, len(nodes) - 2)
+        (x, y), way = nodes[at]
+        match rng.randrange(4):
+            case 0:
+                lines[at] = fit(rng, (x, y + rng.uniform(-0.05, 0.05)))
+            case 1:
+                lines[at] = fit(rng, (x, y), way + rng.choice([1, -3, 20]))
+            case 2:
+                lines.insert(at, lines[at])
+            case _:  # more than the route bears, where this node is kept
+                lines[at] = f"R={rng.choice(['0.1', '0.1', '5'])}\n{lines[at]}\nR=0.1004"
+    return [tol(rng), "R=0.1004", *"\n".join(lines).split("\n")]
+
+
+def shaken(rng: Random) -> Statements:
+    """Nodes beside a line, not in the order in which they are written; all tangents given."""
+    x, y = somewhere(rng)
+    step, lead = rng.uniform(0.5, 3), rng.uniform(-180, 180)
+    lines = [tol(rng, 0.2, 3)]
+    for n in range(rng.randint(6, 25)):
+        along, across = step * (n + rng.uniform(-0.9, 0.9)), rng.uniform(-0.3, 0.3)
+        node = f"({along:.3f}#{lead:.2f})+({across:.3f}#{lead + 90:.2f})"
+        lines.append(f"FIT {point(x, y)}+{node},{lead + rng.uniform(-9, 9):.2f}")
+    return lines
+
+
+def beside_a_circle(rng: Random) -> Statements:
+    """Nodes inside and outside of a small circle; all tangents given."""
+    x, y = somewhere(rng)
+    step, radius, lead = rng.uniform(8, 40), rng.uniform(2, 6), rng.uniform(-180, 180)
+    lines = [tol(rng, 0.2, 2)]
+    for n in range(rng.randint(6, 25)):
+        angle = lead + n * step
+        node = f"({radius + rng.uniform(-0.4, 0.4):.3f}#{angle:.2f})"
+        lines.append(f"FIT {point(x, y)}+{node},{angle + 90 + rng.uniform(-9, 9):.2f}")
+    return lines
+
+
+#: The families of TOL.
+TOL_FAMILIES: list[Family] = [dense, dense_loop, on_a_circle, on_a_line, rounds, coarse, two_tols, odd_nodes]
+TOL_FAMILIES += [shaken, beside_a_circle]
