@@ -162,6 +162,34 @@ def test_curves_with_tol(share: int, record_property: Record) -> None:
     count.tally(record_property, "fitted routes with TOL", MOST_ASIDE, MOST_CENTRES)
 
 
+#: Statements of one program each, for what random ones seldom meet; `>` is typed without a number.
+TOL_ALONE = [
+    "TOL", "TOL 1,2", "TOL ;1", "TOL -1", "TOL -1E-9", "TOL SQR -1", "TOL X", "TOL (1,2)", "TOL D7",
+    "T O L.5/A=1/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)",
+    "> TOL 1/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)",  # RUN forgets it
+    "TOL 1/TOL 0/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)",
+    "TOL 1/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)/TOL -1",  # the curve ends before the error
+    "TOL 1/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)/A=SQR -1",
+    "FIT O,90/TOL 1/FIT (9,2)/FIT (20,0)/FIT (30,2)",
+    "FROM (5,-5)/CUT X,Y:20,-X:20,-Y/BACK/TOL 1/RECUT",
+    "CUT O,(5,0),1/TOL 1/CUT (5,5)",
+    "TOL 2/FIT O,90/FIT (5,5),0/FIT (10,0),-90",  # half round
+    "TOL 9/FIT O,90/FIT (5,0.1),0/FIT (10,0),90",  # square to the chord
+    "TOL 9/FIT O,90/FIT (5,5),0/FIT O,-90/BACK",  # there and back
+    "TOL 5/FROM (12,0)/FIT (12,0),90/FIT (0,12)/FIT (-12,0)/FIT (0,-12)/FIT (12,0),90/BACK",
+    "TOL 0.02/R=-9/FIT (10,0),90/FIT 10#30/FIT 10#60/FIT 10#90/FIT 10#120",
+]
+
+
+@pytest.mark.parametrize("statements", TOL_ALONE)
+def test_tol_alone(statements: str) -> None:
+    typed = (line for line in statements.split("/") if line)
+    program = "".join(line[2:] + "\n" if line[0] == ">" else f"{10 * n} {line}\n" for n, line in enumerate(typed, 1))
+    count = Count()
+    count.add(program)
+    assert not count.aside, count.aside
+
+
 @pytest.mark.usefixtures("fit_in_rom")
 @pytest.mark.parametrize("path", REGRESSIONS, ids=lambda path: path.stem)
 def test_regression(path: Path) -> None:
@@ -246,6 +274,31 @@ def tol_programs() -> list[tuple[str, Result]]:
     rng = Random(f"{SEED} mistakes")
     programs = [curve_part(rng, TOL_FAMILIES) for _ in range(TOL_PROGRAMS)]
     return [(program, reference(program)) for program in programs]
+
+
+def test_bound_of_the_excess(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 33 bits no node's excess is farther off than what the reference calls close."""
+    found: list[float] = []
+    exact_excess = fit.excess
+
+    def recorded(*place: object) -> object:
+        found.append(exact_excess(*place))
+        return found[-1]
+
+    monkeypatch.setattr(fit, "excess", recorded)
+    rng = Random(f"{SEED} excess")
+    measured = []
+    while len(measured) < 3000:
+        program = curve_part(rng, [f for f in TOL_FAMILIES if f.__name__ in ("dense", "dense_loop", "on_a_line")])
+        sides = []
+        for bits in (None, 33):
+            found.clear()
+            result = reference(program, bits=bits)
+            sides.append(list(found))
+        if not result.error and len(sides[0]) == len(sides[1]):
+            measured += [float(abs(a - b)) for a, b in zip(*sides, strict=True)]
+    assert max(measured) <= fit.PASSED_NEAR
+    assert max(measured) > fit.PASSED_NEAR / 30  # the bound is not far too wide
 
 
 def test_few_programs_are_close_calls_of_tol() -> None:
