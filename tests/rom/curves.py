@@ -329,7 +329,7 @@ def dense_loop(rng: Random) -> Statements:
         f"({small:.2f}+{rng.uniform(0.02, 0.1) * small:.2f}*COS ({lobes}*A))#A",
         f"({small:.2f}+A/{rng.uniform(40, 200):.1f})#A",
     ][(kind := rng.randrange(3))]
-    seam = ["I=0", "*LOOP", f"A=I*{360 / count:.6g}", f"FIT {node}", "I=I+1", f"IF I<={count} GOTO LOOP"]
+    seam = ["I=0", "*LOOP", f"A=I*360/{count}", f"FIT {node}", "I=I+1", f"IF I<={count} GOTO LOOP"]
     if kind == 0 and rng.random() < 0.6:
         seam[3] += f",(X,O:(-{big:.2f}*SIN A,{small:.2f}*COS A))"
     return [*lines, *seam, rng.choice(["BACK", f"CUT ({big / 9:.2f},0)"])]
@@ -339,11 +339,11 @@ def on_a_circle(rng: Random) -> Statements:
     """Nodes of one circle, to the last bit of the arithmetic: part of a turn, one turn, or more; either sense."""
     x, y = somewhere(rng)
     count, way = rng.randint(3, 60), rng.choice(["", "-"])
-    step = rng.choice([rng.uniform(1, 20), rng.uniform(1, 20), 360 / count, rng.uniform(20, 80)])
+    step = rng.choice([f"{rng.uniform(1, 20):.4f}", f"360/{count}", f"{rng.uniform(20, 80):.4f}"])
     fit = f"FIT P+({rng.uniform(3, 40):.3f}#{way}A)"
     if rng.random() < 0.3:
         fit += f",{way}(A+90)"
-    body = [f"A={rng.uniform(-90, 90):.1f}+I*{step:.6g}", fit, "I=I+1", f"IF I<={count} GOTO LOOP"]
+    body = [f"A={rng.uniform(-90, 90):.1f}+I*{step}", fit, "I=I+1", f"IF I<={count} GOTO LOOP"]
     return [tol(rng, most=3), *offset(rng), f"P={point(x, y)}", "I=0", "*LOOP", *body]
 
 
