@@ -257,7 +257,7 @@ MISTAKES = {
     "no square of the tolerance": (" - tolerance**2", ""),
     "arcs without a beginning": (", -q.dot(t))", ", -tolerance)"),
     "a joint without sides": ("ends[(n.point - middle).dot(across) > 0]", "ends[0]"),
-    "biarcs backwards": ("if forwards <= NEARLY * size:", "if not size:"),
+    "biarcs backwards": ("if forwards <= MICRON:", "if forwards == 0:"),
     "a tenth of a micrometre more": ("return worst <= 0", 'return worst <= Real("1e-4")'),
     "only the last node": ("for n in passed)", "for n in passed[-1:])"),
     "only the first node": ("for n in passed)", "for n in passed[:1])"),

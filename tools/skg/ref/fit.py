@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from skg.ref import near, real
 from skg.ref.fault import Code, Fault
 from skg.ref.geometry import same_point, unit
-from skg.ref.real import NEARLY, Real
+from skg.ref.real import MICRON, NEARLY, Real
 from skg.ref.values import Circle, Point
 
 #: |t × w| in mm up to which an arc goes out as its chord, and the radius in mm from which it does.
@@ -78,15 +78,15 @@ def joint(p: Point, t: Point, q: Point, u: Point) -> Point:
 def within(a: Node, b: Node, passed: list[Node], tolerance: Real) -> bool:
     """Whether all passed nodes lie within the tolerance of the biarc from a to b (TOL, docs/curves.md).
 
-    The biarc must begin and end forwards on the whole: v·(t+u) > 0, v the chord; it exists then. The joint's tangent
-    parts the nodes: those before it are compared with the arc at a, the others with the arc at b, walked backwards.
-    Where a node lies on that very line, at the joint's normal, both arcs give the same answer: no close call.
+    The biarc must begin and end forwards on the whole: v·(t+u) > 1 µm, v the chord; it exists then. (Half a circle has
+    0, and so has a curve that ends where it began: neither may hang on the last bits.) The joint's normal parts the
+    nodes: those before it are compared with the arc at a, the others with the arc at b, walked backwards. Where a node
+    lies on that very line both arcs give the same answer: no close call.
     """
     chord = b.point - a.point
-    forwards, size = chord.dot(a.tangent + b.tangent), chord.length()
-    if forwards:
-        near.note("passed node", forwards, near.RELATIVE * max(size, real.ONE))
-    if forwards <= NEARLY * size:
+    forwards = chord.dot(a.tangent + b.tangent)
+    near.note("passed node", forwards - MICRON, near.RELATIVE * max(chord.length(), real.ONE))
+    if forwards <= MICRON:
         return False
     c, d = corners(a.point, a.tangent, b.point, b.tangent)
     middle, across = (c + d) * (real.ONE / 2), d - c
