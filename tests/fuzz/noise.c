@@ -220,7 +220,7 @@ static void text_or_value(noise *n)
 
 void noise_statement(noise *n)
 {
-    switch (noise_random(n, 26)) {
+    switch (noise_random(n, 27)) {
     default:
         assignment(n);
         break;
@@ -311,6 +311,10 @@ void noise_statement(noise *n)
             expression(n, 'D', 1);
         }
         break;
+    case 24:
+        puts_(n, "TOL ");
+        expression(n, 'D', noise_random(n, 2));
+        break;
     }
 }
 
@@ -338,7 +342,7 @@ static void token(noise *n)
     static const char *const words[] = {
         "SQR ", "SIN ", "COS ", "TG ", "ATG ", "ABS ", "INT ", "K1 ", "K2 ", "K3 ", "FROM ", "CUT ", "BACK", "END", "REM ",
         "PRINT ", "GOTO ", "IF ", "GOSUB ", "RETURN", "READ ", "DATA ", "RESTORE ", "INPUT ", "SCALE ", "SYM ", "REP ",
-        "RECUT", "FIT ", "RUN", "LIST ", "FREE", "SIN", "R E P", "print ", "sIn ",
+        "RECUT", "FIT ", "TOL ", "RUN", "LIST ", "FREE", "SIN", "R E P", "print ", "sIn ",
     };
     static const char *const signs[] = {
         "(", "(", ")", ")", "[", "]", ",", ",", ";", ":", "#", "*", "/", "+", "-", "=", "=", "<", ">", "<=", "<>", "\"", "^",
