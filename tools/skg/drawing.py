@@ -182,6 +182,9 @@ class Content:
     ignored: Counter[str] = field(default_factory=Counter)
 
 
+#: FIT cuts an arc as a line that leaves its tangent by no more than this, or with this radius or more, mm.
+_FLAT, _LARGE = 0.002, 50.0
+
 # Curves ---------------------------------------------------------------------------------------------------
 
 def biarc_joint(one: Node, other: Node) -> Point | None:
@@ -199,13 +202,15 @@ def biarc_joint(one: Node, other: Node) -> Point | None:
 
 
 def _off_arc(point: Point, start: Point, angle: float, end: Point) -> float:
-    """Distance of a point from the circle that leaves `start` in direction `angle` and passes `end`."""
+    """Distance of a point from the arc that leaves `start` in direction `angle` for `end`, as FIT cuts it: a flat
+    or a very large one as the line of its chord (language.md, section 5)."""
     normal = -sin(angle), cos(angle)
     w = minus(end, start)
     height = dot(normal, w)
-    if abs(height) < 1e-9:
-        return abs(dot(normal, minus(point, start)))
-    radius = dot(w, w) / (2 * height)
+    square = dot(w, w)
+    if abs(height) <= _FLAT or square >= 2 * _LARGE * abs(height):
+        return abs(cross(w, minus(point, start))) / sqrt(square)
+    radius = square / (2 * height)
     centre = start[0] + radius * normal[0], start[1] + radius * normal[1]
     return abs(distance(point, centre) - abs(radius))
 
@@ -403,7 +408,7 @@ def load(data: bytes, name: str) -> Drawing:
 
 
 def collect(drawing: Drawing, layers: tuple[str, ...] = (), start_layer: str = "START",
-            fit_tolerance: float = 0.0005, factor: float | None = None) -> Content:
+            fit_tolerance: float = 0.0002, factor: float | None = None) -> Content:
     """Return the edges of a drawing's model space on the given layers (all, when none are given), in mm.
 
     `factor` is mm per drawing unit; without it $INSUNITS tells it, and a drawing without units is in mm.

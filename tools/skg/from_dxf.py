@@ -147,8 +147,8 @@ def _entry(contour: Contour) -> tuple[Contour, float]:
     return _turned_to(contour, at), 0.0 if contour.edges[at].is_circle else 0.5
 
 
-def _room(point: Point, angle: float, contours: list[Contour]) -> float:
-    """How far it is from a point in a direction to the next contour, mm."""
+def _room(point: Point, angle: float, contours: list[Contour], least: float) -> float:
+    """How far it is from a point in a direction to the next contour, mm; what is nearer than `least` is none."""
     way = cos(angle), sin(angle)
     nearest = inf
     for contour in contours:
@@ -159,7 +159,7 @@ def _room(point: Point, angle: float, contours: list[Contour]) -> float:
                 continue
             to = minus(p, point)
             along, part = cross(to, side) / area, cross(to, way) / area
-            if along > 1e-3 and 0 <= part <= 1:
+            if along > least and 0 <= part <= 1:
                 nearest = min(nearest, along)
     return nearest
 
@@ -176,7 +176,9 @@ def _start_hole(contour: Contour, part: float, offset: float, is_opening: bool, 
         return edge.centre
     way = edge.direction() if edge.nodes else edge.direction(part=part)
     square = way - pi / 2 if is_outside == is_ccw else way + pi / 2
-    room = _room(entry, square, contours)
+    # An arc's own chords lie up to 0.1 % of its radius inside of it.
+    least = 1e-3 * (1 + edge.radius) if edge.centre is not None else 1e-3
+    room = _room(entry, square, contours, least)
     return polar(entry, min(lead + abs(offset), room / 2), square)
 
 
@@ -325,6 +327,9 @@ class Writer:
             if at + 1 == len(edges) or not edges[at + 1].nodes or is_between:
                 yield self.point(edge.end)
             at += 1
+        if route.contour.is_closed and edges[0].centre is not None:
+            # Between a last point and a first one BACK would bring in a line: the rest of the first arc stands here.
+            yield self.circle(edges[0])
 
     def fillet(self, route: Route, at: int) -> tuple[Point, float] | None:
         """The corner and radius of the arc after edge number `at`, where a fillet makes it, else None."""
@@ -448,7 +453,7 @@ def write(routes: list[Route], title: str, fillets: bool = True) -> str:
               help="Distance of a chosen start hole from the contour, where there is room.")
 @click.option("--tolerance", default=0.005, show_default=True, metavar="MM",
               type=click.FloatRange(0, min_open=True), help="Ends no further apart than this are one corner.")
-@click.option("--fit-tolerance", default=0.0005, show_default=True, metavar="MM",
+@click.option("--fit-tolerance", default=0.0002, show_default=True, metavar="MM",
               type=click.FloatRange(1e-5), help="How near FIT shall come to splines and ellipses.")
 @click.option("--units", type=click.Choice(("mm", "cm", "m", "inch")),
               help="Units of the drawing. Default: as the drawing says, else mm.")

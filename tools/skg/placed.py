@@ -1,14 +1,15 @@
-"""A tape laid out on the drawing: absolute lines and arcs, in whole micrometres."""
+"""A tape laid out on the drawing: absolute lines and arcs, in micrometres."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 
 import click
 
 from skg.controller import run_block
-from skg.tape import Block, Stop, Tape
+from skg.tape import Block, Tape
 
 #: The names that `place` and the command lines know for "where does the next block start".
 POSITIONS = ("auto", "programmed", "machine")
@@ -18,32 +19,41 @@ positions_option = click.option(
     help="Start each block where the block before should have ended (programmed), or where the controller "
          "really stands then (machine); auto: whichever closes the routes better.")
 
+#: A place in µm, whole or not.
+Pair = tuple[float, float]
+
 
 @dataclass(frozen=True)
 class Placed:
-    """One block in its place: absolute start, end and (of an arc) centre, µm."""
+    """One block in its place: absolute start and end, µm; `about`: an arc's centre when it is not the block's own."""
 
     block: Block
-    start: tuple[int, int]
-    end: tuple[int, int]
+    start: Pair
+    end: Pair
+    about: Pair | None = None
 
     @property
-    def centre(self) -> tuple[int, int]:
+    def centre(self) -> Pair:
         """Centre of an arc."""
+        if self.about is not None:
+            return self.about
         xs, ys = self.block.start
         return self.start[0] - xs, self.start[1] - ys
 
     @property
-    def angles(self) -> tuple[float, float]:
+    def radius(self) -> float:
+        """Radius of an arc, at its start."""
+        return hypot(self.start[0] - self.centre[0], self.start[1] - self.centre[1])
+
+    @property
+    def angles(self) -> Pair:
         """Start and end angle of an arc in radians; the end is the start plus the signed sweep."""
-        first = atan2(*reversed(self.block.start))
-        x, y = self.end[0] - self.centre[0], self.end[1] - self.centre[1]
+        first, last = (atan2(y - self.centre[1], x - self.centre[0]) for x, y in (self.start, self.end))
         near = first + self.block.sweep
         if self.block.is_full_circle:
             return first, near
         # The placed end may lie some µm from where the block alone would end.
-        miss = (atan2(y, x) - near + pi) % (2 * pi) - pi
-        return first, near + miss
+        return first, near + (last - near + pi) % (2 * pi) - pi
 
     def at(self, part: float) -> tuple[float, float]:
         """The point at `part` (0…1) of the block's length, µm."""
@@ -51,8 +61,8 @@ class Placed:
             return (self.start[0] + part * (self.end[0] - self.start[0]),
                     self.start[1] + part * (self.end[1] - self.start[1]))
         first, last = self.angles
-        angle, radius = first + part * (last - first), hypot(self.block.x, self.block.y)
-        return self.centre[0] + radius * cos(angle), self.centre[1] + radius * sin(angle)
+        angle = first + part * (last - first)
+        return self.centre[0] + self.radius * cos(angle), self.centre[1] + self.radius * sin(angle)
 
     def direction(self, part: float) -> float:
         """Direction of travel at `part` of the block's length, radians."""
@@ -74,12 +84,12 @@ class PlacedRoute:
     is_move: bool
 
     @property
-    def start(self) -> tuple[int, int]:
+    def start(self) -> Pair:
         """Where the route begins, µm."""
         return self.blocks[0].start
 
     @property
-    def gap(self) -> int:
+    def gap(self) -> float:
         """Larger coordinate of end minus start, µm."""
         first, last = self.blocks[0].start, self.blocks[-1].end
         return max(abs(last[0] - first[0]), abs(last[1] - first[1]))
@@ -105,30 +115,31 @@ def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") 
 
 
 def _place(tape: Tape, start: tuple[int, int], machine: bool) -> list[PlacedRoute]:
-    routes: list[PlacedRoute] = []
-    blocks: list[Block] = []
-    at, after_stop = start, False
-
-    def close(before_stop: bool) -> None:
-        nonlocal at
+    def end_to_end(blocks: list[Block], at: Pair) -> tuple[list[Placed], Pair]:
         moves = [run_block(block).move for block in blocks] if machine else closed_moves(blocks)
         placed = []
         for block, (dx, dy) in zip(blocks, moves, strict=True):
-            end = at[0] + dx, at[1] + dy
-            placed.append(Placed(block, at, end))
-            at = end
-        if placed:
-            is_move = after_stop and before_stop and len(placed) == 1 and placed[0].block.is_line
-            routes.append(PlacedRoute(tuple(placed), is_move))
-        blocks.clear()
+            placed.append(Placed(block, at, (at[0] + dx, at[1] + dy)))
+            at = placed[-1].end
+        return placed, at
 
-    for item in tape.items:
-        if isinstance(item, Stop):
-            close(True)
-            after_stop = True
-        else:
-            blocks.append(item)
-    close(False)
+    return lay(tape, start, end_to_end)
+
+
+def lay(tape: Tape, start: Pair,
+        place_blocks: Callable[[list[Block], Pair], tuple[list[Placed], Pair]]) -> list[PlacedRoute]:
+    """Lay a tape's routes out one after the other, from `start` (µm).
+
+    `place_blocks` is given the blocks between two stops, at least one, and where the first of them starts; it returns
+    them in their places, and where the block after them starts.
+    """
+    routes: list[PlacedRoute] = []
+    stretches = tape.stretches()
+    for at, blocks in enumerate(stretches):
+        if blocks:
+            placed, start = place_blocks(blocks, start)
+            is_move = 0 < at < len(stretches) - 1 and len(placed) == 1 and placed[0].block.is_line
+            routes.append(PlacedRoute(tuple(placed), is_move))
     return routes
 
 
@@ -179,7 +190,7 @@ def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
     return min(xs), min(ys), max(xs), max(ys)
 
 
-def stop_places(tape: Tape, routes: list[PlacedRoute], home: tuple[int, int]) -> list[tuple[int, int]]:
+def stop_places(tape: Tape, routes: list[PlacedRoute], home: Pair) -> list[Pair]:
     """Where the controller stops, µm, each place once; `home` is where the tape begins."""
     ends = {placed.block.number: placed.end for route in routes for placed in route.blocks}
     return list(dict.fromkeys(ends.get(stop.after, home) for stop in tape.stops))
