@@ -7,6 +7,7 @@ All lengths are micrometres. δ is what rounding added to a joint, γ to a centr
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import accumulate, pairwise
 from math import cos, exp, floor, hypot, log, sin, sqrt
 
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skg.controller import run_block
+from skg.errors import UserError
 from skg.placed import Pair, Placed, PlacedRoute, lay
 from skg.tape import Block, Tape
 
@@ -28,6 +30,8 @@ _SAME_RADIUS, _RADIUS_SPREAD = 0.8, 2 * sqrt(2)
 _CLOSES = 4
 #: Log likelihood for a tape without drift where a route closes on the machine alone; against it, as programmed alone.
 _SURE = 10
+#: No more than this, and it is a tape of the standard ROM, of which there are more.
+_DOUBT = 1
 
 Vector = NDArray[np.float64]
 #: Block number -> the radius of its group and how many arcs and circles have it.
@@ -53,19 +57,24 @@ def is_without_drift(tape: Tape) -> bool:
     anywhere, and routes that close as programmed seldom do so on the machine. Where the tape does not tell, because
     the drawing lies on whole micrometres or is symmetrical, the answer is a guess.
     """
-    evidence = 0.0
-    for blocks in tape.stretches():
-        arcs = [block for block in blocks if _is_curved(block)]
-        if not arcs:
-            continue
-        gap, spread = _gap(blocks)
-        stands = [sum(ordinates) for ordinates in zip(*(run_block(block).move for block in blocks), strict=True)]
-        if not _closes(gap, spread):
-            evidence += _SURE if stands == [0, 0] else 0
-        elif len(blocks) > 1:
-            evidence += log(1 + len(arcs)) if stands == [0, 0] else -_SURE
-        evidence += sum(_evidence(block) for block in arcs)
-    return evidence > 0
+    try:
+        return sum(map(_evidence_of_route, tape.stretches())) > _DOUBT
+    except UserError:
+        # A block that never ends on the controller (a circle of a few µm): it cannot tell where it stands.
+        return False
+
+
+def _evidence_of_route(blocks: list[Block]) -> float:
+    """Log likelihood that the blocks between two stops are without drift, against a tape with drift."""
+    arcs = [block for block in blocks if _is_curved(block)]
+    if not arcs:
+        return 0.0
+    evidence = sum(map(_evidence, arcs))
+    gap, spread = _gap(blocks)
+    is_closed = [sum(ordinates) for ordinates in zip(*map(_goes, blocks), strict=True)] == [0, 0]
+    if not _closes(gap, spread):
+        return evidence + _SURE * is_closed
+    return evidence + (log(1 + len(arcs)) if is_closed else -_SURE)
 
 
 # Arcs -----------------------------------------------------------------------------------------------------
@@ -85,12 +94,29 @@ def _across(block: Block) -> int:
     return "YX".index(block.axis)
 
 
+def _on_circle(block: Block, place: tuple[int, int]) -> Vector:
+    """A place about an arc's centre, moved onto the circle across the count axis."""
+    end, across = np.array(place, float), _across(block)
+    other = sqrt(max(0.0, block.x**2 + block.y**2 - end[1 - across] ** 2))
+    end[across] = other if end[across] >= 0 else -other
+    return end
+
+
 def _end(block: Block) -> Vector:
     """An arc's end about its centre: whole along the count axis, across it on the circle."""
-    end, across = np.array(block.end, float), _across(block)
-    square = max(0.0, block.x**2 + block.y**2 - end[1 - across] ** 2)
-    end[across] = sqrt(square) if end[across] >= 0 else -sqrt(square)
-    return end
+    return _on_circle(block, block.end)
+
+
+@lru_cache(maxsize=100_000)
+def _goes(block: Block) -> tuple[int, int]:
+    """Where the controller goes with a block, (dx, dy)."""
+    return run_block(block).move
+
+
+def _end_on_machine(block: Block) -> Vector:
+    """An arc's end where the controller stops: a tape without drift counts J as it does."""
+    (xs, ys), (dx, dy) = block.start, _goes(block)
+    return _on_circle(block, (xs + dx, ys + dy))
 
 
 def _move(block: Block) -> Vector:
@@ -234,7 +260,7 @@ def _from_programmed(blocks: list[Block], at: Pair, radii: Radii) -> tuple[list[
 def _from_machine(blocks: list[Block], at: Pair, radii: Radii) -> tuple[list[Placed], Pair]:
     """Lay out a route whose blocks start where the controller stands: an arc meant to end at the rounded place that
     its centre was moved for, a line and a circle do end there."""
-    stands = list(accumulate((np.array(run_block(block).move) for block in blocks), initial=np.array(at)))
+    stands = list(accumulate((np.array(_goes(block)) for block in blocks), initial=np.array(at)))
     joints, centres = [np.array(at, float)], []
     for block, (start, end) in zip(blocks, pairwise(stands), strict=True):
         centre = np.array(start - block.start, float)
@@ -259,7 +285,7 @@ def _meant(block: Block, start: Vector, radius: tuple[float, int] | None) -> Vec
     known (with how many arcs have it), that it was rounded to what `start` (the joint, about the centre) and end
     make of it.
     """
-    end, across = _end(block), _across(block)
+    end, across = _end_on_machine(block), _across(block)
     centre = np.zeros(2)
     half = abs(block.sweep) / 2
     total = mean = 0.0
@@ -296,7 +322,7 @@ def _likelihood(block: Block, end: Vector) -> float:
 
 def _evidence(block: Block) -> float:
     """Log likelihood of an arc on a tape without drift, against any other tape."""
-    start, end, across = np.array(block.start), _end(block), _across(block)
+    start, end, across = np.array(block.start), _end_on_machine(block), _across(block)
     is_near = start @ end >= 0
     if is_near and abs(block.sweep) > np.pi:
         # The centre was not moved.
