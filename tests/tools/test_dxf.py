@@ -422,7 +422,39 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
     result = run_program("from-dxf", "-", stdin=data)
     assert result.returncode == 2
     assert len(result.stderr.splitlines()) == 1
-    assert result.stderr.startswith("skg: -: n")
+    assert result.stderr.startswith("skg: -: no lines" if "SECTION" in data else "skg: -: not a DXF drawing")
+
+
+@pytest.mark.parametrize(("arguments", "message"), [
+    (["dxf", "empty.skg"], "skg: empty.skg: expected a program, the file is empty"),
+    (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
+    (["sim", "part.skg"], "skg: part.skg: expected a tape, this is a program; `skg ref part.skg` makes its tape"),
+    (["check", "part.skg"], "skg: part.skg: expected a tape, this is a program; `skg ref part.skg` makes its tape"),
+    (["gcode", "part.skg"], "skg: part.skg: expected a tape, this is a program; `skg ref part.skg` makes its tape"),
+])
+def test_wrong_files(run_program: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str],
+                     message: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty.skg").write_text("")
+    (tmp_path / "part.skg").write_text("10 END\n")
+    (tmp_path / "tape.3b").write_bytes(b"DD\r\n")
+    result = run_program(*arguments)
+    assert result.returncode == 2
+    assert message in result.stderr.splitlines()[-1]
+    assert "Traceback" not in result.stderr
+    assert result.stdout == ""
+
+
+def test_round_openings(run: Run, tmp_path: Path) -> None:
+    """A contour of arcs alone ends on the arc that it was entered on; its start hole has the room that there is."""
+    drawing, space = drawings.new()
+    drawings.bent_slot(space, (0, 0), 40.3, 5.1, 24.5, 55)
+    drawing.saveas(tmp_path / "slot.dxf")
+    program = run("from-dxf", tmp_path / "slot.dxf").stdout
+    entry, hole = (tuple(map(float, line.split("(")[1].split(")")[0].split(",")))
+                   for line in program.splitlines() if "FROM" in line or "P1=" in line)
+    assert distance(hole, entry) > 2
+    assert apart(path_edges(program), collect(drawing).edges) < EXACT
 
 
 def test_too_many_lines(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,7 +22,7 @@ def command(tapes_: tuple[str, ...], as_json: bool) -> None:
     """
     found: list[tuple[str, Finding]] = []
     for name in tapes_:
-        tape, findings = tapes.scan(tapes.read_bytes(name), name)
+        tape, findings = tapes.scan(tapes.read_tape_bytes(name), name)
         found += [(name, finding) for finding in findings]
         if not as_json and not findings:
             click.echo(f"{name}: {len(tape.blocks)} blocks, nothing wrong")

@@ -400,6 +400,8 @@ class _Collector:
 
 def load(data: bytes, name: str) -> Drawing:
     """Read a DXF file's bytes; a damaged one is mended as far as ezdxf can, else `UserError`."""
+    if b"SECTION" not in data:
+        raise UserError(f"{name}: not a DXF drawing, it has no SECTION")
     try:
         return recover.read(io.BytesIO(data))[0]
     except (DXFError, OSError, ValueError, KeyError, IndexError, AttributeError) as error:

@@ -17,7 +17,7 @@ import click
 from skg import tape as tapes
 from skg.errors import UserError
 from skg.placed import closed_moves
-from skg.tape import Block, Stop, Tape, arc_block, line_block
+from skg.tape import MAX_DIGITS, Block, Stop, Tape, arc_block, line_block
 
 #: An arc's end may lie this far off the circle through its start, µm: each of the two is rounded, and so is
 #: the centre.
@@ -203,6 +203,8 @@ class Pair(click.ParamType):
             first, second = (self.number(part) for part in str(value).split(","))
         except ValueError:
             self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
+        if not max(abs(first), abs(second)) < 10**MAX_DIGITS:
+            self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
         return first, second
 
 
@@ -220,7 +222,7 @@ def command(source: str, output: str, back: bool, start: tuple[int, int], mm: bo
     G00, G17, G21, G40, N and F words and comments; a number with a decimal point is millimetres, one without
     micrometres. FILE - (or none) is the standard input.
     """
-    data = tapes.read_bytes(source)
+    data = tapes.read_bytes(source) if back else tapes.read_tape_bytes(source)
     if not back:
         tapes.write_bytes(output, write(tapes.parse(data, source), start, mm).encode())
         return

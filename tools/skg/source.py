@@ -95,6 +95,8 @@ def _run_reference(name: str) -> tuple[bytes, list]:
         text = Path(name).read_bytes().decode("ascii")
     except UnicodeDecodeError as error:
         raise UserError(f"{name}: byte {error.start + 1} is not ASCII") from None
+    if not text.strip():
+        raise UserError(f"{name}: expected a program, the file is empty")
     result = run(text)
     if result.error:
         number, line = result.error
