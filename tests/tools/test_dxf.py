@@ -34,6 +34,7 @@ from skg.ref import run as run_reference
 from skg.tape import Block
 
 PARTS = Path(__file__).parent / "parts"
+PAGE = ROOT / "docs" / "drift.md"
 LAYERS = {drawings.cam: ("CAM",)}
 #: A drawing made from its tape again is everywhere within this of the first one, µm.
 LIMIT = 1.0
@@ -156,28 +157,40 @@ def test_written_without_fillets(make: Callable[[], Drawing]) -> None:
     assert apart(path_edges(program_of(make, fillets=False)), edges_of(make)) < EXACT
 
 
-@pytest.mark.parametrize("runner", ["reference", "rom"])
+@pytest.mark.parametrize("polylines", [False, True])
 @pytest.mark.parametrize("make", drawings.ALL)
-def test_round_trip(make: Callable[[], Drawing], runner: str, emulator: Path, tmp_path: Path) -> None:
+def test_round_trip(make: Callable[[], Drawing], polylines: bool, emulator: Path, tmp_path: Path) -> None:
     """DXF, SKG, ROM, 3B and DXF again: on the standard tape."""
-    program = program_of(make)
-    made = by_reference(program, True) if runner == "reference" else by_rom(emulator, "skg", program, tmp_path)
-    limit = LOST_ON_TAPE.get(make, LIMIT)
-    for polylines in (False, True):
-        assert apart(tape_edges(made, "programmed", polylines), edges_of(make)) < limit
+    made = by_rom(emulator, "skg", program_of(make), tmp_path)
+    assert apart(tape_edges(made, "programmed", polylines), edges_of(make)) < LOST_ON_TAPE.get(make, LIMIT)
 
 
-@pytest.mark.parametrize("runner", ["reference", "rom"])
+@pytest.mark.parametrize("polylines", [False, True])
 @pytest.mark.parametrize("make", drawings.ALL)
-def test_round_trip_without_drift(make: Callable[[], Drawing], runner: str, emulator: Path,
+def test_round_trip_without_drift(make: Callable[[], Drawing], polylines: bool, emulator: Path,
                                   tmp_path: Path) -> None:
     """The same on the tape of skg-nodrift; that it is one is found out."""
-    program = program_of(make)
-    made = (by_reference(program, False) if runner == "reference"
-            else by_rom(emulator, "skg-nodrift", program, tmp_path))
-    for polylines in (False, True):
-        assert apart(tape_edges(made, "machine", polylines), edges_of(make)) < LIMIT
-    assert apart(tape_edges(made, "auto"), edges_of(make)) < LIMIT
+    made = by_rom(emulator, "skg-nodrift", program_of(make), tmp_path)
+    for positions in ("machine", "auto"):
+        assert apart(tape_edges(made, positions, polylines), edges_of(make)) < LIMIT
+
+
+def row(make: Callable[[], Drawing]) -> str:
+    """A drawing's row in the table of docs/drift.md, by the reference."""
+    figures = []
+    for drift, positions in ((True, "programmed"), (False, "machine")):
+        made = by_reference(program_of(make), drift)
+        figures += [apart(tape_edges(made, positions, joints=joints), edges_of(make)) for joints in ("tape", "drawn")]
+    assert figures[1] < LOST_ON_TAPE.get(make, LIMIT)
+    assert figures[3] < LIMIT
+    name = make.__name__.replace("_", " ")
+    return f"| {name} | {len(made.tape.blocks)} | " + " | ".join(f"{figure:.2f}" for figure in figures) + " |\n"
+
+
+@pytest.mark.parametrize("make", drawings.ALL)
+def test_table_of_the_manual(make: Callable[[], Drawing]) -> None:
+    """Run as a program, this file writes the table anew."""
+    assert row(make) in PAGE.read_text()
 
 
 @pytest.mark.parametrize("make", drawings.ALL)
@@ -223,13 +236,13 @@ def rounded_contour(random: Random) -> Drawing:
 
 
 def contour_of_short_arcs(random: Random) -> Drawing:
-    """A polygon whose edges are lines or arcs of up to 40 degrees."""
+    """A polygon whose edges are lines or arcs of up to 28 degrees."""
     count, size = random.randint(3, 24), random.uniform(3, 40)
     middle = random.uniform(-20, 20), random.uniform(-20, 20)
     points = []
     for k in range(count):
         turn = 2 * pi * (k + random.uniform(-0.3, 0.3)) / count
-        bulge = tan(radians(random.uniform(-40, 40)) / 4) if random.random() < 0.7 else 0.0
+        bulge = tan(radians(random.uniform(-28, 28)) / 4) if random.random() < 0.7 else 0.0
         points.append((*polar(middle, size * random.uniform(0.7, 1), turn), bulge))
     return closed_polyline(points)
 
@@ -461,3 +474,11 @@ def test_too_many_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("skg.from_dxf._LAST_LINE", 20)
     with pytest.raises(UserError, match="the program would have .* lines, at most 20 fit"):
         program_of(drawings.ratchet)
+
+
+if __name__ == "__main__":
+    head = "| drawing | blocks |"
+    before, table = PAGE.read_text().split(head)
+    lines = table.split("\n\n", 1)
+    rows = "".join(row(make) for make in drawings.ALL)
+    PAGE.write_text(before + head + "\n".join(lines[0].split("\n")[:2]) + "\n" + rows + "\n" + lines[1])

@@ -17,7 +17,7 @@ POSITIONS = ("auto", "programmed", "machine")
 positions_option = click.option(
     "--positions", type=click.Choice(POSITIONS), default="auto", show_default=True,
     help="Start each block where the block before should have ended (programmed), or where the controller "
-         "really stands then (machine); auto: whichever closes the routes better.")
+         "really stands then (machine: tapes without drift); auto: found out from the tape.")
 
 #: A place in µm, whole or not.
 Pair = tuple[float, float]
