@@ -307,6 +307,14 @@ def test_any_tape_draws(items: list[Block]) -> None:
                 assert off(points, found).max() < 2 + 1e-6 * placed.block.length
 
 
+@pytest.mark.parametrize("block", ["B1B0B1GXNR1", "B1B1B1GXSR1", "B2B1B3GYNR1", "B2B2B1GYSR3"])
+def test_circles_of_a_few_micrometres(block: str) -> None:
+    tape = tapes.parse(f"{block}\r\n{block}\r\nDD\r\n".encode())
+    for drift in (False, True):
+        placed = [placed for route in estimate(tape, (0, 0), drift) for placed in route.blocks]
+        assert all(abs(ordinate) < 10 for one in placed for ordinate in (*one.start, *one.end, *one.centre))
+
+
 def test_program_is_as_a_person_writes_it() -> None:
     """`parts/die_plate.skg` was read and found good."""
     program = program_of(drawings.die_plate, 0.1)

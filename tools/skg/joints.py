@@ -185,8 +185,10 @@ class _Misses:
             if _is_curved(block):
                 radius, across = hypot(block.x, block.y), _across(block)
                 first, last = np.array(block.start) / radius, _end(block) / radius
-                self.parts[at] = [(place, way / last[across]) for place, way in (
-                    (joints[at], first), (joints[at + 1], -last), (self.centres[at], last - first))]
+                # By its count axis an arc ends at 0.7 across it, but for circles of a few µm.
+                if abs(last[across]) > 0.1:
+                    self.parts[at] = [(place, way / last[across]) for place, way in (
+                        (joints[at], first), (joints[at + 1], -last), (self.centres[at], last - first))]
 
     def none(self) -> Vector:
         """Roundings, all 0."""
