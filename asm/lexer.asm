@@ -133,7 +133,16 @@ LEXW2:  CALL    LEXCH
         INX     H
         INX     D
         JNC     LEXW2
-        POP     PSW             ; yes: HL-> behind it
+        MOV     A,B
+        CPI     TFROM
+        JNC     LEXW5
+        MOV     A,M             ; behind a function stands a blank or its parenthesis
+        CPI     CBLANK
+        JZ      LEXW5
+        CPI     CLPAR
+        DCX     D               ; (for LEXW4)
+        JNZ     LEXW3
+LEXW5:  POP     PSW             ; yes: HL-> behind it
         POP     D
         MOV     A,B
         STAX    D
