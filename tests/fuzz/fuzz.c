@@ -269,11 +269,13 @@ static void harmless_round(fuzz *f)
     type(f, n->text, n->length);
     run(f, 200000 + noise_random(n, 4000000));
     break_in(f);
+    check_fetches(f);
     if (word(f, f->at.pend) != pend || memcmp(before, f->board->cpu.mem + f->at.prog, pend - f->at.prog + 1)) {
         fail(f, "the program has changed", word(f, f->at.pend));
     }
     free(before);
     if (listing(f) != listed) {
+        check_fetches(f);
         fail(f, "LIST has changed", 0);
     }
     f->compared++;
