@@ -179,9 +179,9 @@ ITCHK:  LXI     H,VKIND
         DB      ESYN
 
 ; ITFIL - a fillet radius
-ITFIL:  CALL    NEEDEL          ; before or at the entry
-        CALL    NOFIL           ; two in a row
-        CALL    POSIT
+ITFIL:  CALL    POSIT
+        CALL    NEEDEL          ; before or at the entry
+        CALL    NOFIL           ; two in a row (leaves A = 0)
         INR     A
         STA     RFILW
         RST     5
@@ -206,7 +206,7 @@ NEEDEL: LDA     RELEMS
         DB      EGEOM
 
 ; NOFIL - demands that no fillet waits
-; Out: ERR 06   Clobbers A
+; Out: A = 0; ERR 06   Clobbers nothing else
 NOFIL:  LDA     RFILW
         ORA     A
         RZ

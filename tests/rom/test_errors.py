@@ -74,6 +74,10 @@ BAD_LINES = {
     "belt of nested circles": ("S=(O:9):((1,0):2)", 6),
     "line of one point": ("S=(1,2):(1,2)", 6),
     "BACK without a route": ("BACK", 6),
+    "fillet before the first element": ("CUT SQR 4,X,Y", 6),
+    "two fillets": ("CUT X,2,SQR 4,Y", 6),
+    "fillet of no size anywhere": ("CUT 1-1,X", 5),
+    "two fillets, one of no size": ("CUT X,2,1-2,Y", 5),
 }
 
 
