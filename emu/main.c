@@ -506,7 +506,8 @@ static int set_tape(session *s, const char *path)
     if (!bytes) {
         return complain(EXIT_USAGE, "%s", error);
     }
-    bool ended = !length || bytes[length - 1] == '\n' || bytes[length - 1] == '\r';
+    /* (an empty file becomes an empty line: LOAD waits for a first character) */
+    bool ended = length && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r');
     bool fits = board_tape(s->board, bytes, length) && (ended || board_tape(s->board, (const uint8_t *)"\n", 1));
     free(bytes);
     return fits ? 0 : complain(EXIT_ERR, "out of memory");

@@ -48,3 +48,10 @@ def test_skg80_says_that_a_run_ended_in_err(tmp_path: Path) -> None:
     done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=60)
     assert (done.returncode, done.stdout) == (1, b"")
     assert "ERR 05 LINE 10" in done.stderr.decode()
+
+
+def test_skg80_takes_an_empty_file_for_an_empty_program(tmp_path: Path) -> None:
+    part = tmp_path / "empty.skg"
+    part.write_text("")
+    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=10)
+    assert (done.returncode, done.stdout) == (0, b"DD\r\n")
