@@ -646,15 +646,6 @@ ROUTER: LDA     RITEMS
 
 ; Operations of the calculator that the route adds
 
-; QCA: a = C.  QNA: a = N.  VKIND with it
-XCA:    LXI     D,MCUR
-        JMP     XNA1
-XNA:    LXI     D,MNEXT
-XNA1:   LDAX    D               ; (for SAME and FETCH too, which has a turn in bit 7)
-        ANI     7FH
-        STA     VKIND
-        INX     D
-        JMP     GETA
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
 XSENS:  RST     5
         DB      QJC

@@ -74,6 +74,18 @@ OPCHRS: DB      "/*-+:#,"       ; operators, tightest (rank 7) first
 PUTA:   LXI     D,MA
         JMP     COPY15
 
+; XCA, XNA - QCA: a = C.  QNA: a = N.  VKIND with it.  (Operations of the route, which end as GETA)
+; XNA1 - the same for a record: kind, three numbers (for SAME and FETCH, which has a turn in bit 7)
+; In:  XNA1: DE -> record   Clobbers all
+XCA:    LXI     D,MCUR
+        JMP     XNA1
+XNA:    LXI     D,MNEXT
+XNA1:   LDAX    D
+        ANI     7FH
+        STA     VKIND
+        INX     D
+; (fall into GETA)
+
 ; GETA - copies a value to a0 a1 a2
 ; In:  DE -> from   Out: DE, HL behind   Clobbers A
 GETA:   LXI     H,MA
