@@ -247,17 +247,6 @@ ITPN3:  DB      LDX,SPX,LDY,SPY ; -
         INR     A
         JMP     ITDONE
 
-; PUTN - makes the value the next element
-; In:  a0 a1 a2, A = kind   Clobbers A, DE, HL
-PUTN:   LXI     H,MNEXT
-; (fall into PUTVAL)
-
-; PUTVAL - puts the value into a record: kind, three numbers
-; In:  a0 a1 a2, A = kind, HL -> where to   Out: HL behind   Clobbers A, DE
-PUTVAL: MOV     M,A
-        INX     H
-        JMP     PUTA
-
 ; GETR - wire offset of now; where none was set: 0
 ; Out: NR   Clobbers A, BC, DE, HL
 GETR:   LXI     D,NAMER

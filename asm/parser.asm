@@ -69,6 +69,17 @@ EVA3:   POP     PSW
 
 OPCHRS: DB      "/*-+:#,"       ; operators, tightest (rank 7) first
 
+; PUTN - makes the value the next element (for cut)
+; In:  a0 a1 a2, A = kind   Clobbers A, DE, HL
+PUTN:   LXI     H,MNEXT
+; (fall into PUTVAL)
+
+; PUTVAL - puts the value into a record: kind, three numbers (for repeat)
+; In:  a0 a1 a2, A = kind, HL -> where to   Out: HL behind   Clobbers A, DE
+PUTVAL: MOV     M,A
+        INX     H
+; (fall into PUTA)
+
 ; PUTA - copies the value in a0 a1 a2
 ; In:  HL -> to   Out: DE, HL behind   Clobbers A
 PUTA:   LXI     D,MA
