@@ -137,9 +137,8 @@ LEXW2:  CALL    LEXCH
         CPI     TFROM
         JNC     LEXW5
         MOV     A,M             ; behind a function stands a blank or its parenthesis
+        ANI     0FFH-(CLPAR-CBLANK) ; (no other character differs from a blank in this bit)
         CPI     CBLANK
-        JZ      LEXW5
-        CPI     CLPAR
         DCX     D               ; (for LEXW4)
         JNZ     LEXW3
 LEXW5:  POP     PSW             ; yes: HL-> behind it
