@@ -149,7 +149,7 @@ LEXW5:  POP     PSW             ; yes: HL-> behind it
         JNC     LEXNAM
         CPI     TREM
         RNZ
-        MVI     C,TEOL
+        MOV     C,A             ; (no character)
         MOV     A,M
         CPI     CBLANK          ; LIST puts one blank after REM
         JZ      LEXRAW
@@ -161,15 +161,13 @@ LEXRAW: INX     H
         INX     D
         MOV     A,M
         STAX    D
-        ORA     A
-        JZ      LEX3
         CMP     C
+        JZ      LEX2
+        ORA     A
         JNZ     LEXRAW
-LEX2:   INX     H               ; the character stands for itself
-        RET
-LEX3:   POP     B
+LEX3:   POP     B               ; LEX is left
         INX     D
-        INX     H
+LEX2:   INX     H
         RET
 
 LEXW3:  POP     H
