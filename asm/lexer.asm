@@ -24,23 +24,24 @@ GETL3:  LXI     H,GETL3         ; every key returns there
         PUSH    H
         LXI     D,WAIT2         ; waits for the next character, from the reader in LOAD, else
 INCH1:  CALL    BREAK           ; from the teletype
-        LDA     LOADF
-        ORA     A
+        INX     H               ; LOADF, behind KEYB
+        DCR     M
+        INR     M               ; (A is still the key)
+        DCX     H
         JZ      INCH2
         DCX     D
         MOV     A,D
         ORA     E
         JZ      GETL5           ; the reader has stopped
         IF      PTTY
+        MOV     A,M
         ELSE
         IN      PUNST
         ANI     RXRDY
         JZ      INCH1
         IN      PUNDT
-        DB      0FEH            ; CPI: skips the MOV
         ENDIF
-INCH2:  MOV     A,M             ; (HL-> KEYB, from BREAK)
-        ANI     7FH
+INCH2:  ANI     7FH             ; (HL-> KEYB, from BREAK)
         JZ      INCH1
         MVI     M,0             ; (in LOAD keys do not count)
         CPI     CEOF            ; (HL-> KEYB for every key)
