@@ -234,14 +234,14 @@ SIF:    CALL    EVNUM
         SUI     CLESS
         CPI     CGT-CLESS+1
         JNC     ERSYN
-        DCR     A
-        JZ      SIF2            ; =
+        DCR     A               ; behind = comes nothing, behind > but =,
+        JP      SIF1
+        MVI     A,2             ; behind < both = and >
+SIF1:   MOV     D,A
         RST     6
-        CMP     B
-        JZ      SIF2            ; << and >> are none: EVNUM sees the second
         SUI     CEQU
-        CPI     CGT-CEQU+1
-        JNC     SIF2
+        CMP     D
+        JNC     SIF2            ; (what else stands there EVNUM sees)
         RST     3               ; <= >= <>
         MOV     C,A
 SIF2:   PUSH    B
@@ -252,11 +252,11 @@ SIF2:   PUSH    B
         JNZ     SGOTO
         CALL    CMPNE           ; right with left
         POP     B
-        MVI     A,CEQU
-        JZ      SIF3
-        SBB     A               ; right is less: 0FFH
-        ANI     CGT-CLESS
-        ADI     CLESS           ; > or <
+        MVI     A,CLESS/4
+        RAL                     ; CY: right is less
+        RLC                     ; < or > (Z stays)
+        JNZ     SIF3
+        INR     A               ; < becomes =
 SIF3:   CMP     B
         JZ      SGOTO
         CMP     C
