@@ -437,7 +437,7 @@ ASK1:   CALL    PUTSI
 
 ; SLIST - command: LIST, LIST n, LIST n,m
 SLIST:  RST     6
-        LXI     B,-1            ; BC = last line to list
+        LXI     H,-1            ; HL = last line to list
         LXI     D,0             ; DE = first
         JZ      SLIS2
         CALL    LINENO
@@ -450,11 +450,11 @@ SLIST:  RST     6
         DB      CCOMMA
         CALL    LINENO
 SLIS1:  POP     D
-        MOV     B,H
-        MOV     C,L
-SLIS2:  RST     7
+SLIS2:  PUSH    H
+        RST     7
         CALL    FINDLN
 SLIS3:  CALL    LINE
+        POP     B               ; last
         RC
         MOV     A,C
         SUB     E
@@ -463,7 +463,6 @@ SLIS3:  CALL    LINE
         RC
         PUSH    B
         CALL    LISTLN
-        POP     B
         INX     H               ; check byte
         JMP     SLIS3
 
