@@ -253,7 +253,8 @@ NEGV1:  RST     5
 
 ; NAME - a name with its subscript worked out
 ; In:  A = its first token, taken   Out: DE = name   Clobbers all
-NAME:   SUI     TNAME
+NAME:   MOV     D,A             ; (all of it when a byte follows)
+        SUI     TNAME
         CPI     TSUB+14-TNAME
         JNC     ERSYN
         CPI     TSUB-TNAME
@@ -271,9 +272,7 @@ NAME:   SUI     TNAME
         ORA     D
         MOV     D,A
         RET
-NAME1:  ORI     TNAME
-        MOV     D,A
-        RST     3
+NAME1:  RST     3
         MOV     E,A
         RET
 
