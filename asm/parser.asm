@@ -223,15 +223,13 @@ SETK1:  MVI     M,0
 ; In:  A = its first token   Out: as EVAL; ERR 03 when it has none
 OPNAM:  CALL    NAME
         CALL    KINDD
-        MOV     A,B
-        STA     VKIND
         CALL    CHECK
-        RNZ
+        JNZ     BIN4            ; (geom: the value is of kind B)
         CALL    FIND
         JC      ERUNS
         XCHG
         CALL    GETA            ; (all of them, whatever follows a shorter one)
-        JMP     BIN4            ; (geom: the value is of kind B)
+        JMP     BIN4
 
 ; OPNEG - negates an operand
 OPNEG:  CALL    OPND
