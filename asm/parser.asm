@@ -292,17 +292,17 @@ KINDOF: LXI     B,KNUM*256+5
 
 ; FIND - looks a name up, the predefined ones last
 ; In:  DE = name
-; Out: CY clear: HL -> value, B = its kind, C = its bytes.  CY set: it has none
+; Out: B = kind, C = bytes; CY clear: HL -> value.  CY set: it has none
 ; Clobbers A, BC, HL
 FIND:   LHLD    VBOT
         CALL    FIND1
         RNC
+        CALL    KINDD
         MOV     A,E             ; none in RAM: O, X and Y are constants
         ORA     A
         STC
         RNZ
         MOV     A,D
-        CALL    KINDOF
         LXI     H,CONTAB
         CPI     TNAME+52        ; Y
         RZ
@@ -346,9 +346,7 @@ ASSIGN: CALL    GETREF
 SETREF: CALL    KINDD
         MOV     A,B
         CALL    KINDIS
-        PUSH    B
         CALL    FIND
-        POP     B
         JNC     SETR1
         PUSH    D
         LHLD    VBOT
