@@ -350,14 +350,13 @@ SETREF: CALL    KINDD
         JNC     SETR1
         PUSH    D
         LHLD    VBOT
-        MOV     A,L
-        SUB     C
+        MOV     A,C
+        CMA
         MOV     E,A
-        MOV     A,H
-        SBI     0
-        MOV     D,A
-        DCX     D
-        DCX     D
+        MVI     D,0FFH          ; DE = -1 less the bytes of the value
+        DAD     D
+        DCX     H
+        XCHG                    ; DE-> the new variable
         LHLD    RBEND           ; does it fit above the route buffer?
         CALL    CPHD
         JC      SETR2
