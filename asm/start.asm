@@ -123,8 +123,8 @@ STOR1:  MOV     M,A
         DCR     A
         CALL    SUMREC
         MOV     M,A             ; (no record: somewhere in the stack's free room)
-        LXI     H,LINUM
-        CALL    LINE1
+        LHLD    LINUM
+        XCHG
         CALL    FINDLN          ; HL-> its place
         JZ      STOR2           ; A = length of the line that it replaces
         XRA     A
