@@ -170,13 +170,13 @@ FNTAB   EQU OPTAB+2*(QSQRT-1)
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
 OPK:    MOV     B,A
+        INR     B               ; B = 1...3
         CALL    NOTURN
-        ORA     A
-        JZ      ERKIND          ; a number has none
-        CMP     B
-        JC      ERKIND          ; a point (1) has no third
+        ADD     A               ; a number (0) has none, a point (1) two, the others (2, 3)
+        CMP     B               ; all three
+        JC      ERKIND
 OPK1:   DCR     B
-        JM      SETNUM
+        JZ      SETNUM
         LXI     D,MA+5          ; each comes one place down
         CALL    GETA
         JMP     OPK1
