@@ -679,19 +679,6 @@ XNORMS: RST     5
         DB      QCA,QNORM,SB1,SB0 ; -
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET
-; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
-XXING:  RST     5
-        DB      QNA             ; -
-        DB      LA2,LO2,QADD,SA2 ; -
-        DB      QXCH,QCA        ; -             b = N
-        DB      LA2,LO1,QADD,SA2,QEND ; -
-        LDA     RTURN
-        ORA     A
-        CNZ     NEGVAL          ; -C*N = C*-N
-        LDA     NKIND
-        MVI     C,RSTAR
-        JMP     BINOPK
-
 ; FIRST goes on when it has K: the wire goes there
 FIRST1: RST     5
         DB      LKX,SGX,LKY,SGY,QJMP ; -        G = K

@@ -8,6 +8,19 @@
 ; about (0,0).  The result goes to a0 a1 a2.  Byte-code lines carry the float stack
 ; behind them, top last.
 
+; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
+XXING:  RST     5
+        DB      QNA             ; -
+        DB      LA2,LO2,QADD,SA2 ; -
+        DB      QXCH,QCA        ; -             b = N
+        DB      LA2,LO1,QADD,SA2,QEND ; -
+        LDA     RTURN
+        ORA     A
+        CNZ     NEGVAL          ; -C*N = C*-N
+        LDA     NKIND
+        MVI     C,RSTAR
+; (fall into BINOPK)
+
 ; BINOPK - carries out an operator
 ; In:  VKIND = kind of a, A = kind of b, C = rank   Out: as BINOP   Clobbers all
 BINOPK: LXI     H,VKIND
