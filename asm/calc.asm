@@ -1,5 +1,5 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: CALC, RUNBC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, and OPTAB
+; Offers: CALC, RUNBC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, XXCH, and OPTAB
 ; Uses:   float, geom (three operations that pop)
 ; Room:   240 bytes
 ;
@@ -206,7 +206,14 @@ ORET:   POP     H               ; CALC
         POP     H               ; code pointer
         RET
 
+; XXCH - exchanges a and b (QXCH)
+; Clobbers all
+XXCH:   LXI     D,MA
+        LXI     H,MB
+        MVI     C,15
+        DB      3AH             ; LDA: skips the MVI
 OSWP:   MVI     C,5
+; OSWP1 - exchanges C bytes at DE and HL, the first ones first (fit.asm comes here)
 OSWP1:  LDAX    D
         MOV     B,M
         MOV     M,A

@@ -1,5 +1,5 @@
 ; geom.asm - the operations of language.md table 2.1, as calculator code
-; Offers: BINOP, BINOPK, XXCH, BELT, ERGEO and the operations QDOT ... QXCH of ops.asm
+; Offers: BINOP, BINOPK, BELT, ERGEO and the operations QDOT ... QXCH of ops.asm
 ; Uses:   calc, float, parser (SETK, CHKRET, error stubs)
 ; Room:   610 bytes
 ;
@@ -280,13 +280,6 @@ GBELT:  DB      LA0,LA1                 ; x y
         DB      QDOT,QCRS,SA0,SA1       ; x y           (as in QROTV)
         DB      SB1,SB0                 ; -
         DB      QDOT,LA2,QADD,SA2,QRET  ; -
-
-; XXCH - exchanges a and b (QXCH)
-; Clobbers all
-XXCH:   LXI     D,MA
-        LXI     H,MB
-        MVI     C,15
-        JMP     OSWP1           ; (calc: exchanges C bytes at DE and HL)
 
 ; Operations of the calculator that geometry adds (entries in CALC's table)
 
