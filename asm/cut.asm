@@ -282,8 +282,12 @@ JOINED: CALL    CORNER
 
 ; NTOC - the next element becomes the current one
 ; Clobbers A, DE, HL
-NTOC:   LXI     D,MNEXT
-        LXI     H,MCUR
+NTOC:   LXI     H,MCUR
+; (fall into NCOPY)
+
+; NCOPY - copies the next element
+; In:  HL -> to   Clobbers A, DE, HL
+NCOPY:  LXI     D,MNEXT
 ; (fall into CPYEL)
 
 ; CPYEL - copies an element
@@ -315,9 +319,8 @@ FILLET: RST     5
         MOV     L,A
         MVI     H,0
         SHLD    RTURN           ; and RNAMED
-        LXI     D,MNEXT
         LXI     H,RKEPT
-        CALL    CPYEL
+        CALL    NCOPY
         RST     5
         DB      QXING           ; -             a = centre of the arc = b
         DB      LA0,SB0,LA1,SB1 ; -
@@ -328,7 +331,9 @@ FILLET: RST     5
         CALL    OFFCHK
         CALL    JOINED
         LXI     D,RKEPT
-        LXI     H,MNEXT
+; TON - an element becomes the next one (CLOSE calls it too)
+; In:  DE -> element   Clobbers A, DE, HL
+TON:    LXI     H,MNEXT
         JMP     CPYEL
 FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
 
@@ -425,9 +430,8 @@ FIRST:  CALL    OFFCHK
         LXI     H,RELEMS
         INR     M
         CALL    NTOC
-        LXI     D,MNEXT
         LXI     H,MFIRST
-        CALL    CPYEL
+        CALL    NCOPY
         LXI     H,FIRST1
         PUSH    H
         LDA     RFSTP           ; set when a point was written before
@@ -535,8 +539,7 @@ CLOSE1: LDA     RELEMS
         CALL    SAMEF
         JZ      CLOSE3          ; the last element is the first again
         LXI     D,MFIRST
-        LXI     H,MNEXT
-        CALL    CPYEL
+        CALL    TON
         CALL    ADDEL
 CLOSE3: RST     5
         DB      LCR,LFR,QSUB,QE6D ; -
