@@ -76,10 +76,13 @@ IMAG1:  LDA     RFILW
         RNZ                     ; one waits already
         JMP     ITEM2
 
-; OPENRT - demands an open route that is in memory whole
-; In:  HL = operation on its items   Out: ROP, RSTOP, HL = its first item = RSRC; ERR 06, ERR 09
-; Clobbers A
+; OPENRT - demands an open route that is in memory whole, prepares what is done to its items
+; In:  HL = operation on them, a = its right operand (a2 not scaled yet)
+; Out: ROP, RA RX RY, RT = 1, RSTOP, HL = its first item = RSRC; ERR 06, ERR 09   Clobbers all
 OPENRT: SHLD    ROP
+        RST     5
+        DB      LA0,SRA,Q1,SRT,LA1,SRX ; -
+        DB      LA2,LSC,QMUL,SRY,QEND ; -
         LDA     RITEMS
         ORA     A
         JZ      ERGEO
@@ -144,10 +147,7 @@ SREP:   CALL    JOINT
         CPI     KTURN
         JNZ     ERKIND
 SREP1:  RST     5
-        DB      LA0,SRA,Q0,SRT  ; -
-        DB      LA1,LSC,QMUL,SRX ; -
-        DB      LA2,LSC,QMUL,SRY ; -
-        DB      QEND
+        DB      LA1,LSC,QMUL,SA1,QEND ; -
         LXI     H,KTURN*256+2   ; #
         CALL    OPENRT
 SREP2:  LHLD    RCOUNT
@@ -157,8 +157,6 @@ SREP2:  LHLD    RCOUNT
         ORA     L
         RZ
         CALL    BREAK           ; (copies may need no block)
-        RST     5
-        DB      LRT,Q1,QADD,SRT,QEND ; -
         CALL    OPENR2
         LDA     RJOIN
         DB      0FEH            ; CPI: skips the MOV
@@ -166,6 +164,8 @@ SREP3:  MOV     A,M
         CALL    IMAGE
         CALL    STEP
         JNZ     SREP3
+        RST     5
+        DB      LRT,Q1,QADD,SRT,QEND ; -
         JMP     SREP2
 
 ; SSYM - statement: SYM line
@@ -175,10 +175,6 @@ SSYM:   CALL    JOINT
         MVI     A,KLIN
         CALL    EVKIND
         RST     7
-        RST     5
-        DB      LA0,SRA,Q1,SRT,LA1,SRX ; -
-        DB      LA2,LSC,QMUL,SRY ; -
-        DB      QEND
         LXI     H,KLIN*256+7    ; /
         CALL    NEEDEL          ; but a point
         CALL    OPENRT
