@@ -700,7 +700,7 @@ SBACK1: CALL    CLOSE
 ; Clobbers all
 HOME:   RST     5
         DB      LHX,LHY,QTOK,QJMP ; -           K = H
-        DB      HOME1-$
+        DB      ADVAN1-$
 
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K, W; RELEMS = 0: C is closed, no travel means the whole circle
@@ -712,14 +712,12 @@ ADVANC: RST     5
         DB      ADVAN2-$
         DB      QCRS            ; forward
         DB      QMU,QADD,QE6N   ; -
-ADVAN1: DB      LKX,SAX,LKY,SAY ; -             A = K
-HOME1:  DB      QVK,QEND        ; -
-        JMP     MOVE
+ADVAN1: DB      QVK,QJMP        ; -             A = K (for FIRST1 and HOME too)
+        DB      ARCL-$          ; (tape.asm: goes to MOVE)
 ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -
         DB      ADVAN3-$
         DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
-        DB      LKX,SAX,LKY,SAY ; -
         DB      QCRS,LC2,QSIG,QJMP ; s          < 0: more than half a turn
         DB      ARC-$           ; (tape.asm)
 ADVAN3: DB      QEND            ; no travel: the corner is the entry place

@@ -18,7 +18,7 @@ QXCH    EQU QOWN+10     ; ->      a and b exchanged
 QCA     EQU QOWN+11     ; ->      a = C
 QNA     EQU QOWN+12     ; ->      a = N
 QRND    EQU QOWN+13     ; mm -> whole um
-QVK     EQU QOWN+14     ; ->      V = K in whole um
+QVK     EQU QOWN+14     ; ->      V = K in whole um, A = K
 QJC     EQU QOWN+15     ; ->      jump when a is a circle
 QONEL   EQU QOWN+16     ; ->      ERR 06 when the point b is not on the element a
 QNORM   EQU QOWN+17     ; ->      a0 a1 = right normal of a at the point b

@@ -45,7 +45,7 @@ ARC:    DB      QVK,ST3         ; -
         DB      LA0,LA1,QHYP,QDUP,QADD ; 2r
         DB      LT4,QSUB,QJN    ; -             short; |d|^2 <= 2r, within 1/4 um:
         DB      ARC0-$
-ARCL:   DB      QEND            ;               a line (SEGMNT comes here too)
+ARCL:   DB      QEND            ;               a line (ADVANC comes here too)
         JMP     MOVE
 ; the centre goes along the chord to where both ends are equally far from it
 ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
@@ -62,7 +62,7 @@ ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
         DB      QDOT,QJN        ; -             far apart: no doubt
         DB      ARC1-$
 ARCL:   DB      QJMP            ;               short, and the sweep is not positive:
-        DB      MOVE0-$         ; a line (SEGMNT comes here too)
+        DB      MOVE0-$         ; a line (ADVANC comes here too)
         ENDIF
 ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
         DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
@@ -128,8 +128,11 @@ ARC9:
         DB      PUTB0-$
 
 ; MOVE - a straight move of the wire
-; In:  W, V   Out: W = V   Clobbers all
-MOVE:   RST     5
+; In:  W, V   Out: W = V   Clobbers all.  Byte-code jumps to MOVE0
+MOVE:
+        IF      NODRIFT
+        RST     5
+        ENDIF
 MOVE0:  DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
         DB      LVY,LWY,QSUB,QDUP,SA1,QABS,SBY ; -
         DB      LBX,LBY,QMAX,SBJ ; -
@@ -211,10 +214,10 @@ XROOT:  RST     5
         DB      QSQ,LA0,LA1,QSS,QSUB ; w^2-n
         DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root
         ENDIF
-; QVK: V = K in whole um
+; QVK: V = K in whole um; A = K, since the wire goes there
 XVK:    RST     5
-        DB      LKX,QRND,SVX            ; -
-        DB      LKY,QRND,SVY,QRET       ; -
+        DB      LKX,QDUP,SAX,QRND,SVX   ; -
+        DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -
 
 ; QUAD - quadrant of the vector a, each with its first axis (counter-clockwise)
 ; Out: C = its digit   Clobbers A, HL
