@@ -307,7 +307,7 @@ FILLET: RST     5
         RST     5
         DB      QNORMS,QJN      ; -
         DB      FILL9-$
-        DB      LCR,LNR,QSUB,QE6D ; -
+        DB      LCR,LNR,QE6D    ; -
         DB      LFI,QCRS,QSIG,QNEG ; -fi
         DB      QDUP,SO1,SO2    ; -
         DB      QCA,LO1,QSENS,QE6N ; -
@@ -413,13 +413,12 @@ CORNO:  LDA     RNAMED
 CORN9:  DB      QRET
 CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
         DB      QCA,QDIF,SA1,SA0 ; -            a = from the centre to P
-        DB      LCR,LNR,QSUB,QE6D ; -
+        DB      LCR,LNR,QE6D    ; -
         DB      LCR,LC2,QDIV,QJMP ; R/r
         DB      NAMED3-$
 NAMED1: DB      QDOT,QE6N       ; -             there and back
         DB      LPX,LPY,QTOK    ; -
-NAMED4: DB      LCR,LNR,QSUB    ; dR
-        DB      QE6D            ; -             no crossing any more
+NAMED4: DB      LCR,LNR,QE6D    ; -             no crossing any more
 NAMED2: DB      LCR             ; R
 NAMED3: DB      QXCH,QNEG,QREFL,QJMP ; -        b moved along a
         DB      ATOK-$
@@ -542,7 +541,7 @@ CLOSE1: LDA     RELEMS
         CALL    TON
         CALL    ADDEL
 CLOSE3: RST     5
-        DB      LCR,LFR,QSUB,QE6D ; -
+        DB      LCR,LFR,QE6D    ; -
         DB      LGX,LGY,QTOK,QEND ; -           b = G
         LXI     D,RCORN
         LXI     H,MKX
@@ -662,7 +661,7 @@ XONEL:  LDA     FITSM
         DB      XONEL2-$
 XONEL1: DB      QDIF,QHYP       ; distance
         DB      LA2,QABS        ; distance |r|
-XONEL2: DB      QSUB,QE6D,QRET  ; -
+XONEL2: DB      QE6D,QRET       ; -
 ; QNORM: a0 a1 = right normal of the element a at the point b
 XNORM:  RST     5
         DB      QJC

@@ -363,9 +363,9 @@ XMAX1:  LDAX    D
         XCHG
         JMP     COPY5
 
-; QE6D: takes a distance, ERR 06 when it is more than 1 um
+; QE6D: takes two numbers, ERR 06 when they are more than 1 um apart
 XE6D:   RST     5
-        DB      QABS,QMU,QSWP,QSUB      ; room
+        DB      QSUB,QABS,QMU,QSWP,QSUB ; room
         DB      QE6N,QRET               ; -
 ; QE6N: takes a number, ERR 06 when it is negative
 XE6N:   INX     H

@@ -12,7 +12,7 @@ QDOT    EQU QOWN+4      ; -> a0*b0+a1*b1
 QREFL   EQU QOWN+5      ; k ->    a0 a1 less k times b0 b1
 QROTV   EQU QOWN+6      ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
 QLEG    EQU QOWN+7      ; gap -> h  crossing of a line and a circle: distance from the foot
-QE6D    EQU QOWN+8      ; x ->    ERR 06 when more than 1 um from 0
+QE6D    EQU QOWN+8      ; x y ->  ERR 06 when more than 1 um apart
 QUNIT   EQU QOWN+9      ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
 QXCH    EQU QOWN+10     ; ->      a and b exchanged
 QCA     EQU QOWN+11     ; ->      a = C
