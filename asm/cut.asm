@@ -403,12 +403,9 @@ CORNO:  LDA     RNAMED
         STA     RTURN
         RST     5
         DB      QXING,QMU,STL   ; -
-        DB      LPX,SB0,LPY,SB1 ; -
-        DB      QDIF,QSS        ; d2^2
-        DB      LKX,LPX,QSUB    ; d2^2 dx
-        DB      LKY,LPY,QSUB    ; d2^2 dx dy
-        DB      QSS,QSUB        ; d2^2-d1^2
-        DB      QJN             ; -
+        DB      LPX,LA0,LPY,LA1,QWAY ; d2^2
+        DB      LPX,LKX,LPY,LKY,QWAY ; d2^2 d1^2
+        DB      QSUB,QJN        ; -
         DB      ATOK-$
 CORN9:  DB      QRET
 CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
@@ -514,9 +511,8 @@ SAMEL:  LDA     RLASTP
         ORA     A
         JZ      SAMEF
         RST     5
-        DB      LPX,LQX,QSUB    ; dx
-        DB      LPY,LQY,QSUB    ; dx dy
-        DB      QHYP            ; distance
+        DB      LPX,LQX,LPY,LQY,QWAY ; distance^2
+        DB      QSQRT           ; distance
         DB      QJMP
         DB      SAME1-$
 

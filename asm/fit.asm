@@ -1,5 +1,5 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
-; Offers: SFIT STOL FITEND QWAY
+; Offers: SFIT STOL FITEND
 ; Uses:   cut (ITEM3 GETR CPYEL, the cells FITN FITSM HELDN), parser, calc
 ; Room:   600 bytes
 ;
@@ -305,8 +305,3 @@ FITITM: STA     VKIND
         RST     5
         DB      SA1,SA0,L2R,SNR,QEND ; -
         JMP     ITEM3
-
-; QWAY: x2 x1 y2 y1 -> w*w; b = w: from (x1,y1) to (x2,y2)
-XWAY:   RST     5
-        DB      QSUB,SB1,QSUB,SB0 ; -
-        DB      LB0,QSQ,LB1,QSQ,QADD,QRET ; w*w

@@ -298,6 +298,11 @@ XDIF:   RST     5
 XCENT:  RST     5
         DB      QUNIT,LT3,QMU,QSUB,QE6N ; -
         DB      LA2,LB2,QSUB,QRET       ; e
+; QWAY: x2 x1 y2 y1 -> w*w; b = w: from (x1,y1) to (x2,y2)
+XWAY:   RST     5
+        DB      QSUB,SB1,QSUB,SB0       ; -
+        DB      LB0,LB1,QEND            ; wx wy
+; (fall into XSS)
 ; QSS: length of a vector, squared.  QHYP: length of a vector
 XSS:    RST     5
         DB      QSQ,QSWP,QSQ,QADD,QRET  ; x^2+y^2
