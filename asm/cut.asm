@@ -276,8 +276,7 @@ JOINED: CALL    CORNER
         DCR     A
         LXI     D,MKX
         LXI     H,RCORN
-        MVI     A,10
-        CZ      COPY            ; the end of the first element is kept
+        CZ      CPYPL           ; the end of the first element is kept
 ; (fall into NTOC)
 
 ; NTOC - the next element becomes the current one
@@ -291,8 +290,12 @@ NCOPY:  LXI     D,MNEXT
 ; (fall into CPYEL)
 
 ; CPYEL - copies an element
-; In:  DE -> from, HL -> to   Clobbers A, DE, HL
+; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A, BC
 CPYEL:  MVI     A,ELSIZE
+        DB      01H             ; LXI B: skips the MVI
+; CPYPL - copies a place
+; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
+CPYPL:  MVI     A,10
         JMP     COPY
 
 ; FILLET - puts the arc that rounds the corner between C and N before N
@@ -541,8 +544,7 @@ CLOSE3: RST     5
         DB      LGX,LGY,QTOK,QEND ; -           b = G
         LXI     D,RCORN
         LXI     H,MKX
-        MVI     A,10
-        CALL    COPY            ; K = end of the first element
+        CALL    CPYPL           ; K = end of the first element
         CALL    PASSED          ; the corner lies before the entry, not past it
         JMP     CLOSE7
 CLOSE4: LDA     CKIND           ; one element alone

@@ -118,8 +118,7 @@ SPAN:   LDA     MNODE1+10
         LHLD    HELDN
         MVI     H,HELD/256
         LXI     D,MNODE2
-        MVI     A,PLCSIZ
-        CALL    COPY
+        CALL    CPYPL
         SHLD    HELDN
         JMP     OUT3
 
@@ -196,8 +195,7 @@ TRY1:   DB      QEND
         DB      ST2,ST3,QEND    ; -             t2 t3 = tangent at the joint
         LXI     D,HELD
 TRY2:   LXI     H,MT0
-        MVI     A,PLCSIZ
-        CALL    COPY            ; t0 t1 = n
+        CALL    CPYPL           ; t0 t1 = n
         PUSH    D
         LXI     D,MT0
         CALL    ARCW
