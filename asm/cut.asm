@@ -280,12 +280,12 @@ JOINED: CALL    CORNER
 ; (fall into NTOC)
 
 ; NTOC - the next element becomes the current one
-; Clobbers A, DE, HL
+; Clobbers A, BC, DE, HL
 NTOC:   LXI     H,MCUR
 ; (fall into NCOPY)
 
 ; NCOPY - copies the next element
-; In:  HL -> to   Clobbers A, DE, HL
+; In:  HL -> to   Clobbers A, BC, DE, HL
 NCOPY:  LXI     D,MNEXT
 ; (fall into CPYEL)
 
@@ -335,7 +335,7 @@ FILLET: RST     5
         CALL    JOINED
         LXI     D,RKEPT
 ; TON - an element becomes the next one (CLOSE calls it too)
-; In:  DE -> element   Clobbers A, DE, HL
+; In:  DE -> element   Clobbers A, BC, DE, HL
 TON:    LXI     H,MNEXT
         JMP     CPYEL
 FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
