@@ -557,10 +557,10 @@ CLOSE4: LDA     CKIND           ; one element alone
         CALL    ADVANC
 CLOSE6: LXI     H,RELEMS
         DCR     M               ; at the entry still: ADVANC takes the whole circle
-CLOSE7: RST     5
+CLOSE7: CALL    NOFIL           ; there is no corner
+        RST     5
         DB      LGX,LGY,QTOK,QEND ; -           K = G, where the route was entered
-CLOSE8: CALL    NOFIL           ; there is no corner (ENDRT comes here at the end of an open route)
-        CALL    ADVANC
+CLOSE8: CALL    ADVANC
 ; (fall into RTDONE)
 
 ; RTDONE - the route is over; the buffer keeps it for RECUT
@@ -581,13 +581,14 @@ ENDRT:  CALL    FITEND
         RZ
         DCR     A
         JZ      ERGEO           ; a single item
+        CALL    NOFIL
         CALL    SAMEL
         JZ      CLOSE
         LDA     RLASTP
         ORA     A
         JZ      ERGEO           ; the end is no point
         CALL    PATC
-        JMP     CLOSE8          ; to P, unless a fillet waits
+        JMP     CLOSE8
 
 ; SFROM - statement: FROM point
 SFROM:  CALL    EVPNT
