@@ -189,7 +189,7 @@ OJZ:    MOV     A,M
         SUI     1               ; CY: zero
         DB      06H             ; MVI B: skips the STC
 OJMP:   STC
-OJMP1:  POP     H               ; CALC
+OJMP1:  POP     B               ; CALC
         POP     H
         MOV     A,M             ; distance
         JC      OJMP2
@@ -200,7 +200,8 @@ OJMP2:  MOV     E,A
         MOV     D,A
         DAD     D
         PUSH    H
-        JMP     CALC
+        PUSH    B
+        RET
 
 ORET:   POP     H               ; CALC
         POP     H               ; code pointer
