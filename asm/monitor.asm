@@ -475,7 +475,10 @@ NEW1:   LXI     H,PROG
 
 ; CLEAR - forgets variables and route: the state in which a run starts
 ; Out: HL = PROG-2   Clobbers all
-CLEAR:  CALL    CLRVAR
+CLEAR:  LHLD    VTOP
+        SHLD    VBOT
+        MVI     M,0
+; CLEAR1 - the same, but the variables stay
 CLEAR1: CALL    RUNINI
 ; (fall into CLRPTR)
 

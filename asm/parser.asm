@@ -1,5 +1,5 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL EVNUM EVPNT EVKIND EVINT ASSIGN GETREF SETREF PRVAL CMPNE CLRVAR
+; Offers: EVAL EVNUM EVPNT EVKIND EVINT ASSIGN GETREF SETREF PRVAL CMPNE
 ;         CHKRET NOTURN, GETA PUTA COPY and the stubs ERKIND ERRNG ERUNS
 ; Uses:   calc, float, geom (BINOP), monitor (CHKEND, the pointers)
 ; Room:   700 bytes
@@ -375,13 +375,6 @@ SETR2:  XCHG
 SETR1:  MOV     A,C
         LXI     D,MA
         JMP     COPY
-
-; CLRVAR - forgets all variables
-; In:  VTOP = last byte of RAM   Out: VBOT   Clobbers HL
-CLRVAR: LHLD    VTOP
-        SHLD    VBOT
-        MVI     M,0
-        RET
 
 ; GETREF - a name on the left side, or in READ and INPUT
 ; In:  TXTP -> name   Out: DE = name; ERR 03 for O, X, Y   Clobbers all

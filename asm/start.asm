@@ -233,8 +233,8 @@ RESE4:  SHLD    PEND            ; sound so far
         CALL    PUTSI
         DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
 RESE5:  CALL    VARSUM
-        CNZ     CLRVAR
-        CALL    CLEAR1
+        CNZ     CLEAR
+        CALL    CLEAR1          ; (once more does no harm)
         CALL    PUTSI
         DB      CCR,CLF,"SKG",0A0H
         DB      0FEH            ; CPI: skips the RST 7
