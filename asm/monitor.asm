@@ -486,7 +486,7 @@ CLEAR1: CALL    RUNINI
 ; Clobbers A, HL
 CLRPTR: LXI     H,GSTKE
         SHLD    GSP
-        LXI     H,PROG
+        MVI     L,PROG & 255    ; (in one page: a test looks)
         JMP     REST1
 
 ; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it

@@ -250,3 +250,9 @@ def test_jumps_of_the_calculator_reach_their_labels(name: str) -> None:
 def test_o_and_x_lie_in_the_page_of_y(name: str) -> None:
     """FIND loads the address of CONTAB, which is Y, and for O and X changes its low byte alone."""
     assert labels(name)["CONTAB"] % 0x100 + 10 < 0x100
+
+
+def test_the_program_begins_in_the_page_where_gosubs_stack_ends() -> None:
+    """CLRPTR loads the one address and for the other changes its low byte alone."""
+    names = labels("skg")
+    assert names["PROG"] // 0x100 == names["GSTKE"] // 0x100
