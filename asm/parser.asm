@@ -194,8 +194,7 @@ OPFLT:  RST     6
         LXI     H,MA
         CALL    COPY5
         XCHG
-        INX     H
-        SHLD    TXTP
+        CALL    NEXT1           ; TXTP = HL+1
 ; (fall into SETNUM)
 
 ; SETNUM - makes the value a number: a1 and a2 zero

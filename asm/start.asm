@@ -36,7 +36,7 @@ GAP18:  DS      18H-$
 ; RST 3 - NEXT: takes a token
 ; In:  TXTP   Out: A = token, Z at the line's end; TXTP behind it   Clobbers HL
 NEXT:   RST     6
-NEXT1:  INX     H               ; (READI takes an item here)
+NEXT1:  INX     H               ; (READI takes an item here, OPFLT a number)
         SHLD    TXTP
         RET
 
