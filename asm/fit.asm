@@ -197,10 +197,9 @@ TRY1:   DB      QEND
 TRY2:   LXI     H,MT0
         CALL    CPYPL           ; t0 t1 = n
         PUSH    D
-        LXI     D,MT0
-        CALL    ARCW
         RST     5
-        DB      QDRP,QDOT,SO1,QEND ; -
+        DB      LDX,LT0,QSUB,LT2,QMUL ; x       o1 = how far n lies before the joint
+        DB      LDY,LT1,QSUB,LT3,QMUL,QADD,SO1,QEND ; -
         LXI     D,MNODE1
         LDA     MO1+1
         ORA     A

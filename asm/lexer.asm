@@ -66,7 +66,7 @@ INCH2:  ANI     7FH             ; (HL-> KEYB, from BREAK)
         RST     2
         RET
 GETL4:  INX     H               ; take one back; a tape's RUBOUTs mean nothing
-        MOV     A,M             ; LOADF, behind KEYB
+        MOV     A,M             ; LOADF
         ORA     A
         RNZ
         DCR     C

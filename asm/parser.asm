@@ -1,6 +1,6 @@
 ; parser.asm - expressions, names and variables
 ; Offers: EVAL EVNUM EVPNT EVKIND EVINT ASSIGN GETREF SETREF PRVAL CMPNE
-;         CHKRET NOTURN, GETA PUTA COPY and the stubs ERKIND ERRNG ERUNS
+;         CHKRET NOTURN, GETA PUTA PUTN PUTVAL COPY, QCA QNA and the stubs ERKIND ERRNG ERUNS
 ; Uses:   calc, float, geom (BINOP), monitor (CHKEND, the pointers)
 ; Room:   700 bytes
 ;

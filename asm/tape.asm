@@ -95,7 +95,7 @@ ARC5:
         IF      NODRIFT
         DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
         ELSE
-        DB      LA0,LA1,QSS ; n        t5 = r: the root cut off ...
+        DB      LA0,LA1,QSS     ; n             t5 = r: the root cut off ...
         DB      QDUP,QSQRT,QFLR,ST5 ; n
         DB      LT5,QSQ,QSUB    ; n-r^2         ... n > r^2+r: nearer to r+1
         DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2

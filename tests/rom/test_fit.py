@@ -271,7 +271,7 @@ TOL_PROGRAMS, MOST_CLOSE = 120, 4
 @cache
 def tol_programs() -> list[tuple[str, Result]]:
     """Random programs with TOL, and what the reference makes of them."""
-    rng = Random(f"{SEED} mistakes")
+    rng = Random("1983 mistakes")  # always the same: what hunts on other seeds look for is differences
     programs = [curve_part(rng, TOL_FAMILIES) for _ in range(TOL_PROGRAMS)]
     return [(program, reference(program)) for program in programs]
 
@@ -309,10 +309,11 @@ def test_few_programs_are_close_calls_of_tol() -> None:
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_mistake_would_be_found(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each makes another tape of a program that nothing excuses."""
+    programs = tol_programs()  # before the mistake is made
     wrong = ModuleType("skg.ref.wrong_fit")
     monkeypatch.setitem(sys.modules, wrong.__name__, wrong)
     source = inspect.getsource(fit)
     assert MISTAKES[mistake][0] in source
     exec(source.replace(*MISTAKES[mistake]), wrong.__dict__)
     monkeypatch.setattr(cutter, "FittedCurve", wrong.Curve)
-    assert any(reference(program).tape != right.tape and not close_call(right) for program, right in tol_programs())
+    assert any(reference(program).tape != right.tape and not close_call(right) for program, right in programs)
