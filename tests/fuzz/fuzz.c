@@ -465,7 +465,7 @@ static void read_symbols(places *at, const char *path)
 }
 
 /* A line of the listing with bytes: `1A05   FE                  DB  0FEH ; comment`, a label and colon before the word.
- * A DB of one byte that is the opcode of CPI, MVI B or LXI B, to skip what is behind it, is an instruction too. */
+ * A DB of one byte that is the opcode of CPI, MVI B, LXI B or LDA, to skip what is behind it, is an instruction too. */
 static void read_listing(fuzz *f, const char *path)
 {
     char line[512];
@@ -489,7 +489,7 @@ static void read_listing(fuzz *f, const char *path)
             continue;
         }
         bool data = !strcmp(word_, "DB") || !strcmp(word_, "DW") || !strcmp(word_, "DS");
-        if (!data || (!strcmp(word_, "DB") && (first == 0xfe || first == 0x06 || first == 0x01))) {
+        if (!data || (!strcmp(word_, "DB") && (first == 0xfe || first == 0x06 || first == 0x01 || first == 0x3a))) {
             f->instruction[at] = true;
             count++;
         }
