@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from math import copysign, degrees, floor, pi, tan
+from math import degrees, pi, tan
 
 import click
 import ezdxf
@@ -101,8 +101,7 @@ def draw(routes: list[PlacedRoute], stops: list[tuple[float, float]], polylines:
 def lay_out(made: source.Made, start: tuple[float, float], positions: str, joints: str, is_program: bool,
             ) -> tuple[list[PlacedRoute], list[tuple[float, float]]]:
     """Return a tape's routes and stops in µm, its wire starting at `start` (mm); see `command` for the rest."""
-    # Rounded as positions are on tapes.
-    home = tuple(int(copysign(floor(abs(ordinate) * 1000 + 0.502), ordinate)) for ordinate in start)
+    home = tape.micrometres(start[0]), tape.micrometres(start[1])
     if joints == "tape":
         routes = place(made.tape, home, positions)
     else:

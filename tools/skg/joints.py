@@ -66,7 +66,7 @@ def is_without_drift(tape: Tape) -> bool:
 
 def _evidence_of_route(blocks: list[Block]) -> float:
     """Log likelihood that the blocks between two stops are without drift, against a tape with drift."""
-    arcs = [block for block in blocks if _is_curved(block)]
+    arcs = [block for block in blocks if block.is_arc]
     if not arcs:
         return 0.0
     evidence = sum(map(_evidence, arcs))
@@ -79,32 +79,14 @@ def _evidence_of_route(blocks: list[Block]) -> float:
 
 # Arcs -----------------------------------------------------------------------------------------------------
 
-def _is_curved(block: Block) -> bool:
-    """An arc that is no full circle."""
-    return not block.is_line and not block.is_full_circle
-
-
 def _is_drawn(block: Block) -> bool:
     """A circle, or an arc that is too long to be part of a fitted curve."""
     return abs(block.sweep) > _DRAWN
 
 
-def _across(block: Block) -> int:
-    """The axis (0: x) that an arc does not count."""
-    return "YX".index(block.axis)
-
-
-def _on_circle(block: Block, place: tuple[int, int]) -> Vector:
-    """A place about an arc's centre, moved onto the circle across the count axis."""
-    end, across = np.array(place, float), _across(block)
-    other = sqrt(max(0.0, block.x**2 + block.y**2 - end[1 - across] ** 2))
-    end[across] = other if end[across] >= 0 else -other
-    return end
-
-
 def _end(block: Block) -> Vector:
     """An arc's end about its centre: whole along the count axis, across it on the circle."""
-    return _on_circle(block, block.end)
+    return np.array(block.on_circle(block.end))
 
 
 @lru_cache(maxsize=100_000)
@@ -116,12 +98,12 @@ def _goes(block: Block) -> tuple[int, int]:
 def _end_on_machine(block: Block) -> Vector:
     """An arc's end where the controller stops: a tape without drift counts J as it does."""
     (xs, ys), (dx, dy) = block.start, _goes(block)
-    return _on_circle(block, (xs + dx, ys + dy))
+    return np.array(block.on_circle((xs + dx, ys + dy)))
 
 
 def _move(block: Block) -> Vector:
     """From a block's start to its end, not rounded."""
-    return _end(block) - block.start if _is_curved(block) else np.array(block.move, float)
+    return _end(block) - block.start if block.is_arc else np.array(block.move, float)
 
 
 def _same_radii(radii: dict[int, float]) -> Radii:
@@ -150,7 +132,7 @@ def _placed(blocks: list[Block], joints: list[Vector], centres: list[Vector]) ->
     """Blocks between their joints, arcs about the centres moved between them."""
     found = []
     for block, (start, end), centre in zip(blocks, pairwise(joints), centres, strict=True):
-        if _is_curved(block):
+        if block.is_arc:
             centre = _between(start, end, centre)
         found.append(Placed(block, _pair(start), _pair(end), None if block.is_line else _pair(centre)))
     return found
@@ -182,8 +164,8 @@ class _Misses:
         self.parts: list[list[tuple[int, Vector]]] = []
         for at, block in enumerate(blocks):
             self.parts.append([])
-            if _is_curved(block):
-                radius, across = hypot(block.x, block.y), _across(block)
+            if block.is_arc:
+                radius, across = hypot(block.x, block.y), block.across
                 first, last = np.array(block.start) / radius, _end(block) / radius
                 # By its count axis an arc ends at 0.7 across it, but for circles of a few µm.
                 if abs(last[across]) > 0.1:
@@ -199,7 +181,7 @@ class _Misses:
         found = np.array([self.none(), self.none()])
         for block, parts in zip(self.blocks, self.parts, strict=True):
             for place, way in parts:
-                found[_across(block), place] += way
+                found[block.across, place] += way
         return found
 
     def of(self, roundings: Vector) -> Vector:
@@ -207,7 +189,7 @@ class _Misses:
         found = np.zeros((len(self.blocks), 2))
         for at, (block, parts) in enumerate(zip(self.blocks, self.parts, strict=True)):
             for place, way in parts:
-                found[at, _across(block)] += way @ roundings[place]
+                found[at, block.across] += way @ roundings[place]
         return found
 
 
@@ -266,7 +248,7 @@ def _from_machine(blocks: list[Block], at: Pair, radii: Radii) -> tuple[list[Pla
     joints, centres = [np.array(at, float)], []
     for block, (start, end) in zip(blocks, pairwise(stands), strict=True):
         centre = np.array(start - block.start, float)
-        if _is_curved(block):
+        if block.is_arc:
             end = centre + _meant(block, joints[-1] - centre, radii.get(block.number))
         elif block.number in radii and not block.is_line:
             # A circle among circles of its size: half of what its radius is off is due to the start, half to the
@@ -287,7 +269,7 @@ def _meant(block: Block, start: Vector, radius: tuple[float, int] | None) -> Vec
     known (with how many arcs have it), that it was rounded to what `start` (the joint, about the centre) and end
     make of it.
     """
-    end, across = _end_on_machine(block), _across(block)
+    end, across = _end_on_machine(block), block.across
     centre = np.zeros(2)
     half = abs(block.sweep) / 2
     total = mean = 0.0
@@ -319,12 +301,12 @@ def _likelihood(block: Block, end: Vector) -> float:
     inside = (long + short) / 2 - off
     if inside <= 0:
         return 0.0
-    return min(1.0, inside / short if short else 1.0) / long * abs(end[_across(block)])
+    return min(1.0, inside / short if short else 1.0) / long * abs(end[block.across])
 
 
 def _evidence(block: Block) -> float:
     """Log likelihood of an arc on a tape without drift, against any other tape."""
-    start, end, across = np.array(block.start), _end_on_machine(block), _across(block)
+    start, end, across = np.array(block.start), _end_on_machine(block), block.across
     is_near = start @ end >= 0
     if is_near and abs(block.sweep) > np.pi:
         # The centre was not moved.

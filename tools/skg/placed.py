@@ -155,7 +155,7 @@ def closed_moves(blocks: list[Block]) -> list[tuple[int, int]]:
         gap = sum(move[axis] for move in moves)
         # How far the unrounded end lies from the rounded one, for the arcs that can give on this axis.
         doubts = {at: _doubt(block) for at, block in enumerate(blocks)
-                  if not block.is_line and not block.is_full_circle and "YX".index(block.axis) == axis}
+                  if block.is_arc and block.across == axis}
         if abs(gap) > len(doubts):
             continue
         way = -1 if gap > 0 else 1
@@ -169,10 +169,7 @@ def closed_moves(blocks: list[Block]) -> list[tuple[int, int]]:
 
 def _doubt(block: Block) -> float:
     """An arc's unrounded end minus its rounded one, across the count axis, µm."""
-    across = "YX".index(block.axis)
-    end, along = block.end[across], block.end[1 - across]
-    true = max(0, block.x**2 + block.y**2 - along**2) ** 0.5
-    return (true if end >= 0 else -true) - end
+    return block.on_circle(block.end)[block.across] - block.end[block.across]
 
 
 def _may_give(block: Block, axis: int, way: int) -> bool:

@@ -19,6 +19,7 @@ from skg import source
 from skg.errors import UserError
 from skg.gcode import Pair
 from skg.placed import Placed, PlacedRoute, extents, place, positions_option, stop_places
+from skg.tape import micrometres
 
 #: One colour for each tape (Okabe and Ito's palette, which colour-blind readers tell apart).
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -257,7 +258,7 @@ def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool,
     for at, name in enumerate(files):
         made = source.load(name, skg80, show_offset)
         x, y = start[at] if at < len(start) else made.start
-        home = round(x * 1000), round(y * 1000)
+        home = micrometres(x), micrometres(y)
         routes = place(made.tape, home, positions)
         sheets.append(Sheet(Path(name).name, routes, made.contour))
         stops.append(stop_places(made.tape, routes, home))

@@ -10,7 +10,7 @@ import re
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from math import atan2, hypot, isqrt, pi
+from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
 from pathlib import Path
 
 from skg.errors import UserError
@@ -86,6 +86,22 @@ class Block:
     def radius(self) -> int:
         """An arc's radius rounded to the µm, as J counts it."""
         return round_sqrt(self.x**2 + self.y**2)
+
+    @property
+    def is_arc(self) -> bool:
+        """True for an arc that is no full circle."""
+        return not self.is_line and not self.is_full_circle
+
+    @property
+    def across(self) -> int:
+        """The axis that the block does not count: 0 for x, 1 for y."""
+        return "YX".index(self.axis)
+
+    def on_circle(self, place: tuple[int, int]) -> tuple[float, float]:
+        """A place about an arc's centre, moved across the count axis onto the circle, on its own side of the centre."""
+        along, beside = place[1 - self.across], place[self.across]
+        moved = sqrt(max(0, self.x**2 + self.y**2 - along**2)) * (1 if beside >= 0 else -1)
+        return (moved, along) if self.across == 0 else (along, moved)
 
     @property
     def turn(self) -> int:
@@ -361,6 +377,11 @@ def scan(data: bytes, name: str = "-") -> tuple[Tape, list[Finding]]:
         findings.append(Finding(number + 1, 1, "expected DD, found the end of the tape"))
     findings.sort(key=lambda finding: (finding.block, finding.column))
     return Tape(name, tuple(items)), findings
+
+
+def micrometres(length: float) -> int:
+    """A length in mm as whole µm, rounded as places on a tape are (tape-3b.md): ⌊1000·|v| + 0.502⌋, with v's sign."""
+    return int(copysign(floor(1000 * abs(length) + 0.502), length))
 
 
 def read_bytes(path: str) -> bytes:
