@@ -1,7 +1,7 @@
 ; cut.asm - the route: from items to corners, fillets and closing
 ; Offers: SFROM SCUT SBACK ENDRT PUNDS ROUTER RUNINI RTNEW RBEMP
 ; Uses:   parser, geom, calc, tape
-; Room:   1500 bytes
+; Room:   1200 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -295,7 +295,7 @@ CPYEL:  MVI     A,ELSIZE
         DB      01H             ; LXI B: skips the MVI
 ; CPYPL - copies a place
 ; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
-CPYPL:  MVI     A,10
+CPYPL:  MVI     A,PLCSIZ
         JMP     COPY
 
 ; FILLET - puts the arc that rounds the corner between C and N before N
@@ -418,7 +418,7 @@ CORN1:  RST     5               ; between arcs of a curve: both run the same way
         DB      NAMED3-$
 NAMED1: DB      QDOT,QE6N       ; -             there and back
         DB      LPX,LPY,QTOK    ; -
-NAMED4: DB      LCR,LNR,QE6D    ; -             no crossing any more
+        DB      LCR,LNR,QE6D    ; -             no crossing any more
 NAMED2: DB      LCR             ; R
 NAMED3: DB      QXCH,QNEG,QREFL,QJMP ; -        b moved along a
         DB      ATOK-$
@@ -679,6 +679,7 @@ XNORMS: RST     5
         DB      QCA,QNORM,SB1,SB0 ; -
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET
+
 ; FIRST goes on when it has K: the wire goes there
 FIRST1: RST     5
         DB      LKX,SGX,LKY,SGY,QJMP ; -        G = K

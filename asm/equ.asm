@@ -134,6 +134,7 @@ MKX     EQU MREG+230
 MO1     EQU MREG+280
 MBX     EQU MREG+290
 ELSIZE  EQU 21          ; bytes of an element
+PLCSIZ  EQU 10          ; of a place
 L1X     EQU 040H
 S1X     EQU 080H        ; M0 node 1 of FIT: place,
 L1Y     EQU 041H

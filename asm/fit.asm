@@ -19,7 +19,6 @@
 ; and change places, since the byte-code knows but nodes 1 and 2.
 
 NODSIZ  EQU 25          ; bytes of a node: place, tangent, wire offset
-PLCSIZ  EQU 10          ; of a place in HELD
 
 ; STOL - statement: TOL number
 STOL:   CALL    FITEND

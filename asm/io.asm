@@ -1,7 +1,7 @@
 ; io.asm - teletype, punch and reader
 ; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF, BREAK, PUNON PUNOFF PAPON, SSAVE
 ; Uses:   monitor (the cells, SLIST)
-; Room:   280 bytes
+; Room:   130 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it

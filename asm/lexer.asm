@@ -1,7 +1,7 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LEXCH LEXDIG LEXDEC LISTLN PRNUM KEYTAB
 ; Uses:   float (LEXNUM PRDEC DECOUT), parser (SUBCHK), io (BREAK PUTS CRLF, the ports), start (ADDA)
-; Room:   560 bytes
+; Room:   620 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses

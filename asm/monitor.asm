@@ -2,7 +2,7 @@
 ; Offers: READY RUNLP DIRECT STMT ERR ERR4 LINENO FINDLN NEW1 CLEAR and the
 ;         statements and commands that do not cut; the cells below
 ; Uses:   everything
-; Room:   600 bytes
+; Room:   780 bytes
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->

@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: SSYM SREP SRECUT SSCALE, RECORD, CPHD
 ; Uses:   cut (ITEM2, CLOSE, HOME), parser, geom
-; Room:   300 bytes
+; Room:   410 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in

@@ -2,7 +2,7 @@
 ; Offers: the restarts of equ.asm and the routines in the gaps between them
 ;         (CHECK, ADDA, ERMEM, ERSYN, ERDATA), SREM, SFREE, RESET, VARSUM
 ; Uses:   io (PUTC1, the ports), calc (CALC), monitor
-; Room:   330 bytes
+; Room:   390 bytes
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
 ; grows past it; a test looks at the GAP labels.
