@@ -1,7 +1,7 @@
 # SKG: `make run` cuts an example before your eyes, `make test` checks everything.
 #
 #   make          the emulator, build/skg80: needs gcc alone
-#   make rom      roms/skg.bin .hex .lst .sym and the other boards' images from asm/: needs Python and node
+#   make rom      roms/skg.bin .hex .sym and the other boards' images, build/skg.lst, from asm/: needs Python and node
 #   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
 PYTHON ?= python3

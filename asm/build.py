@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Assemble the SKG firmware and say where the bytes went.
 
-    asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] [--variant] OUT
+    asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] [--variant] [--listing FILE] OUT
 
-writes OUT.bin (padded to 8,192 bytes), OUT.hex, OUT.lst and OUT.sym and prints bytes per source file. A variant of the
-ROM for another board differs in few lines: --variant writes the image alone, .bin and .hex, and prints one line.
+writes OUT.bin (padded to 8,192 bytes), OUT.hex and OUT.sym and prints bytes per source file. A variant of the ROM for
+another board differs in few lines: --variant writes the image alone, .bin and .hex, and prints one line. The
+assembler's listing goes to FILE.
 The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from node_modules.
 """
 
@@ -102,6 +103,7 @@ def main() -> None:
     parser.add_argument("--files", help="other source files, comma separated")
     parser.add_argument("--limit", type=int, default=ROM_SIZE)
     parser.add_argument("--variant", action="store_true", help="the image alone, and no table of bytes")
+    parser.add_argument("--listing", type=Path, metavar="FILE")
     parser.add_argument("out", type=Path)
     args = parser.parse_args()
     options = dict(OPTIONS)
@@ -127,9 +129,11 @@ def main() -> None:
     padded = image.ljust(ROM_SIZE, b"\xff")
     args.out.with_suffix(".bin").write_bytes(padded)
     args.out.with_suffix(".hex").write_text(intel_hex(padded))
+    if args.listing:
+        args.listing.parent.mkdir(parents=True, exist_ok=True)
+        args.listing.write_text(listing)
     if args.variant:
         return
-    args.out.with_suffix(".lst").write_text(listing)
     names = sorted((v, k) for k, v in symbols.items() if not k.startswith("ZB"))
     args.out.with_suffix(".sym").write_text("".join(f"{v:04X} {k}\n" for v, k in names))
 

@@ -1,4 +1,4 @@
-"""What docs/language.md and the README show is what happens; run as a program, this writes them anew.
+"""What docs/manual.md and the README show is what happens; run as a program, this writes them anew.
 
 A fence ```skg holds a program; the fences ```paper and ```tape after it what it prints and punches. A word
 behind ```skg names its picture, `input=` what the operator answers. A fence ```prompt holds lines that begin
@@ -24,7 +24,7 @@ from skg.ref.operations import OPERATIONS
 from skg.ref.values import C, D, P, S, T
 
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "language.md"
+PAGE = ROOT / "docs" / "manual.md"
 README = ROOT / "README.md"
 FIRMWARE = ROOT / "docs" / "firmware.md"
 PICTURES = ROOT / "docs" / "pictures"

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-TARGETS = ["build/fuzz", "build/asan/fuzz-rom"]
+TARGETS = ["build/skg.lst", "build/fuzz", "build/asan/fuzz-rom"]
 
 
 @pytest.fixture(scope="session", autouse=True)

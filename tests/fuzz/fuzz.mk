@@ -10,9 +10,9 @@ build/fuzz: $(FUZZ_SOURCES) $(FUZZ_HEADERS) build/emu/i8080.o
 build/asan/fuzz-rom: $(FUZZ_SOURCES) $(FUZZ_HEADERS) build/asan/i8080.o
 	$(EMU_CC) $(EMU_ASAN) -O1 -o $@ $(FUZZ_SOURCES) build/asan/i8080.o
 
-fuzz: build/fuzz build/asan/fuzz-rom
-	build/asan/fuzz-rom --lst roms/skg.lst --seed $(SEED) --bytes $$(($(BYTES) / 20)) examples/*.skg
-	build/fuzz --lst roms/skg.lst --seed $(SEED) --bytes $(BYTES) examples/*.skg
+fuzz: build/fuzz build/asan/fuzz-rom build/skg.lst
+	build/asan/fuzz-rom --lst build/skg.lst --seed $(SEED) --bytes $$(($(BYTES) / 20)) examples/*.skg
+	build/fuzz --lst build/skg.lst --seed $(SEED) --bytes $(BYTES) examples/*.skg
 	build/fuzz --rom roms/skg-8251.bin --board 8251 --seed $(SEED) --bytes $$(($(BYTES) / 10)) examples/*.skg
 	build/fuzz --rom roms/skg-tty.bin --punch-tty --seed $(SEED) --bytes $$(($(BYTES) / 10)) examples/*.skg
 

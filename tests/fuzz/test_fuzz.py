@@ -14,6 +14,7 @@ from skg.machine import symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
+LISTING = ROOT / "build" / "skg.lst"
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 FAST, SANITIZED = "build/fuzz", "build/asan/fuzz-rom"
 
@@ -37,7 +38,7 @@ def fuzz(program: str, seed: int, count: int, *options: str | Path) -> subproces
 
 def listed(*options: str | Path) -> list[str | Path]:
     """The option for the standard ROM's listing, behind others."""
-    return [*options, "--lst", ROM.with_suffix(".lst")]
+    return [*options, "--lst", LISTING]
 
 
 def check(record: Record, done: subprocess.CompletedProcess[str], count: int) -> None:

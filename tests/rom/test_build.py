@@ -22,7 +22,7 @@ from skg.machine import symbols
 ROMS = ROOT / "roms"
 ROM_SIZE = 8192
 #: Every image: options of asm/build.py, and what of it is committed.
-IMAGE, ALL = (".bin", ".hex"), (".bin", ".hex", ".lst", ".sym")
+IMAGE, ALL = (".bin", ".hex"), (".bin", ".hex", ".sym")
 VARIANTS = {
     "skg": ([], ALL),
     "skg-8251": (["--set", "BRD51=1"], IMAGE),
@@ -151,10 +151,11 @@ def built(name: str) -> dict[str, bytes]:
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch) / name
         done = subprocess.run(
-            [sys.executable, ROOT / "asm" / "build.py", *VARIANTS[name][0], out], capture_output=True, text=True
+            [sys.executable, ROOT / "asm" / "build.py", "--listing", out.with_suffix(".lst"), *VARIANTS[name][0], out],
+            capture_output=True, text=True,
         )
         assert done.returncode == 0, done.stdout + done.stderr
-        return {suffix: out.with_suffix(suffix).read_bytes() for suffix in ALL}
+        return {suffix: out.with_suffix(suffix).read_bytes() for suffix in (*ALL, ".lst")}
 
 
 def listed(name: str) -> list[Line]:
