@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Which source file of the firmware leans on which: read from the sources, and written into their headers.
+
+    asm/rooms.py                prints the graph, each file above those that it leans on, and what goes the other way
+    asm/rooms.py FILE           what one file offers, and to whom; what it uses, and of whom
+    asm/rooms.py --headers      writes the lines Offers: and Uses: of every header anew
+
+A name belongs to the file that defines it, as a label or by EQU. A file uses another one when it names something of
+it in an instruction, a DB, DW or EQU. An operation of the calculator (`QCRS`) belongs to the file of its routine
+(`XCRS`), which OPTAB tells; a restart to start.asm. What equ.asm defines belongs to all.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import textwrap
+from collections import defaultdict
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ASM = Path(__file__).resolve().parent
+#: Belongs to everybody.
+COMMON = "equ"
+
+DEFINITION = re.compile(r"^(\w+)(?::|\s+EQU\b)")
+#: An instruction or directive, then its operands.
+STATEMENT = re.compile(r"^(?:\w+:)?\s*(?:\w+\s+EQU|\w+)\s+(.*)")
+WORD = re.compile(r"(?<![\w&])[A-Z][A-Z0-9]*\b")
+TEXT = re.compile(r'"[^"]*"')
+OPERATION = re.compile(r"^(Q\w+)\s+EQU\s+(?:(\w+)H|QOWN\+(\d+))\b")
+TABLE = re.compile(r"(?:OPTAB:)?\s+DW\s+(.*)")
+RESTART = re.compile(r"\bRST\s+([1-7])")
+#: A header's line, with those that go on with it, further in.
+OFFERS = re.compile(r"^; Offers:.*\n(?:;  +.*\n)*", re.M)
+USES = re.compile(r"^; Uses:.*\n(?:;  +.*\n)*", re.M)
+
+
+@dataclass
+class Room:
+    """One source file: its lines, the names that it defines, and what it uses: names by the file they belong to."""
+
+    name: str
+    lines: list[str]
+    defines: list[str] = field(default_factory=list)
+    uses: dict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+
+
+def code(line: str) -> str:
+    """A line without its comment and texts."""
+    return TEXT.sub("", line).split(";")[0].rstrip()
+
+
+def operations(rooms: dict[str, Room]) -> dict[str, str]:
+    """Routine by operation of the calculator, from the numbers of the one and the order of OPTAB."""
+    numbers: dict[str, int] = {}
+    routines: list[str] = []
+    in_table = False
+    for room in rooms.values():
+        for line in room.lines:
+            if found := OPERATION.match(line):
+                numbers[found[1]] = int(found[2], 16) if found[2] else numbers["QOWN"] + int(found[3])
+            in_table |= line.startswith("OPTAB:")
+            if in_table and (table := TABLE.match(code(line))):
+                routines += [name.strip() for name in table[1].split(",")]
+        if in_table and room.name != "calc":
+            break
+    numbers.pop("QOWN", None)
+    return {name: routines[n - 1] for name, n in numbers.items() if 1 <= n <= len(routines)}
+
+
+def read(files: Collection[str]) -> dict[str, Room]:
+    """All rooms, in the order of the ROM."""
+    rooms = {name: Room(name, (ASM / f"{name}.asm").read_text().splitlines()) for name in files}
+    owner: dict[str, str] = {}
+    for room in rooms.values():
+        room.defines = [found[1] for line in room.lines if (found := DEFINITION.match(line))]
+        owner |= dict.fromkeys(room.defines, room.name)
+    routines = operations(rooms)
+    for room in rooms.values():
+        for line in map(code, room.lines):
+            if room.name != "start" and (restart := RESTART.search(line)):
+                room.uses["start"].add(f"RST{restart[1]}")
+            operands = STATEMENT.match(line)
+            for name in WORD.findall(operands[1]) if operands else ():
+                home = owner.get(routines.get(name, name)) or owner.get(name, COMMON)
+                if home not in (room.name, COMMON):
+                    room.uses[home].add(name)
+    return rooms
+
+
+def leans(rooms: dict[str, Room], hooks: Collection[str] = ()) -> dict[str, list[str]]:
+    """The files that each file leans on; what is named in `hooks` does not count."""
+    return {room.name: [other for other, names in room.uses.items() if names - set(hooks)] for room in rooms.values()}
+
+
+def knots(edges: dict[str, list[str]]) -> list[list[str]]:
+    """Files that lean on each other round about, in one group; the groups from the lowest up (Tarjan)."""
+    index: dict[str, int] = {}
+    low: dict[str, int] = {}
+    stack: list[str] = []
+    found: list[list[str]] = []
+
+    def visit(name: str) -> None:
+        index[name] = low[name] = len(index)
+        stack.append(name)
+        for other in edges[name]:
+            if other not in index:
+                visit(other)
+                low[name] = min(low[name], low[other])
+            elif other in stack:
+                low[name] = min(low[name], index[other])
+        if low[name] == index[name]:
+            at = stack.index(name)
+            found.append(sorted(stack[at:]))
+            del stack[at:]
+
+    for name in edges:
+        if name not in index:
+            visit(name)
+    return found
+
+
+def offered(rooms: dict[str, Room], room: Room) -> dict[str, set[str]]:
+    """What other files use of a file: names by file."""
+    return {other.name: other.uses[room.name] for other in rooms.values() if room.name in other.uses}
+
+
+def header(rooms: dict[str, Room], room: Room) -> tuple[str, str]:
+    """The lines Offers: and Uses: as they should be."""
+    wanted = set().union(*offered(rooms, room).values()) if room.name != COMMON else set()
+    names = [name for name in dict.fromkeys(room.defines) if name in wanted]
+    names = [name for name in sorted(wanted) if name.startswith("RST")] + names
+
+    def lines(word: str, items: list[str]) -> str:
+        text = " ".join(items) or "nothing"
+        return textwrap.fill(text, 100, initial_indent=f"; {word:8}", subsequent_indent=";         ") + "\n"
+
+    return lines("Offers:", ["names for all"] if room.name == COMMON else names), lines("Uses:", sorted(room.uses))
+
+
+def main() -> None:
+    """Command line."""
+    from build import FILES
+
+    rooms = read(FILES)
+    if sys.argv[1:] == ["--headers"]:
+        for room in rooms.values():
+            path = ASM / f"{room.name}.asm"
+            text = path.read_text()
+            for shape, line in zip((OFFERS, USES), header(rooms, room), strict=True):
+                text = shape.sub(lambda _, line=line: line, text, count=1)
+            path.write_text(text)
+    elif len(sys.argv) > 1:
+        room = rooms[sys.argv[1].removesuffix(".asm")]
+        for other, names in offered(rooms, room).items():
+            print(f"  for {other:10} {' '.join(sorted(names))}")
+        for other, names in room.uses.items():
+            print(f"  of  {other:10} {' '.join(sorted(names))}")
+    else:
+        for group in knots(leans(rooms)):
+            print("  " + " ".join(group))
+        pairs = [f"{a}-{b}" for a in rooms for b in rooms if a < b and b in rooms[a].uses and a in rooms[b].uses]
+        print(f"  {len(pairs)} mutual pairs: {' '.join(pairs)}")
+
+
+if __name__ == "__main__":
+    main()
