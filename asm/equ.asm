@@ -45,7 +45,7 @@ CLTX    EQU 58H
 ;   RST 5 / DB ...  CALC    byte-code follows, up to kEND
 ;   RST 6           PEEK    A = next token, pointer stays
 
-; ---- Errors (language.md section 6) ----------------------------------------
+; ---- Errors (language.md, section 6) ----------------------------------------
 ESYN    EQU 1           ; not understood
 ELINE   EQU 2           ; no such line, RETURN without GOSUB
 EUNSET  EQU 3           ; name without a value

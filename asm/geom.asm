@@ -1,4 +1,4 @@
-; geom.asm - the operations of language.md table 2.1, as calculator code
+; geom.asm - the operations of language.md, section 2.1, as calculator code
 ; Offers: BINOP, BINOPK, BELT, ERGEO and the operations QDOT ... QXCH of ops.asm
 ; Uses:   calc, float, parser (SETK, CHKRET, error stubs)
 ; Room:   610 bytes

@@ -5,7 +5,7 @@
 ; Room:   700 bytes
 ;
 ; Grammar (tokens, equ.asm):
-;   expression = operand { operator operand }      priorities of language.md, 2
+;   expression = operand { operator operand }      priorities of language.md, section 2
 ;   operand    = number | name | "(" expression ")" | "-" operand
 ;              | function operand
 ;   name       = two bytes | letter index, expression, "]"

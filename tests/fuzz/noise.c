@@ -84,8 +84,8 @@ static void name(noise *n, const char *letters)
 
 static const char *const numbers = "ADRIJ", *const points = "PVO", *const circles = "CBT", *const lines = "SXY";
 
-/* An expression of a kind: D number, P point, C circle, S line. The rows are those of table 2.1; in a row D P C S
- * stand for operands, the rest for itself. */
+/* An expression of a kind: D number, P point, C circle, S line. The rows are those of language.md, section 2.1; in
+ * a row D P C S stand for operands, the rest for itself. */
 static void expression(noise *n, char kind, unsigned depth)
 {
     static const char *const rows_d[] = {

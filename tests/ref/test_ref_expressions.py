@@ -233,7 +233,7 @@ def test_error_1_stops_loading_and_marks_the_place() -> None:
     assert result.tape == b""
 
 
-# Identities of the book, sections 5 to 8 ------------------------------------------------------------------
+# Identities of the SKG book, its sections 5 to 8 --------------------------------------------------------------
 
 coordinate = st.decimals(-200, 200, places=3).map(lambda d: real.Real(str(d)))
 angle = st.decimals(-360, 360, places=2).map(lambda d: real.Real(str(d)))

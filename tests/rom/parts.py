@@ -418,7 +418,7 @@ NUMBERS, POINTS, CIRCLES, LINES = "ADIJ", "PV", "CBT", "S"
 
 
 def expression(rng: Random, kind: str, depth: int) -> str:
-    """A random expression of a kind (D, P, C, S) from the rows of table 2.1, in full parentheses or none."""
+    """A random expression of a kind (D P C S) by the rows of language.md, section 2.1, in all parentheses or none."""
 
     def e(wanted: str) -> str:
         return expression(rng, wanted, depth - 1)

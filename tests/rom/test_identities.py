@@ -1,4 +1,4 @@
-"""The identities of the SKG book, sections 5 to 8, at the prompt, with values of every size; and the table of pairs."""
+"""The identities of the SKG book (its sections 5 to 8) at the prompt, for values of every size; the table of pairs."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ def test_priorities(a: str, b: str, c: str) -> None:
     same(f"({a})-({b})*({c})", f"({a})-(({b})*({c}))", exact=True)
 
 
-#: language.md, table 2.1: operators in the order of their ranks, with the pairs of kinds that each combines.
+#: language.md, section 2.1: operators in the order of their ranks, with the pairs of kinds that each combines.
 KINDS = "DPCST"
 PAIRS = {
     ",": "DD PP PS SP SS",
@@ -184,7 +184,7 @@ SOME = {"D": "3", "P": "(25,32)", "C": "((40,30):28)", "S": "(X:20#50)", "T": "(
 
 
 def test_table_of_pairs_holds_together() -> None:
-    """GEOTAB: its distances lead to labels of byte-code, its keys are the pairs of table 2.1, each of them once."""
+    """GEOTAB: its distances lead to labels of byte-code, its keys are the pairs of language.md, section 2.1."""
     image = ROM.read_bytes()
     names = symbols(ROM.with_suffix(".sym").read_text())
     at, keys, labels = names["GADD"], [], {address for name, address in names.items() if name[0] == "G"}

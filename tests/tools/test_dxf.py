@@ -38,7 +38,7 @@ PAGE = ROOT / "docs" / "drift.md"
 LAYERS = {drawings.cam: ("CAM",)}
 #: A drawing made from its tape again is everywhere within this of the first one, µm.
 LIMIT = 1.0
-#: Where the standard tape has lost more (docs/drift.md, "Back to the drawing").
+#: Where the standard tape has lost more (docs/drift.md, section "Back to the drawing").
 LOST_ON_TAPE = {drawings.gear_wheel: 6.0, drawings.turbine_blade: 1.2}
 
 #: A program may miss the drawing by this, µm: the tolerance of FIT's nodes, which is tried at points of the curve,
@@ -255,7 +255,7 @@ def closed_polyline(points: list[tuple[float, float, float]]) -> Drawing:
 
 @pytest.mark.parametrize(("contour", "limit"), [(contour_of_short_arcs, LIMIT), (rounded_contour, 2.0)])
 def test_any_contour_without_drift(contour: Callable[[Random], Drawing], limit: float) -> None:
-    """The bounds of docs/drift.md, "Back to the drawing"; SKG_SEED and SKG_CONTOURS give other and more contours."""
+    """The bounds of docs/drift.md, section "Back to the drawing"; SKG_SEED, SKG_CONTOURS: other and more contours."""
     found = {}
     for seed in range(SEED, SEED + CONTOURS):
         drawing = contour(Random(seed))

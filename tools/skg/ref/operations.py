@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from skg.ref import real
 from skg.ref.fault import Code, Fault
-from skg.ref.geometry import belt, circle, crossings, mirrored, parallel, through, turned, unit
+from skg.ref.geometry import belt, circle, crossings, mirrored, parallel, turned, unit
 from skg.ref.real import ZERO, Real, in_range
 from skg.ref.values import C, Circle, D, Line, P, Point, S, T, Turn, Value, kind
 
@@ -53,7 +53,7 @@ OPERATIONS: dict[tuple[str, str, str], _Operation] = {
     (S, ":", D): parallel,
     (S, ":", P): _same_direction,
     (S, ":", C): lambda s, c: _same_direction(s, c.centre, c.r),
-    (P, ":", P): through,
+    (P, ":", P): lambda p, q: belt(_as_circle(p), _as_circle(q)),
     (C, ":", C): belt,
     (C, ":", P): lambda c, p: belt(c, _as_circle(p)),
     (P, ":", C): lambda p, c: belt(_as_circle(p), c),
