@@ -1,4 +1,4 @@
-# The 3B simulator's inner loop, a shared library that tools/skg/sim.py loads.
+# The 3B simulator's inner loop, a shared library that tools/skg/tape/controller.py loads.
 TOOLS_CFLAGS ?= -O3 -g -std=c11 -Wall -Wextra -Wpedantic
 
 tools: build/libskgsim.so

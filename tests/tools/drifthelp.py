@@ -11,12 +11,12 @@ import numpy as np
 from conftest import ROOT
 from numpy.typing import NDArray
 
-from skg.controller import trace_array
 from skg.ref import run
 from skg.ref.cutter import Cutter
 from skg.ref.route import Segment
 from skg.ref.tape import Grid, Tape
 from skg.tape import parse_block
+from skg.tape.controller import trace_array
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 #: The path is not meant to come back to where it began.

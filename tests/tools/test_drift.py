@@ -13,12 +13,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from skg import tape as tapes
-from skg.controller import run_block
 from skg.ref import run as reference
 from skg.ref.drift import arc
 from skg.ref.tape import Grid, quadrant_into
-from skg.sim import simulate
 from skg.tape import Block, parse_block
+from skg.tape.controller import run_block
+from skg.tape.simulation import simulate
 
 #: µm; docs/drift.md says why it cannot be 1.
 FARTHEST = 2.41

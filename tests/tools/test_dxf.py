@@ -22,16 +22,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
 
-from skg import source
 from skg import tape as tapes
-from skg.drawing import Content, Edge, Point, chain, collect, distance, minus, polar, without_doubles
-from skg.dxf import draw, lay_out
+from skg.drawing import source
+from skg.drawing.dxf import draw, lay_out
+from skg.drawing.program import plan, write
+from skg.drawing.read import Content, Edge, Point, chain, collect, distance, minus, polar, without_doubles
 from skg.errors import UserError
-from skg.from_dxf import plan, write
-from skg.joints import estimate
-from skg.placed import place
 from skg.ref import run as run_reference
 from skg.tape import Block
+from skg.tape.joints import estimate
+from skg.tape.placed import place
 
 PARTS = Path(__file__).parent / "parts"
 PAGE = ROOT / "docs" / "drift.md"
@@ -479,7 +479,7 @@ def test_round_openings(run: Run, tmp_path: Path) -> None:
 
 
 def test_too_many_lines(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("skg.from_dxf._LAST_LINE", 20)
+    monkeypatch.setattr("skg.drawing.program._LAST_LINE", 20)
     with pytest.raises(UserError, match="the program would have .* lines, at most 20 fit"):
         program_of(drawings.ratchet)
 

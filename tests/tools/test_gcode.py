@@ -10,9 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
 
-from skg import gcode
 from skg import tape as tapes
-from skg.tape import Block, Stop, Tape
+from skg.tape import Block, Stop, Tape, gcode
 
 CAD_GCODE = """\
 G91 G92 X115000 Y-10000

@@ -16,7 +16,7 @@ import pytest
 from conftest import CAD_TAPE, Run
 
 from skg import tape as tapes
-from skg.placed import Placed, place
+from skg.tape.placed import Placed, place
 
 HERE = Path(__file__).parent
 PLATE = HERE / "parts" / "plate.3b"

@@ -11,9 +11,9 @@ from random import Random
 import numpy as np
 import pytest
 
-from skg import quality
 from skg.errors import UserError
-from skg.quality import (
+from skg.quality import quality
+from skg.quality.quality import (
     Biarcs,
     Piece,
     Quality,
@@ -32,12 +32,12 @@ from skg.quality import (
     tangent_jump,
     with_tangents,
 )
+from skg.quality.true_curves import TRUE_CURVES
 from skg.ref import fit
 from skg.ref import run as reference
 from skg.ref.fit import MOST_PASSED, Node, within
 from skg.ref.real import ZERO, Real
 from skg.ref.values import Circle, Point
-from skg.true_curves import TRUE_CURVES
 
 PARTS = sorted((Path(__file__).parents[2] / "examples").glob("fit-*.skg"))
 #: mm; radians; the limits that were set.

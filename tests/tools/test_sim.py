@@ -17,10 +17,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from skg import tape as tapes
-from skg.controller import run_block, trace_block
 from skg.errors import UserError
-from skg.sim import simulate
 from skg.tape import Block, arc_block, line_block, start_quadrant
+from skg.tape.controller import run_block, trace_block
+from skg.tape.simulation import simulate
 
 # Step towards the inside (F >= 0) and onwards (F < 0), written out for each sense and quadrant.
 INSIDE = {(1, 1): (-1, 0), (1, 2): (0, -1), (1, 3): (1, 0), (1, 4): (0, 1),

@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 from conftest import CAD_TAPE
 
-from skg.term import DC2, DC4, XOFF, XON, Splitter
+from skg.machine.teletype import DC2, DC4, XOFF, XON, Splitter
 
 SKG = Path(sys.executable).with_name("skg")
 PROGRAM = "10 REM A PART\n20 CUT P1,P2\n30 END\n"

@@ -11,15 +11,15 @@ from skg.errors import UserError
 
 #: Subcommand -> "module:attribute" of its click command.
 COMMANDS = {
-    "check": "skg.check:command",
-    "dxf": "skg.dxf:command",
-    "from-dxf": "skg.from_dxf:command",
-    "gcode": "skg.gcode:command",
-    "plot": "skg.plot:command",
-    "quality": "skg.quality:command",
-    "ref": "skg.ref.command:command",
-    "sim": "skg.sim:command",
-    "term": "skg.term:command",
+    "check": "skg.commands.check:command",
+    "dxf": "skg.drawing.dxf:command",
+    "from-dxf": "skg.drawing.program:command",
+    "gcode": "skg.tape.gcode:command",
+    "plot": "skg.drawing.plot:command",
+    "quality": "skg.quality.quality:command",
+    "ref": "skg.commands.ref:command",
+    "sim": "skg.tape.simulation:command",
+    "term": "skg.machine.teletype:command",
 }
 
 

@@ -7,8 +7,8 @@ from dataclasses import asdict
 
 import click
 
-from skg import tape as tapes
-from skg.tape import Finding
+from skg.tape import block as tapes
+from skg.tape.block import Finding
 
 
 @click.command(name="check")

@@ -15,10 +15,10 @@ from math import cos, exp, floor, hypot, log, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from skg.controller import run_block
 from skg.errors import UserError
-from skg.placed import Pair, Placed, PlacedRoute, lay
-from skg.tape import Block, Tape
+from skg.tape.block import Block, Tape
+from skg.tape.controller import run_block
+from skg.tape.placed import Pair, Placed, PlacedRoute, lay
 
 #: Variance of an error spread evenly over ±½.
 _VARIANCE = 1 / 12

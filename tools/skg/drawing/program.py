@@ -12,8 +12,7 @@ from pathlib import Path
 
 import click
 
-from skg import tape
-from skg.drawing import (
+from skg.drawing.read import (
     Contour,
     Edge,
     Point,
@@ -29,7 +28,8 @@ from skg.drawing import (
     without_doubles,
 )
 from skg.errors import UserError
-from skg.gcode import Pair
+from skg.tape import block as tape
+from skg.tape.gcode import Pair
 
 #: No line of the program is longer, its number included.
 _WIDTH = 72

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-LIBRARY = Path(__file__).resolve().parents[2] / "build" / "libskg80.so"
+LIBRARY = Path(__file__).resolve().parents[3] / "build" / "libskg80.so"
 
 #: What `run` may return, in the order of `board_reason` (emu/board.h).
 REASONS = ("cycles", "prompt", "input", "wait", "halt", "break")

@@ -24,7 +24,7 @@ from math import hypot, sqrt
 from pathlib import Path
 
 from skg.errors import UserError
-from skg.tape import Block
+from skg.tape.block import Block
 
 #: Steps between two reports of progress.
 CHUNK = 20_000_000
@@ -42,7 +42,7 @@ class _State(ctypes.Structure):
 @cache
 def _library() -> ctypes.CDLL:
     """Load the shared library: $SKGSIM if set, else build/libskgsim.so of the checkout."""
-    path = Path(os.environ.get("SKGSIM") or Path(__file__).parents[2] / "build" / "libskgsim.so")
+    path = Path(os.environ.get("SKGSIM") or Path(__file__).parents[3] / "build" / "libskgsim.so")
     try:
         library = ctypes.CDLL(str(path))
     except OSError:

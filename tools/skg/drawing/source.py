@@ -11,11 +11,11 @@ from pathlib import Path
 
 import click
 
-from skg import tape as tapes
 from skg.errors import UserError
-from skg.tape import Tape
+from skg.tape import block as tapes
+from skg.tape.block import Tape
 
-_EMULATOR = Path(__file__).parents[2] / "build" / "skg80"
+_EMULATOR = Path(__file__).parents[3] / "build" / "skg80"
 
 
 @dataclass(frozen=True)

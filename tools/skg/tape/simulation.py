@@ -9,10 +9,10 @@ from dataclasses import asdict, dataclass, replace
 import click
 from tqdm import tqdm
 
-from skg import tape as tapes
-from skg.controller import Outcome, run_block
-from skg.placed import closed_moves, positions_option
-from skg.tape import Block, Tape
+from skg.tape import block as tapes
+from skg.tape.block import Block, Tape
+from skg.tape.controller import Outcome, run_block
+from skg.tape.placed import closed_moves, positions_option
 
 #: A place or a move in whole µm.
 Pair = tuple[int, int]

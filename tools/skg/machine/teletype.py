@@ -25,8 +25,8 @@ import click
 import serial
 from tqdm import tqdm
 
-from skg import tape
 from skg.errors import UserError
+from skg.tape import block as tape
 
 XON, XOFF, DC2, DC4, ESCAPE = 0x11, 0x13, 0x12, 0x14, 0x1D
 LF, PROMPT = 0x0A, 0x3E

@@ -14,10 +14,10 @@ from math import hypot
 
 import click
 
-from skg import tape as tapes
 from skg.errors import UserError
-from skg.placed import closed_moves
-from skg.tape import MAX_DIGITS, Block, Stop, Tape, arc_block, line_block
+from skg.tape import block as tapes
+from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, arc_block, line_block
+from skg.tape.placed import closed_moves
 
 #: An arc's end may lie this far off the circle through its start, µm: each of the two is rounded, and so is
 #: the centre.

@@ -10,10 +10,11 @@ import ezdxf
 from ezdxf.document import Drawing
 from ezdxf.layouts import Modelspace
 
-from skg import source, tape
-from skg.gcode import Pair
-from skg.joints import estimate, is_without_drift
-from skg.placed import Placed, PlacedRoute, place, positions_option, stop_places
+from skg.drawing import source
+from skg.tape import block as tape
+from skg.tape.gcode import Pair
+from skg.tape.joints import estimate, is_without_drift
+from skg.tape.placed import Placed, PlacedRoute, place, positions_option, stop_places
 
 #: Layer -> AutoCAD colour index. LEAD: from the start hole to the contour and back; MOVES: positioning.
 LAYERS = {"WIRE": 5, "LEAD": 3, "MOVES": 8, "START": 1, "STOPS": 6}

@@ -8,8 +8,8 @@ from math import atan2, cos, hypot, pi, sin
 
 import click
 
-from skg.controller import run_block
-from skg.tape import Block, Tape
+from skg.tape.block import Block, Tape
+from skg.tape.controller import run_block
 
 #: The names that `place` and the command lines know for "where does the next block start".
 POSITIONS = ("auto", "programmed", "machine")

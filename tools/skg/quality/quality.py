@@ -15,6 +15,7 @@ import click
 import numpy as np
 
 from skg.errors import UserError
+from skg.quality.true_curves import TRUE_CURVES, TrueCurve
 from skg.ref import real
 from skg.ref.fit import MOST_PASSED, Curve, Node, circle_tangent, reflected
 from skg.ref.geometry import enlarged
@@ -23,7 +24,6 @@ from skg.ref.near import Watch
 from skg.ref.real import ZERO, Real
 from skg.ref.tape import Tape
 from skg.ref.values import Circle, Point
-from skg.true_curves import TRUE_CURVES, TrueCurve
 
 #: Points looked at on each arc, and steps of the golden section that looks for the nearest point of the true curve.
 SAMPLES, SECTIONS = 64, 60

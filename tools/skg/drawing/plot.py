@@ -15,11 +15,11 @@ from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.path import Path as Curve
 from matplotlib.ticker import MaxNLocator
 
-from skg import source
+from skg.drawing import source
 from skg.errors import UserError
-from skg.gcode import Pair
-from skg.placed import Placed, PlacedRoute, extents, place, positions_option, stop_places
-from skg.tape import micrometres
+from skg.tape.block import micrometres
+from skg.tape.gcode import Pair
+from skg.tape.placed import Placed, PlacedRoute, extents, place, positions_option, stop_places
 
 #: One colour for each tape (Okabe and Ito's palette, which colour-blind readers tell apart).
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")

@@ -1,0 +1,1 @@
+"""The subcommands of `skg`, a module each."""

@@ -1,0 +1,1 @@
+"""Drawings: from DXF to programs, from tapes to DXF and to pictures."""

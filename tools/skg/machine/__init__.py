@@ -1,0 +1,5 @@
+"""The 8080 board and its teletype."""
+
+from skg.machine.emulator import BOARDS, ENDS, Batch, Machine, symbols
+
+__all__ = ["BOARDS", "ENDS", "Batch", "Machine", "symbols"]
