@@ -35,7 +35,7 @@ CLTL    EQU 4CH
 CLTN    EQU 4EH
 CLTR    EQU 52H
 CLTS    EQU 53H
-CLTX    EQU 58H
+CLTY    EQU 59H
 
 ; ---- Restarts -------------------------------------------------------------
 ;   RST 1 / DB n    ERROR   statement ends with ERR n

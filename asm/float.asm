@@ -705,8 +705,9 @@ FSQR4:  MOV     M,A
         LDA     FT
         RRC
         JNC     FSQR1
-        DCR     L               ; the next byte, FY+2 or FY+1: 82H and 81H have even parity,
-        JPE     FSQR1           ; 80H has not
+        DCR     L               ; the next byte, FY+2 or FY+1, not FY: its low address is 80H,
+        CMP     L               ; as A is (a Z80 has no parity after DCR)
+        JNZ     FSQR1
         INX     H
         INR     M               ; Q + 2^-24
         MOV     A,M
@@ -1061,7 +1062,7 @@ DECIN:  PUSH    D
         XRA     A
         STA     MT0
         LXI     B,0FFH          ; B = power of ten to divide by, C = 0 behind the point
-        MVI     E,0FFH          ; E = 0FFH: no digit yet
+        MOV     E,C             ; E = 0FFH: no digit yet
 DECI1:  CALL    LEXDIG
         JC      DECI2
         XRA     C               ; (C = 0 lets no point come out as 1)

@@ -77,7 +77,7 @@ ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
         MOV     C,A
         MVI     B,CLTS
 ARC3:   CALL    SETZG
-        JPO     ARC4
+        JC      ARC4
         RST     5               ; count along Y: turned by a quarter
         DB      LA1,LA0,QNEG,SA1,SA0 ; -
         DB      LB1,LB0,QNEG,SB1,SB0 ; -
@@ -240,16 +240,16 @@ QUAD:   LXI     H,MA
 QUADS:  DB      "332412411"
 
 ; SETZG - B, C = letter and digit of Z; the count goes along Y when t0 > 0, else along X
-; Out: odd parity = X   Clobbers A, HL
+; Out: CY = X   Clobbers A, HL
 SETZG:  MOV     H,C
         MOV     L,B
         SHLD    TZLET
         LXI     H,MT0
         CALL    FSGN            ; 1, or 0 or 0FFH
-        INR     A
-        ANI     2
-        RRC
-        ORI     CLTX            ; X has three bits set, Y four
+        DCR     A
+        ADI     0FFH            ; CY: it was not 1
+        SBB     A
+        ADI     CLTY            ; CY again, when that was 0FFH
         STA     TGAX
         RET
 

@@ -78,6 +78,13 @@ def opcodes() -> dict[int, tuple[str, int]]:
 
 OPCODES = opcodes()
 
+#: Bit 2 of F is parity after every operation of an 8080 and 8085; a Z80 has overflow there after arithmetic. None
+#: of these is needed: the firmware does without.
+PARITY = {f"{kind}{condition}" for kind in "JCR" for condition in ("PO", "PE")}
+#: DAA agrees on all three only where it corrects an addition: the 8080 knows no other, a Z80 keeps what was done in
+#: a flag of its own; AND leaves another half carry on each.
+ADDITIONS = ("ADD", "ADC", "ADI", "ACI")
+
 #: Operations of the calculator (asm/calc.asm, ops.asm) with a distance behind them; the last always jumps.
 JUMPS = ["QJN", "QJZ", "QJC", "QJMP"]
 
@@ -113,6 +120,23 @@ class Walk:
                 waiting.append(1 + next(n for n in range(at + 3, ROM_SIZE) if self.image[n] & 0x80))
             elif name not in ("JMP", "RET", "PCHL", "RST 1", "HLT"):
                 waiting.append(at + length)
+
+    def length(self, at: int) -> int:
+        """Bytes of the instruction at an address."""
+        return OPCODES[self.image[at]][1]
+
+    def differences(self) -> list[str]:
+        """Instructions that do not do the same on 8080, 8085 and Z80, with their addresses."""
+        assert len(self.code) > 2000, f"only {len(self.code)} instructions found"
+        found = []
+        for at in sorted(self.code):
+            name = OPCODES[self.image[at]][0]
+            before = [OPCODES[self.image[at - n]] for n in (1, 2) if at - n in self.code and self.length(at - n) == n]
+            if name in PARITY:
+                found.append(f"{at:04X} {name}: a Z80 has no parity after arithmetic")
+            if name == "DAA" and not any(text.startswith(ADDITIONS) for text, _ in before):
+                found.append(f"{at:04X} DAA: not behind an addition")
+        return found
 
     def calculator(self, start: int) -> list[int]:
         """Walk byte-code; where machine code goes on behind it."""
@@ -197,16 +221,61 @@ def test_size_and_hex(name: str) -> None:
     assert b"".join(record[4:-1] for record in records[:-1]) == image
 
 
+def walked(name: str, planted: dict[int, bytes] | None = None) -> Walk:
+    """The walk through an image, into which bytes are planted at some addresses: from the restarts and tables on,
+    and from what the listing says are instructions."""
+    image = bytearray((ROMS / f"{name}.bin").read_bytes())
+    for at, data in (planted or {}).items():
+        image[at : at + len(data)] = data
+    walk = Walk(bytes(image), labels(name))
+    walk.follow(starting(name))
+    return walk
+
+
+def starting(name: str) -> list[int]:
+    """Where code begins that no other leads to: the restarts and what stands in tables."""
+    starts = list(range(0, 0x40, 8))
+    for line in listed(name):
+        if line.mnemonic == "DW":
+            starts += [int.from_bytes(line.data[n : n + 2], "little") for n in range(0, len(line.data), 2)]
+    return starts
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_the_same_on_8080_8085_and_z80(name: str) -> None:
+    walk = walked(name)
+    walk.follow([line.at for line in listed(name) if line.mnemonic not in ("DB", "DW", "DS")])
+    assert not walk.differences()
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+@pytest.mark.parametrize("opcode", ["JPE", "CPO", "RPE", "DAA"])
+def test_what_differs_is_found(name: str, opcode: str) -> None:
+    """One is planted at the start of the multiplication, which no image is without."""
+    code = next(number for number, (text, _) in OPCODES.items() if text == opcode)
+    at = labels(name)["FMUL"]
+    found = walked(name, {at: bytes([code, 0x00, 0x00])[: OPCODES[code][1]]}).differences()
+    assert [text.split(":")[0] for text in found] == [f"{at:04X} {opcode}"]
+
+
+@pytest.mark.parametrize("opcode", [*range(0x08, 0x40, 8), 0xCB, 0xD9, 0xDD, 0xED, 0xFD])
+def test_what_another_processor_takes_for_something_else_is_found(opcode: int) -> None:
+    """Twelve opcodes that the 8080 has no use for: the 8085's RIM, SIM and secret ones, a Z80's jumps and prefixes."""
+    with pytest.raises(AssertionError, match="is no documented 8080 opcode"):
+        walked("skg", {labels("skg")["FMUL"]: bytes([opcode])})
+
+
+def test_a_walk_that_finds_nothing_has_failed() -> None:
+    with pytest.raises(AssertionError, match="only 0 instructions"):
+        Walk(bytes(ROM_SIZE), {}).differences()
+
+
 @pytest.mark.parametrize("name", VARIANTS)
 def test_only_8080_code_is_reached(name: str) -> None:
     image = (ROMS / f"{name}.bin").read_bytes()
     lines = listed(name)
-    starts = list(range(0, 0x40, 8))
-    for line in lines:
-        if line.mnemonic == "DW":
-            starts += [int.from_bytes(line.data[n : n + 2], "little") for n in range(0, len(line.data), 2)]
     walk = Walk(image, labels(name))
-    walk.follow(starts)
+    walk.follow(starting(name))
     instructions = {line.at for line in lines if line.mnemonic not in ("DB", "DW", "DS")}
     # The walk is the listing's code, but for a DB that skips the one or two bytes behind it.
     strays = walk.code - instructions
