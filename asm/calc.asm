@@ -1,6 +1,7 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: CALC, RUNBC, CALINI, CALPOP, FUN, COPY5, the operations QADD ... QOVR, XXCH, and OPTAB
-; Uses:   float, geom (three operations that pop)
+; Offers: QEND QJN QJZ QDRP QJMP QRET QDUP QOVR QSWP QOWN CALINI FUN RUNBC CALC OOVR COPY5 CALPOP
+;         OJMP1 XXCH OSWP1 OPTAB
+; Uses:   consts float geom
 ; Room:   240 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:

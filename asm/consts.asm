@@ -1,5 +1,5 @@
 ; consts.asm - constants of the calculator
-; Offers: CONTAB, the byte-codes Q0 ... that push them
+; Offers: Q1 Q0 QM1 QI64 QHALF QMU Q90 Q180 Q1000 QNEAR Q502 QEPS Q8DIG QI180 Q10 CONTAB
 ; Room:   5 bytes each
 ;
 ; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see

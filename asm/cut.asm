@@ -1,6 +1,8 @@
 ; cut.asm - the route: from items to corners, fillets and closing
-; Offers: SFROM SCUT SBACK ENDRT PUNDS ROUTER RUNINI RTNEW RBEMP
-; Uses:   parser, geom, calc, tape
+; Offers: NKIND HELDN RITEMS RFILW RTURN FITN FITSM RBACK RBFULL RBEND BLKNO RUNINI RTNEW RBNEW
+;         RBEMP SCUT ITEM2 ITEM3 POSIT NEEDEL GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC
+;         XONEL XNORM XTOK XNORMS SBACK SBACK1
+; Uses:   calc consts fit float geom io monitor parser repeat start tape
 ; Room:   1200 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the

@@ -1,5 +1,5 @@
 ; equ.asm - names for every port, character, token, error and RAM cell of SKG
-; Offers: equates only. Bytes: 0.
+; Offers: names for all
 
 ; ---- Board options (the build sets them in the top file) -----------------
 ;   BRD51   1 = two Intel 8251, 0 = two Motorola 6850

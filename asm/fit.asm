@@ -1,6 +1,6 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
-; Offers: SFIT STOL FITEND
-; Uses:   cut (ITEM3 GETR CPYEL, the cells FITN FITSM HELDN), parser, calc
+; Offers: STOL SFIT FITEND
+; Uses:   calc consts cut float geom parser start
 ; Room:   600 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both

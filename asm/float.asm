@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
-; Offers: FADD FSUB FMUL FDIV, FNEG FABS FSGN FFLR FSQR FSIN FCOS FTG FATG,
-;         FITOF FTOI16, LEXNUM DECIN DECOUT PRDEC
-; Uses:   calc, geom (QSIG), start (ERROR PUTC ERSYN), lexer (LEXCH LEXDIG LEXDEC)
+; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FTOI16 FFLR FSQR FTG FCOS FSIN FATG DECOUT PRDEC
+;         LEXNUM
+; Uses:   calc consts geom lexer start
 ; Room:   1500 bytes
 ;
 ;   byte    0          1          2          3          4

@@ -1,6 +1,7 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: BINOP, BINOPK, BELT, ERGEO and the operations QDOT ... QXCH of ops.asm
-; Uses:   calc, float, parser (SETK, CHKRET, error stubs)
+; Offers: XXING BINOPK BINOP BIN4 XUNIT BELT XDOT XCRS XDIF XCENT XWAY XSS XHYP XFAR XREFL XROTV
+;         XLEG XSIG XMAX XE6D XE6N ERGEO
+; Uses:   calc consts cut float parser start
 ; Room:   610 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:

@@ -1,6 +1,6 @@
 ; io.asm - teletype, punch and reader
-; Offers: PUTC1 (of RST 2), PUTS PUTSI CRLF, BREAK, PUNON PUNOFF PAPON, SSAVE
-; Uses:   monitor (the cells, SLIST)
+; Offers: TTYST PUNDT PUNST RXRDY PUTC1 PUNON SSAVE PUNOFF PAPON BREAK ERTAPE CRLF PUTSI PUTS
+; Uses:   monitor start
 ; Room:   130 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.

@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
-; Offers: GETLIN LEX LEXCH LEXDIG LEXDEC LISTLN PRNUM KEYTAB
-; Uses:   float (LEXNUM PRDEC DECOUT), parser (SUBCHK), io (BREAK PUTS CRLF, the ports), start (ADDA)
+; Offers: GETLIN LEX LEXDEC LEXDIG LEXCH LISTLN PRNUM BLANK
+; Uses:   float io monitor parser start
 ; Room:   620 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
@@ -10,7 +10,7 @@
 ; stack having room for what the longest line can make.
 
 CBEL    EQU     07H
-WAIT2   EQU     18000           ; turns of INCH1 in two seconds (110 us each)
+WAIT2   EQU     18000           ; turns of INCH1 in two seconds (115 us each)
 
 ; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
 ;          nothing is printed (OUTSEL = 0).  A control character that is no editing key
@@ -22,12 +22,13 @@ GETL2:  POP     H
 GETLIN: LXI     B,LINBUF
 GETL3:  LXI     H,GETL3         ; every key returns there
         PUSH    H
-        LXI     D,WAIT2         ; waits for the next character, from the reader in LOAD, else
-INCH1:  CALL    BREAK           ; from the teletype
+        LXI     D,WAIT2         ; waits for the next character, from the reader for a line of LOAD,
+INCH1:  CALL    BREAK           ; else (INPUT's answers too) from the teletype
         INX     H               ; LOADF, behind KEYB
-        DCR     M
-        INR     M               ; (A is still the key)
+        LDA     CHKF            ; (1 at the prompt, 0 in INPUT)
+        ANA     M
         DCX     H
+        MOV     A,M             ; the key
         JZ      INCH2
         DCX     D
         MOV     A,D
@@ -40,13 +41,14 @@ INCH1:  CALL    BREAK           ; from the teletype
         ANI     RXRDY
         JZ      INCH1
         IN      PUNDT
+        ANI     7FH
         ENDIF
-INCH2:  ANI     7FH             ; (HL-> KEYB, from BREAK)
+        CPI     CEOF            ; a tape's; of the teletype's keys it is none
+        JZ      GETL5
+INCH2:  ORA     A               ; (HL-> KEYB, from BREAK)
         JZ      INCH1
         MVI     M,0             ; (in LOAD keys do not count)
-        CPI     CEOF            ; (HL-> KEYB for every key)
-        JZ      GETL5
-        CPI     CCR
+        CPI     CCR             ; (HL-> KEYB for every key)
         JZ      GETL6
         CPI     CLF
         JZ      GETL6
@@ -92,10 +94,10 @@ GETL6:  POP     H
         XRA     A
         STAX    B
         STA     OUTSEL
-        INR     C
-        JZ      ERMEM
         LXI     H,TOKS
         SHLD    TXTP
+        INR     C
+        JZ      ERMEM
 ; (fall into LEX)
 
 ; LEX - makes tokens of the text in LINBUF, but no further than the token in front of

@@ -1,7 +1,7 @@
 ; monitor.asm - prompt, program lines, running them, errors
-; Offers: READY RUNLP DIRECT STMT ERR ERR4 LINENO FINDLN NEW1 CLEAR and the
-;         statements and commands that do not cut; the cells below
-; Uses:   everything
+; Offers: TXTP PEND VBOT VTOP CHKF OUTSEL COLS LASTC KEYB VSUM LINUM STMT0 CDOT CLBRK CLOWA ERR ERR4
+;         READY FINDLN LINE1 DIRECT MORE SLIST NEW1 CLEAR CLEAR1 CLRPTR
+; Uses:   calc cut fit float io lexer parser repeat start tape
 ; Room:   780 bytes
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
@@ -42,7 +42,7 @@ CLOWA   EQU     61H             ; a
 ; In:  A = number (10 as 10H), the stack empty
 ERR:    MOV     B,A
         LHLD    CHKF            ; L = CHKF, H = OUTSEL
-        CPI     EMEM
+        CPI     ETAPE
         JNC     ERR1
         MOV     A,H
         ORA     L
@@ -210,19 +210,22 @@ SRETN:  RST     7
 
 ; SGOSUB - statement: GOSUB n
 SGOSUB: CALL    LNEND
-        LHLD    NXTP
+        CALL    FINDLN
+        JNZ     ERLINE
         PUSH    H
+        LHLD    NXTP
+        XCHG
         LHLD    GSP
         MOV     A,L
         CPI     GSTK & 255
         JZ      ERLINE
-        POP     B
         DCX     H
-        MOV     M,B
+        MOV     M,D
         DCX     H
-        MOV     M,C
+        MOV     M,E
         SHLD    GSP
-        JMP     GOLINE
+        POP     H
+        JMP     RUN1
 
 ; SIF - statement: IF expression relation expression GOTO n
 SIF:    CALL    EVNUM
@@ -404,14 +407,9 @@ READI3: POP     H
         POP     H
         JMP     PAPON
 
-; SINPUT - statement: INPUT name, ...; a direct one asks for one name, its line being
-;          overwritten by the answer
+; SINPUT - statement: INPUT name, ..., in a program only
 SINPUT: CALL    GETREF
         CALL    ASK
-        LHLD    NXTP+1          ; L = its high byte, H = CHKF
-        MOV     A,H
-        ORA     L
-        RZ
         CALL    MORE
         JMP     SINPUT
 

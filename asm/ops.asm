@@ -1,6 +1,6 @@
 ; ops.asm - operations that geometry, route and tape add to the calculator
-; Offers: the codes QDOT ... QVK; the rest of OPTAB
-; Uses:   calc (this file must follow it), geom, cut, tape
+; Offers: nothing
+; Uses:   calc cut geom parser tape
 ; Room:   2 bytes an operation
 
 ; The entry QOWN itself is INT, which belongs behind FFLR there (OPFN, parser.asm); byte-code

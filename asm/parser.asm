@@ -1,7 +1,7 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL EVNUM EVPNT EVKIND EVINT ASSIGN GETREF SETREF PRVAL CMPNE
-;         CHKRET NOTURN, GETA PUTA PUTN PUTVAL COPY, QCA QNA and the stubs ERKIND ERRNG ERUNS
-; Uses:   calc, float, geom (BINOP), monitor (CHKEND, the pointers)
+; Offers: VKIND EVAL PUTN PUTVAL XCA XNA XNA1 COPY15 COPY JTAB OPFLT SETK NEGVAL FIND ASSIGN SETREF
+;         GETREF PRVAL EVINT SUBCHK ERRNG EVPNT EVNUM EVKIND ERKIND NOTURN CHKRET FINT CMPNE
+; Uses:   calc consts cut float geom io lexer monitor repeat start
 ; Room:   700 bytes
 ;
 ; Grammar (tokens, equ.asm):
@@ -359,6 +359,7 @@ SETREF: CALL    KINDD
         LHLD    RBEND           ; does it fit above the route buffer?
         CALL    CPHD
         JC      SETR2
+        CALL    PAPON           ; (memory full is no wrong answer to INPUT)
         LXI     H,RBFULL        ; no: that is given up for it
         INR     M
         CALL    RBEMP

@@ -1,6 +1,6 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
-; Offers: SSYM SREP SRECUT SSCALE, RECORD, CPHD
-; Uses:   cut (ITEM2, CLOSE, HOME), parser, geom
+; Offers: RECORD CPHD SREP SSYM SRECUT SSCALE
+; Uses:   calc consts cut fit float geom io monitor parser start
 ; Room:   410 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:

@@ -1,7 +1,7 @@
 ; start.asm - restarts, what becomes of a line that is understood, and reset
-; Offers: the restarts of equ.asm and the routines in the gaps between them
-;         (CHECK, ADDA, ERMEM, ERSYN, ERDATA), SREM, SFREE, RESET, VARSUM
-; Uses:   io (PUTC1, the ports), calc (CALC), monitor
+; Offers: RST1 RST2 RST3 RST4 RST5 RST6 RST7 CHECK PUTC NEXT NEXT1 ERMEM ERSYN ADDA ERDATA CHKEND
+;         SREM SFREE VARSUM
+; Uses:   calc cut io lexer monitor parser repeat
 ; Room:   390 bytes
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
@@ -93,6 +93,8 @@ SREM:   CALL    CHECK
 CHKED:  LXI     H,TOKS
         SHLD    TXTP
         MOV     A,M
+        CPI     TINPUT          ; in a program only: the answer would take the line's place
+        JZ      ERSYN
         DCR     A               ; TFLT?
         JNZ     DIRECT
 ; (fall into STORE)
@@ -212,6 +214,8 @@ RESE2:  MOV     A,M             ; does this page keep what is written?
         JNZ     RESE3
         DCR     M
         INR     H
+        MOV     A,H             ; the last page of all memory is left alone, so that no sum of an
+        INR     A               ; address and a length passes 0FFFFH
         JNZ     RESE2
 RESE3:  DCX     H               ; HL-> last byte of RAM
         XCHG

@@ -1,6 +1,6 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
-; Offers: MOVE ARC and the operations QRND QVK
-; Uses:   calc, float, io, start (ADDA)
+; Offers: ARC ARCL PUTB2 XRND XROOT XVK PUT2D
+; Uses:   calc consts cut float geom io lexer start
 ; Room:   400 bytes, 480 with NODRIFT
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
@@ -164,9 +164,13 @@ PUTB0:  DB      LVX,SWX,LVY,SWY ; -
         ACI     0
         DAA
         MOV     M,A
+        PUSH    PSW
         CALL    PUT2D
+        POP     PSW
         DCX     H
         MOV     A,M
+        ACI     0               ; after 9999 comes 0001
+        MOV     M,A
         CALL    PUT2D
         MVI     A,CBLANK
         RST     2

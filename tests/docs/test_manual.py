@@ -110,10 +110,14 @@ def test_error(row: re.Match[str]) -> None:
     assert error_of(row["example"]) == int(row["number"])
 
 
+def program_of(cell: str) -> str:
+    """The quoted statements as a program."""
+    return "".join(f"{10 * n} {text}\n" for n, text in enumerate(re.findall(r"`([^`]+)`", cell), 1))
+
+
 def error_of(cell: str) -> int | None:
     """Number of the error in which the quoted statements end."""
-    statements = re.findall(r"`([^`]+)`", cell)
-    error = run("".join(f"{10 * n} {text}\n" for n, text in enumerate(statements, 1))).error
+    error = run(program_of(cell)).error
     return error[0] if error else None
 
 
@@ -193,6 +197,23 @@ def test_operations_on_the_board(tmp_path: Path) -> None:
     source = "".join(f"{n} PRINT {row['example']}\n" for n, row in enumerate(table, 1))
     paper, _ = on_the_board(source, [], tmp_path)
     assert paper.splitlines() == [row["result"] for row in table]
+
+
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+@pytest.mark.parametrize("row", rows(ERROR), ids=lambda row: row["number"])
+def test_error_on_the_board(row: re.Match[str], tmp_path: Path) -> None:
+    """The examples of the table of errors, as a program; what error 1 refuses it refuses when it is loaded."""
+    (tmp_path / "part.skg").write_text(program_of(row["example"]))
+    done = subprocess.run([SKG80, "--rom", ROM, tmp_path / "part.skg"], capture_output=True, timeout=60, check=False)
+    assert done.returncode == 1
+    errors = re.findall(r"^ERR (\d\d)", done.stderr.decode(), re.M)
+    assert errors == [row["number"]]
+
+
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+@pytest.mark.parametrize("fence", fences("prompt"), ids=lambda fence: fence["body"][:20])
+def test_prompt_on_the_board(fence: re.Match[str]) -> None:
+    assert said_by_the_board(fence["body"]) == fence["body"]
 
 
 def said_by_the_board(session: str) -> str:

@@ -206,25 +206,49 @@ def test_errors(statement: str, code: int) -> None:
 
 
 def test_hostile_lines() -> None:
-    nines = "9" * 5000
+    nines = "9" * 100
     for statement, code in (
         (f"A=1E{nines}", 5),
         (f"A=0E{nines}", None),
         (f"A=1E-{nines}", None),
         (f"A={nines}", 5),
         (f"A=P{nines}", 5),
-        (f"A=A{'0' * 5000}1", 3),
+        (f"A=A{'0' * 100}1", 3),
         (f"GOTO {nines}", 2),
-        (f"A={'(' * 3000}1{')' * 3000}", None),
-        (f"A={'(' * 3000}1", 1),
-        (f"A={'-' * 5000}1", 9),
+        (f"A={'(' * 58}1{')' * 58}", None),
+        (f"A={'(' * 100}1", 1),
+        (f"A={'-' * 120}1", None),
+        (f"A={'1+' * 60}1", None),
+        (f"A={'1+' * 60}12", 9),
         (f"CUT O\n20 REP {nines[:9]},1", 9),
         ("A=\x01", 1),
+        ("A=\x01\t2", None),
+        ("A=\x15" + "20 A=2", None),
         ("A=1_2", 1),
     ):
         error = cut(statement).error
         assert (None if error is None else error[0]) == code, statement[:20]
     assert run(f"{nines} END").error[0] == 1
+
+
+def test_a_line_that_is_too_long_is_shown() -> None:
+    long = f"20 REM {'x' * 200}"
+    result = run(f"10 PRINT 1\n{long}\n30 PRINT 2\n")
+    assert result.error == (9, 20)
+    assert result.paper == f"ERR 09 LINE 20\n{long[:127]}\n{' ' * 127}^\n"
+    assert run(f"{long[:126]}\n").error is None
+
+
+def test_input_is_for_programs() -> None:
+    assert run("INPUT A\n10 A=1\n").error == (1, None)
+
+
+def test_a_route_longer_than_any_buffer() -> None:
+    """It is cut, but SYM, REP and RECUT find no room for it."""
+    for last in ("REP 2,1", "SYM X"):
+        result = cut("CUT (5,0),(6,0)", "REP 2000,1", last)
+        assert result.error == (9, 30)
+        assert result.tape.count(b"B") > 3 * 3900 and result.tape.endswith(b"D\r\n")
 
 
 def test_error_1_stops_loading_and_marks_the_place() -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from skg.machine import Machine
+from skg.machine import Machine, symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
@@ -29,6 +29,11 @@ CTRL_C = 3
 
 #: An error's number and line (None: no line).
 Fault = tuple[int, int | None]
+
+
+def labels() -> dict[str, int]:
+    """Addresses by label, of the image."""
+    return symbols(ROM.with_suffix(".sym").read_text())
 
 
 def image(kind: str) -> Path:

@@ -7,19 +7,14 @@ import random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from romhelp import BOARDS, ROM, RUN_LIMIT, Board, fault
+from romhelp import BOARDS, ROM, RUN_LIMIT, Board, fault, labels
 
-from skg.machine import Machine, symbols
+from skg.machine import Machine
 
 CTRL_C, BEL, BS, CTRL_Q, CTRL_S, CTRL_U, CTRL_Z, RUBOUT = 3, 7, 8, 17, 19, 21, 26, 127
 #: Cycles in which nothing more happens on a board that waits or is held.
 A_WHILE = 3_000_000
 SECOND = 2_000_000
-
-
-def labels() -> dict[str, int]:
-    """Addresses by label, of the image."""
-    return symbols(ROM.with_suffix(".sym").read_text())
 
 
 def program(board: Board) -> bytes:
@@ -424,10 +419,69 @@ def test_ctrl_c_at_input(board: Board) -> None:
     assert fault(board.type("PRINT 1/0")) == (5, None)
 
 
-def test_direct_input(board: Board) -> None:
-    board.machine.type("INPUT A\r7\r")
+def test_an_answer_too_long_or_too_deep_is_asked_again(board: Board) -> None:
+    lines(board, "10 INPUT A,D", "20 PRINT A,D")
+    wrong = ["1" * 127, "1+" * 200 + "1", "(" * 100 + "1" + ")" * 20, "1#(" * 40 + "1"]
+    paper = answer(board, *wrong, "5", *wrong, "6")
+    assert paper[-3:] == ["? 6", "5 6", "DD"]
+    assert sum(line.startswith("? ") for line in paper) == 2 * len(wrong) + 2
+    assert fault(paper) is None
+
+
+@pytest.mark.parametrize("line", ["INPUT A", "input a,d", "INPUT A[1]"])
+def test_input_is_for_programs(board: Board, line: str) -> None:
+    """Its answer would take the line's own place; in LOAD it would be the tape's next line."""
+    paper = board.type(line)
+    assert paper == [line, " " * len(line) + "^", "ERR 01"]
+    assert board.load(f"10 END\n{line}\n20 END\n") == paper
+    assert board.listing() == ["10 END"]
+
+
+def test_answers_come_from_the_teletype(board: Board) -> None:
+    """Also when the tape itself starts the program: no line of the tape is taken for an answer."""
+    board.machine.tape("10 INPUT A,D\n20 PRINT A+D\nGOTO 10\n30 REM more\nPRINT A,D\n\x1a")
+    board.machine.type("LOAD\r")
+    assert board.machine.run() == "input"
+    board.machine.type("2\r")
+    assert board.machine.run() == "input"
+    board.machine.type("3\r")
     assert board.machine.run() == "prompt"
-    assert board.type("PRINT A") == ["7"]
+    assert board.machine.tty.replace("\r\n", "\n").endswith("LOAD\n? 2\n? 3\n5\nDD\n2 3\n>")
+    assert board.listing() == ["10 INPUT A,D", "20 PRINT A+D", "30 REM more"]
+
+
+def test_ctrl_z_ends_nothing_but_a_tape(board: Board) -> None:
+    """At the prompt and in INPUT it is no key; the route stays open."""
+    lines(board, "10 CUT (1,0)", "20 INPUT A", "30 CUT (A,0)")
+    assert answer(board, f"{chr(CTRL_Z)}", f"{chr(CTRL_Z)}5") == [
+        "? ",
+        "? 5",
+        "0001 B1000B0B1000GXL1",
+        "0002 B4000B0B4000GXL1",
+        "DD",
+    ]
+    assert board.type(f"PRI{chr(CTRL_Z)}NT 3{chr(CTRL_Z)}") == ["3"]
+
+
+def test_blocks_are_numbered_from_1_to_9999_and_from_1_again(board: Board) -> None:
+    board.type("CUT (0,0),(1,0)")
+    numbers = []
+    for before, count in ((b"\0\0", 2), (b"\x98\x99", 3), (b"\x99\x12", 2), (b"\x99\0", 1)):
+        board.machine.poke(labels()["BLKNO"], before)
+        for _ in range(count):
+            (paper,) = board.type(f"CUT ({len(numbers) + 2},0)")
+            numbers.append(paper.split()[0])
+    assert numbers == ["0001", "0002", "9999", "0001", "0002", "1300", "1301", "0100"]
+
+
+@pytest.mark.parametrize("line", ["GOSUB 77", "IF 1=1 GOTO 77", "GOTO 77"])
+def test_a_jump_to_no_line_leaves_nothing_behind(board: Board, line: str) -> None:
+    assert fault(board.type(line)) == (2, None)
+    assert fault(board.type("RETURN")) == (2, None)
+    lines(board, f"10 {line}", "20 PRINT 20")
+    for _ in range(9):
+        assert fault(board.type("GOTO 10")) == (2, 10)
+    assert fault(board.type("RETURN")) == (2, None)
 
 
 def test_free(board: Board) -> None:
@@ -537,6 +591,17 @@ def test_ctrl_c_while_load_waits(board: Board) -> None:
     board.machine.press(CTRL_C)
     assert board.machine.run(SECOND) == "prompt"
     assert board.type("PRINT 1") == ["1"]
+
+
+@pytest.mark.parametrize("number", ["", "20 "])
+def test_a_line_that_is_too_long_is_shown(board: Board, number: str) -> None:
+    """Typed or loaded: its beginning, a mark where it was too long, the error."""
+    long = f"{number}REM {'ABCDEFGH' * 20}"
+    paper = [long[:127], " " * 127 + "^", "ERR 09"]
+    assert board.type(long) == paper
+    assert board.load(f"10 END\n{long}\n30 END\n") == paper
+    assert board.listing() == ["10 END"]
+    assert board.type(long[:126]) == []
 
 
 def test_load_shows_a_line_that_is_wrong(board: Board) -> None:
@@ -658,8 +723,8 @@ def test_power_on_with_any_contents() -> None:
 def test_ram_is_found(kib: int) -> None:
     board = Board(kib)
     names = labels()
-    free = board.machine.ram_end - names["PROG"] - 1
-    assert board.type("FREE") == [str(free)]
+    end = min(board.machine.ram_end, 0xFF00)  # the last page of all memory is left alone
+    assert board.type("FREE") == [str(end - names["PROG"] - 1)]
 
 
 # Noise

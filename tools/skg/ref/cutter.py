@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from skg.ref import near
@@ -13,6 +14,15 @@ from skg.ref.real import NEARLY, ONE, ZERO, Real
 from skg.ref.route import Item, Route, Segment
 from skg.ref.tape import Tape
 from skg.ref.values import ORIGIN, Circle, Line, Point
+
+#: More items than the route buffer of any board has room for (56 KiB, 16 bytes an item).
+MOST_ITEMS = 3584
+
+
+def _in_memory(items: Sequence[Item]) -> None:
+    """Error 9 when SYM, REP or RECUT need a route that no board has in memory."""
+    if len(items) > MOST_ITEMS:
+        raise Fault(Code.MEMORY)
 
 
 @dataclass(frozen=True)
@@ -102,10 +112,12 @@ class Cutter:
 
     def mirror(self, mirror: Line, right: bool, offset: Real) -> None:
         """SYM."""
+        _in_memory(self._open_route().items)
         self._open_route().mirror(enlarged(mirror, self.scale), offset, right)
 
     def repeat(self, count: int, angle: Real, about: Point, right: bool, offset: Real) -> None:
         """REP."""
+        _in_memory(self._open_route().items)
         self._open_route().repeat(count, angle, enlarged(about, self.scale), offset, right)
 
     def back(self) -> None:
@@ -123,6 +135,7 @@ class Cutter:
         closed = self.closed
         if closed is None or self.route is not None:
             raise Fault(Code.GEOMETRY)
+        _in_memory(closed.items)
         self.route = Route(self.wire, self._emit)
         for item in closed.items:
             self.route.feed_item(item, offset)

@@ -17,6 +17,7 @@ from skg.ref.operations import operate
 from skg.ref.parser import (
     LAST_SUBSCRIPT,
     LETTERS,
+    LONGEST,
     Assign,
     Binary,
     Cut,
@@ -120,7 +121,7 @@ class Interpreter:
             except LineFault as fault:
                 number = re.match(r"\s*(\d+)", text)
                 error = self._report(fault.code, whole(number.group(1)) if number else None)
-                self.paper.append(f"{text}\n{' ' * fault.column}^\n")
+                self.paper.append(f"{text[: LONGEST + 1]}\n{' ' * fault.column}^\n")
                 return error
             if line.number is None:
                 error = self._run_from(line.statement)
@@ -355,6 +356,7 @@ class Interpreter:
             if answer is None:
                 self.paper.append("? \n")
                 raise Fault(Code.TAPE)
+            answer = _typed(answer)
             self.paper.append(f"? {answer}\n")
             try:
                 self._store(key, self.evaluate(parse_answer(answer)))
@@ -401,12 +403,16 @@ def _holds(a: Real, relation: str, b: Real) -> bool:
 
 def _lines(source: str) -> list[str]:
     """The lines of a source tape: CR or LF ends one, empty ones do not count, ctrl-Z ends the tape."""
-    text = source.split("\x1a")[0].translate({0x00: None, 0x7F: None})
-    lines = re.split(r"[\r\n]", text)
+    text = source.split("\x1a")[0]
     for number, line in enumerate(re.split(r"\r\n|[\r\n]", text), start=1):
         if not line.isascii():
             raise UserError(f"line {number} of the file: {line.strip()!r} is not plain ASCII")
-    return [line for line in lines if line.strip()]
+    return [line for line in map(_typed, re.split(r"[\r\n]", text)) if line.strip()]
+
+
+def _typed(line: str) -> str:
+    """What the machine takes of a line: ctrl-U forgets what stands before it, other control characters mean nothing."""
+    return re.sub(r"[\x00-\x1f\x7f]", "", line.split("\x15")[-1])
 
 
 def run(source: str, inputs: Iterable[str] = (), bits: int | None = None, drift: bool = True) -> Result:

@@ -15,6 +15,8 @@ from skg.ref.fault import Code, Fault
 from skg.ref.real import Real
 
 LAST_LINE = 9999
+#: Characters of a line.
+LONGEST = 126
 LAST_SUBSCRIPT = 999
 #: Which kind the first letter of a name stands for (as in `values.kind`).
 LETTERS = {letter: kind for kind, letters in {"D": "ADRIJ", "P": "POV", "C": "CBT", "S": "SXY"}.items()
@@ -388,9 +390,9 @@ def _parser() -> Lark:
     )
 
 
-_BLANK = " \t"
+_BLANK = " "
 _FUNCTION_END = re.compile(r"(SQR|SIN|COS|TG|ABS|INT|K[123])$")
-_REMARK = re.compile(r"[ \t0-9]*R[ \t]*E[ \t]*M", re.IGNORECASE)
+_REMARK = re.compile(r"[ 0-9]*R *E *M", re.IGNORECASE)
 
 
 def squeeze(text: str) -> tuple[str, list[int]]:
@@ -419,6 +421,8 @@ def squeeze(text: str) -> tuple[str, list[int]]:
 
 
 def _parse(text: str, start: str) -> ProgramLine | Expression:
+    if len(text) > LONGEST:
+        raise LineFault(Code.MEMORY, LONGEST + 1)
     squeezed, columns = squeeze(text)
     columns.append(len(text))
     try:
@@ -435,7 +439,10 @@ def _parse(text: str, start: str) -> ProgramLine | Expression:
 
 def parse_line(text: str) -> ProgramLine:
     """A line as typed; `LineFault` when it is not understood."""
-    return _parse(text, "line")
+    line = _parse(text, "line")
+    if line.number is None and isinstance(line.statement, Input):
+        raise LineFault(Code.SYNTAX, len(text))
+    return line
 
 
 def parse_answer(text: str) -> Expression:
