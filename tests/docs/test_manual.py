@@ -2,7 +2,9 @@
 
 A fence ```skg holds a program; the fences ```paper and ```tape after it what it prints and punches. A word
 behind ```skg names its picture, `input=` what the operator answers. A fence ```prompt holds lines that begin
-with the prompt and what the machine says to them. The tables of operations and errors carry examples too.
+with the prompt and what is said to them, by firmware and reference. A fence ```board has commands too, which the
+firmware alone knows; ```saved after it is what it punched, without blocks, and is in the reader for a fence
+```board loaded. The tables of operations and errors carry examples too.
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ import re
 import runpy
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,12 +29,13 @@ from skg.ref.values import C, D, P, S, T
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "manual.md"
 README = ROOT / "README.md"
+BOARDS = ROOT / "docs" / "boards.md"
 FIRMWARE = ROOT / "docs" / "firmware.md"
 PICTURES = ROOT / "docs" / "pictures"
 ROM = ROOT / "roms" / "skg.bin"
 SKG80 = ROOT / "build" / "skg80"
 
-FENCE = re.compile(r"^```(?P<kind>skg|paper|tape|prompt)(?P<rest>.*)\n(?P<body>(?:(?!```).*\n)*)```$", re.M)
+FENCE = re.compile(r"^```(?P<kind>skg|paper|tape|prompt|board|saved)(?P<rest>.*)\n(?P<body>(?:(?!```).*\n)*)```$", re.M)
 #: A row of the table of operations: form, result, meaning, example, what PRINT says, source.
 OPERATION = re.compile(
     r"^\| `(?P<form>[^`]+)` \| \S+ \| [^|]+ \| `(?P<example>[^`]+)` \| `(?P<result>[^`]*)` \|", re.M)
@@ -39,7 +43,6 @@ OPERATION = re.compile(
 ERROR = re.compile(r"^\| (?P<number>\d\d) \| [^|]+ \| (?P<example>`[^|]+`) \|", re.M)
 #: A block as the teletype lists it.
 BLOCK = re.compile(r"\d{4} (B|D)")
-#: A row of the README's table of what the ROM has: words, yes or no.
 
 
 @dataclass
@@ -64,7 +67,7 @@ def examples() -> list[Example]:
             line = page.count("\n", 0, fence.start()) + 1
             answers = (options["answers"] or "").split("/") if options["answers"] else []
             found.append(Example(line, fence["body"], options["picture"], answers))
-        elif fence["kind"] != "prompt":
+        elif fence["kind"] in ("paper", "tape"):
             setattr(found[-1], fence["kind"], fence["body"])
     return found
 
@@ -137,12 +140,16 @@ def test_operations_are_complete() -> None:
 
 
 def test_statements_are_complete() -> None:
-    """Every word of the grammar stands in the appendix of statements."""
+    """Every word of the grammar stands in the appendix of statements, and in an example."""
     grammar = (ROOT / "tools" / "skg" / "ref" / "skg.lark").read_text()
     words = set(re.findall(r"^_([A-Z]+)\.2", grammar, re.M))
+    assert len(words) > 15
     appendix = PAGE.read_text().split("## Appendix A")[1].split("## Appendix B")[0]
     shown = set(re.findall(r"^\| `([A-Z]+)", appendix, re.M))
     assert words <= shown
+    used = {word for example in examples() for word in re.findall(r"^\d+ ([A-Z]+)", example.source, re.M)}
+    used |= {word for fence in fences("prompt") for word in re.findall(r"^>([A-Z]+)", fence["body"], re.M)}
+    assert words <= used
 
 
 def pictures() -> list[Example]:
@@ -216,19 +223,60 @@ def test_prompt_on_the_board(fence: re.Match[str]) -> None:
     assert said_by_the_board(fence["body"]) == fence["body"]
 
 
-def said_by_the_board(session: str) -> str:
-    """A session as the board's paper shows it, from the first prompt on, when these lines are typed."""
+def said_by_the_board(session: str, reader: str = "", punched: list[str] | None = None) -> str:
+    """A session as the board's paper shows it, from the first prompt on, when these lines are typed.
+
+    The tape `reader` is in the reader; what is punched, but for blocks and the ctrl-Z behind it, is added to `punched`.
+    """
     typed = "".join(f"{line[1:]}\r" for line in session.splitlines() if line.startswith(">"))
-    done = subprocess.run([SKG80, "--rom", ROM], input=typed.encode(), capture_output=True, timeout=60,
-                          check=False)
-    paper = done.stdout.decode().replace("\r", "")
+    with tempfile.TemporaryDirectory() as scratch:
+        tape, punch = Path(scratch) / "tape", Path(scratch) / "punch"
+        tape.write_bytes(reader.replace("\n", "\r\n").encode() + b"\x1a")
+        done = subprocess.run([SKG80, "--rom", ROM, "--tape", tape, "--punch", punch], input=typed.encode(),
+                              capture_output=True, timeout=60, check=False)
+        if punched is not None:
+            lines = punch.read_text().rstrip("\x1a").splitlines()
+            punched.append("".join(f"{line}\n" for line in lines if line and not re.match("[BD]", line)))
+    paper = done.stdout.decode().replace("\r", "").replace("\x1a", "")
     return paper[paper.index(">"):].removesuffix(">")
+
+
+def boards() -> Iterator[tuple[re.Match[str], str, str]]:
+    """Every session with the firmware, what it says and what it punches."""
+    saved = ""
+    for fence in rows(FENCE):
+        if fence["kind"] == "board":
+            punched: list[str] = []
+            said = said_by_the_board(fence["body"], saved if fence["rest"] == " loaded" else "", punched)
+            saved = punched[0] or saved
+            yield fence, said, saved
+
+
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+def test_sessions_on_the_board() -> None:
+    """What the board says to commands, and the tape that SAVE punches."""
+    sessions = list(boards())
+    assert len(sessions) >= 2
+    for fence, said, _ in sessions:
+        assert said == fence["body"]
+    assert [fence["body"] for fence in fences("saved")] == [sessions[0][2]]
+    words = {word for fence, _, _ in sessions for word in re.findall(r"^>([A-Z]+)", fence["body"], re.M)}
+    assert words >= {"RUN", "LIST", "NEW", "LOAD", "SAVE", "FREE"}
 
 
 @pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
 def test_readme_session() -> None:
     session = next(fence["body"] for fence in FENCE.finditer(README.read_text()) if fence["kind"] == "prompt")
     assert said_by_the_board(session) == session
+
+
+@pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
+def test_first_light() -> None:
+    """The free bytes that docs/boards.md promises."""
+    done = subprocess.run([SKG80, "--rom", ROM], input=b"", capture_output=True, timeout=60, check=False)
+    free = re.search(rb"SKG (\d+)", done.stdout)
+    assert free
+    assert f"the board says `SKG` and the free bytes ({free[1].decode()} with 8 KiB of RAM)" in BOARDS.read_text()
 
 
 # The firmware's page
@@ -274,6 +322,8 @@ def rewritten(page: str) -> str:
                 before = run("\n".join(each[1:] for each in typed[: n - 1])).paper.splitlines()
                 body += "".join(f"{each}\n" for each in [line, *said[len(before):]])
             return f"```prompt\n{body}```"
+        if kind in ("board", "saved"):
+            return match[0]
         if kind == "skg":
             answers = re.search(r"input=(\S+)", match["rest"])
             last = run(match["body"], answers[1].split("/") if answers else [])
@@ -281,7 +331,17 @@ def rewritten(page: str) -> str:
         assert last
         return f"```{kind}\n{last.paper if kind == 'paper' else text_of(last)}```"
 
-    page = FENCE.sub(fence, page)
+    sessions = boards()
+    saved = ""
+
+    def board(match: re.Match[str]) -> str:
+        nonlocal saved
+        if match["kind"] == "board":
+            _, said, saved = next(sessions)
+            return f"```board{match['rest']}\n{said}```"
+        return f"```saved\n{saved}```" if match["kind"] == "saved" else match[0]
+
+    page = FENCE.sub(board, FENCE.sub(fence, page))
 
     def row(match: re.Match[str]) -> str:
         said = run(f"PRINT {match['example']}").paper.strip()
@@ -291,8 +351,6 @@ def rewritten(page: str) -> str:
 
 
 if __name__ == "__main__":
-    import tempfile
-
     PAGE.write_text(rewritten(PAGE.read_text()))
     if ROM.exists() and SKG80.exists():
         README.write_text(FENCE.sub(
