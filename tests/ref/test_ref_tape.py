@@ -11,7 +11,7 @@ from refhelp import arc_end, blocks, cut
 
 from skg.ref.fault import Fault
 from skg.ref.real import Real, mp
-from skg.ref.tape import Tape, arc_block, line_block, micrometres
+from skg.ref.tape import Punch, arc_block, line_block, micrometres
 from skg.ref.values import Point
 
 CAD_TAPE = [
@@ -133,7 +133,7 @@ def test_more_than_a_full_turn_by_rounding() -> None:
 
 
 def test_rounded_ends_that_coincide() -> None:
-    tape = Tape()
+    tape = Punch()
     tape.place(Point(Real(10), Real(0)))
     near_start = Point(Real(10), Real("0.0001"))
     centre = Point(Real(0), Real(0))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from skg.ref import run
 from skg.ref.cutter import Cutter
 from skg.ref.route import Segment
-from skg.ref.tape import Grid, Tape
+from skg.ref.tape import Grid, Punch
 from skg.tape import parse_block
 from skg.tape.controller import trace_array
 
@@ -74,7 +74,7 @@ def steps(part: Path, drift: bool) -> tuple[Step, ...]:
     emit = Cutter._emit
 
     def watched(self: Cutter, segment: Segment) -> None:
-        tape: Tape = self.tape
+        tape: Punch = self.tape
         lines, before = len(tape.lines), tape.at
         emit(self, segment)
         found.append(Step(micrometres(segment), "".join(tape.lines[lines:]), before, tape.at))

@@ -24,10 +24,15 @@ from test_tape import blocks
 
 from skg import tape as tapes
 from skg.drawing import source
-from skg.drawing.dxf import draw, lay_out
-from skg.drawing.program import plan, write
-from skg.drawing.read import Content, Edge, Point, chain, collect, distance, minus, polar, without_doubles
+from skg.drawing.chain import chain, without_doubles
+from skg.drawing.contour import Edge
+from skg.drawing.dxf import draw
+from skg.drawing.plan import plan
+from skg.drawing.read import Content, collect
+from skg.drawing.source import lay_out
+from skg.drawing.write import write
 from skg.errors import UserError
+from skg.plane import XY, distance, minus, polar
 from skg.ref import run as run_reference
 from skg.tape import Block
 from skg.tape.joints import estimate
@@ -66,7 +71,7 @@ def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: objec
                       bool(wishes.get("reverse"))), make.__name__, bool(wishes.get("fillets", True)))
 
 
-def points_along(edges: list[Edge]) -> Iterator[Point]:
+def points_along(edges: list[Edge]) -> Iterator[XY]:
     for edge in edges:
         if edge.nodes:
             yield from edge.samples
@@ -74,7 +79,7 @@ def points_along(edges: list[Edge]) -> Iterator[Point]:
             yield from (edge.at(k / 16) for k in range(17))
 
 
-def off(points: Iterable[Point], edges: list[Edge]) -> np.ndarray:
+def off(points: Iterable[XY], edges: list[Edge]) -> np.ndarray:
     """Distance of each point from the nearest edge, µm."""
     found = np.full(len(points := np.array(list(points))), np.inf)
     chords = [(p, q) for edge in edges if edge.centre is None
@@ -332,7 +337,7 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     result = run("from-dxf", drawing, "--offset", "0.1", "-o", program)
     assert result.exit_code == 0
     assert result.stderr == f"skg: {drawing}: passed by 1 TEXT\n"
-    tape.write_bytes(source.tapes.to_bytes(source.load(str(program), "reference").tape.items))
+    tape.write_bytes(tapes.to_bytes(source.load(str(program), "reference").tape.items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
     assert layers == {"WIRE", "LEAD", "MOVES", "START", "STOPS"}
@@ -379,7 +384,7 @@ def test_nodes_follow_the_tolerance() -> None:
     assert 1.4 < counts[1] / counts[0] < 2.6
 
 
-def star(count: int) -> list[Point]:
+def star(count: int) -> list[XY]:
     turns = [2 * pi * k / count for k in range(count)]
     return [(20 * cos(turn), (20 + 6 * (k % 2)) * sin(turn)) for k, turn in enumerate(turns)]
 
@@ -479,7 +484,7 @@ def test_round_openings(run: Run, tmp_path: Path) -> None:
 
 
 def test_too_many_lines(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("skg.drawing.program._LAST_LINE", 20)
+    monkeypatch.setattr("skg.drawing.write._LAST_LINE", 20)
     with pytest.raises(UserError, match="the program would have .* lines, at most 20 fit"):
         program_of(drawings.ratchet)
 

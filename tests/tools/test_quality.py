@@ -12,26 +12,10 @@ import numpy as np
 import pytest
 
 from skg.errors import UserError
-from skg.quality import quality
-from skg.quality.quality import (
-    Biarcs,
-    Piece,
-    Quality,
-    Run,
-    Saving,
-    arc_distance,
-    denser,
-    distance,
-    fewest_blocks,
-    fitted_runs,
-    measure,
-    node,
-    pieces,
-    savings,
-    span_blocks,
-    tangent_jump,
-    with_tangents,
-)
+from skg.quality import measure as measuring
+from skg.quality.fewest import Saving, arc_distance, fewest_blocks, savings, span_blocks, with_tangents
+from skg.quality.fitted import Biarcs, FittedPiece, Run, fitted_runs, pieces, tangent_jump
+from skg.quality.measure import Quality, denser, distance, measure, node
 from skg.quality.true_curves import TRUE_CURVES
 from skg.ref import fit
 from skg.ref import run as reference
@@ -136,15 +120,15 @@ def test_distance_is_a_distance(step: int, tolerance: str, blocks: int) -> None:
     made = pieces(few, Real(tolerance))
     assert len(made) == blocks
     everywhere = true.at(np.linspace(0, 360, 200001))
-    by_hand = max(np.min(np.abs(everywhere - z)) for piece in made for z in piece.places(quality.SAMPLES))
+    by_hand = max(np.min(np.abs(everywhere - z)) for piece in made for z in piece.places(measuring.SAMPLES))
     assert distance(made, true, parameters) == pytest.approx(by_hand, rel=1e-6)
     assert by_hand > 0.1
 
 
 def test_jump_is_seen() -> None:
-    quarter = Piece(Point(Real(10), ZERO), Point(ZERO, Real(10)), Circle(ZERO, ZERO, Real(10)))
-    line = Piece(quarter.end, Point(Real(-10), Real(10)), None)
-    bent = Piece(quarter.end, Point(Real(-10), Real("10.001")), None)
+    quarter = FittedPiece(Point(Real(10), ZERO), Point(ZERO, Real(10)), Circle(ZERO, ZERO, Real(10)))
+    line = FittedPiece(quarter.end, Point(Real(-10), Real(10)), None)
+    bent = FittedPiece(quarter.end, Point(Real(-10), Real("10.001")), None)
     assert tangent_jump([quarter, line]) < 1e-40
     assert tangent_jump([quarter, bent]) == pytest.approx(1e-4, rel=1e-6)
 

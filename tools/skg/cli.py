@@ -9,17 +9,17 @@ import click
 
 from skg.errors import UserError
 
-#: Subcommand -> "module:attribute" of its click command.
+#: Subcommand -> what it does, as `skg --help` lists it. Its click command is `command` in the module of its name.
 COMMANDS = {
-    "check": "skg.commands.check:command",
-    "dxf": "skg.drawing.dxf:command",
-    "from-dxf": "skg.drawing.program:command",
-    "gcode": "skg.tape.gcode:command",
-    "plot": "skg.drawing.plot:command",
-    "quality": "skg.quality.quality:command",
-    "ref": "skg.commands.ref:command",
-    "sim": "skg.tape.simulation:command",
-    "term": "skg.machine.teletype:command",
+    "check": "Find everything on tapes that a controller would choke on.",
+    "dxf": "Turn a tape or a program into a DXF drawing.",
+    "from-dxf": "Write the program that cuts a DXF drawing.",
+    "gcode": "Turn a 3B tape into ISO G-code, or back.",
+    "plot": "Draw tapes and programs to scale.",
+    "quality": "Measure the curves of FIT against the true ones.",
+    "ref": "Run a program in 50-digit arithmetic: the exact tape.",
+    "sim": "Follow tapes step by step as a controller does.",
+    "term": "Be the teletype of a machine on a serial port.",
 }
 
 
@@ -34,8 +34,12 @@ class LazyGroup(click.Group):
         """The subcommand's click command, or None for an unknown name."""
         if cmd_name not in COMMANDS:
             return None
-        module, attribute = COMMANDS[cmd_name].split(":")
-        return getattr(import_module(module), attribute)
+        return import_module(f"skg.commands.{cmd_name.replace('-', '_')}").command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the subcommands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
 
 
 @click.command(cls=LazyGroup)

@@ -7,8 +7,7 @@ from dataclasses import asdict
 
 import click
 
-from skg.tape import block as tapes
-from skg.tape.block import Finding
+from skg.tape.text import Finding, read_tape_bytes, scan
 
 
 @click.command(name="check")
@@ -22,7 +21,7 @@ def command(tapes_: tuple[str, ...], as_json: bool) -> None:
     """
     found: list[tuple[str, Finding]] = []
     for name in tapes_:
-        tape, findings = tapes.scan(tapes.read_tape_bytes(name), name)
+        tape, findings = scan(read_tape_bytes(name), name)
         found += [(name, finding) for finding in findings]
         if not as_json and not findings:
             click.echo(f"{name}: {len(tape.blocks)} blocks, nothing wrong")

@@ -8,7 +8,6 @@ from typing import BinaryIO
 import click
 
 from skg.errors import UserError
-from skg.ref.interpreter import run
 
 
 def _text(file: BinaryIO) -> str:
@@ -47,6 +46,8 @@ def command(part: BinaryIO, output: BinaryIO, answers: BinaryIO | None, drift: b
     The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
+    from skg.ref import run
+
     result = run(_text(part), _text(answers).splitlines() if answers else [], drift=drift)
     sys.stderr.write(result.paper)
     output.write(result.tape)

@@ -1,29 +1,27 @@
-"""`skg plot`: pictures of tapes, to scale."""
+"""Pictures of tapes, to scale."""
 
 from __future__ import annotations
 
+import io
 import json
 from dataclasses import dataclass
 from math import ceil, cos, degrees, hypot, pi, sin
-from pathlib import Path
 
-import click
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Polygon
-from matplotlib.path import Path as Curve
+from matplotlib.path import Path as Outline
 from matplotlib.ticker import MaxNLocator
 
-from skg.drawing import source
 from skg.errors import UserError
-from skg.tape.block import micrometres
-from skg.tape.gcode import Pair
-from skg.tape.placed import Placed, PlacedRoute, extents, place, positions_option, stop_places
+from skg.files import write_bytes
+from skg.piece import Piece
+from skg.plane import XY
+from skg.tape.placed import PlacedRoute, extents
 
 #: One colour for each tape (Okabe and Ito's palette, which colour-blind readers tell apart).
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-FORMATS = ("svg", "png", "pdf")
 #: Drawing scales to choose from: the largest at which the part fits the paper is taken.
 SCALES = (100, 50, 20, 10, 5, 4, 3, 2, 1, 1 / 2, 1 / 5, 1 / 10, 1 / 20, 1 / 50, 1 / 100, 1 / 500, 1 / 1000)
 #: Largest size of the drawing on the paper, and the margin around it, mm.
@@ -37,48 +35,39 @@ class Sheet:
 
     name: str
     routes: list[PlacedRoute]
-    contour: tuple[source.Piece, ...] = ()
+    contour: tuple[Piece, ...] = ()
 
 
-def _arc_curve(centre: tuple[float, float], radius: float, first: float, last: float) -> Curve:
+def _arc(centre: XY, radius: float, first: float, last: float) -> Outline:
     """An arc from angle `first` to `last` (radians, any sense) as Bézier curves of at most 22.5°: true to
     one part in 10⁸."""
     low, high = sorted((first, last))
-    unit = Curve.arc(degrees(low), degrees(high), n=max(1, ceil((high - low) / (pi / 8))))
+    unit = Outline.arc(degrees(low), degrees(high), n=max(1, ceil((high - low) / (pi / 8))))
     if high - low >= 2 * pi - 1e-12:
-        unit = Curve.arc(degrees(low), degrees(low) + 360 - 1e-9, n=16)
+        unit = Outline.arc(degrees(low), degrees(low) + 360 - 1e-9, n=16)
     vertices = unit.vertices * radius + centre
     # Reversing the points of a chain of cubic curves reverses the chain; the codes are the same either way.
-    return Curve(vertices if last >= first else vertices[::-1], unit.codes)
+    return Outline(vertices if last >= first else vertices[::-1], unit.codes)
 
 
-def block_curve(placed: Placed) -> Curve:
-    """One block's line or arc, mm."""
-    if placed.block.is_line:
-        return Curve([(x / 1000, y / 1000) for x, y in (placed.start, placed.end)])
-    first, last = placed.angles
-    centre = placed.centre[0] / 1000, placed.centre[1] / 1000
-    return _arc_curve(centre, hypot(placed.block.x, placed.block.y) / 1000, first, last)
+def outline(piece: Piece, scale: float = 1.0) -> Outline:
+    """A line or an arc, mm; `scale` is a millimetre over the piece's unit."""
+    if piece.is_line:
+        return Outline([(x * scale, y * scale) for x, y in (piece.start, piece.end)])
+    centre = piece.centre[0] * scale, piece.centre[1] * scale
+    return _arc(centre, piece.radius * scale, *piece.angles)
 
 
-def piece_curve(piece: source.Piece) -> Curve:
-    """One piece of a nominal contour, mm."""
-    if piece.centre is None:
-        return Curve([piece.start, piece.end])
-    (xc, yc), (xs, ys) = piece.centre, piece.start
-    return _arc_curve(piece.centre, hypot(xs - xc, ys - yc), piece.angles[0], piece.angles[1])
-
-
-def _join(curves: list[Curve]) -> Curve:
+def _join(curves: list[Outline]) -> Outline:
     """One curve of many that follow each other: the pen stays down between them."""
-    joined = Curve.make_compound_path(*curves)
+    joined = Outline.make_compound_path(*curves)
     codes = joined.codes.copy()
     end = None
     for at in range(len(codes)):
-        if codes[at] == Curve.MOVETO and end is not None and hypot(*(joined.vertices[at] - end)) < 0.01:
-            codes[at] = Curve.LINETO
+        if codes[at] == Outline.MOVETO and end is not None and hypot(*(joined.vertices[at] - end)) < 0.01:
+            codes[at] = Outline.LINETO
         end = joined.vertices[at]
-    return Curve(joined.vertices, codes)
+    return Outline(joined.vertices, codes)
 
 
 class Picture:
@@ -145,13 +134,13 @@ class Picture:
             if numbers:
                 self._numbers(route, colour)
         if sheet.contour:
-            curve = _join([piece_curve(piece) for piece in sheet.contour])
+            curve = _join([outline(piece) for piece in sheet.contour])
             patch = PathPatch(curve, fill=False, edgecolor="#555555", linewidth=0.5, zorder=1.5)
             patch.set_gid(f"{name}-contour")
             self.axes.add_patch(patch)
 
     def _route(self, route: PlacedRoute, colour: str, gid: str, wire: float) -> None:
-        curve = _join([block_curve(placed) for placed in route.blocks])
+        curve = _join([outline(placed, 0.001) for placed in route.blocks])
         if wire and not route.is_move:
             kerf = PathPatch(curve, fill=False, edgecolor=colour, alpha=0.25, capstyle="round",
                              joinstyle="round", linewidth=wire * self.description["mm_to_points"], zorder=1)
@@ -167,7 +156,7 @@ class Picture:
             hole.set_gid(f"{gid}-start")
             self.axes.add_patch(hole)
 
-    def stop(self, point: tuple[int, int], gid: str) -> None:
+    def stop(self, point: XY, gid: str) -> None:
         """Mark a place where the controller stops."""
         x, y = point[0] / 1000, point[1] / 1000
         size = self.on_paper(1.6)
@@ -215,60 +204,7 @@ class Picture:
             metadata = {"Date": None, "Creator": "skg plot", "Description": json.dumps(self.description)}
         elif form == "pdf":
             metadata = {"CreationDate": None, "Creator": "skg plot"}
-        with mpl.rc_context(settings), click.open_file(output, "wb") as file:
-            self.figure.savefig(file, format=form, dpi=150, metadata=metadata, facecolor="white")
-
-
-def _form(output: str, form: str | None) -> str:
-    """The picture's format: as said, else by the file's name; the standard output is SVG."""
-    found = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
-    if found not in FORMATS:
-        raise UserError(f"{output}: expected a name that ends in .svg, .png or .pdf, or --format")
-    return found
-
-
-@click.command(name="plot")
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
-@click.option("-o", "--output", required=True, type=click.Path(allow_dash=True),
-              help="Picture to write, .svg, .png or .pdf; - for the standard output.")
-@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, when the name does not tell it.")
-@click.option("--blocks", is_flag=True, help="Write every block's number beside it.")
-@click.option("--wire", default=0.0, metavar="MM", type=click.FloatRange(0),
-              help="Draw the cut of a wire of this diameter, to scale.")
-@click.option("--no-arrows", is_flag=True, help="No arrows in the direction of travel.")
-@click.option("--show-offset", is_flag=True, help="Also draw the nominal contour (of .skg programs).")
-@click.option("--start", multiple=True, type=Pair(),
-              help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.")
-@click.option("--scale", type=click.FloatRange(0, min_open=True), help="Drawing scale; default: what fits.")
-@click.option("--title", default="", help="A title above the drawing.")
-@positions_option
-@source.skg80_option
-def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool, wire: float, no_arrows: bool,
-            show_offset: bool, start: tuple[tuple[float, float], ...], scale: float | None, title: str,
-            positions: str, skg80: str | None) -> None:
-    """Draw tapes (.3b) and programs (.skg), several in one picture.
-
-    Start holes are circles, stops squares, positioning moves dashed. A program is run first: by build/skg80
-    when it is there (or the one that --skg80 names), otherwise by the reference interpreter. FILE - is a tape
-    on the standard input.
-    """
-    picture_format = _form(output, form)
-    sheets = []
-    stops: list[list[tuple[int, int]]] = []
-    for at, name in enumerate(files):
-        made = source.load(name, skg80, show_offset)
-        x, y = start[at] if at < len(start) else made.start
-        home = micrometres(x), micrometres(y)
-        routes = place(made.tape, home, positions)
-        sheets.append(Sheet(Path(name).name, routes, made.contour))
-        stops.append(stop_places(made.tape, routes, home))
-    if not any(sheet.routes for sheet in sheets):
-        raise UserError(f"{files[0]}: nothing to draw, the tape has no blocks")
-    picture = Picture(sheets, scale, title)
-    for at, sheet in enumerate(sheets):
-        picture.draw(sheet, COLOURS[at % len(COLOURS)], f"tape-{at + 1}", wire, not no_arrows, blocks)
-        for number, point in enumerate(stops[at], 1):
-            picture.stop(point, f"tape-{at + 1}-stop-{number}")
-    if len(sheets) > 1:
-        picture.legend([sheet.name for sheet in sheets])
-    picture.save(output, picture_format)
+        picture = io.BytesIO()
+        with mpl.rc_context(settings):
+            self.figure.savefig(picture, format=form, dpi=150, metadata=metadata, facecolor="white")
+        write_bytes(output, picture.getvalue())

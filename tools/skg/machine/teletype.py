@@ -1,4 +1,4 @@
-"""`skg term`: a teletype in the terminal, for the board or the emulator's `--pty`.
+"""A teletype in the terminal, for the board or the emulator's `--pty`.
 
 Three things happen at once: the keyboard goes to the port, the port's paper to the screen and its punch to a
 file, and a program that is being sent goes out line by line. One thread reads the port (and one a second
@@ -18,15 +18,12 @@ import time
 import tty
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import BinaryIO
 
-import click
 import serial
 from tqdm import tqdm
 
 from skg.errors import UserError
-from skg.tape import block as tape
 
 XON, XOFF, DC2, DC4, ESCAPE = 0x11, 0x13, 0x12, 0x14, 0x1D
 LF, PROMPT = 0x0A, 0x3E
@@ -154,7 +151,7 @@ def _reason(error: Exception) -> str:
     return str(error).splitlines()[0] if str(error) else type(error).__name__
 
 
-class _BrokenOff(Exception):
+class BrokenOff(Exception):
     """The operator typed ctrl-] or ctrl-C."""
 
 
@@ -220,12 +217,12 @@ class Teletype:
         return bytes(self.line) == b">"
 
     def check(self) -> None:
-        """Raise what went wrong in a reading thread, or `_BrokenOff` when the operator wants to stop."""
+        """Raise what went wrong in a reading thread, or `BrokenOff` when the operator wants to stop."""
         if self.failure:
             raise self.failure
         typed = self.keys()
         if ESCAPE in typed or 0x03 in typed:
-            raise _BrokenOff
+            raise BrokenOff
 
     def wait(self, until: Callable[[], bool], quiet: float) -> None:
         """Wait until something is so, or until nothing has come in for `quiet` seconds."""
@@ -259,7 +256,7 @@ def send(port: Port, teletype: Teletype, data: bytes, pace: str, delay: float) -
     """Send a file; lines end with CR, as on a teletype.
 
     `pace` "prompt" waits for the prompt after each line; with "none" only XOFF holds it. `delay`: seconds
-    between two lines. Raises `_BrokenOff` when the operator types ctrl-] or ctrl-C.
+    between two lines. Raises `BrokenOff` when the operator types ctrl-] or ctrl-C.
     """
     lines = data.replace(b"\r\n", b"\r").replace(b"\n", b"\r").splitlines(keepends=True)
     with tqdm(total=sum(map(len, lines)), unit="B", unit_scale=True, desc="sending", leave=False,
@@ -310,65 +307,3 @@ def converse(port: Port, teletype: Teletype) -> None:
             port.write(typed)
         else:
             time.sleep(0.01)
-
-
-@click.command(name="term")
-@click.argument("port")
-@click.option("--send", "file", metavar="FILE", type=click.Path(allow_dash=True),
-              help="Type this file first, line by line; - for the standard input.")
-@click.option("--run", is_flag=True, help="Type RUN after the file.")
-@click.option("--record", metavar="FILE", type=click.Path(), help="Write what is punched to this file.")
-@click.option("--punch-port", metavar="PORT", help="Where the punch is connected, if not to PORT itself.")
-@click.option("--baud", default=9600, show_default=True, type=click.IntRange(50), help="Speed of both ports.")
-@click.option("--pace", type=click.Choice(("prompt", "none")), default="prompt", show_default=True,
-              help="After each line that is sent wait for the prompt, or for nothing but XOFF.")
-@click.option("--delay", default=0.0, metavar="SECONDS", type=click.FloatRange(0),
-              help="Also wait this long after each line.")
-@click.option("--batch", is_flag=True,
-              help="Leave when the file was sent and the tape's DD was punched, or when nothing has come for "
-                   "--quiet seconds.")
-@click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS",
-              type=click.FloatRange(0, min_open=True), help="How long --batch waits for more.")
-@click.option("--patience", default=0.0, metavar="SECONDS", type=click.FloatRange(0),
-              help="Give up a port that stays away this long. Default: never.")
-def command(port: str, file: str | None, run: bool, record: str | None, punch_port: str | None, baud: int,
-            pace: str, delay: float, batch: bool, quiet: float, patience: float) -> None:
-    """Be the teletype of the machine on PORT (a device, or any address that pyserial knows).
-
-    Keys go to the machine as they are typed; ctrl-] leaves. What it punches, between DC2 and DC4 or on a port
-    of its own, goes to the file of --record. XOFF holds what is sent until XON. A port that goes away is
-    opened again when it comes back. Without a terminal the standard input is typed instead, and the command
-    leaves as with --batch.
-    """
-    data = tape.read_bytes(file) if file else b""
-    with contextlib.ExitStack() as stack:
-        punched = stack.enter_context(Path(record).open("wb")) if record else None
-        teletype = Teletype(punched, show_bars=sys.stderr.isatty())
-        machine = Port(port, baud, teletype.say, teletype.splitter.may_send.set, patience)
-        stack.callback(machine.close)
-        readers = [(machine, False)]
-        if punch_port:
-            readers.append((Port(punch_port, baud, teletype.say, bool, patience), True))
-            stack.callback(readers[1][0].close)
-        for reader in readers:
-            threading.Thread(target=teletype.listen, args=reader, daemon=True).start()
-        teletype.keys = stack.enter_context(raw_keyboard())
-        try:
-            send(machine, teletype, data, pace, delay)
-            if run:
-                send(machine, teletype, b"RUN\n", "none", 0.0)
-            if batch or not sys.stdin.isatty():
-                if not batch and file != "-":
-                    send(machine, teletype, tape.read_bytes("-"), pace, delay)
-                teletype.wait(lambda: teletype.ended, quiet)
-                # Whatever stands on the paper after DD.
-                teletype.wait(bool, 0.2)
-            else:
-                converse(machine, teletype)
-        except _BrokenOff:
-            teletype.say("broken off")
-            stack.close()
-            raise SystemExit(1) from None
-    if teletype.punched:
-        where = f" to {record}" if record else ""
-        click.echo(f"skg term: {teletype.punched} bytes punched{where}", err=True)

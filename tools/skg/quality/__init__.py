@@ -1,1 +1,1 @@
-"""How good fitted curves are."""
+"""How near fitted curves come to the true ones, and how many blocks they take."""

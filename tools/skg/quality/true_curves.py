@@ -26,7 +26,7 @@ class TrueCurve:
     way: Formula | None = None
 
 
-def turn(angle: np.ndarray | float) -> np.ndarray:
+def cis(angle: np.ndarray | float) -> np.ndarray:
     """e to the i·angle, the angle in degrees."""
     return np.exp(1j * np.radians(angle))
 
@@ -43,8 +43,8 @@ def steps(first: float, last: float, step: float) -> np.ndarray:
 
 def cam(name: str, lift: Formula, slope: Formula | None, nodes: np.ndarray) -> TrueCurve:
     """A disc cam by its radius; `slope` is the radius' derivative by the angle in radians."""
-    way = None if slope is None else (lambda a: unit((slope(a) + 1j * lift(a)) * turn(a)))
-    return TrueCurve(name, lambda a: lift(a) * turn(a), nodes, way)
+    way = None if slope is None else (lambda a: unit((slope(a) + 1j * lift(a)) * cis(a)))
+    return TrueCurve(name, lambda a: lift(a) * cis(a), nodes, way)
 
 
 def harmonic(a: np.ndarray) -> np.ndarray:
@@ -84,9 +84,9 @@ def flat_follower() -> TrueCurve:
     lift, slope = two_lobes(20)
     return TrueCurve(
         "cam of a flat follower",
-        lambda a: (lift(a) + 1j * slope(a)) * turn(a),
+        lambda a: (lift(a) + 1j * slope(a)) * cis(a),
         steps(0, 360, 15),
-        lambda a: turn(a + 90),
+        lambda a: cis(a + 90),
     )
 
 
@@ -121,7 +121,7 @@ def trochoid(name: str, fixed: float, rolling: float, last: float, step: float) 
     """Epicycloid (rolling > 0, outside) or hypocycloid (rolling < 0, inside) of a circle on a fixed one."""
     distance = fixed + rolling
     return TrueCurve(
-        name, lambda a: distance * turn(a) - rolling * turn(a * (fixed / rolling + 1)), steps(0, last, step)
+        name, lambda a: distance * cis(a) - rolling * cis(a * (fixed / rolling + 1)), steps(0, last, step)
     )
 
 
@@ -135,9 +135,9 @@ def involute() -> TrueCurve:
     tip = np.degrees(np.sqrt((22 / base) ** 2 - 1))
     return TrueCurve(
         "involute",
-        lambda a: base * (1 - 1j * np.radians(a)) * turn(a + start),
+        lambda a: base * (1 - 1j * np.radians(a)) * cis(a + start),
         np.linspace(0, tip, 7),
-        lambda a: turn(a + start),
+        lambda a: cis(a + start),
     )
 
 
@@ -147,9 +147,9 @@ TRUE_CURVES = {
     "fit-parabola": TrueCurve(
         "parabola", lambda x: x + 1j * x * x / 60, steps(40, -40, -5), lambda x: -unit(1 + 1j * x / 30)
     ),
-    "fit-spiral": TrueCurve("Archimedean spiral", lambda a: (20 + a / 30) * turn(a), steps(0, 360, 12)),
+    "fit-spiral": TrueCurve("Archimedean spiral", lambda a: (20 + a / 30) * cis(a), steps(0, 360, 12)),
     "fit-cycloid": TrueCurve(
-        "cycloid", lambda a: 8 * (np.radians(a) + 1j - 1j * turn(-a)), steps(360, 0, -20)
+        "cycloid", lambda a: 8 * (np.radians(a) + 1j - 1j * cis(-a)), steps(360, 0, -20)
     ),
     "fit-epicycloid": trochoid("epicycloid", 21, 4.2, 72, 4),
     "fit-hypocycloid": trochoid("hypocycloid", 30, -7.5, 90, 6),

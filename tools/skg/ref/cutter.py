@@ -7,12 +7,11 @@ from dataclasses import dataclass, replace
 
 from skg.ref import near
 from skg.ref.fault import Code, Fault
-from skg.ref.fit import Curve as FittedCurve
-from skg.ref.fit import Node
+from skg.ref.fit import FittedCurve, Node
 from skg.ref.geometry import enlarged
 from skg.ref.real import NEARLY, ONE, ZERO, Real
 from skg.ref.route import Item, Route, Segment
-from skg.ref.tape import Tape
+from skg.ref.tape import Punch
 from skg.ref.values import ORIGIN, Circle, Line, Point
 
 #: More items than the route buffer of any board has room for (56 KiB, 16 bytes an item).
@@ -36,7 +35,7 @@ class Closed:
 class Cutter:
     """The state between cutting statements. Places are in mm on the tape, arguments in the drawing's mm."""
 
-    def __init__(self, tape: Tape, path: list[Segment]) -> None:
+    def __init__(self, tape: Punch, path: list[Segment]) -> None:
         self.tape = tape
         self.path = path
         self.line: int | None = None

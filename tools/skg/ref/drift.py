@@ -10,7 +10,7 @@ from math import isqrt
 
 from skg.ref import near, real
 from skg.ref.real import Real
-from skg.ref.tape import Grid, Tape, block, grid, quadrant_into
+from skg.ref.tape import Grid, Punch, block, grid, quadrant_into
 from skg.ref.values import Point
 
 #: A float of the machine has 32 bits: whole numbers above this are no longer exact.
@@ -91,7 +91,7 @@ def arc(start: Grid, end: Grid, clockwise: bool, is_long: bool) -> tuple[str, Gr
     return block(abs(xs), abs(ys), abs(travel), axis, code), (dx, -dy if clockwise else dy)
 
 
-class DriftlessTape(Tape):
+class DriftlessPunch(Punch):
     """A tape whose every block starts where the controller stands: `at` is that place."""
 
     def arc(self, end: Point, centre: Point, clockwise: bool, sweep: Real) -> None:

@@ -123,7 +123,7 @@ def arc(p: Point, t: Point, q: Point) -> Circle | None:
     return Circle(centre.x, centre.y, r)
 
 
-class Curve:
+class FittedCurve:
     """A run of FIT statements. `feed` takes points and arcs with their R, in the order of the route.
 
     With a tolerance (mm on the tape) nodes are passed over: a span is held back until the next node, and goes on to

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from skg.errors import UserError
 from skg.ref import real
 from skg.ref.cutter import Cutter
-from skg.ref.drift import DriftlessTape
+from skg.ref.drift import DriftlessPunch
 from skg.ref.fault import Code, Fault
 from skg.ref.geometry import negate
 from skg.ref.near import Near, Watch, watching
@@ -49,7 +49,7 @@ from skg.ref.parser import (
 )
 from skg.ref.real import ZERO, Real
 from skg.ref.route import Segment
-from skg.ref.tape import Tape
+from skg.ref.tape import Punch
 from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Turn, Value, canonical, kind
 
 #: Levels of GOSUB.
@@ -93,7 +93,7 @@ class _End(Exception):
 class Interpreter:
     """One machine: a program, variables, a tape."""
 
-    def __init__(self, inputs: Iterable[str], watch: Watch, tape: Tape) -> None:
+    def __init__(self, inputs: Iterable[str], watch: Watch, tape: Punch) -> None:
         self.answers = iter(inputs)
         self.watch = watch
         self.program: dict[int, Statement] = {}
@@ -424,7 +424,7 @@ def run(source: str, inputs: Iterable[str] = (), bits: int | None = None, drift:
     whose tape comes out differently at 33 bits is ill-conditioned for the machine's own floats.
     """
     with watching() as watch, real.mp.workprec(bits or real.mp.prec):
-        machine = Interpreter(inputs, watch, Tape() if drift else DriftlessTape())
+        machine = Interpreter(inputs, watch, Punch() if drift else DriftlessPunch())
         error = machine.load(source)
         if error is None:
             error = machine.run()

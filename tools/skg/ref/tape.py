@@ -116,7 +116,7 @@ def _travel(start: Grid, end: Grid, turns: int, axis: str) -> int:
 
 
 @dataclass
-class Tape:
+class Punch:
     """Blocks in the order of punching; keeps the place of the wire in whole micrometres."""
 
     at: Grid = (0, 0)

@@ -1,4 +1,4 @@
-"""`skg gcode`: 3B tapes to ISO G-code and back.
+"""3B tapes to ISO G-code and back.
 
 The dialect is the one that a CAD package gives beside its 3B tapes: whole micrometres, relative moves, I and
 J from the start to the centre. A number with a decimal point is read as millimetres, as controllers do.
@@ -12,11 +12,8 @@ from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
 from math import hypot
 
-import click
-
 from skg.errors import UserError
-from skg.tape import block as tapes
-from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, arc_block, line_block
+from skg.tape.block import Block, Stop, Tape, arc_block, line_block
 from skg.tape.placed import closed_moves
 
 #: An arc's end may lie this far off the circle through its start, µm: each of the two is rounded, and so is
@@ -185,49 +182,3 @@ def read(text: str, name: str = "-") -> Tape:
         reader.line += 1
         raise reader.error(1, "expected M02, found the end of the program")
     return Tape(name, tuple(items))
-
-
-class Pair(click.ParamType):
-    """Two numbers with a comma between them, such as 115000,-10000."""
-
-    name = "X,Y"
-
-    def __init__(self, number: type = float) -> None:
-        self.number = number
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple:
-        """Return the two numbers."""
-        if isinstance(value, tuple):
-            return value
-        try:
-            first, second = (self.number(part) for part in str(value).split(","))
-        except ValueError:
-            self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
-        if not max(abs(first), abs(second)) < 10**MAX_DIGITS:
-            self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
-        return first, second
-
-
-@click.command(name="gcode")
-@click.argument("source", metavar="FILE", default="-", type=click.Path(allow_dash=True))
-@click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True),
-              help="File to write, - for the standard output.")
-@click.option("--back", is_flag=True, help="FILE is G-code: write a 3B tape.")
-@click.option("--start", default="0,0", type=Pair(int), help="Position to set with G92, µm.")
-@click.option("--mm", is_flag=True, help="Write millimetres with a decimal point instead of micrometres.")
-def command(source: str, output: str, back: bool, start: tuple[int, int], mm: bool) -> None:
-    """Turn a 3B tape into ISO G-code, or with --back G-code into a 3B tape.
-
-    Written are G91, G92, G01, G02 and G03 with I and J, M00 for a stop and M02 at the end. Read are also G90,
-    G00, G17, G21, G40, N and F words and comments; a number with a decimal point is millimetres, one without
-    micrometres. FILE - (or none) is the standard input.
-    """
-    data = tapes.read_bytes(source) if back else tapes.read_tape_bytes(source)
-    if not back:
-        tapes.write_bytes(output, write(tapes.parse(data, source), start, mm).encode())
-        return
-    try:
-        text = data.decode("ascii")
-    except UnicodeDecodeError as error:
-        raise UserError(f"{source}: byte {error.start + 1} is not ASCII") from None
-    tapes.write_bytes(output, tapes.to_bytes(read(text, source).items))

@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skg.errors import UserError
+from skg.plane import XY
 from skg.tape.block import Block, Tape
 from skg.tape.controller import run_block
-from skg.tape.placed import Pair, Placed, PlacedRoute, lay
+from skg.tape.placed import Placed, PlacedRoute, lay
 
 #: Variance of an error spread evenly over ±½.
 _VARIANCE = 1 / 12
@@ -135,11 +136,11 @@ def _placed(blocks: list[Block], joints: list[Vector], centres: list[Vector]) ->
     for block, (start, end), centre in zip(blocks, pairwise(joints), centres, strict=True):
         if block.is_arc:
             centre = _between(start, end, centre)
-        found.append(Placed(block, _pair(start), _pair(end), None if block.is_line else _pair(centre)))
+        found.append(Placed.between(block, _xy(start), _xy(end), _xy(centre)))
     return found
 
 
-def _pair(point: Vector) -> Pair:
+def _xy(point: Vector) -> XY:
     return float(point[0]), float(point[1])
 
 
@@ -205,7 +206,7 @@ def _closes(gap: Vector, spread: Vector) -> bool:
     return bool((abs(gap) <= _CLOSES * spread + 1e-6).all())
 
 
-def _from_programmed(blocks: list[Block], at: Pair, radii: Radii) -> tuple[list[Placed], Pair]:
+def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Placed], XY]:
     """Lay out a route whose blocks start at the rounded ends: the roundings are those with the least sum of squares
     by which arcs of one radius have it and a closed route closes."""
     gap, spread = _gap(blocks)
@@ -237,12 +238,12 @@ def _from_programmed(blocks: list[Block], at: Pair, radii: Radii) -> tuple[list[
     joints = [place - roundings[joint] for place, joint in zip(rounded, misses.joints, strict=True)]
     centres = [place - block.start - roundings[centre]
                for block, place, centre in zip(blocks, rounded, misses.centres, strict=False)]
-    return _placed(blocks, joints, centres), _pair(rounded[-1])
+    return _placed(blocks, joints, centres), _xy(rounded[-1])
 
 
 # A tape without drift -------------------------------------------------------------------------------------
 
-def _from_machine(blocks: list[Block], at: Pair, radii: Radii) -> tuple[list[Placed], Pair]:
+def _from_machine(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Placed], XY]:
     """Lay out a route whose blocks start where the controller stands: an arc meant to end at the rounded place that
     its centre was moved for, a line and a circle do end there."""
     stands = list(accumulate((np.array(_goes(block)) for block in blocks), initial=np.array(at)))
@@ -260,7 +261,7 @@ def _from_machine(blocks: list[Block], at: Pair, radii: Radii) -> tuple[list[Pla
             centre += half * np.array(block.start)
         joints.append(np.array(end, float))
         centres.append(centre)
-    return _placed(blocks, joints, centres), _pair(stands[-1])
+    return _placed(blocks, joints, centres), _xy(stands[-1])
 
 
 def _meant(block: Block, start: Vector, radius: tuple[float, int] | None) -> Vector:

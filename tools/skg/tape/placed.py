@@ -3,73 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin
+from dataclasses import dataclass, field
+from math import atan2, pi
 
-import click
-
+from skg.piece import Piece
+from skg.plane import XY, minus
 from skg.tape.block import Block, Tape
 from skg.tape.controller import run_block
 
-#: The names that `place` and the command lines know for "where does the next block start".
+#: Where the next block starts, as `place` knows it: where the block before should have ended (programmed), or where the
+#: controller really stands then (machine: tapes without drift); auto: found out from the tape.
 POSITIONS = ("auto", "programmed", "machine")
-
-positions_option = click.option(
-    "--positions", type=click.Choice(POSITIONS), default="auto", show_default=True,
-    help="Start each block where the block before should have ended (programmed), or where the controller "
-         "really stands then (machine: tapes without drift); auto: found out from the tape.")
-
-#: A place in µm, whole or not.
-Pair = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Placed:
-    """One block in its place: absolute start and end, µm; `about`: an arc's centre when it is not the block's own."""
+class Placed(Piece):
+    """A block in its place: the line or arc that it is, absolute, in µm."""
 
-    block: Block
-    start: Pair
-    end: Pair
-    about: Pair | None = None
+    block: Block = field(kw_only=True)
 
-    @property
-    def centre(self) -> Pair:
-        """Centre of an arc."""
-        if self.about is not None:
-            return self.about
-        xs, ys = self.block.start
-        return self.start[0] - xs, self.start[1] - ys
+    @classmethod
+    def between(cls, block: Block, start: XY, end: XY, centre: XY | None = None) -> Placed:
+        """A block from `start` to `end`; `centre` is that of an arc when it is not the block's own.
 
-    @property
-    def radius(self) -> float:
-        """Radius of an arc, at its start."""
-        return hypot(self.start[0] - self.centre[0], self.start[1] - self.centre[1])
-
-    @property
-    def angles(self) -> Pair:
-        """Start and end angle of an arc in radians; the end is the start plus the signed sweep."""
-        first, last = (atan2(y - self.centre[1], x - self.centre[0]) for x, y in (self.start, self.end))
-        near = first + self.block.sweep
-        if self.block.is_full_circle:
-            return first, near
-        # The placed end may lie some µm from where the block alone would end.
-        return first, near + (last - near + pi) % (2 * pi) - pi
-
-    def at(self, part: float) -> tuple[float, float]:
-        """The point at `part` (0…1) of the block's length, µm."""
-        if self.block.is_line:
-            return (self.start[0] + part * (self.end[0] - self.start[0]),
-                    self.start[1] + part * (self.end[1] - self.start[1]))
-        first, last = self.angles
-        angle = first + part * (last - first)
-        return self.centre[0] + self.radius * cos(angle), self.centre[1] + self.radius * sin(angle)
-
-    def direction(self, part: float) -> float:
-        """Direction of travel at `part` of the block's length, radians."""
-        if self.block.is_line:
-            return atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
-        first, last = self.angles
-        return first + part * (last - first) + self.block.sense * pi / 2
+        The sweep is the block's, corrected by what the ends lie away from where the block alone has them.
+        """
+        if block.is_line:
+            return cls(start, end, block=block)
+        if centre is None:
+            centre = minus(start, block.start)
+        sweep = block.sweep
+        if not block.is_full_circle:
+            first, last = (atan2(y - centre[1], x - centre[0]) for x, y in (start, end))
+            sweep += (last - first - sweep + pi) % (2 * pi) - pi
+        return cls(start, end, centre, sweep, block=block)
 
 
 @dataclass(frozen=True)
@@ -84,7 +51,7 @@ class PlacedRoute:
     is_move: bool
 
     @property
-    def start(self) -> Pair:
+    def start(self) -> XY:
         """Where the route begins, µm."""
         return self.blocks[0].start
 
@@ -107,7 +74,7 @@ class PlacedRoute:
 
 
 def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") -> list[PlacedRoute]:
-    """Lay a tape out from `start` (µm); `positions` is one of `POSITIONS`, see `positions_option`."""
+    """Lay a tape out from `start` (µm); `positions` is one of `POSITIONS`."""
     if positions == "auto":
         both = [_place(tape, start, machine) for machine in (False, True)]
         return min(both, key=lambda routes: sum(min(route.gap, 10) for route in routes))
@@ -115,19 +82,19 @@ def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") 
 
 
 def _place(tape: Tape, start: tuple[int, int], machine: bool) -> list[PlacedRoute]:
-    def end_to_end(blocks: list[Block], at: Pair) -> tuple[list[Placed], Pair]:
+    def end_to_end(blocks: list[Block], at: XY) -> tuple[list[Placed], XY]:
         moves = [run_block(block).move for block in blocks] if machine else closed_moves(blocks)
         placed = []
         for block, (dx, dy) in zip(blocks, moves, strict=True):
-            placed.append(Placed(block, at, (at[0] + dx, at[1] + dy)))
+            placed.append(Placed.between(block, at, (at[0] + dx, at[1] + dy)))
             at = placed[-1].end
         return placed, at
 
     return lay(tape, start, end_to_end)
 
 
-def lay(tape: Tape, start: Pair,
-        place_blocks: Callable[[list[Block], Pair], tuple[list[Placed], Pair]]) -> list[PlacedRoute]:
+def lay(tape: Tape, start: XY,
+        place_blocks: Callable[[list[Block], XY], tuple[list[Placed], XY]]) -> list[PlacedRoute]:
     """Lay a tape's routes out one after the other, from `start` (µm).
 
     `place_blocks` is given the blocks between two stops, at least one, and where the first of them starts; it returns
@@ -182,12 +149,12 @@ def _may_give(block: Block, axis: int, way: int) -> bool:
 def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
     """Smallest and largest x and y (xmin, ymin, xmax, ymax) of the routes in µm, bulges of arcs included."""
     points = [placed.at(part) for route in routes for placed in route.blocks
-              for part in ((0, 1) if placed.block.is_line else [k / 32 for k in range(33)])]
+              for part in ((0, 1) if placed.is_line else [k / 32 for k in range(33)])]
     xs, ys = [x for x, _ in points] or [0], [y for _, y in points] or [0]
     return min(xs), min(ys), max(xs), max(ys)
 
 
-def stop_places(tape: Tape, routes: list[PlacedRoute], home: Pair) -> list[Pair]:
+def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:
     """Where the controller stops, µm, each place once; `home` is where the tape begins."""
     ends = {placed.block.number: placed.end for route in routes for placed in route.blocks}
     return list(dict.fromkeys(ends.get(stop.after, home) for stop in tape.stops))

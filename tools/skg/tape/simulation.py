@@ -1,21 +1,16 @@
-"""`skg sim`: follow a tape as the 3B controller does and measure where the wire really goes."""
+"""Following a tape as the 3B controller does: where the wire really goes."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass
 
-import click
 from tqdm import tqdm
 
-from skg.tape import block as tapes
+from skg.plane import XY
 from skg.tape.block import Block, Tape
 from skg.tape.controller import Outcome, run_block
-from skg.tape.placed import closed_moves, positions_option
-
-#: A place or a move in whole µm.
-Pair = tuple[int, int]
+from skg.tape.placed import closed_moves
 
 #: A progress bar appears on tapes of more steps than this (about a second's worth).
 _LONG = 50_000_000
@@ -34,7 +29,7 @@ class BlockReport:
 
 
 @dataclass(frozen=True)
-class Route:
+class RouteReport:
     """The blocks between two stops.
 
     `gap` is where the controller ended minus where it started, µm; `programmed_gap` the same summed over the
@@ -67,7 +62,7 @@ class Report:
     misses: int
     largest_miss: int
     largest_drift: int
-    routes: tuple[Route, ...]
+    routes: tuple[RouteReport, ...]
     each: tuple[BlockReport, ...]
 
     @property
@@ -81,8 +76,8 @@ def expected_steps(block: Block) -> int:
     return block.x + block.y if block.is_line else 2 * block.j
 
 
-def _follow(blocks: list[Block], moves: list[Pair], drift: Pair,
-            progress: Callable[[int], object] = lambda steps: None) -> list[tuple[Block, Pair, Outcome]]:
+def _follow(blocks: list[Block], moves: list[XY], drift: XY,
+            progress: Callable[[int], object] = lambda steps: None) -> list[tuple[Block, XY, Outcome]]:
     """Run blocks that should make these moves; `drift` is how far the controller is off before them, µm."""
     made = []
     for block, should in zip(blocks, moves, strict=True):
@@ -92,7 +87,7 @@ def _follow(blocks: list[Block], moves: list[Pair], drift: Pair,
     return made
 
 
-def _total(moves: Iterable[Pair]) -> Pair:
+def _total(moves: Iterable[XY]) -> XY:
     """The sum of moves."""
     moves = list(moves)
     return sum(x for x, _ in moves), sum(y for _, y in moves)
@@ -102,12 +97,12 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     """Follow every block of `tape`.
 
     `feed` is in mm/min; `progress` shows a bar on stderr when that is a terminal and the tape long. `positions`
-    (see `positions_option`): "programmed" takes a block to start where the moves (`closed_moves`) that the
+    (see `skg.tape.placed`): "programmed" takes a block to start where the moves (`closed_moves`) that the
     blocks before it should have made add up to, "machine" where the controller stands, as a tape without drift
     means it; "auto" takes the second for routes that close so and not as programmed.
     """
     each: list[BlockReport] = []
-    routes: list[Route] = []
+    routes: list[RouteReport] = []
     real, programmed = (0, 0), (0, 0)
     at_stop = real, programmed, 1
     total = sum(expected_steps(block) for block in tape.blocks)
@@ -121,8 +116,8 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
         (x, y), (xp, yp), first = at_stop
         if last >= first:
             is_move = before_stop and 1 < first == last and tape.blocks[first - 1].is_line
-            routes.append(Route(first, last, (real[0] - x, real[1] - y),
-                                (programmed[0] - xp, programmed[1] - yp), is_move))
+            routes.append(RouteReport(first, last, (real[0] - x, real[1] - y),
+                                      (programmed[0] - xp, programmed[1] - yp), is_move))
         at_stop = real, programmed, last + 1
 
     with bar:
@@ -143,7 +138,7 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
                 off_path = max(off_path, outcome.off_path)
                 largest_drift = max(largest_drift, _size((real[0] - programmed[0], real[1] - programmed[1])))
             close_route(len(each), at + 1 < len(stretches))
-    cut = [route for route in routes if not route.is_move] or [Route(0, 0, (0, 0), (0, 0), False)]
+    cut = [route for route in routes if not route.is_move] or [RouteReport(0, 0, (0, 0), (0, 0), False)]
     travel = sum(block.length for block in tape.blocks)
     missed = [max(abs(one.really[0] - one.should[0]), abs(one.really[1] - one.should[1])) for one in each]
     return Report(
@@ -170,70 +165,3 @@ def duration(seconds: float) -> str:
     whole = round(seconds)
     hours, minutes = whole // 3600, whole // 60 % 60
     return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {whole % 60:02d} s"
-
-
-def _text(report: Report, blocks: bool) -> str:
-    lines = []
-    if blocks:
-        head = f"{'block':>5}  {'tape':<40} {'should end at':>20} {'really at':>20} {'miss':>8} {'off':>6}"
-        lines.append(head)
-        for one in report.each:
-            miss = one.really[0] - one.should[0], one.really[1] - one.should[1]
-            lines.append(f"{one.number:>5}  {one.block:<40} {_pair(one.should):>20} {_pair(one.really):>20} "
-                         f"{_pair(miss) if miss != (0, 0) else '-':>8} {one.off_curve:>6.3f}")
-    stops = f", {report.stops} stops" if report.stops else ""
-    as_programmed = f" (as programmed: {closing(report.programmed_gap)})"
-    lines += [
-        f"{report.name}: {report.blocks} blocks{stops}",
-        f"travel      {report.travel / 1000:.3f} mm in {report.steps} steps, "
-        f"{duration(report.time)} at {report.feed:g} mm/min",
-        f"path        {closing(report.gap)}" + as_programmed * (report.gap != report.programmed_gap),
-        f"block ends  {report.misses} miss, by at most {report.largest_miss} µm; "
-        f"drift at most {report.largest_drift} µm",
-        f"distance    {report.off_curve:.3f} µm from the programmed line or arc, "
-        f"{report.off_path:.3f} µm with the drift before it",
-    ]
-    if len(report.routes) > 1:
-        lines += [f"  blocks {route.first}-{route.last}: "
-                  + (f"moves by {_pair(route.gap)} µm" if route.is_move else closing(route.gap))
-                  for route in report.routes]
-    return "\n".join(lines)
-
-
-def _rounded(value: object) -> object:
-    """The figures with three decimals: nm and ms."""
-    if isinstance(value, float):
-        return round(value, 3)
-    if isinstance(value, dict):
-        return {key: _rounded(inner) for key, inner in value.items()}
-    return [_rounded(inner) for inner in value] if isinstance(value, list | tuple) else value
-
-
-def _pair(point: tuple[int, int]) -> str:
-    return f"{point[0]}, {point[1]}"
-
-
-@click.command(name="sim")
-@click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
-@click.option("--feed", default=5.0, show_default=True, type=click.FloatRange(0, min_open=True),
-              help="Feed in mm/min, for the time.")
-@positions_option
-@click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
-@click.option("--json", "as_json", is_flag=True,
-              help="Write the figures as JSON (µm, seconds), one list for all tapes.")
-@click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
-def command(tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, as_json: bool,
-            strict_close: bool) -> None:
-    """Follow TAPE step by step as a 3B controller does.
-
-    Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
-    and whether the path closes. TAPE - is the standard input.
-    """
-    reports = [simulate(tapes.read(name), feed, progress=True, positions=positions) for name in tapes_]
-    if as_json:
-        kept = reports if blocks else [replace(report, each=()) for report in reports]
-        click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))
-    else:
-        click.echo("\n".join(_text(report, blocks) for report in reports))
-    if strict_close and not all(report.closed for report in reports):
-        raise SystemExit(1)

@@ -1,0 +1,122 @@
+"""The wings of tools/skg: which may import which, read from the sources; one name has one meaning."""
+
+from __future__ import annotations
+
+import ast
+from collections import defaultdict
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2] / "tools"
+SOURCES = sorted((ROOT / "skg").rglob("*.py"))
+
+#: What a wing may import besides itself. What stands beside the wings is common ground.
+COMMON = "common ground"
+ALLOWED = {
+    COMMON: set(),
+    "ref": {COMMON},
+    "tape": {COMMON},
+    "machine": {COMMON},
+    "quality": {COMMON, "ref"},
+    "drawing": {COMMON, "ref", "tape", "machine"},
+    "commands": {COMMON, "ref", "tape", "machine", "quality", "drawing"},
+}
+#: Modules beside the wings that are nobody's ground: the package's door, and the command line.
+DOORS = {"skg", "skg.cli"}
+
+
+def name_of(path: Path) -> str:
+    """The module in a file, as it is imported."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {name_of(path): ast.parse(path.read_text()) for path in SOURCES}
+
+
+def imports(module: str) -> set[str]:
+    """The modules of the package that one imports, anywhere in its text."""
+    found: set[str] = set()
+    for node in ast.walk(MODULES[module]):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            assert not node.level, f"{module}: a relative import"
+            inner = [f"{node.module}.{alias.name}" for alias in node.names]
+            names = [name if name in MODULES else node.module for name in inner]
+        else:
+            continue
+        found |= {name for name in names if name.split(".")[0] == "skg"}
+    return found
+
+
+GRAPH = {module: imports(module) for module in MODULES}
+
+
+def wing(module: str) -> str:
+    """The wing that a module belongs to."""
+    parts = module.split(".")
+    return parts[1] if len(parts) > 1 and parts[1] in ALLOWED else COMMON
+
+
+def test_what_is_imported_is_there() -> None:
+    assert len(MODULES) > 40
+    assert {name for names in GRAPH.values() for name in names} <= set(MODULES)
+
+
+def test_every_folder_is_a_wing() -> None:
+    folders = {path.parent.name for path in SOURCES if path.parent.parent == ROOT / "skg"}
+    assert folders == set(ALLOWED) - {COMMON}
+
+
+def test_wings_lean_on_those_below() -> None:
+    wrong = [f"{module} imports {name}" for module, names in GRAPH.items() if module not in DOORS
+             for name in names if name in DOORS or wing(name) not in ALLOWED[wing(module)] | {wing(module)}]
+    assert not wrong
+
+
+def test_allowed_is_without_circles() -> None:
+    TopologicalSorter(ALLOWED).prepare()
+
+
+def test_modules_are_without_circles() -> None:
+    """Inside the wings too. (A package's own face is no module of its wing: it imports those below it.)"""
+    try:
+        TopologicalSorter(GRAPH).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
+
+
+def test_commands_alone_know_the_command_line() -> None:
+    """Click is imported by commands alone, and nothing imports a command."""
+    for module, tree in MODULES.items():
+        roots = {alias.name.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.Import)
+                 for alias in node.names}
+        roots |= {node.module.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+        assert "click" not in roots or module == "skg.cli" or wing(module) == "commands", module
+
+
+def type_names(tree: ast.Module) -> Iterator[str]:
+    """Names of a module's classes, of its aliases of types, and those that it gives to what it imports."""
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef):
+            yield node.name
+        elif isinstance(node, ast.ImportFrom):
+            yield from (alias.asname for alias in node.names if alias.asname and alias.name[0].isupper())
+        elif isinstance(node, ast.Assign) and (
+                isinstance(node.value, ast.Subscript)
+                or isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.BitOr)):
+            yield from (target.id for target in node.targets if isinstance(target, ast.Name) and target.id[0].isupper())
+
+
+def test_one_name_one_meaning() -> None:
+    """No two modules give the same name to a type."""
+    found: dict[str, list[str]] = defaultdict(list)
+    for module, tree in MODULES.items():
+        for name in type_names(tree):
+            found[name].append(module)
+    assert {"Piece", "Placed", "XY", "Tape", "Punch", "Curve"} <= set(found)
+    assert not {name: modules for name, modules in found.items() if len(modules) > 1}

@@ -1,0 +1,44 @@
+"""Options that several commands have."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import click
+
+from skg.tape.block import MAX_DIGITS
+from skg.tape.placed import POSITIONS
+
+positions_option = click.option(
+    "--positions", type=click.Choice(POSITIONS), default="auto", show_default=True,
+    help="Start each block where the block before should have ended (programmed), or where the controller "
+         "really stands then (machine: tapes without drift); auto: found out from the tape.")
+
+
+def skg80_option(function: Callable) -> Callable:
+    """Give a command the option --skg80."""
+    return click.option(
+        "--skg80", metavar="FILE",
+        help="The emulator that runs .skg programs, or `reference` for the reference interpreter. Default: "
+             "build/skg80, else the reference.")(function)
+
+
+class Coordinates(click.ParamType):
+    """Two numbers with a comma between them, such as 115000,-10000."""
+
+    name = "X,Y"
+
+    def __init__(self, number: type = float) -> None:
+        self.number = number
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple:
+        """Return the two numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            first, second = (self.number(part) for part in str(value).split(","))
+        except ValueError:
+            self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
+        if not max(abs(first), abs(second)) < 10**MAX_DIGITS:
+            self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
+        return first, second

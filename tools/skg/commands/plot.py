@@ -1,0 +1,73 @@
+"""`skg plot`: pictures of tapes, to scale."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skg.commands.options import Coordinates, positions_option, skg80_option
+from skg.errors import UserError
+from skg.plane import XY
+from skg.tape.block import micrometres
+from skg.tape.placed import place, stop_places
+
+FORMATS = ("svg", "png", "pdf")
+
+
+def _form(output: str, form: str | None) -> str:
+    """The picture's format: as said, else by the file's name; the standard output is SVG."""
+    found = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
+    if found not in FORMATS:
+        raise UserError(f"{output}: expected a name that ends in .svg, .png or .pdf, or --format")
+    return found
+
+
+@click.command(name="plot")
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
+@click.option("-o", "--output", required=True, type=click.Path(allow_dash=True),
+              help="Picture to write, .svg, .png or .pdf; - for the standard output.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, when the name does not tell it.")
+@click.option("--blocks", is_flag=True, help="Write every block's number beside it.")
+@click.option("--wire", default=0.0, metavar="MM", type=click.FloatRange(0),
+              help="Draw the cut of a wire of this diameter, to scale.")
+@click.option("--no-arrows", is_flag=True, help="No arrows in the direction of travel.")
+@click.option("--show-offset", is_flag=True, help="Also draw the nominal contour (of .skg programs).")
+@click.option("--start", multiple=True, type=Coordinates(),
+              help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.")
+@click.option("--scale", type=click.FloatRange(0, min_open=True), help="Drawing scale; default: what fits.")
+@click.option("--title", default="", help="A title above the drawing.")
+@positions_option
+@skg80_option
+def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool, wire: float, no_arrows: bool,
+            show_offset: bool, start: tuple[XY, ...], scale: float | None, title: str,
+            positions: str, skg80: str | None) -> None:
+    """Draw tapes (.3b) and programs (.skg), several in one picture.
+
+    Start holes are circles, stops squares, positioning moves dashed. A program is run first: by build/skg80
+    when it is there (or the one that --skg80 names), otherwise by the reference interpreter. FILE - is a tape
+    on the standard input.
+    """
+    from skg.drawing.plot import COLOURS, Picture, Sheet
+    from skg.drawing.source import load
+
+    picture_format = _form(output, form)
+    sheets = []
+    stops: list[list[XY]] = []
+    for at, name in enumerate(files):
+        made = load(name, skg80, show_offset)
+        x, y = start[at] if at < len(start) else made.start
+        home = micrometres(x), micrometres(y)
+        routes = place(made.tape, home, positions)
+        sheets.append(Sheet(Path(name).name, routes, made.contour))
+        stops.append(stop_places(made.tape, routes, home))
+    if not any(sheet.routes for sheet in sheets):
+        raise UserError(f"{files[0]}: nothing to draw, the tape has no blocks")
+    picture = Picture(sheets, scale, title)
+    for at, sheet in enumerate(sheets):
+        picture.draw(sheet, COLOURS[at % len(COLOURS)], f"tape-{at + 1}", wire, not no_arrows, blocks)
+        for number, point in enumerate(stops[at], 1):
+            picture.stop(point, f"tape-{at + 1}-stop-{number}")
+    if len(sheets) > 1:
+        picture.legend([sheet.name for sheet in sheets])
+    picture.save(output, picture_format)

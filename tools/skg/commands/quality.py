@@ -1,0 +1,87 @@
+"""`skg quality`: how near fitted curves come to the true ones, and how many blocks they take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from skg.files import read_ascii
+
+if TYPE_CHECKING:
+    from skg.quality.fewest import Saving
+    from skg.quality.measure import Quality
+
+
+def table(heading: list[str], rows: list[list[str]], words: int) -> str:
+    """A Markdown table that reads well as it is; the first columns are words, the others numbers."""
+    widths = [max(len(row[n]) for row in [heading, *rows]) for n in range(len(heading))]
+
+    def line(cells: Iterable[str]) -> str:
+        padded = [c.ljust(w) if n < words else c.rjust(w) for n, (c, w) in enumerate(zip(cells, widths, strict=True))]
+        return f"| {' | '.join(padded)} |"
+
+    rule = ["-" * w if n < words else "-" * (w - 1) + ":" for n, w in enumerate(widths)]
+    return "\n".join(map(line, [heading, rule, *rows])) + "\n"
+
+
+def micrometres(length: float | None) -> str:
+    """A length in µm, three digits."""
+    return "-" if length is None else f"{1000 * length:.3g}"
+
+
+def quality_table(found: list[Quality]) -> str:
+    """One row for each curve; distances in µm."""
+    from skg.quality.measure import DOUBLINGS
+
+    heading = ["part", "true curve", "nodes", "blocks", "chords", "jump", "off", "biarcs", "×2", "×4", "factors"]
+    rows = [
+        [
+            *(q.part, q.curve, str(q.nodes), str(q.blocks), str(q.flat), f"{q.jump:.0e}", micrometres(q.distance)),
+            *map(micrometres, q.biarcs or [None] * (DOUBLINGS + 1)),
+            ", ".join(f"{f:.1f}" for f in q.factors) or "-",
+        ]
+        for q in found
+    ]
+    return table(heading, rows, words=2)
+
+
+def saving_table(found: list[Saving]) -> str:
+    """One row for each set of nodes."""
+    heading = ["part", "nodes", "blocks", "with TOL", "fewest", "ratio"]
+    rows = [
+        [s.part, *map(str, (s.nodes, s.blocks, s.joined, s.fewest)), f"{s.ratio:.2f}"]
+        for s in found
+    ]
+    return table(heading, rows, words=1)
+
+
+@click.command(name="quality")
+@click.argument(
+    "parts", metavar="PART...", nargs=-1, required=True, type=click.Path(exists=True, dir_okay=False, path_type=Path)
+)
+@click.option("--tol", metavar="MM", type=click.FloatRange(min=0, min_open=True),
+              help="Instead, join nodes within so many mm and compare the blocks with the fewest possible.")
+def command(parts: tuple[Path, ...], tol: float | None) -> None:
+    """Measure the curves that the FIT statements of PART (SKG programs) make, by the reference.
+
+    One row for each run of FIT statements: nodes, blocks, blocks that are chords of flat arcs, and before these
+    became chords the largest jump of the tangent (radians). For the examples in examples/, whose true curves are
+    known, the largest distance from it (µm): of the blocks; of the biarcs, with the nodes of the program, with twice
+    and four times as many; by how much each doubling divides it. A TOL in the program counts but for the biarcs, which
+    keep every node.
+
+    With --tol, what TOL (docs/curves.md) does to the number of blocks, with the program's nodes and four times as many,
+    if these are no more than 300; a TOL in the program does not count.
+    """
+    from skg.quality.fewest import savings
+    from skg.quality.fitted import fitted_runs
+    from skg.quality.measure import measure
+
+    curves = [(part, run) for part in parts for run in fitted_runs(read_ascii(str(part))) if len(run.nodes) > 2]
+    if tol is None:
+        click.echo(quality_table([measure(part, run) for part, run in curves]), nl=False)
+    else:
+        click.echo(saving_table([s for part, run in curves for s in savings(part, run.nodes, str(tol))]), nl=False)

@@ -1,0 +1,80 @@
+"""`skg sim`: follow a tape as the 3B controller does."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, replace
+
+import click
+
+from skg.commands.options import positions_option
+from skg.plane import XY
+from skg.tape.simulation import Report, closing, duration, simulate
+from skg.tape.text import read
+
+
+def _text(report: Report, blocks: bool) -> str:
+    lines = []
+    if blocks:
+        head = f"{'block':>5}  {'tape':<40} {'should end at':>20} {'really at':>20} {'miss':>8} {'off':>6}"
+        lines.append(head)
+        for one in report.each:
+            miss = one.really[0] - one.should[0], one.really[1] - one.should[1]
+            lines.append(f"{one.number:>5}  {one.block:<40} {_xy(one.should):>20} {_xy(one.really):>20} "
+                         f"{_xy(miss) if miss != (0, 0) else '-':>8} {one.off_curve:>6.3f}")
+    stops = f", {report.stops} stops" if report.stops else ""
+    as_programmed = f" (as programmed: {closing(report.programmed_gap)})"
+    lines += [
+        f"{report.name}: {report.blocks} blocks{stops}",
+        f"travel      {report.travel / 1000:.3f} mm in {report.steps} steps, "
+        f"{duration(report.time)} at {report.feed:g} mm/min",
+        f"path        {closing(report.gap)}" + as_programmed * (report.gap != report.programmed_gap),
+        f"block ends  {report.misses} miss, by at most {report.largest_miss} µm; "
+        f"drift at most {report.largest_drift} µm",
+        f"distance    {report.off_curve:.3f} µm from the programmed line or arc, "
+        f"{report.off_path:.3f} µm with the drift before it",
+    ]
+    if len(report.routes) > 1:
+        lines += [f"  blocks {route.first}-{route.last}: "
+                  + (f"moves by {_xy(route.gap)} µm" if route.is_move else closing(route.gap))
+                  for route in report.routes]
+    return "\n".join(lines)
+
+
+def _rounded(value: object) -> object:
+    """The figures with three decimals: nm and ms."""
+    if isinstance(value, float):
+        return round(value, 3)
+    if isinstance(value, dict):
+        return {key: _rounded(inner) for key, inner in value.items()}
+    return [_rounded(inner) for inner in value] if isinstance(value, list | tuple) else value
+
+
+def _xy(point: XY) -> str:
+    return f"{point[0]}, {point[1]}"
+
+
+@click.command(name="sim")
+@click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
+@click.option("--feed", default=5.0, show_default=True, type=click.FloatRange(0, min_open=True),
+              help="Feed in mm/min, for the time.")
+@positions_option
+@click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
+@click.option("--json", "as_json", is_flag=True,
+              help="Write the figures as JSON (µm, seconds), one list for all tapes.")
+@click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
+def command(tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, as_json: bool,
+            strict_close: bool) -> None:
+    """Follow TAPE step by step as a 3B controller does.
+
+    Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
+    and whether the path closes. TAPE - is the standard input.
+    """
+    reports = [simulate(read(name), feed, progress=True, positions=positions) for name in tapes_]
+    if as_json:
+        kept = reports if blocks else [replace(report, each=()) for report in reports]
+        click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))
+    else:
+        click.echo("\n".join(_text(report, blocks) for report in reports))
+    if strict_close and not all(report.closed for report in reports):
+        raise SystemExit(1)

@@ -1,0 +1,93 @@
+"""Contours: lines, arcs and curves that follow each other; lengths in millimetres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import pi
+
+from skg.piece import Piece
+from skg.plane import XY, cross, distance
+
+
+@dataclass(frozen=True)
+class CurveNode:
+    """A point of a curve and the direction angle of the tangent there, radians."""
+
+    point: XY
+    angle: float
+
+
+@dataclass(frozen=True)
+class Edge(Piece):
+    """A line, an arc, or a curve: `nodes` from start to end, `samples` close to each other on the true curve.
+
+    Of a curve `at` gives a sample and `direction` the one at an end; `nearest` is for lines and arcs.
+    """
+
+    nodes: tuple[CurveNode, ...] = ()
+    samples: tuple[XY, ...] = field(default=(), repr=False)
+
+    @property
+    def is_line(self) -> bool:
+        """Neither an arc nor a curve."""
+        return self.centre is None and not self.nodes
+
+    @property
+    def length(self) -> float:
+        """Length."""
+        return sum(distance(p, q) for p, q in pairwise(self.samples)) if self.nodes else super().length
+
+    def reversed(self) -> Edge:
+        """The same edge, run through backwards."""
+        nodes = tuple(CurveNode(node.point, node.angle + pi) for node in reversed(self.nodes))
+        return Edge(self.end, self.start, self.centre, -self.sweep, nodes, self.samples[::-1])
+
+    def at(self, part: float) -> XY:
+        """The place at `part` of the length."""
+        return self.samples[int(part * (len(self.samples) - 1))] if self.nodes else super().at(part)
+
+    def direction(self, part: float = 0.0) -> float:
+        """Direction angle of travel at `part` of the length, radians."""
+        if self.nodes:
+            return self.nodes[-1 if part else 0].angle
+        return super().direction(part)
+
+    def points(self) -> list[XY]:
+        """Points along the edge, both ends included: a chord is never further than 0.1 % of a radius away."""
+        if self.nodes:
+            return list(self.samples)
+        if self.centre is None:
+            return [self.start, self.end]
+        pieces = max(2, int(abs(self.sweep) / 0.08) + 1)
+        return [self.start, *(self.at(k / pieces) for k in range(1, pieces)), self.end]
+
+
+@dataclass(frozen=True)
+class Contour:
+    """Edges that follow each other; the last one's end is the first one's start when it is closed."""
+
+    edges: tuple[Edge, ...]
+    is_closed: bool
+
+    def points(self) -> list[XY]:
+        """Points along the contour, see `Edge.points`."""
+        return [point for edge in self.edges for point in edge.points()[:-1]] + [self.edges[-1].end]
+
+    @property
+    def area(self) -> float:
+        """Signed area: positive when a closed contour runs counter-clockwise."""
+        return sum(cross(p, q) for p, q in pairwise(self.points())) / 2
+
+    def reversed(self) -> Contour:
+        """The same contour, run through backwards."""
+        return Contour(tuple(edge.reversed() for edge in reversed(self.edges)), self.is_closed)
+
+    def holds(self, point: XY) -> bool:
+        """Whether a point lies inside the closed contour (counts crossings of a ray to the right)."""
+        x, y = point
+        inside = False
+        for (x1, y1), (x2, y2) in pairwise(self.points()):
+            if (y1 > y) != (y2 > y) and x < x1 + (y - y1) / (y2 - y1) * (x2 - x1):
+                inside = not inside
+        return inside

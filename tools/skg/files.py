@@ -1,0 +1,37 @@
+"""Files that a command reads and writes; `-` is the standard input or output."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from skg.errors import UserError
+
+
+def read_bytes(path: str) -> bytes:
+    """Return a file's bytes."""
+    if path != "-":
+        return Path(path).read_bytes()
+    if sys.stdin is None:
+        raise UserError("standard input: closed")
+    return sys.stdin.buffer.read()
+
+
+def read_ascii(path: str) -> str:
+    """Return a file's text; anything but ASCII is a `UserError`."""
+    data = read_bytes(path)
+    try:
+        return data.decode("ascii")
+    except UnicodeDecodeError as error:
+        raise UserError(f"{path}: byte {error.start + 1} is not ASCII") from None
+
+
+def write_bytes(path: str, data: bytes) -> None:
+    """Write a file."""
+    if path != "-":
+        Path(path).write_bytes(data)
+        return
+    if sys.stdout is None:
+        raise UserError("standard output: closed")
+    sys.stdout.buffer.write(data)
+    sys.stdout.buffer.flush()

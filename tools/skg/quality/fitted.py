@@ -1,0 +1,123 @@
+"""Fitted curves: what the FIT statements of a program make, by the reference, in 50 digits.
+
+A curve is what one run of FIT statements makes, without R: arcs and lines (skg.ref.fit). Lengths are in mm on the tape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from skg.errors import UserError
+from skg.ref import real
+from skg.ref.fit import FittedCurve, Node
+from skg.ref.geometry import enlarged, same_point
+from skg.ref.interpreter import Interpreter
+from skg.ref.near import Watch
+from skg.ref.real import ZERO, Real
+from skg.ref.tape import Punch
+from skg.ref.values import Circle, Point
+
+#: Radius (mm) from which double precision, and so these modules, take a circle for a line.
+LARGEST = Real("1e8")
+
+
+@dataclass(frozen=True)
+class FittedPiece:
+    """An arc of a fitted curve, or a line (no circle)."""
+
+    start: Point
+    end: Point
+    circle: Circle | None
+
+    def heading(self, p: Point) -> Point:
+        """Unit direction of travel at an end."""
+        circle = self.circle
+        v = self.end - self.start if circle is None else (p - circle.centre).left() * circle.r
+        return v * (1 / v.length())
+
+    def places(self, count: int) -> np.ndarray:
+        """So many places on the piece, evenly spaced, both ends included, as complex numbers."""
+        part = np.linspace(0, 1, count)
+        start, end = complex(self.start.x, self.start.y), complex(self.end.x, self.end.y)
+        if self.circle is None:
+            return start + part * (end - start)
+        centre = complex(self.circle.x, self.circle.y)
+        sweep = np.angle((end - centre) / (start - centre))  # an arc of a biarc turns less than half round
+        return centre + (start - centre) * np.exp(1j * part * sweep)
+
+
+class Biarcs(FittedCurve):
+    """The curve before flat arcs become their chords."""
+
+    def _arc(self, p: Point, t: Point, q: Point, offset: Real) -> None:
+        w = q - p
+        bulge = t.cross(w)
+        r = w.dot(w) / (2 * bulge) if bulge else LARGEST
+        if abs(r) < LARGEST:
+            centre = p + t.left() * r
+            self.feed(Circle(centre.x, centre.y, r), offset)
+        self.feed(q, offset)
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of FIT statements: its nodes, and the TOL (mm) that holds for it."""
+
+    nodes: list[Node]
+    tolerance: Real = ZERO
+
+
+class Recorder(Interpreter):
+    """A machine that keeps every run of FIT statements."""
+
+    def __init__(self) -> None:
+        self.runs: list[Run] = []
+        super().__init__((), Watch(), Punch())
+
+    def _fit(self, node: Point, angle: Real | None) -> None:
+        if self.cutter.curve is None:
+            self.runs.append(Run([], self.cutter.tolerance))
+        super()._fit(node, angle)
+        tangent = None if angle is None else Point(real.cos(angle), real.sin(angle))
+        nodes, place = self.runs[-1].nodes, enlarged(node, self.cutter.scale)
+        # A node on the one before it is none (language.md, section 5).
+        if not (nodes and same_point(nodes[-1].point, place)):
+            nodes.append(Node(place, tangent, self.offset))
+
+
+def fitted_runs(source: str) -> list[Run]:
+    """The runs of FIT statements that a program makes; a program that ends in ERR is a UserError."""
+    machine = Recorder()
+    error = machine.load(source) or machine.run()
+    if error:
+        number, line = error
+        raise UserError(f"the program ends in ERR {number:02d}" + (f" LINE {line}" if line is not None else ""))
+    return machine.runs
+
+
+def pieces(nodes: Iterable[Node], tolerance: Real = ZERO, kind: type[FittedCurve] = FittedCurve) -> list[FittedPiece]:
+    """The blocks of a curve: the arcs and lines between the points that it is fed as."""
+    fed: list[Point | Circle] = []
+    curve = kind(lambda value, _: fed.append(value), tolerance)
+    for node in nodes:
+        curve.add(node)
+    curve.finish()
+    made: list[FittedPiece] = []
+    start, circle = fed[0], None
+    for value in fed[1:]:
+        if isinstance(value, Circle):
+            circle = value
+        else:
+            made.append(FittedPiece(start, value, circle))
+            start, circle = value, None
+    return made
+
+
+def tangent_jump(curve: list[FittedPiece]) -> float:
+    """The largest angle (radians) between two arcs where they meet."""
+    jumps = [abs(real.mp.asin(a.heading(a.end).cross(b.heading(b.start)))) for a, b in pairwise(curve)]
+    return float(max(jumps, default=ZERO))

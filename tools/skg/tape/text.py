@@ -1,0 +1,170 @@
+"""The text of 3B tapes: strict reading, and writing."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from skg.errors import UserError
+from skg.files import read_bytes
+from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something wrong on a tape: block number (from 1), column (from 1) and what was expected."""
+
+    block: int
+    column: int
+    message: str
+
+    def __str__(self) -> str:
+        return f"block {self.block}, column {self.column}: {self.message}"
+
+
+class _Scanner:
+    """Reads one block's text from left to right; the first thing that does not fit raises `_Unexpected`."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+
+    def take(self, *words: str, expected: str = "") -> str:
+        """Take whichever of `words` stands here."""
+        for word in words:
+            if self.text.startswith(word, self.at):
+                self.at += len(word)
+                return word
+        raise _Unexpected(self.at, f"expected {expected or words[0]}, found {self.found()}")
+
+    def found(self) -> str:
+        """What stands here, for a message."""
+        if self.at >= len(self.text):
+            return "the end of the line"
+        character = self.text[self.at]
+        return repr(character) if character.isprintable() else f"byte {ord(character):02X}H"
+
+    def number(self, name: str) -> int:
+        """Take a whole number of 1 to 8 digits without leading zeros."""
+        first = self.at
+        while self.text[self.at:self.at + 1] in tuple("0123456789"):
+            self.at += 1
+        digits = self.text[first:self.at]
+        if not digits:
+            raise _Unexpected(first, f"expected digits of {name}, found {self.found()}")
+        if len(digits) > MAX_DIGITS:
+            raise _Unexpected(first, f"{name} has {len(digits)} digits, at most {MAX_DIGITS} fit")
+        if digits[0] == "0" and len(digits) > 1:
+            raise _Unexpected(first, f"{name} has leading zeros")
+        return int(digits)
+
+
+class _Unexpected(Exception):
+    def __init__(self, at: int, message: str) -> None:
+        super().__init__(message)
+        self.at = at
+
+
+def parse_block(text: str, number: int = 0) -> Block:
+    """Read one block without its line end; raises `UserError` with the column of what does not fit."""
+    try:
+        return _parse(text, number)
+    except _Unexpected as error:
+        raise UserError(str(Finding(number, error.at + 1, str(error)))) from None
+
+
+def _parse(text: str, number: int) -> Block:
+    scanner = _Scanner(text)
+    values = []
+    for name in ("x", "y", "J"):
+        scanner.take("B")
+        values.append(scanner.number(name))
+    scanner.take("G")
+    axis = scanner.take("X", "Y", expected="X or Y")
+    code = scanner.take(*CODES, expected="L1…L4, NR1…NR4 or SR1…SR4")
+    if scanner.at < len(text):
+        raise _Unexpected(scanner.at, f"expected the end of the block, found {scanner.found()}")
+    return Block(*values, axis, code, number)
+
+
+def scan(data: bytes, name: str = "-") -> tuple[Tape, list[Finding]]:
+    """Read a whole tape and everything that is wrong with it.
+
+    Blocks whose text cannot be read are left out of the tape; blocks that can be read but cannot be right
+    (see `Block.problems`) are in it. NULs before the first block and after `DD` are blank tape.
+    """
+    text = data.decode("latin-1").lstrip("\0")
+    items: list[Block | Stop] = []
+    findings: list[Finding] = []
+    number, ended, bare = 0, False, 0
+    lines = text.split("\n")
+    tail = lines.pop()
+    for raw, whole in [(line, True) for line in lines] + ([(tail, False)] if tail.strip("\0") else []):
+        if ended:
+            rest = raw.removesuffix("\r").strip("\0")
+            if rest:
+                found = _Scanner(rest).found()
+                findings.append(Finding(number, 1, f"expected nothing after DD, found {found}"))
+            continue
+        line = raw.removesuffix("\r")
+        if line == raw and not bare:
+            bare = number + 1
+        if not whole:
+            findings.append(Finding(number + 1, len(line) + 1, "expected CR LF, found the end of the tape"))
+        if line == "D":
+            items.append(Stop(number))
+            continue
+        if line == "DD":
+            ended = True
+            continue
+        number += 1
+        try:
+            block = _parse(line, number)
+        except _Unexpected as error:
+            findings.append(Finding(number, error.at + 1, str(error)))
+            continue
+        items.append(block)
+        findings += [Finding(number, 1, problem) for problem in block.problems()]
+    if bare:
+        findings.append(Finding(bare, 1, "expected CR LF at the line's end, found LF alone (the first)"))
+    if not ended:
+        findings.append(Finding(number + 1, 1, "expected DD, found the end of the tape"))
+    findings.sort(key=lambda finding: (finding.block, finding.column))
+    return Tape(name, tuple(items)), findings
+
+
+def parse(data: bytes, name: str = "-") -> Tape:
+    """Return the tape in `data`, or raise `UserError` with the first thing that is wrong.
+
+    Line ends of LF alone are let pass here (an editor may have made them); `skg check` reports them.
+    """
+    tape, findings = scan(data, name)
+    serious = [finding for finding in findings if "LF" not in finding.message]
+    if serious:
+        raise UserError(f"{name}: {serious[0]}")
+    return tape
+
+
+def read_tape_bytes(path: str) -> bytes:
+    """Return a tape's bytes, `-` is the standard input; a program (.skg) is a `UserError`."""
+    if path.lower().endswith(".skg"):
+        raise UserError(f"{path}: expected a tape, this is a program; `skg ref {path}` makes its tape")
+    return read_bytes(path)
+
+
+def read(path: str) -> Tape:
+    """Read a tape from a file or, for `-`, the standard input; raises as `parse` does."""
+    return parse(read_tape_bytes(path), path)
+
+
+def to_bytes(items: Iterable[Block | Stop]) -> bytes:
+    """Return the bytes that the punch makes of blocks and stops, `DD` included.
+
+    A number of more than 8 digits does not fit: `UserError`.
+    """
+    lines = ["D" if isinstance(item, Stop) else str(item) for item in items]
+    for number, line in enumerate(lines, 1):
+        if any(len(digits) > MAX_DIGITS for digits in re.findall(r"\d+", line)):
+            raise UserError(f"line {number}: {line} has a number of more than {MAX_DIGITS} digits")
+    return "".join(f"{line}\r\n" for line in [*lines, "DD"]).encode("ascii")
