@@ -1,5 +1,10 @@
 ; equ.asm - names for every port, character, token, error and RAM cell of SKG
 ; Offers: names for all
+;
+; In the other headers Offers: lists the names that other files use, routines, cells and equates
+; alike, in the order in which they are defined; Uses: the files whose names are used; Room: the
+; bytes that the file may have.  What this file defines counts nowhere.  asm/rooms.py --headers
+; writes the first two lines, tests/rom/test_rooms.py checks all three.
 
 ; ---- Board options (the build sets them in the top file) -----------------
 ;   BRD51   1 = two Intel 8251, 0 = two Motorola 6850

@@ -2,7 +2,7 @@
 ; Offers: TXTP PEND VBOT VTOP CHKF OUTSEL COLS LASTC KEYB VSUM LINUM STMT0 CDOT CLBRK CLOWA ERR ERR4
 ;         READY FINDLN LINE1 DIRECT MORE SLIST NEW1 CLEAR CLEAR1 CLRPTR
 ; Uses:   calc cut fit float io lexer parser repeat start tape
-; Room:   780 bytes
+; Room:   780 bytes, 790 with PTTY
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->

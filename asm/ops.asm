@@ -1,7 +1,7 @@
 ; ops.asm - operations that geometry, route and tape add to the calculator
 ; Offers: nothing
 ; Uses:   calc cut geom parser tape
-; Room:   2 bytes an operation
+; Room:   52 bytes, 54 with NODRIFT: 2 an operation
 
 ; The entry QOWN itself is INT, which belongs behind FFLR there (OPFN, parser.asm); byte-code
 ; would have to see that x is a0

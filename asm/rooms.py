@@ -4,10 +4,12 @@
     asm/rooms.py                prints the graph, each file above those that it leans on, and what goes the other way
     asm/rooms.py FILE           what one file offers, and to whom; what it uses, and of whom
     asm/rooms.py --headers      writes the lines Offers: and Uses: of every header anew
+    asm/rooms.py --check        says which headers are not as they should be (tests/rom/test_rooms.py does)
 
 A name belongs to the file that defines it, as a label or by EQU. A file uses another one when it names something of
 it in an instruction, a DB, DW or EQU. An operation of the calculator (`QCRS`) belongs to the file of its routine
 (`XCRS`), which OPTAB tells; a restart to start.asm. What equ.asm defines belongs to all.
+The line Room: says how many bytes a file may have, and how many with an option: `Room:   400 bytes, 480 with NODRIFT`.
 """
 
 from __future__ import annotations
@@ -34,6 +36,8 @@ TABLE = re.compile(r"(?:OPTAB:)?\s+DW\s+(.*)")
 RESTART = re.compile(r"\bRST\s+([1-7])")
 #: A header's line, with those that go on with it, further in.
 OFFERS = re.compile(r"^; Offers:.*\n(?:;  +.*\n)*", re.M)
+ROOM = re.compile(r"^; Room: +(\d+) bytes(?:, (.*))?$", re.M)
+WITH = re.compile(r"(\d+) with (\w+)")
 USES = re.compile(r"^; Uses:.*\n(?:;  +.*\n)*", re.M)
 
 
@@ -140,6 +144,37 @@ def header(rooms: dict[str, Room], room: Room) -> tuple[str, str]:
     return lines("Offers:", ["names for all"] if room.name == COMMON else names), lines("Uses:", sorted(room.uses))
 
 
+def room_of(text: str) -> dict[str, int]:
+    """Bytes that a header gives its file: without options (""), and with each option that needs more."""
+    found = ROOM.findall(text)
+    if len(found) != 1:
+        return {}
+    bytes_, more = found[0]
+    return {"": int(bytes_)} | {option: int(n) for n, option in WITH.findall(more)}
+
+
+def wrong_headers(rooms: dict[str, Room]) -> list[str]:
+    """What is wrong with the lines Offers: and Uses:, one line each; and headers that have no Room:."""
+    wrong = []
+    for room in rooms.values():
+        text = "\n".join(room.lines) + "\n"
+        for shape, line in zip((OFFERS, USES), header(rooms, room), strict=True):
+            word = line.split()[1]
+            if room.name == COMMON and word == "Uses:":
+                continue
+            said = shape.findall(text)
+            if len(said) != 1:
+                wrong.append(f"{room.name}.asm: {len(said)} lines {word}")
+            elif said[0] != line:
+                have, want = set(said[0].split()), set(line.split())
+                lacks, too_much = " ".join(sorted(want - have)), " ".join(sorted(have - want))
+                wrong.append(f"{room.name}.asm: {word} lacks [{lacks}], has too much [{too_much}]"
+                             if lacks or too_much else f"{room.name}.asm: {word} is written in another way")
+        if room.name != COMMON and not room_of(text):
+            wrong.append(f"{room.name}.asm: no line Room: N bytes")
+    return wrong
+
+
 def main() -> None:
     """Command line."""
     from build import FILES
@@ -152,6 +187,9 @@ def main() -> None:
             for shape, line in zip((OFFERS, USES), header(rooms, room), strict=True):
                 text = shape.sub(lambda _, line=line: line, text, count=1)
             path.write_text(text)
+    elif sys.argv[1:] == ["--check"]:
+        if wrong := wrong_headers(rooms):
+            sys.exit("\n".join([*wrong, "asm/rooms.py --headers writes Offers: and Uses: anew"]))
     elif len(sys.argv) > 1:
         room = rooms[sys.argv[1].removesuffix(".asm")]
         for other, names in offered(rooms, room).items():

@@ -2,7 +2,7 @@
 ; Offers: RST1 RST2 RST3 RST4 RST5 RST6 RST7 CHECK PUTC NEXT NEXT1 ERMEM ERSYN ADDA ERDATA CHKEND
 ;         SREM SFREE VARSUM
 ; Uses:   calc cut io lexer monitor parser repeat
-; Room:   390 bytes
+; Room:   390 bytes, 400 with BRD51
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
 ; grows past it; a test looks at the GAP labels.
