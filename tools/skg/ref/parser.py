@@ -342,12 +342,16 @@ class _Tree(Transformer):
 
 
 def plain_kind(item: Expression) -> str | None:
-    """The kind of an item that is a single constant or name, None for anything longer."""
+    """The kind of an item that is a single constant or name, or two expressions in parentheses with a comma
+    between them (which counts as a point, though it may be a number: no curve it is); None for anything else.
+    """
     match item:
         case Number():
             return "D"
         case Name(letter):
             return LETTERS[letter]
+        case Binary(","):
+            return "P"
     return None
 
 
