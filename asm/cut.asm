@@ -1,9 +1,9 @@
 ; cut.asm - the route: from items to corners, fillets and closing
 ; Offers: NKIND HELDN RITEMS RFILW RTURN FITN FITSM RBACK RBFULL RBEND BLKNO RUNINI RTNEW RBNEW
-;         RBEMP SCUT ITEM2 ITEM3 POSIT NEEDEL GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC
-;         XONEL XNORM XTOK XNORMS SBACK SBACK1
+;         RBEMP SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL
+;         XNORM XTOK XNORMS SBACK SBACK1
 ; Uses:   calc consts fit float geom io monitor parser repeat start tape
-; Room:   1200 bytes
+; Room:   1300 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -47,9 +47,8 @@ RUNINI: RST     5
 ; (fall into RTNEW)
 
 ; RTNEW - forgets the open route and the route buffer
-; Clobbers A, B, HL
-RTNEW:  RST     5
-        DB      QMU,STL,QEND    ; -
+; Clobbers all
+RTNEW:  CALL    CORDON
         CALL    RTDONE
 ; (fall into RBNEW)
 
@@ -131,19 +130,24 @@ ADDEL1: CALL    ITDONE
         JNZ     ADDEL2
         CALL    SAMEC
         JZ      CORDON          ; the same curve goes on: no corner
-ADDEL2: CALL    OFFCHK
+ADDEL2: RST     5
+        DB      QEPS,STL,QEND   ; -             a corner is no `*`: curves that do cross do so
+        CALL    OFFCHK
         LDA     RFILW
         ORA     A
         CNZ     FILLET
         CALL    JOINED
+        RST     5
+        DB      LFI,SSG,QEND    ; -
 ; (fall into CORDON)
 
-; CORDON - the corner to come is not described yet
-; Clobbers A, HL
+; CORDON - the corner to come is not described yet; TL is as `*` has it
+; Clobbers all
 CORDON: LXI     H,0
         SHLD    RFILW           ; and RTURN
         SHLD    RTURN           ; and RNAMED
-        RET
+        RST     5
+        DB      QMU,STL,Q0,SFI,QRET ; -
 
 ; ITDONE - notes that an item was written
 ; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
@@ -312,6 +316,7 @@ FILLET: RST     5
         RST     5
         DB      QNORMS,QJN      ; -
         DB      FILL9-$
+        DB      LB0,ST4,LB1,ST5 ; -             t4 t5 = right normal of N at the corner
         DB      LCR,LNR,QE6D    ; -
         DB      LFI,QCRS,QSIG,QNEG ; -fi
         DB      QDUP,SO1,SO2    ; -
@@ -327,8 +332,12 @@ FILLET: RST     5
         LXI     H,RKEPT
         CALL    NCOPY
         RST     5
-        DB      QXING           ; -             a = centre of the arc = b
-        DB      LA0,SB0,LA1,SB1 ; -
+        DB      Q0,STL,QXING,QMU,STL ; -        a = centre of the arc, which touches both
+        DB      QXCH,QNA,QNORM  ; -             b = centre, a = right normal of N where they touch
+        DB      LA0,LT4,QSUB,LA1,LT5,QSUB,QHYP ; angle's chord
+        DB      LN2,LNR,QADD,QMUL,QABS ; chord  on the wire's path
+        DB      QMU,QADD,SFI    ; -             FI = the beginning of N that is left out (if it is a circle)
+        DB      LB0,SA0,LB1,SA1 ; -             a = b = centre
         DB      LO1,QNEG,SA2,QEND ; -
         MVI     A,KCIR
         CALL    PUTN
@@ -340,30 +349,36 @@ FILLET: RST     5
 ; In:  DE -> element   Clobbers A, BC, DE, HL
 TON:    LXI     H,MNEXT
         JMP     CPYEL
-FILL9:  DB      QDOT,QE6N,QRET  ; -             straight on, or straight back
+FILL9:  DB      QDOT,QE6N,Q0,SFI,QRET ; -       straight on, or straight back
 
 ; PASSED - on the way along the circle C from its entry A, does the point T = b come before K?
 ;          All as seen from the centre
 ; In:  C, A, K, b   Out: ERR 06 when not (never on a line: ADVANC looks after that)
 ; Clobbers all, K too
-; It does when the chords to T and K turn as C does.
+; It does when the chords to T and K turn as C does.  Places within 1 um, on the wire's path, are one;
+; when K is the entry a fillet has no room (FILLET comes with RFILW set, CLOSE without).
 PASSED: RST     5
         DB      QCA,QJC         ; -
         DB      PASS1-$
         DB      QRET
 PASS1:  DB      QNORM,LA0,LA1   ; tx ty
+        DB      LC2,LCR,QADD,ST0 ; tx ty                t0 = r of the wire's path
         DB      QCA,LKX,LKY,QTOK,QNORM,LA0,LA1 ; tx ty kx ky
         DB      QCA,LAX,LAY,QTOK,QNORM ; tx ty kx ky  a = of the entry
-        DB      LA1,QSUB,LC2,QMUL,SB1 ; tx ty kx        b = chord to K
-        DB      LA0,QSUB,LC2,QMUL,SB0 ; tx ty
-        DB      LA1,QSUB,LC2,QMUL,QSWP ; dy tx          a = chord to T
-        DB      LA0,QSUB,LC2,QMUL,SA0,SA1 ; -
-        DB      LA0,LA1,QFAR,QJN ; -            T is the entry within 1 um
+        DB      LA1,QSUB,LT0,QMUL,SB1 ; tx ty kx        b = chord to K
+        DB      LA0,QSUB,LT0,QMUL,SB0 ; tx ty
+        DB      LA1,QSUB,LT0,QMUL,QSWP ; dy tx          a = chord to T
+        DB      LA0,QSUB,LT0,QMUL,SA0,SA1 ; -
+        DB      LA0,LA1,QFAR,QJN ; -            T is the entry
         DB      PASS2-$
-        DB      QDIF,QFAR,QJN   ; -             or K
+        DB      LB0,LB1,QFAR,QJN ; -            K is the entry
+        DB      PASS3-$
+        DB      QDIF,QFAR,QJN   ; -             T is K
         DB      PASS2-$
         DB      QCRS,LC2,QSIG,QE6N ; -
 PASS2:  DB      QRET
+PASS3:  DB      QEND
+        JMP     NOFIL
 
 ; OFFCHK - demands that the wire offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
@@ -407,7 +422,7 @@ CORNO:  LDA     RNAMED
         CALL    CROSS           ; (QRET leaves A not 0)
         STA     RTURN
         RST     5
-        DB      QXING,QMU,STL   ; -
+        DB      QXING           ; -
         DB      LPX,LA0,LPY,LA1,QWAY ; d2^2
         DB      LPX,LKX,LPY,LKY,QWAY ; d2^2 d1^2
         DB      QSUB,QJN        ; -
@@ -643,8 +658,8 @@ XSENS:  RST     5
         DB      XSENS1-$
         DB      QABS,QRET       ; >= 0
 XSENS1: DB      LA2,QADD        ; r'
-        DB      LA2,QMUL        ; r*r'
-        DB      QNEAR,QSUB,QRET ; r*r'-eps
+        DB      LA2,QSIG        ; +-r'          as r has it
+        DB      QNEAR,QSUB,QRET ; +-r'-eps
 ; QJC: jumps when a is a circle, not a line
 XJC:    LDA     VKIND
         SUI     KLIN            ; CY: jump
@@ -718,8 +733,12 @@ ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -
         DB      ADVAN3-$
         DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
-        DB      QCRS,LC2,QSIG,QJMP ; s          < 0: more than half a turn
+        DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
+        DB      QDUP,QNEG,QJN   ; s
         DB      ARC-$           ; (tape.asm)
+        DB      LB0,LB1,QHYP,LSG,QSUB,QE6N ; s  K in what a fillet has left out
+        DB      QJMP
+        DB      ARC-$
 ADVAN3: DB      QEND            ; no travel: the corner is the entry place
         LDA     RELEMS
         ORA     A

@@ -270,6 +270,8 @@ LQR     EQU 07DH
 SQR     EQU 0BDH        ; M61 wire offset of the first item
 LTL     EQU 07EH
 STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as touching, mm
+LSG     EQU 07FH
+SSG     EQU 0BFH        ; M63 chord of the beginning of the circle C that a fillet has left out, mm; 0: there was none
 
 ; ---- RAM -------------------------------------------------------------------
 RAM     EQU 2000H

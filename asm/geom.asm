@@ -2,7 +2,7 @@
 ; Offers: XXING BINOPK BINOP BIN4 XUNIT BELT XDOT XCRS XDIF XCENT XWAY XSS XHYP XFAR XREFL XROTV
 ;         XLEG XSIG XMAX XE6D XE6N ERGEO
 ; Uses:   calc consts cut float parser start
-; Room:   610 bytes
+; Room:   640 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a turn about O one
@@ -301,9 +301,9 @@ XCRS:   RST     5
 XDIF:   RST     5
         DB      LB0,LA0,QSUB            ; dx
         DB      LB1,LA1,QSUB,QRET       ; dx dy
-; QCENT: QUNIT from centre to centre, then r of a less r of b; ERR 06 when they are concentric
+; QCENT: QUNIT from centre to centre, then r of a less r of b; ERR 06 when they are concentric (within TL)
 XCENT:  RST     5
-        DB      QUNIT,LT3,QMU,QSUB,QE6N ; -
+        DB      QUNIT,LT3,LTL,QSUB,QE6N ; -
         DB      LA2,LB2,QSUB,QRET       ; e
 ; QWAY: x2 x1 y2 y1 -> w*w; b = w: from (x1,y1) to (x2,y2)
 XWAY:   RST     5

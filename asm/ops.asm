@@ -27,7 +27,7 @@ QSENS   EQU QOWN+19     ; R ->    negative when a is a circle that R would turn 
 QNORMS  EQU QOWN+20     ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
 QXING   EQU QOWN+21     ; ->      a0 a1 = crossing of C and N as offset
 QSS     EQU QOWN+22     ; x y -> x*x+y*y
-QCENT   EQU QOWN+23     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within 1 um
+QCENT   EQU QOWN+23     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within TL
 QTOK    EQU QOWN+24     ; x y ->  K = b0 b1 = x y
 QWAY    EQU QOWN+25     ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
 QROOT   EQU QOWN+26     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)

@@ -176,7 +176,6 @@ SSYM:   CALL    JOINT
         CALL    EVKIND
         RST     7
         LXI     H,KLIN*256+7    ; /
-        CALL    NEEDEL          ; but a point
         CALL    OPENRT
         LHLD    RSTOP
         SHLD    RSRC

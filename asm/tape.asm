@@ -218,8 +218,9 @@ XROOT:  RST     5
         DB      QSQ,LA0,LA1,QSS,QSUB ; w^2-n
         DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root
         ENDIF
-; QVK: V = K in whole um; A = K, since the wire goes there
+; QVK: V = K in whole um; A = K, since the wire goes there (by no fillet, for all that is known here)
 XVK:    RST     5
+        DB      Q0,SSG          ; -
         DB      LKX,QDUP,SAX,QRND,SVX   ; -
         DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -
 

@@ -26,10 +26,11 @@ def _in_memory(items: Sequence[Item]) -> None:
 
 @dataclass(frozen=True)
 class Closed:
-    """A route that BACK has closed, for RECUT: its elements and the fillet that waited for BACK's corner."""
+    """A route that BACK has closed, for RECUT: its elements, the fillet that waited for BACK's corner and its turn."""
 
     items: tuple[Item, ...]
     fillet: Real | None
+    right: bool
 
 
 class Cutter:
@@ -123,7 +124,7 @@ class Cutter:
         """BACK."""
         self.end_curve()
         route = self._open_route()
-        closed = Closed(tuple(route.items), route.fillet)
+        closed = Closed(tuple(route.items), route.fillet, route.right)
         route.close()
         self._straight(self.from_point, "return")
         self.route = None
@@ -139,17 +140,17 @@ class Cutter:
         for item in closed.items:
             self.route.feed_item(item, offset)
         if closed.fillet is not None:
-            self.route.wait_fillet(closed.fillet)
+            self.route.wait_fillet(closed.fillet, closed.right)
         self.back()
         self.closed = closed
 
     def enlarge(self, factor: Real) -> None:
         """SCALE."""
-        if self.route is not None:
-            raise Fault(Code.GEOMETRY)
         near.note("scale", factor, 1e-6)
         if factor <= 0:
             raise Fault(Code.RANGE)
+        if self.route is not None:
+            raise Fault(Code.GEOMETRY)
         self.scale = factor
 
     def _open_route(self) -> Route:

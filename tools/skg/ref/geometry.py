@@ -59,32 +59,30 @@ class Crossings:
     gap: Real | None = None
 
 
-def crossings(e: Curve, f: Curve, *, snap: bool = True) -> Crossings:
+def crossings(e: Curve, f: Curve, touch: Real = MICRON) -> Crossings:
     """Both crossings of two curves; error 6 when there is none.
 
-    Curves that miss each other, or cross, by 1 µm or less touch: one point, on the circle (of two, on the first).
-    With `snap` false, curves that do cross keep both of their crossings however little they do.
+    Curves that miss each other by 1 µm or less, or cross by `touch` (mm) or less, touch: one point, on the circle
+    (of two, on the first). Circles whose centres lie no more than `touch` apart, nor than 10⁻⁷ mm, are concentric.
     """
     if isinstance(e, Line):
         if isinstance(f, Line):
             return _line_line(e, f)
-        return _line_circle(e, f, snap)
+        return _line_circle(e, f, touch)
     if isinstance(f, Line):
-        c = _line_circle(f, e, snap)
+        c = _line_circle(f, e, touch)
         return Crossings(c.right, c.left, c.gap)
-    return _circle_circle(e, f, snap)
+    return _circle_circle(e, f, touch)
 
 
-def _touch(gap: Real, snap: bool) -> bool:
+def _touch(gap: Real, touch: Real) -> bool:
     """Whether the curves touch; error 6 when they miss each other."""
     if gap > 0:
         if not near.at_most(gap, MICRON, "touching"):
             raise Fault(Code.GEOMETRY)
         return True
-    if not snap:
-        near.note("touching", gap, Real("1e-7"))
-        return gap == 0
-    return near.at_most(-gap, MICRON, "touching")
+    near.note("touching", gap + touch, 1e-7)
+    return -gap <= touch
 
 
 def _line_line(e: Line, f: Line) -> Crossings:
@@ -96,11 +94,11 @@ def _line_line(e: Line, f: Line) -> Crossings:
     return Crossings(p, p)
 
 
-def _line_circle(e: Line, c: Circle, snap: bool) -> Crossings:
+def _line_circle(e: Line, c: Circle, touch: Real) -> Crossings:
     distance = e.distance(c.centre)
     foot = c.centre - e.normal * distance
     gap = abs(distance) - abs(c.r)
-    if _touch(gap, snap):
+    if _touch(gap, touch):
         p = c.centre - e.normal * (abs(c.r) if distance > 0 else -abs(c.r))
         return Crossings(p, p, gap)
     half_chord = real.mp.sqrt(c.r**2 - distance**2)
@@ -109,15 +107,15 @@ def _line_circle(e: Line, c: Circle, snap: bool) -> Crossings:
     return Crossings(foot + ahead, foot - ahead, gap)
 
 
-def _circle_circle(c1: Circle, c2: Circle, snap: bool) -> Crossings:
+def _circle_circle(c1: Circle, c2: Circle, touch: Real) -> Crossings:
     d = (c2.centre - c1.centre).length()
-    if near.at_most(d, MICRON, "concentric"):
+    if near.at_most(d, max(touch, NEARLY), "concentric"):
         raise Fault(Code.GEOMETRY)
     to_second = (c2.centre - c1.centre) * (1 / d)
     r1, r2 = abs(c1.r), abs(c2.r)
     outer, inner = d - (r1 + r2), abs(r1 - r2) - d
     gap = max(outer, inner)
-    if _touch(gap, snap):
+    if _touch(gap, touch):
         p = c1.centre + to_second * (r1 if outer >= inner or r1 > r2 else -r1)
         return Crossings(p, p, gap)
     along = (d**2 + r1**2 - r2**2) / (2 * d)

@@ -61,6 +61,9 @@ from skg.ref.values import Circle, Curve, Line, Point
 
 #: Directions closer than this (radians) are one direction.
 SAME_WAY = Real("0.001")
+#: Curves that cross by no more than this (mm) touch at a corner that no point names. So much is noise in
+#: the machine's floats; more is a crossing.
+TOUCH = Real("1e-5")
 #: Lines whose directions differ by no more than this (radians) may merge.
 SAME_LINE = Real("1e-5")
 
@@ -101,12 +104,13 @@ class Segment:
 
 @dataclass(frozen=True)
 class Element:
-    """A curve of the route that has been entered."""
+    """A curve of the route that has been entered; `corner`: where that would have been but for a fillet."""
 
     nominal: Curve
     offset: Real
     curve: Curve
     start: Point
+    corner: Point | None = None
 
     def place(self, p: Point) -> Point:
         """A point of the nominal curve as offset."""
@@ -149,7 +153,7 @@ class Route:
         self.first_point: Point | None = None
         self.first_point_offset = ZERO
         self.first: Element | None = None
-        self.first_sweep: Real | None = None
+        self.first_end: Point | None = None
         self.curves = 0
         # What waits for the next item:
         self.element: Element | None = None
@@ -234,8 +238,7 @@ class Route:
         if self.element is None:
             self._enter(nominal, offset, curve)
         else:
-            start = self._go_over(Element(nominal, offset, curve, self.element.start), right)
-            self.element = Element(nominal, offset, curve, start)
+            self.element = self._go_over(Element(nominal, offset, curve, self.element.start), right)
         self.curves += 1
         self.point = None
 
@@ -259,27 +262,25 @@ class Route:
 
     # Corners --------------------------------------------------------------------------------------------
 
-    def _go_over(self, f: Element, right: bool) -> Point:
-        """From the open element over the next corner to f; returns the place where f is entered."""
+    def _go_over(self, f: Element, right: bool) -> Element:
+        """From the open element over the next corner to f; returns f as it is entered there."""
         e, p, fillet = self.element, self.point, self.fillet
         self.fillet = None
         arc = None if fillet is None else self._fillet(e, f, p, fillet, right)
         if arc is None:
-            end = self._travel(e, self._corner(e, f, p, right), "cut")
-            start = end
-        else:
-            circle, touch_e, touch_f = arc
-            if not _same_offset(e.offset, f.offset):
-                raise Fault(Code.GEOMETRY)
-            rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start)
-            end = self._travel(e, e.place(touch_e), "cut")
-            start = self._travel(replace(rounding, start=end), rounding.place(touch_f), "fillet")
-        return start
+            return replace(f, start=self._travel(e, self._corner(e, f, p, right), "cut"))
+        circle, touch_e, touch_f, corner = arc
+        if not _same_offset(e.offset, f.offset):
+            raise Fault(Code.GEOMETRY)
+        rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start)
+        end = self._travel(e, e.place(touch_e), "cut")
+        start = self._travel(replace(rounding, start=end), rounding.place(touch_f), "fillet")
+        return replace(f, start=start, corner=f.place(corner))
 
     def _corner(self, e: Element, f: Element, p: Point | None, right: bool) -> Point:
         """The corner between two elements as offset, p the point that names it."""
         if p is None:
-            return _chosen(crossings(e.curve, f.curve), right)
+            return _chosen(crossings(e.curve, f.curve, TOUCH), right)
         if e.offset == 0 and f.offset == 0:
             return p
         angle = abs(turn_angle(e.nominal, f.nominal, p))
@@ -289,32 +290,30 @@ class Route:
             return e.place(p)
         if near.at_most(real.mp.pi - angle, SAME_WAY, "opposite direction"):
             raise Fault(Code.GEOMETRY)
-        return _nearest_crossing(crossings(e.curve, f.curve, snap=False), p)
+        return _nearest_crossing(crossings(e.curve, f.curve, ZERO), p)
 
     def _fillet(
         self, e: Element, f: Element, p: Point | None, radius: Real, right: bool
-    ) -> tuple[Circle, Point, Point] | None:
-        """The arc that rounds the corner between the elements as drawn, and its points on both.
+    ) -> tuple[Circle, Point, Point, Point] | None:
+        """The arc that rounds the corner between the elements as drawn, its points on both, and the corner.
 
-        None where the corner turns too little; error 6 when the arc does not fit. The centre is the
-        crossing of both curves moved inwards by the radius (formula 9-7 of the SKG book).
+        None where the corner turns too little; error 6 when it goes back, or when the arc does not fit. The centre
+        is the crossing of both curves moved inwards by the radius (formula 9-7 of the SKG book).
         """
-        corner = p if p is not None else _chosen(crossings(e.nominal, f.nominal), right)
+        corner = p if p is not None else _chosen(crossings(e.nominal, f.nominal, TOUCH), right)
         turn = turn_angle(e.nominal, f.nominal, corner)
         near.note("fillet left out", (abs(turn) - SAME_WAY) / SAME_WAY, near.RELATIVE)
         if abs(turn) < SAME_WAY:
             return None
+        if near.at_most(real.mp.pi - abs(turn), SAME_WAY, "opposite direction"):
+            raise Fault(Code.GEOMETRY)
         signed = radius if turn > 0 else -radius
         inner_e, inner_f = _moved_inwards(e.nominal, signed), _moved_inwards(f.nominal, signed)
-        middle = _chosen(crossings(inner_e, inner_f), signed < 0)
+        middle = _chosen(crossings(inner_e, inner_f, ZERO), signed < 0)
         touch_e, touch_f = _touching(e.nominal, middle, signed), _touching(f.nominal, middle, signed)
         if isinstance(e.curve, Circle):
-            to_touch = self._circle_travel(e, e.place(touch_e))
-            to_corner = self._circle_travel(e, e.place(corner))
-            excess = (to_touch - to_corner) * abs(e.curve.r)
-            if not near.at_most(excess, MICRON, "fillet fits"):
-                raise Fault(Code.GEOMETRY)
-        return Circle(middle.x, middle.y, signed), touch_e, touch_f
+            _check_order(e.curve, e.start, e.place(touch_e), e.place(corner), "fillet fits")
+        return Circle(middle.x, middle.y, signed), touch_e, touch_f, corner
 
     # Travel ---------------------------------------------------------------------------------------------
 
@@ -331,8 +330,10 @@ class Route:
             self.emit(Segment(e.start, end, role, e.nominal, e.offset))
             return end
         angle = self._circle_travel(e, end)
-        if self.curves == 1 and role == "cut" and self.first_sweep is None:
-            self.first_sweep = angle
+        if e.corner is not None:
+            _check_order(e.curve, e.corner, e.start, end, "fillet fits")
+        if self.curves == 1 and role == "cut" and self.first_end is None:
+            self.first_end = end
         if angle == 0:
             return e.start
         self._emit_arc(e, end, angle, role)
@@ -365,8 +366,7 @@ class Route:
                 raise Fault(Code.GEOMETRY)
             self._close_along(self.element)
         else:
-            start = self._go_over(self.first, right=False)
-            self._close_along(replace(self.first, start=start))
+            self._close_along(self._go_over(self.first, self.right))
 
     def _ends_as_it_begins(self) -> bool:
         """Whether the last element written is the first again."""
@@ -377,16 +377,18 @@ class Route:
 
     def _close_single(self) -> None:
         """A route of one circle, from the entry once round, by way of a last point if there is one."""
-        if isinstance(self.first.curve, Line) or (self.point is None and self.fillet is not None):
+        if isinstance(self.first.curve, Line):
             raise Fault(Code.GEOMETRY)
-        self.fillet = None
         first = self.first
         halfway = first.start if self.point is None else first.place(self.point)
         angle = self._circle_travel(first, halfway)
+        if angle > 0:
+            self._emit_arc(first, halfway, angle, "cut")
+        if self.fillet is not None:
+            raise Fault(Code.GEOMETRY)
         if angle == 0:
             self._emit_arc(first, first.start, 2 * real.mp.pi, "cut")
             return
-        self._emit_arc(first, halfway, angle, "cut")
         self._travel(replace(first, start=halfway), first.start, "cut")
 
     def _close_along(self, e: Element) -> None:
@@ -395,7 +397,8 @@ class Route:
         if not _same_offset(e.offset, self.first.offset):
             raise Fault(Code.GEOMETRY)
         if isinstance(e.curve, Circle):
-            overlap = self._circle_travel(e, entry) + self.first_sweep - 2 * real.mp.pi
+            cut = _path_travel(e.curve, entry, self.first_end)
+            overlap = _path_travel(e.curve, e.start, entry) + cut - 2 * real.mp.pi
             if not near.at_most(overlap * abs(e.curve.r), MICRON, "closing corner"):
                 raise Fault(Code.GEOMETRY)
         self._travel(e, entry, "cut")
@@ -416,14 +419,24 @@ class Route:
 
 
 def _moved_inwards(curve: Curve, radius: Real) -> Curve:
-    """A curve moved to the fillet's side by its radius; error 6 where a circle is not wider than that."""
+    """A curve moved to the fillet's side by its radius; error 6 where that leaves a circle 1 µm or less."""
     moved = parallel(curve, -radius)
-    if isinstance(curve, Circle):
-        left = moved.r if curve.r > 0 else -moved.r
-        near.note("fillet fits", left, 1e-6)
-        if left <= NEARLY:
-            raise Fault(Code.GEOMETRY)
+    if isinstance(curve, Circle) and near.at_most(moved.r if curve.r > 0 else -moved.r, MICRON, "fillet fits"):
+        raise Fault(Code.GEOMETRY)
     return moved
+
+
+def _path_travel(path: Circle, start: Point, end: Point) -> Real:
+    """Angle travelled between the places on a wire's path that are nearest to two points; 0 within 1 µm."""
+    u, v = nearest(path, start), nearest(path, end)
+    return ZERO if same_point(u, v) else sweep(path, u, v)
+
+
+def _check_order(path: Circle, start: Point, middle: Point, end: Point, kind: str) -> None:
+    """Error 6 when, from start, a middle place on a circle comes after the end by more than 1 µm."""
+    excess = _path_travel(path, start, middle) - _path_travel(path, start, end)
+    if not near.at_most(excess * abs(path.r), MICRON, kind):
+        raise Fault(Code.GEOMETRY)
 
 
 def _touching(curve: Curve, middle: Point, radius: Real) -> Point:
