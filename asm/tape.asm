@@ -65,6 +65,10 @@ ARCL:   DB      QJMP            ;               short, and the sweep is not posi
         DB      MOVE0-$         ; a line (ADVANC comes here too)
         ENDIF
 ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
+        IF      NODRIFT
+        DB      LBX,LBY,QMAX,QJZ ; -            the start is the centre: no arc
+        DB      ARCL-$
+        ENDIF
         DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
         DB      QEND
         CALL    QUAD

@@ -16,6 +16,7 @@ from test_random import MOST_ASIDE, SEED, Record
 
 from skg.machine import Machine
 from skg.ref import run as reference
+from skg.tape.block import scan
 
 SHARES = range(4)
 BLOCKS_A_SHARE = 400
@@ -30,12 +31,35 @@ class Driftless(Board):
         self.machine.clear()
 
 
+def unsound(tape: bytes) -> list[str]:
+    """What `skg check` says of a tape's blocks (of a tape that an error ended not that DD is missing)."""
+    return [str(finding) for finding in scan(tape)[1] if "expected DD" not in finding.message]
+
+
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.stem)
 def test_tape(example: Path) -> None:
     text = example.read_text()
     outcome = Driftless().outcome(text)
     assert outcome.error is None, outcome.paper
     assert outcome.tape == reference(text, drift=False).tape
+    assert not unsound(outcome.tape)
+
+
+#: Places on a circle of 0.6 um about the origin: the first two lie, rounded, in its middle.
+TINY = ["(0.000424,0.000424)", "(0.000424,-0.000424)", "(0,0.0006)", "(-0.0006,0)", "(0,-0.0006)"]
+
+
+@pytest.mark.parametrize("first", TINY)
+@pytest.mark.parametrize("last", TINY)
+@pytest.mark.parametrize("board", [Board, Driftless])
+def test_an_arc_that_starts_in_its_centre_is_none(board: type[Board], first: str, last: str) -> None:
+    """It would have x and y of 0 both, which no controller understands. (Where its *end* is the centre, the standard
+    ROM makes an arc of it, the reference a line: tape-3b.md says so of such circles.)
+    """
+    program = f"10 C1=(0,0):0.0006\n20 FROM (1,0)\n30 CUT {first},C1,{last}\n40 END\n"
+    outcome = board().outcome(program)
+    assert not unsound(outcome.tape), outcome.tape
+    assert board is Board or outcome.tape == reference(program, drift=False).tape
 
 
 @pytest.mark.parametrize("share", SHARES)
@@ -49,6 +73,7 @@ def test_parts(share: int, record_property: Record) -> None:
         found = difference(Driftless().outcome(program), result)
         reason = close_call(result) if found else ""
         assert not found or reason, f"{found}\n\n{program}"
+        assert not unsound(result.tape), f"{unsound(result.tape)}\n\n{program}"
         programs += 1
         blocks += result.tape.count(b"G")
         arcs += result.tape.count(b"R")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from math import cos, pi, sin
 from pathlib import Path
+from random import Random
 
 import pytest
 from conftest import CAD_TAPE, Run
@@ -13,6 +14,9 @@ from hypothesis import strategies as st
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.ref import drift
+from skg.ref import tape as ref_tape
+from skg.ref.real import Real
 from skg.tape import Block, Stop, arc_block, line_block
 
 
@@ -86,7 +90,7 @@ def test_cad_tape() -> None:
     ("B0B500B9GYNR1\r\nDD\r\n", "block 1, column 1: NR1 needs x > 0: wrong quadrant for its x and y"),
     ("B500B0B9GYSR1\r\nDD\r\n", "block 1, column 1: SR1 needs y > 0: wrong quadrant for its x and y"),
     ("B500B0B0GYNR1\r\nDD\r\n", "block 1, column 1: J is 0"),
-    ("B500B0B2001GYNR1\r\nDD\r\n", "block 1, column 1: J = 2001 is more than a full circle, 2000"),
+    ("B500B0B2005GYNR1\r\nDD\r\n", "block 1, column 1: J = 2005 is more than a full circle, 2000"),
     ("B500B0B490GYNR1\r\nDD\r\n",
      "block 1, column 1: J = 490 ends at y = 490, the larger coordinate of the end: expected GX"),
 ])
@@ -117,3 +121,37 @@ def test_any_bytes(data: bytes) -> None:
             tapes.parse(text)
         except UserError as error:
             assert "\n" not in str(error)
+
+
+def any_arc(rng: Random) -> tuple[tuple[int, int], tuple[int, int], bool, float]:
+    """Start and end about a rounded centre, clockwise or not, the true sweep: arcs of 1 um to 30 mm radius."""
+    radius, angle, sweep = 10 ** rng.uniform(0, 4.5), rng.uniform(0, 2 * pi), rng.choice([1, 2 * pi]) * rng.random()
+    x, y, clockwise = rng.uniform(-0.5, 0.5), rng.uniform(-0.5, 0.5), rng.random() < 0.5
+    ends = [angle, angle - sweep if clockwise else angle + sweep]
+    start, end = ((round(x + radius * cos(a)), round(y + radius * sin(a))) for a in ends)
+    return start, end, clockwise, sweep
+
+
+def test_any_arc_of_the_reference_is_sound() -> None:
+    """On the standard tape from rounded places, on one without drift from up to a micrometre beside them."""
+    rng, count = Random("sound"), 0
+    for _ in range(20_000):
+        (x, y), end, clockwise, sweep = any_arc(rng)
+        start = x + rng.choice([-1, 0, 0, 1]), y + rng.choice([-1, 0, 0, 1])
+        made = [ref_tape.arc_block((x, y), end, clockwise, Real(sweep)) if (x, y) != end else None]
+        without_drift = drift.arc(start, end, clockwise, sweep > pi) if start != end else None
+        made += [without_drift[0]] if without_drift else []
+        for text in filter(None, made):
+            (block,) = tapes.scan(f"{text}\r\nDD\r\n".encode())[0].blocks
+            assert not block.problems(), (text, start, end, sweep)
+            # It goes round once at most, but for what rounding adds.
+            assert abs(block.sweep) <= 2 * pi + 4 / max(1, block.radius)
+            count += 1
+    assert count > 20_000
+
+
+def test_an_arc_of_a_little_more_than_a_full_circle() -> None:
+    """Its rounded end lies just behind its start: once round, and a micrometre."""
+    (block,) = tapes.parse(b"B1000B7B4001GYNR1\r\nDD\r\n").blocks
+    assert block.move == (0, 1)
+    assert block.sweep == pytest.approx(2 * pi + 0.001, abs=1e-4)

@@ -73,6 +73,8 @@ def arc(start: Grid, end: Grid, clockwise: bool, is_long: bool) -> tuple[str, Gr
             return None
     if not (is_near and is_long):
         (xs, ys), (xe, ye) = towards_bisector((xs, ys), (xe, ye))
+    if (xs, ys) == (0, 0):
+        return None
     axis = "Y" if abs(xe) > abs(ye) else "X"
     # Turned by a quarter for the count along Y: the count is along u, falling while v > 0.
     (us, vs), (ue, ve) = ((xs, ys), (xe, ye)) if axis == "X" else ((ys, -xs), (ye, -xe))

@@ -11,6 +11,8 @@ from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
 
 #: No x, y or J has more digits.
 MAX_DIGITS = 8
+#: How far an arc may go on past a full circle: its ends are rounded (tape-3b.md), or where the controller stands.
+MAX_OVERLAP = 4
 CODES = tuple(f"{kind}{quadrant}" for kind in ("L", "NR", "SR") for quadrant in range(1, 5))
 #: Signs of x and y in quadrants 1 to 4 (index 0 is unused).
 _SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))
@@ -110,21 +112,22 @@ class Block:
         """True for an arc that counts four radii."""
         return not self.is_line and self.j in (4 * self.radius, 4 * self.turn)
 
-    def count_end(self) -> tuple[int, int]:
+    def count_end(self, radius: int | None = None) -> tuple[int, int]:
         """Return (distance from the centre along the count axis, quadrant) of an arc's end.
 
-        The distance shrinks to 0 or grows to the rounded radius in each quadrant in turn until J is used up.
-        Meaningless past a full circle; `problems` reports that.
+        The distance shrinks to 0 or grows to the rounded radius (or the `radius` given) in each quadrant in turn until
+        J is used up.
         """
+        radius = self.radius if radius is None else radius
         distance = self.x if self.axis == "X" else self.y
         quadrant, left = self.quadrant, self.j
         while True:
             shrinks = is_decreasing(self.axis, quadrant, self.sense)
-            room = distance if shrinks else self.radius - distance
+            room = distance if shrinks else radius - distance
             if left <= room:
                 return distance - left if shrinks else distance + left, quadrant
             left -= room
-            distance = 0 if shrinks else self.radius
+            distance = 0 if shrinks else radius
             quadrant = next_quadrant(quadrant, self.sense)
 
     @property
@@ -141,7 +144,7 @@ class Block:
         if self.is_full_circle:
             return self.start
         distance, quadrant = self.count_end()
-        other = round_sqrt(max(0, self.x**2 + self.y**2 - distance**2))
+        other = self._beside(distance)
         least = distance if self.axis == "X" else distance + 1
         if least - 2 <= other < least:
             other = least
@@ -168,6 +171,8 @@ class Block:
         quarters = (self.count_end()[1] - self.quadrant) * self.sense % 4
         if quarters == 0 and turn > 3 * pi / 2 and self.j < 2 * self.radius:
             turn = 0.0
+        if quarters == 0 and turn < pi / 2 and self.j > 2 * self.radius:
+            turn += 2 * pi
         return self.sense * turn
 
     @property
@@ -180,6 +185,10 @@ class Block:
         if self.x == 0 and self.y == 0:
             return ["x and y are both 0"]
         return self._line_problems() if self.is_line else self._arc_problems()
+
+    def _beside(self, distance: int) -> int:
+        """The other coordinate of a place on an arc's circle, to the nearest µm, without its sign."""
+        return round_sqrt(max(0, self.x**2 + self.y**2 - distance**2))
 
     def _line_problems(self) -> list[str]:
         found = []
@@ -203,14 +212,14 @@ class Block:
             found.append(f"{self.code} needs {axis.lower()} > 0: wrong quadrant for its x and y")
         if self.j == 0:
             found.append("J is 0")
-        elif self.j > 4 * max(self.radius, self.turn):
+        elif self.j > 4 * max(self.radius, self.turn) + MAX_OVERLAP:
             found.append(f"J = {self.j} is more than a full circle, {4 * self.radius}")
         elif not self.is_full_circle:
-            distance = self.count_end()[0]
-            other = round_sqrt(max(0, self.x**2 + self.y**2 - distance**2))
-            if distance > other + 2:
+            # What a tape without drift counts differs by up to 4 (docs/drift.md): one of the two must fit.
+            ends = [self.count_end(radius)[0] for radius in (self.radius, max(self.turn, 1))]
+            if all(distance > self._beside(distance) + 3 for distance in ends):
                 axis = "Y" if self.axis == "X" else "X"
-                found.append(f"J = {self.j} ends at {self.axis.lower()} = {distance}, the larger coordinate "
+                found.append(f"J = {self.j} ends at {self.axis.lower()} = {ends[0]}, the larger coordinate "
                              f"of the end: expected G{axis}")
         return found
 
