@@ -10,6 +10,7 @@ enum {
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
     POLL_GAP = 250,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
+    VAIN_READS = 1000,      /* so often a chip may be read before it is readied (its receiver may be emptied) */
     NO_ANSWER = 0xff        /* what an open bus reads */
 };
 
@@ -164,9 +165,14 @@ static bool has_received(board *b, board_uart *u)
         if (!u->full) {
             count_poll(b, can_send(b, u));
         }
-    } else if (!u->full && !b->punch_tty && !queue_empty(&b->tape)) {
+    } else if (!u->full && !queue_empty(&b->tape)) {
         u->received = queue_take(&b->tape);
         u->full = true;
+    } else if (!u->full) {
+        if (b->cpu.cycles - b->reader_asked_at > POLL_GAP) {
+            b->reader_asked_since = b->cpu.cycles;
+        }
+        b->reader_asked_at = b->cpu.cycles;
     }
     return u->full;
 }
@@ -185,7 +191,7 @@ static void write_data(board *b, board_uart *u, uint8_t byte)
     if (is_tty(b, u)) {
         u->sent_at = b->cpu.cycles + character_time(b);
         tty_print(b, byte);
-    } else if (b->punch && !b->punch_tty) {
+    } else if (b->punch) {
         b->punch(b->user, byte);
     }
 }
@@ -239,7 +245,7 @@ static void usart_control(board *b, board_uart *u, uint8_t word)
     }
 }
 
-/* The port's chip, and whether it is its control side; NULL where there is none. */
+/* The port's chip, and whether it is its control side; NULL where there is none: a teletype alone has one chip. */
 static board_uart *find_uart(board *b, uint8_t port, bool *control)
 {
     *control = (port & 1) == (b->kind == BOARD_8251);
@@ -247,9 +253,20 @@ static board_uart *find_uart(board *b, uint8_t port, bool *control)
     case PORT_TTY:
         return &b->tty;
     case PORT_AUX:
-        return &b->aux;
+        return b->punch_tty ? NULL : &b->aux;
     default:
         return NULL;
+    }
+}
+
+/* The machine reads a port where nobody answers: no chip, or one that does not work yet. */
+static void ask_in_vain(board *b, uint8_t port, board_uart *u)
+{
+    if (!u || ++u->asked_in_vain == VAIN_READS) {
+        b->nobody = true;
+        b->nobody_port = port;
+        b->nobody_chip = u != NULL;
+        i8080_stop(&b->cpu);
     }
 }
 
@@ -260,6 +277,9 @@ static uint8_t port_in(void *user, uint8_t port)
     board_uart *u = find_uart(b, port, &control);
     if (!(u && control && is_tty(b, u))) {
         b->polls = 0;
+    }
+    if (!u || u->state != UART_READY) {
+        ask_in_vain(b, port, u);
     }
     if (!u) {
         return NO_ANSWER;
@@ -273,6 +293,7 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     bool control;
     board_uart *u = find_uart(b, port, &control);
     b->polls = 0;
+    b->reader_asked_at = 0;
     if (!u) {
         return;
     }
@@ -329,7 +350,8 @@ void board_reset(board *b)
     uart_reset(b, &b->tty);
     uart_reset(b, &b->aux);
     b->polls = 0;
-    b->waiting = b->reader_on = b->punch_on = false;
+    b->waiting = b->nobody = b->reader_on = b->punch_on = false;
+    b->reader_asked_at = 0;
     b->line_length = 0;
     b->line[0] = '\0';
 }
@@ -352,11 +374,18 @@ bool board_tape(board *b, const uint8_t *bytes, size_t length)
 void board_forget_typed(board *b)
 {
     b->typed.first = b->typed.end;
+    b->pressed.first = b->pressed.end;
 }
 
 void board_reader(board *b, bool on)
 {
     b->reader_on = on;
+}
+
+uint64_t board_reader_silence(const board *b)
+{
+    bool asks = b->reader_asked_at && b->cpu.cycles - b->reader_asked_at <= POLL_GAP;
+    return asks ? b->cpu.cycles - b->reader_asked_since : 0;
 }
 
 bool board_idle(const board *b)
@@ -366,8 +395,11 @@ bool board_idle(const board *b)
 
 board_reason board_run(board *b, uint64_t cycles)
 {
-    b->polls = 0;
-    b->waiting = false;
+    if (b->waiting) {
+        b->waiting = false;     /* that has been said: now it must ask as often again */
+        b->polls = 0;
+    }
+    b->nobody = false;
     i8080_reason reason = i8080_run(&b->cpu, cycles);
     switch (reason) {
     case I8080_HALTED:
@@ -378,6 +410,9 @@ board_reason board_run(board *b, uint64_t cycles)
         return BOARD_CYCLES;
     default:
         break;
+    }
+    if (b->nobody) {
+        return BOARD_NOBODY;
     }
     if (!strcmp(b->line, ">")) {
         return BOARD_PROMPT;

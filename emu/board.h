@@ -20,7 +20,11 @@
  *
  * The operator types with care: a character arrives when the machine waits for one, that is, when it has asked
  * POLLS_TO_TYPE times in close succession and could have sent if it had wanted to. Pressed keys (ctrl-C, ctrl-S, ctrl-Q)
- * arrive at once. The machine counts as waiting for the operator after POLLS_TO_WAIT such questions.
+ * arrive at once. The machine counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
+ * asked in one run or in many short ones.
+ *
+ * A ROM made for another board asks ports where there is nothing, or a chip that it has never readied, and would ask for
+ * ever: board_run says so (BOARD_NOBODY). Writes to such ports are lost without a word, as on a real board.
  *
  * NOT IMPLEMENTED: interrupts of the 6850 and 8251; errors on the line (parity, framing, overrun: the operator never
  * types over a character that has not been read); modem lines (CTS, DCD, DSR are always on); synchronous mode's data;
@@ -48,7 +52,8 @@ typedef enum {
     BOARD_INPUT,        /* waits for the answer to INPUT: the paper's last line ends in `? ` */
     BOARD_WAIT,         /* waits for a key anywhere else */
     BOARD_HALT,         /* HLT: nothing but a reset helps */
-    BOARD_BREAK         /* at a breakpoint of the core's */
+    BOARD_BREAK,        /* at a breakpoint of the core's */
+    BOARD_NOBODY        /* has read a port that nobody serves: see nobody_port; the next run goes on */
 } board_reason;
 
 /* A queue of bytes that grows as needed. */
@@ -65,6 +70,7 @@ typedef struct {
     bool sends, receives;
     bool full;                      /* a received character has not been read */
     uint8_t received;
+    unsigned asked_in_vain;         /* reads since it was reset, while it was not ready */
     uint64_t sent_at, arrived_at;   /* cycle at which the line is free again for the next character */
 } board_uart;
 
@@ -86,9 +92,13 @@ typedef struct board {
     char line[BOARD_LINE + 1];      /* the paper's present line */
     size_t line_length;
     unsigned error_lines;           /* lines on the paper that begin with `ERR ` */
+    uint8_t nobody_port;            /* the port of the last BOARD_NOBODY, */
+    bool nobody_chip;               /* and whether a chip is there, which has never been readied */
 
     /* The rest is the board's own. */
     board_uart tty, aux;
+    bool nobody;                    /* BOARD_NOBODY is to be said */
+    uint64_t reader_asked_at, reader_asked_since;
     unsigned polls;                 /* questions in close succession */
     uint64_t polled_at;
     uint64_t end;
@@ -112,11 +122,14 @@ bool board_type(board *b, const uint8_t *bytes, size_t length);
 bool board_press(board *b, uint8_t key);
 bool board_tape(board *b, const uint8_t *bytes, size_t length);
 
-/* Takes back what was typed and has not arrived yet. */
+/* Takes back what was typed and pressed and has not arrived yet. */
 void board_forget_typed(board *b);
 
 /* The operator moves the lever of the teletype's own reader (punch_tty). */
 void board_reader(board *b, bool on);
+
+/* For so many cycles the machine has asked the empty reader, and done nothing else with its ports; 0: it does not. */
+uint64_t board_reader_silence(const board *b);
 
 /* True when everything typed and pressed has been taken by the machine. */
 bool board_idle(const board *b);

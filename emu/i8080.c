@@ -333,20 +333,14 @@ static void store(i8080 *c, uint64_t address, uint64_t value)
         }
         return;
     }
+    if (c->watching && c->written) {
+        c->written[at] = 1;
+    }
     if (mark) {
         set_byte(c, at, (uint8_t)value);
     } else {
         c->mem[at] = (uint8_t)value;
     }
-}
-
-static void store_watched(i8080 *c, uint64_t address, uint64_t value)
-{
-    unsigned at = address & 0xffff;
-    if (c->watching && at > c->highest_write && !(c->mark[at] & MARK_NOT_RAM)) {
-        c->highest_write = (uint16_t)at;
-    }
-    store(c, at, value);
 }
 
 /* Something that run_careful's caller must look at before the next instruction. */
@@ -367,9 +361,9 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 {
 #define IMM8 ((uint64_t)code[1])
 #define IMM16 ((uint64_t)(code[1] | code[2] << 8))
-#define WR(address, value) store_watched(c, address, value)
+#define WR(address, value) store(c, address, value)
 #define WR16(address, value)                                                        \
-    (store_watched(c, address, (value) & 0xff), store_watched(c, (address) + 1, (value) >> 8))
+    (store(c, address, (value) & 0xff), store(c, (address) + 1, (value) >> 8))
 #define PUSH(value)                                                                 \
     do {                                                                            \
         uint64_t v_ = (value);                                                      \
@@ -688,7 +682,6 @@ void i8080_watch(i8080 *c, bool on, uint16_t first, uint16_t last)
     c->watching = on;
     if (on) {
         c->lowest_sp = 0xffff;
-        c->highest_write = 0;
         c->fetch_first = first;
         c->fetch_last = last;
         c->fetches_outside = 0;

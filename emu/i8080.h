@@ -54,7 +54,7 @@ typedef struct i8080 {
     /* What i8080_watch() switches on. */
     bool watching;
     uint16_t lowest_sp;             /* lowest SP after a PUSH, CALL or RST; FFFF: none yet */
-    uint16_t highest_write;         /* highest RAM address written by anything but those; 0: none yet */
+    uint8_t *written;               /* the host's, of I8080_SPACE bytes: 1 for every byte of RAM written; NULL: none */
     uint16_t fetch_first, fetch_last;   /* instructions are expected to start inside */
     uint64_t fetches_outside;
     uint16_t first_outside;         /* PC of the first that was not */
@@ -105,8 +105,8 @@ void i8080_interrupt_clear(i8080 *c);
 /* Ends the run in progress after the present instruction (else the next run at once). */
 void i8080_stop(i8080 *c);
 
-/* Starts or ends watching: high-water marks and instructions fetched outside first..last. Slower while on, free when
- * off. Starting clears the marks. */
+/* Starts or ends watching: lowest stack, bytes written and instructions fetched outside first..last. Slower while on,
+ * free when off. Starting clears all but written[], which is the host's. */
 void i8080_watch(i8080 *c, bool on, uint16_t first, uint16_t last);
 
 /* Runs until at least so many more cycles have passed, or until something else ends it. */

@@ -64,7 +64,7 @@ static int hex_bytes(const char *line, uint8_t record[256 + 5])
 }
 
 /* Carries out one line of a .hex file; NULL, or what is wrong with it. */
-static const char *hex_line(const char *line, uint8_t *rom, size_t rom_size, int *ended)
+static const char *hex_line(const char *line, uint8_t *rom, bool *given, size_t rom_size, int *ended)
 {
     uint8_t record[256 + 5];
     if (*line == '\0' || *line == '\r') {
@@ -94,6 +94,7 @@ static const char *hex_line(const char *line, uint8_t *rom, size_t rom_size, int
             return "data past the end of the ROM";
         }
         memcpy(rom + address, data, length);
+        memset(given + address, true, length);
         return NULL;
     case HEX_END:
         *ended = 1;
@@ -109,24 +110,27 @@ static const char *hex_line(const char *line, uint8_t *rom, size_t rom_size, int
     }
 }
 
-int image_rom(const char *path, uint8_t *rom, size_t rom_size, char *error, size_t size)
+int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size)
 {
-    enum { HEX_LIMIT = 1 << 20 };
+    enum { FILE_LIMIT = 1 << 20 };
     const char *dot = strrchr(path, '.');
     int hex = dot && !strcasecmp(dot, ".hex");
     size_t length;
-    uint8_t *bytes = image_read(path, hex ? HEX_LIMIT : rom_size, &length, error, size);
+    uint8_t *bytes = image_read(path, FILE_LIMIT, &length, error, size);
     if (!bytes) {
         return -1;
     }
     memset(rom, 0xff, rom_size);
+    memset(given, !hex, rom_size);
     if (!hex) {
-        memcpy(rom, bytes, length);
-        if (!length) {
-            snprintf(error, size, "%s: empty", path);
+        bool whole = length == rom_size;
+        if (whole) {
+            memcpy(rom, bytes, length);
+        } else {
+            snprintf(error, size, "%s: %zu bytes, and the ROM has %zu", path, length, rom_size);
         }
         free(bytes);
-        return length ? 0 : -1;
+        return whole ? 0 : -1;
     }
     int ended = 0, number = 0;
     const char *wrong = strlen((char *)bytes) == length ? NULL : "not a text file";
@@ -136,7 +140,7 @@ int image_rom(const char *path, uint8_t *rom, size_t rom_size, char *error, size
             *next++ = '\0';
         }
         number++;
-        wrong = hex_line(line, rom, rom_size, &ended);
+        wrong = hex_line(line, rom, given, rom_size, &ended);
     }
     free(bytes);
     if (wrong) {

@@ -7,6 +7,7 @@
 #ifndef IMAGE_H
 #define IMAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -14,8 +15,9 @@
  * `limit` bytes: then `error` (of `size` bytes) says why, in one line with the file's name. */
 uint8_t *image_read(const char *path, size_t limit, size_t *length, char *error, size_t size);
 
-/* Reads a ROM image of at most `rom_size` bytes from address 0, the rest FF, into `rom`; Intel hex when the name ends in
- * .hex. Returns 0, or -1 with `error` as above. */
-int image_rom(const char *path, uint8_t *rom, size_t rom_size, char *error, size_t size);
+/* Reads the image of a ROM of `rom_size` bytes into `rom`; Intel hex when the name ends in .hex. A binary image must have
+ * just that many bytes; an Intel hex file may leave some out, which then are FF, and `given` tells them. Returns 0, or -1
+ * with `error` as above. */
+int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size);
 
 #endif

@@ -123,7 +123,6 @@ void machine_count(const machine *m, machine_counts *counts)
         .instructions = c->instructions,
         .fetches_outside = c->fetches_outside,
         .lowest_sp = c->lowest_sp,
-        .highest_write = c->highest_write,
         .first_outside = c->first_outside,
         .error_lines = m->board->error_lines,
     };

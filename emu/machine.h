@@ -21,7 +21,7 @@ typedef struct {
 /* What was counted; see i8080_watch and board for the meanings. */
 typedef struct {
     uint64_t cycles, instructions, fetches_outside;
-    uint32_t lowest_sp, highest_write, first_outside, error_lines;
+    uint32_t lowest_sp, first_outside, error_lines;
 } machine_counts;
 
 /* How a call ended. */

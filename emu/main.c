@@ -1,12 +1,12 @@
 /* skg80: the SKG board in a terminal
  *
- *      skg80 [options]             the terminal is the teletype; ctrl-] leaves
+ *      skg80 [options]             the terminal is the teletype; ctrl-] leaves, ctrl-\ resets
  *      skg80 [options] part.skg    LOAD, RUN; punch to standard output, paper to standard error
  *      skg80 --com FILE            a CP/M program on a bare 8080
  *
  *      exit    0   done
- *              1   the run ended in ERR, INPUT found no answer, or the machine halted
- *              2   wrong usage, or a file that cannot be read or written
+ *              1   the run ended in ERR, INPUT found no answer, LOAD no tape, or the machine halted
+ *              2   wrong usage, a file that cannot be read or written, or a ROM that does not fit the board
  *              3   --max-cycles were not enough
  *
  * The teletype alone has no punch of its own in a terminal: without --punch FILE what is punched is lost, since the
@@ -16,50 +16,24 @@
  */
 #include "board.h"
 #include "com.h"
+#include "complain.h"
 #include "image.h"
+#include "options.h"
 #include "terminal.h"
 
 #include <errno.h>
-#include <getopt.h>
-#include <stdarg.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-enum { EXIT_ERR = 1, EXIT_USAGE = 2, EXIT_CYCLES = 3 };
 enum {
     FILE_LIMIT = 16 << 20,          /* bytes; a part or a list of answers is a few thousand */
     PATIENCE = 20000000,            /* cycles that a silent machine may wait for a key nobody will press */
+    READER_PATIENCE = 6000000,      /* cycles; LOAD gives up after 4,000,000, unless nothing has come yet */
     SLICE_MS = 5,                   /* real time is kept, and the keyboard looked at, so often */
     UNPACED_SLICE = 1000000         /* cycles, when no time is kept */
 };
-
-static const char USAGE[] =
-    "usage: skg80 [options] [part.skg]\n"
-    "  part.skg          LOAD it, RUN it, punch to standard output; without it the terminal is the teletype\n"
-    "  --rom FILE        another ROM image, .bin or Intel .hex\n"
-    "  --ram KIB         2 to 56 (8)\n"
-    "  --input FILE      answers to INPUT, one line each (with a part)\n"
-    "  --punch FILE      what is punched\n"
-    "  --tty FILE        what is printed\n"
-    "  --tape FILE       a tape in the reader (without a part)\n"
-    "  --pty             the teletype is a pseudo-terminal, whose name is printed\n"
-    "  --mhz F           keep real time at F MHz\n"
-    "  --baud N          speed of the teletype's line, 110 to 9600\n"
-    "  --board KIND      6850 or 8251 (6850)\n"
-    "  --punch-tty       a teletype alone: its own punch and reader\n"
-    "  --stats           cycles, instructions, time and memory used, on standard error\n"
-    "  --max-cycles N    give up with exit 3\n"
-    "  --com FILE        run a CP/M program instead\n"
-    "  --help            this\n";
-
-typedef struct {
-    const char *part, *rom, *input, *punch, *tty, *tape, *com;
-    unsigned ram_kib, baud;
-    double mhz;
-    uint64_t max_cycles;
-    board_kind kind;
-    bool pty, stats, punch_tty;
-} options;
 
 /* Everything that one run of the program holds open. */
 typedef struct {
@@ -69,181 +43,30 @@ typedef struct {
     pacer pacer;
     FILE *paper, *punch;            /* NULL: nowhere */
     uint64_t printed;               /* characters on the paper */
+    int failed;                     /* errno of output that was lost; 0: none */
+    bool prompted;                  /* the machine has come to its first prompt */
+    uint8_t written[I8080_SPACE];   /* since then (--stats) */
 } session;
 
 #ifdef SKG80_BUILT_IN_ROM
 extern const uint8_t skg80_rom[BOARD_ROM_SIZE];    /* roms/skg.bin, by rom.S */
 #endif
 
-/* The paper, when it is in the middle of a line that the user sees on standard error or in the terminal. */
-static const session *open_line;
-
-/* Ends that line, so that a message has one of its own. */
-static void end_line(void)
-{
-    if (open_line && open_line->board->line_length) {
-        fputs("\r\n", stderr);
-    }
-    open_line = NULL;
-}
-
-static int complain(int code, const char *format, ...)
-{
-    va_list arguments;
-    end_line();
-    va_start(arguments, format);
-    fputs("skg80: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
-    va_end(arguments);
-    return code;
-}
-
-/* ---- options ---- */
-
-static bool whole_number(const char *text, uint64_t least, uint64_t most, uint64_t *value)
-{
-    char *end;
-    if (*text < '0' || *text > '9') {
-        return false;
-    }
-    errno = 0;
-    *value = strtoull(text, &end, 10);
-    return !*end && !errno && *value >= least && *value <= most;
-}
-
-/* What is wrong with the options together, or NULL. */
-static const char *misfit(const options *o)
-{
-    if (o->com && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty)) {
-        return "--com goes with --stats and --max-cycles alone";
-    }
-    if (o->part && o->pty) {
-        return "--pty needs an operator: no part with it";
-    }
-    if (o->part && o->tape) {
-        return "the part is the tape: no --tape with it";
-    }
-    if (o->input && !o->part) {
-        return "--input needs a part";
-    }
-    return NULL;
-}
-
-/* 0, or the exit code after a message; -1: all is said and done. */
-static int read_options(int argc, char **argv, options *o)
-{
-    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, STATS, MAX_CYCLES, COM, HELP };
-    static const struct option list[] = {
-        { "rom", required_argument, NULL, ROM },
-        { "ram", required_argument, NULL, RAM },
-        { "input", required_argument, NULL, INPUT },
-        { "punch", required_argument, NULL, PUNCH },
-        { "tty", required_argument, NULL, TTY },
-        { "tape", required_argument, NULL, TAPE },
-        { "pty", no_argument, NULL, PTY },
-        { "mhz", required_argument, NULL, MHZ },
-        { "baud", required_argument, NULL, BAUD },
-        { "board", required_argument, NULL, BOARD },
-        { "punch-tty", no_argument, NULL, PUNCH_TTY },
-        { "stats", no_argument, NULL, STATS },
-        { "max-cycles", required_argument, NULL, MAX_CYCLES },
-        { "com", required_argument, NULL, COM },
-        { "help", no_argument, NULL, HELP },
-        { NULL, 0, NULL, 0 },
-    };
-    static const unsigned bauds[] = { 110, 150, 300, 600, 1200, 2400, 4800, 9600 };
-    *o = (options){ .ram_kib = BOARD_RAM_KIB, .max_cycles = UINT64_MAX, .kind = BOARD_6850 };
-    opterr = 0;
-    for (int option; (option = getopt_long(argc, argv, ":", list, NULL)) != -1;) {
-        uint64_t number;
-        char *end;
-        switch (option) {
-        case ROM:
-            o->rom = optarg;
-            break;
-        case RAM:
-            if (!whole_number(optarg, BOARD_RAM_MIN_KIB, BOARD_RAM_MAX_KIB, &number)) {
-                return complain(EXIT_USAGE, "--ram %s: not %d to %d", optarg, BOARD_RAM_MIN_KIB, BOARD_RAM_MAX_KIB);
-            }
-            o->ram_kib = (unsigned)number;
-            break;
-        case INPUT:
-            o->input = optarg;
-            break;
-        case PUNCH:
-            o->punch = optarg;
-            break;
-        case TTY:
-            o->tty = optarg;
-            break;
-        case TAPE:
-            o->tape = optarg;
-            break;
-        case PTY:
-            o->pty = true;
-            break;
-        case MHZ:
-            o->mhz = strtod(optarg, &end);
-            if (end == optarg || *end || !(o->mhz >= 0.001 && o->mhz <= 1000)) {
-                return complain(EXIT_USAGE, "--mhz %s: not 0.001 to 1000", optarg);
-            }
-            break;
-        case BAUD:
-            if (whole_number(optarg, 1, UINT32_MAX, &number)) {
-                for (size_t i = 0; i < sizeof bauds / sizeof *bauds; i++) {
-                    o->baud = bauds[i] == number ? bauds[i] : o->baud;
-                }
-            }
-            if (!o->baud || o->baud != number) {
-                return complain(EXIT_USAGE, "--baud %s: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600", optarg);
-            }
-            break;
-        case BOARD:
-            if (strcmp(optarg, "6850") && strcmp(optarg, "8251")) {
-                return complain(EXIT_USAGE, "--board %s: not 6850 or 8251", optarg);
-            }
-            o->kind = *optarg == '6' ? BOARD_6850 : BOARD_8251;
-            break;
-        case PUNCH_TTY:
-            o->punch_tty = true;
-            break;
-        case STATS:
-            o->stats = true;
-            break;
-        case MAX_CYCLES:
-            if (!whole_number(optarg, 1, UINT64_MAX, &o->max_cycles)) {
-                return complain(EXIT_USAGE, "--max-cycles %s: not a number of cycles", optarg);
-            }
-            break;
-        case COM:
-            o->com = optarg;
-            break;
-        case HELP:
-            fputs(USAGE, stdout);
-            return -1;
-        case ':':
-            return complain(EXIT_USAGE, "%s needs a value", argv[optind - 1]);
-        default:
-            return complain(EXIT_USAGE, "%s: no such option; --help lists them", argv[optind - 1]);
-        }
-    }
-    if (argc - optind > 1) {
-        return complain(EXIT_USAGE, "%s: one part at a time", argv[optind + 1]);
-    }
-    o->part = argv[optind];
-    const char *wrong = misfit(o);
-    return wrong ? complain(EXIT_USAGE, "%s", wrong) : 0;
-}
-
 /* ---- what the board prints and punches ---- */
+
+static void put(session *s, uint8_t c, FILE *file)
+{
+    if (putc(c, file) == EOF) {
+        s->failed = errno;
+    }
+}
 
 static void print(void *user, uint8_t c)
 {
     session *s = user;
     s->printed++;
     if (s->paper) {
-        putc(c, s->paper);
+        put(s, c, s->paper);
     } else {
         terminal_print(&s->terminal, c);
     }
@@ -253,29 +76,26 @@ static void punch(void *user, uint8_t byte)
 {
     session *s = user;
     if (s->punch) {
-        putc(byte, s->punch);
+        put(s, byte, s->punch);
     }
 }
 
-static void flush(session *s)
+/* Gives all output away; false when some of it is lost. */
+static bool flush(session *s)
 {
     FILE *const files[] = { s->paper, s->punch, s->terminal.copy };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        if (files[i]) {
-            fflush(files[i]);
+        if (files[i] && fflush(files[i])) {
+            s->failed = errno;
         }
     }
+    s->failed = s->failed ? s->failed : s->terminal.failed;
+    return !s->failed;
 }
 
-static int write_failure(const session *s)
+static int report_failure(const session *s)
 {
-    FILE *const files[] = { s->paper, s->punch, s->terminal.copy };
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        if (files[i] && (fflush(files[i]) || ferror(files[i]))) {
-            return complain(EXIT_USAGE, "cannot write: %s", strerror(errno));
-        }
-    }
-    return 0;
+    return complain(EXIT_USAGE, "cannot write: %s", strerror(s->failed));
 }
 
 static void print_counts(uint64_t cycles, uint64_t instructions)
@@ -285,14 +105,28 @@ static void print_counts(uint64_t cycles, uint64_t instructions)
             BOARD_HZ / 1000000);
 }
 
+/* The largest piece of RAM that was not written since the first prompt: what program and variables left between them. */
+static void print_untouched(const session *s, unsigned end)
+{
+    unsigned first = end, length = 0;
+    for (unsigned at = BOARD_RAM_START, run = 0; at < end; at++) {
+        run = s->written[at] ? 0 : run + 1;
+        if (run > length) {
+            length = run;
+            first = at + 1 - run;
+        }
+    }
+    fprintf(stderr, "RAM           2000 to %04X, untouched %04X to %04X: %u bytes\n", end - 1, first, first + length - 1,
+            length);
+}
+
 static void print_stats(const session *s)
 {
     const i8080 *c = &s->board->cpu;
-    unsigned end = BOARD_RAM_START + s->o.ram_kib * 1024;
-    end_line();
+    complain_end_line();
     print_counts(c->cycles, c->instructions);
-    fprintf(stderr, "RAM           2000 to %04X, written up to %04X\nstack         down to %04X\n", end - 1,
-            c->highest_write, c->lowest_sp);
+    print_untouched(s, BOARD_RAM_START + s->o.ram_kib * 1024);
+    fprintf(stderr, "stack         down to %04X\n", c->lowest_sp);
 }
 
 /* ---- running ---- */
@@ -305,30 +139,73 @@ static board_reason run_slice(session *s)
     uint64_t rest = s->o.max_cycles - c->cycles;
     board_reason reason = board_run(s->board, slice < rest ? slice : rest);
     pacer_wait(&s->pacer, c->cycles);
+    if (reason == BOARD_PROMPT && !s->prompted) {
+        s->prompted = true;
+        memset(s->written, 0, sizeof s->written);   /* the size of the RAM was found by writing to it */
+    }
     return reason;
 }
 
-static int report_halt(const session *s)
+/* A port was read that nobody serves. */
+static int report_nobody(const session *s)
 {
-    return complain(EXIT_ERR, "the machine halted at %04X", (s->board->cpu.pc - 1) & 0xffff);
+    const board *b = s->board;
+    if (b->nobody_chip) {
+        return complain(EXIT_USAGE, "port %02X is read, and its %s was never readied: is this ROM for --board %s?",
+                        b->nobody_port, b->kind == BOARD_6850 ? "6850" : "8251",
+                        b->kind == BOARD_6850 ? "8251" : "6850");
+    }
+    return complain(EXIT_USAGE, "port %02X is read, and nobody serves it%s", b->nobody_port,
+                    b->punch_tty ? " with --punch-tty: is this ROM for a punch and reader of their own?" : "");
 }
 
-static int report_cycles(const session *s)
+/* What ended the machine's work without an answer from the operator. */
+static int report(const session *s, board_reason reason)
 {
-    return complain(EXIT_CYCLES, "not done after %llu cycles", (unsigned long long)s->o.max_cycles);
+    const i8080 *c = &s->board->cpu;
+    switch (reason) {
+    case BOARD_HALT:
+        return complain(EXIT_ERR, "the machine halted at %04X", (c->pc - 1) & 0xffff);
+    case BOARD_BREAK:
+        return complain(EXIT_USAGE, "the machine runs into %04X, where the ROM image has nothing", c->pc);
+    case BOARD_NOBODY:
+        return report_nobody(s);
+    default:
+        return complain(EXIT_CYCLES, "not done after %llu cycles", (unsigned long long)s->o.max_cycles);
+    }
 }
 
-/* Lets the machine run until it asks the operator something or all cycles are used up. BOARD_WAIT only when it says
- * nothing for too long. */
+static int report_reader(void)
+{
+    return complain(EXIT_ERR, "LOAD waits for a tape, and the reader is empty");
+}
+
+/* The machine asks for a key, and nobody will press one. */
+static int report_wait(const session *s)
+{
+    const board *b = s->board;
+    bool unread = b->tape.first != b->tape.end && !b->punch_tty;
+    return complain(EXIT_ERR, "the machine waits for a key at `%s`%s", b->line,
+                    unread ? ", its tape unread: is this ROM for --punch-tty?" : "");
+}
+
+/* Lets the machine run until it asks the operator something, has lost output or used up all cycles. BOARD_WAIT only when
+ * it says nothing for too long. */
 static board_reason until_asked(session *s)
 {
     i8080 *c = &s->board->cpu;
     uint64_t printed = s->printed, since = c->cycles;
     while (c->cycles < s->o.max_cycles) {
         board_reason reason = run_slice(s);
+        if (!flush(s)) {
+            return reason;
+        }
         if (s->printed != printed || reason == BOARD_CYCLES) {
             printed = s->printed;
             since = c->cycles;
+        }
+        if (board_reader_silence(s->board) > READER_PATIENCE) {
+            return BOARD_WAIT;
         }
         if (reason != BOARD_CYCLES && (reason != BOARD_WAIT || c->cycles - since > PATIENCE)) {
             return reason;
@@ -351,7 +228,11 @@ static int run_part(session *s, const char *answers)
     size_t given = 0;
     unsigned old_errors = 0;
     for (;;) {
-        switch (until_asked(s)) {
+        board_reason reason = until_asked(s);
+        if (s->failed) {
+            return report_failure(s);
+        }
+        switch (reason) {
         case BOARD_PROMPT:
             if (given == 0) {
                 old_errors = s->board->error_lines;
@@ -383,13 +264,26 @@ static int run_part(session *s, const char *answers)
             break;
         }
         case BOARD_WAIT:
-            return complain(EXIT_ERR, "the machine waits for a key at `%s`", s->board->line);
-        case BOARD_HALT:
-            return report_halt(s);
+            return board_reader_silence(s->board) ? report_reader() : report_wait(s);
         default:
-            return report_cycles(s);
+            return report(s, reason);
         }
     }
+}
+
+/* LOAD has asked an empty reader for so long that the operator should know. Ends with an exit code when he cannot break
+ * it off; else 0. */
+static int watch_reader(const session *s, bool *told)
+{
+    bool empty = board_reader_silence(s->board) > READER_PATIENCE;
+    if (empty && s->terminal.ended) {
+        return report_reader();
+    }
+    if (empty && !*told) {
+        remark("the reader is empty (--tape FILE puts a tape in); ctrl-C breaks LOAD off");
+    }
+    *told = empty;
+    return 0;
 }
 
 /* The operator at the other end of terminal, pipe or pseudo-terminal. Returns the exit code. */
@@ -398,10 +292,13 @@ static int run_terminal(session *s)
     i8080 *c = &s->board->cpu;
     terminal *t = &s->terminal;
     uint64_t since_end = 0;
+    bool told = false;
     for (;;) {
         board_reason reason = run_slice(s);
         int wait = 0;
-        flush(s);
+        if (!flush(s)) {
+            return report_failure(s);
+        }
         switch (reason) {
         case BOARD_PROMPT:
             if (t->ended) {
@@ -418,24 +315,32 @@ static int run_terminal(session *s)
         case BOARD_WAIT:
             wait = SLICE_MS;        /* it may be counting the time until something comes */
             break;
-        case BOARD_HALT:
-            return report_halt(s);
-        default:
+        case BOARD_CYCLES:
             break;
+        default:
+            return report(s, reason);
         }
         if (c->cycles >= s->o.max_cycles) {
-            return report_cycles(s);
+            return report(s, BOARD_CYCLES);
         }
         if (t->left) {
             return 0;
+        }
+        int code = watch_reader(s, &told);
+        if (code) {
+            return code;
         }
         if (reason != BOARD_WAIT || !t->ended) {
             since_end = c->cycles;
         } else if (c->cycles - since_end > PATIENCE) {
             return complain(EXIT_ERR, "the input ended in the middle of `%s`", s->board->line);
         }
-        if (!terminal_listen(t, s->board, wait)) {
+        if (!terminal_listen(t, s->board, told && !wait ? SLICE_MS : wait)) {
             return complain(EXIT_ERR, "out of memory");
+        }
+        if (t->reset) {
+            t->reset = false;
+            board_reset(s->board);
         }
         if (wait) {
             pacer_start(&s->pacer, s->pacer.hz, c->cycles);
@@ -458,10 +363,9 @@ static int run_com(const options *o)
     }
     int code = 0;
     com_end end = com_run(c, program, length, o->max_cycles, stdout);
-    if (fflush(stdout)) {
+    if (fflush(stdout) || ferror(stdout)) {
         code = complain(EXIT_USAGE, "cannot write: %s", strerror(errno));
-    }
-    if (end == COM_CYCLES) {
+    } else if (end == COM_CYCLES) {
         code = complain(EXIT_CYCLES, "not done after %llu cycles", (unsigned long long)o->max_cycles);
     } else if (end == COM_HALTED) {
         code = complain(EXIT_ERR, "the program halted at %04X", (c->pc - 1) & 0xffff);
@@ -481,12 +385,16 @@ static int run_com(const options *o)
 static int set_rom(session *s)
 {
     uint8_t rom[BOARD_ROM_SIZE];
+    bool given[BOARD_ROM_SIZE];
     char error[256];
     if (s->o.rom) {
-        if (image_rom(s->o.rom, rom, sizeof rom, error, sizeof error)) {
+        if (image_rom(s->o.rom, rom, given, sizeof rom, error, sizeof error)) {
             return complain(EXIT_USAGE, "%s", error);
         }
         board_rom(s->board, rom, sizeof rom);
+        for (unsigned i = 0; i < sizeof rom; i++) {
+            i8080_break(&s->board->cpu, (uint16_t)i, !given[i]);
+        }
         return 0;
     }
 #ifdef SKG80_BUILT_IN_ROM
@@ -536,6 +444,7 @@ static int set_board(session *s)
     s->board->punch = punch;
     s->board->user = s;
     i8080_watch(&s->board->cpu, s->o.stats, 0, BOARD_ROM_SIZE - 1);
+    s->board->cpu.written = s->written;
     pacer_start(&s->pacer, mhz * 1e6, 0);
     return set_rom(s);
 }
@@ -553,7 +462,7 @@ static int with_part(session *s)
     int code = set_tape(s, s->o.part);
     code = code ? code : open_output(&s->paper, s->o.tty);
     code = code ? code : open_output(&s->punch, s->o.punch);
-    open_line = s->paper == stderr ? s : NULL;
+    complain_beside(s->paper == stderr ? s->board : NULL);
     code = code ? code : run_part(s, answers ? (const char *)answers : "");
     free(answers);
     return code;
@@ -572,19 +481,39 @@ static int with_terminal(session *s)
         terminal_open(&s->terminal);
     } else if (terminal_open_pty(&s->terminal)) {
         return complain(EXIT_USAGE, "no pseudo-terminal: %s", strerror(errno));
-    } else {
-        printf("%s\n", s->terminal.name);
-        fflush(stdout);
+    } else if (printf("%s\n", s->terminal.name) < 0 || fflush(stdout)) {
+        return complain(EXIT_USAGE, "cannot write: %s", strerror(errno));
     }
     s->terminal.copy = copy;
-    open_line = s->o.pty ? NULL : s;
-    return run_terminal(s);
+    terminal_catch_reset();
+    if (s->terminal.leaves) {
+        remark("ctrl-] leaves, ctrl-\\ resets");
+    } else if (s->o.pty && isatty(STDERR_FILENO)) {
+        remark("ctrl-C ends this; kill -USR1 %ld resets", (long)getpid());
+    }
+    complain_beside(s->o.pty ? NULL : s->board);
+    code = run_terminal(s);
+    complain_end_line();            /* the shell's prompt gets a line of its own */
+    return code;
+}
+
+/* No file that is opened may take the place of a standard stream that is closed: input and output then fail; standard error
+ * was silenced. */
+static void open_standard_streams(void)
+{
+    static const int wrong_way[] = { O_WRONLY, O_RDONLY, O_WRONLY };
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
+        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", wrong_way[fd]) < 0) {
+            _exit(EXIT_USAGE);
+        }
+    }
 }
 
 int main(int argc, char **argv)
 {
     static session s;
-    int code = read_options(argc, argv, &s.o);
+    open_standard_streams();
+    int code = options_read(argc, argv, &s.o);
     if (code) {
         return code < 0 ? 0 : code;
     }
@@ -594,12 +523,13 @@ int main(int argc, char **argv)
     code = set_board(&s);
     if (!code) {
         code = s.o.part ? with_part(&s) : with_terminal(&s);
-        int failure = write_failure(&s);
-        code = code ? code : failure;
+        if (!flush(&s) && !code) {
+            code = report_failure(&s);
+        }
         if (s.o.stats) {
             print_stats(&s);
         }
     }
     board_free(s.board);
-    return code;
+    return !code && ferror(stderr) ? EXIT_USAGE : code;
 }

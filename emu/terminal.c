@@ -10,7 +10,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BRACKET = 0x1d };
+enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BACKSLASH = 0x1c, CTRL_BRACKET = 0x1d };
 enum { DEAF_AFTER = 1000 };         /* ms; so long a full pseudo-terminal may keep the machine waiting */
 
 /* ---- raw mode ---- */
@@ -59,11 +59,46 @@ static void on_continue(int number)
     errno = saved;
 }
 
+bool terminal_is_raw(void)
+{
+    return is_raw;
+}
+
+/* ---- the reset button ---- */
+
+/* The signal writes into one end of a pipe, and whoever waits for keys waits at the other end too. */
+static int reset_pipe[2] = { -1, -1 };
+
+static void on_reset(int number)
+{
+    int saved = errno;
+    (void)number;
+    if (write(reset_pipe[1], "", 1) < 0) {
+        /* full: a reset is under way */
+    }
+    errno = saved;
+}
+
+void terminal_catch_reset(void)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_reset;
+    action.sa_flags = SA_RESTART;
+    if (pipe(reset_pipe) == 0) {
+        fcntl(reset_pipe[0], F_SETFL, O_NONBLOCK);
+        fcntl(reset_pipe[1], F_SETFL, O_NONBLOCK);
+        sigaction(SIGUSR1, &action, NULL);
+    }
+}
+
+/* ---- signals ---- */
+
 static void catch_signals(void)
 {
     static const int fatal[] = {
         SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGHUP, SIGILL, SIGINT, SIGPIPE, SIGPROF, SIGQUIT, SIGSEGV,
-        SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+        SIGSYS, SIGTERM, SIGTRAP, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
     };
     struct sigaction action;
     memset(&action, 0, sizeof action);
@@ -141,10 +176,14 @@ void terminal_print(terminal *t, uint8_t c)
         if (errno == EINTR) {
             continue;
         }
+        if (errno != EAGAIN && !*t->name) {
+            t->failed = errno;
+            return;
+        }
         if (errno != EAGAIN || t->deaf) {
             return;             /* a teletype that is switched off prints nothing */
         }
-        if (poll(&line, 1, DEAF_AFTER) == 0) {
+        if (poll(&line, 1, *t->name ? DEAF_AFTER : -1) == 0) {
             t->deaf = true;
             return;
         }
@@ -170,6 +209,13 @@ static bool take(terminal *t, board *b, uint8_t c)
             return true;
         }
         break;
+    case CTRL_BACKSLASH:
+        if (t->leaves) {
+            board_forget_typed(b);
+            t->reset = true;
+            return true;
+        }
+        break;
     case CTRL_C:
         board_forget_typed(b);
         return board_press(b, c);
@@ -182,9 +228,18 @@ static bool take(terminal *t, board *b, uint8_t c)
 
 bool terminal_listen(terminal *t, board *b, int milliseconds)
 {
-    struct pollfd line = { .fd = t->in, .events = POLLIN };
+    struct pollfd lines[] = { { .fd = reset_pipe[0], .events = POLLIN }, { .fd = t->in, .events = POLLIN } };
     uint8_t bytes[1024];
-    if (t->ended || poll(&line, 1, milliseconds) <= 0) {
+    if (poll(lines, t->ended ? 1 : 2, t->ended ? 0 : milliseconds) <= 0) {
+        return true;
+    }
+    if (lines[0].revents && read(reset_pipe[0], bytes, sizeof bytes) > 0) {
+        if (t->keyboard) {
+            board_forget_typed(b);
+        }
+        t->reset = true;
+    }
+    if (t->ended || !lines[1].revents) {
         return true;
     }
     ssize_t count = read(t->in, bytes, sizeof bytes);

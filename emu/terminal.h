@@ -1,8 +1,9 @@
 /* The operator's side of the teletype: this terminal, a pipe, or a pseudo-terminal; and real time
  *
  * A terminal is switched to raw mode and put back on exit and on every signal that ends or stops the program. ctrl-]
- * leaves. ctrl-C, ctrl-S and ctrl-Q reach the machine at once, ctrl-C drops what was typed ahead; everything else is
- * typed when the machine asks for it. From a pipe all characters are typed in their order, and LF is CR.
+ * leaves, ctrl-\ is the reset button. ctrl-C, ctrl-S and ctrl-Q reach the machine at once, ctrl-C drops what was typed
+ * ahead; everything else is typed when the machine asks for it. From a pipe all characters are typed in their order, and
+ * LF is CR. The signal USR1 is the reset button too, whatever the operator types at.
  *
  * NOT IMPLEMENTED: the modem lines, break and speed of a pseudo-terminal; more than one user of it.
  */
@@ -17,9 +18,11 @@
 typedef struct {
     int in, out;            /* file descriptors */
     bool keyboard;          /* a person or a program at a line (not a pipe): keys, not text */
-    bool leaves;            /* ctrl-] leaves */
+    bool leaves;            /* ctrl-] leaves, ctrl-\ resets */
     bool ended;             /* no more will come, or ctrl-] */
     bool left;              /* ctrl-] */
+    bool reset;             /* ctrl-\ or USR1; who has seen to it makes it false again */
+    int failed;             /* errno of a character that could not be printed; 0: none */
     bool deaf;              /* nobody reads the pseudo-terminal */
     bool after_cr;
     FILE *copy;             /* of all that is printed; NULL: none */
@@ -39,10 +42,17 @@ void terminal_open(terminal *t);
 /* Makes a pseudo-terminal and its name; 0, or -1 with errno. */
 int terminal_open_pty(terminal *t);
 
+/* Takes the signal USR1 for the reset button from now on. */
+void terminal_catch_reset(void);
+
+/* Is the terminal in raw mode now? A line must then end in CR LF. */
+bool terminal_is_raw(void);
+
 /* Prints one character of the paper. */
 void terminal_print(terminal *t, uint8_t c);
 
-/* Waits up to so many milliseconds (-1: for ever) for keys and gives them to the board. False without memory. */
+/* Waits up to so many milliseconds (-1: for ever) for keys and gives them to the board; a reset ends the waiting. False
+ * without memory. */
 bool terminal_listen(terminal *t, board *b, int milliseconds);
 
 /* Starts real time now, and sleeps until the processor's cycles are due. */

@@ -113,6 +113,7 @@ static unsigned fuzz_image(const char *path)
 {
     static const char letters[] = ":0123456789ABCDEFabcdef \r\nxyz";
     uint8_t rom[BOARD_ROM_SIZE];
+    bool given[BOARD_ROM_SIZE];
     char error[256], name[512];
     unsigned wrong = 0;
     for (unsigned round = 0; round < 20; round++) {
@@ -138,7 +139,7 @@ static unsigned fuzz_image(const char *path)
         }
         fputs(random32() % 2 ? ":00000001FF\n" : "", file);
         fclose(file);
-        wrong += image_rom(name, rom, sizeof rom, error, sizeof error) != 0;
+        wrong += image_rom(name, rom, given, sizeof rom, error, sizeof error) != 0;
         remove(name);
     }
     return wrong;

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from asm8080 import assemble
-from conftest import ROOT
+from emuhelp import ROOT
 
 ALTAIR = shutil.which("altairz80")
 

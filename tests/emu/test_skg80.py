@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 import subprocess
 import time
@@ -10,122 +11,196 @@ from pathlib import Path
 
 import pytest
 from asm8080 import assemble
-from conftest import ROOT, Skg80, monitor
+from emuhelp import ROM_SIZE, ROMS, ROOT, SKG80, TIMEOUT, Skg80, complaint, without_sign_on
+
+from skg.machine import Machine, symbols
 
 Part = Callable[[str], Path]
 
 
-def complaint(done: subprocess.CompletedProcess[bytes], code: int) -> str:
-    """The one line on standard error that goes with an exit code."""
-    text = done.stderr.decode()
-    assert done.returncode == code, text
-    lines = [line for line in text.split("\n") if line.startswith("skg80: ")]
-    assert len(lines) == 1, text
-    return lines[0].removeprefix("skg80: ")
-
-
 # Parts
+
+TWO_LINES = "10 FROM (0,1)\n20 CUT (0,0),(1,0)\n"
+BLOCKS = (b"B0B1000B1000GYL4\r\n", b"B1000B0B1000GXL1\r\n")
+STOPS = b"DD\r\n"
+END = "\x1a"
 
 
 def test_part_is_loaded_and_run(skg80: Skg80, part: Part) -> None:
     """Punch on standard output, paper on standard error, exit 0; a last line may lack its end."""
-    done = skg80(part("PB1B0B1GXL1\nThello\nPDD"))
-    assert done.stdout == b"B1B0B1GXL1\nDD\n"
-    assert done.stderr == b">L\r\n>R\r\nhello\n>".replace(b">L", b">LOAD").replace(b">R", b">RUN")
+    done = skg80(part(TWO_LINES + '30 PRINT "hello"\n40 END'))
+    assert done.stdout == b"".join(BLOCKS) + STOPS
+    paper = b">LOAD\r\n>RUN\r\n0001 B0B1000B1000GYL4\r\nhello\r\n0002 B1000B0B1000GXL1\r\nDD\r\n>"
+    assert without_sign_on(done.stderr) == paper
     assert done.returncode == 0
 
 
 def test_run_that_ends_in_an_error(skg80: Skg80, part: Part) -> None:
     """Exit 1; what was punched before it is there; ERR inside a line is none."""
-    done = skg80(part("PB1\nEPB2\n"))
-    assert (done.returncode, done.stdout) == (1, b"B1\n")
-    assert done.stderr.endswith(b"ERR 05\r\n>")
-    assert skg80(part("Tno ERR 05\n")).returncode == 0
+    done = skg80(part(TWO_LINES + "30 PRINT A\n"))
+    assert (done.returncode, done.stdout) == (1, BLOCKS[0] + b"D\r\n")
+    assert done.stderr.endswith(b"ERR 03 LINE 30\r\n>")
+    assert skg80(part('10 PRINT "no ERR 05"\n')).returncode == 0
+
+
+def test_part_that_is_not_understood(skg80: Skg80, part: Part) -> None:
+    """LOAD ends in ERR: exit 1, and there is no RUN."""
+    done = skg80(part("10 CUT X,,Y\n"))
+    assert (done.returncode, done.stdout) == (1, b"")
+    assert b"RUN" not in done.stderr
 
 
 def test_input_is_answered_line_by_line(skg80: Skg80, part: Part, tmp_path: Path) -> None:
-    """In their order, with any line ends; an empty line is an answer."""
+    """In their order, with any line ends; an empty line is an answer, if a wrong one."""
     answers = tmp_path / "answers"
-    answers.write_bytes(b"one\r\n\nthree")
-    done = skg80(part("IIIPDD\n"), "--input", answers)
-    assert (done.returncode, done.stdout) == (0, b"one\r\n\r\nthree\r\nDD\n")
+    answers.write_bytes(b"1\r\n\n(2,3)")
+    done = skg80(part("10 INPUT A\n20 INPUT P\n30 PRINT A,P\n"), "--input", answers)
+    assert done.returncode == 0
+    assert b"? 1\r\n? \r\n? (2,3)\r\n1 (2,3)\r\n" in done.stderr
 
 
-@pytest.mark.parametrize("answers", [None, b"", b"one\n"])
+@pytest.mark.parametrize("answers", [None, b"", b"1\n"])
 def test_input_without_an_answer(skg80: Skg80, part: Part, tmp_path: Path, answers: bytes | None) -> None:
     """Exit 1 and one line."""
     options: list[str | Path] = []
     if answers is not None:
         (tmp_path / "answers").write_bytes(answers)
         options = ["--input", tmp_path / "answers"]
-    assert complaint(skg80(part("II"), *options), 1) == "INPUT asks, and --input has no line left"
+    assert complaint(skg80(part("10 INPUT A,P\n"), *options), 1) == "INPUT asks, and --input has no line left"
 
 
 def test_punch_and_paper_go_to_files(skg80: Skg80, part: Part, tmp_path: Path) -> None:
     """Then standard output and error are empty."""
-    done = skg80(part("PB1\n"), "--punch", tmp_path / "p", "--tty", tmp_path / "t")
+    done = skg80(part(TWO_LINES + "40 END\n"), "--punch", tmp_path / "p", "--tty", tmp_path / "t")
     assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
-    assert (tmp_path / "p").read_bytes() == b"B1\n"
-    assert (tmp_path / "t").read_bytes() == b">LOAD\r\n>RUN\r\n>"
-
-
-def test_boards(part: Part, tmp_path: Path) -> None:
-    """8251s, and a teletype alone, give the same tape."""
-    text = part("PB1\nThello\nPDD\n")
-    for board in ("6850", "8251"):
-        for alone in (False, True):
-            rom = tmp_path / "rom.bin"
-            rom.write_bytes(monitor(board, alone))
-            done = Skg80(rom)(text, "--board", board, *(["--punch-tty"] if alone else []))
-            assert (done.returncode, done.stdout) == (0, b"B1\nDD\n"), (board, alone)
+    assert (tmp_path / "p").read_bytes() == b"".join(BLOCKS) + STOPS
+    assert without_sign_on((tmp_path / "t").read_bytes()).startswith(b">LOAD\r\n>RUN\r\n0001 B0B1000")
 
 
 def test_max_cycles(skg80: Skg80, part: Part) -> None:
     """Exit 3, in a loop of the program's or when they just do not suffice."""
     for cycles in ("1", "300000", "20000000"):
-        assert complaint(skg80(part("J"), "--max-cycles", cycles), 3) == f"not done after {cycles} cycles"
+        assert complaint(skg80(part("10 GOTO 10\n"), "--max-cycles", cycles), 3) == f"not done after {cycles} cycles"
 
 
-def test_machine_that_halts_or_waits_for_ever(skg80: Skg80, part: Part) -> None:
+def test_machine_that_halts(skg80: Skg80, part: Part, rom_of: Part) -> None:
     """Exit 1 and where."""
-    assert re.fullmatch("the machine halted at 0[0-9A-F]{3}", complaint(skg80(part("H")), 1))
-    assert complaint(skg80(part("Tab \nW")), 1) == "the machine waits for a key at ``"
+    assert complaint(skg80("--rom", rom_of("NOP\nNOP\nHLT"), part("10 END\n")), 1) == "the machine halted at 0002"
+
+
+def test_load_without_a_tape(skg80: Skg80, part: Part) -> None:
+    """A part may say LOAD itself, and an operator may forget --tape; nobody waits for ever."""
+    message = "LOAD waits for a tape, and the reader is empty"
+    assert complaint(skg80(part("LOAD\n")), 1) == message
+    assert complaint(skg80(stdin=b"LOAD\n"), 1) == message
 
 
 def test_stats(skg80: Skg80, part: Part) -> None:
-    """Counts that agree with each other and with the memory map."""
-    done = skg80(part("PB1\nB"), "--stats", "--ram", "4")
+    """Counts that agree with each other; what is untouched lies between program and variables."""
+    text = '10 A=1\n20 B=O:2\n30 PRINT "hello"\n' + END
+    done = skg80(part(text), "--stats", "--ram", "4")
     report = done.stderr.decode().split(">")[-1].lstrip("\r\n")
     values = re.fullmatch(
         r"cycles +(\d+)\ninstructions +(\d+)\nseconds +([\d.]+) at 2 MHz\n"
-        r"RAM +2000 to 2FFF, written up to ([0-9A-F]{4})\nstack +down to ([0-9A-F]{4})\n",
+        r"RAM +2000 to 2FFF, untouched ([0-9A-F]{4}) to ([0-9A-F]{4}): (\d+) bytes\n"
+        r"stack +down to ([0-9A-F]{4})\n",
         report,
     )
     assert values, report
     cycles, instructions = int(values[1]), int(values[2])
     assert 4 < cycles / instructions < 18
     assert float(values[3]) == pytest.approx(cycles / 2e6, abs=1e-6)
-    assert int(values[4], 16) == 0x2100 + len("PB1\nB\n")  # the tape and its end
-    assert 0x27E0 < int(values[5], 16) < 0x2800
-    assert b"\nFFFF\r\n" in done.stderr.replace(b"\r\nFFFF", b"\nFFFF")
+    first, last, size = int(values[4], 16), int(values[5], 16), int(values[6])
+    assert last - first + 1 == size
+    m = Machine(ROMS / "skg.bin", 4)
+    m.tape(text.replace("\n", "\r\n"))
+    m.type("LOAD\rRUN\r")
+    assert m.run() == "prompt"
+    names = symbols((ROMS / "skg.sym").read_text())
+    end_of_program, lowest_variable = m.peek16(names["PEND"]), m.peek16(names["VBOT"])
+    assert end_of_program < first < end_of_program + 64, "the route buffer's first bytes"
+    assert last == lowest_variable - 1 == 0x2FFF - (2 + 5) - (2 + 15) - 1
+    assert names["STKLOW"] <= int(values[7], 16) < names["STKTOP"]
 
 
 def test_ram_size(skg80: Skg80, part: Part) -> None:
     """The machine has what was asked for."""
-    for kib in ("2", "56"):
-        assert skg80(part("PB1\n"), "--ram", kib).returncode == 0
+    free = []
+    for kib in ("2", "8", "40"):
+        done = skg80(part("10 END\n" + END), "--ram", kib)
+        assert done.returncode == 0
+        free.append(int(done.stderr.split()[1]))
+    assert [free[1] - free[0], free[2] - free[1]] == [6 << 10, 32 << 10]
 
 
-def test_real_time(skg80: Skg80, part: Part) -> None:
-    """A machine at 2 MHz cannot be faster than its cycles; a slow line makes it print so many cycles longer."""
+@pytest.mark.parametrize("mhz", ["20", "2", "1", "0.5"])
+def test_real_time(skg80: Skg80, part: Part, mhz: str) -> None:
+    """A part ends, and not before its cycles are over: the machine asks often enough even in the shortest slice."""
     start = time.monotonic()
-    fast = skg80(part("PB1\n\x1a"), "--stats", "--mhz", "0.5", "--baud", "9600")
+    done = skg80(part("10 PRINT 1\n" + END), "--stats", "--mhz", mhz)
     elapsed = time.monotonic() - start
-    cycles = int(re.search(rb"cycles +(\d+)", fast.stderr)[1])
-    assert elapsed >= cycles / 0.5e6 * 0.99
-    slow = skg80(part("PB1\n\x1a"), "--stats", "--baud", "110")
-    slow_cycles = int(re.search(rb"cycles +(\d+)", slow.stderr)[1])
-    assert slow_cycles > 13 * 2_000_000 * 11 / 110, "13 characters of paper"
+    assert done.returncode == 0
+    cycles = int(re.search(rb"cycles +(\d+)", done.stderr)[1])
+    assert elapsed >= cycles / (float(mhz) * 1e6) * 0.99
+
+
+@pytest.mark.parametrize(("rom", "options"), [("skg-8251", ["--board", "8251"]), ("skg-tty", ["--punch-tty"])])
+def test_real_time_of_the_other_boards(skg80: Skg80, part: Part, rom: str, options: list[str]) -> None:
+    """They wait for the operator in loops of their own."""
+    done = skg80(part("10 PRINT 7\n" + END), "--rom", ROMS / f"{rom}.bin", *options, "--mhz", "0.5")
+    assert done.returncode == 0
+    assert b"\r\n7\r\n" in done.stderr
+
+
+def test_slow_line_costs_a_part_cycles(skg80: Skg80, part: Part) -> None:
+    """Without --mhz no time is kept, but the machine waits for its line."""
+    done = skg80(part("10 PRINT 1\n" + END), "--stats", "--baud", "110")
+    cycles = int(re.search(rb"cycles +(\d+)", done.stderr)[1])
+    printed = len(done.stderr.split(b"cycles")[0])
+    assert cycles > (printed - 3) * 2_000_000 * 11 / 110
+
+
+# A ROM for another board
+
+NEVER_READIED = "port {} is read, and its {} was never readied: is this ROM for --board {}?"
+NOT_THIS_BOARD = [
+    (["--board", "8251"], NEVER_READIED.format(10, 8251, 6850)),
+    (["--rom", ROMS / "skg-8251.bin"], NEVER_READIED.format(11, 6850, 8251)),
+    (["--rom", ROMS / "skg-8251.bin", "--punch-tty"], NEVER_READIED.format(11, 6850, 8251)),
+    (["--punch-tty"],
+     "port 12 is read, and nobody serves it with --punch-tty: is this ROM for a punch and reader of their own?"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("options", "message"), NOT_THIS_BOARD)
+def test_rom_of_another_board(skg80: Skg80, part: Part, options: list[str | Path], message: str) -> None:
+    """Exit 2 and one line, at once; with a part and at the terminal, where only LOAD asks for the reader."""
+    assert complaint(skg80(*options, part("10 END\n")), 2) == message
+    assert complaint(skg80(*options, stdin=b"LOAD\n"), 2) == message
+
+
+def test_rom_for_a_teletype_alone_without_one(skg80: Skg80, part: Part) -> None:
+    """It waits for the tape at the keyboard."""
+    message = "the machine waits for a key at ``, its tape unread: is this ROM for --punch-tty?"
+    assert complaint(skg80("--rom", ROMS / "skg-tty.bin", part("10 END\n")), 1) == message
+
+
+def test_port_that_nobody_has(skg80: Skg80, part: Part, rom_of: Part) -> None:
+    """Reading one ends it; writing does not."""
+    rom = rom_of("OUT 20H\nIN 21H\nHLT")
+    assert complaint(skg80("--rom", rom, part("")), 2) == "port 21 is read, and nobody serves it"
+
+
+def test_half_a_rom(skg80: Skg80, part: Part, tmp_path: Path) -> None:
+    """One of two EPROMs: the size is wrong, or the machine runs into what is not there."""
+    half = tmp_path / "half.bin"
+    half.write_bytes((ROMS / "skg.bin").read_bytes()[:4096])
+    assert complaint(skg80("--rom", half, part("10 END\n")), 2) == f"{half}: 4096 bytes, and the ROM has 8192"
+    lines = (ROMS / "skg.hex").read_text().splitlines(keepends=True)
+    half = tmp_path / "half.hex"
+    half.write_text("".join([*lines[:256], lines[-1]]))
+    message = complaint(skg80("--rom", half, part("10 END\n")), 2)
+    assert re.fullmatch("the machine runs into 1[0-9A-F]{3}, where the ROM image has nothing", message)
 
 
 # Wrong usage
@@ -133,6 +208,8 @@ def test_real_time(skg80: Skg80, part: Part) -> None:
 USAGE = [
     (["--nonsense"], "--nonsense: no such option; --help lists them"),
     (["-x"], "-x: no such option; --help lists them"),
+    (["-xyz"], "-x: no such option; --help lists them"),
+    (["--stats=1"], "--stats=1: this option takes no value"),
     (["--rom"], "--rom needs a value"),
     (["--ram", "1"], "--ram 1: not 2 to 56"),
     (["--ram", "8x"], "--ram 8x: not 2 to 56"),
@@ -143,6 +220,7 @@ USAGE = [
     (["--baud", "111"], "--baud 111: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600"),
     (["--baud", "no"], "--baud no: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600"),
     (["--board", "Z80"], "--board Z80: not 6850 or 8251"),
+    (["--baud", "300", "--baud", "x"], "--baud x: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600"),
     (["--max-cycles", "0"], "--max-cycles 0: not a number of cycles"),
     (["--max-cycles", "99999999999999999999"], "--max-cycles 99999999999999999999: not a number of cycles"),
     (["a.skg", "b.skg"], "b.skg: one part at a time"),
@@ -156,7 +234,7 @@ USAGE = [
 @pytest.mark.parametrize(("arguments", "message"), USAGE)
 def test_wrong_usage(skg80: Skg80, arguments: list[str], message: str) -> None:
     """Exit 2 and one line."""
-    done = skg80(*arguments, rom="--com" not in arguments)
+    done = skg80(*arguments)
     assert complaint(done, 2) == message
     assert done.stdout == b""
 
@@ -168,27 +246,100 @@ def test_unreadable_file(skg80: Skg80, part: Part, tmp_path: Path, option: str, 
     path = tmp_path / name
     arguments: list[str | Path] = [option, path] if option else [path]
     if option in ("--input", "--rom"):
-        arguments.append(part("PB1\n"))
-    done = skg80(*arguments, rom=option in ("", "--input", "--tape"))
-    assert complaint(done, 2) == f"{path}: {reason}"
+        arguments.append(part("10 END\n"))
+    assert complaint(skg80(*arguments), 2) == f"{path}: {reason}"
 
 
 @pytest.mark.parametrize("option", ["--punch", "--tty"])
 def test_unwritable_file(skg80: Skg80, part: Part, tmp_path: Path, option: str) -> None:
     """Exit 2, before anything runs, or when the disk is full."""
     path = tmp_path / "no" / "file"
-    assert complaint(skg80(part("PB1\n"), option, path), 2) == f"{path}: No such file or directory"
-    done = skg80(part("PB1\n"), option, "/dev/full")
-    assert complaint(done, 2) == "cannot write: No space left on device"
+    assert complaint(skg80(part("10 END\n"), option, path), 2) == f"{path}: No such file or directory"
+    assert complaint(skg80(part("10 END\n"), option, "/dev/full"), 2) == FULL
+    if option == "--tty":
+        assert complaint(skg80(option, "/dev/full", stdin=b"PRINT 1\n"), 2) == FULL
+
+
+FULL = "cannot write: No space left on device"
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--pty"], [], ["PART"], ["--com", "COM"]])
+def test_standard_output_is_full(part: Part, tmp_path: Path, arguments: list[str]) -> None:
+    """Exit 2, whatever was to be written there."""
+    files = {"PART": part("10 END\n"), "COM": com(tmp_path, HELLO.format(end="RET"))}
+    command = [SKG80, *(files.get(argument, argument) for argument in arguments)]
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=full, stderr=subprocess.PIPE, timeout=TIMEOUT)
+    assert complaint(done, 2) == FULL
+
+
+@pytest.mark.parametrize("options", [[], ["--stats", "--tty", "/dev/null"]])
+def test_standard_error_is_full(part: Part, options: list[str]) -> None:
+    """The paper or the statistics are lost: exit 2, though nobody can be told why."""
+    command = [SKG80, *options, part("10 END\n")]
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=full, timeout=TIMEOUT)
+    assert done.returncode == 2
+
+
+def test_closed_standard_streams(part: Part, tmp_path: Path) -> None:
+    """A file that is opened never becomes a standard stream; without standard error the tape is whole."""
+    tape, paper = tmp_path / "tape", tmp_path / "paper"
+    line = f"{SKG80} --tty {paper} {part(TWO_LINES + '30 END')} "
+    done = subprocess.run(["sh", "-c", f"{line} >&-"], stderr=subprocess.PIPE, timeout=TIMEOUT)
+    assert complaint(done, 2) == "cannot write: Bad file descriptor"
+    assert b"\nB0B1000B1000GYL4" not in paper.read_bytes()
+    for closed in ("2>&-", "<&-", "2>&- <&-"):
+        done = subprocess.run(["sh", "-c", f"{line} {closed} > {tape}"], timeout=TIMEOUT)
+        assert (done.returncode, tape.read_bytes()) == (0, b"".join(BLOCKS) + STOPS), closed
+
+
+def test_no_file_is_overwritten_that_is_in_use(skg80: Skg80, part: Part, tmp_path: Path) -> None:
+    """The punch or the paper over the part, the answers, the ROM or the tape; both into one file."""
+    text = "10 END\n"
+    path, other = part(text), tmp_path / "other"
+    other.write_text(text)
+    link = tmp_path / "link"
+    link.symlink_to(path)
+    for options in (["--punch", path], ["--tty", path], ["--punch", link], ["--input", other, "--tty", other]):
+        name = options[-1]
+        assert complaint(skg80(path, *options), 2) == f"{name}: one file for two purposes"
+    both = tmp_path / "both"
+    assert complaint(skg80(path, "--punch", both, "--tty", both), 2) == f"{both}: one file for two purposes"
+    assert complaint(skg80("--tape", path, "--punch", path), 2) == f"{path}: one file for two purposes"
+    assert path.read_text() == other.read_text() == text
+    assert not both.exists()
+    assert skg80(path, "--punch", "/dev/null", "--tty", "/dev/null").returncode == 0
+
+
+@pytest.mark.parametrize("name", ["empty", "noise", "nothing but NUL", "one long line", "full of LF"])
+def test_files_that_are_no_program(skg80: Skg80, tmp_path: Path, name: str) -> None:
+    """As a part, a tape and as answers: it ends, and the exit code says how."""
+    content = {
+        "empty": b"",
+        "noise": random.Random(7).randbytes(20000),
+        "nothing but NUL": bytes(100000),
+        "one long line": b"1" * 100000,
+        "full of LF": b"\n" * 20000,
+    }[name]
+    path = tmp_path / "file"
+    path.write_bytes(content)
+    expected = 1 if name in ("noise", "one long line") else 0
+    assert skg80(path).returncode == expected
+    assert skg80("--tape", path, stdin=b"LOAD\n").returncode == 0
+    asks = tmp_path / "asks.skg"
+    asks.write_text("10 INPUT A\n")
+    assert skg80("--input", path, asks).returncode == 1
 
 
 def test_help_names_every_option(skg80: Skg80) -> None:
     """And nothing but."""
-    done = skg80("--help", rom=False)
-    source = (ROOT / "emu" / "main.c").read_text()
+    done = skg80("--help")
+    source = (ROOT / "emu" / "options.c").read_text()
     options = set(re.findall(r'\{ "([a-z-]+)", (?:no|required)_argument', source))
     assert done.returncode == 0
     assert set(re.findall(r"--([a-z-]+)", done.stdout.decode())) == options
+    assert b"ctrl-] leaves" in done.stdout
     assert {"rom", "ram", "input", "punch", "tty", "pty", "mhz", "baud", "stats", "max-cycles", "com"} < options
 
 
@@ -201,21 +352,22 @@ def record(address: int, data: bytes, kind: int = 0) -> str:
     return f":{body.hex().upper()}{-sum(body) & 255:02X}\n"
 
 
-END = ":00000001FF\n"
+LAST = ":00000001FF\n"
 
 
 def hex_file(image: bytes) -> str:
     """An image as Intel hex."""
-    return "".join(record(i, image[i : i + 16]) for i in range(0, len(image), 16)) + END
+    return "".join(record(i, image[i : i + 16]) for i in range(0, len(image), 16)) + LAST
 
 
-def test_hex_image(part: Part, tmp_path: Path) -> None:
-    """The same as the binary; CR LF, blank lines and records that say nothing are fine."""
-    rom = tmp_path / "monitor.HEX"
-    text = record(0, b"\0\0", 4) + record(0, b"\0\0\0\0", 5) + hex_file(monitor()).lower() + "\n"
+def test_hex_image(skg80: Skg80, part: Part, tmp_path: Path) -> None:
+    """The same as the binary; CR LF, blank lines, records that say nothing and an empty end of the ROM are fine."""
+    image = (ROMS / "skg.bin").read_bytes().rstrip(b"\xff")
+    rom = tmp_path / "skg.HEX"
+    text = record(0, b"\0\0", 4) + record(0, b"\0\0\0\0", 5) + hex_file(image).lower() + "\n"
     rom.write_bytes(text.replace("\n", "\r\n").encode())
-    done = Skg80(rom)(part("PB1\n"))
-    assert (done.returncode, done.stdout) == (0, b"B1\n")
+    done = skg80("--rom", rom, part(TWO_LINES + "30 END\n"))
+    assert (done.returncode, done.stdout) == (0, b"".join(BLOCKS) + STOPS)
 
 
 BAD_HEX = [
@@ -223,32 +375,32 @@ BAD_HEX = [
     (":00000001F\n", ":1: not an Intel hex record"),
     (":000000\n", ":1: not an Intel hex record"),
     (":" + "00" * 300 + "\n", ":1: not an Intel hex record"),
-    (record(0, b"abc") + ":0200000061623A\n" + END, ":2: the checksum is wrong"),
-    (":0300000061623A\n" + END, ":1: the record's length is wrong"),
-    (record(0x1FFF, b"ab") + END, ":1: data past the end of the ROM"),
-    (record(0, b"\0\1", 4) + END, ":1: an address past FFFF"),
-    (record(0, b"", 9) + END, ":1: unknown kind of record"),
+    (record(0, b"abc") + ":0200000061623A\n" + LAST, ":2: the checksum is wrong"),
+    (":0300000061623A\n" + LAST, ":1: the record's length is wrong"),
+    (record(0x1FFF, b"ab") + LAST, ":1: data past the end of the ROM"),
+    (record(0, b"\0\1", 4) + LAST, ":1: an address past FFFF"),
+    (record(0, b"", 9) + LAST, ":1: unknown kind of record"),
     (record(0, b"abc"), ": no end record"),
     ("", ": no end record"),
-    (END + record(0, b"abc"), ":2: more after the end record"),
-    (":00\0" + END, ":1: not a text file"),
+    (LAST + record(0, b"abc"), ":2: more after the end record"),
+    (":00\0" + LAST, ":1: not a text file"),
 ]
 
 
 @pytest.mark.parametrize(("text", "message"), BAD_HEX)
-def test_bad_hex_image(tmp_path: Path, text: str, message: str) -> None:
+def test_bad_hex_image(skg80: Skg80, tmp_path: Path, text: str, message: str) -> None:
     """Exit 2, the line and what is wrong with it."""
     path = tmp_path / "rom.hex"
     path.write_text(text)
-    assert complaint(Skg80(path)(), 2) == f"{path}{message}"
+    assert complaint(skg80("--rom", path), 2) == f"{path}{message}"
 
 
-@pytest.mark.parametrize(("size", "message"), [(8193, "more than 8192 bytes"), (0, "empty")])
-def test_bad_binary_image(tmp_path: Path, size: int, message: str) -> None:
-    """Too long or empty."""
+@pytest.mark.parametrize("size", [0, 1, ROM_SIZE - 1, ROM_SIZE + 1])
+def test_bad_binary_image(skg80: Skg80, tmp_path: Path, size: int) -> None:
+    """Too long, too short or empty."""
     path = tmp_path / "rom.bin"
     path.write_bytes(bytes(size))
-    assert complaint(Skg80(path)(), 2) == f"{path}: {message}"
+    assert complaint(skg80("--rom", path), 2) == f"{path}: {size} bytes, and the ROM has {ROM_SIZE}"
 
 
 # CP/M programs
@@ -278,7 +430,7 @@ TEXT:   DB      "hello$ not this"
 @pytest.mark.parametrize("end", ["JMP 0", "RST 0", "MVI C,0\nCALL 5"])
 def test_com_program(skg80: Skg80, tmp_path: Path, end: str) -> None:
     """BDOS 2 and 9; ends at 0 or by BDOS 0; the counts are those of the public exercisers' known totals."""
-    done = skg80("--com", com(tmp_path, HELLO.format(end=end)), "--stats", rom=False)
+    done = skg80("--com", com(tmp_path, HELLO.format(end=end)), "--stats")
     assert (done.returncode, done.stdout) == (0, b"hello!")
     cycles, instructions = (int(n) for n in re.findall(rb"(?:cycles|instructions) +(\d+)", done.stderr))
     before = 16 + 5 + 10 + 7 + 17 + 20 + 7 + 7 + 17 + 20  # to the end; 20: OUT and RET of the BDOS
@@ -288,16 +440,16 @@ def test_com_program(skg80: Skg80, tmp_path: Path, end: str) -> None:
 
 def test_com_program_may_return(skg80: Skg80, tmp_path: Path) -> None:
     """Its stack begins with 0000."""
-    assert skg80("--com", com(tmp_path, "RET"), rom=False).returncode == 0
+    assert skg80("--com", com(tmp_path, "RET")).returncode == 0
 
 
 def test_com_program_that_fails(skg80: Skg80, tmp_path: Path) -> None:
     """HLT and unknown functions: exit 1; endless: exit 3; too long: exit 2."""
-    assert complaint(skg80("--com", com(tmp_path, "NOP\nHLT"), rom=False), 1) == "the program halted at 0101"
-    done = skg80("--com", com(tmp_path, "MVI C,15\nCALL 5"), rom=False)
+    assert complaint(skg80("--com", com(tmp_path, "NOP\nHLT")), 1) == "the program halted at 0101"
+    done = skg80("--com", com(tmp_path, "MVI C,15\nCALL 5"))
     assert complaint(done, 1) == "BDOS function 15 is not there"
-    done = skg80("--com", com(tmp_path, "JMP 100H"), "--max-cycles", "12345", rom=False)
+    done = skg80("--com", com(tmp_path, "JMP 100H"), "--max-cycles", "12345")
     assert complaint(done, 3) == "not done after 12345 cycles"
     big = tmp_path / "big.com"
     big.write_bytes(bytes(0xC701))
-    assert complaint(skg80("--com", big, rom=False), 2) == f"{big}: more than 50944 bytes"
+    assert complaint(skg80("--com", big), 2) == f"{big}: more than 50944 bytes"

@@ -10,13 +10,21 @@ import termios
 import time
 import tty
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 import serial
-from conftest import ROOT, Skg80, monitor
+from emuhelp import ROMS, ROOT, SKG80, TIMEOUT, Skg80, without_sign_on
 
-TIMEOUT = 20.0  # seconds; far more than anything here takes
+FATAL = ["HUP", "INT", "QUIT", "ILL", "TRAP", "ABRT", "BUS", "FPE", "SEGV", "USR2", "PIPE", "ALRM", "TERM",
+         "XCPU", "XFSZ", "VTALRM", "PROF", "SYS"]  # fmt: skip
+
+
+def default_signals() -> None:
+    """In a new process: the signals that these tests send are not ignored, though they may be here (nohup)."""
+    for name in (*FATAL, "TSTP", "CONT"):
+        signal.signal(signal.Signals[f"SIG{name}"], signal.SIG_DFL)
 
 
 class Screen:
@@ -26,7 +34,8 @@ class Screen:
         self.master, self.line = os.openpty()
         self.before = termios.tcgetattr(self.line)
         self.process = subprocess.Popen(
-            [ROOT / program, *arguments], stdin=self.line, stdout=self.line, stderr=self.line, start_new_session=True
+            [ROOT / program, *arguments], stdin=self.line, stdout=self.line, stderr=self.line, start_new_session=True,
+            preexec_fn=default_signals,
         )
         self.seen = b""
 
@@ -67,28 +76,37 @@ class Screen:
             time.sleep(0.01)
 
 
+@contextmanager
+def started(*arguments: str | Path, program: str = "build/skg80") -> Iterator[Screen]:
+    """skg80 at its first prompt; the sign-on and the keys that matter are on the screen."""
+    s = Screen(*arguments, program=program)
+    try:
+        s.expect(b"skg80: ctrl-] leaves, ctrl-\\ resets\r\n")
+        s.expect(b"\r\nSKG ")
+        s.expect(b">")
+        yield s
+    finally:
+        s.close()
+
+
 @pytest.fixture
-def screen(rom: Path) -> Iterator[Screen]:
+def screen() -> Iterator[Screen]:
     """skg80 at its first prompt."""
-    s = Screen("--rom", rom)
-    s.expect(b">")
-    yield s
-    s.close()
+    with started() as s:
+        yield s
 
 
 def test_terminal_is_the_teletype(screen: Screen) -> None:
     """Characters are echoed by the firmware alone; ctrl-] leaves, and the terminal is as before."""
     assert screen.is_raw()
-    screen.keys(b"HELLO\r")
-    screen.expect(b"HELLO\r\nERR 01\r\n>")
+    screen.keys(b"PRINT 1+1\r")
+    screen.expect(b"PRINT 1+1\r\n2\r\n>")
     assert screen.seen == b""
     screen.keys(b"\x1d")
+    screen.expect(b"\r\n")
     assert screen.process.wait(TIMEOUT) == 0
+    assert screen.seen == b"", "the shell's prompt gets a line of its own"
     assert screen.is_restored()
-
-
-FATAL = ["HUP", "INT", "QUIT", "ILL", "TRAP", "ABRT", "BUS", "FPE", "USR1", "SEGV", "USR2", "PIPE", "ALRM", "TERM",
-         "XCPU", "XFSZ", "VTALRM", "PROF", "SYS"]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", FATAL)
@@ -107,57 +125,146 @@ def test_terminal_is_restored_while_stopped(screen: Screen) -> None:
     os.waitpid(screen.process.pid, os.WUNTRACED)
     screen.process.send_signal(signal.SIGCONT)
     screen.wait_for("is_raw")
-    screen.keys(b"A\r")
-    screen.expect(b"ERR 01\r\n>")
+    screen.keys(b"PRINT 3\r")
+    screen.expect(b"\n3\r\n>")
 
 
-def test_ctrl_c_breaks_in_and_drops_what_was_typed_ahead(rom: Path, tmp_path: Path) -> None:
+LOOP = b"10 CUT O,(1,0)\r\n20 BACK\r\n30 GOTO 30\r\n\x1a"
+
+
+def test_ctrl_c_breaks_in_and_drops_what_was_typed_ahead(tmp_path: Path) -> None:
     """While a program loops; the tape is in the reader, the punch goes to its file."""
     tape, punch = tmp_path / "tape", tmp_path / "punch"
-    tape.write_bytes(b"PB1\r\nJ\x1a")
-    s = Screen("--rom", rom, "--tape", tape, "--punch", punch)
-    s.expect(b">")
-    s.keys(b"L\rR\rLOST")
-    s.expect(b"R\r\n")
-    time.sleep(0.2)
-    s.keys(b"\x03")
-    s.expect(b"\r\n>")
-    s.keys(b"Z\r")
-    s.expect(b"Z\r\nERR 01\r\n>")
-    s.keys(b"\x1d")
-    assert s.process.wait(TIMEOUT) == 0
-    s.close()
-    assert punch.read_bytes() == b"B1\r\n"
+    tape.write_bytes(LOOP)
+    with started("--tape", tape, "--punch", punch) as s:
+        s.keys(b"LOAD\rRUN\r")
+        s.expect(b"0002 ")
+        s.keys(b"LOST")
+        s.keys(b"\x03")
+        s.expect(b"ERR 10 LINE 30\r\n>")
+        s.keys(b"PRINT 4\r")
+        s.expect(b"PRINT 4\r\n4\r\n>")
+        s.keys(b"\x1d")
+        assert s.process.wait(TIMEOUT) == 0
+    assert punch.read_bytes().startswith(b"B1000B0B1000GXL1\r\nB1000B0B1000GXL3\r\n")
 
 
-def test_sanitizers_find_nothing(rom: Path, tmp_path: Path) -> None:
+def push_reset(screen: Screen, how: str) -> None:
+    """The key or the signal."""
+    if how == "key":
+        screen.keys(b"\x1c")
+    else:
+        screen.process.send_signal(signal.SIGUSR1)
+    screen.expect(b"\r\nSKG ")
+    screen.expect(b">")
+
+
+@pytest.mark.parametrize("how", ["key", "signal"])
+def test_reset_at_the_prompt_keeps_program_and_variables(screen: Screen, how: str) -> None:
+    """The machine signs on anew; half a line is forgotten."""
+    for line in (b"10 PRINT A\r", b"A=7\r", b"P5=(1,2)\r"):
+        screen.keys(line)
+        screen.expect(b">")
+    screen.keys(b"20 PRI")
+    screen.expect(b"20 PRI")
+    push_reset(screen, how)
+    screen.keys(b"PRINT A,P5\r")
+    screen.expect(b"\n7 (1,2)\r\n>")
+    screen.keys(b"LIST\r")
+    screen.expect(b"LIST\r\n10 PRINT A\r\n>")
+
+
+@pytest.mark.parametrize("how", ["key", "signal"])
+def test_reset_in_a_run_keeps_the_program(screen: Screen, how: str) -> None:
+    """The run's variables are lost; what was typed ahead is dropped; held output is let go."""
+    for line in (b"10 A=A0+1\r", b"20 PRINT 8\r", b"30 GOTO 10\r"):
+        screen.keys(line)
+        screen.expect(b">")
+    screen.keys(b"1 A0=5\r")
+    screen.expect(b">")
+    screen.keys(b"RUN\rLOST\r")
+    screen.expect(b"\n8\r\n")
+    if how == "key":
+        screen.keys(b"\x13")
+    push_reset(screen, how)
+    screen.keys(b"PRINT A0\r")
+    screen.expect(b"PRINT A0\r\nERR 03\r\n>")
+    screen.keys(b"LIST 30\r")
+    screen.expect(b"LIST 30\r\n30 GOTO 10\r\n>")
+
+
+def test_reset_signal_at_a_pipe() -> None:
+    """The machine signs on anew, at the prompt and while it waits with the pipe open; what is typed later counts."""
+    process = subprocess.Popen([SKG80], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert process.stdin and process.stdout
+    seen = b""
+    for _ in range(3):
+        while not seen.endswith(b">"):
+            seen += process.stdout.read(1)
+        process.send_signal(signal.SIGUSR1)
+        seen = process.stdout.read(1)
+    process.stdin.write(b"PRINT 6\n")
+    process.stdin.close()
+    seen += process.stdout.read()
+    assert process.wait(TIMEOUT) == 0
+    assert seen.endswith(b">PRINT 6\r\n6\r\n>")
+    assert b"\nSKG " in seen
+    process.stdout.close()
+
+
+def test_load_says_that_the_reader_is_empty(screen: Screen) -> None:
+    """It waits as long as it takes, as the board does; ctrl-C breaks it off."""
+    screen.keys(b"LOAD\r")
+    screen.expect(b"skg80: the reader is empty (--tape FILE puts a tape in); ctrl-C breaks LOAD off\r\n")
+    screen.keys(b"\x03")
+    screen.expect(b"ERR 10\r\n>")
+
+
+def test_terminal_that_hangs_up(screen: Screen) -> None:
+    """Nobody is there any more, and HUP is ignored (nohup): it ends, and does not go on for ever."""
+    with subprocess.Popen(
+        ["sh", "-c", 'trap "" HUP; exec "$0"', SKG80], stdin=screen.line, stdout=screen.line, stderr=subprocess.DEVNULL
+    ) as process:
+        screen.expect(b">")
+        screen.process.kill()
+        screen.process.wait()
+        os.close(screen.line)
+        os.close(screen.master)
+        try:
+            assert process.wait(TIMEOUT) in (0, 2)
+        finally:
+            process.kill()
+            screen.master, screen.line = os.openpty()
+
+
+def test_sanitizers_find_nothing(tmp_path: Path) -> None:
     """The whole program in a terminal, built with the address and undefined behaviour sanitizers."""
-    s = Screen("--rom", rom, "--tty", tmp_path / "paper", program="build/asan/skg80")
-    s.expect(b">")
-    s.keys(b"HELLO\r")
-    s.expect(b"ERR 01\r\n>")
-    s.keys(b"\x1d")
-    assert s.process.wait(TIMEOUT) == 0
-    s.close()
-    assert (tmp_path / "paper").read_bytes() == b">HELLO\r\nERR 01\r\n>"
+    with started("--tty", tmp_path / "paper", program="build/asan/skg80") as s:
+        s.keys(b"PRINT 1\r")
+        s.expect(b"\n1\r\n>")
+        push_reset(s, "key")
+        s.keys(b"\x1d")
+        assert s.process.wait(TIMEOUT) == 0
+    paper = (tmp_path / "paper").read_bytes()
+    assert without_sign_on(paper).startswith(b">PRINT 1\r\n1\r\n>\r\nSKG ")
 
 
-@pytest.mark.parametrize("text", [b"A\nB\n", b"A\r\nB\r\n", b"A\rB\r"])
-def test_piped_text_is_typed(skg80: Skg80, text: bytes) -> None:
+@pytest.mark.parametrize("end", [b"\n", b"\r\n", b"\r"])
+def test_piped_text_is_typed(skg80: Skg80, end: bytes) -> None:
     """With any line ends; at its end the machine's prompt ends the program."""
-    done = skg80(stdin=text)
-    assert done.stdout == b">A\r\nERR 01\r\n>B\r\nERR 01\r\n>"
-    assert (done.returncode, done.stderr) == (0, b"")
+    done = skg80(stdin=b"PRINT 1" + end + b"PRINT A" + end)
+    assert without_sign_on(done.stdout) == b">PRINT 1\r\n1\r\n>PRINT A\r\nERR 03\r\n>"
+    assert (done.returncode, done.stderr) == (0, b"\r\n")
 
 
 def test_piped_text_waits_for_the_machine(skg80: Skg80, tmp_path: Path) -> None:
     """What is typed behind RUN answers INPUT and is not lost while the program runs."""
     tape = tmp_path / "tape"
-    tape.write_bytes(b"IIPDD\r\n\x1a")
-    done = skg80("--tape", tape, "--punch", tmp_path / "punch", stdin=b"L\nR\none\ntwo\nZ\n")
+    tape.write_bytes(b"10 INPUT A\r\n20 INPUT B\r\n30 CUT O,(A,0)\r\n\x1a")
+    done = skg80("--tape", tape, "--punch", tmp_path / "punch", stdin=b"LOAD\nRUN\n5\nO:1\nPRINT A\n")
     assert done.returncode == 0
-    assert (tmp_path / "punch").read_bytes() == b"one\r\ntwo\r\nDD\r\n"
-    assert done.stdout.endswith(b">Z\r\nERR 01\r\n>")
+    assert (tmp_path / "punch").read_bytes() == b"B5000B0B5000GXL1\r\nDD\r\n"
+    assert done.stdout.endswith(b">PRINT A\r\n5\r\n>")
 
 
 def test_piped_text_that_ends_too_soon(skg80: Skg80, tmp_path: Path) -> None:
@@ -165,23 +272,43 @@ def test_piped_text_that_ends_too_soon(skg80: Skg80, tmp_path: Path) -> None:
     done = skg80(stdin=b"HALF")
     assert (done.returncode, done.stderr) == (1, b"\r\nskg80: the input ended in the middle of `>HALF`\n")
     tape = tmp_path / "tape"
-    tape.write_bytes(b"I\x1a")
-    done = skg80("--tape", tape, stdin=b"L\nR\n")
+    tape.write_bytes(b"10 INPUT A\r\n\x1a")
+    done = skg80("--tape", tape, stdin=b"LOAD\nRUN\n")
     assert (done.returncode, done.stderr) == (1, b"\r\nskg80: INPUT asks, and the input has ended\n")
 
 
-def test_slow_line_is_slow(skg80: Skg80) -> None:
-    """At 300 baud, without --mhz, a character takes a thirtieth of a second."""
+@pytest.mark.parametrize("options", [["--baud", "300"], ["--baud", "9600"], ["--mhz", "0.5"]])
+def test_real_time_at_a_pipe(skg80: Skg80, options: list[str]) -> None:
+    """It ends, and a character takes ten bits' time on the line."""
     start = time.monotonic()
-    done = skg80("--baud", "300", stdin=b"ABC\n")
-    assert done.stdout == b">ABC\r\nERR 01\r\n>"
-    assert time.monotonic() - start > (len(done.stdout) - 1) / 30
+    done = skg80(*options, stdin=b"PRINT 1\n")
+    assert done.stdout.endswith(b">PRINT 1\r\n1\r\n>")
+    if options[0] == "--baud":
+        assert time.monotonic() - start > (len(done.stdout) - 1) * 10 / int(options[1])
+
+
+@pytest.mark.parametrize("options", [["--mhz", "2"], ["--baud", "9600"]])
+def test_real_time_in_a_terminal(options: list[str]) -> None:
+    """The machine hears its keys."""
+    with started(*options) as s:
+        s.keys(b"PRINT 5\r")
+        s.expect(b"\n5\r\n>")
+
+
+def test_nobody_reads_the_pipe() -> None:
+    """The reader of the paper goes away: the program ends too."""
+    process = subprocess.Popen([SKG80], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    assert process.stdin and process.stdout
+    process.stdout.close()
+    process.stdin.write(b"PRINT 1\n" * 100)
+    process.stdin.close()
+    assert process.wait(TIMEOUT) in (2, -signal.SIGPIPE)
 
 
 @pytest.fixture
-def port(rom: Path) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
+def port() -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
     """The name of a pseudo-terminal with skg80 behind it, and the process."""
-    process = subprocess.Popen([ROOT / "build/skg80", "--rom", rom, "--pty"], stdout=subprocess.PIPE)
+    process = subprocess.Popen([SKG80, "--pty"], stdout=subprocess.PIPE)
     assert process.stdout
     yield process.stdout.readline().decode().strip(), process
     process.terminate()
@@ -196,14 +323,18 @@ def talk(line: serial.Serial, text: bytes, answer: bytes) -> None:
 
 
 def test_pseudo_terminal(port: tuple[str, subprocess.Popen[bytes]]) -> None:
-    """For pyserial, at any speed; nothing is echoed by the line, and its user may come back."""
+    """For pyserial, at any speed; nothing is echoed by the line, its user may come back, and the signal resets."""
     name, process = port
     with serial.Serial(name, 9600, timeout=TIMEOUT) as line:
-        line.write(b"ABC\r")  # pyserial has thrown away what was printed before it opened the line
-        assert line.read_until(b"01\r\n>") in (b"ABC\r\nERR 01\r\n>", b">ABC\r\nERR 01\r\n>")
-        talk(line, b"X" * 1000 + b"\r", b"X" * 1000 + b"\r\nERR 01\r\n>")
+        line.write(b"PRINT 1\r")  # pyserial has thrown away what was printed before it opened the line
+        assert line.read_until(b"\n1\r\n>").endswith(b"PRINT 1\r\n1\r\n>")
+        long = b"REM " + b"X" * 100
+        talk(line, (long + b"\r") * 10, (long + b"\r\n>") * 10)
     with serial.Serial(name, 110, timeout=TIMEOUT) as line:
-        talk(line, b"D\r", b"D\r\nERR 01\r\n>")
+        talk(line, b"A=7\r", b"A=7\r\n>")
+        process.send_signal(signal.SIGUSR1)
+        assert line.read_until(b">").startswith(b"\r\nSKG ")
+        talk(line, b"PRINT A\r", b"PRINT A\r\n7\r\n>")
         line.timeout = 0.05
         assert line.read(1) == b""
     assert process.poll() is None
@@ -213,35 +344,37 @@ def test_pseudo_terminal_without_a_reader(port: tuple[str, subprocess.Popen[byte
     """The machine does not wait for ever for somebody who never reads."""
     name, process = port
     with serial.Serial(name, timeout=TIMEOUT) as line:
-        for _ in range(20):
-            line.write(b"Y" * 999 + b"\r")
+        for _ in range(200):
+            line.write(b"REM " + b"Y" * 95 + b"\r")
         end = time.monotonic() + TIMEOUT
         while line.out_waiting and time.monotonic() < end:
             time.sleep(0.05)
         time.sleep(1.5)
         line.reset_input_buffer()
-        line.write(b"Z\r")
-        assert line.read_until(b"Z\r\nERR 01\r\n>").endswith(b"Z\r\nERR 01\r\n>")
+        line.write(b"PRINT 9\r")
+        assert line.read_until(b"\n9\r\n>").endswith(b"\n9\r\n>")
     assert process.poll() is None
 
 
-def test_raw_mode_needs_no_output_terminal(rom: Path) -> None:
-    """Keyboard from a terminal, paper into a pipe."""
+def test_raw_mode_needs_no_output_terminal() -> None:
+    """Keyboard from a terminal, paper into a pipe; the keys that matter stand on standard error."""
     master, line = os.openpty()
     tty.setcbreak(master)
-    process = subprocess.Popen([ROOT / "build/skg80", "--rom", rom], stdin=line, stdout=subprocess.PIPE)
-    assert process.stdout
-    assert process.stdout.read(1) == b">"
-    os.write(master, b"A\r\x1d")
+    process = subprocess.Popen([SKG80], stdin=line, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert process.stdout and process.stderr
+    while process.stdout.read(1) != b">":
+        pass
+    os.write(master, b"PRINT 1\r\x1d")
     assert process.wait(TIMEOUT) == 0
+    assert b"ctrl-] leaves" in process.stderr.read()
     process.stdout.close()
+    process.stderr.close()
     os.close(master)
     os.close(line)
 
 
-def test_8251_in_a_terminal(tmp_path: Path) -> None:
+def test_8251_in_a_terminal(skg80: Skg80) -> None:
     """The other board's firmware, the other board."""
-    rom = tmp_path / "rom.bin"
-    rom.write_bytes(monitor("8251"))
-    done = Skg80(rom)("--board", "8251", stdin=b"A\n")
-    assert (done.returncode, done.stdout) == (0, b">A\r\nERR 01\r\n>")
+    done = skg80("--rom", ROMS / "skg-8251.bin", "--board", "8251", stdin=b"PRINT 2\n")
+    assert done.returncode == 0
+    assert without_sign_on(done.stdout) == b">PRINT 2\r\n2\r\n>"

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 LIBRARY = Path(__file__).resolve().parents[3] / "build" / "libskg80.so"
 
 #: What `run` may return, in the order of `board_reason` (emu/board.h).
-REASONS = ("cycles", "prompt", "input", "wait", "halt", "break")
+REASONS = ("cycles", "prompt", "input", "wait", "halt", "break", "nobody")
 #: How a call may end, in the order of `machine_end` (emu/machine.h).
 ENDS = ("returned", "cycles", "stop", "halt", "wait")
 BOARDS = {"6850": 0, "8251": 1}
@@ -57,7 +57,7 @@ class _Registers(ctypes.Structure):
 class _Counts(ctypes.Structure):
     _fields_ = [
         *((name, ctypes.c_uint64) for name in ("cycles", "instructions", "fetches_outside")),
-        *((name, ctypes.c_uint32) for name in ("lowest_sp", "highest_write", "first_outside", "error_lines")),
+        *((name, ctypes.c_uint32) for name in ("lowest_sp", "first_outside", "error_lines")),
     ]
 
 
@@ -202,8 +202,9 @@ class Machine:
         """Run until the machine waits for the operator and nothing typed is left, or until something else.
 
         Returns "prompt" (the paper's last line is `>`), "input" (it ends in `? `), "wait" (for a key anywhere
-        else), "cycles" (max_cycles used up), "halt" or "break" (at a breakpoint). A machine that waits for a
-        key only for some time goes on by itself: "wait" is then returned after `patience` cycles of waiting.
+        else), "cycles" (max_cycles used up), "halt", "break" (at a breakpoint) or "nobody" (it has read a port
+        that nobody serves). A machine that waits for a key only for some time goes on by itself: "wait" is then
+        returned after `patience` cycles of waiting.
         """
         end = self.cycles + max_cycles
         patient_until = min(end, self.cycles + patience)
@@ -273,11 +274,6 @@ class Machine:
         """Lowest stack pointer after a push or call while watched; None without one."""
         value = self._counts.lowest_sp
         return None if value == 0xFFFF else value
-
-    @property
-    def highest_write(self) -> int | None:
-        """Highest RAM address written other than by pushes and calls while watched; None without one."""
-        return self._counts.highest_write or None
 
     @property
     def fetches_outside(self) -> int:

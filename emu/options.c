@@ -1,0 +1,206 @@
+/* The command line of skg80. See options.h. */
+#include "options.h"
+
+#include "complain.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static const char USAGE[] =
+    "usage: skg80 [options] [part.skg]\n"
+    "  part.skg          LOAD it, RUN it, punch to standard output; without it the terminal is the teletype,\n"
+    "                    where ctrl-] leaves and ctrl-\\ is the reset button (so is the signal USR1)\n"
+    "  --rom FILE        another ROM image, .bin or Intel .hex\n"
+    "  --ram KIB         2 to 56 (8)\n"
+    "  --input FILE      answers to INPUT, one line each (with a part)\n"
+    "  --punch FILE      what is punched\n"
+    "  --tty FILE        what is printed\n"
+    "  --tape FILE       a tape in the reader (without a part)\n"
+    "  --pty             the teletype is a pseudo-terminal, whose name is printed\n"
+    "  --mhz F           keep real time at F MHz\n"
+    "  --baud N          speed of the teletype's line, 110 to 9600\n"
+    "  --board KIND      6850 or 8251 (6850)\n"
+    "  --punch-tty       a teletype alone: its own punch and reader\n"
+    "  --stats           cycles, instructions, time and memory used, on standard error\n"
+    "  --max-cycles N    give up with exit 3\n"
+    "  --com FILE        run a CP/M program instead\n"
+    "  --help            this\n"
+    "exit: 0 done, 1 the run ended in ERR, 2 wrong usage or a file that cannot be read or written, 3 --max-cycles\n";
+
+static bool whole_number(const char *text, uint64_t least, uint64_t most, uint64_t *value)
+{
+    char *end;
+    if (*text < '0' || *text > '9') {
+        return false;
+    }
+    errno = 0;
+    *value = strtoull(text, &end, 10);
+    return !*end && !errno && *value >= least && *value <= most;
+}
+
+/* What is wrong with the options together, or NULL. */
+static const char *misfit(const options *o)
+{
+    if (o->com && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty)) {
+        return "--com goes with --stats and --max-cycles alone";
+    }
+    if (o->part && o->pty) {
+        return "--pty needs an operator: no part with it";
+    }
+    if (o->part && o->tape) {
+        return "the part is the tape: no --tape with it";
+    }
+    if (o->input && !o->part) {
+        return "--input needs a part";
+    }
+    return NULL;
+}
+
+static bool same_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    return a && b && !stat(a, &one) && !stat(b, &other) && S_ISREG(one.st_mode) && one.st_dev == other.st_dev
+           && one.st_ino == other.st_ino;
+}
+
+/* A file that would be written over what is read, or over what else is written; NULL: none. */
+static const char *overwritten(const options *o)
+{
+    const char *const read[] = { o->part, o->rom, o->input, o->tape }, *const written[] = { o->punch, o->tty };
+    for (size_t w = 0; w < sizeof written / sizeof *written; w++) {
+        for (size_t r = 0; r < sizeof read / sizeof *read; r++) {
+            if (same_file(written[w], read[r])) {
+                return written[w];
+            }
+        }
+    }
+    bool same = o->punch && o->tty && (same_file(o->punch, o->tty) || !strcmp(o->punch, o->tty));
+    struct stat file;
+    return same && (stat(o->tty, &file) || S_ISREG(file.st_mode)) ? o->tty : NULL;
+}
+
+/* What getopt_long did not like: an option that is not there, or a value where none belongs. */
+static int refuse(char **argv)
+{
+    const char *word = argv[optind - 1];
+    if (optopt && !strncmp(word, "--", 2)) {
+        return complain(EXIT_USAGE, "%s: this option takes no value", word);
+    }
+    if (optopt) {
+        return complain(EXIT_USAGE, "-%c: no such option; --help lists them", optopt);
+    }
+    return complain(EXIT_USAGE, "%s: no such option; --help lists them", word);
+}
+
+int options_read(int argc, char **argv, options *o)
+{
+    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, STATS, MAX_CYCLES, COM, HELP };
+    static const struct option list[] = {
+        { "rom", required_argument, NULL, ROM },
+        { "ram", required_argument, NULL, RAM },
+        { "input", required_argument, NULL, INPUT },
+        { "punch", required_argument, NULL, PUNCH },
+        { "tty", required_argument, NULL, TTY },
+        { "tape", required_argument, NULL, TAPE },
+        { "pty", no_argument, NULL, PTY },
+        { "mhz", required_argument, NULL, MHZ },
+        { "baud", required_argument, NULL, BAUD },
+        { "board", required_argument, NULL, BOARD },
+        { "punch-tty", no_argument, NULL, PUNCH_TTY },
+        { "stats", no_argument, NULL, STATS },
+        { "max-cycles", required_argument, NULL, MAX_CYCLES },
+        { "com", required_argument, NULL, COM },
+        { "help", no_argument, NULL, HELP },
+        { NULL, 0, NULL, 0 },
+    };
+    static const unsigned bauds[] = { 110, 150, 300, 600, 1200, 2400, 4800, 9600 };
+    *o = (options){ .ram_kib = BOARD_RAM_KIB, .max_cycles = UINT64_MAX, .kind = BOARD_6850 };
+    opterr = 0;
+    for (int option; (option = getopt_long(argc, argv, ":", list, NULL)) != -1;) {
+        uint64_t number;
+        char *end;
+        switch (option) {
+        case ROM:
+            o->rom = optarg;
+            break;
+        case RAM:
+            if (!whole_number(optarg, BOARD_RAM_MIN_KIB, BOARD_RAM_MAX_KIB, &number)) {
+                return complain(EXIT_USAGE, "--ram %s: not %d to %d", optarg, BOARD_RAM_MIN_KIB, BOARD_RAM_MAX_KIB);
+            }
+            o->ram_kib = (unsigned)number;
+            break;
+        case INPUT:
+            o->input = optarg;
+            break;
+        case PUNCH:
+            o->punch = optarg;
+            break;
+        case TTY:
+            o->tty = optarg;
+            break;
+        case TAPE:
+            o->tape = optarg;
+            break;
+        case PTY:
+            o->pty = true;
+            break;
+        case MHZ:
+            o->mhz = strtod(optarg, &end);
+            if (end == optarg || *end || !(o->mhz >= 0.001 && o->mhz <= 1000)) {
+                return complain(EXIT_USAGE, "--mhz %s: not 0.001 to 1000", optarg);
+            }
+            break;
+        case BAUD:
+            o->baud = 0;
+            if (whole_number(optarg, 1, UINT32_MAX, &number)) {
+                for (size_t i = 0; i < sizeof bauds / sizeof *bauds; i++) {
+                    o->baud = bauds[i] == number ? bauds[i] : o->baud;
+                }
+            }
+            if (!o->baud) {
+                return complain(EXIT_USAGE, "--baud %s: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600", optarg);
+            }
+            break;
+        case BOARD:
+            if (strcmp(optarg, "6850") && strcmp(optarg, "8251")) {
+                return complain(EXIT_USAGE, "--board %s: not 6850 or 8251", optarg);
+            }
+            o->kind = *optarg == '6' ? BOARD_6850 : BOARD_8251;
+            break;
+        case PUNCH_TTY:
+            o->punch_tty = true;
+            break;
+        case STATS:
+            o->stats = true;
+            break;
+        case MAX_CYCLES:
+            if (!whole_number(optarg, 1, UINT64_MAX, &o->max_cycles)) {
+                return complain(EXIT_USAGE, "--max-cycles %s: not a number of cycles", optarg);
+            }
+            break;
+        case COM:
+            o->com = optarg;
+            break;
+        case HELP:
+            fputs(USAGE, stdout);
+            return fflush(stdout) ? complain(EXIT_USAGE, "cannot write: %s", strerror(errno)) : -1;
+        case ':':
+            return complain(EXIT_USAGE, "%s needs a value", argv[optind - 1]);
+        default:
+            return refuse(argv);
+        }
+    }
+    if (argc - optind > 1) {
+        return complain(EXIT_USAGE, "%s: one part at a time", argv[optind + 1]);
+    }
+    o->part = argv[optind];
+    const char *wrong = misfit(o), *lost = wrong ? NULL : overwritten(o);
+    if (lost) {
+        return complain(EXIT_USAGE, "%s: one file for two purposes", lost);
+    }
+    return wrong ? complain(EXIT_USAGE, "%s", wrong) : 0;
+}

@@ -1,0 +1,19 @@
+/* The command line of skg80 */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "board.h"
+
+typedef struct {
+    const char *part, *rom, *input, *punch, *tty, *tape, *com;
+    unsigned ram_kib, baud;
+    double mhz;                     /* 0: no time is kept */
+    uint64_t max_cycles;
+    board_kind kind;
+    bool pty, stats, punch_tty;
+} options;
+
+/* Fills `o`. Returns 0, or the exit code after a message; -1: all is said and done (--help). */
+int options_read(int argc, char **argv, options *o);
+
+#endif
