@@ -3,7 +3,7 @@
 ;         RBEMP SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL
 ;         XNORM XTOK XNORMS SBACK SBACK1
 ; Uses:   calc consts fit float geom io monitor parser repeat start tape
-; Room:   1300 bytes
+; Room:   1240 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -253,7 +253,7 @@ ITPN3:  DB      LDX,SPX,LDY,SPY ; -
         INR     A
         JMP     ITDONE
 
-; GETR - wire offset of now; where none was set: 0
+; GETR - the present R, the wire offset; 0 where it was not set
 ; Out: NR   Clobbers A, BC, DE, HL
 GETR:   LXI     D,NAMER
         CALL    FIND            ; when there is none: HL -> a 0 in CONTAB

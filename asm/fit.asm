@@ -1,22 +1,22 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
 ; Offers: STOL SFIT FITEND
 ; Uses:   calc consts cut float geom parser start
-; Room:   600 bytes
+; Room:   575 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
-; tangents are known, and node 2 becomes node 1 as well.  So a curve of any length needs
-; but two nodes; the one that arrives waits on the float stack meanwhile.
+; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
+; memory; the node that arrives waits on the float stack.
 ;
 ; A biarc from P (unit tangent t) to Q (unit tangent u): with v = Q-P and
 ; d = v*v / (v*(t+u) + sqrt((v*(t+u))^2 + |t-u|^2 v*v)) its arcs meet in the joint
 ; M = P + (v + d(t-u)) / 2, which waits in D.  Each arc is found from its node, tangent and
 ; w = M - node: r = w*w / 2(t x w), the centre lies r to the left of the node.
 ;
-; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, and
-; HELD has the places of the nodes after that one, node 1's the last.  When node 2 comes and
-; the biarc from KEPT to it passes near all of them, that one is held back instead; else the
-; held span goes out, and node 1 is kept.  KEPT, node 1 and node 2 lie side by side in memory
-; and change places, since the byte-code knows but nodes 1 and 2.
+; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
+; has the places of the nodes behind that one, node 1's the last.  When node 2 comes and the
+; biarc from KEPT to it passes near all of them, that biarc is held back instead; else the held
+; span goes out, and node 1 becomes KEPT.  KEPT, node 1 and node 2 lie side by side in memory and
+; change places, since the byte-code has registers for nodes 1 and 2 only.
 
 NODSIZ  EQU 25          ; bytes of a node: place, tangent, wire offset
 
@@ -268,7 +268,7 @@ BIARC:  RST     5
 ; In:  DE -> place and tangent   Out: t4 t5 = place, a = tangent, b = w; on the float stack w*w
 ; Clobbers all
 ARCW:   LXI     H,MT4
-        CALL    CPYEL           ; (a byte too much, which nobody minds)
+        CALL    CPYEL           ; (a byte too much, which does no harm)
         RST     5
         DB      LDX,LT4,LDY,LT5,QWAY,QRET ; w*w
 

@@ -2,10 +2,10 @@
 ; Offers: XXING BINOPK BINOP BIN4 XUNIT BELT XDOT XCRS XDIF XCENT XWAY XSS XHYP XFAR XREFL XROTV
 ;         XLEG XSIG XMAX XE6D XE6N ERGEO
 ; Uses:   calc consts cut float parser start
-; Room:   640 bytes
+; Room:   625 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
-; a point is a circle of radius 0, a number a point on the X axis, a turn about O one
+; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
 ; about (0,0).  The result goes to a0 a1 a2.  Byte-code lines carry the float stack
 ; behind them, top last.
 
@@ -163,7 +163,7 @@ GMIRS:  DB      QDOT,QDUP,QADD          ; 2c            c = n1*n2
 ; S:P, S:C: the parallel that leaves C along its direction
 GPARC:  DB      QDOT,LB2,QJMP           ; n*c r
         DB      GPAR1-$
-; S#A, S#(A:P): gamma is kept as seen from the centre of the turn
+; S#A, S#(A:P): gamma is kept as seen from the centre of the rotation
 GROTS:  DB      LA2                     ; gamma
         DB      LA0,LB1,QMUL            ; gamma alpha*x
         DB      LA1,LB2,QMUL,QADD       ; gamma n*c
@@ -190,7 +190,7 @@ XUNIT2: DB      LT3,QDIV,SA1            ; x
 
 ; P#A, C#A, P#(A:P), C#(A:P)
 GROTP:  DB      LB1,LA0,QSUB,SA0        ; -
-        DB      LB2,LA1,QSUB,SA1        ; -             to the centre of the turn
+        DB      LB2,LA1,QSUB,SA1        ; -             to the centre of rotation
         DB      QROTV                   ; -
         DB      QDIF,SA1,SA0,QRET       ; -             back from there
 ; P*D, D*D; D*P: 0 - (-D)*P
@@ -238,7 +238,7 @@ GCXC:   DB      QDIF,QXCH,QCENT         ; r2-r1         t3 = d
         DB      QJMP
         DB      GSXC1-$
 
-; A:P: a turn; x,y: the point (a2 goes)
+; A:P: a rotation; x,y: the point (a2 goes)
 GPNT:   DB      LB1,SA2,LB0,SA1,QRET    ; -
 
 ; S,P and P,S: how far P lies to the right of S; P*P (b2 is 0)

@@ -1,11 +1,11 @@
 ; io.asm - teletype, punch and reader
 ; Offers: TTYST PUNDT PUNST RXRDY PUTC1 PUNON SSAVE PUNOFF PAPON BREAK ERTAPE CRLF PUTSI PUTS
 ; Uses:   monitor start
-; Room:   130 bytes
+; Room:   125 bytes, 135 with BRD51
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
-; until somebody asks (BREAK), ctrl-S holds all output until the next key.
+; until BREAK looks at it, ctrl-S holds all output until the next key.
 
         IF      BRD51
 TTYDT   EQU     10H             ; teletype: data

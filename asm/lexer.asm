@@ -78,7 +78,7 @@ GETL4:  INX     H               ; take one back; a tape's RUBOUTs mean nothing
         RET
 GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ADD     A
-        CNZ     CRLF            ; (nobody sees it; ERR looks at LASTC)
+        CNZ     CRLF            ; (not printed; ERR looks at LASTC)
         JNZ     ERTAPE
         INX     H               ; HL-> LOADF, A = 0
         MOV     M,A

@@ -16,7 +16,7 @@ VTOP    EQU     MWORK+6         ; last byte of RAM
 NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
 CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: after an error
 OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper and punch; else paper
-COLS    EQU     MWORK+12        ; characters printed: STORE wants to know
+COLS    EQU     MWORK+12        ; characters printed; STORE looks at it
 LASTC   EQU     MWORK+13        ; last character printed
 KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader (OUTSEL to VSUM are walked through)

@@ -2,7 +2,7 @@
 ; Offers: VKIND EVAL PUTN PUTVAL XCA XNA XNA1 COPY15 COPY JTAB OPFLT SETK NEGVAL FIND ASSIGN SETREF
 ;         GETREF PRVAL EVINT SUBCHK ERRNG EVPNT EVNUM EVKIND ERKIND NOTURN CHKRET FINT CMPNE
 ; Uses:   calc consts cut float geom io lexer monitor repeat start
-; Room:   700 bytes
+; Room:   660 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -10,7 +10,7 @@
 ;              | function operand
 ;   name       = two bytes | letter index, expression, "]"
 ;
-; The value of the moment stands in a0 a1 a2 (unused ones zero), its kind in
+; The current value stands in a0 a1 a2 (unused ones zero), its kind in
 ; VKIND.  A left operand waits on the 8080 stack, so that one look at the stack
 ; pointer bounds the depth.  In check mode (CHKF not zero) the same code runs but
 ; looks nothing up and computes nothing.
@@ -452,7 +452,7 @@ KINDIS: LXI     H,VKIND
 ERKIND: RST     1
         DB      EKIND
 
-; NOTURN - demands that the value is no turn
+; NOTURN - demands that the value is no rotation
 ; In:  VKIND   Out: A = VKIND   Clobbers nothing else
 NOTURN: LDA     VKIND
         CPI     KTURN

@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: RECORD CPHD SREP SSYM SRECUT SSCALE
 ; Uses:   calc consts cut fit float geom io monitor parser start
-; Room:   410 bytes
+; Room:   405 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
@@ -128,7 +128,7 @@ JOINT:  CALL    FITEND
 JOINT1: STA     RJOIN
         RET
 
-; SREP - statement: REP n, angle or turn
+; SREP - statement: REP n, angle or rotation
 SREP:   CALL    JOINT
         CALL    EVINT
         PUSH    H

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: ARC ARCL PUTB2 XRND XROOT XVK PUT2D
 ; Uses:   calc consts cut float geom io lexer start
-; Room:   400 bytes, 480 with NODRIFT
+; Room:   400 bytes, 485 with NODRIFT
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values.  An arc is looked at from its rounded centre, mirrored when it runs
