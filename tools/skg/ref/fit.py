@@ -193,7 +193,9 @@ class FittedCurve:
     def _span(self, a: Node, b: Node) -> None:
         middle = joint(a.point, a.tangent, b.point, b.tangent)
         self._arc(a.point, a.tangent, middle, b.offset)
-        if not same_point(middle, b.point):
+        if same_point(middle, b.point):
+            self.feed(b.point, b.offset)  # which the route drops, unless the joint is the node before as well
+        else:
             self._arc(middle, reflected(b.tangent, b.point - middle), b.point, b.offset)
 
     def _arc(self, p: Point, t: Point, q: Point, offset: Real) -> None:
