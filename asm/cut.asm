@@ -245,7 +245,7 @@ ITPN2:  RST     5
         DB      ITPN4-$
         DB      QEND
         CALL    BELT            ; the line from P to D
-        MVI     A,KLIN
+        MVI     A,KLIN+80H      ; (bit 7: it passes its corners for certain)
         CALL    ITELM
 ITPN5:  RST     5
 ITPN3:  DB      LDX,SPX,LDY,SPY ; -
@@ -402,7 +402,8 @@ CORNER: RST     5
 ; CORNO - the corner between C and N offset by O1 and O2
 ; In:  C, N, O1, O2, RTURN, RNAMED, P   Out: K   Clobbers all
 ; A named one is P itself when there is no offset; else of the crossings the one nearest to P,
-; where both run the same way through P, P moved R to the right.
+; where both run the same way through P, P moved R to the right.  Lines between points (bit 7 of
+; their kind) are taken to pass P: gamma is rounded, and at a flat corner that would be magnified.
 CORNO:  LDA     RNAMED
         ORA     A
         JZ      CROSS
@@ -415,8 +416,14 @@ CORNO:  LDA     RNAMED
         ORA     A
         JNZ     CORN1
         RST     5
-        DB      QNORMS,QJN      ; -
+        DB      QNORMS,QJN      ; -             a, b = right normals of C and N
         DB      NAMED1-$
+        DB      QEND
+        LDA     CKIND
+        LXI     H,NKIND
+        ANA     M
+        JM      CORN2           ; two lines between points
+        RST     5
         DB      Q0,STL,QEND     ; -             crossings, however flat (A = 0)
         STA     RTURN
         CALL    CROSS           ; (QRET leaves A not 0)
@@ -428,6 +435,11 @@ CORNO:  LDA     RNAMED
         DB      QSUB,QJN        ; -
         DB      ATOK-$
 CORN9:  DB      QRET
+CORN2:  RST     5               ; as seen from P both pass at their offsets alone
+        DB      LO1,SA2,LO2,SB2,QEND ; -
+        CALL    SXS
+        RST     5
+        DB      LKX,LA0,QADD,LKY,LA1,QADD,QTOK,QRET ; -
 CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
         DB      QCA,QDIF,SA1,SA0 ; -            a = from the centre to P
         DB      LCR,LNR,QE6D    ; -

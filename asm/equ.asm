@@ -150,6 +150,8 @@ L1V     EQU 043H
 S1V     EQU 083H        ; M3
 LRT     EQU 044H
 SRT     EQU 084H        ; M4 what SYM and REP do to items (they end a curve first): how many times
+LMX     EQU 044H
+SMX     EQU 084H        ; M4 too: joint of a biarc, seen from node 1 (whose offset is used up): x
 L2X     EQU 045H
 S2X     EQU 085H        ; M5 node 2 of FIT: as node 1,
 L2Y     EQU 046H
@@ -245,9 +247,11 @@ SQX     EQU 0B2H        ; M50 first item, a point
 LQY     EQU 073H
 SQY     EQU 0B3H        ; M51
 LDX     EQU 074H
-SDX     EQU 0B4H        ; M52 point that arrives; joint of a biarc
+SDX     EQU 0B4H        ; M52 point that arrives
 LDY     EQU 075H
 SDY     EQU 0B5H        ; M53
+LMY     EQU 075H
+SMY     EQU 0B5H        ; M53 too: joint of a biarc, seen from node 1: y
 LFI     EQU 076H
 SFI     EQU 0B6H        ; M54 fillet radius that waits
 LSC     EQU 077H

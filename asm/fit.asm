@@ -9,8 +9,10 @@
 ;
 ; A biarc from P (unit tangent t) to Q (unit tangent u): with v = Q-P and
 ; d = v*v / (v*(t+u) + sqrt((v*(t+u))^2 + |t-u|^2 v*v)) its arcs meet in the joint
-; M = P + (v + d(t-u)) / 2, which waits in D.  Each arc is found from its node, tangent and
-; w = M - node: r = w*w / 2(t x w), the centre lies r to the left of the node.
+; M = P + (v + d(t-u)) / 2.  Each arc is found from its node, tangent and w = M - node:
+; r = w*w / 2(t x w), the centre lies r to the left of the node.  What waits in MX, MY is M - P:
+; a joint in the drawing's coordinates would lose the last bits of w, and r is 2r^2/w^2 times as
+; sensitive as they.
 ;
 ; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
 ; has the places of the nodes behind that one, node 1's the last.  When node 2 comes and the
@@ -159,9 +161,13 @@ OUT:    CALL    CHORD
         LXI     D,MNODE1
         CALL    FITCIR
         RST     5
-        DB      LDX,LDY,QEND    ; x y           the joint
+        DB      LMX,L1X,QADD    ; x             the joint
+        DB      LMY,S1U         ; x             (MY is kept where the tangent is used up)
+        DB      LMY,L1Y,QADD,QEND ; x y
         CALL    FITPNT
-        LXI     D,MNODE2        ; (FITPNT leaves D alone)
+        RST     5
+        DB      L1U,SMY,QEND    ; -
+        LXI     D,MNODE2
         CALL    FITCIR
 OUT2:   RST     5               ; (SFIT comes here with the first node)
         DB      L2X,L2Y,QEND    ; x y
@@ -197,8 +203,8 @@ TRY2:   LXI     H,MT0
         CALL    CPYPL           ; t0 t1 = n
         PUSH    D
         RST     5
-        DB      LDX,LT0,QSUB,LT2,QMUL ; x       o1 = how far n lies before the joint
-        DB      LDY,LT1,QSUB,LT3,QMUL,QADD,SO1,QEND ; -
+        DB      LMX,L1X,QADD,LT0,QSUB,LT2,QMUL ; x       o1 = how far n lies before the joint
+        DB      LMY,L1Y,QADD,LT1,QSUB,LT3,QMUL,QADD,SO1,QEND ; -
         LXI     D,MNODE1
         LDA     MO1+1
         ORA     A
@@ -254,27 +260,26 @@ CHORD:  RST     5
         DB      L2X,L1X,L2Y,L1Y,QWAY,QRET ; v*v
 
 ; BIARC - where its arcs meet
-; In:  CHORD   Out: D = M; ERR 06   Clobbers all
+; In:  CHORD   Out: MX MY = from node 1 to M; ERR 06   Clobbers all
 BIARC:  RST     5
         DB      ST1,QDOT,QDUP,QSQ ; along along^2
         DB      QXCH,L2U,L1U,L2V,L1V,QWAY ; along along^2 |u-t|^2  a = v, b = u-t
         DB      LT1,QMUL,QADD,QSQRT,QADD ; below
         DB      QDUP,QNEAR,QSUB,QE6N ; below
         DB      LT1,QSWP,QDIV,QREFL ; -         a = v + d*(t-u)
-        DB      LA0,QHALF,QMUL,L1X,QADD,SDX ; -
-        DB      LA1,QHALF,QMUL,L1Y,QADD,SDY,QRET ; -
+        DB      LA0,QHALF,QMUL,SMX,LA1,QHALF,QMUL,SMY,QRET ; -
 
 ; ARCW - from a node to the joint
-; In:  DE -> place and tangent   Out: t4 t5 = place, a = tangent, b = w; on the float stack w*w
+; In:  DE -> place and tangent, node 1, MX MY   Out: t4 t5 = place, a = tangent, b = w; on the float stack w*w
 ; Clobbers all
 ARCW:   LXI     H,MT4
         CALL    CPYEL           ; (a byte too much, which does no harm)
         RST     5
-        DB      LDX,LT4,LDY,LT5,QWAY,QRET ; w*w
+        DB      LMX,LT4,L1X,QSUB,LMY,LT5,L1Y,QSUB,QWAY,QRET ; w*w
 
 ; FITCIR - the arc between a node and the joint goes out; a flat one not: the point at its end
 ;          brings the chord
-; In:  DE -> node, D   Out: FITSM   Clobbers all but D
+; In:  DE -> node, node 1, MX MY   Out: FITSM   Clobbers all but D
 FITCIR: CALL    ARCW
         RST     5
         DB      QDUP,QEPS,QMUL  ; w*w limit     r = 50 m

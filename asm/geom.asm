@@ -19,6 +19,7 @@ XXING:  RST     5
         ORA     A
         CNZ     NEGVAL          ; -C*N = C*-N
         LDA     NKIND
+        ANI     7FH
         MVI     C,RSTAR
 ; (fall into BINOPK)
 
@@ -201,6 +202,7 @@ GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
 GPOLAR: DB      QROTV,QRET              ; -
 
 ; S*S: crossing by Cramer's rule; ERR 06 when they are parallel
+SXS:    RST     5               ; (for CORNO: as a routine)
 GSXS:   DB      LA2,LB1,QMUL            ;
         DB      LA1,LB2,QMUL,QSUB       ; x*det
         DB      LA0,LB2,QMUL            ; x*det
