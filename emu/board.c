@@ -129,7 +129,7 @@ static void tty_arrive(board *b)
     }
 }
 
-/* The machine has looked whether there is a character and found none; `idle`: it could have sent one. */
+/* The board has looked whether there is a character and found none; `idle`: it could have sent one. */
 static void count_poll(board *b, bool idle)
 {
     uint64_t now = b->cpu.cycles;
@@ -259,7 +259,7 @@ static board_uart *find_uart(board *b, uint8_t port, bool *control)
     }
 }
 
-/* The machine reads a port where nobody answers: no chip, or one that does not work yet. */
+/* The board reads a port where nobody answers: no chip, or one that does not work yet. */
 static void ask_in_vain(board *b, uint8_t port, board_uart *u)
 {
     if (!u || ++u->asked_in_vain == VAIN_READS) {

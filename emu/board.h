@@ -18,9 +18,9 @@
  * punch. With `punch_tty` there is the teletype alone: its own punch is on from DC2 to DC4, its own reader from DC1
  * (or the operator's lever) to DC3, and the reader's characters come in like typed ones.
  *
- * The operator types with care: a character arrives when the machine waits for one, that is, when it has asked
+ * The operator types with care: a character arrives when the board waits for one, that is, when it has asked
  * POLLS_TO_TYPE times in close succession and could have sent if it had wanted to. Pressed keys (ctrl-C, ctrl-S, ctrl-Q)
- * arrive at once. The machine counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
+ * arrive at once. The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
  * asked in one run or in many short ones.
  *
  * A ROM made for another board asks ports where there is nothing, or a chip that it has never readied, and would ask for
@@ -128,13 +128,13 @@ void board_forget_typed(board *b);
 /* The operator moves the lever of the teletype's own reader (punch_tty). */
 void board_reader(board *b, bool on);
 
-/* For so many cycles the machine has asked the empty reader, and done nothing else with its ports; 0: it does not. */
+/* For so many cycles the board has asked the empty reader, and done nothing else with its ports; 0: it does not. */
 uint64_t board_reader_silence(const board *b);
 
-/* True when everything typed and pressed has been taken by the machine. */
+/* True when everything typed and pressed has been taken by the board. */
 bool board_idle(const board *b);
 
-/* Runs until the machine waits for the operator, with nothing left that was typed, or the cycles are used up. */
+/* Runs until the board waits for the operator, with nothing left that was typed, or the cycles are used up. */
 board_reason board_run(board *b, uint64_t cycles);
 
 #endif

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BACKSLASH = 0x1c, CTRL_BRACKET = 0x1d };
-enum { DEAF_AFTER = 1000 };         /* ms; so long a full pseudo-terminal may keep the machine waiting */
+enum { DEAF_AFTER = 1000 };         /* ms; so long a full pseudo-terminal may keep the board waiting */
 
 /* ---- raw mode ---- */
 

@@ -1,8 +1,8 @@
 /* The operator's side of the teletype: this terminal, a pipe, or a pseudo-terminal; and real time
  *
  * A terminal is switched to raw mode and put back on exit and on every signal that ends or stops the program. ctrl-]
- * leaves, ctrl-\ is the reset button. ctrl-C, ctrl-S and ctrl-Q reach the machine at once, ctrl-C drops what was typed
- * ahead; everything else is typed when the machine asks for it. From a pipe all characters are typed in their order, and
+ * leaves, ctrl-\ is the reset button. ctrl-C, ctrl-S and ctrl-Q reach the board at once, ctrl-C drops what was typed
+ * ahead; everything else is typed when the board asks for it. From a pipe all characters are typed in their order, and
  * LF is CR. The signal USR1 is the reset button too, whatever the operator types at.
  *
  * NOT IMPLEMENTED: the modem lines, break and speed of a pseudo-terminal; more than one user of it.

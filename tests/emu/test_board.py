@@ -21,7 +21,7 @@ def board(request: pytest.FixtureRequest) -> str:
 
 
 def started(board: str = "6850", **options: int) -> Machine:
-    """A machine at its first prompt."""
+    """A board at its first prompt."""
     kind = {"punch_tty": True} if board == "alone" else {"board": board}
     m = Machine(ROM[board], **kind, **options)
     assert m.run() == "prompt"
@@ -30,7 +30,7 @@ def started(board: str = "6850", **options: int) -> Machine:
 
 
 def loaded(board: str, program: str) -> Machine:
-    """A machine with that program, at the prompt."""
+    """A board with that program, at the prompt."""
     m = started(board)
     m.tape(program + "\n\x1a")
     m.type("LOAD\r")
@@ -51,7 +51,7 @@ def test_operator_types_when_asked(board: str) -> None:
 @pytest.mark.parametrize("kind", ROM)
 @pytest.mark.parametrize("slice_cycles", [1, 300, 5000])
 def test_short_slices_change_nothing(kind: str, slice_cycles: int) -> None:
-    """What the machine does depends on its cycles, not on how many of them the host lets it have at a time."""
+    """What the board does depends on its cycles, not on how many of them the host lets it have at a time."""
     m = started(kind)
     m.type("PRINT 1\r")
     end = m.cycles + 2_000_000
@@ -209,7 +209,7 @@ def test_line_takes_its_time(baud: int, bits: int) -> None:
 
 @pytest.mark.parametrize("kind", ROM)
 def test_reset_keeps_ram_and_starts_the_ports_anew(kind: str) -> None:
-    """The machine signs on again, and its program and variables are still there."""
+    """The board signs on again, and its program and variables are still there."""
     m = loaded(kind, "10 PRINT 5\nA=7")
     m.reset()
     assert m.run() == "prompt"

@@ -100,7 +100,7 @@ def test_interrupt_ends_hlt() -> None:
 
 
 def test_interrupt_waits_while_they_are_off() -> None:
-    """Raised after DI: never taken; a halted machine then stays halted."""
+    """Raised after DI: never taken; a halted board then stays halted."""
     m = machine("LXI SP,2800H\nEI\nDI\nNOP\nHLT")
     m.interrupt(0xFF)
     assert m.run() == "halt"

@@ -124,7 +124,7 @@ def test_stats(skg80: Skg80, part: Part) -> None:
 
 
 def test_ram_size(skg80: Skg80, part: Part) -> None:
-    """The machine has what was asked for."""
+    """The board has what was asked for."""
     free = []
     for kib in ("2", "8", "40"):
         done = skg80(part("10 END\n" + END), "--ram", kib)
@@ -135,7 +135,7 @@ def test_ram_size(skg80: Skg80, part: Part) -> None:
 
 @pytest.mark.parametrize("mhz", ["20", "2", "1", "0.5"])
 def test_real_time(skg80: Skg80, part: Part, mhz: str) -> None:
-    """A part ends, and not before its cycles are over: the machine asks often enough even in the shortest slice."""
+    """A part ends, and not before its cycles are over: the board asks often enough even in the shortest slice."""
     start = time.monotonic()
     done = skg80(part("10 PRINT 1\n" + END), "--stats", "--mhz", mhz)
     elapsed = time.monotonic() - start
@@ -153,7 +153,7 @@ def test_real_time_of_the_other_boards(skg80: Skg80, part: Part, rom: str, optio
 
 
 def test_slow_line_costs_a_part_cycles(skg80: Skg80, part: Part) -> None:
-    """Without --mhz no time is kept, but the machine waits for its line."""
+    """Without --mhz no time is kept, but the board waits for its line."""
     done = skg80(part("10 PRINT 1\n" + END), "--stats", "--baud", "110")
     cycles = int(re.search(rb"cycles +(\d+)", done.stderr)[1])
     printed = len(done.stderr.split(b"cycles")[0])
@@ -192,7 +192,7 @@ def test_port_that_nobody_has(skg80: Skg80, part: Part, rom_of: Part) -> None:
 
 
 def test_half_a_rom(skg80: Skg80, part: Part, tmp_path: Path) -> None:
-    """One of two EPROMs: the size is wrong, or the machine runs into what is not there."""
+    """One of two EPROMs: the size is wrong, or the board runs into what is not there."""
     half = tmp_path / "half.bin"
     half.write_bytes((ROMS / "skg.bin").read_bytes()[:4096])
     assert complaint(skg80("--rom", half, part("10 END\n")), 2) == f"{half}: 4096 bytes, and the ROM has 8192"

@@ -119,7 +119,7 @@ def test_terminal_is_restored_after_a_signal(screen: Screen, name: str) -> None:
 
 
 def test_terminal_is_restored_while_stopped(screen: Screen) -> None:
-    """Cooked while stopped, raw again when continued, and the machine is still there."""
+    """Cooked while stopped, raw again when continued, and the board is still there."""
     screen.process.send_signal(signal.SIGTSTP)
     screen.wait_for("is_restored")
     os.waitpid(screen.process.pid, os.WUNTRACED)
@@ -161,7 +161,7 @@ def push_reset(screen: Screen, how: str) -> None:
 
 @pytest.mark.parametrize("how", ["key", "signal"])
 def test_reset_at_the_prompt_keeps_program_and_variables(screen: Screen, how: str) -> None:
-    """The machine signs on anew; half a line is forgotten."""
+    """The board signs on anew; half a line is forgotten."""
     for line in (b"10 PRINT A\r", b"A=7\r", b"P5=(1,2)\r"):
         screen.keys(line)
         screen.expect(b">")
@@ -194,7 +194,7 @@ def test_reset_in_a_run_keeps_the_program(screen: Screen, how: str) -> None:
 
 
 def test_reset_signal_at_a_pipe() -> None:
-    """The machine signs on anew, at the prompt and while it waits with the pipe open; what is typed later counts."""
+    """The board signs on anew, at the prompt and while it waits with the pipe open; what is typed later counts."""
     process = subprocess.Popen([SKG80], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin and process.stdout
     seen = b""
@@ -251,7 +251,7 @@ def test_sanitizers_find_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("end", [b"\n", b"\r\n", b"\r"])
 def test_piped_text_is_typed(skg80: Skg80, end: bytes) -> None:
-    """With any line ends; at its end the machine's prompt ends the program."""
+    """With any line ends; at its end the board's prompt ends the program."""
     done = skg80(stdin=b"PRINT 1" + end + b"PRINT A" + end)
     assert without_sign_on(done.stdout) == b">PRINT 1\r\n1\r\n>PRINT A\r\nERR 03\r\n>"
     assert (done.returncode, done.stderr) == (0, b"\r\n")
@@ -289,7 +289,7 @@ def test_real_time_at_a_pipe(skg80: Skg80, options: list[str]) -> None:
 
 @pytest.mark.parametrize("options", [["--mhz", "2"], ["--baud", "9600"]])
 def test_real_time_in_a_terminal(options: list[str]) -> None:
-    """The machine hears its keys."""
+    """The board hears its keys."""
     with started(*options) as s:
         s.keys(b"PRINT 5\r")
         s.expect(b"\n5\r\n>")
@@ -341,7 +341,7 @@ def test_pseudo_terminal(port: tuple[str, subprocess.Popen[bytes]]) -> None:
 
 
 def test_pseudo_terminal_without_a_reader(port: tuple[str, subprocess.Popen[bytes]]) -> None:
-    """The machine does not wait for ever for somebody who never reads."""
+    """The board does not wait for ever for somebody who never reads."""
     name, process = port
     with serial.Serial(name, timeout=TIMEOUT) as line:
         for _ in range(200):

@@ -11,7 +11,7 @@
  *
  * - every instruction fetched began where the listing has one (so none in RAM, none in data), never at 0000 but for a
  *   reset, no HLT, and nothing was ever written to the ROM;
- * - SP is in STKLOW...STKTOP: whenever the machine is looked at, and in every fourth session, which runs in the core's
+ * - SP is in STKLOW...STKTOP: whenever the board is looked at, and in every fourth session, which runs in the core's
  *   slow loop with everything watched, after every push and call;
  * - after ctrl-C there is the prompt within PATIENCE cycles, and after a CR again;
  * - the program in memory is sound: records with check sums and ascending numbers, a zero length at PEND, below VBOT;
@@ -33,7 +33,7 @@
 enum {
     CTRL_C = 3,
     PATIENCE = 40000000,        /* cycles from ctrl-C to the prompt: one statement, at most */
-    SLICE = 300000,             /* cycles between two looks at the machine */
+    SLICE = 300000,             /* cycles between two looks at the board */
     ROUNDS = 300,               /* in a session */
     PAPER = 4096                /* last characters of the paper that are kept */
 };
@@ -56,7 +56,7 @@ typedef struct {
     uint8_t paper[PAPER];
     uint16_t lowest;            /* on the stack, of all sessions */
     uint64_t longest;           /* cycles from ctrl-C to the prompt */
-    uint64_t queued, dropped;   /* bytes that the operator had in hand, and those that never reached the machine */
+    uint64_t queued, dropped;   /* bytes that the operator had in hand, and those that never reached the board */
     uint64_t resets, renewed, rounds, instructions, compared;
 } fuzz;
 

@@ -35,7 +35,7 @@ void noise_example(noise *n, unsigned lines);       /* lines of the examples, so
 void noise_command(noise *n);                       /* RUN, LIST, SAVE ... */
 void noise_line_noise(noise *n, size_t from);       /* puts control characters and wrong bits into the text */
 
-/* A line that stores nothing and loads nothing, whatever the machine is waiting for; its CR too. */
+/* A line that stores nothing and loads nothing, whatever the board is waiting for; its CR too. */
 void noise_harmless(noise *n);
 
 #endif

@@ -32,7 +32,7 @@ def test_tape_is_the_committed_one(path: Path) -> None:
 
 @examples
 def test_is_well_conditioned(path: Path) -> None:
-    """No example hangs on less than a nanometre nor on another close call: the machine's floats will do."""
+    """No example hangs on less than a nanometre nor on another close call: the firmware's floats will do."""
     source = path.read_text()
     assert [call for call in run(source).near if call.margin < 1e-3] == []
     assert run(source, bits=33).tape == path.with_suffix(".3b").read_bytes()

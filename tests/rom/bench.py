@@ -1,7 +1,7 @@
 """What the examples cost: 8080 cycles a block, RAM and stack used. `make bench-rom` prints it.
 
 The limit set for the firmware is 400,000 cycles a block in the mean: a punch of 50 characters a second then
-never waits for the machine. Fitted curves have a table of their own (bench_fit.py), cycles a node.
+never waits for the board. Fitted curves have a table of their own (bench_fit.py), cycles a node.
 """
 
 from __future__ import annotations

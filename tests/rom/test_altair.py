@@ -24,7 +24,7 @@ ALTAIR = shutil.which("altairz80")
 pytestmark = pytest.mark.skipif(ALTAIR is None, reason="SIMH is not installed and could not be (make altairz80)")
 
 CTRL_E = b"\x05"
-#: How the paper ends when the machine waits for a line; SAVE leaves the ctrl-Z of its tape in front of the prompt.
+#: How the paper ends when the board waits for a line; SAVE leaves the ctrl-Z of its tape in front of the prompt.
 PROMPT = (b"\r\n>", b"\r\n\x1a>")
 #: What keys that edit print: RUBOUT, ctrl-U.
 ECHO = {0x7F: b"\b \b", 0x15: b"\r\n"}

@@ -137,7 +137,7 @@ def test_parentheses_50_deep(board: Board) -> None:
 
 @pytest.mark.parametrize("key", sorted(set(range(1, 32)) - {3, 8, 9, 10, 13, 17, 19, 21}))
 def test_control_characters(key: int, board: Board) -> None:
-    """Inside a line they are not understood, or they are ignored: never a broken machine."""
+    """Inside a line they are not understood, or they are ignored: never a broken board."""
     before = board.listing()
     paper = board.type(f"PRINT 1{chr(key)}+1")
     assert paper == ["2"] or fault(paper) == (1, None)

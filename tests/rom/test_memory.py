@@ -40,7 +40,7 @@ def fill(board: Board, leave: int = 0) -> int:
 
 
 def sound(board: Board, records: bytes) -> None:
-    """The program is whole, the machine works."""
+    """The program is whole, the board works."""
     assert program(board) == records
     listed = board.listing()
     assert len(listed) == count(records)

@@ -497,7 +497,7 @@ def test_free(board: Board) -> None:
     assert int(board.type("FREE")[0]) == empty
 
 
-# The operator's keys while the machine works
+# The operator's keys while the board works
 
 
 def test_ctrl_s_holds_and_ctrl_q_goes_on(board: Board) -> None:
@@ -683,7 +683,7 @@ def test_reset_in_a_run_keeps_the_program(board: Board) -> None:
 
 @pytest.mark.parametrize("place", range(0, 60, 7))
 def test_reset_keeps_the_sound_lines_of_a_damaged_program(board: Board, place: int) -> None:
-    """One bit changes anywhere: the lines before it are kept, and the machine says so."""
+    """One bit changes anywhere: the lines before it are kept, and the board says so."""
     texts = [f"{number} PRINT A{number},{number}" for number in range(10, 60, 10)]
     lines(board, *texts)
     record = len(program(board)) // len(texts)

@@ -20,7 +20,7 @@ from skg.ref import run as reference
 RAM, RAM_END = 0x2000, 0x4000
 PROMPT = b"\r\n>"
 DC1, DC2, DC3, DC4, CTRL_Z = 0x11, 0x12, 0x13, 0x14, 0x1A
-#: So often the machine looks at the teletype in vain before the next character is there.
+#: So often the board looks at the teletype in vain before the next character is there.
 POLLS = 20
 #: The most ticks for one command: 4 minutes at 2 MHz.
 PATIENCE = 500_000_000

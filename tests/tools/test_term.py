@@ -1,4 +1,4 @@
-"""`skg term` against a machine of the test's own at the other end of a pseudo-terminal."""
+"""`skg term` against a board of the test's own at the other end of a pseudo-terminal."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ class Emulator:
 
 @contextlib.contextmanager
 def emulator(directory: Path, rom: str = "skg", *options: str) -> Iterator[Emulator]:
-    """A machine at a port, switched off at the end."""
+    """A board at a port, switched off at the end."""
     machine = Emulator(directory, rom, *options)
     try:
         yield machine

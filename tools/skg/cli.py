@@ -19,7 +19,7 @@ COMMANDS = {
     "quality": "Measure the curves of FIT against the true ones.",
     "ref": "Run a program in 50-digit arithmetic: the exact tape.",
     "sim": "Follow tapes step by step as a controller does.",
-    "term": "Be the teletype of a machine on a serial port.",
+    "term": "Be the teletype of a board on a serial port.",
 }
 
 

@@ -33,9 +33,9 @@ from skg.files import read_bytes
               help="Give up a port that stays away this long. Default: never.")
 def command(port: str, file: str | None, run: bool, record: str | None, punch_port: str | None, baud: int,
             pace: str, delay: float, batch: bool, quiet: float, patience: float) -> None:
-    """Be the teletype of the machine on PORT (a device, or any address that pyserial knows).
+    """Be the teletype of the board on PORT (a device, or any address that pyserial knows).
 
-    Keys go to the machine as they are typed; ctrl-] leaves. What it punches, between DC2 and DC4 or on a port
+    Keys go to the board as they are typed; ctrl-] leaves. What it punches, between DC2 and DC4 or on a port
     of its own, goes to the file of --record. XOFF holds what is sent until XON. A port that goes away is
     opened again when it comes back. Without a terminal the standard input is typed instead, and the command
     leaves as with --batch.

@@ -170,13 +170,13 @@ class Machine:
     # The operator
 
     def type(self, text: str | bytes) -> None:
-        """Text that the operator types, each character when the machine waits for one; CR ends a line."""
+        """Text that the operator types, each character when the board waits for one; CR ends a line."""
         data = text.encode("ascii") if isinstance(text, str) else text
         if not self._lib.board_type(self._board, data, len(data)):
             raise MemoryError
 
     def press(self, key: int | str) -> None:
-        """Press a key now, whatever the machine is doing (ctrl-C: 3)."""
+        """Press a key now, whatever the board is doing (ctrl-C: 3)."""
         if not self._lib.board_press(self._board, ord(key) if isinstance(key, str) else key):
             raise MemoryError
 
@@ -199,11 +199,11 @@ class Machine:
         self._lib.machine_interrupt(self._machine, bytes(code).ljust(3, b"\0"))
 
     def run(self, max_cycles: int = 1_000_000_000, patience: int = 0) -> str:
-        """Run until the machine waits for the operator and nothing typed is left, or until something else.
+        """Run until the board waits for the operator and nothing typed is left, or until something else.
 
         Returns "prompt" (the paper's last line is `>`), "input" (it ends in `? `), "wait" (for a key anywhere
         else), "cycles" (max_cycles used up), "halt", "break" (at a breakpoint) or "nobody" (it has read a port
-        that nobody serves). A machine that waits for a key only for some time goes on by itself: "wait" is then
+        that nobody serves). A board that waits for a key only for some time goes on by itself: "wait" is then
         returned after `patience` cycles of waiting.
         """
         end = self.cycles + max_cycles

@@ -72,7 +72,7 @@ class Run:
 
 
 class Recorder(Interpreter):
-    """A machine that keeps every run of FIT statements."""
+    """An interpreter that keeps every run of FIT statements."""
 
     def __init__(self) -> None:
         self.runs: list[Run] = []

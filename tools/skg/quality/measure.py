@@ -21,7 +21,7 @@ from skg.ref.values import Point
 #: Points looked at on each arc, and steps of the golden section that looks for the nearest point of the true curve.
 SAMPLES, SECTIONS = 64, 60
 GOLDEN = (5**0.5 - 1) / 2
-#: mm within which the nodes of an example are on its true curve: the programs know π to 12 digits, the machine to 9.
+#: mm within which the nodes of an example are on its true curve: the programs know π to 12 digits, the firmware to 9.
 ON_CURVE = 1e-6
 #: How often nodes are doubled.
 DOUBLINGS = 2

@@ -13,7 +13,7 @@ from skg.ref.real import Real
 from skg.ref.tape import Grid, Punch, block, grid, quadrant_into
 from skg.ref.values import Point
 
-#: A float of the machine has 32 bits: whole numbers above this are no longer exact.
+#: A float of the firmware has 32 bits: whole numbers above this are no longer exact.
 EXACT = 2**32
 #: Part of a shift of the centre by which a half counts as more than a half: as in the rounding of places.
 HALF = 502

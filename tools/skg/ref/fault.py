@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class Code(IntEnum):
-    """The error numbers that the machine prints."""
+    """The error numbers that the board prints."""
 
     SYNTAX = 1
     LINE = 2

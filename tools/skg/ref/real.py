@@ -1,6 +1,6 @@
 """Numbers of the reference: 50 decimal digits, angles in degrees as the language has them.
 
-The machine's range is kept: a number of 2^127 or more is error 5, one below 2^-127 is zero.
+The firmware's range is kept: a number of 2^127 or more is error 5, one below 2^-127 is zero.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ MOST_DIGITS = 1000
 
 
 def in_range(value: Real) -> Real:
-    """The value as the machine's number range has it: error 5 above, 0 below."""
+    """The value as the firmware's range has it: error 5 above, 0 below."""
     size = abs(value)
     if size >= LARGEST:
         raise Fault(Code.RANGE)

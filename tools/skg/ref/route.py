@@ -62,7 +62,7 @@ from skg.ref.values import Circle, Curve, Line, Point
 #: Directions closer than this (radians) are one direction.
 SAME_WAY = Real("0.001")
 #: Curves that cross by no more than this (mm) touch at a corner that no point names. So much is noise in
-#: the machine's floats; more is a crossing.
+#: the firmware's floats; more is a crossing.
 TOUCH = Real("1e-5")
 #: Lines whose directions differ by no more than this (radians) may merge.
 SAME_LINE = Real("1e-5")
