@@ -30,6 +30,18 @@ FILES = [
 ]
 #: Fewer jumps of the calculator than this in a listing of all files: it was not understood.
 LEAST_JUMPS = 50
+#: Words that an assembler has for itself, so that no label or equate may be called so: each keyword of z88dk's
+#: z80asm, release 2.4 and August 2026, of which `-m8080_strict` refuses the definition or a use (MB is one of the
+#: later only). The registers and PSW are asm80's words too.
+RESERVED = {
+    # fmt: off
+    "A", "ABC", "ADE", "ADL", "AF", "AHL", "AIX", "AIY", "ASMPC", "ASP", "B", "BC", "BCDE", "C", "C_LINE", "D",
+    "DE", "DEHL", "E", "EIR", "EQU", "F", "H", "HL", "HTR", "I", "IIR", "IP", "IX", "IXH", "IXL", "IY", "IYH",
+    "IYL", "JK", "JKHL", "L", "LINE", "LXPC", "M", "MB", "PBC", "PDE", "PHL", "PIX", "PIY", "PP", "PSP", "PSW",
+    "PW", "PX", "PY", "PZ", "R", "SP", "SU", "XBC", "XDE", "XHL", "XIX", "XIY", "XP", "XPC", "XSP", "YBC", "YDE",
+    "YHL", "YIX", "YIY", "YP", "YSP", "ZBC", "ZDE", "ZHL", "ZIX", "ZIY", "ZP", "ZSP",
+    # fmt: on
+}
 OPTIONS = {"BRD51": 0, "PTTY": 0, "NODRIFT": 0}
 
 
@@ -136,6 +148,21 @@ def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[byt
     return (work / "top.bin").read_bytes()[: symbols["ZBEND"]], symbols, listing
 
 
+def check_words(files: list[str]) -> None:
+    """Fail where a source file defines a reserved word, or has an RST: what stands behind it differs."""
+    names = 0
+    for file in files:
+        for count, line in enumerate((ASM / f"{file}.asm").read_text().splitlines(), start=1):
+            if found := re.match(r"(\w+)(?::|\s+EQU\b)", line):
+                names += 1
+                if found[1].upper() in RESERVED:
+                    fail(f"{file}.asm:{count}: {found[1]} is a word that an assembler has for itself")
+            if re.match(r"(?:\w+:)?\s+RST\b", line):
+                fail(f"{file}.asm:{count}: not every assembler takes RST 1 to 7: DB and the restart's name")
+    if not names:
+        fail("no label found in the sources: are they of another form?")
+
+
 def check_jumps(listing: str, symbols: dict[str, int]) -> None:
     """Fail when a jump of the calculator (`DB TARGET-$`) does not fit its signed byte; assemblers cut it off."""
     jumps = re.findall(r"^([0-9A-F]{4})\s+[0-9A-F]{2}\s+(?:\w+:)?\s*DB\s+(\w+)-\$", listing, re.M)
@@ -174,6 +201,7 @@ def main() -> None:
             fail(f"--set {item}: one of {', '.join(options)} with 0 or 1")
         options[name] = int(value)
     files = args.files.split(",") if args.files else FILES
+    check_words(files)
     with tempfile.TemporaryDirectory() as work:
         image, symbols, listing = assemble(files, options, Path(work))
     if files == FILES:

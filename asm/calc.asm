@@ -1,5 +1,5 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: QEND QJN QJZ QDRP QJMP QRET QDUP QOVR QSWP QOWN CALINI FUN RUNBC CALC OOVR COPY5 CALPOP
+; Offers: QEND QJN QJZ QDRP QJMP QRET QDUP QOVR QSWP QOWN CALINI FUN RUNBC CALC0 OOVR COPY5 CALPOP
 ;         OJMP1 XXCH OSWP1 OPTAB
 ; Uses:   consts float geom
 ; Room:   240 bytes
@@ -84,7 +84,7 @@ RUNBC:  PUSH    D
 ; CALC - runs byte-code (RST 5 jumps here)
 ; In:  on the stack: code pointer   Clobbers all
 ; Cycles: a load 283, a store 315, a constant 317, an operation 235 + its own
-CALC:   POP     B
+CALC0:  POP     B
 CALC1:  LDAX    B
         INX     B
         CPI     40H
@@ -145,7 +145,7 @@ ODRP:   RET
 CALC3:  PUSH    B
         ORA     A
         RZ                      ; QEND: on behind it
-        LXI     H,CALC
+        LXI     H,CALC0
         PUSH    H               ; every operation returns there
         LXI     H,OPTAB-2
         ADD     A
@@ -211,7 +211,7 @@ ORET:   POP     H               ; CALC
 ; XXCH - exchanges a and b (QXCH)
 ; Clobbers all
 XXCH:   LXI     D,MA
-        LXI     H,MB
+        LXI     H,MVB
         MVI     C,15
         DB      3AH             ; LDA: skips the MVI
 OSWP:   MVI     C,5

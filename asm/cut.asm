@@ -39,8 +39,7 @@ BLKNO   EQU MHX+21      ; number of the last block, four decimal digits
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
-RUNINI: RST     5
-        DB      Q1,SSC,QEND     ; -
+RUNINI: DB      CALC,Q1,SSC,QEND ; -
         LXI     H,MTO           ; tolerance, H, W, RMOVED, BLKNO
         MVI     B,28
         CALL    RTDON1
@@ -69,15 +68,15 @@ RBEMP:  LHLD    PEND
 SCUT:   CALL    FITEND
         MVI     A,9*KTURN       ; twice KTURN
         STA     RITCHK
-        RST     6
+        DB      PEEK
         CPI     CSEMI
         JNZ     SCUT2
-SCUT1:  RST     3
+SCUT1:  DB      NEXT
 SCUT2:  PUSH    PSW             ; ";": the corner to come turns right
         CALL    EVAL
         POP     B
         CALL    ITEM
-        RST     6
+        DB      PEEK
         CPI     CSEMI
         JZ      SCUT1
         CALL    MORE
@@ -118,8 +117,7 @@ ADDEL:  LDA     RLASTP
         STA     RNAMED
         ORA     A
         JZ      ADDEL1
-        RST     5
-        DB      LPX,LPY,QTOK    ; -
+        DB      CALC,LPX,LPY,QTOK ; -
         DB      QNA,QONEL,QEND  ; -             (leaves A = 0)
 ADDEL1: CALL    ITDONE
         LDA     RELEMS
@@ -130,15 +128,13 @@ ADDEL1: CALL    ITDONE
         JNZ     ADDEL2
         CALL    SAMEC
         JZ      CORDON          ; the same curve goes on: no corner
-ADDEL2: RST     5
-        DB      QEPS,STL,QEND   ; -             a corner is no `*`: curves that do cross do so
+ADDEL2: DB      CALC,QEPS,STL,QEND ; -             a corner is no `*`: curves that do cross do so
         CALL    OFFCHK
         LDA     RFILW
         ORA     A
         CNZ     FILLET
         CALL    JOINED
-        RST     5
-        DB      LFI,SSG,QEND    ; -
+        DB      CALC,LFI,SSG,QEND ; -
 ; (fall into CORDON)
 
 ; CORDON - the corner to come is not described yet; TL is as `*` has it
@@ -146,8 +142,7 @@ ADDEL2: RST     5
 CORDON: LXI     H,0
         SHLD    RFILW           ; and RTURN
         SHLD    RTURN           ; and RNAMED
-        RST     5
-        DB      QMU,STL,Q0,SFI,QRET ; -
+        DB      CALC,QMU,STL,Q0,SFI,QRET ; -
 
 ; ITDONE - notes that an item was written
 ; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
@@ -181,8 +176,7 @@ ITCHK:  LXI     H,VKIND
         ANI     0BFH            ; circle (2) or line (3), number, point
         CPI     81H
         RNZ
-        RST     1
-        DB      ESYN
+        DB      ERROR,ESYN
 
 ; ITFIL - a fillet radius
 ITFIL:  CALL    POSIT
@@ -190,8 +184,7 @@ ITFIL:  CALL    POSIT
         CALL    NOFIL           ; two in a row (leaves A = 0)
         INR     A
         STA     RFILW
-        RST     5
-        DB      LA0,SFI         ; -
+        DB      CALC,LA0,SFI    ; -
 ITPN4:  DB      QRET            ; (for ITPNT too)
 
 ; POSIT - demands that the value is a positive number
@@ -200,28 +193,24 @@ POSIT:  LXI     H,MA
         CALL    FSGN
         DCR     A
         RZ
-        RST     1
-        DB      ERANGE
+        DB      ERROR,ERANGE
 
 ; NEEDEL - demands that the route has an element
 ; Out: ERR 06   Clobbers A
 NEEDEL: LDA     RELEMS
         ORA     A
         RNZ
-        RST     1
-        DB      EGEOM
+        DB      ERROR,EGEOM
 
 ; NOFIL - demands that no fillet waits
 ; Out: A = 0; ERR 06   Clobbers nothing else
 NOFIL:  LDA     RFILW
         ORA     A
         RZ
-        RST     1
-        DB      EGEOM
+        DB      ERROR,EGEOM
 
 ; ITPNT - a point
-ITPNT:  RST     5
-        DB      LA0,SDX,LA1,SDY ; -
+ITPNT:  DB      CALC,LA0,SDX,LA1,SDY ; -
         DB      QXCH,Q0,SB2,Q0,SA2,QEND ; -     b = D
         LDA     RLASTP
         ORA     A
@@ -230,16 +219,14 @@ ITPNT:  RST     5
         ORA     A
         JZ      ITPN1
         CALL    NOFIL           ; a fillet between an element and a point
-        RST     5
-        DB      QCA,QONEL       ; -
+        DB      CALC,QCA,QONEL  ; -
         DB      QJMP
         DB      ITPN3-$
-ITPN1:  RST     5               ; the first item
+ITPN1:  DB      CALC            ; the first item
         DB      LDX,SQX,LDY,SQY ; -
         DB      LNR,SQR,QJMP    ; -
         DB      ITPN3-$
-ITPN2:  RST     5
-        DB      LPX,SA0,LPY,SA1 ; -
+ITPN2:  DB      CALC,LPX,SA0,LPY,SA1 ; -
         DB      QDIF,QFAR       ; negative: within 1 um, the same point
         DB      QJN
         DB      ITPN4-$
@@ -247,7 +234,7 @@ ITPN2:  RST     5
         CALL    BELT            ; the line from P to D
         MVI     A,KLIN+80H      ; (bit 7: it passes its corners for certain)
         CALL    ITELM
-ITPN5:  RST     5
+ITPN5:  DB      CALC
 ITPN3:  DB      LDX,SPX,LDY,SPY ; -
         DB      QEND            ;               (leaves A = 0)
         INR     A
@@ -263,8 +250,7 @@ GETR:   LXI     D,NAMER
 
 ; SCALED - the value in the scale of the tape
 ; In:  a0 a1 a2, VKIND   Out: a0 a1 a2   Clobbers all
-SCALED: RST     5
-        DB      LA2,LSC,QMUL,SA2 ; -
+SCALED: DB      CALC,LA2,LSC,QMUL,SA2 ; -
         DB      QJC             ; -             (points too)
         DB      SCAL1-$
         DB      QRET
@@ -309,12 +295,10 @@ CPYPL:  MVI     A,PLCSIZ
 ;      without a turn)   Clobbers all
 ; The arc turns as the corner does; its centre is where the parallels at its signed
 ; radius FI cross (SKG book, formula 9-7).
-FILLET: RST     5
-        DB      Q0,SO1,Q0,SO2   ; -
+FILLET: DB      CALC,Q0,SO1,Q0,SO2 ; -
         DB      QEND
         CALL    CORNO
-        RST     5
-        DB      QNORMS,QJN      ; -
+        DB      CALC,QNORMS,QJN ; -
         DB      FILL9-$
         DB      LB0,ST4,LB1,ST5 ; -             t4 t5 = right normal of N at the corner
         DB      LCR,LNR,QE6D    ; -
@@ -331,8 +315,7 @@ FILLET: RST     5
         SHLD    RTURN           ; and RNAMED
         LXI     H,RKEPT
         CALL    NCOPY
-        RST     5
-        DB      Q0,STL,QXING,QMU,STL ; -        a = centre of the arc, which touches both
+        DB      CALC,Q0,STL,QXING,QMU,STL ; -        a = centre of the arc, which touches both
         DB      QXCH,QNA,QNORM  ; -             b = centre, a = right normal of N where they touch
         DB      LA0,LT4,QSUB,LA1,LT5,QSUB,QHYP ; angle's chord
         DB      LN2,LNR,QADD,QMUL,QABS ; chord  on the wire's path
@@ -357,8 +340,7 @@ FILL9:  DB      QDOT,QE6N,Q0,SFI,QRET ; -       straight on, or straight back
 ; Clobbers all, K too
 ; It does when the chords to T and K turn as C does.  Places within 1 um, on the wire's path, are one;
 ; when K is the entry a fillet has no room (FILLET comes with RFILW set, CLOSE without).
-PASSED: RST     5
-        DB      QCA,QJC         ; -
+PASSED: DB      CALC,QCA,QJC    ; -
         DB      PASS1-$
         DB      QRET
 PASS1:  DB      QNORM,LA0,LA1   ; tx ty
@@ -382,23 +364,19 @@ PASS3:  DB      QEND
 
 ; OFFCHK - demands that the wire offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
-OFFCHK: RST     5
-        DB      QNA,LNR,QSENS,QJN ; -
+OFFCHK: DB      CALC,QNA,LNR,QSENS,QJN ; -
         DB      OFFCH1-$
         DB      QRET
 OFFCH1: DB      QEND
-        RST     1
-        DB      EOFFS
+        DB      ERROR,EOFFS
 
 ; a corner that no point names: the crossing
-CROSS:  RST     5
-        DB      QXING           ; -
+CROSS:  DB      CALC,QXING      ; -
 ATOK:   DB      LA0,LA1,QTOK,QRET ; -
 
 ; CORNER - the corner between C and N as offset
 ; In:  C, N, RTURN, RNAMED, P   Out: K, O1, O2   Clobbers all
-CORNER: RST     5
-        DB      LCR,SO1,LNR,SO2,QEND ; -
+CORNER: DB      CALC,LCR,SO1,LNR,SO2,QEND ; -
 ; CORNO - the corner between C and N offset by O1 and O2
 ; In:  C, N, O1, O2, RTURN, RNAMED, P   Out: K   Clobbers all
 ; A named one is P itself when there is no offset; else of the crossings the one nearest to P,
@@ -407,40 +385,35 @@ CORNER: RST     5
 CORNO:  LDA     RNAMED
         ORA     A
         JZ      CROSS
-        RST     5
-        DB      LPX,LPY,QTOK    ; -             K = P = b
+        DB      CALC,LPX,LPY,QTOK ; -             K = P = b
         DB      LO1,LO2,QMAX,QJZ ; -
         DB      CORN9-$
         DB      QEND
         LDA     FITSM
         ORA     A
         JNZ     CORN1
-        RST     5
-        DB      QNORMS,QJN      ; -             a, b = right normals of C and N
+        DB      CALC,QNORMS,QJN ; -             a, b = right normals of C and N
         DB      NAMED1-$
         DB      QEND
         LDA     CKIND
         LXI     H,NKIND
         ANA     M
         JM      CORN2           ; two lines between points
-        RST     5
-        DB      Q0,STL,QEND     ; -             crossings, however flat (A = 0)
+        DB      CALC,Q0,STL,QEND ; -             crossings, however flat (A = 0)
         STA     RTURN
         CALL    CROSS           ; (QRET leaves A not 0)
         STA     RTURN
-        RST     5
-        DB      QXING           ; -
+        DB      CALC,QXING      ; -
         DB      LPX,LA0,LPY,LA1,QWAY ; d2^2
         DB      LPX,LKX,LPY,LKY,QWAY ; d2^2 d1^2
         DB      QSUB,QJN        ; -
         DB      ATOK-$
 CORN9:  DB      QRET
-CORN2:  RST     5               ; as seen from P both pass at their offsets alone
+CORN2:  DB      CALC            ; as seen from P both pass at their offsets alone
         DB      LO1,SA2,LO2,SB2,QEND ; -
         CALL    SXS
-        RST     5
-        DB      LKX,LA0,QADD,LKY,LA1,QADD,QTOK,QRET ; -
-CORN1:  RST     5               ; between arcs of a curve: both run the same way, square to the radius
+        DB      CALC,LKX,LA0,QADD,LKY,LA1,QADD,QTOK,QRET ; -
+CORN1:  DB      CALC            ; between arcs of a curve: both run the same way, square to the radius
         DB      QCA,QDIF,SA1,SA0 ; -            a = from the centre to P
         DB      LCR,LNR,QE6D    ; -
         DB      LCR,LC2,QDIV,QJMP ; R/r
@@ -469,8 +442,7 @@ FIRST:  CALL    OFFCHK
 
 ; PLACE - place on C, as offset, that is nearest to the start hole
 ; Out: K   Clobbers all
-PLACE:  RST     5
-        DB      LHX,LHY,QTOK    ; -             b = K = H
+PLACE:  DB      CALC,LHX,LHY,QTOK ; -             b = K = H
         DB      QCA             ; -
         DB      LC2,LCR,QADD    ; g             gamma or r as offset
         DB      QJC             ; g
@@ -487,8 +459,7 @@ PLACE2: DB      QABS,LC0,QADD,LC1,QTOK,QRET ; - the +X side
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
-PATC:   RST     5
-        DB      LPX,LPY,QTOK    ; -             b = K = P
+PATC:   DB      CALC,LPX,LPY,QTOK ; -             b = K = P
         DB      QCA,QNORM       ; -             a = right normal
         DB      QJMP
         DB      NAMED2-$
@@ -512,8 +483,7 @@ SAME:   CALL    XNA1            ; a = the element
         LXI     H,NKIND
         CMP     M
         RNZ
-        RST     5
-        DB      QXCH,QNA        ; -             a = N, b = the element
+        DB      CALC,QXCH,QNA   ; -             a = N, b = the element
         DB      QJC
         DB      SAME2-$
         DB      QEPS,QSQ,QDIF,QSS,QSUB ; eps^2-angle^2
@@ -542,8 +512,7 @@ SAMEL:  LDA     RLASTP
         RNZ
         ORA     A
         JZ      SAMEF
-        RST     5
-        DB      LPX,LQX,LPY,LQY,QWAY ; distance^2
+        DB      CALC,LPX,LQX,LPY,LQY,QWAY ; distance^2
         DB      QSQRT           ; distance
         DB      QJMP
         DB      SAME1-$
@@ -554,8 +523,7 @@ SAMEL:  LDA     RLASTP
 CLOSE:  LDA     RFSTP
         ORA     A
         JZ      CLOSE1
-        RST     5
-        DB      LQX,SA0,LQY,SA1 ; -
+        DB      CALC,LQX,SA0,LQY,SA1 ; -
         DB      LQR,SNR,QEND    ; -
         CALL    ITPNT
         CALL    ITPN5           ; (also when the last point lay within 1 um of it)
@@ -568,8 +536,7 @@ CLOSE1: LDA     RELEMS
         LXI     D,MFIRST
         CALL    TON
         CALL    ADDEL
-CLOSE3: RST     5
-        DB      LCR,LFR,QE6D    ; -
+CLOSE3: DB      CALC,LCR,LFR,QE6D ; -
         DB      LGX,LGY,QTOK,QEND ; -           b = G
         LXI     D,RCORN
         LXI     H,MKX
@@ -587,8 +554,7 @@ CLOSE4: LDA     CKIND           ; one element alone
 CLOSE6: LXI     H,RELEMS
         DCR     M               ; at the entry still: ADVANC takes the whole circle
 CLOSE7: CALL    NOFIL           ; there is no corner
-        RST     5
-        DB      LGX,LGY,QTOK,QEND ; -           K = G, where the route was entered
+        DB      CALC,LGX,LGY,QTOK,QEND ; -           K = G, where the route was entered
 CLOSE8: CALL    ADVANC
 ; (fall into RTDONE)
 
@@ -621,20 +587,17 @@ ENDRT:  CALL    FITEND
 
 ; SFROM - statement: FROM point
 SFROM:  CALL    EVPNT
-        RST     7
+        DB      CHKEND
         CALL    SCALED
-        RST     5
-        DB      LA0,LA1,QEND    ; x y           kept while the route ends
+        DB      CALC,LA0,LA1,QEND ; x y           kept while the route ends
         CALL    ENDRT
-        RST     5
-        DB      SHY,SHX,QEND    ; -
+        DB      CALC,SHY,SHX,QEND ; -
         LXI     H,RMOVED
         MOV     A,M
         ORA     A
         JNZ     SFROM1
         INR     M
-        RST     5
-        DB      LHX,QRND,SWX,LHY,QRND,SWY ; -
+        DB      CALC,LHX,QRND,SWX,LHY,QRND,SWY ; -
         DB      QRET
 SFROM1: CALL    STOP
         CALL    HOME
@@ -648,7 +611,7 @@ STOP:   MVI     B,1
 ; In:  B   Clobbers A, B
 PUNDS:  CALL    PUNON
 PUNDS1: MVI     A,CLTD
-        RST     2
+        DB      PUTC
         DCR     B
         JNZ     PUNDS1
         JMP     PUTB2
@@ -665,8 +628,7 @@ ROUTER: LDA     RITEMS
 ; Operations of the calculator that the route adds
 
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
-XSENS:  RST     5
-        DB      QJC
+XSENS:  DB      CALC,QJC
         DB      XSENS1-$
         DB      QABS,QRET       ; >= 0
 XSENS1: DB      LA2,QADD        ; r'
@@ -680,8 +642,7 @@ XJC:    LDA     VKIND
 XONEL:  LDA     FITSM
         ORA     A
         RNZ
-        RST     5
-        DB      QJC
+        DB      CALC,QJC
         DB      XONEL1-$
         DB      QDOT,LA2        ; place gamma
         DB      QJMP
@@ -690,8 +651,7 @@ XONEL1: DB      QDIF,QHYP       ; distance
         DB      LA2,QABS        ; distance |r|
 XONEL2: DB      QE6D,QRET       ; -
 ; QNORM: a0 a1 = right normal of the element a at the point b
-XNORM:  RST     5
-        DB      QJC
+XNORM:  DB      CALC,QJC
         DB      XNORM1-$
         DB      QRET
 XNORM1: DB      QDIF            ; dx dy
@@ -699,23 +659,20 @@ XNORM1: DB      QDIF            ; dx dy
         DB      LA2,QSIG,QSWP   ; +-dx +-dy
         DB      QUNIT,QRET      ; -
 ; QTOK: K = b = a point
-XTOK:   RST     5
-        DB      QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -
+XTOK:   DB      CALC,QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -
 ; QNORMS: a0 a1, b0 b1 = right normals of C and N at K = b; negative when they differ by less than
 ; 0.001 rad
-XNORMS: RST     5
-        DB      QNA,QNORM,LA0,LA1 ; x y
+XNORMS: DB      CALC,QNA,QNORM,LA0,LA1 ; x y
         DB      QCA,QNORM,SB1,SB0 ; -
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET
 
 ; FIRST goes on when it has K: the wire goes there
-FIRST1: RST     5
-        DB      LKX,SGX,LKY,SGY,QJMP ; -        G = K
+FIRST1: DB      CALC,LKX,SGX,LKY,SGY,QJMP ; -        G = K
         DB      ADVAN1-$
 
 ; SBACK - statement: BACK
-SBACK:  RST     7
+SBACK:  DB      CHKEND
         CALL    FITEND
         CALL    NEEDEL          ; no route, or but a point
 SBACK1: CALL    CLOSE
@@ -725,15 +682,13 @@ SBACK1: CALL    CLOSE
 
 ; HOME - straight to the start hole
 ; Clobbers all
-HOME:   RST     5
-        DB      LHX,LHY,QTOK,QJMP ; -           K = H
+HOME:   DB      CALC,LHX,LHY,QTOK,QJMP ; -           K = H
         DB      ADVAN1-$
 
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K, W; RELEMS = 0: C is closed, no travel means the whole circle
 ; Out: A = K, W; ERR 06 when K lies behind A on a line   Clobbers all
-ADVANC: RST     5
-        DB      LKX,LAX,QSUB,SB0 ; -
+ADVANC: DB      CALC,LKX,LAX,QSUB,SB0 ; -
         DB      LKY,LAY,QSUB,SB1 ; -            b = chord
         DB      QCA,QJC         ; -
         DB      ADVAN2-$
@@ -755,6 +710,5 @@ ADVAN3: DB      QEND            ; no travel: the corner is the entry place
         LDA     RELEMS
         ORA     A
         RNZ
-        RST     5
-        DB      QM1             ; s             as ARC takes it
+        DB      CALC,QM1        ; s             as ARC takes it
 ; (fall into ARC)

@@ -43,12 +43,15 @@ CLTS    EQU 53H
 CLTY    EQU 59H
 
 ; ---- Restarts -------------------------------------------------------------
-;   RST 1 / DB n    ERROR   statement ends with ERR n
-;   RST 2           PUTC    A to the paper (and the punch when it is on)
-;   RST 3           NEXT    A = next token, token pointer past it
-;   RST 4 / DB t    EXPECT  next token must be t, else ERR 01
-;   RST 5 / DB ...  CALC    byte-code follows, up to kEND
-;   RST 6           PEEK    A = next token, pointer stays
+; One byte each, written as data: assemblers do not agree on what stands behind RST
+; (1 ... 7, or 8 ... 38H). The names of the bytes are start.asm's.
+;   DB ERROR,n      statement ends with ERR n
+;   DB PUTC         A to the paper (and the punch when it is on)
+;   DB NEXT         A = next token, token pointer past it
+;   DB EXPECT,t     next token must be t, else ERR 01
+;   DB CALC,...     byte-code follows, up to QEND
+;   DB PEEK         A = next token, pointer stays
+;   DB CHKEND       the statement must end here
 
 ; ---- Errors (language.md, section 6) ----------------------------------------
 ESYN    EQU 1           ; not understood
@@ -127,7 +130,7 @@ MNODE2  EQU MREG+25
 MT0     EQU MREG+50     ; temporary registers; t4 and t5 lie in front of a
 MT4     EQU MREG+70
 MA      EQU MREG+80     ; address of a0: value, and left operand
-MB      EQU MREG+95     ; address of b0: right operand
+MVB      EQU MREG+95    ; address of b0: right operand
 MCUR    EQU MREG+114    ; elements: kind, three numbers, offset; behind C and F the place of entry
 MC2     EQU MREG+125
 MNEXT   EQU MREG+149

@@ -25,35 +25,30 @@ NODSIZ  EQU 25          ; bytes of a node: place, tangent, wire offset
 ; STOL - statement: TOL number
 STOL:   CALL    FITEND
         CALL    EVNUM
-        RST     7
-        RST     5
-        DB      LA0,QSQRT,QSQ,STO,QRET ; -      (the root refuses what is negative)
+        DB      CHKEND
+        DB      CALC,LA0,QSQRT,QSQ,STO,QRET ; -      (the root refuses what is negative)
 
 ; SFIT - statement: FIT point; FIT point, angle
 SFIT:   CALL    EVPNT
-        RST     5
-        DB      LA0,LA1,QEND    ; x y
-        RST     6
+        DB      CALC,LA0,LA1,QEND ; x y
+        DB      PEEK
         PUSH    PSW             ; Z: no angle
         JZ      SFIT1
-        RST     4
-        DB      CCOMMA
+        DB      EXPECT,CCOMMA
         CALL    EVNUM
-SFIT1:  RST     7
-        RST     5               ; (leaves a0 alone)
+SFIT1:  DB      CHKEND
+        DB      CALC            ; (leaves a0 alone)
         DB      LSC,QMUL,QDUP,ST3,QSWP ; y x    t2 t3 = node that arrives
         DB      LSC,QMUL,QDUP,ST2 ; y x
         DB      Q0,Q0,QEND      ; y x v u
         POP     PSW
         PUSH    PSW
         JZ      SFIT2
-        RST     5
-        DB      QDRP,QDRP,LA0,QSIN,LA0,QCOS,QEND ; y x v u
+        DB      CALC,QDRP,QDRP,LA0,QSIN,LA0,QCOS,QEND ; y x v u
 SFIT2:  LDA     FITN
         ORA     A
         JZ      SFIT3
-        RST     5
-        DB      LT2,L2X,LT3,L2Y,QWAY ; y x v u w*w      b = w: to it from node 2
+        DB      CALC,LT2,L2X,LT3,L2Y,QWAY ; y x v u w*w      b = w: to it from node 2
         DB      ST5,LB0,LB1,QFAR,QJN ; y x v u         within 1 um: the same node
         DB      SFIT4-$
         DB      QEND
@@ -75,16 +70,14 @@ SFIT4:  DB      QEND
 ; TAKE - the node that waits on the float stack becomes node 2
 ; Clobbers all
 TAKE:   CALL    GETR
-        RST     5
-        DB      S2U,S2V,S2X,S2Y ; -
+        DB      CALC,S2U,S2V,S2X,S2Y ; -
         DB      LNR,S2R,QRET    ; -
 
 ; LAST - the last node's tangent, which is not given, mirrors the one before it about the chord;
 ;        two nodes without tangents have the chord's.  Then the span to it goes out
 ; In:  nodes 1 and 2   Clobbers all
 LAST:   CALL    MIRROR          ; y x           b = chord
-        RST     5
-        DB      L1U,L1V,QFAR,QJN ; y x
+        DB      CALC,L1U,L1V,QFAR,QJN ; y x
         DB      LAST1-$
         DB      QJMP
         DB      MIDD1-$
@@ -95,8 +88,7 @@ LAST1:  DB      QDRP,QDRP,LB1,LB0,QJMP ; y x    (its length does not matter: bot
 ;          then the span to it goes out
 ; In:  b = w: to the node that arrives from node 2, t5 = w*w   Out: ERR 06 when it is node 1
 ; Clobbers all
-MIDDLE: RST     5
-        DB      QXCH,L1X,L2X,L1Y,L2Y,QWAY ; v*v a = w, b = -v: to node 1 from node 2
+MIDDLE: DB      CALC,QXCH,L1X,L2X,L1Y,L2Y,QWAY ; v*v a = w, b = -v: to node 1 from node 2
         DB      QDIF,QFAR,QE6N  ; v*v
         DB      LT5,QSWP,QDIV,QREFL ; -         a = w + v*(w*w)/(v*v)
         DB      LA0,LA1,QUNIT,LA1,LA0 ; y x
@@ -124,8 +116,7 @@ SPAN:   LDA     MNODE1+10
         JMP     OUT3
 
 SPAN1:  CALL    MIRROR          ; tangent 1 mirrors tangent 2
-        RST     5
-        DB      S1U,S1V,QRET    ; -
+        DB      CALC,S1U,S1V,QRET ; -
 
 SPAN2:  CALL    SWAP            ; (for SPAN, which exchanges them once more)
 ; (fall into FLUSH)
@@ -160,16 +151,14 @@ OUT:    CALL    CHORD
         CALL    BIARC
         LXI     D,MNODE1
         CALL    FITCIR
-        RST     5
-        DB      LMX,L1X,QADD    ; x             the joint
+        DB      CALC,LMX,L1X,QADD ; x             the joint
         DB      LMY,S1U         ; x             (MY is kept where the tangent is used up)
         DB      LMY,L1Y,QADD,QEND ; x y
         CALL    FITPNT
-        RST     5
-        DB      L1U,SMY,QEND    ; -
+        DB      CALC,L1U,SMY,QEND ; -
         LXI     D,MNODE2
         CALL    FITCIR
-OUT2:   RST     5               ; (SFIT comes here with the first node)
+OUT2:   DB      CALC            ; (SFIT comes here with the first node)
         DB      L2X,L2Y,QEND    ; x y
         CALL    FITPNT
 OUT3:   LXI     D,MNODE2        ; (SPAN comes here when it holds it back)
@@ -187,8 +176,7 @@ TRY:    LDA     HELDN
         CPI     15*PLCSIZ
         RNC                     ; none, or more than 15
         CALL    CHORD
-        RST     5
-        DB      QMU,QDOT,QSUB,QJN ; v*v         (not of half a circle, where rounding decides)
+        DB      CALC,QMU,QDOT,QSUB,QJN ; v*v         (not of half a circle, where rounding decides)
         DB      TRY1-$
         DB      QDRP,QRET       ; -             begins or ends backwards
 TRY1:   DB      QEND
@@ -196,14 +184,12 @@ TRY1:   DB      QEND
         LXI     D,MNODE1
         CALL    ARCW
         CALL    MIRR1
-        RST     5
-        DB      ST2,ST3,QEND    ; -             t2 t3 = tangent at the joint
+        DB      CALC,ST2,ST3,QEND ; -             t2 t3 = tangent at the joint
         LXI     D,HELD
 TRY2:   LXI     H,MT0
         CALL    CPYPL           ; t0 t1 = n
         PUSH    D
-        RST     5
-        DB      LMX,L1X,QADD,LT0,QSUB,LT2,QMUL ; x       o1 = how far n lies before the joint
+        DB      CALC,LMX,L1X,QADD,LT0,QSUB,LT2,QMUL ; x       o1 = how far n lies before the joint
         DB      LMY,L1Y,QADD,LT1,QSUB,LT3,QMUL,QADD,SO1,QEND ; -
         LXI     D,MNODE1
         LDA     MO1+1
@@ -211,8 +197,7 @@ TRY2:   LXI     H,MT0
         JP      TRY3            ; before the joint: the arc from node 1
         MVI     E,MNODE2 & 255
 TRY3:   CALL    ARCW
-        RST     5
-        DB      QCRS,QSWP,QDIV  ; k             half the curvature
+        DB      CALC,QCRS,QSWP,QDIV ; k             half the curvature
         DB      LT0,LT4,LT1,LT5,QWAY ; k q*q    b = q: to n from the arc's node
         DB      LTO,QSQ,QSUB,QMUL ; k(q*q-d*d)
         DB      QCRS,QSUB,QABS,LTO,QSWP,QSUB ; d-|k(q*q-d*d)-t*q|
@@ -248,21 +233,18 @@ FITEND: CALL    CHKRET
 MIRROR: CALL    CHORD
 ; MIRR1 - a vector mirrored about another
 ; In:  a, b, on the float stack b*b   Out: on the float stack y x   Clobbers all
-MIRR1:  RST     5
-        DB      QDOT,QDUP,QADD,QSWP,QDIV,QREFL ; -
+MIRR1:  DB      CALC,QDOT,QDUP,QADD,QSWP,QDIV,QREFL ; -
         DB      LA1,QNEG,LA0,QNEG,QRET  ; y x
 
 ; CHORD - prepares for a biarc
 ; In:  nodes 1 and 2   Out: b = v, a = t+u; on the float stack v*v   Clobbers all
-CHORD:  RST     5
-        DB      L1U,L2U,QADD,SA0 ; -
+CHORD:  DB      CALC,L1U,L2U,QADD,SA0 ; -
         DB      L1V,L2V,QADD,SA1 ; -
         DB      L2X,L1X,L2Y,L1Y,QWAY,QRET ; v*v
 
 ; BIARC - where its arcs meet
 ; In:  CHORD   Out: MX MY = from node 1 to M; ERR 06   Clobbers all
-BIARC:  RST     5
-        DB      ST1,QDOT,QDUP,QSQ ; along along^2
+BIARC:  DB      CALC,ST1,QDOT,QDUP,QSQ ; along along^2
         DB      QXCH,L2U,L1U,L2V,L1V,QWAY ; along along^2 |u-t|^2  a = v, b = u-t
         DB      LT1,QMUL,QADD,QSQRT,QADD ; below
         DB      QDUP,QNEAR,QSUB,QE6N ; below
@@ -274,15 +256,13 @@ BIARC:  RST     5
 ; Clobbers all
 ARCW:   LXI     H,MT4
         CALL    CPYEL           ; (a byte too much, which does no harm)
-        RST     5
-        DB      LMX,LT4,L1X,QSUB,LMY,LT5,L1Y,QSUB,QWAY,QRET ; w*w
+        DB      CALC,LMX,LT4,L1X,QSUB,LMY,LT5,L1Y,QSUB,QWAY,QRET ; w*w
 
 ; FITCIR - the arc between a node and the joint goes out; a flat one not: the point at its end
 ;          brings the chord
 ; In:  DE -> node, node 1, MX MY   Out: FITSM   Clobbers all but D
 FITCIR: CALL    ARCW
-        RST     5
-        DB      QDUP,QEPS,QMUL  ; w*w limit     r = 50 m
+        DB      CALC,QDUP,QEPS,QMUL ; w*w limit     r = 50 m
         DB      QMU,QDUP,QADD,QMAX ; w*w limit  or |t x w| = 2 um
         DB      QCRS,QDUP,ST0,QABS,QSUB ; w*w limit-|t x w|
         DB      QJN             ; w*w
@@ -303,6 +283,5 @@ FITC1:  DB      LT0,QDUP,QADD,QDIV,SA2 ; -      r
 FITPNT: MVI     A,KPNT
 ; FITITM - the same for a value of kind A: a2
 FITITM: STA     VKIND
-        RST     5
-        DB      SA1,SA0,L2R,SNR,QEND ; -
+        DB      CALC,SA1,SA0,L2R,SNR,QEND ; -
         JMP     ITEM3

@@ -119,8 +119,7 @@ FNRMC:  LDA     EXPO
         MOV     H,A
         JNC     FNRM2
         JNZ     FRND
-        RST     1
-        DB      ERANGE
+        DB      ERROR,ERANGE
 
 FADD4:  CALL    FLOAD
         MVI     L,0
@@ -520,8 +519,7 @@ FRND:   MOV     A,L
         JNZ     FPACK
 ; (fall into FOVF)
 
-FOVF:   RST     1
-        DB      ERANGE
+FOVF:   DB      ERROR,ERANGE
 
 FEXP1:  POP     H               ; exponent out of range: drops the return to FMUL, FDIV
         JC      FOVF
@@ -746,8 +744,7 @@ FSIN:   MOV     A,M
         LDA     ODD
         RRC
         JNC     FSIN1
-        RST     5
-        DB      QNEG,QEND               ; after an odd number of them: the other way
+        DB      CALC,QNEG,QEND          ; after an odd number of them: the other way
 FSIN1:  LXI     D,CSIN
 ; (fall into FSER)
 
@@ -761,12 +758,10 @@ FSIN1:  LXI     D,CSIN
 FSER:   CALL    OOVR            ; y c1
         INX     D
         PUSH    D
-        RST     5
-        DB      QOVR,QSQ,QDUP,QEND      ; y c1 z z
+        DB      CALC,QOVR,QSQ,QDUP,QEND ; y c1 z z
         POP     D                       ; (QDUP leaves HL -> last byte of z)
         CALL    FSER1           ; y c1 z Q
-        RST     5
-        DB      QMUL,QSUB       ; y P
+        DB      CALC,QMUL,QSUB  ; y P
         DB      QOVR,QMUL,QADD,QRET     ; y+y*P
 
 ; FSER1 - z to Q(z), on top of the calculator's stack
@@ -844,23 +839,19 @@ FATG:   CALL    FUN
         JNC     FATG2           ; from 2 up
         CPI     80H
         JNC     FATG1           ; from 1/2 up
-        RST     5
-        DB      QSWP,QDRP,Q0,QSWP,Q1    ; x 0 s 1
+        DB      CALC,QSWP,QDRP,Q0,QSWP,Q1 ; x 0 s 1
         DB      QJMP
         DB      FATG3-$
-FATG1:  RST     5
-        DB      QSWP,QHALF,QMUL,QSWP    ; x 45 s
+FATG1:  DB      CALC,QSWP,QHALF,QMUL,QSWP ; x 45 s
         DB      QDUP,Q1,QSUB            ; x 45 s s-1
         DB      QSWP,Q1,QADD            ; x 45 s-1 s+1
         DB      QJMP
         DB      FATG3-$
-FATG2:  RST     5
-        DB      QM1,QSWP                ; x 90 -1 s
+FATG2:  DB      CALC,QM1,QSWP           ; x 90 -1 s
 FATG3:  DB      QI64,QMUL,QDIV,QEND     ; x base y      y = 64 times the quotient
         LXI     D,CATG
         CALL    FSER
-        RST     5
-        DB      QADD,QSWP,QSIG,QRET     ; atan |x|, with the sign of x
+        DB      CALC,QADD,QSWP,QSIG,QRET ; atan |x|, with the sign of x
 
 ; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
 ; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
@@ -877,18 +868,15 @@ FTEN:   MOV     C,A             ; C = sign
         INR     A
 FTEN1:  MOV     B,A             ; B = power to go
         PUSH    B
-        RST     5
-        DB      LT0,QABS
+        DB      CALC,LT0,QABS
 FTEN2:  DB      QEND            ; x
         POP     B
         MOV     A,B
         ORA     A
         RZ
         PUSH    B
-        RST     5
-        DB      Q1,QEND         ; x p
-FTEN3:  RST     5
-        DB      Q10,QMUL,QEND   ; x p
+        DB      CALC,Q1,QEND    ; x p
+FTEN3:  DB      CALC,Q10,QMUL,QEND ; x p
         POP     B
         DCR     B
         PUSH    B
@@ -897,11 +885,9 @@ FTEN3:  RST     5
         JNZ     FTEN3           ; larger powers in steps of 10^16
         ORA     C
         JM      FTEN4
-        RST     5
-        DB      QDIV,QJMP       ; x/p
+        DB      CALC,QDIV,QJMP  ; x/p
         DB      FTEN2-$
-FTEN4:  RST     5
-        DB      QMUL,QJMP       ; x*p
+FTEN4:  DB      CALC,QMUL,QJMP  ; x*p
         DB      FTEN2-$
 
 ; FDIG - divides a whole number by 10
@@ -936,9 +922,9 @@ FDIG3:  DCR     B
 ; Cycles: whole numbers below 2^26 2,600 a digit, others 60,000 to 150,000
 DECOUT: CALL    FSGN
         MVI     A,CZERO
-        JZ      PUTC
+        JZ      PUTC0
         MVI     A,CMINUS
-        CM      PUTC
+        CM      PUTC0
         MVI     C,0
         PUSH    B
         XCHG
@@ -963,15 +949,14 @@ DECO2:  DAD     D
         JNZ     DECO2
         MOV     C,H
         PUSH    B
-        RST     5
+        DB      CALC
 DECO3:  DB      QEND
         POP     B
         DCR     C
         PUSH    B
         MOV     A,C
         CALL    FTEN
-        RST     5
-        DB      Q1,QSUB,QJN     ; -
+        DB      CALC,Q1,QSUB,QJN ; -
         DB      DECO3-$         ; below 1: that power is too large
         DB      QEND
         POP     B
@@ -981,8 +966,7 @@ DECO3:  DB      QEND
         MOV     C,A             ; the power that leaves B digits before the point
         PUSH    B
         CALL    FTEN            ; s
-        RST     5
-        DB      QHALF,QADD,QDRP,QEND
+        DB      CALC,QHALF,QADD,QDRP,QEND
         CALL    FWHOLE          ; (QDRP leaves HL -> what it drops)
 ; D E H L = the whole number, C = the power of ten that it is to be multiplied by
 DECO4:  XCHG
@@ -1024,13 +1008,13 @@ DECOB:  JNZ     DECOC
         PUSH    PSW
         MVI     A,CPOINT-CZERO
 DECOC:  ADI     CZERO
-        RST     2
+        DB      PUTC
         JMP     DECOA
 DECOD:  MOV     A,B
         ORA     A
         RZ
         MVI     A,CLTE
-        RST     2
+        DB      PUTC
         XRA     A
         MOV     H,A
         MOV     L,B
@@ -1038,7 +1022,7 @@ DECOD:  MOV     A,B
         JM      PRDEC
         MOV     L,A
         MVI     A,CMINUS
-        RST     2
+        DB      PUTC
 ; (fall into PRDEC)
 
 ; PRDEC - prints a whole number
@@ -1085,8 +1069,7 @@ DECI2:  INX     H
         PUSH    B
         LXI     D,MT0+5
         CALL    FITOF
-        RST     5
-        DB      LT0,Q10,QMUL,LT1,QADD,ST0,QEND
+        DB      CALC,LT0,Q10,QMUL,LT1,QADD,ST0,QEND
         POP     B
 DECI3:  POP     H
         MOV     E,H             ; (not 0FFH)

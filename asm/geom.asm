@@ -1,5 +1,5 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: XXING BINOPK BINOP BIN4 XUNIT BELT XDOT XCRS XDIF XCENT XWAY XSS XHYP XFAR XREFL XROTV
+; Offers: XXING BINOPK BINOP BIN4 XUNIT SXS BELT XDOT XCRS XDIF XCENT XWAY XSS XHYP XFAR XREFL XROTV
 ;         XLEG XSIG XMAX XE6D XE6N ERGEO
 ; Uses:   calc consts cut float parser start
 ; Room:   625 bytes
@@ -10,8 +10,7 @@
 ; behind them, top last.
 
 ; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
-XXING:  RST     5
-        DB      QNA             ; -
+XXING:  DB      CALC,QNA        ; -
         DB      LA2,LO2,QADD,SA2 ; -
         DB      QXCH,QCA        ; -             b = N
         DB      LA2,LO1,QADD,SA2,QEND ; -
@@ -60,8 +59,7 @@ BIN1:   MOV     A,M
         MOV     B,A
         CPI     KTURN+1
         JC      BIN1
-        RST     1               ; the end
-        DB      EKIND
+        DB      ERROR,EKIND     ; the end
 BIN2:   ADD     E               ; to the next byte-code
         MOV     E,A
         JNC     BIN1
@@ -180,8 +178,7 @@ GDIV:   DB      LA0,LA1,LB0,ST3         ; x y
         DB      XUNIT2-$
 
 ; QUNIT: a0 a1 = unit vector along a vector, t3 = its length; ERR 06 when that is nearly 0
-XUNIT:  RST     5
-        DB      QOVR,QOVR,QHYP          ; x y d
+XUNIT:  DB      CALC,QOVR,QOVR,QHYP     ; x y d
 ; (for GSXS too)
 XUNIT1: DB      QDUP,ST3,QABS           ; x y |d|
         DB      QNEAR,QSUB,QE6N         ; x y
@@ -202,7 +199,7 @@ GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
 GPOLAR: DB      QROTV,QRET              ; -
 
 ; S*S: crossing by Cramer's rule; ERR 06 when they are parallel
-SXS:    RST     5               ; (for CORNO: as a routine)
+SXS:    DB      CALC            ; (for CORNO: as a routine)
 GSXS:   DB      LA2,LB1,QMUL            ;
         DB      LA1,LB2,QMUL,QSUB       ; x*det
         DB      LA0,LB2,QMUL            ; x*det
@@ -267,8 +264,7 @@ GCIR1:  DB      QDUP,SA2,QABS           ; |r|
         DB      GCIR2-$
         DB      QRET
 GCIR2:  DB      QEND
-        RST     1
-        DB      ERANGE
+        DB      ERROR,ERANGE
 
 ; P#P: perpendicular bisector, the first point on its left
 GBISEC: DB      QDIF                    ; dx dy
@@ -279,7 +275,7 @@ GBISEC: DB      QDIF                    ; dx dy
 ; The belt line: alpha*xi + beta*yi + ri = gamma for both circles.  With d from
 ; centre to centre, e = r1-r2 and h = sqrt(d^2-e^2): the unit vector along d, turned
 ; to the right by the angle whose cosine is e/d and whose sine h/d.
-BELT:   RST     5               ; (for ITPNT: as a routine)
+BELT:   DB      CALC            ; (for ITPNT: as a routine)
 GBELT:  DB      LA0,LA1                 ; x y
         DB      QDIF,QCENT              ; x y e         t3 = d
         DB      QDUP,ST2,QABS           ; x y |e|       t2 = e
@@ -293,30 +289,23 @@ GBELT:  DB      LA0,LA1                 ; x y
 ; Operations of the calculator that geometry adds (entries in CALC's table)
 
 ; QDOT a0*b0+a1*b1 and QCRS a0*b1-a1*b0
-XDOT:   RST     5
-        DB      LA0,LB0,QMUL            ; a0*b0
+XDOT:   DB      CALC,LA0,LB0,QMUL       ; a0*b0
         DB      LA1,LB1,QMUL,QADD,QRET  ; dot
-XCRS:   RST     5
-        DB      LA0,LB1,QMUL            ; a0*b1
+XCRS:   DB      CALC,LA0,LB1,QMUL       ; a0*b1
         DB      LA1,LB0,QMUL,QSUB,QRET  ; cross
 ; QDIF: from the point a to the point b
-XDIF:   RST     5
-        DB      LB0,LA0,QSUB            ; dx
+XDIF:   DB      CALC,LB0,LA0,QSUB       ; dx
         DB      LB1,LA1,QSUB,QRET       ; dx dy
 ; QCENT: QUNIT from centre to centre, then r of a less r of b; ERR 06 when they are concentric (within TL)
-XCENT:  RST     5
-        DB      QUNIT,LT3,LTL,QSUB,QE6N ; -
+XCENT:  DB      CALC,QUNIT,LT3,LTL,QSUB,QE6N ; -
         DB      LA2,LB2,QSUB,QRET       ; e
 ; QWAY: x2 x1 y2 y1 -> w*w; b = w: from (x1,y1) to (x2,y2)
-XWAY:   RST     5
-        DB      QSUB,SB1,QSUB,SB0       ; -
+XWAY:   DB      CALC,QSUB,SB1,QSUB,SB0  ; -
         DB      LB0,LB1,QEND            ; wx wy
 ; (fall into XSS)
 ; QSS: length of a vector, squared.  QHYP: length of a vector
-XSS:    RST     5
-        DB      QSQ,QSWP,QSQ,QADD,QRET  ; x^2+y^2
-XHYP:   RST     5
-        DB      QSS,QSQRT,QRET          ; length
+XSS:    DB      CALC,QSQ,QSWP,QSQ,QADD,QRET ; x^2+y^2
+XHYP:   DB      CALC,QSS,QSQRT,QRET     ; length
 ; QFAR: is a vector longer than 1 um?  (no square root)
 XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         ADI     80H-78H
@@ -325,19 +314,15 @@ XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         ADI     80H-78H
         ORA     C
         JM      XFAR1
-        RST     5
-        DB      QSS,QMU,QSQ,QSUB,QRET   ; -1um^2
-XFAR1:  RST     5
-        DB      QDRP,QABS,QRET          ; |x|
+        DB      CALC,QSS,QMU,QSQ,QSUB,QRET ; -1um^2
+XFAR1:  DB      CALC,QDRP,QABS,QRET     ; |x|
 ; QREFL: a0 a1 moved by -k times b0 b1, k from the stack
-XREFL:  RST     5
-        DB      LA0,QOVR,LB0,QMUL       ; k a0 k*b0
+XREFL:  DB      CALC,LA0,QOVR,LB0,QMUL  ; k a0 k*b0
         DB      QSUB,SA0                ; k
         DB      LA1,QSWP,LB1,QMUL       ; a1 k*b1
         DB      QSUB,SA1,QRET           ; -
 ; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2
-XROTV:  RST     5
-        DB      LB1,LB2                 ; x y
+XROTV:  DB      CALC,LB1,LB2            ; x y
         DB      LB0,QCOS,SB1            ; x y           b = sine, cosine:
         DB      LB0,QSIN,SB0            ; x y
         DB      QDOT,QCRS,SA0,SA1       ; x y           cross is x', dot is y'
@@ -346,8 +331,7 @@ XROTV:  RST     5
 ; t3 (the sign does not matter): the other leg of a right triangle.  They miss by g:
 ; ERR 06 when by more than 1 um; when they cross by no more than TL (1 um as a rule)
 ; they touch: 0, and t2 = t3 with its own sign
-XLEG:   RST     5
-        DB      QMU,QOVR,QSUB,QE6N      ; g
+XLEG:   DB      CALC,QMU,QOVR,QSUB,QE6N ; g
         DB      LTL,QADD                ; g+tl
         DB      QJN             ; -
         DB      XLEG1-$
@@ -378,13 +362,11 @@ XMAX1:  LDAX    D
         JMP     COPY5
 
 ; QE6D: takes two numbers, ERR 06 when they are more than 1 um apart
-XE6D:   RST     5
-        DB      QSUB,QABS,QMU,QSWP,QSUB ; room
+XE6D:   DB      CALC,QSUB,QABS,QMU,QSWP,QSUB ; room
         DB      QE6N,QRET               ; -
 ; QE6N: takes a number, ERR 06 when it is negative
 XE6N:   INX     H
         MOV     A,M
         ORA     A
         RP
-ERGEO:  RST     1
-        DB      EGEOM
+ERGEO:  DB      ERROR,EGEOM

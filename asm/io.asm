@@ -77,7 +77,7 @@ POLL2:  MOV     A,M
 ; Clobbers A
         IF      PTTY
 PUNON:  MVI     A,CDC2
-        RST     2
+        DB      PUTC
         ELSE
 PUNON:  MVI     A,1
         STA     OUTSEL
@@ -88,7 +88,7 @@ PUNON:  MVI     A,1
 SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
         CALL    SLIST
         MVI     A,CEOF
-        RST     2
+        DB      PUTC
 ; (fall into PUNOFF)
 
 ; PUNOFF - punch off; the place for a break, since the block is complete
@@ -97,7 +97,7 @@ SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is print
 PUNOFF:
         IF      PTTY
         MVI     A,CDC4
-        RST     2
+        DB      PUTC
         ENDIF
 PAPON:  MVI     A,2
         STA     OUTSEL
@@ -109,8 +109,7 @@ BREAK:  CALL    POLL
         CPI     CCTLC
         RNZ
         MVI     M,0
-ERTAPE: RST     1
-        DB      ETAPE
+ERTAPE: DB      ERROR,ETAPE
 
 ; CRLF - ends the paper's line
 ; Clobbers A
@@ -130,7 +129,7 @@ PUTSI:  XTHL
 PUTS:   MOV     A,M
         ORA     A
         RZ
-        RST     2               ; (without bit 7)
+        DB      PUTC            ; (without bit 7)
         INX     H
         JP      PUTS
         RET

@@ -62,10 +62,10 @@ INCH2:  ORA     A               ; (HL-> KEYB, from BREAK)
         RC
         STAX    B
         INR     C               ; (LINBUF ends with a page)
-        JNZ     PUTC
+        JNZ     PUTC0
         DCR     C               ; full: stays, so that the line is refused
         MVI     A,CBEL
-        RST     2
+        DB      PUTC
         RET
 GETL4:  INX     H               ; take one back; a tape's RUBOUTs mean nothing
         MOV     A,M             ; LOADF
@@ -86,7 +86,7 @@ GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         LXI     H,OUTSEL
         INR     M               ; paper on
         MVI     A,CXOFF         ; the teletype's reader off
-        RST     2
+        DB      PUTC
         ENDIF
         JMP     READY
 GETL6:  POP     H
@@ -253,7 +253,7 @@ LEXCH:  MOV     A,M
 ; In:  DE = its number, HL-> tokens   Out: HL-> behind their end   Clobbers all
 LISTLN: CALL    LISTDE
         MVI     A,CBLANK
-        RST     2
+        DB      PUTC
 ; (fall into LISTOK)
 
 ; LISTOK - prints a line's tokens as text that LEX reads back into the same tokens
@@ -266,7 +266,7 @@ LISTOK: MOV     A,M
         PUSH    D
         JM      LIST1
         CPI     TFLT
-        JNZ     PUTC            ; stands for itself
+        JNZ     PUTC0           ; stands for itself
         MVI     B,9
 ; (fall into PRNUM)
 
@@ -299,7 +299,7 @@ LIST2:  CALL    PRWORD
 ; BLANK - prints a blank
 ; Clobbers A
 BLANK:  MVI     A,CBLANK
-        RST     2
+        DB      PUTC
         RET
 LIST3:  CPI     TSUB
         JNC     LIST4
@@ -326,7 +326,7 @@ LISTDE: PUSH    H
         RET
 LIST4:  CALL    PRLET
         MVI     A,CLBRK
-        RST     2
+        DB      PUTC
         RET
 
 ; PRLET - prints the letter with index A (low half)

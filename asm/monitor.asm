@@ -57,9 +57,9 @@ ERR1:   DAD     H               ; (1 becomes 2: no mark)
         STA     LOADF
         IF      PTTY
         MVI     A,CDC4          ; the teletype's punch and reader off
-        RST     2
+        DB      PUTC
         MVI     A,CXOFF
-        RST     2
+        DB      PUTC
         ENDIF
         DCR     C
         PUSH    PSW
@@ -73,7 +73,7 @@ ERR2:   DCR     L               ; (LINBUF begins at 80H of its page)
         CM      BLANK
         JM      ERR2
         MVI     A,CMARK
-        RST     2
+        DB      PUTC
 ERR3:   LDA     LASTC
         CPI     CLF
         CNZ     CRLF
@@ -103,13 +103,13 @@ READY:  LXI     SP,STKTOP
         LXI     H,0100H
         SHLD    NXTP+1          ; and CHKF: parse only
         MVI     A,CPRMPT
-        RST     2
+        DB      PUTC
         CALL    GETLIN
         LXI     H,-TOKS-TOKROM-1
         DAD     D
         JC      ERMEM
         PUSH    D               ; -> behind the tokens
-        RST     6
+        DB      PEEK
         DCR     A               ; TFLT?
         JNZ     STMT            ; no number: a direct line
         CALL    LINENO
@@ -123,11 +123,11 @@ READY:  LXI     SP,STKTOP
 ; STMT - one statement
 ; In:  TXTP   Clobbers all
 STMT:   CALL    CALINI
-        RST     6
-        JZ      CHKEND          ; none at all
+        DB      PEEK
+        JZ      CHKEN0          ; none at all
         CPI     TFROM
         JC      ASSIGN
-        RST     3
+        DB      NEXT
         LXI     H,STTAB-2*TFROM+256 ; (JTAB takes 2*A in a byte)
         JMP     JTAB
 
@@ -159,10 +159,10 @@ FIND1L: CALL    ADDA
         JC      FIND1L
         RET
 
-; LINE - takes the head of a program line
+; PLINE - takes the head of a program line
 ; In:  HL-> its record   Out: DE = number, HL-> tokens, A = bytes from there to the next
 ;      record; CY: the program ends here   Clobbers nothing else
-LINE:   MOV     A,M
+PLINE:  MOV     A,M
         SUI     3
         RC
         INX     H
@@ -174,18 +174,16 @@ LINE1:  MOV     E,M             ; (STORE takes a number here, RETURN its line)
 
 ; LINENO - takes a line number
 ; In:  TXTP   Out: HL = number, 0...65535; ERR 01   Clobbers all
-LINENO: RST     4
-        DB      TFLT
+LINENO: DB      EXPECT,TFLT
         CALL    OPFLT
         LXI     H,MA
         CALL    FTOI16
         RNC
-        RST     1
-        DB      ESYN
+        DB      ERROR,ESYN
 
 ; OPTLN - takes a line number, if there is one, and demands the statement's end
 ; Out: DE = number, else 0   Clobbers all
-OPTLN:  RST     6
+OPTLN:  DB      PEEK
         LXI     H,0
         JZ      LNEND1
 ; (fall into LNEND)
@@ -194,11 +192,11 @@ OPTLN:  RST     6
 ; Out: DE = number   Clobbers all
 LNEND:  CALL    LINENO
 LNEND1: XCHG
-        RST     7
+        DB      CHKEND
         RET
 
 ; SRETN - statement: RETURN
-SRETN:  RST     7
+SRETN:  DB      CHKEND
         LHLD    GSP
         MOV     A,L
         ORA     A               ; (GSTKE begins a page)
@@ -229,9 +227,8 @@ SGOSUB: CALL    LNEND
 
 ; SIF - statement: IF expression relation expression GOTO n
 SIF:    CALL    EVNUM
-        RST     5
-        DB      LA0,QEND        ; left
-        RST     3
+        DB      CALC,LA0,QEND   ; left
+        DB      NEXT
         MOV     B,A             ; B, C = what makes it true
         MOV     C,A
         SUI     CLESS
@@ -241,16 +238,15 @@ SIF:    CALL    EVNUM
         JP      SIF1
         MVI     A,2             ; behind < both = and >
 SIF1:   MOV     D,A
-        RST     6
+        DB      PEEK
         SUI     CEQU
         CMP     D
         JNC     SIF2            ; (what else stands there EVNUM sees)
-        RST     3               ; <= >= <>
+        DB      NEXT            ; <= >= <>
         MOV     C,A
 SIF2:   PUSH    B
         CALL    EVNUM
-        RST     4
-        DB      TGOTO
+        DB      EXPECT,TGOTO
         CALL    CHECK
         JNZ     SGOTO
         CALL    CMPNE           ; right with left
@@ -274,8 +270,7 @@ SGOTO:  CALL    LNEND
 ; In:  DE = its number; ERR 02
 GOLINE: CALL    FINDLN
         JZ      RUN1
-ERLINE: RST     1
-        DB      ELINE
+ERLINE: DB      ERROR,ELINE
 
 ; SRUN - command: RUN, RUN n
 SRUN:   CALL    OPTLN
@@ -295,7 +290,7 @@ RUNLP:  LHLD    NXTP
         MOV     A,H
         ORA     A
         JZ      READY
-        CALL    LINE
+        CALL    PLINE
         JC      END1            ; past the last line
         SHLD    TXTP
         CALL    ADDA
@@ -310,7 +305,7 @@ DIRECT: LXI     SP,STKTOP
         JMP     RUNLP
 
 ; SEND - statement: END
-SEND:   RST     7
+SEND:   DB      CHKEND
 END1:   CALL    ENDRT
         MVI     B,2             ; DD
         CALL    PUNDS
@@ -319,23 +314,23 @@ END1:   CALL    ENDRT
 ; SPRINT - statement: PRINT item, item ...
 SPRINT: LXI     H,CRLF
         PUSH    H               ; comes last
-        RST     6
-        JZ      CHKEND
-SPRI1:  RST     6
+        DB      PEEK
+        JZ      CHKEN0
+SPRI1:  DB      PEEK
         CPI     CQUOTE
         JZ      SPRI3
         CALL    EVAL
         CALL    PRVAL
 SPRI2:  CALL    MORE
         MVI     A,CBLANK
-        RST     2
+        DB      PUTC
         JMP     SPRI1
-SPRI3:  RST     3               ; the quote
-SPRI4:  RST     3
+SPRI3:  DB      NEXT            ; the quote
+SPRI4:  DB      NEXT
         JZ      ERSYN           ; no second quote
         CPI     CQUOTE
         JZ      SPRI2
-        RST     2
+        DB      PUTC
         JMP     SPRI4
 
 ; SDATA - statement: DATA expression, ...: nothing, until READ comes
@@ -349,11 +344,11 @@ SDAT1:  LXI     H,SDAT1         ; where MORE returns to
 ; MORE - in a list: takes the comma; where there is none the statement must end, and
 ;        the routine that called is left
 ; Clobbers A, HL
-MORE:   RST     6
+MORE:   DB      PEEK
         CPI     CCOMMA
-        JZ      NEXT
+        JZ      NEXT0
         POP     H
-        RST     7
+        DB      CHKEND
         RET
 
 ; SREST - statement: RESTORE, RESTORE n
@@ -374,7 +369,7 @@ SREAD:  CALL    GETREF
 ; In:  DE = name; ERR 08   Clobbers all
 READI:  CALL    CHKRET
         PUSH    D
-        RST     6               ; HL = TXTP
+        DB      PEEK            ; HL = TXTP
         PUSH    H
         LHLD    DATP
         MOV     A,M
@@ -382,7 +377,7 @@ READI:  CALL    CHKRET
         JZ      READI2
         MVI     A,2             ; over the 00 and the check byte
 READI1: CALL    ADDA
-        CALL    LINE
+        CALL    PLINE
         JC      ERDATA
         MOV     B,A
         MOV     A,M
@@ -391,7 +386,7 @@ READI1: CALL    ADDA
         JNZ     READI1
 READI2: CALL    NEXT1           ; TXTP = HL+1
         CALL    EVAL
-        RST     6
+        DB      PEEK
         SHLD    DATP
 ; (fall into READI3)
 
@@ -424,34 +419,33 @@ ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
 ; In:  DE = name   Clobbers all
 ASK:    CALL    CHKRET
         PUSH    D
-        RST     6               ; HL = TXTP
+        DB      PEEK            ; HL = TXTP
         PUSH    H
 ASK1:   CALL    PUTSI
         DB      "?",0A0H
         CALL    GETLIN
         CALL    EVAL
-        RST     7
+        DB      CHKEND
         JMP     READI3
 
 ; SLIST - command: LIST, LIST n, LIST n,m
-SLIST:  RST     6
+SLIST:  DB      PEEK
         LXI     H,-1            ; HL = last line to list
         LXI     D,0             ; DE = first
         JZ      SLIS2
         CALL    LINENO
         PUSH    H
-        RST     6
+        DB      PEEK
         POP     H
         PUSH    H               ; one number: that line
         JZ      SLIS1
-        RST     4
-        DB      CCOMMA
+        DB      EXPECT,CCOMMA
         CALL    LINENO
 SLIS1:  POP     D
 SLIS2:  PUSH    H
-        RST     7
+        DB      CHKEND
         CALL    FINDLN
-SLIS3:  CALL    LINE
+SLIS3:  CALL    PLINE
         POP     B               ; last
         RC
         MOV     A,C
@@ -465,7 +459,7 @@ SLIS3:  CALL    LINE
         JMP     SLIS3
 
 ; SNEW - command: NEW
-SNEW:   RST     7
+SNEW:   DB      CHKEND
 NEW1:   LXI     H,PROG
         SHLD    PEND
         MVI     M,0
@@ -488,10 +482,10 @@ CLRPTR: LXI     H,GSTKE
         JMP     REST1
 
 ; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it
-SLOAD:  RST     7
+SLOAD:  DB      CHKEND
         IF      PTTY
         MVI     A,CXON          ; the teletype's reader on
-        RST     2
+        DB      PUTC
         ENDIF
 SLOA1:  CALL    BREAK
         IF      PTTY

@@ -34,7 +34,7 @@ EVAL:   MVI     A,1             ; an operator of rank 1 (comma) ends it
 ; Out: as EVAL   Clobbers all
 EVALR:  PUSH    PSW
         CALL    OPND
-EVA1:   RST     6               ; PEEK
+EVA1:   DB      PEEK            ; PEEK
         LXI     H,OPCHRS
         MVI     C,7             ; C = rank; 0 when it is no operator
 EVA2:   CMP     M
@@ -46,7 +46,7 @@ EVA3:   POP     PSW
         CMP     C
         RNC
         PUSH    PSW
-        RST     3               ; NEXT: take the operator
+        DB      NEXT            ; NEXT: take the operator
         LDA     VKIND
         MOV     B,A             ; B = left kind, C = rank
         LXI     H,-15
@@ -125,7 +125,7 @@ COPY1:  LDAX    D
 OPND:   LXI     H,-STKLOW-STKROM
         DAD     SP
         JNC     ERMEM           ; nested too deep
-        RST     3
+        DB      NEXT
         CPI     TFLT
         JZ      OPFLT
         CPI     CLPAR
@@ -184,12 +184,11 @@ OPK1:   DCR     B
 ; OPPAR - an expression in parentheses; in it the comma is an operator
 OPPAR:  XRA     A
         CALL    EVALR
-        RST     4
-        DB      CRPAR
+        DB      EXPECT,CRPAR
         RET
 
 ; OPFLT - a number of five bytes
-OPFLT:  RST     6
+OPFLT:  DB      PEEK
         XCHG
         LXI     H,MA
         CALL    COPY5
@@ -240,12 +239,10 @@ NEGVAL: CALL    CHKRET
         CALL    NOTURN
         CPI     KCIR
         JZ      NEGV1
-        RST     5
-        DB      LA0,QNEG,SA0    ; -
+        DB      CALC,LA0,QNEG,SA0 ; -
         DB      LA1,QNEG,SA1    ; -
         DB      QEND
-NEGV1:  RST     5
-        DB      LA2,QNEG,SA2    ; -
+NEGV1:  DB      CALC,LA2,QNEG,SA2 ; -
         DB      QRET
 
 ; NAME - a name with its subscript worked out
@@ -259,8 +256,7 @@ NAME:   MOV     D,A             ; (all of it when a byte follows)
         PUSH    PSW
         CALL    EVINT
         XCHG
-        RST     4
-        DB      CRBRK
+        DB      EXPECT,CRBRK
         CALL    SUBCHK
         POP     PSW
         ADD     A               ; (4 * TSUB is 0 in a byte)
@@ -269,7 +265,7 @@ NAME:   MOV     D,A             ; (all of it when a byte follows)
         ORA     D
         MOV     D,A
         RET
-NAME1:  RST     3
+NAME1:  DB      NEXT
         MOV     E,A
         RET
 
@@ -333,11 +329,10 @@ FIND2:  MVI     B,0
 ; In:  TXTP -> name   Clobbers all
 ASSIGN: CALL    GETREF
         PUSH    D
-        RST     4
-        DB      CEQU
+        DB      EXPECT,CEQU
         CALL    EVAL
         POP     D
-        RST     7
+        DB      CHKEND
 ; (fall into SETREF)
 
 ; SETREF - gives a name the value
@@ -378,7 +373,7 @@ SETR1:  MOV     A,C
 
 ; GETREF - a name on the left side, or in READ and INPUT
 ; In:  TXTP -> name   Out: DE = name; ERR 03 for O, X, Y   Clobbers all
-GETREF: RST     3
+GETREF: DB      NEXT
         CALL    NAME
         CALL    CHKRET
         CALL    FIND
@@ -386,8 +381,7 @@ GETREF: RST     3
         MOV     A,H
         CPI     RAM/256
         RNC
-ERUNS:  RST     1
-        DB      EUNSET
+ERUNS:  DB      ERROR,EUNSET
 
 ; PRVAL - prints the value: a number, or (x,y), (x,y,r), (alpha,beta,gamma)
 ; In:  a0 a1 a2, VKIND   Clobbers all
@@ -401,13 +395,13 @@ PRVAL:  CALL    CHKRET
         JZ      PRV1            ; a point
         INR     C
 PRV1:   MVI     A,CLPAR
-PRV2:   RST     2
+PRV2:   DB      PUTC
         CALL    PRNUM
         MVI     A,CCOMMA
         DCR     C
         JNZ     PRV2
         MVI     A,CRPAR
-        RST     2
+        DB      PUTC
         RET
 
 ; EVINT - value of an expression that must be a whole number
@@ -416,19 +410,17 @@ EVINT:  CALL    EVNUM
         CALL    CHKRET
         CALL    NRINT
         JNZ     ERRNG
-        LXI     H,MB
+        LXI     H,MVB
         CALL    FTOI16
         RNC
-        RST     1
-        DB      ERANGE
+        DB      ERROR,ERANGE
 
 ; SUBCHK - demands that a subscript is not too large
 ; In:  DE   Out: ERR 05   Clobbers HL
 SUBCHK: LXI     H,-SUBMAX-1
         DAD     D
         RNC
-ERRNG:  RST     1
-        DB      ERANGE
+ERRNG:  DB      ERROR,ERANGE
 
 ; EVPNT - value of an expression that must be a point
 ; EVNUM - of one that must be a number
@@ -449,16 +441,14 @@ EVKIND: PUSH    PSW
 KINDIS: LXI     H,VKIND
         CMP     M
         RZ
-ERKIND: RST     1
-        DB      EKIND
+ERKIND: DB      ERROR,EKIND
 
 ; NOTURN - demands that the value is no rotation
 ; In:  VKIND   Out: A = VKIND   Clobbers nothing else
 NOTURN: LDA     VKIND
         CPI     KTURN
         RNZ
-        RST     1
-        DB      EKIND
+        DB      ERROR,EKIND
 
 ; CHKRET - in check mode leaves the routine that called it; the kind of the value is not known then
 ; In:  CHKF   Out: in check mode HL = 4, a number that does anywhere, and VKIND = KTURN   Clobbers A
@@ -474,13 +464,11 @@ CHKRET: CALL    CHECK
 FINT:   CALL    NRINT
         LXI     H,MA
         JNZ     FFLR
-        RST     5
-        DB      LB0,SA0,QRET    ; -
+        DB      CALC,LB0,SA0,QRET ; -
 
 ; NRINT - nearest whole number
 ; In:  a0   Out: b0 = it, Z set when a0 is nearly equal to it   Clobbers all
-NRINT:  RST     5
-        DB      LA0             ; a
+NRINT:  DB      CALC,LA0        ; a
         DB      QHALF,QADD      ; a+1/2
         DB      QFLR            ; b
         DB      QEND
@@ -490,8 +478,7 @@ NRINT:  RST     5
 ; In:  a0, b   Out: b0 = b; Z when they are closer than 1E-7 * max(1,|a|,|b|); else CY set
 ;      when a < b
 ; Clobbers all
-CMPNE:  RST     5
-        DB      SB0             ; -
+CMPNE:  DB      CALC,SB0        ; -
         DB      LA0,LB0,QSUB    ; a-b
         DB      QDUP,ST0        ; a-b
         DB      QABS            ; |a-b|

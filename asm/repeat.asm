@@ -62,8 +62,7 @@ IMAGE:  CALL    FETCH
         LDA     VKIND
         ORA     A
         JZ      IMAG1
-        RST     5
-        DB      LRA,LRT,QMUL,SB0 ; -
+        DB      CALC,LRA,LRT,QMUL,SB0 ; -
         DB      LRX,SB1,LRY,SB2 ; -
         DB      QEND
         LHLD    ROP             ; L = rank, H = kind
@@ -80,8 +79,7 @@ IMAG1:  LDA     RFILW
 ; In:  HL = operation on them, a = its right operand (a2 not scaled yet)
 ; Out: ROP, RA RX RY, RT = 1, RSTOP, HL = its first item = RSRC; ERR 06, ERR 09   Clobbers all
 OPENRT: SHLD    ROP
-        RST     5
-        DB      LA0,SRA,Q1,SRT,LA1,SRX ; -
+        DB      CALC,LA0,SRA,Q1,SRT,LA1,SRX ; -
         DB      LA2,LSC,QMUL,SRY,QEND ; -
         LDA     RITEMS
         ORA     A
@@ -119,11 +117,11 @@ CPHD:   MOV     A,H
 ; JOINT - ends a curve, takes the ";" that SYM and REP may begin with
 ; Out: RJOIN   Clobbers all
 JOINT:  CALL    FITEND
-        RST     6
+        DB      PEEK
         CPI     CSEMI
         MVI     A,0
         JNZ     JOINT1
-        RST     3
+        DB      NEXT
         RRC                     ; bit 7
 JOINT1: STA     RJOIN
         RET
@@ -132,10 +130,9 @@ JOINT1: STA     RJOIN
 SREP:   CALL    JOINT
         CALL    EVINT
         PUSH    H
-        RST     4
-        DB      CCOMMA
+        DB      EXPECT,CCOMMA
         CALL    EVAL
-        RST     7
+        DB      CHKEND
         POP     H
         SHLD    RCOUNT
         MOV     A,H
@@ -146,8 +143,7 @@ SREP:   CALL    JOINT
         JZ      SREP1
         CPI     KTURN
         JNZ     ERKIND
-SREP1:  RST     5
-        DB      LA1,LSC,QMUL,SA1,QEND ; -
+SREP1:  DB      CALC,LA1,LSC,QMUL,SA1,QEND ; -
         LXI     H,KTURN*256+2   ; #
         CALL    OPENRT
 SREP2:  LHLD    RCOUNT
@@ -164,8 +160,7 @@ SREP3:  MOV     A,M
         CALL    IMAGE
         CALL    STEP
         JNZ     SREP3
-        RST     5
-        DB      LRT,Q1,QADD,SRT,QEND ; -
+        DB      CALC,LRT,Q1,QADD,SRT,QEND ; -
         JMP     SREP2
 
 ; SSYM - statement: SYM line
@@ -174,7 +169,7 @@ SREP3:  MOV     A,M
 SSYM:   CALL    JOINT
         MVI     A,KLIN
         CALL    EVKIND
-        RST     7
+        DB      CHKEND
         LXI     H,KLIN*256+7    ; /
         CALL    OPENRT
         LHLD    RSTOP
@@ -216,7 +211,7 @@ STEPB:  LXI     D,-16
         JMP     STEP1
 
 ; SRECUT - statement: RECUT
-SRECUT: RST     7
+SRECUT: DB      CHKEND
         LDA     RBACK
         ORA     A
         JZ      ERGEO
@@ -230,10 +225,9 @@ SREC1:  MOV     A,M
 
 ; SSCALE - statement: SCALE number
 SSCALE: CALL    EVNUM
-        RST     7
+        DB      CHKEND
         CALL    POSIT
         LDA     RITEMS
         ORA     A
         JNZ     ERGEO
-        RST     5
-        DB      LA0,SSC,QRET    ; -
+        DB      CALC,LA0,SSC,QRET ; -

@@ -8,7 +8,7 @@
 
 A name belongs to the file that defines it, as a label or by EQU. A file uses another one when it names something of
 it in an instruction, a DB, DW or EQU. An operation of the calculator (`QCRS`) belongs to the file of its routine
-(`XCRS`), which OPTAB tells; a restart to start.asm. What equ.asm defines belongs to all.
+(`XCRS`), which OPTAB tells; a restart's byte (`DB CALC,...`) to start.asm. What equ.asm defines belongs to all.
 The line Room: says how many bytes a file may have, and how many with an option: `Room:   400 bytes, 480 with NODRIFT`.
 """
 
@@ -33,7 +33,6 @@ WORD = re.compile(r"(?<![\w&])[A-Z][A-Z0-9]*\b")
 TEXT = re.compile(r'"[^"]*"')
 OPERATION = re.compile(r"^(Q\w+)\s+EQU\s+(?:(\w+)H|QOWN\+(\d+))\b")
 TABLE = re.compile(r"(?:OPTAB:)?\s+DW\s+(.*)")
-RESTART = re.compile(r"\bRST\s+([1-7])")
 #: A header's line, with those that go on with it, further in.
 OFFERS = re.compile(r"^; Offers:.*\n(?:;  +.*\n)*", re.M)
 ROOM = re.compile(r"^; Room: +(\d+) bytes(?:, (.*))?$", re.M)
@@ -84,8 +83,6 @@ def read(files: Collection[str]) -> dict[str, Room]:
     routines = operations(rooms)
     for room in rooms.values():
         for line in map(code, room.lines):
-            if room.name != "start" and (restart := RESTART.search(line)):
-                room.uses["start"].add(f"RST{restart[1]}")
             operands = STATEMENT.match(line)
             for name in WORD.findall(operands[1]) if operands else ():
                 home = owner.get(routines.get(name, name)) or owner.get(name, COMMON)

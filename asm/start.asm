@@ -1,11 +1,20 @@
 ; start.asm - restarts, what becomes of a line that is understood, and reset
-; Offers: RST1 RST2 RST3 RST4 RST5 RST6 RST7 CHECK PUTC NEXT NEXT1 ERMEM ERSYN ADDA ERDATA CHKEND
-;         SREM SFREE VARSUM
+; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK PUTC0 NEXT0 NEXT1 ERMEM ERSYN ADDA ERDATA
+;         CHKEN0 SREM SFREE VARSUM
 ; Uses:   calc cut io lexer monitor parser repeat
 ; Room:   390 bytes, 400 with BRD51
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
 ; grows past it; a test looks at the GAP labels.
+
+; The restarts' bytes (equ.asm says why they are data)
+ERROR   EQU     0CFH
+PUTC    EQU     0D7H
+NEXT    EQU     0DFH
+EXPECT  EQU     0E7H
+CALC    EQU     0EFH
+PEEK    EQU     0F7H
+CHKEND  EQU     0FFH
 
 ; RST 0 - reset
         JMP     RESET
@@ -18,7 +27,7 @@ CHECK:  LDA     CHKF
 GAP08:  DS      08H-$
 
 ; RST 1 - ERROR: the statement ends, with the error whose number follows the RST
-ERROR:  POP     H
+ERROR0: POP     H
         MOV     A,M             ; A = number
         LXI     SP,STKTOP
         JMP     ERR
@@ -26,7 +35,7 @@ GAP10:  DS      10H-$
 
 ; RST 2 - PUTC: prints, and punches when the punch is on
 ; In:  A, whose bit 7 does not count   Clobbers nothing
-PUTC:   PUSH    PSW
+PUTC0:  PUSH    PSW
         PUSH    H
         PUSH    B
         ANI     7FH
@@ -35,29 +44,27 @@ GAP18:  DS      18H-$
 
 ; RST 3 - NEXT: takes a token
 ; In:  TXTP   Out: A = token, Z at the line's end; TXTP behind it   Clobbers HL
-NEXT:   RST     6
+NEXT0:  DB      PEEK
 NEXT1:  INX     H               ; (READI takes an item here, OPFLT a number)
         SHLD    TXTP
         RET
 
-ERMEM:  RST     1
-        DB      EMEM
+ERMEM:  DB      ERROR,EMEM
 GAP20:  DS      20H-$
 
 ; RST 4 - EXPECT: takes a token, which must be the one that follows the RST
 ; In:  TXTP   Out: A = token; ERR 01   Clobbers HL
-EXPECT: RST     3
+EXPEC0: DB      NEXT
         XTHL                    ; HL-> the byte behind the RST
         CMP     M
         INX     H
         XTHL
         RZ
-ERSYN:  RST     1
-        DB      ESYN
+ERSYN:  DB      ERROR,ESYN
 GAP28:  DS      28H-$
 
 ; RST 5 - CALC: byte-code follows the RST
-        JMP     CALC
+        JMP     CALC0
 
 ; ADDA - adds A to HL
 ; In:  A, HL   Out: HL   Clobbers A
@@ -70,19 +77,17 @@ GAP30:  DS      30H-$
 
 ; RST 6 - PEEK: looks at the next token
 ; In:  TXTP   Out: A = token, Z at the line's end; HL = TXTP   Clobbers nothing else
-PEEK:   LHLD    TXTP
+PEEK0:  LHLD    TXTP
         MOV     A,M
         ORA     A
         RET
 
-ERDATA: RST     1
-        DB      EDATA
+ERDATA: DB      ERROR,EDATA
 GAP38:  DS      38H-$
 
 ; RST 7 - CHKEND: the statement must end here; in check mode it is left for good
 ; In:  TXTP, CHKF   Out: ERR 01   Clobbers A, HL
-CHKEND: RST     4
-        DB      TEOL
+CHKEN0: DB      EXPECT,TEOL
 ; SREM - statement: REM text
 SREM:   CALL    CHECK
         RZ
@@ -103,7 +108,7 @@ CHKED:  LXI     H,TOKS
 ; In:  LINUM = its number, STKTOP-2
 STORE:  MVI     L,STMT0 & 255
         SHLD    TXTP
-        RST     3
+        DB      NEXT
         CPI     TRUN
         JNC     ERSYN           ; commands do not go into a program
         XRA     A               ; it is listed, unseen (OUTSEL = 0, from GETLIN): is it a line
@@ -245,7 +250,7 @@ RESE5:  CALL    VARSUM
 ; (fall into SFREE)
 
 ; SFREE - command: FREE
-SFREE:  RST     7
+SFREE:  DB      CHKEND
         LHLD    PEND
         XCHG
         LHLD    VBOT

@@ -82,12 +82,11 @@ ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
         MVI     B,CLTS
 ARC3:   CALL    SETZG
         JC      ARC4
-        RST     5               ; count along Y: turned by a quarter
+        DB      CALC            ; count along Y: turned by a quarter
         DB      LA1,LA0,QNEG,SA1,SA0 ; -
         DB      LB1,LB0,QNEG,SB1,SB0 ; -
         DB      QEND
-ARC4:   RST     5
-        DB      LT3,QJN         ; -             an arc of up to half a turn ...
+ARC4:   DB      CALC,LT3,QJN    ; -             an arc of up to half a turn ...
         DB      ARC5-$
         DB      LA1,LB1,QSIG,QJN ; -            ... in one half plane needs no r
         DB      ARC5-$
@@ -135,7 +134,7 @@ ARC9:
 ; In:  W, V   Out: W = V   Clobbers all.  Byte-code jumps to MOVE0
 MOVE:
         IF      NODRIFT
-        RST     5
+        DB      CALC
         ENDIF
 MOVE0:  DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
         DB      LVY,LWY,QSUB,QDUP,SA1,QABS,SBY ; -
@@ -149,7 +148,7 @@ MOVE0:  DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
 
 ; PUTBLK - lists and punches a block; J = 0 is none
 ; In:  BX BY BJ, TGAX TZLET TZNUM, V   Out: W = V; ERR 10 when too long   Clobbers all
-PUTBLK: RST     5
+PUTBLK: DB      CALC
 PUTB0:  DB      LVX,SWX,LVY,SWY ; -
         DB      Q8DIG           ; 99999999
         DB      LBX,LBY,QMAX,LBJ,QMAX ; 99999999 max
@@ -177,39 +176,37 @@ PUTB0:  DB      LVX,SWX,LVY,SWY ; -
         MOV     M,A
         CALL    PUT2D
         MVI     A,CBLANK
-        RST     2
+        DB      PUTC
         CALL    PUNON
         LXI     H,MBX
         LXI     B,8*256+3       ; digits, numbers
 PUTB1:  MVI     A,CLTB
-        RST     2
+        DB      PUTC
         CALL    PRNUM
         DCR     C
         JNZ     PUTB1
         MVI     A,CLTG
-        RST     2
+        DB      PUTC
         LHLD    TGAX            ; and TZLET
         MOV     A,L
-        RST     2
+        DB      PUTC
         MOV     A,H
-        RST     2
+        DB      PUTC
         CPI     CLTL
         MVI     A,CLTR
-        CNZ     PUTC
+        CNZ     PUTC0
         LDA     TZNUM
-        RST     2
+        DB      PUTC
 PUTB2:  CALL    CRLF            ; (PUNDS ends here too)
         JMP     PUNOFF
 PUTB3:  DB      QRET
 PUTB4:  DB      QEND
-        RST     1
-        DB      ETAPE
+        DB      ERROR,ETAPE
 
 ; Operations of the calculator that the tape adds
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
-XRND:   RST     5
-        DB      Q1000,QMUL              ; um
+XRND:   DB      CALC,Q1000,QMUL         ; um
         DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
         DB      QFLR,Q8DIG,QOVR,QSUB    ; um |whole| room
         DB      QJN
@@ -218,13 +215,11 @@ XRND:   RST     5
         IF      NODRIFT
 ; QROOT: w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
 ; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
-XROOT:  RST     5
-        DB      QSQ,LA0,LA1,QSS,QSUB ; w^2-n
+XROOT:  DB      CALC,QSQ,LA0,LA1,QSS,QSUB ; w^2-n
         DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root
         ENDIF
 ; QVK: V = K in whole um; A = K, since the wire goes there (by no fillet, for all that is known here)
-XVK:    RST     5
-        DB      Q0,SSG          ; -
+XVK:    DB      CALC,Q0,SSG     ; -
         DB      LKX,QDUP,SAX,QRND,SVX   ; -
         DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -
 
@@ -273,5 +268,5 @@ PUT2D:  PUSH    PSW
         POP     PSW
 PUT1D:  ANI     0FH
         ORI     CZERO
-        RST     2
+        DB      PUTC
         RET

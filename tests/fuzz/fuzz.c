@@ -25,6 +25,7 @@
 #include "../../emu/image.h"
 #include "noise.h"
 
+#include <ctype.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -468,6 +469,7 @@ static void read_symbols(places *at, const char *path)
  * A DB of one byte that is the opcode of CPI, MVI B, LXI B or LDA, to skip what is behind it, is an instruction too. */
 static void read_listing(fuzz *f, const char *path)
 {
+    static const char *const restarts[] = { "ERROR", "PUTC", "NEXT", "EXPECT", "CALC", "PEEK", "CHKEND" };
     char line[512];
     unsigned count = 0;
     FILE *file = fopen(path, "r");
@@ -488,8 +490,15 @@ static void read_listing(fuzz *f, const char *path)
         if (sscanf(text, "%15s", word_) != 1 || at >= BOARD_ROM_SIZE) {
             continue;
         }
+        bool restart = false;
+        const char *operand = strstr(text, word_) + strlen(word_);
+        operand += strspn(operand, " ");
+        for (size_t i = 0; i < sizeof restarts / sizeof *restarts; i++) {
+            size_t length = strlen(restarts[i]);
+            restart |= !strncmp(operand, restarts[i], length) && !isalnum((unsigned char)operand[length]);
+        }
         bool data = !strcmp(word_, "DB") || !strcmp(word_, "DW") || !strcmp(word_, "DS");
-        if (!data || (!strcmp(word_, "DB") && (first == 0xfe || first == 0x06 || first == 0x01 || first == 0x3a))) {
+        if (!data || (!strcmp(word_, "DB") && (restart || first == 0xfe || first == 0x06 || first == 0x01 || first == 0x3a))) {
             f->instruction[at] = true;
             count++;
         }
@@ -536,7 +545,8 @@ int main(int argc, char **argv)
     if (!f.noise.line_count) {
         quit("no examples");
     }
-    if (image_rom(rom, f.rom, sizeof f.rom, error, sizeof error)) {
+    static bool given[BOARD_ROM_SIZE];
+    if (image_rom(rom, f.rom, given, sizeof f.rom, error, sizeof error)) {
         quit(error);
     }
     read_symbols(&f.at, sym);

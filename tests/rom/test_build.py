@@ -7,10 +7,12 @@ call, over the data that stands behind RST 1, RST 4, RST 5 and calls of FUN (the
 from __future__ import annotations
 
 import functools
+import importlib.util
 import re
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -18,6 +20,11 @@ import pytest
 from romhelp import ROOT
 
 from skg.machine import symbols
+
+_spec = importlib.util.spec_from_file_location("builder", ROOT / "asm" / "build.py")
+assert _spec and _spec.loader
+builder = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(builder)
 
 ROMS = ROOT / "roms"
 ROM_SIZE = 8192
@@ -280,7 +287,7 @@ def test_only_8080_code_is_reached(name: str) -> None:
     # The walk is the listing's code, but for a DB that skips the one or two bytes behind it.
     strays = walk.code - instructions
     skips = (0xFE, 0x06, 0x01, 0x3A)  # CPI, MVI B, LXI B, LDA: their operand is the instruction that is skipped
-    restarts = [0xC7 + 8 * n for n in range(1, 8)]  # written as DB CALC,...
+    restarts = [0xC7 + 8 * n for n in range(1, 8)]  # written as data: DB CALC,...
     assert all(image[at] in (*skips, *restarts) for at in strays), sorted(map(hex, strays))
     # What no jump leads to by name (an address loaded into a pair and pushed) is little.
     assert len(instructions - walk.code) < len(instructions) / 20
@@ -315,6 +322,58 @@ def test_jumps_of_the_calculator_reach_their_labels(name: str) -> None:
             assert line.at + distance == places[target[1]], line
             found += 1
     assert found > 10
+
+
+def refused(capsys: pytest.CaptureFixture[str], check: Callable[..., None], *arguments: object) -> str:
+    """What a check of asm/build.py says when it ends the build."""
+    with pytest.raises(SystemExit):
+        check(*arguments)
+    return capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        ("MB      EQU     5", "MB is a word"),
+        ("LINE:   NOP", "LINE is a word"),
+        ("        RST     5", "RST"),
+        ("X1:     RST     2", "RST"),
+        ("        NOP", "no label found"),
+    ],
+)
+def test_words_that_an_assembler_refuses(
+    line: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "some.asm").write_text(f"{line}\n")
+    monkeypatch.setattr(builder, "ASM", tmp_path)
+    assert why in refused(capsys, builder.check_words, ["some"])
+
+
+def test_jumps_that_do_not_fit_and_listings_that_are_not_understood(capsys: pytest.CaptureFixture[str]) -> None:
+    fit = "\n".join(f"{n:04X}   00  DB      THERE-$" for n in range(100))
+    builder.check_jumps(fit, {"THERE": 0x20})
+    assert "0000 to THERE: 128 bytes do not fit" in refused(capsys, builder.check_jumps, fit, {"THERE": 0x80})
+    assert "only 0 jumps" in refused(capsys, builder.check_jumps, fit.lower(), {"THERE": 0x20})
+
+
+def test_z88dks_listing_is_read() -> None:
+    """As release 2.4 writes it; the bytes are the image's."""
+    text = """top.asm:
+     1                                  ORG 0
+     2                          X EQU 5
+     3  0000  210000            A1:     LXI H,B1 ; a comment
+     4  0003  0102030405060708          DB 1,2,3,4,5,6,7,8,9
+              09
+     5
+in.asm:
+     1  000c  00                B1:NOP
+"""
+    image = bytes([0x21, 0x0C, 0x00, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0])
+    assert builder.z88dk_listing(text, image).splitlines() == [
+        "0000   21 0C 00 A1: LXI H,B1 ; a comment",
+        "0003   01 02 03 04 05 06 07 08 09  DB 1,2,3,4,5,6,7,8,9",
+        "000C   00 B1: NOP",
+    ]
 
 
 @pytest.mark.parametrize("name", VARIANTS)

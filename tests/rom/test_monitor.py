@@ -39,7 +39,7 @@ def test_the_routines_between_the_restarts_fit() -> None:
     names = labels()
     for vector in range(0x08, 0x40, 0x08):
         assert names.get(f"GAP{vector:02X}", 0) <= vector
-    assert names["GAP38"] and names["CHKEND"] == 0x38
+    assert names["GAP38"] and names["CHKEN0"] == 0x38
 
 
 def test_no_comma_in_front_of_the_program(board: Board) -> None:
