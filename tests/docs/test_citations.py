@@ -33,7 +33,7 @@ LINK = re.compile(r"\]\((?P<target>[^)\s]+)\)")
 NUMBERS = r"(?P<numbers>\d+(?:\.\d+)*(?:(?:, | and | to )\d+(?:\.\d+)*)*)"
 PAGE = re.compile(
     r"(?P<file>[\w./-]*\w\.md)`?(?:\]\([^)\s]+\))?"
-    rf"(?:, sections? (?:{NUMBERS}|\"(?P<title>[^\"]+)\"))?")
+    rf"(?:, sections? (?:{NUMBERS}|(?P<titles>\"[^\"]+\"(?: and \"[^\"]+\")*)))?")
 #: A section or table that stands behind no page.
 ALONE = re.compile(r"\b(?:sections?|tables?|chapters?|§) ?(?P<number>\d+(?:\.\d+)*)")
 #: What may not follow a page's name: other ways to write a section.
@@ -126,8 +126,10 @@ class Pages:
                 wrong = "no such page"
             elif page["numbers"]:
                 wrong = self._sections(target, re.findall(r"[\d.]*\d", page["numbers"]))
-            elif page["title"]:
-                wrong = None if page["title"] in headings(self.root / target) else "no such heading"
+            elif page["titles"]:
+                known = headings(self.root / target)
+                missing = [title for title in re.findall(r'"([^"]+)"', page["titles"]) if title not in known]
+                wrong = f"no such heading: {', '.join(missing)}" if missing else None
             elif badly := BADLY.match(text, page.end("file")):
                 wrong = f"a section is cited as `, section 1.2` or `, section \"Title\"`, not `{badly[0]}`"
             cite(page.start(), page[0], wrong)
@@ -202,6 +204,7 @@ BAD = {
     "h.md": "# H\n[no heading](docs/spec.md#nowhere)\n",
     "i.md": "# I\nSee section 3.\n",
     "j.asm": "; spec.md,\n; sections 1 and 3\n",
+    "m.py": '# spec.md, sections "Odd words: and more" and "Other words"\n',
     "l.py": '# docs/spec.md ("Odd words: and more")\n',
     "k.md": "# K\n[spec.md](docs/spec.md), section 7\n",
 }

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from skg.ref import near, real
 from skg.ref.fault import Code, Fault
 from skg.ref.real import MICRON, NEARLY, Real
-from skg.ref.values import ORIGIN, Circle, Curve, Line, Point, Turn, Value
+from skg.ref.values import ORIGIN, Circle, Curve, Line, Point, Rotation, Value
 
 #: Sine of a crossing angle below which a float's last bits are magnified a hundred times: worth a note.
 SHALLOW = 1e-2
@@ -161,7 +161,7 @@ def negate(v: Value) -> Value:
             return Circle(x, y, -r)
         case Line(a, b, g):
             return Line(-a, -b, -g)
-        case Turn():
+        case Rotation():
             raise Fault(Code.KINDS)
     return -v
 

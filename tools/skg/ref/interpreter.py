@@ -50,7 +50,7 @@ from skg.ref.parser import (
 from skg.ref.real import ZERO, Real
 from skg.ref.route import Segment
 from skg.ref.tape import Punch
-from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Turn, Value, canonical, kind
+from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Rotation, Value, canonical, kind
 
 #: Levels of GOSUB.
 LEVELS = 8
@@ -316,17 +316,17 @@ class Interpreter:
 
     def _rep(self, s: Rep) -> None:
         count = self.number(s.count)
-        turn = self.evaluate(s.turn)
-        if not isinstance(turn, Turn):
-            if kind(turn) != "D":
+        rotation = self.evaluate(s.rotation)
+        if not isinstance(rotation, Rotation):
+            if kind(rotation) != "D":
                 raise Fault(Code.KINDS)
-            turn = Turn(turn, ORIGIN)
+            rotation = Rotation(rotation, ORIGIN)
         copies = real.whole(count)
         if copies < 1:
             raise Fault(Code.RANGE)
         if copies > MOST_COPIES:
             raise Fault(Code.MEMORY)
-        self.cutter.repeat(copies, turn.angle, turn.centre, s.right, self.offset)
+        self.cutter.repeat(copies, rotation.angle, rotation.centre, s.right, self.offset)
 
     def _fit(self, node: Point, angle: Real | None) -> None:
         tangent = None if angle is None else Point(real.cos(angle), real.sin(angle))

@@ -8,7 +8,7 @@ from skg.ref import real
 from skg.ref.fault import Code, Fault
 from skg.ref.geometry import belt, circle, crossings, mirrored, parallel, turned, unit
 from skg.ref.real import ZERO, Real, in_range
-from skg.ref.values import C, Circle, D, Line, P, Point, S, T, Turn, Value, kind
+from skg.ref.values import C, Circle, D, Line, P, Point, Rotation, S, T, Value, kind
 
 
 def _checked(p: Point) -> Point:
@@ -57,7 +57,7 @@ OPERATIONS: dict[tuple[str, str, str], _Operation] = {
     (C, ":", C): belt,
     (C, ":", P): lambda c, p: belt(c, _as_circle(p)),
     (P, ":", C): lambda p, c: belt(_as_circle(p), c),
-    (D, ":", P): Turn,
+    (D, ":", P): Rotation,
     (D, "#", D): _polar,
     (P, "#", D): turned,
     (C, "#", D): turned,

@@ -117,11 +117,11 @@ class Sym:
 
 @dataclass(frozen=True)
 class Rep:
-    """REP count, turn."""
+    """REP count, rotation."""
 
     right: bool
     count: Expression
-    turn: Expression
+    rotation: Expression
 
 
 @dataclass(frozen=True)

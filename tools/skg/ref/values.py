@@ -86,17 +86,17 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Turn:
-    """`A:P`, a turn about P; lives only between `:` and `#` or in REP."""
+class Rotation:
+    """`A:P`, a rotation about P; lives only between `:` and `#` or in REP."""
 
     angle: Real
     centre: Point
 
 
-Value = Real | Point | Circle | Line | Turn
+Value = Real | Point | Circle | Line | Rotation
 Curve = Line | Circle
 
-#: What a value is called in the table of operations; T is a turn, which is no value of its own.
+#: What a value is called in the table of operations; T is a rotation, which is no value of its own.
 D, P, C, S, T = "D", "P", "C", "S", "T"
 
 ORIGIN = Point(ZERO, ZERO)
@@ -105,7 +105,7 @@ Y_AXIS = Line(real.ONE, ZERO, ZERO)
 
 
 def kind(v: Value) -> str:
-    """D, P, C, S, or T for a turn that is not a value yet."""
+    """D, P, C, S, or T for a rotation, which is not a value yet."""
     match v:
         case Point():
             return P
@@ -113,7 +113,7 @@ def kind(v: Value) -> str:
             return C
         case Line():
             return S
-        case Turn():
+        case Rotation():
             return T
     return D
 

@@ -1,7 +1,8 @@
 """The blocks of a 3B tape and their geometry, all in whole micrometres.
 
-A block is ``B x B y B J G Z``; `docs/tools.md` tells what each field means and how the end of an arc follows
-from J. Everything here is exact integer arithmetic: two tools that read one tape always see the same points.
+A block is ``B x B y B J G Z`` (tape-3b.md, sections "Line" and "Arc"); how the end of an arc follows from J stands in
+docs/tools.md, section "The controller". Everything here is exact integer arithmetic: two tools that read one tape
+always see the same points.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Where the corners of a drawing lay, to a fraction of a micrometre, as far as its tape tells.
+"""Where a tape's joints lay on the drawing, to a fraction of a micrometre, as far as the tape tells.
 
 A tape has whole micrometres only, and of an arc's end it tells the coordinate along the count axis alone. What is
 known about the rest, and why the estimates here are the best ones, stands in docs/drift.md, section "Back to the
-drawing".
-All lengths are micrometres. δ is what rounding added to a joint, γ to a centre: evenly spread over ±½ on each axis.
+drawing". All lengths are micrometres. δ is what rounding added to a joint, γ to a centre: evenly spread over ±½ on
+each axis.
 """
 
 from __future__ import annotations
