@@ -2,6 +2,7 @@
 #
 #   make          the emulator, build/skg80: needs gcc alone
 #   make rom      roms/skg.bin .hex .sym and the other boards' images, build/skg.lst, from asm/: needs Python and node
+#   make t T=tests/rom/test_build.py     one test; make lint: the Python sources' style
 #   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
 PYTHON ?= python3
@@ -35,8 +36,15 @@ run: build/skg80
 	@echo
 	@echo "The tape is in build/run.3b."
 
-test: venv asm80 emu tools altairz80
+test: venv asm80 emu tools
 	$(PY) -m pytest -q -n 2 tests
+	@$(MAKE) -s lint
+
+# One test, or some: T=tests/rom/test_build.py, T="-k wrench".
+t: venv asm80 emu tools
+	$(PY) -m pytest -q $(if $(findstring tests,$(T)),,tests) $(T)
+
+lint: venv
 	$(VENV)/bin/ruff check --config tools/pyproject.toml tools asm tests
 
 bench: bench-emu $(if $(wildcard tests/floats/floats.mk),bench-floats) bench-rom
@@ -47,4 +55,4 @@ bench-rom: venv emu
 clean:
 	rm -rf build
 
-.PHONY: all venv run test bench bench-rom clean
+.PHONY: all venv run test t lint bench bench-rom clean
