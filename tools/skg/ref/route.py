@@ -49,6 +49,7 @@ from skg.ref.geometry import (
     nearest,
     parallel,
     place,
+    right,
     same_circle,
     same_point,
     sweep,
@@ -273,7 +274,8 @@ class Route:
         if not _same_offset(e.offset, f.offset):
             raise Fault(Code.GEOMETRY)
         rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start)
-        end = self._travel(e, e.place(touch_e), "cut")
+        touch = (e if isinstance(e.nominal, Circle) else rounding).place(touch_e)
+        end = self._travel(e, touch, "cut")
         start = self._travel(replace(rounding, start=end), rounding.place(touch_f), "fillet")
         return replace(f, start=start, corner=f.place(corner))
 
@@ -310,10 +312,13 @@ class Route:
         signed = radius if turn > 0 else -radius
         inner_e, inner_f = _moved_inwards(e.nominal, signed), _moved_inwards(f.nominal, signed)
         middle = _chosen(crossings(inner_e, inner_f, ZERO), signed < 0)
-        touch_e, touch_f = _touching(e.nominal, middle, signed), _touching(f.nominal, middle, signed)
+        arc = Circle(middle.x, middle.y, signed)
+        # Where they touch within 1 µm only, the place is on the circle, of two circles on the first.
+        touch_e = _touching(e.nominal if isinstance(e.nominal, Circle) else arc, e.nominal, arc)
+        touch_f = _touching(arc, f.nominal, arc)
         if isinstance(e.curve, Circle):
             _check_order(e.curve, e.start, e.place(touch_e), e.place(corner), "fillet fits")
-        return Circle(middle.x, middle.y, signed), touch_e, touch_f, corner
+        return arc, touch_e, touch_f, corner
 
     # Travel ---------------------------------------------------------------------------------------------
 
@@ -439,8 +444,6 @@ def _check_order(path: Circle, start: Point, middle: Point, end: Point, kind: st
         raise Fault(Code.GEOMETRY)
 
 
-def _touching(curve: Curve, middle: Point, radius: Real) -> Point:
-    """Where a circle of that centre and signed radius touches a curve with the same sense."""
-    if isinstance(curve, Line):
-        return nearest(curve, middle)
-    return curve.centre + (middle - curve.centre) * (curve.r / (curve.r - radius))
+def _touching(on: Circle, curve: Curve, arc: Circle) -> Point:
+    """Where a curve and an arc of the same sense touch, on one of two circles: the curve itself or the arc."""
+    return on.centre + right(curve, arc.centre) * on.r
