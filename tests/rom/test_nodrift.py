@@ -16,7 +16,7 @@ from test_random import MOST_ASIDE, SEED, Record
 
 from skg.machine import Machine
 from skg.ref import run as reference
-from skg.tape.block import scan
+from skg.tape.text import scan
 
 SHARES = range(4)
 BLOCKS_A_SHARE = 400
