@@ -53,7 +53,7 @@ def test_syntax_error_runs_nothing(part: Path) -> None:
     part.write_text("10 CUT O,(1,0)\n20 CUT (1,,2)\n")
     done = skg(part)
     assert (done.returncode, done.stdout) == (1, b"")
-    assert done.stderr == b"ERR 01 LINE 20\n20 CUT (1,,2)\n          ^\n"
+    assert done.stderr == b"20 CUT (1,,2)\n          ^\nERR 01 LINE 20\n"
 
 
 @pytest.mark.parametrize(("arguments", "wrong"), [

@@ -214,12 +214,12 @@ def test_hostile_lines() -> None:
         (f"A={nines}", 5),
         (f"A=P{nines}", 5),
         (f"A=A{'0' * 100}1", 3),
-        (f"GOTO {nines}", 2),
+        (f"GOTO {nines}", 5),
         (f"A={'(' * 58}1{')' * 58}", None),
         (f"A={'(' * 100}1", 1),
         (f"A={'-' * 120}1", None),
-        (f"A={'1+' * 60}1", None),
-        (f"A={'1+' * 60}12", 9),
+        (f"A=1{' ' * 120}", None),
+        (f"A=1{' ' * 121}", 9),
         (f"CUT O\n20 REP {nines[:9]},1", 9),
         ("A=\x01", 1),
         ("A=\x01\t2", None),
@@ -228,15 +228,40 @@ def test_hostile_lines() -> None:
     ):
         error = cut(statement).error
         assert (None if error is None else error[0]) == code, statement[:20]
-    assert run(f"{nines} END").error[0] == 1
+    assert run(f"{nines} END").error[0] == 5
+
+
+@pytest.mark.parametrize(
+    ("statement", "code"), [("GOTO 65535", 2), ("GOTO 65536", 1), ("GOSUB 1.5", 1), ("IF 1=1 GOTO 65536", 1),
+                            ("RESTORE 65535", None), ("RESTORE 65536", 1), ("GOTO 1E9", 1)]
+)  # fmt: skip
+def test_the_number_of_a_line(statement: str, code: int | None) -> None:
+    assert cut(statement).error == (None if code is None else (code, 10))
 
 
 def test_a_line_that_is_too_long_is_shown() -> None:
     long = f"20 REM {'x' * 200}"
     result = run(f"10 PRINT 1\n{long}\n30 PRINT 2\n")
     assert result.error == (9, 20)
-    assert result.paper == f"ERR 09 LINE 20\n{long[:127]}\n{' ' * 127}^\n"
+    assert result.paper == f"{long[:127]}\n{' ' * 127}^\nERR 09 LINE 20\n"
     assert run(f"{long[:126]}\n").error is None
+
+
+@pytest.mark.parametrize(
+    ("line", "mark"), [("CUT X,3;5)", 8), ("CUT X,3,5,Y+", 8), ("CUT X,3,5+", 10), ("CUT X,3,(", 9)]
+)  # fmt: skip
+def test_the_first_place_that_is_wrong_is_marked(line: str, mark: int) -> None:
+    assert run(line).paper == f"{line}\n{' ' * mark}^\nERR 01\n"
+
+
+@pytest.mark.parametrize(
+    ("statement", "fits"), [("PRINT " + "1," * 23 + "1", True), ("PRINT " + "1," * 24 + "1", False),
+                            ("PRINT " + "A," * 40 + 'AA[1],"A"', True), ("PRINT " + "1," * 21 + "A,1.5E1,SIN 1", True),
+                            ("PRINT " + "1," * 21 + "A,1.5E1,SIN 1,A,A", False), ("REM " + "1," * 58, True),
+                            (f'PRINT "{"1," * 55}"', True)]
+)  # fmt: skip
+def test_a_line_has_room_for_so_many_numbers(statement: str, fits: bool) -> None:
+    assert (cut(statement).error == (9, 10)) != fits
 
 
 def test_input_is_for_programs() -> None:
@@ -253,7 +278,7 @@ def test_a_route_longer_than_any_buffer() -> None:
 
 def test_error_1_stops_loading_and_marks_the_place() -> None:
     result = cut("PRINT 1", "A = (2 + * 3)", "PRINT 2")
-    assert result.paper == "ERR 01 LINE 20\n20 A = (2 + * 3)\n            ^\n"
+    assert result.paper == "20 A = (2 + * 3)\n            ^\nERR 01 LINE 20\n"
     assert result.tape == b""
 
 

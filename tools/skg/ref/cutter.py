@@ -87,7 +87,7 @@ class Cutter:
         self.moved = True
         self.closed = None
         if self.route is None:
-            self.route = Route(self.wire, self._emit)
+            self.route = Route(self.wire, self.from_point, self._emit)
         self.route.feed(value, offset, right)
 
     def fillet(self, radius: Real, right: bool) -> None:
@@ -136,7 +136,7 @@ class Cutter:
         if closed is None or self.route is not None:
             raise Fault(Code.GEOMETRY)
         _in_memory(closed.items)
-        self.route = Route(self.wire, self._emit)
+        self.route = Route(self.wire, self.from_point, self._emit)
         for item in closed.items:
             self.route.feed_item(item, offset)
         if closed.fillet is not None:
@@ -179,5 +179,8 @@ class Cutter:
         """After an error: a stop if the wire is in the middle of a route."""
         if self.route is not None:
             self.tape.stop()
-            self.route = None
-        self.curve = None
+        self.forget()
+
+    def forget(self) -> None:
+        """The open route is given up, and there is none that RECUT could cut again."""
+        self.route = self.curve = self.closed = None

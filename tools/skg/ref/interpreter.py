@@ -90,11 +90,16 @@ class _End(Exception):
     """The run is over."""
 
 
-class Interpreter:
-    """One machine: a program, variables, a tape."""
+class Endless(Exception):
+    """More lines were carried out than the caller has patience for."""
 
-    def __init__(self, inputs: Iterable[str], watch: Watch, tape: Punch) -> None:
+
+class Interpreter:
+    """One machine: a program, variables, a tape; `Endless` after `patience` lines (None: never)."""
+
+    def __init__(self, inputs: Iterable[str], watch: Watch, tape: Punch, patience: int | None = None) -> None:
         self.answers = iter(inputs)
+        self.patience = patience
         self.watch = watch
         self.program: dict[int, Statement] = {}
         self.tape = tape
@@ -120,18 +125,25 @@ class Interpreter:
                 line = parse_line(text)
             except LineFault as fault:
                 number = re.match(r"\s*(\d+)", text)
-                error = self._report(fault.code, whole(number.group(1)) if number else None)
                 self.paper.append(f"{text[: LONGEST + 1]}\n{' ' * fault.column}^\n")
-                return error
+                return self._report(fault.code, whole(number.group(1)) if number else None)
             if line.number is None:
                 error = self._run_from(line.statement)
                 if error is not None:
                     return error
-            elif line.statement is None:
+                continue
+            if line.statement is None:
                 self.program.pop(line.number, None)
             else:
                 self.program[line.number] = line.statement
+            self._forget_places()
         return None
+
+    def _forget_places(self) -> None:
+        """What another program makes void: the open route, where DATA and GOSUB were."""
+        self.cutter.forget()
+        self.data_at = 0
+        self.returns.clear()
 
     def run(self) -> tuple[int, int | None] | None:
         """RUN; the error that ended it, if any."""
@@ -171,6 +183,10 @@ class Interpreter:
 
     def _at(self, number: int | None) -> None:
         self.watch.line = self.cutter.line = number
+        if self.patience is not None:
+            self.patience -= 1
+            if self.patience < 0:
+                raise Endless
 
     def _report(self, code: Code, number: int | None) -> tuple[int, int | None]:
         where = "" if number is None else f" LINE {number}"
@@ -415,16 +431,23 @@ def _typed(line: str) -> str:
     return re.sub(r"[\x00-\x1f\x7f]", "", line.split("\x15")[-1])
 
 
-def run(source: str, inputs: Iterable[str] = (), bits: int | None = None, drift: bool = True) -> Result:
+def run(
+    source: str,
+    inputs: Iterable[str] = (),
+    bits: int | None = None,
+    drift: bool = True,
+    patience: int | None = None,
+) -> Result:
     """Load a program and RUN it; `inputs` are the operator's answers to INPUT.
 
     Without `drift` each block starts where the controller really stands after the one before (docs/drift.md).
+    With `patience` a program that carries out more lines than that raises `Endless`.
 
     With `bits`, everything is computed with a mantissa of that many bits instead of 50 digits. A program
     whose tape comes out differently at 33 bits is ill-conditioned for the machine's own floats.
     """
     with watching() as watch, real.mp.workprec(bits or real.mp.prec):
-        machine = Interpreter(inputs, watch, Punch() if drift else DriftlessPunch())
+        machine = Interpreter(inputs, watch, Punch() if drift else DriftlessPunch(), patience)
         error = machine.load(source)
         if error is None:
             error = machine.run()

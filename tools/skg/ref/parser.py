@@ -17,6 +17,10 @@ from skg.ref.real import Real
 LAST_LINE = 9999
 #: Characters of a line.
 LONGEST = 126
+#: Bytes that the machine has for the words of a line (language.md, section 3).
+ROOM = 175
+#: What GOTO, GOSUB, IF, RESTORE take.
+LARGEST_NUMBER = 65535
 LAST_SUBSCRIPT = 999
 #: Which kind the first letter of a name stands for (as in `values.kind`).
 LETTERS = {letter: kind for kind, letters in {"D": "ADRIJ", "P": "POV", "C": "CBT", "S": "SXY"}.items()
@@ -241,13 +245,21 @@ class ProgramLine:
     statement: Statement | None
 
 
+def _line_number(token: Token) -> int:
+    """The number of a line, however it is written; error 1 when it is not whole or more than 65535."""
+    value = real.literal(token)
+    if value != real.mp.floor(value) or value > LARGEST_NUMBER:
+        raise LineFault(Code.SYNTAX, token.start_pos)
+    return int(value)
+
+
 class _Tree(Transformer):
     """lark's tree to ours, built while parsing."""
 
     def line(self, children: list) -> ProgramLine:
         if not isinstance(children[0], Token):
             return ProgramLine(None, children[0])
-        number = whole(children[0])
+        number = _line_number(children[0])
         if not 1 <= number <= LAST_LINE:
             raise LineFault(Code.SYNTAX, children[0].start_pos)
         return ProgramLine(number, children[1])
@@ -309,17 +321,17 @@ class _Tree(Transformer):
         return Print(tuple(str(i[1:-1]) if isinstance(i, Token) else i for i in items))
 
     def restore(self, children: list) -> Restore:
-        return Restore(None if children[0] is None else whole(children[0]))
+        return Restore(None if children[0] is None else _line_number(children[0]))
 
     def goto(self, children: list) -> Goto:
-        return Goto(whole(children[0]))
+        return Goto(_line_number(children[0]))
 
     def gosub(self, children: list) -> Gosub:
-        return Gosub(whole(children[0]))
+        return Gosub(_line_number(children[0]))
 
     @v_args(inline=True)
     def if_(self, left: Expression, relation: Token, right: Expression, line: Token) -> If:
-        return If(left, str(relation), right, whole(line))
+        return If(left, str(relation), right, _line_number(line))
 
     from_ = v_args(inline=True)(From)
     scale = v_args(inline=True)(Scale)
@@ -424,16 +436,44 @@ def squeeze(text: str) -> tuple[str, list[int]]:
     return "".join(out), columns
 
 
+_WORD = re.compile(
+    r"""(?P<text>"[^"]*"?)|(?P<number>([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+)?)
+    |FROM|CUT|BACK|SYM|REP|RECUT|FIT|TOL|SCALE|READ|DATA|RESTORE|PRINT|INPUT|GOTO|IF|GOSUB|RETURN|END|REM
+    |SQR|SIN|COS|TG|ATG|ABS|INT|K[123]|[ADRIJPOVCBTSXY]\[|(?P<name>[ADRIJPOVCBTSXY][0-9]*)|(?P<blank>␣)|.""",
+    re.VERBOSE,
+)
+
+
+def room(squeezed: str) -> int:
+    """Bytes that the words of a line take: a number 6, a name 2, a text its characters and quotes, all else 1."""
+    sizes = {"number": 6, "name": 2, "blank": 0, None: 1}
+    return sum(len(word[0]) if word.lastgroup == "text" else sizes[word.lastgroup] for word in _WORD.finditer(squeezed))
+
+
+def _earlier_fault(good: str, start: str, columns: list[int]) -> None:
+    """Raise what is wrong with the items that stand before the place where a line stops making sense."""
+    for whole_items in (good, good[: max(good.rfind(","), good.rfind(";"), 0)]):
+        try:
+            _parser().parse(whole_items, start=start)
+        except UnexpectedInput:
+            continue
+        except LineFault as fault:
+            raise LineFault(fault.code, columns[fault.column]) from None
+
+
 def _parse(text: str, start: str) -> ProgramLine | Expression:
     if len(text) > LONGEST:
         raise LineFault(Code.MEMORY, LONGEST + 1)
     squeezed, columns = squeeze(text)
+    if room(squeezed) > ROOM:
+        raise LineFault(Code.MEMORY, len(text))
     columns.append(len(text))
     try:
         return _parser().parse(squeezed, start=start)
     except UnexpectedInput as unexpected:
         place = unexpected.pos_in_stream
         at_end = place is None or getattr(getattr(unexpected, "token", None), "type", "") == "$END"
+        _earlier_fault(squeezed if at_end else squeezed[:place], start, columns)
         raise LineFault(Code.SYNTAX, columns[-1 if at_end else place]) from None
     except LineFault as fault:
         raise LineFault(fault.code, columns[fault.column]) from None

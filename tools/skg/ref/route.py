@@ -145,10 +145,11 @@ def _same_offset(r1: Real, r2: Real) -> bool:
 
 
 class Route:
-    """An open route. `emit` takes its segments, in order; `wire` is where the wire is before it."""
+    """An open route. `emit` takes its segments, in order; before it the wire is at `wire`, `hole` is the FROM point."""
 
-    def __init__(self, wire: Point, emit: Callable[[Segment], None]) -> None:
+    def __init__(self, wire: Point, hole: Point, emit: Callable[[Segment], None]) -> None:
         self.wire = wire
+        self.hole = hole
         self.emit = emit
         self.items: list[Item] = []
         self.first_point: Point | None = None
@@ -245,7 +246,7 @@ class Route:
 
     def _enter(self, nominal: Curve, offset: Real, curve: Curve) -> None:
         p = self.point
-        start = nearest(curve, self.wire) if p is None else place(nominal, p, offset)
+        start = nearest(curve, self.hole) if p is None else place(nominal, p, offset)
         self.emit(Segment(self.wire, start, "entry"))
         self.first = self.element = Element(nominal, offset, curve, start)
 
