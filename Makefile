@@ -5,6 +5,7 @@
 #   make t T=tests/rom/test_build.py     one test; make lint: the Python sources' style
 #   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
+#   make hunt     a million random programs, firmware against reference (PROGRAMS=1000000)
 PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python
@@ -16,6 +17,7 @@ include emu/emu.mk
 include asm/asm.mk
 include tools/tools.mk
 include tests/fuzz/fuzz.mk
+include tests/rom/soup.mk
 -include tests/floats/floats.mk
 
 # The virtual environment of the host tools and tests, made anew when the pinned list changes.

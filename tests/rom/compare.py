@@ -32,6 +32,11 @@ SIZE = 100
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:E-?\d+)?")
 
+#: One word of a line: a number, a name, a word, a sign, a text; blanks may stand in it.
+WHOLE_WORD = re.compile(r'[0-9.][0-9.E \t+-]*|[A-Z](?:[A-Z0-9] *\t*)*\[?|[<>] *=|< *>|"[^"]*"?|.', re.I)
+#: What is marked where a fillet cannot stand.
+FILLET = re.compile(r"[\w.+\[\]]+ *\)*(?: *[,;].*)?")
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -75,22 +80,54 @@ def same_paper(a: list[str], b: list[str]) -> bool:
     return len(a) == len(b) and all(map(same_line, a, b))
 
 
+def refused(result: Result) -> bool:
+    """Whether the reference refused a line while loading: its paper ends in the line, a mark, the error."""
+    return bool(re.search(r"^ *\^\nERR \d\d(?: LINE \d+)?\n\Z", result.paper, re.M))
+
+
+def as_if(result: Result) -> Outcome:
+    """The reference's result in the shape of the firmware's, LINE of a refused line left out."""
+    paper, error = lines(result.paper), result.error
+    if refused(result):
+        error = (error[0], None)
+        paper[-1] = f"ERR {error[0]:02d}"
+    return Outcome(result.tape, paper, error)
+
+
+def same_mark(a: list[str], b: list[str]) -> bool:
+    """Whether two papers that end in a refused line, its mark and the error mark the same word of it.
+
+    The firmware marks where the word ends, the reference where it begins. Of a fillet that cannot stand the reference
+    marks the radius, the firmware the end of the item that shows it.
+    """
+    if a[:-2] != b[:-2] or a[-1] != b[-1] or a[-2].strip() != "^":
+        return False
+    word = a[-3][b[-2].index("^") : a[-2].index("^") + 1]
+    fillet = "CUT" in a[-3].upper() and FILLET.fullmatch(word)
+    return bool(fillet or WHOLE_WORD.fullmatch(word))
+
+
+def differs(outcome: Outcome, result: Result) -> tuple[str, str]:
+    """How the two differ: in a few words, and in full; both empty when they do not."""
+    wanted = as_if(result)
+    if outcome.error != wanted.error:
+        ours, theirs = (f"ERR {e[0]:02d}" if e else "no error" for e in (outcome.error, wanted.error))
+        kind = f"{ours}, reference {theirs}" if ours != theirs else f"{ours} elsewhere"
+        return kind, f"error {outcome.error}, reference {wanted.error}"
+    if outcome.tape != wanted.tape:
+        ours, theirs = outcome.tape.decode().split(), wanted.tape.decode().split()
+        at = next(
+            (n for n, (a, b) in enumerate(zip(ours, theirs, strict=False)) if a != b), min(len(ours), len(theirs))
+        )
+        return "tape", f"block {at + 1}: {ours[at : at + 3]}, reference {theirs[at : at + 3]}"
+    if not same_paper(outcome.paper, wanted.paper) and not (refused(result) and same_mark(outcome.paper, wanted.paper)):
+        return "paper", f"paper {outcome.paper}, reference {wanted.paper}"
+    return "", ""
+
+
 def difference(outcome: Outcome, result: Result) -> str:
     """How the firmware's outcome differs from the reference's result; empty when it does not."""
-    if outcome.error == (1, None) and result.error and result.error[0] == 1:
-        return ""  # both refused a line while loading; the board names no LINE, since nothing runs
-    if outcome.error != result.error:
-        return f"error {outcome.error}, reference {result.error}"
-    if outcome.tape != result.tape:
-        ours, theirs = outcome.tape.decode().split(), result.tape.decode().split()
-        at = next(
-            (n for n, (a, b) in enumerate(zip(ours, theirs, strict=False)) if a != b),
-            min(len(ours), len(theirs)),
-        )
-        return f"block {at + 1}: {ours[at : at + 2]}, reference {theirs[at : at + 2]}"
-    if not same_paper(outcome.paper, lines(result.paper)):
-        return f"paper {outcome.paper}, reference {lines(result.paper)}"
-    return ""
+    return differs(outcome, result)[1]
 
 
 def compare(program: str, answers: tuple[str, ...] = ()) -> Verdict:

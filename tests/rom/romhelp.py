@@ -53,8 +53,9 @@ class Outcome:
 class Board:
     """A board of one of the `BOARDS` at its first prompt, with an operator who reads what is printed."""
 
-    def __init__(self, ram_kib: int = 8, kind: str = "skg") -> None:
-        self.machine = Machine(image(kind), ram_kib, **BOARDS[kind])
+    def __init__(self, ram_kib: int = 8, kind: str = "skg", rom: bytes | None = None, limit: int = RUN_LIMIT) -> None:
+        self.limit = limit
+        self.machine = Machine(rom or image(kind), ram_kib, **BOARDS[kind])
         assert self.machine.run() == "prompt", self.machine.tty
         self.machine.clear()
 
@@ -62,7 +63,7 @@ class Board:
         """What is printed after a line has been typed, up to the next prompt, its echo left out."""
         start = len(self.machine.tty)
         self.machine.type(f"{line}\r")
-        reason = self.machine.run(RUN_LIMIT)
+        reason = self.machine.run(self.limit)
         paper = self.machine.tty[start:]
         assert reason == "prompt", f"{line!r} ends in {reason}: {paper[-300:]!r}"
         return paper.removesuffix(">").split("\r\n")[1:-1]
@@ -84,7 +85,7 @@ class Board:
             start = len(self.machine.tty)
             self.machine.type("RUN\r")
             waiting = iter(answers)
-            while (reason := self.machine.run(RUN_LIMIT)) == "input":
+            while (reason := self.machine.run(self.limit)) == "input":
                 answer = next(waiting, None)
                 if answer is None:
                     self.machine.press(CTRL_C)
