@@ -412,7 +412,8 @@ CORN9:  DB      QRET
 CORN2:  DB      CALC            ; as seen from P both pass at their offsets alone
         DB      LO1,SA2,LO2,SB2,QEND ; -
         CALL    SXS
-        DB      CALC,LKX,LA0,QADD,LKY,LA1,QADD,QTOK,QRET ; -
+        DB      CALC,LKX,SB0,LKY,SB1,Q1,QJMP ; 1
+        DB      NAMED3-$
 CORN1:  DB      CALC            ; between arcs of a curve: both run the same way, square to the radius
         DB      QCA,QDIF,SA1,SA0 ; -            a = from the centre to P
         DB      LCR,LNR,QE6D    ; -

@@ -184,13 +184,15 @@ TRY1:   DB      QEND
         LXI     D,MNODE1
         CALL    ARCW
         CALL    MIRR1
-        DB      CALC,ST2,ST3,QEND ; -             t2 t3 = tangent at the joint
+        DB      CALC,ST2,ST3    ; -             t2 t3 = tangent at the joint
+        DB      LMX,L1X,QADD,LT2,QMUL ; m
+        DB      LMY,L1Y,QADD,LT3,QMUL,QADD,SBX,QEND ; - bx = how far the joint lies along it
         LXI     D,HELD
 TRY2:   LXI     H,MT0
         CALL    CPYPL           ; t0 t1 = n
         PUSH    D
-        DB      CALC,LMX,L1X,QADD,LT0,QSUB,LT2,QMUL ; x       o1 = how far n lies before the joint
-        DB      LMY,L1Y,QADD,LT1,QSUB,LT3,QMUL,QADD,SO1,QEND ; -
+        DB      CALC,LBX,LT0,LT2,QMUL,LT1,LT3,QMUL,QADD ; m n
+        DB      QSUB,SO1,QEND   ; -             o1 = how far n lies before the joint
         LXI     D,MNODE1
         LDA     MO1+1
         ORA     A
