@@ -3,9 +3,9 @@
 
     asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] [--variant] [--listing FILE] OUT
 
-writes OUT.bin (padded to 8,192 bytes), OUT.hex and OUT.sym and prints bytes per source file. A variant of the ROM for
-another board differs in few lines: --variant writes the image alone, .bin and .hex, and prints one line. The
-assembler's listing goes to FILE.
+writes OUT.bin (padded to 8,192 bytes), OUT.hex and OUT.sym (lines of value, name and, of a label, its source file) and
+prints bytes per source file. A variant of the ROM for another board differs in few lines: --variant writes the image
+alone, .bin and .hex, and prints one line. The assembler's listing goes to FILE.
 The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from node_modules.
 """
 
@@ -174,6 +174,15 @@ def check_jumps(listing: str, symbols: dict[str, int]) -> None:
             fail(f"calculator jump at {address} to {target}: {distance} bytes do not fit")
 
 
+def label_files(files: list[str]) -> dict[str, str]:
+    """The source file of every label; what else has a name is an equate."""
+    found = {}
+    for file in files:
+        text = (ASM / f"{file}.asm").read_text()
+        found |= {label.upper(): file for label in re.findall(r"^(\w+):", text, re.M)}
+    return found
+
+
 def intel_hex(image: bytes) -> str:
     """Intel hex, 16 bytes a record."""
     records = []
@@ -224,8 +233,10 @@ def main() -> None:
         args.listing.write_text(listing)
     if args.variant:
         return
+    places = label_files(files)
     names = sorted((v, k) for k, v in symbols.items() if not k.startswith("ZB"))
-    args.out.with_suffix(".sym").write_text("".join(f"{v:04X} {k}\n" for v, k in names))
+    lines = [f"{v:04X} {k} {places.get(k, '')}".rstrip() for v, k in names]
+    args.out.with_suffix(".sym").write_text("\n".join([*lines, ""]))
 
 
 if __name__ == "__main__":

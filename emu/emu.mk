@@ -1,6 +1,7 @@
 # The emulator: build/skg80 and, for the tests, build/libskg80.so. `make bench-emu` prints the core's speed.
 EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
-EMU_PROGRAM := emu/board.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c emu/main.c
+EMU_PROGRAM := emu/board.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c emu/main.c \
+               emu/symbols.c emu/disasm.c emu/calculator.c emu/trace.c emu/debug.c emu/commands.c
 EMU_LIBRARY := emu/board.c emu/machine.c
 EMU_COMPARE := tests/emu/compare.c tests/emu/plain8080.c
 EMU_FUZZ    := tests/emu/fuzz.c emu/com.c emu/image.c $(EMU_LIBRARY)
@@ -11,9 +12,9 @@ EMU_ASAN    := -g -fsanitize=address,undefined -fno-sanitize-recover=all
 emu: build/skg80 build/libskg80.so
 
 # The ROM is built in when there is one.
-SKG80_ROM := $(wildcard roms/skg.bin)
+SKG80_ROM := $(wildcard roms/skg.bin roms/skg.sym)
 ifneq ($(SKG80_ROM),)
-EMU_ROM := -DSKG80_BUILT_IN_ROM -DSKG80_ROM='"$(SKG80_ROM)"' emu/rom.S
+EMU_ROM := -DSKG80_BUILT_IN_ROM -DSKG80_ROM='"roms/skg.bin"' -DSKG80_SYM='"roms/skg.sym"' emu/rom.S
 endif
 
 EMU_CC = @mkdir -p $(@D); $(CC) $(EMU_CFLAGS) $(CFLAGS)
@@ -23,7 +24,7 @@ build/emu/i8080.o: emu/i8080.c $(EMU_HEADERS)
 	$(EMU_CC) -fPIC -c -o $@ $<
 
 build/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/emu/i8080.o
-	$(EMU_CC) -o $@ $(EMU_PROGRAM) build/emu/i8080.o $(EMU_ROM)
+	$(EMU_CC) -o $@ $(EMU_PROGRAM) build/emu/i8080.o $(EMU_ROM) -lm
 
 build/libskg80.so: $(EMU_LIBRARY) build/emu/i8080.o
 	$(EMU_CC) -fPIC -shared -o $@ $(EMU_LIBRARY) build/emu/i8080.o
@@ -46,7 +47,7 @@ build/asan/fuzz: $(EMU_FUZZ) build/asan/i8080.o
 	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_FUZZ) build/asan/i8080.o
 
 build/asan/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/asan/i8080.o
-	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_PROGRAM) build/asan/i8080.o $(EMU_ROM)
+	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_PROGRAM) build/asan/i8080.o $(EMU_ROM) -lm
 
 build/emu/%.com: tests/emu/%.asm tests/emu/asm8080.py
 	@mkdir -p $(@D); $(PYTHON) tests/emu/asm8080.py $< $@

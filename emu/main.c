@@ -17,8 +17,10 @@
 #include "board.h"
 #include "com.h"
 #include "complain.h"
+#include "debug.h"
 #include "image.h"
 #include "options.h"
+#include "symbols.h"
 #include "terminal.h"
 
 #include <errno.h>
@@ -39,6 +41,8 @@ enum {
 typedef struct {
     options o;
     board *board;
+    debug *debug;                   /* NULL: nobody looks */
+    symbols *names;
     terminal terminal;
     pacer pacer;
     FILE *paper, *punch;            /* NULL: nowhere */
@@ -49,7 +53,8 @@ typedef struct {
 } session;
 
 #ifdef SKG80_BUILT_IN_ROM
-extern const uint8_t skg80_rom[BOARD_ROM_SIZE];    /* roms/skg.bin, by rom.S */
+extern const uint8_t skg80_rom[BOARD_ROM_SIZE];    /* roms/skg.bin and its symbols, by rom.S */
+extern const char skg80_sym[];
 #endif
 
 /* ---- what the board prints and punches ---- */
@@ -90,6 +95,7 @@ static bool flush(session *s)
         }
     }
     s->failed = s->failed ? s->failed : s->terminal.failed;
+    s->failed = s->failed || !s->debug ? s->failed : debug_failure(s->debug);
     return !s->failed;
 }
 
@@ -137,13 +143,20 @@ static board_reason run_slice(session *s)
     i8080 *c = &s->board->cpu;
     uint64_t slice = s->pacer.hz > 0 ? (uint64_t)(s->pacer.hz * SLICE_MS / 1000) + 1 : UNPACED_SLICE;
     uint64_t rest = s->o.max_cycles - c->cycles;
-    board_reason reason = board_run(s->board, slice < rest ? slice : rest);
+    uint64_t cycles = slice < rest ? slice : rest;
+    board_reason reason = s->debug ? debug_run(s->debug, cycles) : board_run(s->board, cycles);
     pacer_wait(&s->pacer, c->cycles);
     if (reason == BOARD_PROMPT && !s->prompted) {
         s->prompted = true;
         memset(s->written, 0, sizeof s->written);   /* the size of the RAM was found by writing to it */
     }
     return reason;
+}
+
+/* Has the operator left, by ctrl-] or the debugger's `quit`? */
+static bool left(const session *s)
+{
+    return s->terminal.left || (s->debug && debug_left(s->debug));
 }
 
 /* A port was read that nobody serves. */
@@ -197,7 +210,7 @@ static board_reason until_asked(session *s)
     uint64_t printed = s->printed, since = c->cycles;
     while (c->cycles < s->o.max_cycles) {
         board_reason reason = run_slice(s);
-        if (!flush(s)) {
+        if (!flush(s) || left(s)) {
             return reason;
         }
         if (s->printed != printed || reason == BOARD_CYCLES) {
@@ -231,6 +244,9 @@ static int run_part(session *s, const char *answers)
         board_reason reason = until_asked(s);
         if (s->failed) {
             return report_failure(s);
+        }
+        if (left(s)) {
+            return 0;
         }
         switch (reason) {
         case BOARD_PROMPT:
@@ -299,6 +315,9 @@ static int run_terminal(session *s)
         if (!flush(s)) {
             return report_failure(s);
         }
+        if (left(s)) {
+            return 0;
+        }
         switch (reason) {
         case BOARD_PROMPT:
             if (t->ended) {
@@ -323,9 +342,6 @@ static int run_terminal(session *s)
         if (c->cycles >= s->o.max_cycles) {
             return report(s, BOARD_CYCLES);
         }
-        if (t->left) {
-            return 0;
-        }
         int code = watch_reader(s, &told);
         if (code) {
             return code;
@@ -341,6 +357,10 @@ static int run_terminal(session *s)
         if (t->reset) {
             t->reset = false;
             board_reset(s->board);
+        }
+        if (t->stop) {
+            t->stop = false;
+            debug_stop(s->debug);
         }
         if (wait) {
             pacer_start(&s->pacer, s->pacer.hz, c->cycles);
@@ -421,10 +441,73 @@ static int set_tape(session *s, const char *path)
     return fits ? 0 : complain(EXIT_ERR, "out of memory");
 }
 
+static const char NAMELESS[] = ": no .sym file is beside the ROM, and no --sym FILE is given";
+
+/* The names of the ROM: from --sym, from beside --rom, or built in; none of these is no error. */
+static int set_names(session *s)
+{
+    char error[512], path[4096] = "";
+    const char *dot = s->o.rom ? strrchr(s->o.rom, '.') : NULL;
+    size_t length;
+    if (s->o.sym) {
+        snprintf(path, sizeof path, "%s", s->o.sym);
+    } else if (s->o.rom) {
+        snprintf(path, sizeof path, "%.*s.sym", dot ? (int)(dot - s->o.rom) : (int)strlen(s->o.rom), s->o.rom);
+        if (access(path, F_OK)) {
+            return 0;
+        }
+    }
+#ifdef SKG80_BUILT_IN_ROM
+    if (!*path) {
+        s->names = symbols_new("skg.sym", skg80_sym, error, sizeof error);
+        return s->names ? 0 : complain(EXIT_USAGE, "%s", error);
+    }
+#endif
+    uint8_t *text = image_read(path, FILE_LIMIT, &length, error, sizeof error);
+    s->names = text ? symbols_new(path, (const char *)text, error, sizeof error) : NULL;
+    free(text);
+    return s->names ? 0 : complain(EXIT_USAGE, "%s", error);
+}
+
 static int open_output(FILE **file, const char *path)
 {
     if (path && !(*file = fopen(path, "wb"))) {
         return complain(EXIT_USAGE, "%s: %s", path, strerror(errno));
+    }
+    return 0;
+}
+
+/* Somebody looks at the machine from inside: --debug, --break, --trace. */
+static int set_debug(session *s)
+{
+    const options *o = &s->o;
+    FILE *trace = NULL;
+    bool talks = o->debug || o->break_count;
+    if (!talks && !o->trace) {
+        return o->sym ? complain(EXIT_USAGE, "--sym goes with --debug, --break or --trace") : 0;
+    }
+    if (talks && !o->part && !o->pty && !isatty(STDIN_FILENO)) {
+        return complain(EXIT_USAGE, "--debug and --break need a terminal, a part or --pty");
+    }
+    int code = set_names(s);
+    code = code ? code : open_output(&trace, o->trace);
+    if (code) {
+        return code;
+    }
+    s->debug = debug_new(s->board, s->names, trace, o->debug);
+    if (!s->debug) {
+        return complain(EXIT_ERR, "out of memory");
+    }
+    for (unsigned i = 0; i < o->break_count; i++) {
+        if (!debug_break(s->debug, o->breaks[i])) {
+            return complain(EXIT_USAGE, "--break %s: no such place%s", o->breaks[i], s->names ? "" : NAMELESS);
+        }
+    }
+    if (!s->names) {
+        remark("the addresses have no names%s", NAMELESS);
+    }
+    if (talks && (o->part || o->pty)) {
+        debug_catch_interrupt();
     }
     return 0;
 }
@@ -487,7 +570,8 @@ static int with_terminal(session *s)
     s->terminal.copy = copy;
     terminal_catch_reset();
     if (s->terminal.leaves) {
-        remark("ctrl-] leaves, ctrl-\\ resets");
+        s->terminal.stops = s->o.debug || s->o.break_count;
+        remark("ctrl-] leaves, ctrl-\\ resets%s", s->terminal.stops ? ", ctrl-^ asks what to do" : "");
     } else if (s->o.pty && isatty(STDERR_FILENO)) {
         remark("ctrl-C ends this; kill -USR1 %ld resets", (long)getpid());
     }
@@ -521,6 +605,7 @@ int main(int argc, char **argv)
         return run_com(&s.o);
     }
     code = set_board(&s);
+    code = code ? code : set_debug(&s);
     if (!code) {
         code = s.o.part ? with_part(&s) : with_terminal(&s);
         if (!flush(&s) && !code) {
@@ -530,6 +615,8 @@ int main(int argc, char **argv)
             print_stats(&s);
         }
     }
+    debug_free(s.debug);
+    symbols_free(s.names);
     board_free(s.board);
     return !code && ferror(stderr) ? EXIT_USAGE : code;
 }

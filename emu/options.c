@@ -27,6 +27,10 @@ static const char USAGE[] =
     "  --punch-tty       a teletype alone: its own punch and reader\n"
     "  --stats           cycles, instructions, time and memory used, on standard error\n"
     "  --max-cycles N    give up with exit 3\n"
+    "  --debug           stop before the first instruction and ask what to do (help); ctrl-^ asks again\n"
+    "  --break PLACE     ask when the machine comes to a label or hexadecimal address (may be repeated)\n"
+    "  --trace FILE      write every instruction, and every operation of the calculator, to a file\n"
+    "  --sym FILE        the ROM's names (built in, or beside FILE.bin: FILE.sym)\n"
     "  --com FILE        run a CP/M program instead\n"
     "  --help            this\n"
     "exit: 0 done, 1 the run ended in ERR, 2 wrong usage or a file that cannot be read or written, 3 --max-cycles\n";
@@ -45,7 +49,7 @@ static bool whole_number(const char *text, uint64_t least, uint64_t most, uint64
 /* What is wrong with the options together, or NULL. */
 static const char *misfit(const options *o)
 {
-    if (o->com && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty)) {
+    if (o->com && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->debug || o->break_count || o->trace || o->sym)) {
         return "--com goes with --stats and --max-cycles alone";
     }
     if (o->part && o->pty) {
@@ -67,20 +71,34 @@ static bool same_file(const char *a, const char *b)
            && one.st_ino == other.st_ino;
 }
 
+/* Two files that are to be written, and may not be there yet. */
+static bool will_be_one(const char *a, const char *b)
+{
+    struct stat file;
+    return same_file(a, b) || (a && b && !strcmp(a, b) && stat(a, &file));
+}
+
 /* A file that would be written over what is read, or over what else is written; NULL: none. */
 static const char *overwritten(const options *o)
 {
-    const char *const read[] = { o->part, o->rom, o->input, o->tape }, *const written[] = { o->punch, o->tty };
-    for (size_t w = 0; w < sizeof written / sizeof *written; w++) {
+    const char *const read[] = { o->part, o->rom, o->input, o->tape, o->sym };
+    const char *const written[] = { o->punch, o->tty, o->trace };
+    enum { WRITTEN = sizeof written / sizeof *written };
+    for (size_t w = 0; w < WRITTEN; w++) {
         for (size_t r = 0; r < sizeof read / sizeof *read; r++) {
             if (same_file(written[w], read[r])) {
                 return written[w];
             }
         }
     }
-    bool same = o->punch && o->tty && (same_file(o->punch, o->tty) || !strcmp(o->punch, o->tty));
-    struct stat file;
-    return same && (stat(o->tty, &file) || S_ISREG(file.st_mode)) ? o->tty : NULL;
+    for (size_t w = 0; w < WRITTEN; w++) {
+        for (size_t v = 0; v < w; v++) {
+            if (will_be_one(written[w], written[v])) {
+                return written[w];
+            }
+        }
+    }
+    return NULL;
 }
 
 /* What getopt_long did not like: an option that is not there, or a value where none belongs. */
@@ -98,7 +116,8 @@ static int refuse(char **argv)
 
 int options_read(int argc, char **argv, options *o)
 {
-    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, STATS, MAX_CYCLES, COM, HELP };
+    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, STATS, MAX_CYCLES, COM, DEBUG, BREAK, TRACE,
+           SYM, HELP };
     static const struct option list[] = {
         { "rom", required_argument, NULL, ROM },
         { "ram", required_argument, NULL, RAM },
@@ -114,6 +133,10 @@ int options_read(int argc, char **argv, options *o)
         { "stats", no_argument, NULL, STATS },
         { "max-cycles", required_argument, NULL, MAX_CYCLES },
         { "com", required_argument, NULL, COM },
+        { "debug", no_argument, NULL, DEBUG },
+        { "break", required_argument, NULL, BREAK },
+        { "trace", required_argument, NULL, TRACE },
+        { "sym", required_argument, NULL, SYM },
         { "help", no_argument, NULL, HELP },
         { NULL, 0, NULL, 0 },
     };
@@ -184,6 +207,21 @@ int options_read(int argc, char **argv, options *o)
             break;
         case COM:
             o->com = optarg;
+            break;
+        case DEBUG:
+            o->debug = true;
+            break;
+        case BREAK:
+            if (o->break_count == OPTIONS_BREAKS) {
+                return complain(EXIT_USAGE, "--break %s: more than %d", optarg, OPTIONS_BREAKS);
+            }
+            o->breaks[o->break_count++] = optarg;
+            break;
+        case TRACE:
+            o->trace = optarg;
+            break;
+        case SYM:
+            o->sym = optarg;
             break;
         case HELP:
             fputs(USAGE, stdout);

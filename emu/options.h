@@ -4,13 +4,17 @@
 
 #include "board.h"
 
+enum { OPTIONS_BREAKS = 16 };
+
 typedef struct {
     const char *part, *rom, *input, *punch, *tty, *tape, *com;
+    const char *sym, *trace, *breaks[OPTIONS_BREAKS];
+    unsigned break_count;
     unsigned ram_kib, baud;
     double mhz;                     /* 0: no time is kept */
     uint64_t max_cycles;
     board_kind kind;
-    bool pty, stats, punch_tty;
+    bool pty, stats, punch_tty, debug;
 } options;
 
 /* Fills `o`. Returns 0, or the exit code after a message; -1: all is said and done (--help). */

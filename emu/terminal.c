@@ -10,7 +10,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BACKSLASH = 0x1c, CTRL_BRACKET = 0x1d };
+enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BACKSLASH = 0x1c, CTRL_BRACKET = 0x1d, CTRL_CARET = 0x1e };
 enum { DEAF_AFTER = 1000 };         /* ms; so long a full pseudo-terminal may keep the board waiting */
 
 /* ---- raw mode ---- */
@@ -57,6 +57,18 @@ static void on_continue(int number)
     (void)number;
     set_raw();
     errno = saved;
+}
+
+bool terminal_pause(void)
+{
+    bool was = is_raw;
+    set_cooked();
+    return was;
+}
+
+void terminal_resume(void)
+{
+    set_raw();
 }
 
 bool terminal_is_raw(void)
@@ -213,6 +225,12 @@ static bool take(terminal *t, board *b, uint8_t c)
         if (t->leaves) {
             board_forget_typed(b);
             t->reset = true;
+            return true;
+        }
+        break;
+    case CTRL_CARET:
+        if (t->stops) {
+            t->stop = true;
             return true;
         }
         break;

@@ -22,6 +22,8 @@ typedef struct {
     bool ended;             /* no more will come, or ctrl-] */
     bool left;              /* ctrl-] */
     bool reset;             /* ctrl-\ or USR1; who has seen to it makes it false again */
+    bool stop;              /* ctrl-^, when there is a debugger to stop for; likewise */
+    bool stops;             /* there is one */
     int failed;             /* errno of a character that could not be printed; 0: none */
     bool deaf;              /* nobody reads the pseudo-terminal */
     bool after_cr;
@@ -44,6 +46,10 @@ int terminal_open_pty(terminal *t);
 
 /* Takes the signal USR1 for the reset button from now on. */
 void terminal_catch_reset(void);
+
+/* Leaves raw mode, so that lines can be typed; true when it was on. terminal_resume goes back to it. */
+bool terminal_pause(void);
+void terminal_resume(void);
 
 /* Is the terminal in raw mode now? A line must then end in CR LF. */
 bool terminal_is_raw(void);

@@ -70,8 +70,11 @@ class _Job(ctypes.Structure):
 
 
 def symbols(text: str) -> dict[str, int]:
-    """Addresses by label, out of a .sym file's text (asm/build.py): lines of a hexadecimal address and a label."""
-    return {label: int(address, 16) for address, label in map(str.split, text.splitlines())}
+    """Values by name, out of a .sym file's text (asm/build.py).
+
+    Its lines hold a hexadecimal value, a name and, of a label, its source file.
+    """
+    return {name: int(value, 16) for value, name, *_ in map(str.split, text.splitlines())}
 
 
 def _load() -> ctypes.CDLL:

@@ -1,0 +1,191 @@
+/* A small debugger between the operator and the board: how it runs. See debug.h. */
+#include "debug_state.h"
+
+#include "complain.h"
+#include "trace.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- what it stands on ---- */
+
+debug *debug_new(board *b, const symbols *names, FILE *trace, bool stopped)
+{
+    debug *d = calloc(1, sizeof *d);
+    calculator *k = names ? malloc(sizeof *k) : NULL;
+    if (!d || (names && !k)) {
+        free(d);
+        free(k);
+        return NULL;
+    }
+    const char *missing = names ? calculator_init(k, names) : NULL;
+    if (missing) {
+        remark("no symbol %s: the calculator is not shown", missing);
+        free(k);
+        k = NULL;
+    }
+    *d = (debug){ .board = b, .names = names, .calculator = k, .trace = trace, .mode = stopped ? STOPPED : RUNS };
+    return d;
+}
+
+void debug_free(debug *d)
+{
+    if (d) {
+        if (d->trace) {
+            fclose(d->trace);
+        }
+        free(d->calculator);
+        free(d);
+    }
+}
+
+bool debug_left(const debug *d)
+{
+    return d->left;
+}
+
+int debug_failure(debug *d)
+{
+    if (d->trace && (fflush(d->trace) || ferror(d->trace)) && !d->trace_failed) {
+        d->trace_failed = errno ? errno : EIO;
+    }
+    return d->trace_failed;
+}
+
+void debug_stop(debug *d)
+{
+    d->mode = STOPPED;
+}
+
+bool debug_is_break(const debug *d, uint16_t address)
+{
+    for (unsigned i = 0; i < d->break_count; i++) {
+        if (d->breaks[i] == address) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Is the board at a breakpoint, in machine code or in byte-code? */
+static bool at_break(const debug *d)
+{
+    const i8080 *c = &d->board->cpu;
+    return debug_is_break(d, c->pc) || (trace_at_operation(c, d->calculator) && debug_is_break(d, c->bc));
+}
+
+bool debug_break(debug *d, const char *place)
+{
+    uint16_t address;
+    if (!symbols_address(d->names, place, &address)) {
+        return false;
+    }
+    if (!debug_is_break(d, address)) {
+        if (d->break_count == BREAKS) {
+            return false;
+        }
+        d->breaks[d->break_count++] = address;
+    }
+    return true;
+}
+
+/* ---- running ---- */
+
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+void debug_catch_interrupt(void)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_interrupt;
+    sigaction(SIGINT, &action, NULL);
+}
+
+/* Has the board come to where the operator wants to be asked? */
+static bool arrived(debug *d)
+{
+    const i8080 *c = &d->board->cpu;
+    switch (d->mode) {
+    case STEPS:
+        return --d->count == 0;
+    case OPERATES:
+        return trace_at_operation(c, d->calculator) && --d->count == 0;
+    case RETURNS:
+        return c->sp > d->stack;
+    default:
+        return false;
+    }
+}
+
+static board_reason one_instruction(debug *d)
+{
+    const i8080 *c = &d->board->cpu;
+    if (d->trace) {
+        if (trace_at_operation(c, d->calculator)) {
+            trace_operation(c, d->calculator, d->trace);
+        }
+        trace_instruction(c, d->names, d->trace);
+    }
+    return board_run(d->board, 1);
+}
+
+/* At full speed to a breakpoint, or to where one in byte-code would be seen. */
+static board_reason run_free(debug *d, uint64_t cycles)
+{
+    i8080 *c = &d->board->cpu;
+    for (unsigned i = 0; i < d->break_count; i++) {
+        i8080_break(c, d->breaks[i], true);
+    }
+    if (d->break_count && d->calculator) {
+        i8080_break(c, d->calculator->next, true);
+    }
+    board_reason reason = board_run(d->board, cycles);
+    for (unsigned i = 0; i < d->break_count; i++) {
+        i8080_break(c, d->breaks[i], false);
+    }
+    if (d->calculator) {
+        i8080_break(c, d->calculator->next, false);
+    }
+    return reason;
+}
+
+board_reason debug_run(debug *d, uint64_t cycles)
+{
+    i8080 *c = &d->board->cpu;
+    uint64_t end = c->cycles + cycles;
+    while (c->cycles < end) {
+        if (interrupted) {
+            interrupted = 0;
+            d->mode = STOPPED;
+        }
+        if (d->mode == STOPPED) {
+            debug_talk(d);
+            if (d->left) {
+                return BOARD_CYCLES;
+            }
+        }
+        /* One instruction alone, since it may be the one at the breakpoint that was the last; then all that can be done. */
+        board_reason reason = one_instruction(d);
+        if (reason == BOARD_CYCLES && !at_break(d) && d->mode == RUNS && !d->trace && c->cycles < end) {
+            reason = run_free(d, end - c->cycles);
+            bool looks = debug_is_break(d, c->pc) || trace_at_operation(c, d->calculator);
+            reason = reason == BOARD_BREAK && looks ? BOARD_CYCLES : reason;
+        }
+        if (arrived(d) || at_break(d)) {
+            d->mode = STOPPED;
+        }
+        bool over = reason == BOARD_HALT || reason == BOARD_NOBODY || reason == BOARD_BREAK;
+        if (reason != BOARD_CYCLES && (over || d->mode != STOPPED)) {
+            return reason;          /* (a machine that waits for a key will say so again after the talk) */
+        }
+    }
+    return BOARD_CYCLES;
+}
