@@ -3,7 +3,7 @@
 ;         RBEMP SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL
 ;         XNORM XTOK XNORMS SBACK SBACK1
 ; Uses:   calc consts fit float geom io monitor parser repeat start tape
-; Room:   1262 bytes
+; Room:   1260 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
