@@ -33,7 +33,9 @@ SIZE = 100
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:E-?\d+)?")
 
 #: One word of a line: a number, a name, a word, a sign, a text; blanks may stand in it.
-WHOLE_WORD = re.compile(r'[0-9.][0-9.E \t+-]*|[A-Z](?:[A-Z0-9] *\t*)*\[?|[<>] *=|< *>|"[^"]*"?|.', re.I)
+WHOLE_WORD = re.compile(
+    r'[0-9.][0-9.E \t+-]*|R *E *M.*|[A-Z][ \t]*(?:[A-Z0-9][ \t]*)*\[?|[<>] *=|< *>|"[^"]*"?|.', re.I
+)
 #: What is marked where a fillet cannot stand.
 FILLET = re.compile(r"[\w.+\[\]]+ *\)*(?: *[,;].*)?")
 

@@ -331,15 +331,16 @@ class Interpreter:
                 self.cutter.element(value, right, self.offset)
 
     def _rep(self, s: Rep) -> None:
-        count = self.number(s.count)
+        copies = real.whole(self.number(s.count))
+        if copies < 0:
+            raise Fault(Code.RANGE)
         rotation = self.evaluate(s.rotation)
+        if copies == 0:
+            raise Fault(Code.RANGE)
         if not isinstance(rotation, Rotation):
             if kind(rotation) != "D":
                 raise Fault(Code.KINDS)
             rotation = Rotation(rotation, ORIGIN)
-        copies = real.whole(count)
-        if copies < 1:
-            raise Fault(Code.RANGE)
         if copies > MOST_COPIES:
             raise Fault(Code.MEMORY)
         self.cutter.repeat(copies, rotation.angle, rotation.centre, s.right, self.offset)

@@ -105,13 +105,16 @@ class Segment:
 
 @dataclass(frozen=True)
 class Element:
-    """A curve of the route that has been entered; `corner`: where that would have been but for a fillet."""
+    """A curve of the route that has been entered; after a fillet, which may be too short to be travelled, `corner`
+    is where that would have been without it, and `touch` where the fillet touches the curve, both as offset.
+    """
 
     nominal: Curve
     offset: Real
     curve: Curve
     start: Point
     corner: Point | None = None
+    touch: Point | None = None
 
     def place(self, p: Point) -> Point:
         """A point of the nominal curve as offset."""
@@ -278,7 +281,7 @@ class Route:
         touch = (e if isinstance(e.nominal, Circle) else rounding).place(touch_e)
         end = self._travel(e, touch, "cut")
         start = self._travel(replace(rounding, start=end), rounding.place(touch_f), "fillet")
-        return replace(f, start=start, corner=f.place(corner))
+        return replace(f, start=start, corner=f.place(corner), touch=f.place(touch_f))
 
     def _corner(self, e: Element, f: Element, p: Point | None, right: bool) -> Point:
         """The corner between two elements as offset, p the point that names it."""
@@ -337,7 +340,7 @@ class Route:
             return end
         angle = self._circle_travel(e, end)
         if e.corner is not None:
-            _check_order(e.curve, e.corner, e.start, end, "fillet fits")
+            _check_order(e.curve, e.corner, e.touch, end, "fillet fits")
         if self.curves == 1 and role == "cut" and self.first_end is None:
             self.first_end = end
         if angle == 0:
