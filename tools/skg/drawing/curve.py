@@ -8,11 +8,12 @@ from math import ceil, cos, pi, sin, sqrt
 
 from skg.drawing.contour import CurveNode, Edge
 from skg.plane import XY, cross, distance, dot, minus, turn
+from skg.ref.fit import FLAT, STRAIGHT
 
 #: A curve's point and the direction angle of its tangent (radians) at a parameter.
 Parametric = Callable[[float], tuple[XY, float]]
-#: FIT cuts an arc as a line that leaves its tangent by no more than this, or with this radius or more, mm.
-_FLAT, _STRAIGHT = 0.002, 50.0
+#: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm.
+_FLAT, _STRAIGHT = float(FLAT), float(STRAIGHT)
 
 
 def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
