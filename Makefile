@@ -20,9 +20,10 @@ include tests/fuzz/fuzz.mk
 include tests/rom/soup.mk
 -include tests/floats/floats.mk
 
-# The virtual environment of the host tools and tests, made anew when the pinned list changes.
+# The virtual environment of the host tools and tests, made anew when the pinned list changes. The tools are installed as
+# a user has them, but editable: their modules, the ROM images and the libraries in C are those of this tree.
 venv: $(VENV)/.stamp
-$(VENV)/.stamp: tools/pyproject.toml
+$(VENV)/.stamp: tools/pyproject.toml tools/setup.py | emu tools
 	$(PYTHON) -m venv $(VENV)
 	$(PY) -m pip install -q --disable-pip-version-check -e 'tools[test]'
 	touch $@

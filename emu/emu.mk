@@ -2,9 +2,9 @@
 EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
 EMU_PROGRAM := emu/board.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c emu/main.c \
                emu/symbols.c emu/disasm.c emu/calculator.c emu/trace.c emu/debug.c emu/commands.c
-EMU_LIBRARY := emu/board.c emu/machine.c
+EMU_LIBRARY := emu/board.c emu/image.c emu/machine.c
 EMU_COMPARE := tests/emu/compare.c tests/emu/plain8080.c
-EMU_FUZZ    := tests/emu/fuzz.c emu/com.c emu/image.c $(EMU_LIBRARY)
+EMU_FUZZ    := tests/emu/fuzz.c emu/com.c $(EMU_LIBRARY)
 EMU_BENCH   := tests/emu/bench.c tests/emu/plain8080.c emu/com.c emu/image.c
 EMU_HEADERS := $(wildcard emu/*.h) tests/emu/plain8080.h emu/emu.mk
 EMU_ASAN    := -g -fsanitize=address,undefined -fno-sanitize-recover=all

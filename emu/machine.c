@@ -78,6 +78,12 @@ size_t machine_output(const machine *m, bool punch, const uint8_t **bytes)
     return r->length;
 }
 
+uint8_t machine_nobody(const machine *m, bool *chip)
+{
+    *chip = m->board->nobody_chip;
+    return m->board->nobody_port;
+}
+
 void machine_clear(machine *m)
 {
     m->paper.length = m->punch.length = 0;

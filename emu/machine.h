@@ -49,6 +49,9 @@ board *machine_board(machine *m);
 size_t machine_output(const machine *m, bool punch, const uint8_t **bytes);
 void machine_clear(machine *m);
 
+/* The port of the last BOARD_NOBODY, and whether a chip is there. */
+uint8_t machine_nobody(const machine *m, bool *chip);
+
 void machine_peek(const machine *m, uint16_t address, uint8_t *bytes, size_t length);
 void machine_poke(machine *m, uint16_t address, const uint8_t *bytes, size_t length);
 void machine_get(const machine *m, machine_registers *r);

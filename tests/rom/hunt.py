@@ -22,6 +22,7 @@ from romhelp import Board, Outcome
 from soup import TOKEN, Bowl, soup
 from tqdm import tqdm
 
+from skg.machine import BoardStopped
 from skg.ref import run as reference
 from skg.ref.interpreter import Endless
 
@@ -75,7 +76,7 @@ def judge(bowl: Bowl, firmware: Callable[[Bowl], Outcome] = board) -> tuple[str,
         return "", Verdict(aside="endless")
     try:
         kind, difference = differs(firmware(bowl), result)
-    except AssertionError as hang:
+    except BoardStopped as hang:
         kind, difference = "hang", str(hang)
     if not kind:
         return "", Verdict(result.tape.count(b"G"))

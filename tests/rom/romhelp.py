@@ -11,11 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from skg.machine import Machine, symbols
+import skg
+from skg.machine import ErrorLine, symbols
+from skg.machine.board import find_error as fault
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
-#: The boards that there is a ROM for, by its image's name, and what `Machine` must know of each.
+#: The boards that there is a ROM for, by its image's name, and what `skg.Board` must know of each.
 BOARDS: dict[str, dict[str, Any]] = {"skg": {}, "skg-8251": {"board": "8251"}, "skg-tty": {"punch_tty": True}}
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 
@@ -25,11 +27,6 @@ RUN_LIMIT = 2_000_000_000
 ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
 BLOCK = re.compile(r"\d{4} B\d+B\d+B\d+G[XY](L|NR|SR)[1-4]|DD?")
 
-CTRL_C = 3
-
-#: An error's number and line (None: no line).
-Fault = tuple[int, int | None]
-
 
 def labels() -> dict[str, int]:
     """Addresses by label, of the image."""
@@ -37,7 +34,7 @@ def labels() -> dict[str, int]:
 
 
 def image(kind: str) -> Path:
-    """The ROM of one of the `BOARDS`."""
+    """The ROM of one of the `BOARDS`, or another one for the standard board."""
     return ROM if kind == "skg" else ROM.with_name(f"{kind}.bin")
 
 
@@ -47,26 +44,15 @@ class Outcome:
 
     tape: bytes
     paper: list[str]
-    error: Fault | None
+    error: ErrorLine | None
 
 
-class Board:
-    """A board of one of the `BOARDS` at its first prompt, with an operator who reads what is printed."""
+class Board(skg.Board):
+    """A board of one of the `BOARDS` at its first prompt; one that does not come back to it within its limit hangs."""
 
     def __init__(self, ram_kib: int = 8, kind: str = "skg", rom: bytes | None = None, limit: int = RUN_LIMIT) -> None:
-        self.limit = limit
-        self.machine = Machine(rom or image(kind), ram_kib, **BOARDS[kind])
-        assert self.machine.run() == "prompt", self.machine.tty
-        self.machine.clear()
-
-    def type(self, line: str) -> list[str]:
-        """What is printed after a line has been typed, up to the next prompt, its echo left out."""
-        start = len(self.machine.tty)
-        self.machine.type(f"{line}\r")
-        reason = self.machine.run(self.limit)
-        paper = self.machine.tty[start:]
-        assert reason == "prompt", f"{line!r} ends in {reason}: {paper[-300:]!r}"
-        return paper.removesuffix(">").split("\r\n")[1:-1]
+        super().__init__(rom or image(kind).read_bytes(), ram_kib, **BOARDS.get(kind, {}), max_cycles=limit)
+        self.clear()
 
     def listing(self) -> list[str]:
         """The program in memory as LIST prints it."""
@@ -74,36 +60,16 @@ class Board:
 
     def load(self, source: str) -> list[str]:
         """What is printed while a tape is loaded."""
-        self.machine.tape(source.replace("\n", "\r\n") + "\x1a")
-        return self.type("LOAD")
+        return super().load(source.replace("\n", "\r\n") + "\x1a")
 
     def outcome(self, source: str, answers: tuple[str, ...] = ()) -> Outcome:
         """LOAD and, when nothing was wrong, RUN; INPUT that finds no answer left is broken off."""
-        self.machine.clear()
+        self.clear()
         printed = self.load(source)
         if fault(printed) is None:
-            start = len(self.machine.tty)
-            self.machine.type("RUN\r")
-            waiting = iter(answers)
-            while (reason := self.machine.run(self.limit)) == "input":
-                answer = next(waiting, None)
-                if answer is None:
-                    self.machine.press(CTRL_C)
-                else:
-                    self.machine.type(f"{answer}\r")
-            assert reason == "prompt", f"RUN ends in {reason}: {self.machine.tty[-300:]!r}"
-            printed += self.machine.tty[start:].removesuffix(">").split("\r\n")[1:-1]
+            printed += self.run(answers)
         words = [line for line in printed if line not in ("", ">") and not BLOCK.fullmatch(line)]
-        return Outcome(self.machine.punch, words, fault(printed))
-
-
-def fault(paper: list[str]) -> Fault | None:
-    """The last ERR of some lines of paper."""
-    found = [match for line in paper if (match := ERROR.fullmatch(line))]
-    if not found:
-        return None
-    number, line = found[-1].groups()
-    return int(number), int(line) if line else None
+        return Outcome(self.tape, words, fault(printed))
 
 
 def run(source: str, answers: tuple[str, ...] = ()) -> Outcome:

@@ -11,10 +11,9 @@ from random import Random
 import pytest
 from compare import close_call, difference
 from parts import part
-from romhelp import EXAMPLES, Board, image
+from romhelp import EXAMPLES, Board
 from test_random import MOST_ASIDE, SEED, Record
 
-from skg.machine import Machine
 from skg.ref import run as reference
 from skg.tape.text import scan
 
@@ -26,9 +25,7 @@ class Driftless(Board):
     """The standard board with the other image."""
 
     def __init__(self) -> None:
-        self.machine = Machine(image("skg-nodrift"), 8)
-        assert self.machine.run() == "prompt", self.machine.tty
-        self.machine.clear()
+        super().__init__(kind="skg-nodrift")
 
 
 def unsound(tape: bytes) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import doctest
 import os
 import re
 import subprocess
@@ -11,6 +12,8 @@ from pathlib import Path
 
 import drawings
 import pytest
+
+import skg
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "tools.md"
@@ -58,6 +61,14 @@ def test_every_option_is_explained() -> None:
         assert command.help, name
         for parameter in command.params:
             assert getattr(parameter, "help", "argument"), (name, parameter.name)
+
+
+def test_python() -> None:
+    """The page's Python, and the package's own docstring."""
+    done = doctest.testfile(str(PAGE), module_relative=False, encoding="utf-8")
+    assert done.attempted >= 7
+    assert not done.failed
+    assert doctest.testmod(skg) == (0, 3)
 
 
 if __name__ == "__main__":

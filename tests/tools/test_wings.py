@@ -18,8 +18,9 @@ COMMON = "common ground"
 ALLOWED = {
     COMMON: set(),
     "ref": {COMMON},
-    "tape": {COMMON},
-    "machine": {COMMON},
+    "native": {COMMON},
+    "tape": {COMMON, "native"},
+    "machine": {COMMON, "native"},
     "quality": {COMMON, "ref"},
     "drawing": {COMMON, "ref", "tape", "machine"},
     "commands": {COMMON, "ref", "tape", "machine", "quality", "drawing"},

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from contextlib import suppress
 from importlib import import_module
+from typing import NoReturn
 
 import click
 
@@ -18,6 +21,7 @@ COMMANDS = {
     "plot": "Draw tapes and programs to scale.",
     "quality": "Measure the curves of FIT against the true ones.",
     "ref": "Run a program in 50-digit arithmetic: the exact tape.",
+    "run": "Run a program on the board, by the ROM itself.",
     "sim": "Follow tapes step by step as a controller does.",
     "term": "Be the teletype of a board on a serial port.",
 }
@@ -45,27 +49,50 @@ class LazyGroup(click.Group):
 @click.command(cls=LazyGroup)
 @click.version_option(package_name="skg")
 def cli() -> None:
-    """SKG host tools: reference interpreter, 3B simulator, plots, converters."""
+    """SKG host tools: the board and its ROM, reference interpreter, 3B simulator, plots, converters."""
 
 
 def main() -> None:
-    """Entry point: wrong usage, a `UserError` or an unreadable file becomes one line and exit code 2."""
+    """Entry point: wrong usage, a `UserError` or an unreadable file becomes one line and exit code 2.
+
+    Who reads the output may stop reading (`| head -1`): exit code 1, and not a word.
+    """
     try:
-        # (click alone would take four lines for wrong usage)
-        sys.exit(cli.main(standalone_mode=False))
+        try:
+            # (click alone would take four lines for wrong usage)
+            code = cli.main(standalone_mode=False)
+        except SystemExit as end:
+            code = end.code
+        _flush()
     except click.UsageError as error:
         name = error.ctx.command_path if error.ctx else "skg"
-        message = f"{error.format_message().rstrip('.')} (see {name} --help)"
+        _fail(f"{error.format_message().rstrip('.')} (see {name} --help)")
     except click.ClickException as error:
-        message = error.format_message()
+        _fail(error.format_message())
     except UserError as error:
-        message = str(error)
+        _fail(str(error))
     except click.Abort:
         sys.exit(130)
     except BrokenPipeError:
-        sys.stdout = None
-        sys.exit(1)
+        _leave(1)
     except OSError as error:
-        message = f"{error.filename or 'file'}: {error.strerror}"
-    print(f"skg: {message}", file=sys.stderr)
-    sys.exit(2)
+        _fail(f"{error.filename or 'standard output'}: {error.strerror}")
+    sys.exit(code)
+
+
+def _flush() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        if stream:
+            stream.flush()
+
+
+def _fail(message: str) -> NoReturn:
+    with suppress(OSError):
+        print(f"skg: {message}", file=sys.stderr)
+        _flush()
+    _leave(2)
+
+
+def _leave(code: int) -> NoReturn:
+    """Exit without writing what is left in the buffers: nobody takes it."""
+    os._exit(code)

@@ -19,8 +19,8 @@ def skg80_option(function: Callable) -> Callable:
     """Give a command the option --skg80."""
     return click.option(
         "--skg80", metavar="FILE",
-        help="The emulator that runs .skg programs, or `reference` for the reference interpreter. Default: "
-             "build/skg80, else the reference.")(function)
+        help="What runs .skg programs: an emulator such as build/skg80, or `reference` for the reference "
+             "interpreter. Default: the board with the standard ROM, as in `skg run`.")(function)
 
 
 class Coordinates(click.ParamType):

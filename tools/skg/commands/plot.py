@@ -44,9 +44,8 @@ def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool,
             positions: str, skg80: str | None) -> None:
     """Draw tapes (.3b) and programs (.skg), several in one picture.
 
-    Start holes are circles, stops squares, positioning moves dashed. A program is run first: by build/skg80
-    when it is there (or the one that --skg80 names), otherwise by the reference interpreter. FILE - is a tape
-    on the standard input.
+    Start holes are circles, stops squares, positioning moves dashed. A program is run first, by the ROM
+    or by what --skg80 names. FILE - is a tape on the standard input.
     """
     from skg.drawing.plot import COLOURS, Picture, Sheet
     from skg.drawing.source import load

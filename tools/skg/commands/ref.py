@@ -8,6 +8,7 @@ from typing import BinaryIO
 import click
 
 from skg.errors import UserError
+from skg.files import write_bytes
 
 
 def _text(file: BinaryIO) -> str:
@@ -25,7 +26,7 @@ def _text(file: BinaryIO) -> str:
     "--output",
     default="-",
     show_default=True,
-    type=click.File("wb", lazy=True),
+    type=click.Path(allow_dash=True),
     help="Where the tape goes.",
 )
 @click.option(
@@ -40,7 +41,7 @@ def _text(file: BinaryIO) -> str:
     show_default=True,
     help="Let the controller's misses at the ends of arcs add up, or start each block where it really stands.",
 )
-def command(part: BinaryIO, output: BinaryIO, answers: BinaryIO | None, drift: bool) -> None:
+def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool) -> None:
     """Run PART (an SKG program; `-`: standard input) in 50-digit arithmetic: the exact 3B tape that it must give.
 
     The teletype's paper goes to standard error. Exit code 1 when the run
@@ -49,7 +50,6 @@ def command(part: BinaryIO, output: BinaryIO, answers: BinaryIO | None, drift: b
     from skg.ref import run
 
     result = run(_text(part), _text(answers).splitlines() if answers else [], drift=drift)
-    sys.stderr.write(result.paper)
-    output.write(result.tape)
-    output.flush()
+    click.echo(result.paper, err=True, nl=False)
+    write_bytes(output, result.tape)
     sys.exit(0 if result.error is None else 1)

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skg.errors import UserError
-from skg.files import read_ascii
+from skg.files import read_ascii, read_bytes
+from skg.machine.board import Board, BoardStopped
 from skg.piece import Piece
 from skg.plane import XY
 from skg.tape import text as tapes
@@ -15,7 +16,8 @@ from skg.tape.block import Tape, micrometres
 from skg.tape.joints import estimate, is_without_drift
 from skg.tape.placed import PlacedRoute, place, stop_places
 
-_EMULATOR = Path(__file__).parents[3] / "build" / "skg80"
+#: Cycles after which a program hangs: 140 hours of the 2 MHz board.
+_MOST_CYCLES = 10**12
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,7 @@ class Made:
 def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Made:
     """Return what is in a file: a program when its name ends in .skg, else a tape.
 
+    `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator.
     `with_contour` on a tape, and a program that ends in ERR, are a `UserError`.
     """
     if not name.lower().endswith(".skg"):
@@ -38,28 +41,44 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
         return Made(tapes.read(name))
     # The reference is needed in any case: only it knows where on the drawing the wire is.
     data, start, contour = _run_reference(name, with_contour)
-    if skg80 != "reference":
-        data = _run_emulator(name, skg80) or data
+    if skg80 is None:
+        data = _run_rom(name)
+    elif skg80 != "reference":
+        data = _run_emulator(name, skg80)
     return Made(tapes.parse(data, name), start, contour)
 
 
-def _run_emulator(name: str, skg80: str | None) -> bytes | None:
-    """Run a program on the emulator. None when no emulator was named and the built one is not ready."""
-    program = Path(skg80) if skg80 else _EMULATOR
-    if not program.exists():
-        if skg80:
-            raise UserError(f"{program}: no such file")
-        return None
+def _run_rom(name: str) -> bytes:
+    """Run a program on the board, by the standard ROM."""
+    board = Board(max_cycles=_MOST_CYCLES)
     try:
-        done = subprocess.run([program, "--max-cycles", str(10**12), name], capture_output=True, check=False)
+        board.load(read_bytes(name))
+        if not board.error:
+            board.run()
+    except BoardStopped as stopped:
+        raise UserError(f"{name}: {stopped}") from None
+    if board.error:
+        raise _failure(name, *board.error)
+    return board.tape
+
+
+def _run_emulator(name: str, skg80: str) -> bytes:
+    """Run a program on an emulator of one's own."""
+    if not Path(skg80).exists():
+        raise UserError(f"{skg80}: no such file")
+    try:
+        done = subprocess.run([skg80, "--max-cycles", str(_MOST_CYCLES), name], capture_output=True, check=False)
     except PermissionError:
-        raise UserError(f"{program}: not a program that can be run") from None
-    if done.returncode == 2 and not skg80:
-        return None
+        raise UserError(f"{skg80}: not a program that can be run") from None
     if done.returncode:
         last = done.stderr.decode("ascii", "replace").strip().splitlines()[-1:]
-        raise UserError(f"{name}: {last[0] if last else f'{program} ended with {done.returncode}'}")
+        raise UserError(f"{name}: {last[0] if last else f'{skg80} ended with {done.returncode}'}")
     return done.stdout
+
+
+def _failure(name: str, number: int, line: int | None) -> UserError:
+    where = f" LINE {line}" if line is not None else ""
+    return UserError(f"{name}: ERR {number:02d}{where}")
 
 
 def _run_reference(name: str, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
@@ -73,9 +92,7 @@ def _run_reference(name: str, with_contour: bool) -> tuple[bytes, XY, tuple[Piec
         raise UserError(f"{name}: expected a program, the file is empty")
     result = run(text)
     if result.error:
-        number, line = result.error
-        where = f" LINE {line}" if line is not None else ""
-        raise UserError(f"{name}: ERR {number:02d}{where}")
+        raise _failure(name, *result.error)
     start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
     return result.tape, start, nominal(result.path) if with_contour else ()
 

@@ -1,7 +1,5 @@
 """The 8080 board of `emu/` in Python: run the firmware, type, read paper and punch, call its subroutines.
 
-Loads `build/libskg80.so`, which `make emu` builds.
-
     m = Machine(Path("roms/skg.bin"))
     m.run()                                  # to the first prompt
     m.type("PRINT 2*3\\r")
@@ -14,22 +12,22 @@ Addresses and cycles are plain integers; a cycle is 0.5 microseconds on the 2 MH
 from __future__ import annotations
 
 import ctypes
+import os
 from collections.abc import Iterable
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from skg.errors import UserError
+from skg.native import load
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    import numpy as np
     from numpy.typing import NDArray
-
-LIBRARY = Path(__file__).resolve().parents[3] / "build" / "libskg80.so"
 
 #: What `run` may return, in the order of `board_reason` (emu/board.h).
 REASONS = ("cycles", "prompt", "input", "wait", "halt", "break", "nobody")
@@ -40,18 +38,12 @@ BOARDS = {"6850": 0, "8251": 1}
 ROM_SIZE = 0x2000
 RAM_START = 0x2000
 
-#: One call's registers, as `machine_registers` lays them out.
-REGISTERS = np.dtype(
-    [("a", "u1"), ("f", "u1"), ("bc", "u2"), ("de", "u2"), ("hl", "u2"), ("sp", "u2"), ("pc", "u2")]
-)
+#: The registers, as `machine_registers` lays them out, and how numpy names their sizes.
+REGISTERS = {"a": "u1", "f": "u1", "bc": "u2", "de": "u2", "hl": "u2", "sp": "u2", "pc": "u2"}
 
 
 class _Registers(ctypes.Structure):
-    _fields_ = [
-        ("a", ctypes.c_uint8),
-        ("f", ctypes.c_uint8),
-        *((name, ctypes.c_uint16) for name in ("bc", "de", "hl", "sp", "pc")),
-    ]
+    _fields_ = [(name, ctypes.c_uint8 if size == "u1" else ctypes.c_uint16) for name, size in REGISTERS.items()]
 
 
 class _Counts(ctypes.Structure):
@@ -69,6 +61,17 @@ class _Job(ctypes.Structure):
     ]
 
 
+def read_rom(path: str) -> tuple[bytes, list[int]]:
+    """The 8,192 bytes of an image, .bin or Intel .hex, and the addresses that it leaves out.
+
+    One that cannot be read, or is not that long, is a `UserError`.
+    """
+    rom, given, error = (ctypes.create_string_buffer(size) for size in (ROM_SIZE, ROM_SIZE, 512))
+    if _library().image_rom(os.fsencode(path), rom, given, ROM_SIZE, error, len(error)):
+        raise UserError(os.fsdecode(error.value))
+    return rom.raw, [address for address, told in enumerate(given.raw) if not told]
+
+
 def symbols(text: str) -> dict[str, int]:
     """Values by name, out of a .sym file's text (asm/build.py).
 
@@ -77,10 +80,10 @@ def symbols(text: str) -> dict[str, int]:
     return {name: int(value, 16) for value, name, *_ in map(str.split, text.splitlines())}
 
 
-def _load() -> ctypes.CDLL:
-    if not LIBRARY.exists():
-        raise UserError(f"{LIBRARY}: not built; run `make emu`")
-    lib = ctypes.CDLL(str(LIBRARY))
+@cache
+def _library() -> ctypes.CDLL:
+    """The board's library, its functions declared."""
+    lib = load("skg80")
     address, size, flag, pointer = ctypes.c_uint16, ctypes.c_size_t, ctypes.c_bool, ctypes.c_void_p
     signatures: dict[str, tuple[object, list[object]]] = {
         "machine_new": (
@@ -108,6 +111,9 @@ def _load() -> ctypes.CDLL:
         "board_press": (flag, [pointer, ctypes.c_uint8]),
         "board_tape": (flag, [pointer, ctypes.c_char_p, size]),
         "board_reader": (None, [pointer, flag]),
+        "image_rom": (ctypes.c_int, [ctypes.c_char_p] * 3 + [size, ctypes.c_char_p, size]),
+        "machine_nobody": (ctypes.c_uint8, [pointer, ctypes.POINTER(flag)]),
+        "board_reader_silence": (ctypes.c_uint64, [pointer]),
         "board_run": (ctypes.c_int, [pointer, ctypes.c_uint64]),
     }
     for name, (result, arguments) in signatures.items():
@@ -134,7 +140,7 @@ class Batch:
     @property
     def failures(self) -> list[int]:
         """Numbers of the calls that did not return."""
-        return [int(i) for i in np.flatnonzero(self.ends)]
+        return [i for i, end in enumerate(self.ends) if end]
 
 
 class Machine:
@@ -158,7 +164,7 @@ class Machine:
             raise ValueError(f"ROM image has {len(image)} bytes, more than {ROM_SIZE}")
         if not 2 <= ram_kib <= 56:
             raise ValueError(f"RAM of {ram_kib} KiB: not between 2 and 56")
-        self._lib = _load()
+        self._lib = _library()
         self._machine = self._lib.machine_new(image, len(image), ram_kib, BOARDS[board], punch_tty, baud)
         if not self._machine:
             raise MemoryError
@@ -226,10 +232,19 @@ class Machine:
         start = ctypes.byref(ctypes.c_void_p())
         return sum(self._lib.machine_output(self._machine, punch, start) for punch in (False, True))
 
-    def _output(self, punch: bool) -> bytes:
+    def _output(self, punch: bool, first: int = 0) -> bytes:
         start = ctypes.c_void_p()
         length = self._lib.machine_output(self._machine, punch, ctypes.byref(start))
-        return ctypes.string_at(start, length) if length else b""
+        return ctypes.string_at(start.value + first, length - first) if length > first else b""
+
+    @property
+    def printed(self) -> int:
+        """How many characters are on the paper."""
+        return self._lib.machine_output(self._machine, False, ctypes.byref(ctypes.c_void_p()))
+
+    def paper_from(self, first: int) -> str:
+        """What is on the paper behind its first so many characters."""
+        return self._output(False, first).decode("ascii")
 
     @property
     def tty(self) -> str:
@@ -244,6 +259,17 @@ class Machine:
     def clear(self) -> None:
         """Tear off paper and punch tape."""
         self._lib.machine_clear(self._machine)
+
+    @property
+    def nobody(self) -> tuple[int, bool]:
+        """After "nobody": the port that was read, and whether a chip is there, which has never been readied."""
+        chip = ctypes.c_bool()
+        return self._lib.machine_nobody(self._machine, ctypes.byref(chip)), chip.value
+
+    @property
+    def reader_silence(self) -> int:
+        """For how many cycles the reader has been asked for a character, and had none."""
+        return self._lib.board_reader_silence(self._board)
 
     # Inside
 
@@ -308,7 +334,7 @@ class Machine:
         """a, f, bc, de, hl, sp and pc."""
         r = _Registers()
         self._lib.machine_get(self._machine, ctypes.byref(r))
-        return {name: getattr(r, name) for name in REGISTERS.names}
+        return {name: getattr(r, name) for name in REGISTERS}
 
     def set_registers(self, **values: int) -> None:
         """Set any of a, f, bc, de, hl, sp and pc; the others stay."""
@@ -367,12 +393,14 @@ class Machine:
         """
         if n < 1 or len(inputs) % n:
             raise ValueError(f"{len(inputs)} input bytes for {n} calls")
+        import numpy as np  # (slow to import, and needed here alone)
+
         start = _Registers(**(self.registers | {"sp": self.ram_end & 0xFFFF} | registers | {"pc": address}))
         job = _Job(start, max_cycles, len(inputs) // n, out_len, in_addr, out_addr)
         outputs = ctypes.create_string_buffer(max(1, n * out_len))
         cycles = np.zeros(n, np.uint32)
         ends = np.zeros(n, np.uint8)
-        records = np.zeros(n, REGISTERS)
+        records = np.zeros(n, list(REGISTERS.items()))
         with self._breaks(stops):
             self._lib.machine_batch(
                 self._machine,

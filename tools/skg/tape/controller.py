@@ -2,7 +2,7 @@
 
 Why C and not numba: the loop is thirty lines of integer additions, the project has a C compiler at hand
 anyway (the emulator needs one), and a shared library loads in a millisecond where numba brings LLVM, 150 MB,
-and a second of compiling at every start. `make tools` builds it into ``build/libskgsim.so``.
+and a second of compiling at every start.
 
 How the controller moves (`docs/tools.md` has the same in pictures):
 
@@ -16,14 +16,13 @@ How the controller moves (`docs/tools.md` has the same in pictures):
 from __future__ import annotations
 
 import ctypes
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from math import hypot, sqrt
-from pathlib import Path
 
 from skg.errors import UserError
+from skg.native import load
 from skg.tape.block import Block
 
 #: Steps between two reports of progress.
@@ -41,12 +40,8 @@ class _State(ctypes.Structure):
 
 @cache
 def _library() -> ctypes.CDLL:
-    """Load the shared library: $SKGSIM if set, else build/libskgsim.so of the checkout."""
-    path = Path(os.environ.get("SKGSIM") or Path(__file__).parents[3] / "build" / "libskgsim.so")
-    try:
-        library = ctypes.CDLL(str(path))
-    except OSError:
-        raise UserError(f"{path}: the simulator's library is missing or unfit, run `make tools`") from None
+    """The library, its functions declared."""
+    library = load("skgsim")
     library.skgsim_run.argtypes = [ctypes.POINTER(_State), ctypes.c_int64, ctypes.POINTER(ctypes.c_int64)]
     library.skgsim_run.restype = ctypes.c_int
     return library

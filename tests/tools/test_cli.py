@@ -1,0 +1,96 @@
+"""The command line as a whole: output that nobody takes, and what is loaded when."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SKG = Path(sys.executable).with_name("skg")
+TAPE, PART = "examples/fit-gear.3b", "examples/fit-gear.skg"
+#: A run of every command that writes to its standard output.
+COMMANDS = {
+    "help": ["--help"],
+    "check": ["check", *[TAPE] * 50],
+    "dxf": ["dxf", TAPE],
+    "from-dxf": ["from-dxf", "docs/pictures/bracket.dxf"],
+    "gcode": ["gcode", TAPE],
+    "plot": ["plot", TAPE, "-o", "-"],
+    "quality": ["quality", PART],
+    "ref": ["ref", PART],
+    "run": ["run", PART],
+    "sim": ["sim", "--blocks", *[TAPE] * 50],
+}
+each = pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
+
+
+def test_every_command_is_tried() -> None:
+    from skg.cli import COMMANDS as there
+
+    assert set(there) - set(COMMANDS) == {"term"}  # its output is a terminal's, see test_term.py
+
+
+def start(words: list[str], closed: int) -> subprocess.Popen[bytes]:
+    """Start a command one of whose streams (1, 2) is a pipe that nobody reads; the other one is kept."""
+    reading, writing = os.pipe()
+    streams = {1: ("stdout", "stderr"), 2: ("stderr", "stdout")}[closed]
+    process = subprocess.Popen([SKG, *words], cwd=ROOT, stdin=subprocess.DEVNULL,
+                               **{streams[0]: writing, streams[1]: subprocess.PIPE})
+    os.close(writing)
+    os.close(reading)
+    return process
+
+
+def ended_quietly(process: subprocess.Popen[bytes]) -> int:
+    """A command's exit code; a traceback, or a message of the interpreter's, fails."""
+    kept = b"".join(stream for stream in process.communicate(timeout=60) if stream)
+    assert b"Traceback" not in kept and b"Exception" not in kept, kept
+    return process.returncode
+
+
+@each
+def test_nobody_takes_the_output(words: list[str]) -> None:
+    assert ended_quietly(start(words, closed=1)) == 1
+
+
+@each
+def test_nobody_takes_the_messages(words: list[str]) -> None:
+    assert ended_quietly(start(words, closed=2)) in (0, 1)
+
+
+@each
+def test_closed_output(words: list[str]) -> None:
+    """`>&-`: there is no standard output at all."""
+    done = subprocess.run(["bash", "-c", '"$@" >&-', "bash", SKG, *words], cwd=ROOT, timeout=60, capture_output=True)
+    assert b"Traceback" not in done.stderr, done.stderr
+
+
+@each
+def test_full_disk(words: list[str]) -> None:
+    done = subprocess.run(["bash", "-c", '"$@" >/dev/full', "bash", SKG, *words], cwd=ROOT, timeout=60,
+                          capture_output=True)
+    assert done.returncode == 2
+    assert done.stderr.endswith(b"skg: standard output: No space left on device\n")
+
+
+def test_help_loads_no_command() -> None:
+    """`skg --help` needs click alone: neither the commands nor what they are made of."""
+    text = ("import sys; from click.testing import CliRunner; from skg.cli import cli; "
+            "assert 'from-dxf' in CliRunner().invoke(cli, ['--help']).stdout; "
+            "slow = ('skg.', 'numpy', 'matplotlib', 'ezdxf', 'lark'); "
+            "print([name for name in sys.modules if name.startswith(slow)])")
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout == "['skg.errors', 'skg.cli']\n"
+
+
+@pytest.mark.parametrize("command", ["run", "sim", "check", "gcode"])
+def test_small_commands_start_fast(command: str) -> None:
+    """They load no library that takes a tenth of a second and more."""
+    text = (f"import sys; import skg.commands.{command}; "
+            "print([name for name in ('numpy', 'matplotlib', 'ezdxf', 'lark', 'mpmath') if name in sys.modules])")
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"

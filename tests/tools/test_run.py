@@ -1,0 +1,181 @@
+"""`skg run` does what build/skg80 does with a part: the same tape, paper and exit code; and `skg.Board`."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import skg
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
+SKG80 = ROOT / "build" / "skg80"
+ROMS = ROOT / "roms"
+Program = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def built(build: Callable[..., None]) -> None:
+    """The emulator as a program, to compare with."""
+    build("emu")
+
+
+def by_skg80(*words: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([SKG80, *map(str, words)], cwd=ROOT, capture_output=True, text=True, timeout=60)
+
+
+def same(ours: subprocess.CompletedProcess[str], theirs: subprocess.CompletedProcess[str], part: object) -> None:
+    """Tape, exit code, and messages but for the name before them."""
+    assert (ours.returncode, ours.stdout) == (theirs.returncode, theirs.stdout)
+    assert ours.stderr.replace(f"skg: {part}: ", "skg80: ") == theirs.stderr
+
+
+@pytest.mark.parametrize("part", EXAMPLES, ids=lambda part: part.stem)
+def test_examples(run_program: Program, part: Path) -> None:
+    theirs = by_skg80(part)
+    assert theirs.stdout.encode() == part.with_suffix(".3b").read_bytes().replace(b"\r\n", b"\n")
+    same(run_program("run", part), theirs, part)
+
+
+#: Name: the program, the options of both, the exit code.
+ENDS = {
+    "an error": ("10 CUT O,(1,0)\n20 A=1/0\n", [], 1),
+    "a syntax error": ("10 CUT O,,\n", [], 1),
+    "nothing": ("", [], 0),
+    "no line end": ("10 CUT O,(1,0)", [], 0),
+    "CR LF": ("10 CUT O,(1,0)\r\n20 END\r\n", [], 0),
+    "ctrl-Z": ("10 CUT O,(1,0)\n\x1a20 CUT (5,5)\n", [], 0),
+    "no answer": ("10 CUT O,(1,0)\n20 INPUT A\n", [], 1),
+    "for ever": ("10 GOTO 10\n", ["--max-cycles", "9000000"], 3),
+    "little memory": ("10 CUT O,(1,0)\n", ["--ram", "2"], 0),
+    "as typed": ("CUT O,(1,0)\nPRINT 2*3\n", [], 0),
+}
+
+
+@pytest.mark.parametrize(("text", "options", "code"), ENDS.values(), ids=ENDS)
+def test_ends(run_program: Program, tmp_path: Path, text: str, options: list[str], code: int) -> None:
+    part = tmp_path / "part.skg"
+    part.write_bytes(text.encode())
+    ours, theirs = run_program("run", part, *options), by_skg80(*options, part)
+    assert ours.returncode == code
+    same(ours, theirs, part)
+
+
+def test_answers_and_output(run_program: Program, tmp_path: Path) -> None:
+    part, answers, tape = (tmp_path / name for name in ("part.skg", "answers", "part.3b"))
+    part.write_text("10 INPUT A,D\n20 CUT O,(A,D)\n")
+    answers.write_text("what\n3\n4\n")
+    theirs = by_skg80("--input", answers, part)
+    same(run_program("run", part, "--input", answers), theirs, part)
+    done = run_program("run", part, "--input", answers, "-o", tape)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", theirs.stderr)
+    assert tape.read_text() == theirs.stdout
+    done = run_program("run", "-", "--input", answers, stdin=part.read_text())
+    assert (done.returncode, done.stdout) == (0, theirs.stdout)
+
+
+@pytest.mark.parametrize(("rom", "options"), [
+    ("no-drift", ["--rom", ROMS / "skg-nodrift.bin"]), (ROMS / "skg.hex", ["--rom", ROMS / "skg.hex"]),
+    ("8251", ["--rom", ROMS / "skg-8251.bin", "--board", "8251"]),
+    ("tty", ["--rom", ROMS / "skg-tty.bin", "--punch-tty"]),
+], ids=["no-drift", "hex", "8251", "tty"])
+def test_roms(run_program: Program, rom: str, options: list[str]) -> None:
+    part = ROOT / "examples" / "skg06-belts.skg"
+    theirs = by_skg80(*options, part)
+    assert theirs.stdout
+    same(run_program("run", part, "--rom", rom), theirs, part)
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (["none.skg"], "none.skg: No such file or directory"),
+    (["examples/wrench.skg", "--rom", "none.bin"], "none.bin: No such file or directory"),
+    (["examples/wrench.skg", "--rom", "roms/skg.hex/"], "roms/skg.hex/: Not a directory"),
+    (["examples/wrench.skg", "--ram", "57"],
+     "Invalid value for '--ram': 57 is not in the range 2<=x<=56 (see skg run --help)"),
+    (["-", "--input", "-"], "the program and the answers cannot both come from the standard input"),
+])
+def test_wrong_usage(run_program: Program, words: list[str], message: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    done = run_program("run", *words)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"skg: {message}\n")
+
+
+def test_a_machine_that_halts(run_program: Program, tmp_path: Path) -> None:
+    rom = tmp_path / "halt.bin"
+    rom.write_bytes(b"\x76" * 8192)
+    done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
+    assert (done.returncode, done.stderr) == (1, f"skg: {ROOT}/examples/wrench.skg: the machine halted at 0000\n")
+
+
+def test_half_a_rom(run_program: Program, tmp_path: Path) -> None:
+    rom = tmp_path / "half.bin"
+    rom.write_bytes((ROMS / "skg.bin").read_bytes()[:4096])
+    done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
+    assert (done.returncode, done.stderr) == (2, f"skg: {rom}: 4096 bytes, and the ROM has 8192\n")
+
+
+def test_a_rom_for_another_board(run_program: Program) -> None:
+    done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-8251.bin")
+    assert done.returncode == by_skg80("--rom", ROMS / "skg-8251.bin", "examples/wrench.skg").returncode == 2
+    assert done.stderr.endswith("never readied: is this ROM for another board?\n")
+
+
+def test_a_rom_with_a_hole(run_program: Program, tmp_path: Path) -> None:
+    rom = tmp_path / "hole.hex"
+    rom.write_text(":0300000000000000FD\n:00000001FF\n".replace("0000000000FD", "00000000FD"))
+    done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
+    assert (done.returncode, done.stderr) == (
+        2, f"skg: {ROOT}/examples/wrench.skg: the machine runs into 0003, where the ROM image has nothing\n")
+
+
+# The board ------------------------------------------------------------------------------------------------
+
+def test_board_goes_on_after_an_error() -> None:
+    board = skg.Board()
+    assert board.load("10 PRINT 1/0\n") == []
+    assert board.run() == ["ERR 05 LINE 10"]
+    assert board.error == (5, 10)
+    board.clear()
+    assert (board.paper, board.tape, board.error) == ("", b"", None)
+    assert board.type("LIST") == ["10 PRINT 1/0"]
+
+
+def test_board_breaks_off_input_without_answers() -> None:
+    board = skg.Board()
+    board.load("10 INPUT A\n20 CUT O,(A,0)\n")
+    assert board.run()[-1] == "ERR 10 LINE 10"
+    assert board.run(["7"])[-1] == "DD"
+
+
+def test_board_says_why_it_stopped() -> None:
+    board = skg.Board(max_cycles=5_000_000)
+    board.load("10 GOTO 10\n")
+    with pytest.raises(skg.BoardStopped, match="not done after 5000000 cycles") as stopped:
+        board.run()
+    assert stopped.value.reason == "cycles"
+    board.machine.press("\x03")
+    assert board.machine.run() == "prompt"
+    board.type("10 INPUT A")
+    with pytest.raises(skg.BoardStopped, match="INPUT asks") as stopped:
+        board.type("RUN")
+    assert stopped.value.reason == "input"
+
+
+def test_board_shows_the_paper_as_it_is_printed() -> None:
+    seen: list[str] = []
+    board = skg.Board(on_paper=seen.append)
+    board.load("10 FOR\n")
+    board.type('PRINT "HELLO"')
+    assert "".join(seen) == board.paper
+    board.clear()
+    board.type("PRINT 1")
+    assert "".join(seen).endswith(board.paper)
+    assert len(seen) > 3
+
+
+def test_board_takes_ascii_alone() -> None:
+    with pytest.raises(skg.errors.UserError, match="'é' is not ASCII"):
+        skg.Board().type("REM é")

@@ -1,0 +1,105 @@
+"""Builds the package's C libraries and takes in the ROM images; all else stands in pyproject.toml.
+
+The emulator's sources (emu/) and the images (roms/) are the project's, beside this folder. The source distribution has
+copies of both, so that a wheel can be built from it too. An editable install builds the libraries where make has them,
+in build/, and reads the images in roms/.
+"""
+
+from __future__ import annotations
+
+import atexit
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from setuptools import Distribution, setup
+from setuptools.command.bdist_wheel import bdist_wheel
+from setuptools.command.build import build
+from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
+
+HERE = Path(__file__).resolve().parent
+#: Where emu/ and roms/ lie: here in an unpacked source distribution, else in the project above.
+ABOVE = HERE if (HERE / "emu").is_dir() else HERE.parent
+#: Library -> its sources and the compiler's options. emu/emu.mk and tools.mk build the same for developers.
+LIBRARIES = {
+    "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3"]),
+    "libskg80.so": ([ABOVE / "emu" / name for name in ("i8080.c", "board.c", "machine.c", "image.c")],
+                    ["-O2", "-D_DEFAULT_SOURCE", "-D_XOPEN_SOURCE=700"]),
+}
+
+
+def compiler() -> str:
+    """The C compiler: $CC, else the first that is there."""
+    for name in (os.environ.get("CC"), "cc", "gcc", "clang"):
+        if name and shutil.which(name.split()[0]):
+            return name
+    raise SystemExit("skg: no C compiler; install one (Debian: apt-get install gcc) or name it in CC")
+
+
+def compile_into(folder: Path) -> None:
+    """Build the libraries that are older than their sources."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, (sources, options) in LIBRARIES.items():
+        made = folder / name
+        newest = max(path.stat().st_mtime for source in sources for path in source.parent.glob("*.[ch]"))
+        if not made.exists() or made.stat().st_mtime < newest:
+            command = [*compiler().split(), "-std=c11", "-shared", "-fPIC", *options, "-o", made, *sources]
+            subprocess.run(command, check=True)
+
+
+class Build(build):
+    """Builds in a folder of its own: what an earlier build left behind must not get into a wheel."""
+
+    def initialize_options(self) -> None:
+        super().initialize_options()
+        self.build_base = tempfile.mkdtemp(prefix="skg-build-")
+        atexit.register(shutil.rmtree, self.build_base, ignore_errors=True)
+
+
+class BuildPackage(build_py):
+    """The modules, the libraries and the images."""
+
+    def run(self) -> None:
+        super().run()
+        if self.editable_mode:
+            compile_into(HERE.parent / "build")
+            return
+        package = Path(self.build_lib) / "skg"
+        compile_into(package / "native")
+        roms = package / "machine" / "roms"
+        roms.mkdir(parents=True, exist_ok=True)
+        for image in sorted((ABOVE / "roms").glob("*.bin")):
+            shutil.copy(image, roms)
+
+
+class Native(Distribution):
+    """Not for every platform, though there are no extension modules: the libraries are loaded with ctypes."""
+
+    def has_ext_modules(self) -> bool:
+        return True
+
+
+class Wheel(bdist_wheel):
+    """A wheel for one platform and any Python 3."""
+
+    def get_tag(self) -> tuple[str, str, str]:
+        return "py3", "none", super().get_tag()[2]
+
+
+class SourceDistribution(sdist):
+    """With the emulator's sources and the images."""
+
+    def make_release_tree(self, base_dir: str, files: list[str]) -> None:
+        super().make_release_tree(base_dir, files)
+        for folder, pattern in (("emu", "*.[ch]"), ("roms", "*.bin")):
+            target = Path(base_dir) / folder
+            target.mkdir(exist_ok=True)
+            for file in sorted((ABOVE / folder).glob(pattern)):
+                shutil.copy(file, target)
+
+
+setup(distclass=Native,
+      cmdclass={"build": Build, "build_py": BuildPackage, "bdist_wheel": Wheel, "sdist": SourceDistribution})

@@ -1,0 +1,65 @@
+"""`skg run`: a program on the board, by the ROM itself."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+
+import click
+
+from skg.errors import UserError
+from skg.files import read_ascii, read_bytes, write_bytes
+from skg.machine.board import Board, BoardStopped
+
+#: Exit codes, those of build/skg80; by the reason for which the board stopped, else ERR.
+ERR, STOPPED = 1, {"cycles": 3, "nobody": 2, "break": 2}
+
+
+def _answers(name: str | None) -> Iterator[str]:
+    yield from read_ascii(name).splitlines() if name else ()
+    raise BoardStopped("input", "INPUT asks, and --input has no line left")
+
+
+@click.command(name="run")
+@click.argument("part", type=click.Path(allow_dash=True))
+@click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True),
+              help="Where the tape goes.")
+@click.option("--rom", default="standard", show_default=True, metavar="NAME|FILE",
+              help="The ROM: standard, no-drift, 8251, tty, or an image of your own, .bin or Intel .hex.")
+@click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
+@click.option("--input", "answers", metavar="FILE", type=click.Path(allow_dash=True),
+              help="What the operator answers to INPUT, one line each.")
+@click.option("--max-cycles", metavar="N", type=click.IntRange(1),
+              help="Give up LOAD or RUN after so many cycles, with exit code 3.")
+def command(part: str, output: str, rom: str, ram: int, answers: str | None, max_cycles: int | None) -> None:
+    """LOAD and RUN PART (an SKG program; `-`: standard input) on the board, by the ROM itself.
+
+    The teletype's paper goes to standard error, the tape to --output. Exit code 1 when the run ended in ERR, when INPUT
+    found no answer or the machine halted, 2 for wrong usage, files and ROMs, 3 when --max-cycles were not enough.
+    """
+    if part == answers == "-":
+        raise UserError("the program and the answers cannot both come from the standard input")
+    program, line_begins = read_bytes(part), True
+
+    def show(paper: str) -> None:
+        nonlocal line_begins
+        click.echo(paper, err=True, nl=False)
+        line_begins = paper.endswith("\n")
+
+    tape, code = b"", 0
+    try:
+        board = Board(rom, ram, max_cycles=max_cycles, on_paper=show)
+        try:
+            board.load(program)
+            if not board.error:
+                board.run(_answers(answers))
+        finally:
+            tape = board.tape
+        code = ERR if board.error else 0
+    except BoardStopped as stopped:
+        if not line_begins:
+            show("\r\n")
+        click.echo(f"skg: {part}: {stopped}", err=True)
+        code = STOPPED.get(stopped.reason, ERR)
+    write_bytes(output, tape)
+    sys.exit(code)

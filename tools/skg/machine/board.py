@@ -1,0 +1,193 @@
+"""The board with its operator: loads programs, runs them, takes paper and tape."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from skg.errors import UserError
+from skg.machine.emulator import Machine
+from skg.machine.roms import find_rom
+
+#: Cycles after which the operator looks at the paper again; those that a silent machine may wait for a key, and for a
+#: character from the empty reader: LOAD gives up sooner, unless nothing has come yet.
+SLICE, PATIENCE, READER_PATIENCE = 1_000_000, 20_000_000, 6_000_000
+_CTRL_C = 3
+_ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
+
+
+class ErrorLine(NamedTuple):
+    """An `ERR` of the machine: its number (language.md, section 6) and its line, None outside a program."""
+
+    number: int
+    line: int | None
+
+
+class BoardStopped(UserError):
+    """The machine does not come back to its prompt.
+
+    `reason`: "cycles" (max_cycles are used up), "input" (INPUT asks where no answer was to be given), "wait" (for a
+    key anywhere else, or for a tape), "halt", "nobody" (it reads a port that nobody serves), "break" (it runs into a
+    part of the ROM that the image leaves out, or comes to a breakpoint of `machine`).
+    """
+
+    def __init__(self, reason: str, message: str) -> None:
+        super().__init__(message)
+        self.reason = reason
+
+
+class Board:
+    """An SKG board at its prompt, with an operator.
+
+    `rom`: "standard", "no-drift", "8251", "tty", the path of an image (.bin or .hex), or an image's bytes.
+    `ram_kib`: 2 to 56. `board` "6850" or "8251" and `punch_tty` (a teletype alone, its own punch and reader) tell what
+    an image of one's own is made for. `max_cycles`: how long one line or one program may take, in cycles of the 2 MHz
+    board (None: for ever). `on_paper` is called with all that is printed, as it is printed.
+
+    A board that stops anywhere but at its prompt raises `BoardStopped`. `machine` is the emulator underneath: memory,
+    registers, cycles.
+    """
+
+    def __init__(self, rom: str | bytes = "standard", ram_kib: int = 8, *, board: str = "6850", punch_tty: bool = False,
+                 max_cycles: int | None = None, on_paper: Callable[[str], object] | None = None) -> None:
+        if isinstance(rom, str):
+            image, missing, known = find_rom(rom)
+            board = known.board if known.board != "6850" else board
+            punch_tty = punch_tty or known.punch_tty
+        else:
+            image, missing = rom, []
+        self.machine = Machine(image, ram_kib, board=board, punch_tty=punch_tty)
+        for address in missing:
+            self.machine.set_break(address)
+        self.max_cycles = max_cycles
+        self.on_paper = on_paper
+        self._reported = 0
+        self._at_prompt()
+
+    def type(self, line: str) -> list[str]:
+        """Type a line and CR. Returns the lines printed up to the next prompt, without the echo."""
+        start = len(self.paper)
+        self._type(line)
+        self._at_prompt()
+        return self._lines(start)
+
+    def load(self, program: str | bytes) -> list[str]:
+        """Put a program into the reader as a tape, and LOAD it. Returns the lines printed."""
+        tape = _ascii(program) if isinstance(program, str) else program
+        # The last line is ended if the program does not; ctrl-Z ends a tape by itself.
+        self.machine.tape(tape if tape.endswith((b"\n", b"\r", b"\x1a")) else tape + b"\n")
+        start = len(self.paper)
+        self._type("LOAD")
+        self.machine.reader(True)
+        self._at_prompt()
+        return self._lines(start)
+
+    def run(self, answers: Iterable[str] = ()) -> list[str]:
+        """RUN the program. `answers` are typed when INPUT asks; INPUT that finds none left is broken off with ctrl-C
+        (ERR 10). Returns the lines printed."""
+        start, waiting = len(self.paper), iter(answers)
+        self._type("RUN")
+        while (reason := self._until_asked()) == "input":
+            answer = next(waiting, None)
+            if answer is None:
+                self.machine.press(_CTRL_C)
+            else:
+                self._type(answer)
+        self._check(reason)
+        return self._lines(start)
+
+    def clear(self) -> None:
+        """Tear off paper and tape."""
+        self.machine.clear()
+        self._reported = 0
+
+    @property
+    def paper(self) -> str:
+        """All that was printed since the start or `clear`."""
+        return self.machine.tty
+
+    @property
+    def tape(self) -> bytes:
+        """All that was punched since the start or `clear`."""
+        return self.machine.punch
+
+    @property
+    def error(self) -> ErrorLine | None:
+        """The last `ERR` on the paper, None where there is none."""
+        return find_error(self.paper.split("\r\n"))
+
+    def _type(self, line: str) -> None:
+        self.machine.type(_ascii(line) + b"\r")
+
+    def _lines(self, start: int) -> list[str]:
+        """The lines from a place of the paper up to the prompt, without the first one, the echo."""
+        return self.machine.paper_from(start).removesuffix(">").split("\r\n")[1:-1]
+
+    def _at_prompt(self) -> None:
+        self._check(self._until_asked())
+
+    def _until_asked(self) -> str:
+        """Let the machine run until it asks the operator something, or until something else; see `Machine.run`."""
+        machine = self.machine
+        end = None if self.max_cycles is None else machine.cycles + self.max_cycles
+        since = machine.cycles
+        while end is None or machine.cycles < end:
+            printed = machine.printed
+            reason = machine.run(SLICE if end is None else min(SLICE, end - machine.cycles))
+            self._report()
+            if machine.reader_silence > READER_PATIENCE:
+                return "wait"
+            if reason == "cycles" or machine.printed != printed:
+                since = machine.cycles
+            if reason != "cycles" and (reason != "wait" or machine.cycles - since > PATIENCE):
+                return reason
+        return "cycles"
+
+    def _report(self) -> None:
+        if self.on_paper and self.machine.printed != self._reported:
+            self.on_paper(self.machine.paper_from(self._reported))
+            self._reported = self.machine.printed
+
+    def _check(self, reason: str) -> None:
+        if reason == "prompt":
+            return
+        raise BoardStopped(reason, self._why(reason))
+
+    def _why(self, reason: str) -> str:
+        """A message for `BoardStopped`."""
+        last = self.paper.rpartition("\n")[2]
+        at = self.machine.registers["pc"]
+        match reason:
+            case "cycles":
+                return f"not done after {self.max_cycles} cycles"
+            case "input":
+                return "INPUT asks, and there is no answer"
+            case "wait" if self.machine.reader_silence > READER_PATIENCE:
+                return "LOAD waits for a tape, and the reader is empty"
+            case "wait":
+                return f"the machine waits for a key at `{last}`"
+            case "halt":
+                return f"the machine halted at {(at - 1) & 0xFFFF:04X}"
+            case "nobody":
+                port, chip = self.machine.nobody
+                served = "its chip was never readied" if chip else "nobody serves it"
+                return f"port {port:02X} is read, and {served}: is this ROM for another board?"
+            case _:
+                return f"the machine runs into {at:04X}, where the ROM image has nothing"
+
+
+def find_error(lines: Iterable[str]) -> ErrorLine | None:
+    """The last `ERR` of some lines of paper."""
+    found = [match for line in lines if (match := _ERROR.fullmatch(line))]
+    if not found:
+        return None
+    number, line = found[-1].groups()
+    return ErrorLine(int(number), int(line) if line else None)
+
+
+def _ascii(text: str) -> bytes:
+    try:
+        return text.encode("ascii")
+    except UnicodeEncodeError as error:
+        raise UserError(f"{text[error.start]!r} is not ASCII") from None

@@ -1,0 +1,42 @@
+"""The ROM images by name, and the board that each is for.
+
+An installed package has them beside this file; in a checkout they are those of roms/, which `make rom` builds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from skg.machine.emulator import read_rom
+from skg.native import CHECKOUT
+
+
+@dataclass(frozen=True)
+class Rom:
+    """An image's file, and what `Machine` must know of its board."""
+
+    file: str
+    board: str = "6850"
+    punch_tty: bool = False
+
+
+ROMS = {
+    "standard": Rom("skg.bin"),
+    "no-drift": Rom("skg-nodrift.bin"),
+    "8251": Rom("skg-8251.bin", board="8251"),
+    "tty": Rom("skg-tty.bin", punch_tty=True),
+}
+
+
+def find_rom(name: str) -> tuple[bytes, list[int], Rom]:
+    """The image of one of `ROMS`, or of a file (.bin or .hex) for the standard board; the addresses left out.
+
+    One that is missing or cannot be read is a `UserError`.
+    """
+    rom = ROMS.get(name)
+    if rom is None:
+        return *read_rom(name), Rom(name)
+    installed = Path(__file__).resolve().with_name("roms")
+    path = (installed if installed.is_dir() else CHECKOUT / "roms") / rom.file
+    return *read_rom(str(path)), rom

@@ -1,0 +1,26 @@
+"""The libraries in C: the 3B simulator (skgsim.c) and the 8080 board (emu/ of the project).
+
+An installed package has them beside this file. In a checkout they are in build/, where make keeps them up to date.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from pathlib import Path
+
+from skg.errors import UserError
+
+HERE = Path(__file__).resolve().parent
+CHECKOUT = HERE.parents[2]
+
+
+def load(name: str) -> ctypes.CDLL:
+    """The library `lib<name>.so`; one that is missing or unfit is a `UserError`."""
+    path = HERE / f"lib{name}.so"
+    if not path.exists():
+        path = CHECKOUT / "build" / path.name
+    try:
+        return ctypes.CDLL(str(path))
+    except OSError as error:
+        reason = "not built, run `make venv`" if not path.exists() else f"unfit ({error})"
+        raise UserError(f"{path}: {reason}") from None
