@@ -1,7 +1,7 @@
 # The ROM images are committed: only a change of asm/ needs an assembler.
-asm80: node_modules/.bin/asm80
-node_modules/.bin/asm80: package.json package-lock.json
-	npm ci --silent --no-audit --no-fund
+asm80: asm/node_modules/.bin/asm80
+asm/node_modules/.bin/asm80: asm/package.json asm/package-lock.json
+	npm ci --prefix asm --silent --no-audit --no-fund
 	touch $@
 
 rom: asm80

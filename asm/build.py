@@ -6,7 +6,7 @@
 writes OUT.bin (padded to 8,192 bytes), OUT.hex and OUT.sym (lines of value, name and, of a label, its source file) and
 prints bytes per source file. A variant of the ROM for another board differs in few lines: --variant writes the image
 alone, .bin and .hex, and prints one line. The assembler's listing goes to FILE.
-The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from node_modules.
+The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from asm/node_modules.
 """
 
 from __future__ import annotations
@@ -135,9 +135,9 @@ def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[byt
             fail(f"{z88dk} made no listing, top.lis or top.lst")
         listing = z88dk_listing(listings[0].read_text(), (work / "top.bin").read_bytes())
     else:
-        asm80 = ROOT / "node_modules" / ".bin" / "asm80"
+        asm80 = ASM / "node_modules" / ".bin" / "asm80"
         if not asm80.exists():
-            fail("no assembler: neither z88dk's z80asm on the PATH nor asm80 in node_modules (make asm80)")
+            fail("no assembler: neither z88dk's z80asm on the PATH nor asm80 in asm/node_modules (make asm80)")
         (work / "top.asm").write_text(top_file(files, options, "        .include {}"))
         run([str(asm80), "-m", "I8080", "-t", "bin", "top.asm"], work)
         listing = (work / "top.lst").read_text()
