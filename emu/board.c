@@ -19,9 +19,11 @@ enum { DC1 = 0x11, DC2 = 0x12, DC3 = 0x13, DC4 = 0x14 };
 /* Bits of the 6850's status and control, and of the 8251's status, mode and command. */
 enum { ACIA_RDRF = 0x01, ACIA_TDRE = 0x02, ACIA_RESET = 0x03 };
 enum {
+    // clang-format off
     USART_TXRDY = 0x01, USART_RXRDY = 0x02, USART_TXE = 0x04, USART_DSR = 0x80,
     MODE_BAUD = 0x03, MODE_ONE_SYNC = 0x80,
     COMMAND_TXEN = 0x01, COMMAND_RXEN = 0x04, COMMAND_RESET = 0x40
+    // clang-format on
 };
 
 /* ---- queues ---- */
@@ -135,8 +137,7 @@ static void count_poll(board *b, bool idle)
     uint64_t now = b->cpu.cycles;
     b->polls = idle && now - b->polled_at <= POLL_GAP ? b->polls + 1 : 0;
     b->polled_at = now;
-    if (b->polls >= POLLS_TO_WAIT && board_idle(b)
-        && !(b->punch_tty && b->reader_on && !queue_empty(&b->tape))) {
+    if (b->polls >= POLLS_TO_WAIT && board_idle(b) && !(b->punch_tty && b->reader_on && !queue_empty(&b->tape))) {
         b->waiting = true;
         i8080_stop(&b->cpu);
     }

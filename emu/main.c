@@ -122,8 +122,8 @@ static void print_untouched(const session *s, unsigned end)
             first = at + 1 - run;
         }
     }
-    fprintf(stderr, "RAM           2000 to %04X, untouched %04X to %04X: %u bytes\n", end - 1, first, first + length - 1,
-            length);
+    fprintf(stderr, "RAM           2000 to %04X, untouched %04X to %04X: %u bytes\n", end - 1, first,
+            first + length - 1, length);
 }
 
 static void print_stats(const session *s)
@@ -148,7 +148,7 @@ static board_reason run_slice(session *s)
     pacer_wait(&s->pacer, c->cycles);
     if (reason == BOARD_PROMPT && !s->prompted) {
         s->prompted = true;
-        memset(s->written, 0, sizeof s->written);   /* the size of the RAM was found by writing to it */
+        memset(s->written, 0, sizeof s->written); /* the size of the RAM was found by writing to it */
     }
     return reason;
 }
@@ -332,7 +332,7 @@ static int run_terminal(session *s)
             wait = -1;
             break;
         case BOARD_WAIT:
-            wait = SLICE_MS;        /* it may be counting the time until something comes */
+            wait = SLICE_MS; /* it may be counting the time until something comes */
             break;
         case BOARD_CYCLES:
             break;
@@ -577,7 +577,7 @@ static int with_terminal(session *s)
     }
     complain_beside(s->o.pty ? NULL : s->board);
     code = run_terminal(s);
-    complain_end_line();            /* the shell's prompt gets a line of its own */
+    complain_end_line(); /* the shell's prompt gets a line of its own */
     return code;
 }
 

@@ -109,8 +109,10 @@ void terminal_catch_reset(void)
 static void catch_signals(void)
 {
     static const int fatal[] = {
+        // clang-format off
         SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGHUP, SIGILL, SIGINT, SIGPIPE, SIGPROF, SIGQUIT, SIGSEGV,
         SIGSYS, SIGTERM, SIGTRAP, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+        // clang-format on
     };
     struct sigaction action;
     memset(&action, 0, sizeof action);

@@ -112,8 +112,10 @@ static bool run_plain(const uint8_t *program, size_t length, result *r)
     }
     m->r = r;
     m->cpu = (plain8080){
+        // clang-format off
         .read = read_memory, .write = write_memory, .in = port_in, .out = port_out, .user = m,
         .pc = COM_START, .sp = 0xc8fe,
+        // clang-format on
     };
     memcpy(m->memory, low, sizeof low);
     memcpy(m->memory + COM_START, program, length);
@@ -154,12 +156,12 @@ int main(int argc, char **argv)
     double start = now();
     bool sound = true;
     do {
-        sound = run_ours(program, length, &ours) && run_ours(program, length, &ours)
-            && run_plain(program, length, &plain);
+        sound =
+            run_ours(program, length, &ours) && run_ours(program, length, &ours) && run_plain(program, length, &plain);
     } while (sound && now() - start < seconds);
     free(program);
-    if (!sound || ours.cycles != plain.cycles || ours.instructions != plain.instructions
-        || ours.length != plain.length || memcmp(ours.text, plain.text, ours.length)) {
+    if (!sound || ours.cycles != plain.cycles || ours.instructions != plain.instructions || ours.length != plain.length
+        || memcmp(ours.text, plain.text, ours.length)) {
         fprintf(stderr, "bench: the two cores do not agree: %llu and %llu instructions, %llu and %llu cycles\n",
                 (unsigned long long)ours.instructions, (unsigned long long)plain.instructions,
                 (unsigned long long)ours.cycles, (unsigned long long)plain.cycles);

@@ -118,8 +118,8 @@ static void show(const pair *p, const char *what)
            k->a, k->f, k->bc, k->de, k->hl, k->sp, k->pc, k->inte, k->halted, (unsigned long long)k->cycles,
            (unsigned long long)k->instructions);
     printf("plain A %02X F %02X BC %04X DE %04X HL %04X SP %04X PC %04X inte %d halted %d cycles %llu instr %llu\n",
-           c->r[7], plain8080_flags(c), pair_of(c, 0), pair_of(c, 2), pair_of(c, 4), c->sp, c->pc, c->inte,
-           c->halted, (unsigned long long)c->cycles, (unsigned long long)c->instructions);
+           c->r[7], plain8080_flags(c), pair_of(c, 0), pair_of(c, 2), pair_of(c, 4), c->sp, c->pc, c->inte, c->halted,
+           (unsigned long long)c->cycles, (unsigned long long)c->instructions);
     for (unsigned i = 0; i < 65536; i++) {
         if (p->memory[i] != i8080_peek(k, (uint16_t)i)) {
             printf("memory %04X: core %02X, plain %02X\n", i, i8080_peek(k, (uint16_t)i), p->memory[i]);
@@ -138,9 +138,8 @@ static bool same(const pair *p)
         }
     }
     return k->a == c->r[7] && k->f == plain8080_flags(c) && k->bc == pair_of(c, 0) && k->de == pair_of(c, 2)
-        && k->hl == pair_of(c, 4) && k->sp == c->sp && k->pc == c->pc && k->inte == c->inte
-        && k->halted == c->halted && k->cycles == c->cycles && k->instructions == c->instructions
-        && p->ports == p->our_ports;
+           && k->hl == pair_of(c, 4) && k->sp == c->sp && k->pc == c->pc && k->inte == c->inte && k->halted == c->halted
+           && k->cycles == c->cycles && k->instructions == c->instructions && p->ports == p->our_ports;
 }
 
 static bool same_memory(const pair *p)
@@ -157,7 +156,9 @@ static pair *new_pair(void)
     }
     i8080_init(&p->core, core_in, core_out, p);
     p->plain = (plain8080){
+        // clang-format off
         .read = read_memory, .write = write_memory, .in = plain_in, .out = plain_out, .user = p,
+        // clang-format on
     };
     for (unsigned i = 0; i < 65536; i++) {
         poke_both(p, (uint16_t)i, (uint8_t)random32());

@@ -78,8 +78,10 @@ static uint64_t fuzz_board(void)
     }
     const machine_job job = {
         .registers = { .sp = (uint16_t)random32(), .pc = (uint16_t)random32(), .hl = (uint16_t)random32() },
+        // clang-format off
         .max_cycles = 2000, .in_length = 5, .out_length = 7,
         .in_address = (uint16_t)random32(), .out_address = (uint16_t)random32(),
+        // clang-format on
     };
     uint8_t in[50], out[70], ends[10];
     uint32_t cycles[10];
@@ -123,7 +125,8 @@ static unsigned fuzz_image(const char *path)
             abort();
         }
         for (unsigned line = random32() % 20; line; line--) {
-            unsigned length = random32() % 40, address = random32() % 0x2100, kind = random32() % 8 ? 0 : random32() % 7;
+            unsigned length = random32() % 40, address = random32() % 0x2100,
+                     kind = random32() % 8 ? 0 : random32() % 7;
             unsigned sum = length + (address >> 8) + address + kind;
             fprintf(file, ":%02X%04X%02X", length, address, kind);
             for (unsigned i = 0; i < length; i++) {

@@ -138,7 +138,8 @@ static void check_fetches(const fuzz *f)
 static void check_processor(fuzz *f, board_reason reason)
 {
     const i8080 *c = &f->board->cpu;
-    if (reason == BOARD_HALT || reason == BOARD_BREAK || c->rom_writes || c->sp < f->at.stklow || c->sp > f->at.stktop) {
+    if (reason == BOARD_HALT || reason == BOARD_BREAK || c->rom_writes || c->sp < f->at.stklow
+        || c->sp > f->at.stktop) {
         check_fetches(f);
     }
     if (reason == BOARD_HALT) {
@@ -365,7 +366,7 @@ static void any_round(fuzz *f)
             run(f, noise_random(n, 400000));
             if (noise_random(n, 6) == 0) {
                 reset_in_the_middle(f);
-            } else if (!board_press(f->board, (uint8_t) "\x03\x13\x11\rA1\x15\x7f"[noise_random(n, 8)])) {
+            } else if (!board_press(f->board, (uint8_t)"\x03\x13\x11\rA1\x15\x7f"[noise_random(n, 8)])) {
                 abort();
             }
         }
@@ -439,8 +440,10 @@ static void read_symbols(places *at, const char *path)
         const char *name;
         uint16_t *place;
     } wanted[] = {
+        // clang-format off
         { "PEND", &at->pend }, { "VBOT", &at->vbot }, { "VTOP", &at->vtop },
         { "PROG", &at->prog }, { "STKLOW", &at->stklow }, { "STKTOP", &at->stktop },
+        // clang-format on
     };
     char line[128], name[64];
     unsigned address, found = 0;
@@ -498,7 +501,9 @@ static void read_listing(fuzz *f, const char *path)
             restart |= !strncmp(operand, restarts[i], length) && !isalnum((unsigned char)operand[length]);
         }
         bool data = !strcmp(word_, "DB") || !strcmp(word_, "DW") || !strcmp(word_, "DS");
-        if (!data || (!strcmp(word_, "DB") && (restart || first == 0xfe || first == 0x06 || first == 0x01 || first == 0x3a))) {
+        if (!data
+            || (!strcmp(word_, "DB")
+                && (restart || first == 0xfe || first == 0x06 || first == 0x01 || first == 0x3a))) {
             f->instruction[at] = true;
             count++;
         }
@@ -512,11 +517,13 @@ static void read_listing(fuzz *f, const char *path)
 int main(int argc, char **argv)
 {
     static const struct option list[] = {
+        // clang-format off
         { "rom", required_argument, NULL, 'r' },   { "sym", required_argument, NULL, 'y' },
         { "lst", required_argument, NULL, 'l' },   { "board", required_argument, NULL, 'k' },
         { "punch-tty", no_argument, NULL, 't' },   { "bytes", required_argument, NULL, 'n' },
         { "seed", required_argument, NULL, 's' },  { "session", required_argument, NULL, 'f' },
         { NULL, 0, NULL, 0 },
+        // clang-format on
     };
     static fuzz f;
     const char *rom = "roms/skg.bin", *sym = "roms/skg.sym", *lst = NULL;
@@ -526,6 +533,7 @@ int main(int argc, char **argv)
     f.lowest = 0xffff;
     for (int c; (c = getopt_long(argc, argv, "", list, NULL)) != -1;) {
         switch (c) {
+            // clang-format off
         case 'r': rom = optarg; break;
         case 'y': sym = optarg; break;
         case 'l': lst = optarg; break;
@@ -535,6 +543,7 @@ int main(int argc, char **argv)
         case 's': f.seed = strtoull(optarg, NULL, 10); break;
         case 'f': f.session = strtoull(optarg, NULL, 10); break;
         default: return 2;
+            // clang-format on
         }
     }
     for (int i = optind; i < argc; i++) {
@@ -560,12 +569,13 @@ int main(int argc, char **argv)
         session(&f, bytes);
         f.session++;
     }
-    printf("%llu bytes typed in %llu sessions, %llu rounds, %llu resets (%llu left a garbled line); %llu million instructions; stack down to %04X "
-           "(room from %04X); %.1f s at 2 MHz from ctrl-C to the prompt at most; program and LIST compared %llu times\n",
+    printf("%llu bytes typed in %llu sessions, %llu rounds, %llu resets (%llu left a garbled line); %llu million "
+           "instructions; stack down to %04X (room from %04X); %.1f s at 2 MHz from ctrl-C to the prompt at most; "
+           "program and LIST compared %llu times\n",
            (unsigned long long)(f.queued - f.dropped), (unsigned long long)(f.session - first),
-           (unsigned long long)f.rounds, (unsigned long long)f.resets,
-           (unsigned long long)f.renewed, (unsigned long long)f.instructions / 1000000,
-           f.lowest, f.at.stklow, (double)f.longest / BOARD_HZ, (unsigned long long)f.compared);
+           (unsigned long long)f.rounds, (unsigned long long)f.resets, (unsigned long long)f.renewed,
+           (unsigned long long)f.instructions / 1000000, f.lowest, f.at.stklow, (double)f.longest / BOARD_HZ,
+           (unsigned long long)f.compared);
     noise_free(&f.noise);
     return 0;
 }

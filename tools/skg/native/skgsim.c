@@ -14,18 +14,30 @@ typedef struct {
 static steps steps_in(int64_t quadrant, int64_t sense)
 {
     int turns = (int)(sense < 0 ? 5 - quadrant : quadrant - 1) % 4;
-    steps s = sense ? (steps){-1, 0, 0, 1} : (steps){1, 0, 0, 1};
+    steps s = sense ? (steps){ -1, 0, 0, 1 } : (steps){ 1, 0, 0, 1 };
     for (; turns > 0; turns--)
-        s = (steps){-s.in_y, s.in_x, -s.out_y, s.out_x};
-    return sense < 0 ? (steps){s.in_y, s.in_x, s.out_y, s.out_x} : s;
+        s = (steps){ -s.in_y, s.in_x, -s.out_y, s.out_x };
+    return sense < 0 ? (steps){ s.in_y, s.in_x, s.out_y, s.out_x } : s;
 }
 
 /* Signs of the coordinates in a quadrant. */
-static int64_t sign_x(int64_t quadrant) { return quadrant == 1 || quadrant == 4 ? 1 : -1; }
-static int64_t sign_y(int64_t quadrant) { return quadrant <= 2 ? 1 : -1; }
+static int64_t sign_x(int64_t quadrant)
+{
+    return quadrant == 1 || quadrant == 4 ? 1 : -1;
+}
+static int64_t sign_y(int64_t quadrant)
+{
+    return quadrant <= 2 ? 1 : -1;
+}
 
-static int64_t larger(int64_t a, int64_t b) { return a > b ? a : b; }
-static int64_t smaller(int64_t a, int64_t b) { return a < b ? a : b; }
+static int64_t larger(int64_t a, int64_t b)
+{
+    return a > b ? a : b;
+}
+static int64_t smaller(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
 
 /* The controller knows that it leaves a quadrant when the coordinate that shrinks there has reached 0.
  * The loop below runs within one quadrant: F changes by a constant on a line; on an arc a step along an axis
@@ -42,9 +54,9 @@ static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, int is_li
             b->px = sign_x(b->quadrant) * b->x;
             b->py = sign_y(b->quadrant) * b->y;
         }
-        b->d_max = b->d_min = is_line
-            ? b->drift_y * end_x - b->drift_x * end_y
-            : 2 * (b->drift_x * b->px + b->drift_y * b->py) + b->drift_x * b->drift_x + b->drift_y * b->drift_y;
+        b->d_max = b->d_min =
+            is_line ? b->drift_y * end_x - b->drift_x * end_y
+                    : 2 * (b->drift_x * b->px + b->drift_y * b->py) + b->drift_x * b->drift_x + b->drift_y * b->drift_y;
     }
     while (b->counted < b->j) {
         const steps s = steps_in(b->quadrant, b->sense);
@@ -67,8 +79,7 @@ static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, int is_li
             f_out = 2 * (s.out_x * px + s.out_y * py) + 1;
             grow = 2;
             distance = s.in_x ? px * -s.in_x : py * -s.in_y;
-            d_rest = 2 * (b->drift_x * px + b->drift_y * py)
-                + b->drift_x * b->drift_x + b->drift_y * b->drift_y;
+            d_rest = 2 * (b->drift_x * px + b->drift_y * py) + b->drift_x * b->drift_x + b->drift_y * b->drift_y;
             d_in = 2 * (b->drift_x * s.in_x + b->drift_y * s.in_y);
             d_out = 2 * (b->drift_x * s.out_x + b->drift_y * s.out_y);
         }
