@@ -2,13 +2,17 @@
 #
 #   make          the emulator, build/skg80: needs gcc alone
 #   make rom      roms/skg.bin .hex .sym and the other boards' images, build/skg.lst, from asm/: needs Python and node
-#   make t T=tests/rom/test_build.py     one test; make lint: the Python sources' style
+#   make t T=tests/rom/test_build.py     one test
+#   make format   Python and C as the formatters write them; make lint checks that, and both languages' warnings
+#   make docs     tables, sessions and pictures of the pages, written anew
 #   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
 #   make hunt     a million random programs, firmware against reference (PROGRAMS=1000000)
 PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python
+PAGES  := tests/floats/bounds.py tests/tools/test_drift.py tests/tools/test_dxf.py tests/tools/test_docs.py \
+          tests/docs/test_curves.py tests/docs/test_manual.py
 PART   ?= examples/xy-fig1-loop.skg
 
 all: emu
@@ -47,8 +51,29 @@ test: venv asm80 emu tools
 t: venv asm80 emu tools
 	$(PY) -m pytest -q $(if $(findstring tests,$(T)),,tests) $(T)
 
+# Style. Not formatted: Python files on the list in tools/pyproject.toml (not yet), C files in .clang-format-ignore
+# (tables made by hand), assembly (in columns, by hand).
+RUFF      := --config tools/pyproject.toml tools asm tests
+C_SOURCES := $(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c))
+C_STYLED  := $(C_SOURCES) $(wildcard $(C_SOURCES:.c=.h) emu/*.h tools/skg/native/*.[ch])
+
+format: venv
+	$(VENV)/bin/ruff format -q $(RUFF)
+	$(VENV)/bin/clang-format -i $(C_STYLED)
+
+# A warning of the C compiler is an error here.
 lint: venv
-	$(VENV)/bin/ruff check --config tools/pyproject.toml tools asm tests
+	$(VENV)/bin/ruff check $(RUFF)
+	$(VENV)/bin/ruff format --check $(RUFF)
+	$(VENV)/bin/clang-format --dry-run -Werror $(C_STYLED)
+	@for file in $(C_SOURCES); do $(CC) $(EMU_CFLAGS) -Werror -c -o /dev/null $$file || exit 1; done
+	@for file in $(wildcard tools/skg/native/*.c); do $(CC) $(TOOLS_CFLAGS) -Werror -c -o /dev/null $$file || exit 1; done
+
+# Tables, sessions and pictures of the pages and the lines Offers: and Uses: of the assembly files, as they are now.
+# (A hash seed, since a drawing's classes come out of a set.)
+docs: venv rom emu tools
+	$(PY) asm/rooms.py --headers
+	@for page in $(PAGES); do echo $(PY) $$page; PYTHONHASHSEED=0 $(PY) $$page || exit 1; done
 
 bench: bench-emu $(if $(wildcard tests/floats/floats.mk),bench-floats) bench-rom
 
@@ -58,4 +83,4 @@ bench-rom: venv emu
 clean:
 	rm -rf build
 
-.PHONY: all venv run test t lint bench bench-rom clean
+.PHONY: all venv run test t format lint docs bench bench-rom clean

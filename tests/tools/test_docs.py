@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import drawings
+import ezdxf
 import pytest
 
 import skg
@@ -72,6 +73,7 @@ def test_python() -> None:
 
 
 if __name__ == "__main__":
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # no time and no new GUID: the same drawing, the same file
     drawings.bracket().saveas(BRACKET)
     PAGE.write_text(EXAMPLE.sub(
         lambda match: f"    $ {match['command']}\n{indented(printed(match['command']))}", PAGE.read_text()))
