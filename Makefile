@@ -55,7 +55,7 @@ t: venv asm80 emu tools
 # (tables made by hand), assembly (in columns, by hand).
 RUFF      := --config tools/pyproject.toml tools asm tests
 C_SOURCES := $(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c))
-C_STYLED  := $(C_SOURCES) $(wildcard $(C_SOURCES:.c=.h) emu/*.h tools/skg/native/*.[ch])
+C_STYLED  := $(wildcard $(foreach folder,emu tests/emu tests/fuzz tools/skg/native,$(folder)/*.[ch]))
 
 format: venv
 	$(VENV)/bin/ruff format -q $(RUFF)

@@ -6,7 +6,9 @@
 #include <strings.h>
 
 enum {
+    // clang-format off
     OPERATIONS = 0x40, LOADS = 0x40, STORES = 0x80, CONSTANTS = 0xc0,  /* where each kind of code begins */
+    // clang-format on
     FLOAT = 5,                      /* bytes */
     DEPTH = 12,                     /* floats on the stack */
     EXCESS = 128
@@ -39,8 +41,10 @@ const char *calculator_init(calculator *k, const symbols *names)
         const char *name;
         uint16_t *value;
     } wanted[] = {
+        // clang-format off
         { "CALC1", &k->next }, { "FSTK", &k->stack }, { "FSP", &k->stack_pointer }, { "MREG", &k->registers },
         { "CONTAB", &k->constants }, { "QEND", &end }, { "QRET", &leave },
+        // clang-format on
     };
     memset(k, 0, sizeof *k);
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
@@ -59,7 +63,8 @@ const char *calculator_init(calculator *k, const symbols *names)
             char store[SYMBOLS_NAME + 1];
             snprintf(store, sizeof store, "S%s", s->name + 1);
             add_name(k, STORES + number, store);
-        } else if (!s->label && s->name[0] == 'Q' && (s->value < OPERATIONS || (s->value >= CONSTANTS && s->value < 256))) {
+        } else if (!s->label && s->name[0] == 'Q'
+                   && (s->value < OPERATIONS || (s->value >= CONSTANTS && s->value < 256))) {
             add_name(k, s->value, s->name);
             k->distance[s->value] |= s->value < OPERATIONS && s->name[1] == 'J';
         }
@@ -143,7 +148,8 @@ static void print_register(const calculator *k, const i8080 *c, unsigned number,
     char names[CALCULATOR_TEXT] = "";
     for (const char *from = k->code[LOADS + number]; *from; from += strcspn(from, "/"), from += *from == '/') {
         size_t length = strlen(names);
-        snprintf(names + length, sizeof names - length, "%s%.*s", length ? "/" : "", (int)strcspn(from, "/") - 1, from + 1);
+        snprintf(names + length, sizeof names - length, "%s%.*s", length ? "/" : "", (int)strcspn(from, "/") - 1,
+                 from + 1);
     }
     fprintf(out, "M%-2u %-12s %.9g\n", number, names, float_at(c, k->registers + FLOAT * number));
 }
@@ -166,7 +172,7 @@ bool calculator_print_registers(const calculator *k, const i8080 *c, const char 
 
 uint16_t calculator_print_code(const calculator *k, const i8080 *c, uint16_t address, unsigned count, FILE *out)
 {
-    bool target[0x100] = { false };     /* of a jump, by the low byte of its address; no jump goes so far that it matters */
+    bool target[0x100] = { false }; /* of a jump, by the low byte of its address; no jump goes so far that it matters */
     for (bool ends = false; !ends && count; count--) {
         char text[CALCULATOR_TEXT], place[SYMBOLS_PLACE];
         uint8_t code = i8080_peek(c, address);

@@ -90,7 +90,7 @@ static void show_breaks(const debug *d)
 
 /* A command's words behind its name. */
 typedef struct {
-    const char *first, *second;     /* NULL: none */
+    const char *first, *second; /* NULL: none */
 } words;
 
 typedef void command_fn(debug *d, const words *w);
@@ -324,8 +324,10 @@ static void do_help(debug *d, const words *w)
     for (unsigned i = 0; i < COMMANDS; i++) {
         fprintf(stderr, "%-10s %-14s %s\n", commands[i].name, commands[i].takes, commands[i].what);
     }
-    fputs("A command may be cut short: the first one that begins so is meant. An empty line repeats the last. PLACE is a\n"
-          "label or cell of the sources, one with a distance (CALC1+2), or a hexadecimal address.\n", stderr);
+    fputs(
+        "A command may be cut short: the first one that begins so is meant. An empty line repeats the last. PLACE is a\n"
+        "label or cell of the sources, one with a distance (CALC1+2), or a hexadecimal address.\n",
+        stderr);
 }
 
 /* Carries out one line. */

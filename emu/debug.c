@@ -184,7 +184,7 @@ board_reason debug_run(debug *d, uint64_t cycles)
         }
         bool over = reason == BOARD_HALT || reason == BOARD_NOBODY || reason == BOARD_BREAK;
         if (reason != BOARD_CYCLES && (over || d->mode != STOPPED)) {
-            return reason;          /* (a machine that waits for a key will say so again after the talk) */
+            return reason; /* (a machine that waits for a key will say so again after the talk) */
         }
     }
     return BOARD_CYCLES;

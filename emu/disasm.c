@@ -61,9 +61,11 @@ static unsigned high_quarter(unsigned y, unsigned z, char text[NAME])
     static const struct {
         const char *name;
         uint8_t operand;
+    // clang-format off
     } jumps[] = { { "JMP", WORD }, { "JMP", WORD }, { "OUT", BYTE }, { "IN", BYTE },
                   { "XTHL", NONE }, { "XCHG", NONE }, { "DI", NONE }, { "EI", NONE } },
       odd[] = { { "RET", NONE }, { "RET", NONE }, { "PCHL", NONE }, { "SPHL", NONE } };
+    // clang-format on
     const char *pair = y >> 1 == 3 ? "PSW" : PAIR[y >> 1];
     switch (z) {
     case 0:

@@ -49,7 +49,9 @@ static bool whole_number(const char *text, uint64_t least, uint64_t most, uint64
 /* What is wrong with the options together, or NULL. */
 static const char *misfit(const options *o)
 {
-    if (o->com && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->debug || o->break_count || o->trace || o->sym)) {
+    if (o->com
+        && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->debug
+            || o->break_count || o->trace || o->sym)) {
         return "--com goes with --stats and --max-cycles alone";
     }
     if (o->part && o->pty) {
@@ -116,8 +118,10 @@ static int refuse(char **argv)
 
 int options_read(int argc, char **argv, options *o)
 {
+    // clang-format off
     enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, STATS, MAX_CYCLES, COM, DEBUG, BREAK, TRACE,
            SYM, HELP };
+    // clang-format on
     static const struct option list[] = {
         { "rom", required_argument, NULL, ROM },
         { "ram", required_argument, NULL, RAM },

@@ -25,11 +25,12 @@ void trace_instruction(const i8080 *c, const symbols *s, FILE *out)
     } flags[] = { { 0x80, 'S' }, { 0x40, 'Z' }, { 0x10, 'A' }, { 0x04, 'P' }, { 0x01, 'C' } };
     enum { FLAGS = sizeof flags / sizeof *flags };
     char text[DISASM_TEXT], place[SYMBOLS_PLACE], set[FLAGS + 1] = "";
-    const uint8_t code[] = { i8080_peek(c, c->pc), i8080_peek(c, (uint16_t)(c->pc + 1)), i8080_peek(c, (uint16_t)(c->pc + 2)) };
+    const uint8_t code[] = { i8080_peek(c, c->pc), i8080_peek(c, (uint16_t)(c->pc + 1)),
+                             i8080_peek(c, (uint16_t)(c->pc + 2)) };
     disasm(s, code, text);
     for (unsigned i = 0; i < FLAGS; i++) {
         set[i] = c->f & flags[i].bit ? flags[i].name : '.';
     }
-    fprintf(out, "%llu %04X %-10s %-14s A=%02X F=%s BC=%04X DE=%04X HL=%04X SP=%04X\n", (unsigned long long)c->cycles, c->pc,
-            symbols_place(s, c->pc, place), text, c->a, set, c->bc, c->de, c->hl, c->sp);
+    fprintf(out, "%llu %04X %-10s %-14s A=%02X F=%s BC=%04X DE=%04X HL=%04X SP=%04X\n", (unsigned long long)c->cycles,
+            c->pc, symbols_place(s, c->pc, place), text, c->a, set, c->bc, c->de, c->hl, c->sp);
 }

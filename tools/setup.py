@@ -26,8 +26,10 @@ ABOVE = HERE if (HERE / "emu").is_dir() else HERE.parent
 #: Library -> its sources and the compiler's options. emu/emu.mk and tools.mk build the same for developers.
 LIBRARIES = {
     "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3"]),
-    "libskg80.so": ([ABOVE / "emu" / name for name in ("i8080.c", "board.c", "machine.c", "image.c")],
-                    ["-O2", "-D_DEFAULT_SOURCE", "-D_XOPEN_SOURCE=700"]),
+    "libskg80.so": (
+        [ABOVE / "emu" / name for name in ("i8080.c", "board.c", "machine.c", "image.c")],
+        ["-O2", "-D_DEFAULT_SOURCE", "-D_XOPEN_SOURCE=700"],
+    ),
 }
 
 
@@ -101,5 +103,7 @@ class SourceDistribution(sdist):
                 shutil.copy(file, target)
 
 
-setup(distclass=Native,
-      cmdclass={"build": Build, "build_py": BuildPackage, "bdist_wheel": Wheel, "sdist": SourceDistribution})
+setup(
+    distclass=Native,
+    cmdclass={"build": Build, "build_py": BuildPackage, "bdist_wheel": Wheel, "sdist": SourceDistribution},
+)

@@ -216,8 +216,23 @@ def test_breakpoints_by_label_distance_and_address(nothing: Path) -> None:
     """Also in byte-code; lists them, deletes them, and stops at none that is gone."""
     names = labels()
     at = names["RUNINI"]
-    answers = debugged(EXAMPLE, "break runini", f"break {at + 1:x}", "break RUNINI+1", "break", "continue", "continue",
-                       "delete RUNINI", "break", "delete", "break", "break MOVE", "continue", "continue", "code 0")
+    answers = debugged(
+        EXAMPLE,
+        "break runini",
+        f"break {at + 1:x}",
+        "break RUNINI+1",
+        "break",
+        "continue",
+        "continue",
+        "delete RUNINI",
+        "break",
+        "delete",
+        "break",
+        "break MOVE",
+        "continue",
+        "continue",
+        "code 0",
+    )
     assert answers[:3] == ["", "", ""]
     assert answers[3] == f"{at:04X} RUNINI\n{at + 1:04X} RUNINI+1\n"
     assert f" {at:04X} RUNINI " in answers[4]

@@ -38,8 +38,9 @@ def start(words: list[str], closed: int) -> subprocess.Popen[bytes]:
     """Start a command one of whose streams (1, 2) is a pipe that nobody reads; the other one is kept."""
     reading, writing = os.pipe()
     streams = {1: ("stdout", "stderr"), 2: ("stderr", "stdout")}[closed]
-    process = subprocess.Popen([SKG, *words], cwd=ROOT, stdin=subprocess.DEVNULL,
-                               **{streams[0]: writing, streams[1]: subprocess.PIPE})
+    process = subprocess.Popen(
+        [SKG, *words], cwd=ROOT, stdin=subprocess.DEVNULL, **{streams[0]: writing, streams[1]: subprocess.PIPE}
+    )
     os.close(writing)
     os.close(reading)
     return process
@@ -71,18 +72,21 @@ def test_closed_output(words: list[str]) -> None:
 
 @each
 def test_full_disk(words: list[str]) -> None:
-    done = subprocess.run(["bash", "-c", '"$@" >/dev/full', "bash", SKG, *words], cwd=ROOT, timeout=60,
-                          capture_output=True)
+    done = subprocess.run(
+        ["bash", "-c", '"$@" >/dev/full', "bash", SKG, *words], cwd=ROOT, timeout=60, capture_output=True
+    )
     assert done.returncode == 2
     assert done.stderr.endswith(b"skg: standard output: No space left on device\n")
 
 
 def test_help_loads_no_command() -> None:
     """`skg --help` needs click alone: neither the commands nor what they are made of."""
-    text = ("import sys; from click.testing import CliRunner; from skg.cli import cli; "
-            "assert 'from-dxf' in CliRunner().invoke(cli, ['--help']).stdout; "
-            "slow = ('skg.', 'numpy', 'matplotlib', 'ezdxf', 'lark'); "
-            "print([name for name in sys.modules if name.startswith(slow)])")
+    text = (
+        "import sys; from click.testing import CliRunner; from skg.cli import cli; "
+        "assert 'from-dxf' in CliRunner().invoke(cli, ['--help']).stdout; "
+        "slow = ('skg.', 'numpy', 'matplotlib', 'ezdxf', 'lark'); "
+        "print([name for name in sys.modules if name.startswith(slow)])"
+    )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "['skg.errors', 'skg.cli']\n"
 
@@ -90,7 +94,9 @@ def test_help_loads_no_command() -> None:
 @pytest.mark.parametrize("command", ["run", "sim", "check", "gcode"])
 def test_small_commands_start_fast(command: str) -> None:
     """They load no library that takes a tenth of a second and more."""
-    text = (f"import sys; import skg.commands.{command}; "
-            "print([name for name in ('numpy', 'matplotlib', 'ezdxf', 'lark', 'mpmath') if name in sys.modules])")
+    text = (
+        f"import sys; import skg.commands.{command}; "
+        "print([name for name in ('numpy', 'matplotlib', 'ezdxf', 'lark', 'mpmath') if name in sys.modules])"
+    )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"

@@ -40,8 +40,17 @@ def install(folder: Path) -> None:
     succeed(*pip, "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", folder, folder / name, cwd=folder)
     succeed(sys.executable, "-m", "venv", "--without-pip", "env", cwd=folder)
     wheel = next(folder.glob("*.whl"))
-    succeed(*pip, "--python", folder / "env" / "bin" / "python", "install", "-q", "--no-deps", "--no-index", wheel,
-            cwd=folder)
+    succeed(
+        *pip,
+        "--python",
+        folder / "env" / "bin" / "python",
+        "install",
+        "-q",
+        "--no-deps",
+        "--no-index",
+        wheel,
+        cwd=folder,
+    )
     inside = next((folder / "env" / "lib").glob("python3*")) / "site-packages"
     # What the package depends on, but not this environment's own skg: that one is found through a .pth file.
     (inside / "lent.pth").write_text(sysconfig.get_path("purelib"))

@@ -77,11 +77,16 @@ def test_answers_and_output(run_program: Program, tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (0, theirs.stdout)
 
 
-@pytest.mark.parametrize(("rom", "options"), [
-    ("no-drift", ["--rom", ROMS / "skg-nodrift.bin"]), (ROMS / "skg.hex", ["--rom", ROMS / "skg.hex"]),
-    ("8251", ["--rom", ROMS / "skg-8251.bin", "--board", "8251"]),
-    ("tty", ["--rom", ROMS / "skg-tty.bin", "--punch-tty"]),
-], ids=["no-drift", "hex", "8251", "tty"])
+@pytest.mark.parametrize(
+    ("rom", "options"),
+    [
+        ("no-drift", ["--rom", ROMS / "skg-nodrift.bin"]),
+        (ROMS / "skg.hex", ["--rom", ROMS / "skg.hex"]),
+        ("8251", ["--rom", ROMS / "skg-8251.bin", "--board", "8251"]),
+        ("tty", ["--rom", ROMS / "skg-tty.bin", "--punch-tty"]),
+    ],
+    ids=["no-drift", "hex", "8251", "tty"],
+)
 def test_roms(run_program: Program, rom: str, options: list[str]) -> None:
     part = ROOT / "examples" / "skg06-belts.skg"
     theirs = by_skg80(*options, part)
@@ -89,14 +94,19 @@ def test_roms(run_program: Program, rom: str, options: list[str]) -> None:
     same(run_program("run", part, "--rom", rom), theirs, part)
 
 
-@pytest.mark.parametrize(("words", "message"), [
-    (["none.skg"], "none.skg: No such file or directory"),
-    (["examples/wrench.skg", "--rom", "none.bin"], "none.bin: No such file or directory"),
-    (["examples/wrench.skg", "--rom", "roms/skg.hex/"], "roms/skg.hex/: Not a directory"),
-    (["examples/wrench.skg", "--ram", "57"],
-     "Invalid value for '--ram': 57 is not in the range 2<=x<=56 (see skg run --help)"),
-    (["-", "--input", "-"], "the program and the answers cannot both come from the standard input"),
-])
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["none.skg"], "none.skg: No such file or directory"),
+        (["examples/wrench.skg", "--rom", "none.bin"], "none.bin: No such file or directory"),
+        (["examples/wrench.skg", "--rom", "roms/skg.hex/"], "roms/skg.hex/: Not a directory"),
+        (
+            ["examples/wrench.skg", "--ram", "57"],
+            "Invalid value for '--ram': 57 is not in the range 2<=x<=56 (see skg run --help)",
+        ),
+        (["-", "--input", "-"], "the program and the answers cannot both come from the standard input"),
+    ],
+)
 def test_wrong_usage(run_program: Program, words: list[str], message: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
     done = run_program("run", *words)
@@ -128,10 +138,13 @@ def test_a_rom_with_a_hole(run_program: Program, tmp_path: Path) -> None:
     rom.write_text(":0300000000000000FD\n:00000001FF\n".replace("0000000000FD", "00000000FD"))
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
     assert (done.returncode, done.stderr) == (
-        2, f"skg: {ROOT}/examples/wrench.skg: the machine runs into 0003, where the ROM image has nothing\n")
+        2,
+        f"skg: {ROOT}/examples/wrench.skg: the machine runs into 0003, where the ROM image has nothing\n",
+    )
 
 
 # The board ------------------------------------------------------------------------------------------------
+
 
 def test_board_goes_on_after_an_error() -> None:
     board = skg.Board()

@@ -22,15 +22,30 @@ def _answers(name: str | None) -> Iterator[str]:
 
 @click.command(name="run")
 @click.argument("part", type=click.Path(allow_dash=True))
-@click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True),
-              help="Where the tape goes.")
-@click.option("--rom", default="standard", show_default=True, metavar="NAME|FILE",
-              help="The ROM: standard, no-drift, 8251, tty, or an image of your own, .bin or Intel .hex.")
+@click.option(
+    "-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True), help="Where the tape goes."
+)
+@click.option(
+    "--rom",
+    default="standard",
+    show_default=True,
+    metavar="NAME|FILE",
+    help="The ROM: standard, no-drift, 8251, tty, or an image of your own, .bin or Intel .hex.",
+)
 @click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
-@click.option("--input", "answers", metavar="FILE", type=click.Path(allow_dash=True),
-              help="What the operator answers to INPUT, one line each.")
-@click.option("--max-cycles", metavar="N", type=click.IntRange(1),
-              help="Give up LOAD or RUN after so many cycles, with exit code 3.")
+@click.option(
+    "--input",
+    "answers",
+    metavar="FILE",
+    type=click.Path(allow_dash=True),
+    help="What the operator answers to INPUT, one line each.",
+)
+@click.option(
+    "--max-cycles",
+    metavar="N",
+    type=click.IntRange(1),
+    help="Give up LOAD or RUN after so many cycles, with exit code 3.",
+)
 def command(part: str, output: str, rom: str, ram: int, answers: str | None, max_cycles: int | None) -> None:
     """LOAD and RUN PART (an SKG program; `-`: standard input) on the board, by the ROM itself.
 

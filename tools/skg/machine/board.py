@@ -49,8 +49,16 @@ class Board:
     registers, cycles.
     """
 
-    def __init__(self, rom: str | bytes = "standard", ram_kib: int = 8, *, board: str = "6850", punch_tty: bool = False,
-                 max_cycles: int | None = None, on_paper: Callable[[str], object] | None = None) -> None:
+    def __init__(
+        self,
+        rom: str | bytes = "standard",
+        ram_kib: int = 8,
+        *,
+        board: str = "6850",
+        punch_tty: bool = False,
+        max_cycles: int | None = None,
+        on_paper: Callable[[str], object] | None = None,
+    ) -> None:
         if isinstance(rom, str):
             image, missing, known = find_rom(rom)
             board = known.board if known.board != "6850" else board
