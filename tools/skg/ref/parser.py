@@ -259,10 +259,7 @@ class _Tree(Transformer):
     def line(self, children: list) -> ProgramLine:
         if not isinstance(children[0], Token):
             return ProgramLine(None, children[0])
-        number = _line_number(children[0])
-        if not 1 <= number <= LAST_LINE:
-            raise LineFault(Code.SYNTAX, children[0].start_pos)
-        return ProgramLine(number, children[1])
+        return ProgramLine(_line_number(children[0]), children[1])
 
     @v_args(inline=True)
     def number(self, token: Token) -> Number:
@@ -388,6 +385,13 @@ def _literal_check(token: Token) -> Token:
     return token
 
 
+def _check_head(squeezed: str) -> None:
+    """Error for a number in front of the statement that is no program line's; nothing behind it is looked at then."""
+    head = re.match(r"([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+)?", squeezed)
+    if head and not 1 <= _line_number(_literal_check(Token("NUMBER", head[0], 0))) <= LAST_LINE:
+        raise LineFault(Code.SYNTAX, 0)
+
+
 def _subscript_check(token: Token) -> Token:
     if whole(token[1:]) > LAST_SUBSCRIPT:
         raise LineFault(Code.RANGE, token.start_pos)
@@ -469,6 +473,8 @@ def _parse(text: str, start: str) -> ProgramLine | Expression:
         raise LineFault(Code.MEMORY, len(text))
     columns.append(len(text))
     try:
+        if start == "line":
+            _check_head(squeezed)
         return _parser().parse(squeezed, start=start)
     except UnexpectedInput as unexpected:
         place = unexpected.pos_in_stream
