@@ -23,9 +23,9 @@ CAD_TAPE = (b"B9900B0B9900GXL3\r\nB0B70100B70100GYL2\r\nB55000B0B55000GXL3\r\n"
 
 
 @pytest.fixture(scope="session", autouse=True)
-def simulator_library() -> None:
-    """Build the simulator's shared library."""
-    subprocess.run(["make", "-s", "-f", "tools/tools.mk", "tools"], cwd=ROOT, check=True)
+def libraries(build: Callable[..., None]) -> None:
+    """The libraries in C: the board and the simulator."""
+    build("emu", "tools")
 
 
 @pytest.fixture
