@@ -1,8 +1,8 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: QEND QJN QJZ QDRP QJMP QRET QDUP QOVR QSWP QOWN CALINI FUN RUNBC CALC0 OOVR COPY5 CALPOP
-;         OJMP1 XXCH OSWP1 OPTAB
+; Offers: QEND QJN QJZ QDRP QJMP QRET QDUP QOVR QSWP QDBL QOWN CALINI FUN RUNBC CALC0 OOVR COPY5
+;         CALPOP OJMP1 XXCH OSWP1 OPTAB
 ; Uses:   consts float geom
-; Room:   240 bytes
+; Room:   247 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;
@@ -47,15 +47,16 @@ QDUP    EQU 0DH         ; x -> x x
 QOVR    EQU 0EH         ; x y -> x y x
 QSWP    EQU 0FH         ; x y -> y x
 QSQ     EQU 10H         ; x -> x*x
-QNEG    EQU 11H         ; x -> -x
-QFLR    EQU 12H         ; x -> greatest whole number not above
-QSQRT   EQU 13H         ; x -> square root
-QSIN    EQU 14H         ; x -> sine of x degrees
-QCOS    EQU 15H
-QTG     EQU 16H
-QATG    EQU 17H         ; x -> arc tangent in degrees
-QABS    EQU 18H         ; x -> |x|
-QOWN    EQU 19H         ; number of the first operation that another file adds
+QDBL    EQU 11H         ; x -> x+x
+QNEG    EQU 12H         ; x -> -x
+QFLR    EQU 13H         ; x -> greatest whole number not above
+QSQRT   EQU 14H         ; x -> square root
+QSIN    EQU 15H         ; x -> sine of x degrees
+QCOS    EQU 16H
+QTG     EQU 17H
+QATG    EQU 18H         ; x -> arc tangent in degrees
+QABS    EQU 19H         ; x -> |x|
+QOWN    EQU 1AH         ; number of the first operation that another file adds
 
 ; CALINI - empties the float stack
 ; Clobbers HL
@@ -208,6 +209,12 @@ ORET:   POP     H               ; CALC
         POP     H               ; code pointer
         RET
 
+; ODBL - QDBL: x + x
+; In:  HL -> x   Out: x; ERR 05   Clobbers all
+ODBL:   MOV     D,H
+        MOV     E,L
+        JMP     FADD
+
 ; XXCH - exchanges a and b (QXCH)
 ; Clobbers all
 XXCH:   LXI     D,MA
@@ -233,7 +240,7 @@ OPTAB:  DW      FADD,FSUB,FMUL,FDIV
         DW      OJN,OJZ,ODRP
         DW      XSIG,XMAX,XE6N  ; (geom.asm)
         DW      OJMP,ORET
-        DW      ODUP,OOVR,OSWP,OSQ
+        DW      ODUP,OOVR,OSWP,OSQ,ODBL
         DW      FNEG,FFLR,FSQR
         DW      FSIN,FCOS,FTG,FATG
         DW      FABS

@@ -1,7 +1,7 @@
 ; consts.asm - constants of the calculator
-; Offers: Q1 Q0 QM1 QI64 QHALF QMU Q90 Q180 Q1000 QNEAR Q502 QEPS Q8DIG QI180 Q10 CONTAB
+; Offers: Q1 Q0 QM1 QI64 QHALF QMU Q90 Q1000 QNEAR Q502 QEPS Q8DIG QI180 Q10 CONTAB
 ; Uses:   nothing
-; Room:   85 bytes, 5 a constant
+; Room:   80 bytes, 5 a constant
 ;
 ; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see
 ; float.asm).  Add new ones at the end.
@@ -13,14 +13,13 @@ QI64    EQU 0C5H
 QHALF   EQU 0C6H
 QMU     EQU 0C7H        ; 1 um
 Q90     EQU 0C8H
-Q180    EQU 0C9H
-Q1000   EQU 0CAH
-QNEAR   EQU 0CBH        ; numbers this close are equal
-Q502    EQU 0CCH        ; halves of a um, and what lies 2 nm below
-QEPS    EQU 0CDH        ; directions this close (rad) are one line
-Q8DIG   EQU 0CEH        ; the greatest number on a tape
-QI180   EQU 0CFH
-Q10     EQU 0D0H
+Q1000   EQU 0C9H
+QNEAR   EQU 0CAH        ; numbers this close are equal
+Q502    EQU 0CBH        ; halves of a um, and what lies 2 nm below
+QEPS    EQU 0CCH        ; directions this close (rad) are one line
+Q8DIG   EQU 0CDH        ; the greatest number on a tape
+QI180   EQU 0CEH
+Q10     EQU 0CFH
 
 ; The table begins with Y (1,0,0), from whose 0 on stands O (0,0), from the next one X (0,-1,0):
 ; FIND (parser.asm) finds them there; so all three must begin in one page (a test looks).
@@ -33,7 +32,6 @@ CONTAB: DB      81H,00H,00H,00H,00H     ; 1
         DB      80H,00H,00H,00H,00H     ; 0.5
         DB      77H,03H,12H,6EH,98H     ; 0.001
         DB      87H,34H,00H,00H,00H     ; 90
-        DB      88H,34H,00H,00H,00H     ; 180
         DB      8AH,7AH,00H,00H,00H     ; 1000
         DB      69H,56H,0BFH,94H,0D6H   ; 1E-7
         DB      80H,00H,83H,12H,6FH     ; 0.502

@@ -3,7 +3,7 @@
 ;         RBEMP SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL
 ;         XNORM XTOK XNORMS SBACK SBACK1
 ; Uses:   calc consts fit float geom io monitor parser repeat start tape
-; Room:   1260 bytes
+; Room:   1250 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -144,19 +144,6 @@ CORDON: LXI     H,0
         SHLD    RTURN           ; and RNAMED
         DB      CALC,QMU,STL,Q0,SFI,QRET ; -
 
-; ITDONE - notes that an item was written
-; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
-ITDONE: STA     RLASTP
-        LXI     H,RITEMS
-        MOV     B,M
-        MVI     M,2
-        INR     B
-        DCR     B
-        RNZ
-        DCR     M               ; it is the first one
-        STA     RFSTP
-        RET
-
 ; ITCHK - in check mode: refuses a fillet that the line itself shows to have no place: after
 ;         another one, and between an element and a point
 ; In:  VKIND, KTURN when the line does not show it; RITCHK   Out: RITCHK; ERR 01   Clobbers A, B, HL
@@ -238,7 +225,20 @@ ITPN5:  DB      CALC
 ITPN3:  DB      LDX,SPX,LDY,SPY ; -
         DB      QEND            ;               (leaves A = 0)
         INR     A
-        JMP     ITDONE
+; (fall into ITDONE)
+
+; ITDONE - notes that an item was written
+; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
+ITDONE: STA     RLASTP
+        LXI     H,RITEMS
+        MOV     B,M
+        MVI     M,2
+        INR     B
+        DCR     B
+        RNZ
+        DCR     M               ; it is the first one
+        STA     RFSTP
+        RET
 
 ; GETR - the present R, the wire offset; 0 where it was not set
 ; Out: NR   Clobbers A, BC, DE, HL
@@ -343,15 +343,15 @@ FILL9:  DB      QDOT,QE6N,Q0,SFI,QRET ; -       straight on, or straight back
 PASSED: DB      CALC,QCA,QJC    ; -
         DB      PASS1-$
         DB      QRET
-PASS1:  DB      QNORM,LA0,LA1   ; tx ty
+PASS1:  DB      QNORM,QVEC      ; tx ty
         DB      LC2,LCR,QADD,ST0 ; tx ty                t0 = r of the wire's path
-        DB      QCA,LKX,LKY,QTOK,QNORM,LA0,LA1 ; tx ty kx ky
+        DB      QCA,LKX,LKY,QTOK,QNORM,QVEC ; tx ty kx ky
         DB      QCA,LAX,LAY,QTOK,QNORM ; tx ty kx ky  a = of the entry
         DB      LA1,QSUB,LT0,QMUL,SB1 ; tx ty kx        b = chord to K
         DB      LA0,QSUB,LT0,QMUL,SB0 ; tx ty
         DB      LA1,QSUB,LT0,QMUL,QSWP ; dy tx          a = chord to T
         DB      LA0,QSUB,LT0,QMUL,SA0,SA1 ; -
-        DB      LA0,LA1,QFAR,QJN ; -            T is the entry
+        DB      QVEC,QFAR,QJN   ; -             T is the entry
         DB      PASS2-$
         DB      LB0,LB1,QFAR,QJN ; -            K is the entry
         DB      PASS3-$
@@ -372,7 +372,7 @@ OFFCH1: DB      QEND
 
 ; a corner that no point names: the crossing
 CROSS:  DB      CALC,QXING      ; -
-ATOK:   DB      LA0,LA1,QTOK,QRET ; -
+ATOK:   DB      QVEC,QTOK,QRET  ; -
 
 ; CORNER - the corner between C and N as offset
 ; In:  C, N, RTURN, RNAMED, P   Out: K, O1, O2   Clobbers all
@@ -470,14 +470,15 @@ PATC:   DB      CALC,LPX,LPY,QTOK ; -             b = K = P
 SAMEF:  LDA     RLASTP
         ORA     A
         RNZ
-        LXI     D,MFIRST
-        JMP     SAME
-SAMEC:  LXI     D,MCUR
+        MVI     E,MFIRST & 255
+        DB      3AH             ; LDA: skips the MVI
+SAMEC:  MVI     E,MCUR & 255
 ; (fall into SAME)
 
 ; SAME - are an element and N the same curve in the same direction?
-; In:  DE -> C or F   Out: Z set when they are   Clobbers all
-SAME:   CALL    XNA1            ; a = the element
+; In:  E: low byte of -> C or F   Out: Z set when they are   Clobbers all
+SAME:   MVI     D,MREG/256      ; (both are in the registers' first page)
+        CALL    XNA1            ; a = the element
         LXI     H,MT0
         CALL    COPY15          ; t0 = its offset, (t1,t2) = where it was entered
         LDA     VKIND
@@ -590,7 +591,7 @@ ENDRT:  CALL    FITEND
 SFROM:  CALL    EVPNT
         DB      CHKEND
         CALL    SCALED
-        DB      CALC,LA0,LA1,QEND ; x y           kept while the route ends
+        DB      CALC,QVEC,QEND  ; x y           kept while the route ends
         CALL    ENDRT
         DB      CALC,SHY,SHX,QEND ; -
         LXI     H,RMOVED
@@ -663,7 +664,7 @@ XNORM1: DB      QDIF            ; dx dy
 XTOK:   DB      CALC,QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -
 ; QNORMS: a0 a1, b0 b1 = right normals of C and N at K = b; negative when they differ by less than
 ; 0.001 rad
-XNORMS: DB      CALC,QNA,QNORM,LA0,LA1 ; x y
+XNORMS: DB      CALC,QNA,QNORM,QVEC ; x y
         DB      QCA,QNORM,SB1,SB0 ; -
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET

@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
 ; Offers: STOL SFIT FITEND
 ; Uses:   calc consts cut float geom parser start
-; Room:   594 bytes
+; Room:   588 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -30,7 +30,7 @@ STOL:   CALL    FITEND
 
 ; SFIT - statement: FIT point; FIT point, angle
 SFIT:   CALL    EVPNT
-        DB      CALC,LA0,LA1,QEND ; x y
+        DB      CALC,QVEC,QEND  ; x y
         DB      PEEK
         PUSH    PSW             ; Z: no angle
         JZ      SFIT1
@@ -91,7 +91,7 @@ LAST1:  DB      QDRP,QDRP,LB1,LB0,QJMP ; y x    (its length does not matter: bot
 MIDDLE: DB      CALC,QXCH,L1X,L2X,L1Y,L2Y,QWAY ; v*v a = w, b = -v: to node 1 from node 2
         DB      QDIF,QFAR,QE6N  ; v*v
         DB      LT5,QSWP,QDIV,QREFL ; -         a = w + v*(w*w)/(v*v)
-        DB      LA0,LA1,QUNIT,LA1,LA0 ; y x
+        DB      QVEC,QUNIT,LA1,LA0 ; y x
 MIDD1:  DB      S2U,S2V,QEND    ; -
 ; (fall into SPAN)
 
@@ -235,7 +235,7 @@ FITEND: CALL    CHKRET
 MIRROR: CALL    CHORD
 ; MIRR1 - a vector mirrored about another
 ; In:  a, b, on the float stack b*b   Out: on the float stack y x   Clobbers all
-MIRR1:  DB      CALC,QDOT,QDUP,QADD,QSWP,QDIV,QREFL ; -
+MIRR1:  DB      CALC,QDOT,QDBL,QSWP,QDIV,QREFL ; -
         DB      LA1,QNEG,LA0,QNEG,QRET  ; y x
 
 ; CHORD - prepares for a biarc
@@ -265,14 +265,14 @@ ARCW:   LXI     H,MT4
 ; In:  DE -> node, node 1, MX MY   Out: FITSM   Clobbers all but D
 FITCIR: CALL    ARCW
         DB      CALC,QDUP,QEPS,QMUL ; w*w limit     r = 50 m
-        DB      QMU,QDUP,QADD,QMAX ; w*w limit  or |t x w| = 2 um
+        DB      QMU,QDBL,QMAX   ; w*w limit  or |t x w| = 2 um
         DB      QCRS,QDUP,ST0,QABS,QSUB ; w*w limit-|t x w|
         DB      QJN             ; w*w
         DB      FITC1-$
         DB      QDRP,QEND       ; -             (leaves A = 0)
 FITC2:  STA     FITSM
         RET
-FITC1:  DB      LT0,QDUP,QADD,QDIV,SA2 ; -      r
+FITC1:  DB      LT0,QDBL,QDIV,SA2 ; -      r
         DB      LT4,LA2,LA1,QMUL,QSUB ; x
         DB      LA2,LA0,QMUL,LT5,QADD,QEND ; x y
         MVI     A,KCIR

@@ -125,51 +125,6 @@ FADD4:  CALL    FLOAD
         MVI     L,0
         JMP     FNRME
 
-; FSHR - shifts a mantissa right
-; In:  B C D E, A = bits   Out: B C D E L, bit 0 of L also set when a 1 was lost
-; Clobbers A, H
-FSHR:   PUSH    PSW
-        MVI     L,0
-        ANI     7
-        MOV     H,A
-        CNZ     FSHR1
-        POP     PSW
-FSHR3:  SUI     8
-        RC
-        MOV     H,A
-        XRA     A
-        CMP     L               ; CY: something is lost
-        RAL
-        ORA     E
-        MOV     L,A
-        MOV     E,D
-        MOV     D,C
-        MOV     C,B
-        MVI     B,0
-        MOV     A,H
-        JMP     FSHR3
-
-; FSHR2 - shifts H bits, CY comes in first
-FSHR1:  ORA     A
-FSHR2:  MOV     A,B
-        RAR
-        MOV     B,A
-        MOV     A,C
-        RAR
-        MOV     C,A
-        MOV     A,D
-        RAR
-        MOV     D,A
-        MOV     A,E
-        RAR
-        MOV     E,A
-        MOV     A,L
-        RAR
-        MOV     L,A
-        DCR     H
-        JNZ     FSHR1
-        RET
-
 ; OSQ - QSQ: x * x (an operation of the calculator)
 ; In:  HL -> x   Out: x; ERR 05   Clobbers all
 OSQ:    MOV     D,H
@@ -616,7 +571,52 @@ FALIGN: SUB     M               ; bits behind the units (too large: at least 161
         STA     SIGN
         CALL    FLOAD
         POP     PSW
-        JMP     FSHR
+; (fall into FSHR)
+
+; FSHR - shifts a mantissa right
+; In:  B C D E, A = bits   Out: B C D E L, bit 0 of L also set when a 1 was lost
+; Clobbers A, H
+FSHR:   PUSH    PSW
+        MVI     L,0
+        ANI     7
+        MOV     H,A
+        CNZ     FSHR1
+        POP     PSW
+FSHR3:  SUI     8
+        RC
+        MOV     H,A
+        XRA     A
+        CMP     L               ; CY: something is lost
+        RAL
+        ORA     E
+        MOV     L,A
+        MOV     E,D
+        MOV     D,C
+        MOV     C,B
+        MVI     B,0
+        MOV     A,H
+        JMP     FSHR3
+
+; FSHR2 - shifts H bits, CY comes in first
+FSHR1:  ORA     A
+FSHR2:  MOV     A,B
+        RAR
+        MOV     B,A
+        MOV     A,C
+        RAR
+        MOV     C,A
+        MOV     A,D
+        RAR
+        MOV     D,A
+        MOV     A,E
+        RAR
+        MOV     E,A
+        MOV     A,L
+        RAR
+        MOV     L,A
+        DCR     H
+        JNZ     FSHR1
+        RET
 
 ; FFLR - greatest whole number not above x
 ; In:  HL -> x   Out: x   Clobbers all
@@ -739,7 +739,7 @@ FSIN:   MOV     A,M
         CALL    FUN
         DB      QDUP,QI180,QMUL         ; x x/180
         DB      QHALF,QADD,QFLR         ; x k           k half turns
-        DB      Q180,QMUL,QSUB          ; r             -90...90
+        DB      Q90,QMUL,QDBL,QSUB      ; r             -90...90
         DB      QI64,QMUL,QEND          ; r/64
         LDA     ODD
         RRC

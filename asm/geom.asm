@@ -1,8 +1,8 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: XXING BINOPK BINOP BIN4 XUNIT SXS BELT XDOT XCRS XDIF XCENT XWAY XSS XHYP XFAR XREFL XROTV
-;         XLEG XSIG XMAX XE6D XE6N ERGEO
+; Offers: XXING BINOPK BINOP BIN4 XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XREFL
+;         XROTV XLEG XSIG XMAX XE6D XE6N ERGEO
 ; Uses:   calc consts cut float parser start
-; Room:   625 bytes
+; Room:   620 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -153,9 +153,9 @@ GSUB:   DB      Q1,QREFL,QRET           ; -
 GFOOT:  DB      QDOT,LB2,QSUB           ; e
         DB      QREFL,QRET              ; -
 GMIRR:  DB      QDOT,LB2,QSUB           ; e
-        DB      QDUP,QADD               ; 2e
+        DB      QDBL                    ; 2e
         DB      QREFL,QRET              ; -
-GMIRS:  DB      QDOT,QDUP,QADD          ; 2c            c = n1*n2
+GMIRS:  DB      QDOT,QDBL               ; 2c            c = n1*n2
         DB      LA2,QOVR,LB2,QMUL       ; 2c gamma 2c*g
         DB      QSUB,SA2                ; 2c
         DB      QREFL,QRET              ; -
@@ -173,7 +173,7 @@ GROTS:  DB      LA2                     ; gamma
 GPAR:   DB      LA2,LB0                 ; gamma d
 GPAR1:  DB      QADD,SA2,QRET           ; -
 ; D/D, P/D
-GDIV:   DB      LA0,LA1,LB0,ST3         ; x y
+GDIV:   DB      QVEC,LB0,ST3            ; x y
         DB      QJMP
         DB      XUNIT2-$
 
@@ -249,7 +249,7 @@ GDIST:  DB      QDIF,QHYP,SA0,QRET      ; -
 ; 2*atg(s/(d+-1)), + for d from 0 up, is it or 180 off
 GANGLE: DB      QCRS,QDOT               ; s d
         DB      Q1,QDOT,QSIG,QADD       ; s d+-1
-        DB      QDIV,QATG,QDUP,QADD     ; angle
+        DB      QDIV,QATG,QDBL          ; angle
         DB      Q90,Q90,QDOT,QSIG,QSUB  ; angle 90-+90
         DB      QCRS,QSIG               ; angle 0 or +-180
         DB      QADD,SA0,QRET           ; -
@@ -260,11 +260,7 @@ GTHRU:  DB      QDIF,QHYP,QJMP          ; r
 GCIR:   DB      LA2,LB0,QADD            ; r
 GCIR1:  DB      QDUP,SA2,QABS           ; |r|
         DB      QNEAR,QSUB              ; |r|-1E-7
-        DB      QJN             ; -
-        DB      GCIR2-$
-        DB      QRET
-GCIR2:  DB      QEND
-        DB      ERROR,ERANGE
+        DB      QSQRT,QDRP,QRET         ; -             (the root refuses what is negative)
 
 ; P#P: perpendicular bisector, the first point on its left
 GBISEC: DB      QDIF                    ; dx dy
@@ -276,7 +272,7 @@ GBISEC: DB      QDIF                    ; dx dy
 ; centre to centre, e = r1-r2 and h = sqrt(d^2-e^2): the unit vector along d, turned
 ; to the right by the angle whose cosine is e/d and whose sine h/d.
 BELT:   DB      CALC            ; (for ITPNT: as a routine)
-GBELT:  DB      LA0,LA1                 ; x y
+GBELT:  DB      QVEC                    ; x y
         DB      QDIF,QCENT              ; x y e         t3 = d
         DB      QDUP,ST2,QABS           ; x y |e|       t2 = e
         DB      LT3,QSUB,QLEG           ; x y h
@@ -293,6 +289,8 @@ XDOT:   DB      CALC,LA0,LB0,QMUL       ; a0*b0
         DB      LA1,LB1,QMUL,QADD,QRET  ; dot
 XCRS:   DB      CALC,LA0,LB1,QMUL       ; a0*b1
         DB      LA1,LB0,QMUL,QSUB,QRET  ; cross
+; QVEC: the vector a
+XVEC:   DB      CALC,LA0,LA1,QRET       ; x y
 ; QDIF: from the point a to the point b
 XDIF:   DB      CALC,LB0,LA0,QSUB       ; dx
         DB      LB1,LA1,QSUB,QRET       ; dx dy

@@ -2,7 +2,7 @@
 ; Offers: VKIND EVAL PUTN PUTVAL XCA XNA XNA1 COPY15 COPY JTAB OPFLT SETK NEGVAL FIND ASSIGN SETREF
 ;         GETREF PRVAL EVINT SUBCHK ERRNG EVPNT EVNUM EVKIND ERKIND NOTURN CHKRET FINT CMPNE
 ; Uses:   calc consts cut float geom io lexer monitor repeat start
-; Room:   660 bytes
+; Room:   655 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -88,9 +88,10 @@ PUTA:   LXI     D,MA
 ; XCA, XNA - QCA: a = C.  QNA: a = N.  VKIND with it.  (Operations of the route, which end as GETA)
 ; XNA1 - the same for a record: kind, three numbers (for SAME and FETCH, which has a turn in bit 7)
 ; In:  XNA1: DE -> record   Clobbers all
-XCA:    LXI     D,MCUR
-        JMP     XNA1
-XNA:    LXI     D,MNEXT
+XCA:    MVI     E,MCUR & 255
+        DB      3AH             ; LDA: skips the MVI
+XNA:    MVI     E,MNEXT & 255
+        MVI     D,MREG/256      ; (both are in the registers' first page)
 XNA1:   LDAX    D
         ANI     7FH
         STA     VKIND
@@ -290,9 +291,21 @@ KINDOF: LXI     B,KNUM*256+5
 ; Out: B = kind, C = bytes; CY clear: HL -> value.  CY set: it has none
 ; Clobbers A, BC, HL
 FIND:   LHLD    VBOT
-        CALL    FIND1
-        RNC
-        CALL    KINDD
+FIND1:  MOV     A,M
+        ORA     A
+        JZ      FIND3           ; the end
+        CALL    KINDOF
+        CMP     D
+        INX     H
+        MOV     A,M
+        INX     H
+        JNZ     FIND2
+        CMP     E
+        RZ
+FIND2:  MVI     B,0
+        DAD     B
+        JMP     FIND1
+FIND3:  CALL    KINDD
         MOV     A,E             ; none in RAM: O, X and Y are constants
         ORA     A
         STC
@@ -309,21 +322,6 @@ FIND:   LHLD    VBOT
         RZ
         STC
         RET
-FIND1:  MOV     A,M
-        ORA     A
-        STC
-        RZ                      ; the end
-        CALL    KINDOF
-        CMP     D
-        INX     H
-        MOV     A,M
-        INX     H
-        JNZ     FIND2
-        CMP     E
-        RZ
-FIND2:  MVI     B,0
-        DAD     B
-        JMP     FIND1
 
 ; ASSIGN - statement: name = expression
 ; In:  TXTP -> name   Clobbers all

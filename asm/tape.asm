@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: ARC ARCL PUTB2 XRND XROOT XVK PUT2D
 ; Uses:   calc consts cut float geom io lexer start
-; Room:   400 bytes, 485 with NODRIFT
+; Room:   397 bytes, 485 with NODRIFT
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values.  An arc is looked at from its rounded centre, mirrored when it runs
@@ -42,7 +42,7 @@ ARC:    DB      QVK,ST3         ; -
         DB      ARC0-$
         DB      LT3,QJN         ; -             nearly round: any shift is too much
         DB      ARC1-$
-        DB      LA0,LA1,QHYP,QDUP,QADD ; 2r
+        DB      QVEC,QHYP,QDBL ; 2r
         DB      LT4,QSUB,QJN    ; -             short; |d|^2 <= 2r, within 1/4 um:
         DB      ARC0-$
 ARCL:   DB      QEND            ;               a line (ADVANC comes here too)
@@ -98,7 +98,7 @@ ARC5:
         IF      NODRIFT
         DB      Q1,QROOT,ST5    ; -             t5 = where the controller turns
         ELSE
-        DB      LA0,LA1,QSS     ; n             t5 = r: the root cut off ...
+        DB      QVEC,QSS        ; n             t5 = r: the root cut off ...
         DB      QDUP,QSQRT,QFLR,ST5 ; n
         DB      LT5,QSQ,QSUB    ; n-r^2         ... n > r^2+r: nearer to r+1
         DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
@@ -109,8 +109,8 @@ ARC5:
 ARC6:   DB      LA0,LT5,QADD,LA1,QSIG ; 2r-F(start)
         DB      LB0,LT5,QADD,LB1,QSIG,QSUB ; d  = F(end)-F(start)
         DB      QDUP,LT5,LT3,QSIG,QADD ; d d+r  long: d-r; below 0 when (r,0) was passed
-        DB      LT5,QDUP,QADD,QSWP,QSIG,QSUB ; d-2r     then d+2r
-        DB      LT5,QDUP,QADD,QADD ; J
+        DB      LT5,QDBL,QSWP,QSIG,QSUB ; d-2r     then d+2r
+        DB      LT5,QDBL,QADD   ; J
 ARC7:   DB      QABS,QDUP,SBJ,QJZ ; -
         DB      MOVE0-$         ; counted as nothing: a line
         IF      NODRIFT
@@ -215,7 +215,7 @@ XRND:   DB      CALC,Q1000,QMUL         ; um
         IF      NODRIFT
 ; QROOT: w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
 ; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
-XROOT:  DB      CALC,QSQ,LA0,LA1,QSS,QSUB ; w^2-n
+XROOT:  DB      CALC,QSQ,QVEC,QSS,QSUB ; w^2-n
         DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root
         ENDIF
 ; QVK: V = K in whole um; A = K, since the wire goes there (by no fillet, for all that is known here)
