@@ -290,8 +290,8 @@ KEPT    EQU 20E7H       ; the node of FIT that was kept last, in front of node 1
 MREG    EQU 2100H       ; 64 float registers of the calculator, 5 bytes each, from a page's start
 LINBUF  EQU 2280H       ; the line being typed, 126 characters; reaches up to TOKS
 TOKS    EQU 2300H       ; the same line as tokens, at a page's start
-TOKROM  EQU 176         ; how many bytes of them
-STKLOW  EQU 23B0H       ; the stack may not grow below this
+TOKROM  EQU 255         ; how many bytes of them
+STKLOW  EQU 2400H       ; the stack may not grow below this
 STKTOP  EQU 25F0H       ; 8080 stack, downwards
 HELD    EQU 2600H       ; in front of it GOSUB's stack; places of the nodes that FIT has passed, 16
 PROG    EQU 26A2H       ; program lines from here up; variables from the top of RAM down

@@ -1,8 +1,8 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FTOI16 FFLR FSQR FTG FCOS FSIN FATG DECOUT PRDEC
-;         LEXNUM
+;         DECIN
 ; Uses:   calc consts geom lexer start
-; Room:   1500 bytes
+; Room:   1503 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -1031,16 +1031,11 @@ PRDEC:  LXI     D,0
         MOV     C,D
         JMP     DECOU1
 
-; LEXNUM - makes a token of a number (LEX comes here): TFLT, float
-; In:  HL -> text, a digit or a point, DE -> token   Out, Clobbers: as DECIN
-LEXNUM: MVI     A,TFLT
-        STAX    D
-        INX     D
-; (fall into DECIN)
-
-; DECIN - reads a number; digits count up to 2^31, those behind only for the power
-; In:  HL -> text, a digit or a point, DE -> float
-; Out: float, DE -> its last byte, HL -> first character behind the text; ERR 05, ERR 01 for a lone point
+; DECIN - reads a number and makes a token of it, TFLT and the float (LEX comes here); digits count up to
+;         2^31, those behind only for the power
+; In:  HL -> text, a digit or a point, DE -> token
+; Out: token, DE -> its last byte, HL -> first character behind the text; ERR 05, ERR 01 for a lone point: then
+;      what stands at DE is as it was
 ; Clobbers all, and t0 t1
 DECIN:  PUSH    D
         XRA     A
@@ -1093,13 +1088,17 @@ DECI6:  CALL    LEXDEC          ; DE = exponent
         MOV     A,D
         ORA     A
         JM      DECI7           ; no digit: the E is not ours
-        JNZ     FOVF
-        MOV     A,E
-        CPI     100
-        JNC     FOVF
+        JZ      DECI9
+        MVI     E,0FFH          ; 256 and more are as good as that
+DECI9:  MOV     A,C             ; B + 128 less the exponent, or plus a negative one: held at 0 and 255
+        XRI     80H
+        MOV     C,A
+        XRA     B
+        ADD     E
+        MOV     D,A
+        SBB     A
+        ORA     D
         XRA     C
-        SUB     C               ; -exponent unless it is negative
-        ADD     B
         MOV     B,A
         XTHL                    ; -> behind it, not -> E
 DECI7:  POP     H
@@ -1108,6 +1107,9 @@ DECI8:  XTHL
         MOV     A,B
         CALL    FTEN
         POP     D
+        MVI     A,TFLT
+        STAX    D
+        INX     D
         CALL    CALPOP
         XCHG
         POP     H

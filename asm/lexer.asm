@@ -1,7 +1,7 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LEXDEC LEXDIG LEXCH LISTLN PRNUM BLANK
 ; Uses:   float io monitor parser start
-; Room:   620 bytes
+; Room:   641 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
@@ -10,6 +10,7 @@
 ; stack having room for what the longest line can make.
 
 CBEL    EQU     07H
+DECMAX  EQU     3FFH            ; a number as good as any greater one: no subscript, past every exponent
 WAIT2   EQU     18000           ; turns of INCH1 in two seconds (115 us each)
 
 ; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
@@ -94,6 +95,7 @@ GETL6:  POP     H
         XRA     A
         STAX    B
         STA     OUTSEL
+        STA     LEXAT+1
         LXI     H,TOKS
         SHLD    TXTP
         INR     C
@@ -113,16 +115,17 @@ LEX1:   INX     D
         LXI     B,LEX1          ; every token returns there
         PUSH    B
         CALL    LEXCH
-        STAX    D
+        SHLD    LEXAT
+        STAX    D               ; (stays when no token comes of it: the parser refuses it)
         ORA     A
         JZ      LEX3            ; the end, and its token
         MOV     C,A
         CPI     CQUOTE
         JZ      LEXRAW
         CALL    DIGIT
-        JC      LEXNUM
+        JC      DECIN
         CPI     (CDOT-CZERO) & 255
-        JZ      LEXNUM
+        JZ      DECIN
         PUSH    D
         LXI     D,KEYTAB        ; a word or a name's letter?
         MVI     B,TSQR          ; B = its token
@@ -147,9 +150,9 @@ LEXW2:  CALL    LEXCH
 LEXW5:  POP     PSW             ; yes: HL-> behind it
         POP     D
         MOV     A,B
-        STAX    D
         CPI     TLETR
         JNC     LEXNAM
+        STAX    D
         CPI     TREM
         RNZ
         MOV     C,A             ; (no character)
@@ -169,6 +172,7 @@ LEXRAW: INX     H
         ORA     A
         JNZ     LEXRAW
 LEX3:   POP     B               ; LEX is left
+        STA     LEXAT+1         ; (A = 0)
         INX     D
 LEX2:   INX     H
         RET
@@ -188,12 +192,20 @@ LEXW4:  LDAX    D               ; to the next word
 ; In:  A = the letter's token
 LEXNAM: SUI     TLETR-TSUB
         MOV     B,A
-        STAX    D
         CALL    LEXCH
         CPI     CLBRK
-        JZ      LEX2
-        PUSH    D
+        MOV     A,B
+        JNZ     LEXNA1
+        STAX    D
+        INX     H
+        RET
+LEXNA1: PUSH    D
         CALL    LEXDEC          ; DE = subscript
+        MOV     A,D
+        ORA     A
+        PUSH    H
+        CP      SUBCHK
+        POP     H
         MOV     A,B
         ADD     A               ; (4 * TSUB is 0 in a byte)
         ADD     A
@@ -208,8 +220,8 @@ LEXNAM: SUI     TLETR-TSUB
         RET
 
 ; LEXDEC - digits of a subscript or of an exponent of ten
-; In:  HL-> text   Out: DE = number, 0...SUBMAX, or 8000H when there is no digit; HL-> behind it;
-;      ERR 05   Clobbers A
+; In:  HL-> text   Out: DE = number, at most DECMAX, or 8000H when there is no digit; HL-> behind it
+; Clobbers A
 LEXDEC: LXI     D,8000H         ; (ten times that is 0)
 LEXD1:  CALL    LEXDIG
         RNC
@@ -223,8 +235,11 @@ LEXD1:  CALL    LEXDIG
         DAD     H
         CALL    ADDA            ; 10 * number + digit
         XCHG
-        CALL    SUBCHK
         POP     H
+        MOV     A,D
+        CPI     DECMAX/256+1
+        JC      LEXD1
+        LXI     D,DECMAX
         JMP     LEXD1
 
 ; LEXDIG - is the next character that counts a digit?

@@ -1,8 +1,8 @@
 ; monitor.asm - prompt, program lines, running them, errors
-; Offers: TXTP PEND VBOT VTOP CHKF OUTSEL COLS LASTC KEYB VSUM LINUM STMT0 CDOT CLBRK CLOWA ERR ERR4
-;         READY FINDLN LINE1 DIRECT MORE SLIST NEW1 CLEAR CLEAR1 CLRPTR
+; Offers: TXTP PEND VBOT VTOP CHKF OUTSEL COLS LASTC KEYB VSUM LEXAT LINUM STMT0 CDOT CLBRK CLOWA
+;         ERR ERR4 READY FINDLN LINE1 DIRECT MORE SLIST NEW1 CLEAR CLEAR1 CLRPTR
 ; Uses:   calc cut fit float io lexer parser repeat start tape
-; Room:   780 bytes, 790 with PTTY
+; Room:   801 bytes, 809 with PTTY
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
@@ -24,6 +24,7 @@ VSUM    EQU     MWORK+16        ; check sum of the variables, as of the last pro
 CURLIN  EQU     MWORK+17        ; number of the line that runs
 DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00 (or PROG-2: RBACK, no comma)
 GSP     EQU     MWORK+21        ; top of the GOSUB stack
+LEXAT   EQU     MWORK+23        ; -> text of the token that LEX makes; high byte 0: none is being made
 GSTK    EQU     HELD-16         ; 8 lines to go back to, downwards
 GSTKE   EQU     HELD
 LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record
@@ -38,6 +39,20 @@ CGT     EQU     3EH
 CLBRK   EQU     5BH
 CLOWA   EQU     61H             ; a
 
+; ERRLX - LEX has refused something.  That waits for its turn: the parser may refuse what stands in
+;         front of it, else it comes to the character that LEX has left there.  Then LEX, when ERR
+;         looks for the place of the mark, refuses it again, and its number is the error's
+; In:  L = CHKF, B = error, the stack empty
+ERRLX:  DCR     L
+        JNZ     ERRLX1
+        MOV     A,L             ; as the line came in
+        STA     LEXAT+1
+        JMP     READY1
+ERRLX1: PUSH    B               ; while ERR looked for the place: on there, with the error and the
+        PUSH    PSW             ; sign (plus) that it keeps on the stack
+        LHLD    LEXAT
+        JMP     ERR2
+
 ; ERR - prints the error, after what belongs before it, and goes to READY
 ; In:  A = number (10 as 10H), the stack empty
 ERR:    MOV     B,A
@@ -47,6 +62,9 @@ ERR:    MOV     B,A
         MOV     A,H
         ORA     L
         JZ      ASKAGN          ; a wrong answer
+        LDA     LEXAT+1
+        ORA     A
+        JNZ     ERRLX
         DB      0FEH            ; CPI: skips the DAD
 ERR1:   DAD     H               ; (1 becomes 2: no mark)
         MOV     C,L
@@ -108,7 +126,7 @@ READY:  LXI     SP,STKTOP
         LXI     H,-TOKS-TOKROM-1
         DAD     D
         JC      ERMEM
-        PUSH    D               ; -> behind the tokens
+READY1: PUSH    D               ; -> behind the tokens
         DB      PEEK
         DCR     A               ; TFLT?
         JNZ     STMT            ; no number: a direct line

@@ -265,11 +265,11 @@ class Printer(Firmware):
         return [line.rstrip(b"\0").decode("ascii") for line in lines], batch
 
     def read(self, texts: list[str]) -> tuple[list[bytes], list[str], Batch]:
-        """What DECIN makes of texts: floats (OVERFLOW for ERR), what it leaves; the calls."""
+        """What DECIN makes of texts: floats, behind their tokens (OVERFLOW for ERR), what it leaves; the calls."""
         length = max(map(len, texts)) + 1
         inputs = np.array([list(text.encode() + b"\r" * (length - len(text))) for text in texts], np.uint8)
         out = X + 256
-        rows, batch = results(self.batch("DECIN", inputs, out, 5, hl=X, de=out))
+        rows, batch = results(self.batch("DECIN", inputs, out, 5, hl=X, de=out - 1))
         ends = batch.registers["hl"].tolist()
         left = [text[end - X :] for text, end in zip(texts, ends, strict=True)]
         assert not (batch.registers["f"][batch.ends == RETURNED] & 1).any()  # carry would be "no number"

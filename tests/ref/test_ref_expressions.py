@@ -257,9 +257,9 @@ def test_the_first_place_that_is_wrong_is_marked(line: str, mark: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("statement", "fits"), [("PRINT " + "1," * 23 + "1", True), ("PRINT " + "1," * 24 + "1", False),
-                            ("PRINT " + "A," * 40 + 'AA[1],"A"', True), ("PRINT " + "1," * 21 + "A,1.5E1,SIN 1", True),
-                            ("PRINT " + "1," * 21 + "A,1.5E1,SIN 1,A,A", False), ("REM " + "1," * 58, True),
+    ("statement", "fits"), [("PRINT " + "1," * 34 + "1", True), ("PRINT " + "1," * 35 + "1", False),
+                            ("PRINT " + "A," * 40 + 'AA[1],"A"', True), ("PRINT " + "1," * 32 + "A,1.5E1,SIN 1", True),
+                            ("PRINT " + "1," * 32 + "A,1.5E1,SIN 1,A,A,A", False), ("REM " + "1," * 58, True),
                             (f'PRINT "{"1," * 55}"', True)]
 )  # fmt: skip
 def test_a_line_has_room_for_so_many_numbers(statement: str, fits: bool) -> None:

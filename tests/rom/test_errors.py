@@ -227,3 +227,44 @@ def test_unknown_line_in_if(board: Board) -> None:
 
 def test_run_of_an_unknown_line(board: Board) -> None:
     expect(board, "RUN 15", 2)
+
+
+#: Statements with a number or a subscript that is none, and where which mistake is marked.
+BAD_NUMBERS = {
+    "PRINT .": (6, 1), "PRINT 1E99": (6, 5), "PRINT 5,(,1E99": (9, 1), "PRINT 5,(1E99,": (9, 5),
+    "A=P1000+": (2, 5), "P1000=(1,2)": (0, 5), "1E99 A=1": (0, 5), "A[1E99]=3": (2, 5), "GOTO .": (5, 1),
+    "PRINT 1E38,1.8E38": (11, 5), "PRINT 1E5000": (6, 5), 'PRINT "1E99",.,': (13, 1), "CUT X,,1E99": (6, 1),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("statement", BAD_NUMBERS)
+def test_a_bad_number_is_marked_in_its_turn(statement: str) -> None:
+    """What is wrong in front of it comes first; the machine is none the worse."""
+    place, number = BAD_NUMBERS[statement]
+    board = Board()
+    board.type("10 REM STAYS")
+    for _ in range(2):
+        assert board.type(statement) == [statement, f"{' ' * place}^", f"ERR {number:02}"]
+    assert board.listing() == ["10 REM STAYS"]
+    assert board.type("PRINT 1/3") == ["0.33333333"]
+
+
+@pytest.mark.parametrize("zeros", [0, 1, 36, 60, 98])
+def test_exponents_without_end(zeros: int) -> None:
+    """A constant's value decides, not its exponent: what is too small is 0."""
+    board = Board()
+    for statement in ("PRINT 1E-99", "PRINT 1E-100", "PRINT 1E-999", f"PRINT 1E-{'9' * 80}", f"PRINT 0E{'9' * 80}",
+                      f"PRINT 0.{'0' * zeros}1E-{200 + zeros}"):
+        assert board.type(statement) == ["0"], statement
+    assert board.type(f"PRINT 0.{'0' * zeros}1E{zeros + 3}") == ["100"]
+    assert board.type(f"PRINT 1{'0' * zeros}E-{zeros + 1}") == ["0.1"]
+
+
+def test_a_cut_of_fifteen_points_written_out() -> None:
+    """A line's words take 254 bytes at most; one more is error 9."""
+    points = ",".join(f"({n % 5},{n // 5})" for n in range(15))
+    board = Board()
+    assert board.type(f"10 CUT {points}") == []
+    assert board.listing() == [f"10 CUT {points}"]
+    assert board.type(f"20 CUT {points},(1,1)")[-1] == "ERR 09"
+    assert board.listing() == [f"10 CUT {points}"]

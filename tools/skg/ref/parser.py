@@ -18,7 +18,7 @@ LAST_LINE = 9999
 #: Characters of a line.
 LONGEST = 126
 #: Bytes that the machine has for the words of a line (language.md, section 3).
-ROOM = 175
+ROOM = 254
 #: What GOTO, GOSUB, IF, RESTORE take.
 LARGEST_NUMBER = 65535
 LAST_SUBSCRIPT = 999
