@@ -1,7 +1,7 @@
 ; io.asm - teletype, punch and reader
 ; Offers: TTYST PUNDT PUNST RXRDY PUTC1 PUNON SSAVE PUNOFF PAPON BREAK ERTAPE CRLF PUTSI PUTS
 ; Uses:   monitor start
-; Room:   125 bytes, 135 with BRD51
+; Room:   127 bytes, 137 with BRD51
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
@@ -30,7 +30,9 @@ PUTC1:  MOV     B,A
         MOV     M,A
         DCX     H
         INR     M               ; COLS
-        DCX     H
+        JNZ     PUTC3
+        DCR     M               ; (255 and more are all the same)
+PUTC3:  DCX     H
         MOV     A,M             ; OUTSEL
         MOV     C,A
         ORA     A

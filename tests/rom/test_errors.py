@@ -268,3 +268,14 @@ def test_a_cut_of_fifteen_points_written_out() -> None:
     assert board.listing() == [f"10 CUT {points}"]
     assert board.type(f"20 CUT {points},(1,1)")[-1] == "ERR 09"
     assert board.listing() == [f"10 CUT {points}"]
+
+
+@pytest.mark.parametrize("count", range(15, 32, 4))
+def test_a_line_that_list_would_make_too_long(count: int) -> None:
+    """1E7 is listed as eight digits: what LOAD could not take again is not stored, however long."""
+    board = Board()
+    line = "PRINT " + ",".join(["1E7"] * count)
+    assert board.type(f"10 {line}")[-1] == "ERR 09"
+    assert board.listing() == []
+    assert board.type(f"10 {line[:6 + 4 * 10 - 1]}") == []
+    assert len(board.listing()[0]) <= 126
