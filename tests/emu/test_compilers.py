@@ -13,8 +13,15 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 #: What `make` needs of the tree to build the emulator and the libraries.
-TREE = ["Makefile", "emu", "roms", "tools/skg/native", "tests/emu/plain8080.h", "examples/xy-star.skg",
-        *(str(path.relative_to(ROOT)) for part in ("asm", "tools", "tests/*") for path in ROOT.glob(f"{part}/*.mk"))]
+TREE = [
+    "Makefile",
+    "emu",
+    "roms",
+    "tools/skg/native",
+    "tests/emu/plain8080.h",
+    "examples/xy-star.skg",
+    *(str(path.relative_to(ROOT)) for part in ("asm", "tools", "tests/*") for path in ROOT.glob(f"{part}/*.mk")),
+]
 MINGW = "x86_64-w64-mingw32-gcc"
 LIBRARIES = {
     "skg80": [f"emu/{name}.c" for name in ("i8080", "board", "image", "machine")],

@@ -202,6 +202,14 @@ def labels(name: str) -> dict[str, int]:
     return symbols(built(name)[".sym"].decode())
 
 
+def test_nothing_fetched_is_committed() -> None:
+    """Neither the assembler that npm fetches nor a virtual environment."""
+    done = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
+    files = done.stdout.splitlines()
+    assert "asm/package.json" in files
+    assert [file for file in files if {"node_modules", ".venv"} & set(file.split("/"))] == []
+
+
 def test_every_image_is_known() -> None:
     assert {path.name for path in ROMS.iterdir()} == {
         f"{name}{suffix}" for name, (_, suffixes) in VARIANTS.items() for suffix in suffixes
