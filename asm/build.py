@@ -20,6 +20,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+import facts
+
 ASM = Path(__file__).resolve().parent
 ROOT = ASM.parent
 ROM_SIZE = 8192
@@ -30,6 +32,8 @@ FILES = [
 ]
 #: Fewer jumps of the calculator than this in a listing of all files: it was not understood.
 LEAST_JUMPS = 50
+#: Likewise of facts in the sources.
+LEAST_FACTS = 25
 #: Words that an assembler has for itself, so that no label or equate may be called so: each keyword of z88dk's
 #: z80asm, release 2.4 and August 2026, of which `-m8080_strict` refuses the definition or a use (MB is one of the
 #: later only). The registers and PSW are asm80's words too.
@@ -174,6 +178,15 @@ def check_jumps(listing: str, symbols: dict[str, int]) -> None:
             fail(f"calculator jump at {address} to {target}: {distance} bytes do not fit")
 
 
+def check_facts(symbols: dict[str, int]) -> None:
+    """Fail when a fact that the sources rely on does not hold."""
+    count, wrong = facts.check([ASM / f"{file}.asm" for file in FILES], symbols)
+    if wrong:
+        fail("\n  ".join(["facts", *wrong]))
+    if count < LEAST_FACTS:
+        fail(f"only {count} facts in the sources: is their form another one?")
+
+
 def label_files(files: list[str]) -> dict[str, str]:
     """The source file of every label; what else has a name is an equate."""
     found = {}
@@ -215,6 +228,7 @@ def main() -> None:
         image, symbols, listing = assemble(files, options, Path(work))
     if files == FILES:
         check_jumps(listing, symbols)
+        check_facts(symbols)
     if args.variant:
         print(f"  {args.out.name:12} {len(image):5}   left {args.limit - len(image)} of {args.limit}")
     else:

@@ -189,7 +189,7 @@ OJN:    INX     H
         JMP     OJMP1
 OJZ:    MOV     A,M
         SUI     1               ; CY: zero
-        DB      06H             ; MVI B: skips the STC
+        DB      SKIP1B          ; skips the STC
 OJMP:   STC
 OJMP1:  POP     B               ; CALC
         POP     H
@@ -220,7 +220,7 @@ ODBL:   MOV     D,H
 XXCH:   LXI     D,MA
         LXI     H,MVB
         MVI     C,15
-        DB      3AH             ; LDA: skips the MVI
+        DB      SKIP2           ; skips the MVI
 OSWP:   MVI     C,5
 ; OSWP1 - exchanges C bytes at DE and HL, the first ones first (fit.asm comes here)
 OSWP1:  LDAX    D

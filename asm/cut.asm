@@ -1,9 +1,9 @@
 ; cut.asm - the route: from items to corners, fillets and closing
-; Offers: NKIND HELDN RITEMS RFILW RTURN FITN FITSM RBACK RBFULL RBEND BLKNO RUNINI RTNEW RBNEW
+; Offers: NKIND HELDN RITEMS RFILW RTURN FITN FITSM CLOSED RBFULL RBEND BLKNO RUNINI RTNEW RBNEW
 ;         RBEMP SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL
 ;         XNORM XTOK XNORMS SBACK SBACK1
 ; Uses:   calc consts fit float geom io monitor parser repeat start tape
-; Room:   1250 bytes
+; Room:   1249 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -28,7 +28,7 @@ RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
 FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up to P
-RBACK   EQU PROG-2      ; not 0 = RECUT may come: the buffer holds a route that is cut
+CLOSED  EQU PROG-2      ; not 0 = RECUT may come: the buffer holds a route that is cut
 RBFULL  EQU PROG-1      ; not 0 = the route has outgrown its buffer
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
@@ -36,6 +36,11 @@ RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN (tolerance, H, W and these two lie together)
 BLKNO   EQU MHX+21      ; number of the last block, four decimal digits
+
+;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET clear two cells at once
+;! RBFULL == CLOSED+1 and FITSM == FITN+1 -- RBNEW and FITEND clear two cells at once
+;! RMOVED == MTO+25 and BLKNO == RMOVED+1 -- RUNINI clears from the tolerance to the block's number
+;! MKX+PLCSIZ <= MREG+320 and RKEPT+ELSIZE <= FWORK -- copies stay in their rooms
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -54,7 +59,7 @@ RTNEW:  CALL    CORDON
 ; RBNEW - forgets the route buffer, for a new route
 ; Clobbers HL
 RBNEW:  LXI     H,0
-        SHLD    RBACK           ; and RBFULL
+        SHLD    CLOSED          ; and RBFULL
 ; (fall into RBEMP)
 
 ; RBEMP - empties the route buffer
@@ -197,8 +202,8 @@ NOFIL:  LDA     RFILW
         DB      ERROR,EGEOM
 
 ; ITPNT - a point
-ITPNT:  DB      CALC,LA0,SDX,LA1,SDY ; -
-        DB      QXCH,Q0,SB2,Q0,SA2,QEND ; -     b = D
+ITPNT:  DB      CALC,LA0,SJX,LA1,SJY ; -
+        DB      QXCH,Q0,SB2,Q0,SA2,QEND ; -     b = J
         LDA     RLASTP
         ORA     A
         JNZ     ITPN2
@@ -210,19 +215,19 @@ ITPNT:  DB      CALC,LA0,SDX,LA1,SDY ; -
         DB      QJMP
         DB      ITPN3-$
 ITPN1:  DB      CALC            ; the first item
-        DB      LDX,SQX,LDY,SQY ; -
-        DB      LNR,SQR,QJMP    ; -
+        DB      LJX,SQX,LJY,SQY ; -
+        DB      LNR,SQO,QJMP    ; -
         DB      ITPN3-$
 ITPN2:  DB      CALC,LPX,SA0,LPY,SA1 ; -
         DB      QDIF,QFAR       ; negative: within 1 um, the same point
         DB      QJN
         DB      ITPN4-$
         DB      QEND
-        CALL    BELT            ; the line from P to D
+        CALL    BELT            ; the line from P to J
         MVI     A,KLIN+80H      ; (bit 7: it passes its corners for certain)
         CALL    ITELM
 ITPN5:  DB      CALC
-ITPN3:  DB      LDX,SPX,LDY,SPY ; -
+ITPN3:  DB      LJX,SPX,LJY,SPY ; -
         DB      QEND            ;               (leaves A = 0)
         INR     A
 ; (fall into ITDONE)
@@ -284,7 +289,7 @@ NCOPY:  LXI     D,MNEXT
 ; CPYEL - copies an element
 ; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A, BC
 CPYEL:  MVI     A,ELSIZE
-        DB      01H             ; LXI B: skips the MVI
+        DB      SKIP2B          ; skips the MVI
 ; CPYPL - copies a place
 ; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
 CPYPL:  MVI     A,PLCSIZ
@@ -423,7 +428,7 @@ NAMED1: DB      QDOT,QE6N       ; -             there and back
         DB      LPX,LPY,QTOK    ; -
         DB      LCR,LNR,QE6D    ; -             no crossing any more
 NAMED2: DB      LCR             ; R
-NAMED3: DB      QXCH,QNEG,QREFL,QJMP ; -        b moved along a
+NAMED3: DB      QXCH,QNEG,QALNG,QJMP ; -        b moved along a
         DB      ATOK-$
 
 ; FIRST - N is the first element: the wire goes to it
@@ -471,7 +476,7 @@ SAMEF:  LDA     RLASTP
         ORA     A
         RNZ
         MVI     E,MFIRST & 255
-        DB      3AH             ; LDA: skips the MVI
+        DB      SKIP2           ; skips the MVI
 SAMEC:  MVI     E,MCUR & 255
 ; (fall into SAME)
 
@@ -526,7 +531,7 @@ CLOSE:  LDA     RFSTP
         ORA     A
         JZ      CLOSE1
         DB      CALC,LQX,SA0,LQY,SA1 ; -
-        DB      LQR,SNR,QEND    ; -
+        DB      LQO,SNR,QEND    ; -
         CALL    ITPNT
         CALL    ITPN5           ; (also when the last point lay within 1 um of it)
         CALL    NOFIL           ; a fillet there
@@ -678,7 +683,7 @@ SBACK:  DB      CHKEND
         CALL    FITEND
         CALL    NEEDEL          ; no route, or but a point
 SBACK1: CALL    CLOSE
-        LXI     H,RBACK
+        LXI     H,CLOSED
         INR     M
 ; (fall into HOME)
 

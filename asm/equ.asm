@@ -6,6 +6,19 @@
 ; bytes that the file may have.  What this file defines counts nowhere.  asm/rooms.py --headers
 ; writes the first two lines, tests/rom/test_rooms.py checks all three.
 
+; ---- Names -----------------------------------------------------------------
+; The first letter of a name says what it is, where it is one of many:
+;   Q  byte-code: an operation or a constant       L  byte-code: pushes a register
+;   S  byte-code: pops into a register; or the routine of a statement (SCUT, STEND)
+;   X  routine of an operation that geometry, route or tape add to the calculator
+;   O  routine of an operation of the calculator itself   F  routine of float.asm
+;   G  byte-code of an operation of the language   M  address of a register, or of several
+;   T  token        K  kind of value       E  number of an error    ER  its DB ERROR
+;   C  character    R  cell of the route   Z  mark of the build
+; A digit or letter behind a routine's name is a place within it.
+;
+; A line ";! fact -- who relies on it" is checked by the build (asm/facts.py).
+
 ; ---- Board options (the build sets them in the top file) -----------------
 ;   BRD51   1 = two Intel 8251, 0 = two Motorola 6850
 ;   PTTY    1 = the punch is the teletype's own (DC2 ... DC4)
@@ -52,6 +65,14 @@ CLTY    EQU 59H
 ;   DB CALC,...     byte-code follows, up to QEND
 ;   DB PEEK         A = next token, pointer stays
 ;   DB CHKEND       the statement must end here
+
+; ---- Skip bytes --------------------------------------------------------------
+; The opcode of an instruction whose operand is the instruction that stands behind it: who
+; comes to the skip byte passes that over, who jumps behind it carries it out.
+SKIP1   EQU 0FEH        ; CPI: one byte, the flags are lost
+SKIP1B  EQU 06H         ; MVI B: one byte, B is lost
+SKIP2   EQU 3AH         ; LDA: two bytes, A is lost (the address read does not matter)
+SKIP2B  EQU 01H         ; LXI B: two bytes, B and C are lost
 
 ; ---- Errors (language.md, section 6) ----------------------------------------
 ESYN    EQU 1           ; not understood
@@ -249,10 +270,10 @@ LQX     EQU 072H
 SQX     EQU 0B2H        ; M50 first item, a point
 LQY     EQU 073H
 SQY     EQU 0B3H        ; M51
-LDX     EQU 074H
-SDX     EQU 0B4H        ; M52 point that arrives
-LDY     EQU 075H
-SDY     EQU 0B5H        ; M53
+LJX     EQU 074H
+SJX     EQU 0B4H        ; M52 J: point that arrives
+LJY     EQU 075H
+SJY     EQU 0B5H        ; M53
 LMY     EQU 075H
 SMY     EQU 0B5H        ; M53 too: joint of a biarc, seen from node 1: y
 LFI     EQU 076H
@@ -273,14 +294,25 @@ LBY     EQU 07BH
 SBY     EQU 0BBH        ; M59 block: y
 LBJ     EQU 07CH
 SBJ     EQU 0BCH        ; M60 block: J
-LQR     EQU 07DH
-SQR     EQU 0BDH        ; M61 wire offset of the first item
+LQO     EQU 07DH
+SQO     EQU 0BDH        ; M61 wire offset of the first item
 LTL     EQU 07EH
 STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as touching, mm
 LSG     EQU 07FH
 SSG     EQU 0BFH        ; M63 chord of the beginning of the circle C that a fillet has left out, mm; 0: there was none
 
 ; ---- RAM -------------------------------------------------------------------
+;! FSTK/100H == (FSTK+60-1)/100H -- CALC and OOVR change the low byte of FSP alone
+;! CWORK >= FSTK+60 and FWORK >= CWORK+68 and MWORK >= FWORK+48 and KEPT >= MWORK+25 -- no cells overlap
+;! MREG & 0FFH == 0 -- CALC makes a register's address from its number
+;! MA/100H == (MA+5)/100H -- QUAD changes the low byte alone
+;! MNODE1/100H == MNODE2/100H -- TRY changes the low byte alone
+;! LINBUF & 0FFH == 80H and TOKS == LINBUF+80H -- GETLIN sees by C that the line is full, or empty; ERR counts blanks
+;! TOKS & 0FFH == 0 -- LEX and STORE take a token's low address for its distance from the line's start
+;! TOKS+TOKMAX < STKLOW+1 and TOKMAX < 256 -- the stack is not in the tokens; a record's length is a byte
+;! GSTKE & 0FFH == 0 and GSTKE/100H == PROG/100H -- SRETN looks for the end; CLRPTR changes the low byte alone
+;! HELD & 0FFH == 0 and HELD+16*PLCSIZ < PROG-1 -- HELDN is a low byte; CLOSED and RBFULL lie in front of PROG
+;! KEPT+25 == MNODE1 and MNODE1+25 == MNODE2 -- ROTATE and SWAP exchange neighbours
 RAM     EQU 2000H
 FSTK    EQU 2000H       ; float stack of the calculator, 12 floats, within a page
 CWORK   EQU 203CH       ; cells of parser, geom, cut and tape (68 bytes)
@@ -290,7 +322,7 @@ KEPT    EQU 20E7H       ; the node of FIT that was kept last, in front of node 1
 MREG    EQU 2100H       ; 64 float registers of the calculator, 5 bytes each, from a page's start
 LINBUF  EQU 2280H       ; the line being typed, 126 characters; reaches up to TOKS
 TOKS    EQU 2300H       ; the same line as tokens, at a page's start
-TOKROM  EQU 255         ; how many bytes of them
+TOKMAX  EQU 255         ; how many bytes of them
 STKLOW  EQU 2400H       ; the stack may not grow below this
 STKTOP  EQU 25F0H       ; 8080 stack, downwards
 HELD    EQU 2600H       ; in front of it GOSUB's stack; places of the nodes that FIT has passed, 16

@@ -62,7 +62,7 @@ SFIT2:  LDA     FITN
         JMP     FITN1
 SFIT3:  CALL    TAKE            ; the first
         POP     PSW
-        JMP     OUT2
+        JMP     SPOUT2
 SFIT4:  DB      QEND
         POP     PSW
         RET
@@ -90,7 +90,7 @@ LAST1:  DB      QDRP,QDRP,LB1,LB0,QJMP ; y x    (its length does not matter: bot
 ; Clobbers all
 MIDDLE: DB      CALC,QXCH,L1X,L2X,L1Y,L2Y,QWAY ; v*v a = w, b = -v: to node 1 from node 2
         DB      QDIF,QFAR,QE6N  ; v*v
-        DB      LT5,QSWP,QDIV,QREFL ; -         a = w + v*(w*w)/(v*v)
+        DB      LT5,QSWP,QDIV,QALNG ; -         a = w + v*(w*w)/(v*v)
         DB      QVEC,QUNIT,LA1,LA0 ; y x
 MIDD1:  DB      S2U,S2V,QEND    ; -
 ; (fall into SPAN)
@@ -103,7 +103,7 @@ SPAN:   LDA     MNODE1+10
         CZ      SPAN1
         LDA     MTO
         ORA     A
-        JZ      OUT
+        JZ      SPOUT
         CALL    SWAP            ; node 1 = KEPT
         CALL    TRY
         CNZ     SPAN2           ; what is held goes out, and KEPT = node 1
@@ -113,7 +113,7 @@ SPAN:   LDA     MNODE1+10
         LXI     D,MNODE2
         CALL    CPYPL
         SHLD    HELDN
-        JMP     OUT3
+        JMP     SPOUT3
 
 SPAN1:  CALL    MIRROR          ; tangent 1 mirrors tangent 2
         DB      CALC,S1U,S1V,QRET ; -
@@ -130,7 +130,7 @@ FLUSH:  XRA     A
         RZ
         CALL    ROTATE
         CALL    ROTATE          ; node 1 = KEPT, node 2 = node 1
-        CALL    OUT
+        CALL    SPOUT
 ; (fall into ROTATE)
 
 ; ROTATE - KEPT goes behind node 2; node 1 goes where it was, and node 2 to node 1
@@ -145,9 +145,9 @@ SWAP1:  LXI     D,KEPT
 SWAP:   MVI     C,NODSIZ
         JMP     SWAP1
 
-; OUT - the biarc from node 1 to node 2 goes out; node 2 becomes node 1
+; SPOUT - the biarc from node 1 to node 2 goes out; node 2 becomes node 1
 ; Out: FITN = 1; ERR 06   Clobbers all
-OUT:    CALL    CHORD
+SPOUT:  CALL    CHORD
         CALL    BIARC
         LXI     D,MNODE1
         CALL    FITCIR
@@ -158,10 +158,10 @@ OUT:    CALL    CHORD
         DB      CALC,L1U,SMY,QEND ; -
         LXI     D,MNODE2
         CALL    FITCIR
-OUT2:   DB      CALC            ; (SFIT comes here with the first node)
+SPOUT2: DB      CALC            ; (SFIT comes here with the first node)
         DB      L2X,L2Y,QEND    ; x y
         CALL    FITPNT
-OUT3:   LXI     D,MNODE2        ; (SPAN comes here when it holds it back)
+SPOUT3: LXI     D,MNODE2        ; (SPAN comes here when it holds it back)
         LXI     H,MNODE1
         MVI     A,NODSIZ
         CALL    COPY
@@ -235,7 +235,7 @@ FITEND: CALL    CHKRET
 MIRROR: CALL    CHORD
 ; MIRR1 - a vector mirrored about another
 ; In:  a, b, on the float stack b*b   Out: on the float stack y x   Clobbers all
-MIRR1:  DB      CALC,QDOT,QDBL,QSWP,QDIV,QREFL ; -
+MIRR1:  DB      CALC,QDOT,QDBL,QSWP,QDIV,QALNG ; -
         DB      LA1,QNEG,LA0,QNEG,QRET  ; y x
 
 ; CHORD - prepares for a biarc
@@ -250,7 +250,7 @@ BIARC:  DB      CALC,ST1,QDOT,QDUP,QSQ ; along along^2
         DB      QXCH,L2U,L1U,L2V,L1V,QWAY ; along along^2 |u-t|^2  a = v, b = u-t
         DB      LT1,QMUL,QADD,QSQRT,QADD ; below
         DB      QDUP,QNEAR,QSUB,QE6N ; below
-        DB      LT1,QSWP,QDIV,QREFL ; -         a = v + d*(t-u)
+        DB      LT1,QSWP,QDIV,QALNG ; -         a = v + d*(t-u)
         DB      LA0,QHALF,QMUL,SMX,LA1,QHALF,QMUL,SMY,QRET ; -
 
 ; ARCW - from a node to the joint
@@ -262,7 +262,7 @@ ARCW:   LXI     H,MT4
 
 ; FITCIR - the arc between a node and the joint goes out; a flat one not: the point at its end
 ;          brings the chord
-; In:  DE -> node, node 1, MX MY   Out: FITSM   Clobbers all but D
+; In:  DE -> node, node 1, MX MY   Out: FITSM   Clobbers all but J
 FITCIR: CALL    ARCW
         DB      CALC,QDUP,QEPS,QMUL ; w*w limit     r = 50 m
         DB      QMU,QDBL,QMAX   ; w*w limit  or |t x w| = 2 um

@@ -2,7 +2,7 @@
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FTOI16 FFLR FSQR FTG FCOS FSIN FATG DECOUT PRDEC
 ;         DECIN
 ; Uses:   calc consts geom lexer start
-; Room:   1503 bytes
+; Room:   1502 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -38,11 +38,14 @@ SHIFT   EQU FWORK+9     ; difference of exponents
 ODD     EQU FWORK+10    ; bit 0: what FFLR found is odd
                         ; (35 bytes are free, then comes FSP)
 
+;! FWORK & 0FFH == 80H -- FSQR knows by the low address that it has passed FY+1
+;! FQ == FY+4 and FT == FQ+1 and SIGN == FT+2 -- FSQR stores FQ and FT at once, FMANT a word at FT
+
 ; FSUB - x - y
 ; FADD - x + y
 ; In:  DE -> x, HL -> y   Out: x; ERR 05   Clobbers all
 FSUB:   MVI     A,80H           ; turns the sign of y
-        DB      0FEH            ; CPI: skips the XRA
+        DB      SKIP1           ; skips the XRA
 FADD:   XRA     A
         MOV     C,A             ; C = turn in y's sign
         MOV     A,M
@@ -56,7 +59,7 @@ FADD:   XRA     A
         MOV     B,C
         CMA
         INR     A
-        DB      0FEH            ; CPI: skips the XCHG
+        DB      SKIP1           ; skips the XCHG
 FADD1:  XCHG                    ; HL -> the larger, DE -> the smaller
         STA     SHIFT
         MOV     A,M
@@ -697,7 +700,7 @@ FSQR2:  POP     H
         INX     H
         INR     M
         DCX     H
-        DB      0FEH            ; CPI: skips the XRA
+        DB      SKIP1           ; skips the XRA
 FSQR3:  XRA     M
 FSQR4:  MOV     M,A
         LDA     FT

@@ -1,8 +1,8 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: XXING BINOPK BINOP BIN4 XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XREFL
+; Offers: XXING BINOPK BINOP BIN4 XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XALNG
 ;         XROTV XLEG XSIG XMAX XE6D XE6N ERGEO
 ; Uses:   calc consts cut float parser start
-; Room:   620 bytes
+; Room:   619 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -147,18 +147,18 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      KINDS+KTURN+1
 
 ; P+P, D+D: a1 and b1 of a number are 0; P-P, D-D
-GADD:   DB      QM1,QREFL,QRET          ; -
-GSUB:   DB      Q1,QREFL,QRET           ; -
+GADD:   DB      QM1,QALNG,QRET          ; -
+GSUB:   DB      Q1,QALNG,QRET           ; -
 ; P#S: foot; P/S, C/S: mirror image; S/S: mirrored and reversed
 GFOOT:  DB      QDOT,LB2,QSUB           ; e
-        DB      QREFL,QRET              ; -
+        DB      QALNG,QRET              ; -
 GMIRR:  DB      QDOT,LB2,QSUB           ; e
         DB      QDBL                    ; 2e
-        DB      QREFL,QRET              ; -
+        DB      QALNG,QRET              ; -
 GMIRS:  DB      QDOT,QDBL               ; 2c            c = n1*n2
         DB      LA2,QOVR,LB2,QMUL       ; 2c gamma 2c*g
         DB      QSUB,SA2                ; 2c
-        DB      QREFL,QRET              ; -
+        DB      QALNG,QRET              ; -
 ; S:P, S:C: the parallel that leaves C along its direction
 GPARC:  DB      QDOT,LB2,QJMP           ; n*c r
         DB      GPAR1-$
@@ -194,7 +194,7 @@ GROTP:  DB      LB1,LA0,QSUB,SA0        ; -
 ; P*D, D*D; D*P: 0 - (-D)*P
 GMULT:  DB      QXCH                    ; -
 GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
-        DB      QREFL,QRET              ; -
+        DB      QALNG,QRET              ; -
 ; D#A: polar point, (D,0) turned
 GPOLAR: DB      QROTV,QRET              ; -
 
@@ -219,9 +219,9 @@ GSXC:   DB      QDOT,LA2,QSUB           ; e             centre right of S
 ; the place is on that circle
 GSXC1:  DB      QSWP,ST2,LB2,QABS,ST3,QLEG ; h
         DB      LB2,QSIG,QXCH           ; +-h
-        DB      LT2,QREFL               ; +-h           the foot
+        DB      LT2,QALNG               ; +-h           the foot
         DB      LB1,LB0,QNEG,SB1,SB0    ; +-h           b = backwards
-        DB      QREFL,QRET              ; -
+        DB      QALNG,QRET              ; -
 ; C1*C2: the crossing of C1 with the line through both crossings, whose right
 ; normal is the unit vector a from centre to centre, at c = (d^2+r1^2-r2^2)/2d
 ; from the first centre, which goes to b.
@@ -264,7 +264,7 @@ GCIR1:  DB      QDUP,SA2,QABS           ; |r|
 
 ; P#P: perpendicular bisector, the first point on its left
 GBISEC: DB      QDIF                    ; dx dy
-        DB      QM1,QREFL,QXCH          ; dx dy         b = a+b
+        DB      QM1,QALNG,QXCH          ; dx dy         b = a+b
         DB      QUNIT                   ; -
         DB      QDOT,QHALF,QMUL,SA2     ; -
         DB      QRET
@@ -314,8 +314,8 @@ XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         JM      XFAR1
         DB      CALC,QSS,QMU,QSQ,QSUB,QRET ; -1um^2
 XFAR1:  DB      CALC,QDRP,QABS,QRET     ; |x|
-; QREFL: a0 a1 moved by -k times b0 b1, k from the stack
-XREFL:  DB      CALC,LA0,QOVR,LB0,QMUL  ; k a0 k*b0
+; QALNG: a0 a1 moved by -k times b0 b1, k from the stack
+XALNG:  DB      CALC,LA0,QOVR,LB0,QMUL  ; k a0 k*b0
         DB      QSUB,SA0                ; k
         DB      LA1,QSWP,LB1,QMUL       ; a1 k*b1
         DB      QSUB,SA1,QRET           ; -

@@ -1,7 +1,7 @@
 ; io.asm - teletype, punch and reader
 ; Offers: TTYST PUNDT PUNST RXRDY PUTC1 PUNON SSAVE PUNOFF PAPON BREAK ERTAPE CRLF PUTSI PUTS
 ; Uses:   monitor start
-; Room:   127 bytes, 137 with BRD51
+; Room:   127 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it

@@ -6,7 +6,7 @@
 ; The tokens are in equ.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
 ; what it does not know.  TOKS begins a page, so that the low byte of a token's address is
-; its distance from the line's start; what is longer than TOKROM is refused after LEX, the
+; its distance from the line's start; what is longer than TOKMAX is refused after LEX, the
 ; stack having room for what the longest line can make.
 
 CBEL    EQU     07H

@@ -2,7 +2,7 @@
 ; Offers: TXTP PEND VBOT VTOP CHKF OUTSEL COLS LASTC KEYB VSUM LEXAT LINUM STMT0 CDOT CLBRK CLOWA
 ;         ERR ERR4 READY FINDLN LINE1 DIRECT MORE SLIST NEW1 CLEAR CLEAR1 CLRPTR
 ; Uses:   calc cut fit float io lexer parser repeat start tape
-; Room:   801 bytes, 809 with PTTY
+; Room:   801 bytes, 803 with BRD51, 809 with PTTY
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
@@ -22,13 +22,20 @@ KEYB    EQU     MWORK+14        ; key typed ahead
 LOADF   EQU     MWORK+15        ; 1: lines come from the reader (OUTSEL to VSUM are walked through)
 VSUM    EQU     MWORK+16        ; check sum of the variables, as of the last prompt
 CURLIN  EQU     MWORK+17        ; number of the line that runs
-DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00 (or PROG-2: RBACK, no comma)
+DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00 (or PROG-2: CLOSED, no comma)
 GSP     EQU     MWORK+21        ; top of the GOSUB stack
 LEXAT   EQU     MWORK+23        ; -> text of the token that LEX makes; high byte 0: none is being made
 GSTK    EQU     HELD-16         ; 8 lines to go back to, downwards
 GSTKE   EQU     HELD
 LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record
 STMT0   EQU     TOKS+6          ; its statement, behind the number token
+
+;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
+;! COLS == OUTSEL+1 and LASTC == COLS+1 -- PUTC1 walks back from LASTC
+;! KEYB == LASTC+1 and LOADF == KEYB+1 and VSUM == LOADF+1 -- BREAK leaves HL -> KEYB; READY comes from VSUM
+;! LINUM == TOKS+4 and STMT0 == TOKS+6 -- the record's head lies over the number's token
+;! STTEND-STTAB == 2*(TFREE+1-TFROM) -- an address for every word from FROM to FREE
+;! TLETR+14 == 100H and TLETR == TFREE+1 -- the words' tokens go on to the letters', which end with the byte
 
 LASTLN  EQU     9999            ; greatest line number
 CPRMPT  EQU     3EH             ; >
@@ -65,7 +72,7 @@ ERR:    MOV     B,A
         LDA     LEXAT+1
         ORA     A
         JNZ     ERRLX
-        DB      0FEH            ; CPI: skips the DAD
+        DB      SKIP1           ; skips the DAD
 ERR1:   DAD     H               ; (1 becomes 2: no mark)
         MOV     C,L
         PUSH    B
@@ -123,7 +130,7 @@ READY:  LXI     SP,STKTOP
         MVI     A,CPRMPT
         DB      PUTC
         CALL    GETLIN
-        LXI     H,-TOKS-TOKROM-1
+        LXI     H,-TOKS-TOKMAX-1
         DAD     D
         JC      ERMEM
 READY1: PUSH    D               ; -> behind the tokens
@@ -150,10 +157,11 @@ STMT:   CALL    CALINI
         JMP     JTAB
 
 ; The statements in the order of their tokens
-STTAB:  DW      SFROM,SCUT,SBACK,SEND,SREM,SPRINT,SGOTO,SIF
+STTAB:  DW      SFROM,SCUT,SBACK,STEND,SREM,SPRINT,SGOTO,SIF
         DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
         DW      SSCALE,SSYM,SREP,SRECUT,SFIT,STOL
         DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
+STTEND:                         ; (its end)
 
 ; FINDLN - finds a line
 ; In:  DE = number
@@ -322,8 +330,8 @@ DIRECT: LXI     SP,STKTOP
         CALL    STMT
         JMP     RUNLP
 
-; SEND - statement: END
-SEND:   DB      CHKEND
+; STEND - statement: END
+STEND:  DB      CHKEND
 END1:   CALL    ENDRT
         MVI     B,2             ; DD
         CALL    PUNDS

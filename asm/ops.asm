@@ -9,7 +9,7 @@ QCRS    EQU QOWN+1      ; -> a0*b1-a1*b0
 QDIF    EQU QOWN+2      ; -> b0-a0 b1-a1
 QHYP    EQU QOWN+3      ; x y -> square root of x*x+y*y
 QDOT    EQU QOWN+4      ; -> a0*b0+a1*b1
-QREFL   EQU QOWN+5      ; k ->    a0 a1 less k times b0 b1
+QALNG   EQU QOWN+5      ; k ->    a0 a1 less k times b0 b1
 QROTV   EQU QOWN+6      ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
 QLEG    EQU QOWN+7      ; gap -> h  crossing of a line and a circle: distance from the foot
 QE6D    EQU QOWN+8      ; x y ->  ERR 06 when more than 1 um apart
@@ -33,7 +33,7 @@ QWAY    EQU QOWN+25     ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
 QVEC    EQU QOWN+26     ; ->      a0 a1
 QROOT   EQU QOWN+27     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
-        DW      FINT,XCRS,XDIF,XHYP,XDOT,XREFL,XROTV,XLEG
+        DW      FINT,XCRS,XDIF,XHYP,XDOT,XALNG,XROTV,XLEG
         DW      XE6D,XUNIT,XXCH
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
         DW      XNORMS,XXING,XSS,XCENT,XTOK,XWAY,XVEC

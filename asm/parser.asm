@@ -2,7 +2,7 @@
 ; Offers: VKIND EVAL PUTN PUTVAL XCA XNA XNA1 COPY15 COPY JTAB OPFLT SETK NEGVAL FIND ASSIGN SETREF
 ;         GETREF PRVAL EVINT SUBCHK ERRNG EVPNT EVNUM EVKIND ERKIND NOTURN CHKRET FINT CMPNE
 ; Uses:   calc consts cut float geom io lexer monitor repeat start
-; Room:   655 bytes
+; Room:   650 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -19,8 +19,13 @@
 ; The newest lies lowest, at VBOT; a zero byte at VTOP ends the list.
 
 VKIND   EQU CWORK       ; kind of the value in a0 a1 a2; CHKRET writes the cell behind it too
-STKROM  EQU 64          ; stack bytes that the deepest operation may need
+STKGAP  EQU 64          ; stack bytes that the deepest operation may need
 SUBMAX  EQU 999         ; greatest subscript
+
+;! TATG-TSQR == QATG-QSQRT and TABS == TATG+1 and QABS == QATG+1 -- FNTAB: functions stand as in OPTAB
+;! TK2 == TK1+1 and TK3 == TK1+2 and TK1 == TINTF+1 -- OPFN tells K1 K2 K3 from the others
+;! CONTAB/100H == (CONTAB+10)/100H -- FIND changes the low byte alone for O and X
+;! KPNT == KNUM+1 and KCIR == KPNT+1 and KLIN == KCIR+1 and KTURN == KLIN+1 -- SETK, KINDOF and BINOP count kinds
 
 ; EVAL - value of an expression; the outermost comma is left alone
 ; In:  TXTP -> its first token
@@ -89,7 +94,7 @@ PUTA:   LXI     D,MA
 ; XNA1 - the same for a record: kind, three numbers (for SAME and FETCH, which has a turn in bit 7)
 ; In:  XNA1: DE -> record   Clobbers all
 XCA:    MVI     E,MCUR & 255
-        DB      3AH             ; LDA: skips the MVI
+        DB      SKIP2           ; skips the MVI
 XNA:    MVI     E,MNEXT & 255
         MVI     D,MREG/256      ; (both are in the registers' first page)
 XNA1:   LDAX    D
@@ -123,7 +128,7 @@ COPY1:  LDAX    D
 
 ; OPND - value of one operand
 ; In:  TXTP -> its first token   Out: as EVAL   Clobbers all
-OPND:   LXI     H,-STKLOW-STKROM
+OPND:   LXI     H,-STKLOW-STKGAP
         DAD     SP
         JNC     ERMEM           ; nested too deep
         DB      NEXT
@@ -425,7 +430,7 @@ ERRNG:  DB      ERROR,ERANGE
 ; EVKIND - of one that must be of kind A
 ; In, Out: as EVAL; ERR 04   Clobbers all
 EVPNT:  MVI     A,KPNT
-        DB      0FEH            ; CPI: skips the XRA
+        DB      SKIP1           ; skips the XRA
 EVNUM:  XRA     A
 EVKIND: PUSH    PSW
         CALL    EVAL

@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: RECORD CPHD SREP SSYM SRECUT SSCALE
 ; Uses:   calc consts cut fit float geom io monitor parser start
-; Room:   405 bytes
+; Room:   398 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
@@ -155,7 +155,7 @@ SREP2:  LHLD    RCOUNT
         CALL    BREAK           ; (copies may need no block)
         CALL    OPENR2
         LDA     RJOIN
-        DB      0FEH            ; CPI: skips the MOV
+        DB      SKIP1           ; skips the MOV
 SREP3:  MOV     A,M
         CALL    IMAGE
         CALL    STEP
@@ -212,7 +212,7 @@ STEPB:  LXI     D,-16
 
 ; SRECUT - statement: RECUT
 SRECUT: DB      CHKEND
-        LDA     RBACK
+        LDA     CLOSED
         ORA     A
         JZ      ERGEO
         CALL    OPENR1

@@ -2,7 +2,7 @@
 ; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK PUTC0 NEXT0 NEXT1 ERMEM ERSYN ADDA ERDATA
 ;         CHKEN0 SREM SFREE VARSUM
 ; Uses:   calc cut io lexer monitor parser repeat
-; Room:   390 bytes, 400 with BRD51
+; Room:   388 bytes, 396 with BRD51
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
 ; grows past it; a test looks at the GAP labels.
@@ -16,6 +16,9 @@ CALC    EQU     0EFH
 PEEK    EQU     0F7H
 CHKEND  EQU     0FFH
 
+;! ERROR0 == 8 and PUTC0 == 10H and NEXT0 == 18H and EXPEC0 == 20H and PEEK0 == 30H and CHKEN0 == 38H -- the restarts go there
+;! ERROR == 0C7H+8 and PUTC == 0C7H+10H and NEXT == 0C7H+18H and EXPECT == 0C7H+20H -- RST n is one byte
+;! CALC == 0C7H+28H and PEEK == 0C7H+30H and CHKEND == 0C7H+38H -- RST n is one byte
 ; RST 0 - reset
         JMP     RESET
 
@@ -246,7 +249,7 @@ RESE5:  CALL    VARSUM
         CALL    CLEAR1          ; (once more does no harm)
         CALL    PUTSI
         DB      CCR,CLF,"SKG",0A0H
-        DB      0FEH            ; CPI: skips the RST 7
+        DB      SKIP1           ; skips the RST 7
 ; (fall into SFREE)
 
 ; SFREE - command: FREE

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: ARC ARCL PUTB2 XRND XROOT XVK PUT2D
 ; Uses:   calc consts cut float geom io lexer start
-; Room:   397 bytes, 485 with NODRIFT
+; Room:   394 bytes, 478 with NODRIFT
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values.  An arc is looked at from its rounded centre, mirrored when it runs
@@ -22,6 +22,8 @@
 TGAX    EQU CWORK+18    ; block: letter of the count direction
 TZLET   EQU CWORK+19    ; L, N (for NR) or S (for SR)
 TZNUM   EQU CWORK+20    ; its digit
+
+;! TZLET == TGAX+1 -- PUTBLK takes two letters at once
 
 ; ARC - the wire goes along the circle C to K; byte-code that ADVANC (cut.asm, which must stand
 ;       in front of it) falls into

@@ -16,7 +16,7 @@ SKG80 = ROOT / "build" / "skg80"
 PROMPT = "debug> "
 EXAMPLE = ROOT / "examples" / "plate-fillets.skg"
 #: Names of byte-code in the sources: an operation or a constant, a load, a store; the distance of a jump.
-CODE = re.compile(r"[QLS]\w+")
+CODE = re.compile(r"(?!SKIP)[QLS]\w+")
 DISTANCE = re.compile(r"(\w+)-\$")
 
 

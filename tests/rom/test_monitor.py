@@ -43,13 +43,13 @@ def test_the_routines_between_the_restarts_fit() -> None:
 
 
 def test_no_comma_in_front_of_the_program(board: Board) -> None:
-    """Where DATA begins, READ looks at PROG-2, which holds RBACK, a flag: 0 or 1, however often RECUT comes."""
-    assert labels()["RBACK"] == labels()["PROG"] - 2
+    """Where DATA begins, READ looks at PROG-2, which holds CLOSED, a flag: 0 or 1, however often RECUT comes."""
+    assert labels()["CLOSED"] == labels()["PROG"] - 2
     lines(board, "10 DATA 7", "20 CUT (0,0):5", "30 BACK")
     board.type("RUN 20")
     for _ in range(ord(",") + 2):
         board.type("RECUT")
-    assert board.machine.peek(labels()["RBACK"]) == b"\1"
+    assert board.machine.peek(labels()["CLOSED"]) == b"\1"
     assert board.type("READ A") == []
     assert board.type("PRINT A") == ["7"]
 
