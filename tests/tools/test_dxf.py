@@ -463,15 +463,11 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
 @pytest.mark.parametrize(("arguments", "message"), [
     (["dxf", "empty.skg"], "skg: empty.skg: expected a program, the file is empty"),
     (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
-    (["sim", "part.skg"], "skg: part.skg: expected a tape, this is a program; `skg ref part.skg` makes its tape"),
-    (["check", "part.skg"], "skg: part.skg: expected a tape, this is a program; `skg ref part.skg` makes its tape"),
-    (["gcode", "part.skg"], "skg: part.skg: expected a tape, this is a program; `skg ref part.skg` makes its tape"),
 ])
 def test_wrong_files(run_program: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str],
                      message: str) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "empty.skg").write_text("")
-    (tmp_path / "part.skg").write_text("10 END\n")
     (tmp_path / "tape.3b").write_bytes(b"DD\r\n")
     result = run_program(*arguments)
     assert result.returncode == 2

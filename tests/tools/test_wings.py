@@ -22,8 +22,9 @@ ALLOWED = {
     "tape": {COMMON, "native"},
     "machine": {COMMON, "native"},
     "quality": {COMMON, "ref"},
-    "drawing": {COMMON, "ref", "tape", "machine"},
-    "commands": {COMMON, "ref", "tape", "machine", "quality", "drawing"},
+    "rivals": {COMMON},
+    "drawing": {COMMON, "ref", "tape", "machine", "rivals"},
+    "commands": {COMMON, "ref", "tape", "machine", "quality", "rivals", "drawing"},
 }
 #: Modules beside the wings that are nobody's ground: the package's door, and the command line.
 DOORS = {"skg", "skg.cli"}

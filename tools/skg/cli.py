@@ -24,6 +24,7 @@ COMMANDS = {
     "run": "Run a program on the board, by the ROM itself.",
     "sim": "Follow tapes step by step as a controller does.",
     "term": "Be the teletype of a board on a serial port.",
+    "xy": "Make an SKG program of one in XY.",
 }
 
 

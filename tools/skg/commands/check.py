@@ -7,7 +7,8 @@ from dataclasses import asdict
 
 import click
 
-from skg.tape.text import Finding, read_tape_bytes, scan
+from skg.drawing.source import tape_bytes
+from skg.tape.text import Finding, scan
 
 
 @click.command(name="check")
@@ -17,11 +18,12 @@ def command(tapes_: tuple[str, ...], as_json: bool) -> None:
     """Find everything on TAPE that a 3B controller would choke on.
 
     One line for each finding: file, block, column, what was expected. Exit code 1 when there is any.
+    A program (.skg, .xy) is run first.
     TAPE - is the standard input.
     """
     found: list[tuple[str, Finding]] = []
     for name in tapes_:
-        tape, findings = scan(read_tape_bytes(name), name)
+        tape, findings = scan(tape_bytes(name), name)
         found += [(name, finding) for finding in findings]
         if not as_json and not findings:
             click.echo(f"{name}: {len(tape.blocks)} blocks, nothing wrong")

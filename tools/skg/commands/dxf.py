@@ -24,16 +24,17 @@ from skg.plane import XY
 @skg80_option
 def command(file: str, output: str, start: XY | None, polylines: bool, positions: str,
             joints: str, skg80: str | None) -> None:
-    """Turn a tape (.3b) or a program (.skg) into a DXF drawing of the wire's path.
+    """Turn a tape (.3b) or a program (.skg, .xy) into a DXF drawing of the wire's path.
 
     Layers: WIRE what is cut, LEAD the way from the start hole to the contour, MOVES positioning, START and
     STOPS points. FILE - is a tape on the standard input.
     """
     from skg.drawing.dxf import draw
     from skg.drawing.source import lay_out, load
+    from skg.rivals.languages import is_program
 
     made = load(file, skg80)
-    routes, stops = lay_out(made, start or made.start, positions, joints, file.lower().endswith(".skg"))
+    routes, stops = lay_out(made, start or made.start, positions, joints, is_program(file))
     text = io.StringIO()
     draw(routes, stops, polylines).write(text)
     write_bytes(output, text.getvalue().encode())

@@ -5,9 +5,10 @@ from __future__ import annotations
 import click
 
 from skg.commands.options import Coordinates
+from skg.drawing.source import load
 from skg.files import read_ascii, write_bytes
 from skg.tape import gcode
-from skg.tape.text import parse, read_tape_bytes, to_bytes
+from skg.tape.text import to_bytes
 
 
 @click.command(name="gcode")
@@ -22,9 +23,9 @@ def command(source: str, output: str, back: bool, start: tuple[int, int], mm: bo
 
     Written are G91, G92, G01, G02 and G03 with I and J, M00 for a stop and M02 at the end. Read are also G90,
     G00, G17, G21, G40, N and F words and comments; a number with a decimal point is millimetres, one without
-    micrometres. FILE - (or none) is the standard input.
+    micrometres. A program (.skg, .xy) is run first. FILE - (or none) is the standard input.
     """
     if back:
         write_bytes(output, to_bytes(gcode.read(read_ascii(source), source).items))
     else:
-        write_bytes(output, gcode.write(parse(read_tape_bytes(source), source), start, mm).encode())
+        write_bytes(output, gcode.write(load(source).tape, start, mm).encode())

@@ -19,7 +19,7 @@ def skg80_option(function: Callable) -> Callable:
     """Give a command the option --skg80."""
     return click.option(
         "--skg80", metavar="FILE",
-        help="What runs .skg programs: an emulator such as build/skg80, or `reference` for the reference "
+        help="What runs programs: an emulator such as build/skg80, or `reference` for the reference "
              "interpreter. Default: the board with the standard ROM, as in `skg run`.")(function)
 
 

@@ -32,7 +32,7 @@ def _form(output: str, form: str | None) -> str:
 @click.option("--wire", default=0.0, metavar="MM", type=click.FloatRange(0),
               help="Draw the cut of a wire of this diameter, to scale.")
 @click.option("--no-arrows", is_flag=True, help="No arrows in the direction of travel.")
-@click.option("--show-offset", is_flag=True, help="Also draw the nominal contour (of .skg programs).")
+@click.option("--show-offset", is_flag=True, help="Also draw the nominal contour (of programs).")
 @click.option("--start", multiple=True, type=Coordinates(),
               help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.")
 @click.option("--scale", type=click.FloatRange(0, min_open=True), help="Drawing scale; default: what fits.")
@@ -42,7 +42,7 @@ def _form(output: str, form: str | None) -> str:
 def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool, wire: float, no_arrows: bool,
             show_offset: bool, start: tuple[XY, ...], scale: float | None, title: str,
             positions: str, skg80: str | None) -> None:
-    """Draw tapes (.3b) and programs (.skg), several in one picture.
+    """Draw tapes (.3b) and programs (.skg, .xy), several in one picture.
 
     Start holes are circles, stops squares, positioning moves dashed. A program is run first, by the ROM
     or by what --skg80 names. FILE - is a tape on the standard input.

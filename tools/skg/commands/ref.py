@@ -42,14 +42,19 @@ def _text(file: BinaryIO) -> str:
     help="Let the controller's misses at the ends of arcs add up, or start each block where it really stands.",
 )
 def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool) -> None:
-    """Run PART (an SKG program; `-`: standard input) in 50-digit arithmetic: the exact 3B tape that it must give.
+    """Run PART in 50-digit arithmetic: the exact 3B tape that it must give.
+
+    PART is an SKG program, or a rival's such as .xy, which is translated; `-`: an SKG program on the standard input.
 
     The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
+    from skg.drawing.source import program_text
     from skg.ref import run
+    from skg.rivals.languages import is_rival
 
-    result = run(_text(part), _text(answers).splitlines() if answers else [], drift=drift)
+    program = program_text(part.name) if is_rival(part.name) else _text(part)
+    result = run(program, _text(answers).splitlines() if answers else [], drift=drift)
     click.echo(result.paper, err=True, nl=False)
     write_bytes(output, result.tape)
     sys.exit(0 if result.error is None else 1)

@@ -10,6 +10,7 @@ import click
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, write_bytes
 from skg.machine.board import Board, BoardStopped
+from skg.rivals.languages import is_rival, translated
 
 #: Exit codes, those of build/skg80; by the reason for which the board stopped, else ERR.
 ERR, STOPPED = 1, {"cycles": 3, "nobody": 2, "break": 2}
@@ -47,14 +48,16 @@ def _answers(name: str | None) -> Iterator[str]:
     help="Give up LOAD or RUN after so many cycles, with exit code 3.",
 )
 def command(part: str, output: str, rom: str, ram: int, answers: str | None, max_cycles: int | None) -> None:
-    """LOAD and RUN PART (an SKG program; `-`: standard input) on the board, by the ROM itself.
+    """LOAD and RUN PART on the board, by the ROM itself.
+
+    PART is an SKG program, or a rival's such as .xy, which is translated; `-`: an SKG program on the standard input.
 
     The teletype's paper goes to standard error, the tape to --output. Exit code 1 when the run ended in ERR, when INPUT
     found no answer or the machine halted, 2 for wrong usage, files and ROMs, 3 when --max-cycles were not enough.
     """
     if part == answers == "-":
         raise UserError("the program and the answers cannot both come from the standard input")
-    program, line_begins = read_bytes(part), True
+    program, line_begins = translated(part).encode() if is_rival(part) else read_bytes(part), True
 
     def show(paper: str) -> None:
         nonlocal line_begins

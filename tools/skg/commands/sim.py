@@ -8,9 +8,9 @@ from dataclasses import asdict, replace
 import click
 
 from skg.commands.options import positions_option
+from skg.drawing.source import load
 from skg.plane import XY
 from skg.tape.simulation import Report, closing, duration, simulate
-from skg.tape.text import read
 
 
 def _text(report: Report, blocks: bool) -> str:
@@ -68,9 +68,9 @@ def command(tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, 
     """Follow TAPE step by step as a 3B controller does.
 
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
-    and whether the path closes. TAPE - is the standard input.
+    and whether the path closes. A program (.skg, .xy) is run first. TAPE - is the standard input.
     """
-    reports = [simulate(read(name), feed, progress=True, positions=positions) for name in tapes_]
+    reports = [simulate(load(name).tape, feed, progress=True, positions=positions) for name in tapes_]
     if as_json:
         kept = reports if blocks else [replace(report, each=()) for report in reports]
         click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))

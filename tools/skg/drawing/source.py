@@ -1,8 +1,9 @@
-"""Where a tape comes from: a .3b file, or a .skg program that is run first."""
+"""Where a tape comes from: a .3b file, or a program (.skg, or a rival's) that is run first."""
 
 from __future__ import annotations
 
 import subprocess
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from skg.files import read_ascii, read_bytes
 from skg.machine.board import Board, BoardStopped
 from skg.piece import Piece
 from skg.plane import XY
+from skg.rivals.languages import is_program, is_rival, translated
 from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
 from skg.tape.joints import estimate, is_without_drift
@@ -30,29 +32,46 @@ class Made:
 
 
 def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Made:
-    """Return what is in a file: a program when its name ends in .skg, else a tape.
+    """Return what is in a file: a program when its name ends in .skg or as a rival's does, else a tape.
 
     `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator.
     `with_contour` on a tape, and a program that ends in ERR, are a `UserError`.
     """
-    if not name.lower().endswith(".skg"):
+    if not is_program(name):
         if with_contour:
             raise UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
         return Made(tapes.read(name))
     # The reference is needed in any case: only it knows where on the drawing the wire is.
-    data, start, contour = _run_reference(name, with_contour)
-    if skg80 is None:
-        data = _run_rom(name)
-    elif skg80 != "reference":
-        data = _run_emulator(name, skg80)
+    data, start, contour = _run(name, skg80, with_contour)
     return Made(tapes.parse(data, name), start, contour)
 
 
-def _run_rom(name: str) -> bytes:
+def tape_bytes(name: str, skg80: str | None = None) -> bytes:
+    """Return a tape's bytes: those of a file (`-`: the standard input), or what its program punches."""
+    return _run(name, skg80, False)[0] if is_program(name) else read_bytes(name)
+
+
+def program_text(name: str) -> str:
+    """Return the SKG program that is in a file, or that a rival's is translated to."""
+    return translated(name) if is_rival(name) else read_ascii(name)
+
+
+def _run(name: str, skg80: str | None, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
+    """Run a program: the tape's bytes, where the wire starts (mm), the nominal contour."""
+    text = program_text(name)
+    data, start, contour = _run_reference(name, text, with_contour)
+    if skg80 is None:
+        data = _run_rom(name, text)
+    elif skg80 != "reference":
+        data = _run_emulator(name, text, skg80)
+    return data, start, contour
+
+
+def _run_rom(name: str, text: str) -> bytes:
     """Run a program on the board, by the standard ROM."""
     board = Board(max_cycles=_MOST_CYCLES)
     try:
-        board.load(read_bytes(name))
+        board.load(text.encode())
         if not board.error:
             board.run()
     except BoardStopped as stopped:
@@ -62,12 +81,15 @@ def _run_rom(name: str) -> bytes:
     return board.tape
 
 
-def _run_emulator(name: str, skg80: str) -> bytes:
+def _run_emulator(name: str, text: str, skg80: str) -> bytes:
     """Run a program on an emulator of one's own."""
     if not Path(skg80).exists():
         raise UserError(f"{skg80}: no such file")
     try:
-        done = subprocess.run([skg80, "--max-cycles", str(_MOST_CYCLES), name], capture_output=True, check=False)
+        with tempfile.TemporaryDirectory() as folder:
+            part = Path(folder) / "part.skg"
+            part.write_text(text)
+            done = subprocess.run([skg80, "--max-cycles", str(_MOST_CYCLES), part], capture_output=True, check=False)
     except PermissionError:
         raise UserError(f"{skg80}: not a program that can be run") from None
     if done.returncode:
@@ -81,13 +103,12 @@ def _failure(name: str, number: int, line: int | None) -> UserError:
     return UserError(f"{name}: ERR {number:02d}{where}")
 
 
-def _run_reference(name: str, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
+def _run_reference(name: str, text: str, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
     """Run a program through the reference: the tape's bytes, where the wire starts (mm), the nominal contour."""
     # (slow to import, and not needed for tapes)
     from skg.drawing.nominal import nominal
     from skg.ref import run
 
-    text = read_ascii(name)
     if not text.strip():
         raise UserError(f"{name}: expected a program, the file is empty")
     result = run(text)

@@ -146,16 +146,9 @@ def parse(data: bytes, name: str = "-") -> Tape:
     return tape
 
 
-def read_tape_bytes(path: str) -> bytes:
-    """Return a tape's bytes, `-` is the standard input; a program (.skg) is a `UserError`."""
-    if path.lower().endswith(".skg"):
-        raise UserError(f"{path}: expected a tape, this is a program; `skg ref {path}` makes its tape")
-    return read_bytes(path)
-
-
 def read(path: str) -> Tape:
     """Read a tape from a file or, for `-`, the standard input; raises as `parse` does."""
-    return parse(read_tape_bytes(path), path)
+    return parse(read_bytes(path), path)
 
 
 def to_bytes(items: Iterable[Block | Stop]) -> bytes:

@@ -1,0 +1,63 @@
+"""Short ways to ask the translator, and what its SKG program makes by the reference."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+from skg.ref import Result, real, run
+from skg.ref.interpreter import Interpreter
+from skg.ref.near import watching
+from skg.ref.tape import Punch
+from skg.ref.values import Circle, Line, Point, Value
+from skg.rivals.xy import XYFault, translate
+
+ROOT = Path(__file__).parents[2]
+#: mm: the program's own numbers have 14 decimals.
+EXACT = 1e-10
+
+
+def made(text: str) -> dict[str, Value]:
+    """The elements that a translated program makes, by SKG's names."""
+    program = translate(text)
+    with watching() as watch, real.mp.workprec(real.mp.prec):
+        machine = Interpreter([], watch, Punch())
+        assert machine.load(program) is None, (text, program, machine.paper)
+        assert machine.run() is None, (text, program, machine.paper)
+    return {f"{letter}{number}": value for (letter, number), value in machine.variables.items()}
+
+
+def cut(text: str) -> Result:
+    """The result of a translated program, which must not fail."""
+    program = translate(text)
+    result = run(program)
+    assert result.error is None, (text, program, result.paper)
+    return result
+
+
+def fault(text: str) -> str:
+    """What is wrong with a text; empty: nothing."""
+    try:
+        translate(text)
+    except XYFault as wrong:
+        return str(wrong)
+    return ""
+
+
+def gap(e: Point | Circle | Line, new: Circle | Line) -> float:
+    """How far (mm) a new circle or line is from touching an element in its direction (a point: from passing it)."""
+    if isinstance(e, Point):
+        e = Circle(e.x, e.y, real.ZERO)
+    if isinstance(new, Line):
+        assert isinstance(e, Circle)
+        # The centre lies left of the line by the signed radius.
+        return abs(float(new.distance(e.centre) + e.r))
+    if isinstance(e, Line):
+        return abs(float(e.distance(new.centre) + new.r))
+    return abs(float((e.centre - new.centre).length() - abs(e.r - new.r)))
+
+
+def number(rng: random.Random, low: int, high: int) -> str:
+    """A small whole number, now and then with decimals."""
+    value = rng.randint(low, high)
+    return str(value) if rng.random() < 0.6 else f"{value + rng.randint(1, 99) / 100:.2f}"

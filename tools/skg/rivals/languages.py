@@ -1,0 +1,43 @@
+"""Which endings of a file's name mean which language."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from skg.errors import UserError
+from skg.files import read_bytes
+from skg.rivals import xy
+
+#: A rival's ending -> what makes SKG of it (text, the file's name).
+TRANSLATORS: dict[str, Callable[[str, str], str]] = {".xy": xy.translate}
+#: What bad input of a rival raises: its line, column and what is wrong.
+FAULTS = (xy.XYFault,)
+
+
+def is_program(name: str) -> bool:
+    """Whether a file is a program, SKG's or a rival's, by its ending."""
+    ending = Path(name).suffix.lower()
+    return ending == ".skg" or ending in TRANSLATORS
+
+
+def translated(name: str, ending: str | None = None) -> str:
+    """The SKG program for a rival's in a file (`-`: the standard input); bad input is a `UserError`.
+
+    `ending` says which rival's, where the name does not.
+    """
+    translate = TRANSLATORS[ending or Path(name).suffix.lower()]
+    data = read_bytes(name)
+    try:
+        return translate(data.decode("utf-8-sig"), Path(name).name)
+    except UnicodeDecodeError as error:
+        good = data[:error.start].decode("utf-8-sig")
+        column = len(good) - good.rfind("\n")
+        raise UserError(f"{name}:{good.count(chr(10)) + 1}:{column}: not UTF-8") from None
+    except FAULTS as fault:
+        raise UserError(f"{name}:{fault}") from None
+
+
+def is_rival(name: str) -> bool:
+    """Whether a file is a rival's program."""
+    return Path(name).suffix.lower() in TRANSLATORS

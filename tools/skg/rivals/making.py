@@ -1,0 +1,292 @@
+"""XY's ⊕: which form it is, what it makes, and the SKG expression that makes the same (docs/spec/xy.md, section 3).
+
+Circles are negative, as SKG has those that run clockwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import product
+
+from lark import Token
+
+from skg.rivals.formula import SkgText, call, decimal, join, minus, pair
+from skg.rivals.plane import (
+    TINY,
+    ZERO,
+    ExactCircle,
+    ExactCurve,
+    ExactElement,
+    ExactLine,
+    ExactPoint,
+    PlaneError,
+    Real,
+    belt_line,
+    crossings,
+    direction,
+    entering,
+    mp,
+    rotated,
+    touching_line,
+    touching_point,
+    touching_three,
+    touching_two,
+    turn,
+)
+
+#: XY's letters of elements, and SKG's for the same.
+LETTERS = {"D": "P", "X": "S", "Y": "C"}
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An argument: its kind (N, D, X, Y), value and text with its sign, the sign if one is written, its place."""
+
+    kind: str
+    value: Real | ExactElement
+    text: SkgText
+    at: Token
+    sign: Token | None = None
+
+
+@dataclass(frozen=True)
+class NewElement:
+    """An element, and SKG's expression for it."""
+
+    value: ExactElement
+    text: SkgText
+
+
+@dataclass(frozen=True)
+class XYFrame:
+    """Where numbers are read (ZB): the place of its origin and the angle of its x axis; None: the drawing's own."""
+
+    origin: ExactPoint = ExactPoint(ZERO, ZERO)
+    angle: Real = ZERO
+    origin_text: SkgText | None = None
+    angle_text: SkgText | None = None
+
+    def vector(self, x: Argument, y: Argument) -> NewElement:
+        """A vector of the frame."""
+        text = pair(x.text, y.text)
+        if self.angle_text:
+            text = join(text, "#", self.angle_text)
+        return NewElement(rotated(ExactPoint(x.value, y.value), self.angle, ExactPoint(ZERO, ZERO)), text)
+
+    def point(self, x: Argument, y: Argument) -> NewElement:
+        """A point of the frame."""
+        made = self.vector(x, y)
+        text = join(made.text, "+", self.origin_text) if self.origin_text else made.text
+        return NewElement(made.value + self.origin, text)
+
+    def turned(self, angle: Argument) -> tuple[Real, SkgText]:
+        """A direction angle of the frame, as one of the drawing."""
+        if self.angle_text is None:
+            return angle.value, angle.text
+        return angle.value + self.angle, join(angle.text, "+", self.angle_text)
+
+
+Form = Callable[..., NewElement]
+#: Letter and kinds of the arguments -> where signs may stand, and what makes it (frame first).
+FORMS: dict[tuple[str, str], tuple[tuple[bool, ...], Form]] = {}
+
+
+def _form(letter: str, *patterns: str) -> Callable[[Form], Form]:
+    """Enter a form for each of its patterns: kinds in a row, with ± before those that may have a sign."""
+
+    def enter(function: Form) -> Form:
+        for pattern in patterns:
+            allowed = tuple(pattern[index - 1:index] == "±" for index, char in enumerate(pattern) if char != "±")
+            FORMS[letter, pattern.replace("±", "")] = allowed, function
+        return function
+
+    return enter
+
+
+def _all(kinds: tuple[str, ...], count: int, end: str = "") -> list[str]:
+    return ["".join(row) + end for row in product(kinds, repeat=count)]
+
+
+X_AXIS = SkgText("X")
+
+
+def centre_text(circle: SkgText) -> SkgText:
+    """A circle's centre."""
+    return pair(call("K1", circle), call("K2", circle))
+
+
+def _sloping(angle: SkgText) -> SkgText:
+    """A line at a direction angle."""
+    return join(X_AXIS, "#", angle)
+
+
+def _circle(centre: ExactPoint, r: Real) -> ExactCircle:
+    if r <= TINY:
+        raise PlaneError("a radius must be more than 0")
+    return ExactCircle(centre, -r)
+
+
+@_form("D", "NN")
+def _point(frame: XYFrame, x: Argument, y: Argument) -> NewElement:
+    return frame.point(x, y)
+
+
+@_form("D", "YN")
+def _point_of_circle(frame: XYFrame, circle: Argument, angle: Argument) -> NewElement:
+    value, text = frame.turned(angle)
+    at = join(centre_text(circle.text), "-", join(call("K3", circle.text), "#", text))
+    return NewElement(circle.value.centre + direction(value) * abs(circle.value.r), at)
+
+
+@_form("D", "±X±X")
+def _crossing(_: XYFrame, one: Argument, other: Argument) -> NewElement:
+    return NewElement(crossings(one.value, other.value)[0], join(_unsigned(one), "*", _unsigned(other)))
+
+
+def _unsigned(argument: Argument) -> SkgText:
+    return minus(argument.text) if argument.sign else argument.text
+
+
+@_form("D", "±XY", "±YY")
+def _entering(_: XYFrame, runs: Argument, circle: Argument) -> NewElement:
+    return NewElement(entering(runs.value, circle.value), join(runs.text, "*", circle.text))
+
+
+@_form("D", "Y±X")
+def _entering_by_line(frame: XYFrame, circle: Argument, line: Argument) -> NewElement:
+    return _entering(frame, line, circle)
+
+
+@_form("X", "NNN")
+def _line(frame: XYFrame, x: Argument, y: Argument, angle: Argument) -> NewElement:
+    made = frame.point(x, y)
+    value, text = frame.turned(angle)
+    return NewElement(ExactLine(made.value, direction(value)), join(_sloping(text), ":", made.text))
+
+
+@_form("X", "DN", "±YN")
+def _line_at(frame: XYFrame, at: Argument, angle: Argument) -> NewElement:
+    value, text = frame.turned(angle)
+    return NewElement(touching_line(at.value, direction(value)), join(_sloping(text), ":", at.text))
+
+
+@_form("X", "D±XN", "±Y±XN")
+def _line_from_line(_: XYFrame, at: Argument, line: Argument, angle: Argument) -> NewElement:
+    way = rotated(line.value.way, angle.value, ExactPoint(ZERO, ZERO))
+    return NewElement(touching_line(at.value, way), join(join(line.text, "#", angle.text), ":", at.text))
+
+
+@_form("X", *_all(("D", "±Y"), 2))
+def _belt(_: XYFrame, e: Argument, f: Argument) -> NewElement:
+    value = belt_line(e.value, f.value)
+    if value is None:
+        # They touch: the tangent there.
+        touch = touching_point(e.value, f.value) if e.kind == f.kind == "Y" else e.value if e.kind == "D" else f.value
+        circle = e.value if e.kind == "Y" else f.value
+        out = (touch - circle.centre).unit()
+        value = ExactLine(touch, out.left() if circle.r > 0 else -out.left())
+    return NewElement(value, join(e.text, ":", f.text))
+
+
+@_form("X", "±XN")
+def _parallel(_: XYFrame, line: Argument, left: Argument) -> NewElement:
+    value = ExactLine(line.value.point + line.value.way.left() * left.value, line.value.way)
+    return NewElement(value, join(line.text, ":", minus(left.text)))
+
+
+@_form("X", "±X±X")
+def _bisector(_: XYFrame, one: Argument, other: Argument) -> NewElement:
+    crossing = crossings(one.value, other.value)[0]
+    half = mp.degrees(turn(one.value.way, other.value.way)) / 2
+    angle = join(pair(one.text, other.text), "/", SkgText("2"))
+    text = join(join(one.text, "#", angle), ":", join(one.text, "*", other.text))
+    return NewElement(ExactLine(crossing, rotated(one.value.way, half, ExactPoint(ZERO, ZERO))), text)
+
+
+@_form("Y", "NNN")
+def _circle_of_numbers(frame: XYFrame, x: Argument, y: Argument, r: Argument) -> NewElement:
+    made = frame.point(x, y)
+    return NewElement(_circle(made.value, r.value), join(made.text, ":", minus(r.text)))
+
+
+@_form("Y", "DN")
+def _circle_about(_: XYFrame, centre: Argument, r: Argument) -> NewElement:
+    return NewElement(_circle(centre.value, r.value), join(centre.text, ":", minus(r.text)))
+
+
+@_form("Y", "DD")
+def _circle_through(_: XYFrame, centre: Argument, on: Argument) -> NewElement:
+    return NewElement(_circle(centre.value, (on.value - centre.value).size()), minus(join(centre.text, "/", on.text)))
+
+
+@_form("Y", "D±X")
+def _circle_at_line(_: XYFrame, centre: Argument, line: Argument) -> NewElement:
+    radius = call("ABS", pair(centre.text, _unsigned(line)))
+    value = _circle(centre.value, abs(line.value.beside(centre.value)))
+    return NewElement(value, join(centre.text, ":", SkgText(f"-{radius}", 0o55)))
+
+
+@_form("Y", "D±Y")
+def _circle_at_circle(_: XYFrame, centre: Argument, other: Argument) -> NewElement:
+    apart = (centre.value - other.value.centre).size()
+    size = abs(other.value.r)
+    if not other.sign:
+        r = size - apart if apart < size - TINY else size + apart
+        return NewElement(_circle(centre.value, r), join(centre.text, ":", minus(decimal(r))))
+    own = _unsigned(other)
+    text = join(pair(centre.text, centre_text(own)), "+", call("K3", own))
+    return NewElement(_circle(centre.value, apart - size), join(centre.text, ":", minus(text)))
+
+
+@_form("Y", *_all(("D", "±X", "±Y"), 2, "N"))
+def _circle_at_two(_: XYFrame, e: Argument, f: Argument, r: Argument) -> NewElement:
+    _circle(ExactPoint(ZERO, ZERO), r.value)
+    centre = join(join(e.text, ":", r.text), "*", SkgText(f"-({join(f.text, ':', r.text)})", 0o55))
+    return NewElement(touching_two(e.value, f.value, r.value), join(centre, ":", minus(r.text)))
+
+
+@_form("Y", *_all(("D", "±X", "±Y"), 3))
+def _circle_at_three(_: XYFrame, e: Argument, f: Argument, g: Argument) -> NewElement:
+    value = touching_three(e.value, f.value, g.value)
+    if e.kind == f.kind == g.kind == "D":
+        halves = join(join(e.text, "#", f.text), "*", join(f.text, "#", g.text))
+        return NewElement(value, minus(join(halves, "/", f.text)))
+    return NewElement(value, literal(value))
+
+
+def literal(value: ExactPoint | ExactCircle) -> SkgText:
+    """A point or circle in computed numbers."""
+    if isinstance(value, ExactPoint):
+        return pair(decimal(value.x), decimal(value.y))
+    return join(literal(value.centre), ":", decimal(value.r))
+
+
+def line_literal(value: ExactLine) -> SkgText:
+    """A line in computed numbers."""
+    return join(_sloping(decimal(mp.degrees(mp.atan2(value.way.y, value.way.x)))), ":", literal(value.point))
+
+
+def shift(e: Argument, by: NewElement) -> SkgText:
+    """PY: an element moved by a vector."""
+    if e.kind == "D":
+        return join(e.text, "+", by.text)
+    if e.kind == "X":
+        return join(e.text, ":", join(join(SkgText("O"), "#", e.text), "+", by.text))
+    return join(join(centre_text(e.text), "+", by.text), ":", call("K3", e.text))
+
+
+def spin(e: SkgText, about: SkgText, angle: SkgText) -> SkgText:
+    """An element turned about a point, counter-clockwise."""
+    return join(e, "#", join(angle, ":", about))
+
+
+def image(e: ExactElement, text: SkgText, mirror: SkgText) -> SkgText:
+    """FS: a mirror image; SKG's own turns a line round."""
+    made = join(text, "/", mirror)
+    return minus(made) if isinstance(e, ExactLine) else made
+
+
+def curve_text(value: ExactCurve) -> SkgText:
+    """A curve in computed numbers."""
+    return line_literal(value) if isinstance(value, ExactLine) else literal(value)

@@ -1,0 +1,320 @@
+"""XY's belt: from the items of a φ to its contour, lines and arcs with where they begin and end (xy.md, section 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from lark import Token
+
+from skg.rivals.formula import SkgText, join, minus
+from skg.rivals.making import literal
+from skg.rivals.plane import (
+    NEAR,
+    SAME_WAY,
+    TINY,
+    ZERO,
+    ExactCircle,
+    ExactCurve,
+    ExactLine,
+    ExactPoint,
+    PlaneError,
+    Real,
+    belt_line,
+    crossing_that_turns,
+    crossings,
+    mp,
+    on,
+    parallel,
+    same_circle,
+    same_point,
+    sweep,
+    touching_point,
+    turn,
+    way_at,
+)
+from skg.rivals.text import TextFault
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A number in a route: the radius of a rounding or of a connecting arc (signed), and where it stands."""
+
+    radius: Real
+    text: SkgText
+    at: Token
+
+
+@dataclass(frozen=True)
+class Hung:
+    """A pin or a pulley of the belt, the number behind it, and where it stands."""
+
+    value: ExactPoint | ExactCircle
+    text: SkgText
+    at: Token
+    arc: Arc | None = None
+
+    @property
+    def is_pin(self) -> bool:
+        """A point."""
+        return isinstance(self.value, ExactPoint)
+
+
+@dataclass
+class Stretch:
+    """A line or an arc of the contour; no text: a line between points, which SKG brings in by itself."""
+
+    curve: ExactCurve
+    start: ExactPoint
+    end: ExactPoint
+    text: SkgText | None = None
+    whole: bool = False
+
+    @property
+    def is_travelled(self) -> bool:
+        """Longer than near."""
+        return self.whole or not same_point(self.start, self.end)
+
+    def angle(self) -> Real:
+        """The angle that an arc sweeps, radians."""
+        if self.whole:
+            return 2 * mp.pi
+        return sweep(self.curve, self.start, self.end) if self.is_travelled else ZERO
+
+    def has(self, p: ExactPoint) -> bool:
+        """Whether a point of the curve lies between start and end (near)."""
+        if same_point(p, self.start) or same_point(p, self.end):
+            return True
+        if isinstance(self.curve, ExactLine):
+            return self.curve.way.dot(p - self.start) > 0 and self.curve.way.dot(self.end - p) > 0
+        return self.is_travelled and sweep(self.curve, self.start, p) <= self.angle()
+
+
+@dataclass
+class Pin:
+    """A corner that a point names; its rounding, and the arc of that."""
+
+    point: ExactPoint
+    text: SkgText
+    rounding: Arc | None = None
+    arc: Stretch | None = None
+
+
+Part = Stretch | Pin
+
+
+# The items -----------------------------------------------------------------------------------------------------
+
+
+def is_same(a: Hung, b: Hung) -> bool:
+    """One item, hung twice."""
+    if a.is_pin != b.is_pin:
+        return False
+    return same_point(a.value, b.value) if a.is_pin else same_circle(a.value, b.value)
+
+
+def _merged(a: Hung, b: Hung) -> Hung:
+    """Two neighbours that are one item."""
+    if not a.is_pin and a.arc:
+        raise TextFault(a.arc.at.start_pos, "a connecting arc stands between two circles, this is one")
+    return Hung(a.value, a.text, a.at, (a.arc if a.is_pin else None) or b.arc)
+
+
+def without_doubles(items: list[Hung]) -> list[Hung]:
+    """The items of a closed belt, neighbours that are the same made one."""
+    found: list[Hung] = []
+    for item in items:
+        if found and is_same(found[-1], item):
+            found[-1] = _merged(found[-1], item)
+        else:
+            found.append(item)
+    while len(found) > 1 and is_same(found[-1], found[0]):
+        last = found.pop()
+        if last.is_pin:
+            found[0] = _merged(found[0], last)
+        elif last.arc:
+            raise TextFault(last.arc.at.start_pos, "a connecting arc stands between two circles, this is one")
+    return found
+
+
+def mirror_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hung]:
+    """The images of items, last to first: a rounding stays with its point, a connecting arc between its circles."""
+    found: list[Hung] = []
+    for index in reversed(range(len(items))):
+        item = items[index]
+        made = image(item)
+        arc = item.arc if item.is_pin else None
+        if not item.is_pin and index and not items[index - 1].is_pin:
+            arc = items[index - 1].arc
+        found.append(Hung(made.value, made.text, made.at, arc))
+    return found
+
+
+def mirrored_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hung]:
+    """Items and then their images; the one on the mirror once."""
+    images = mirror_items(items, image)
+    last = items[-1]
+    if is_same(last, images[0]):
+        if not last.is_pin and last.arc:
+            raise TextFault(last.arc.at.start_pos, "a connecting arc stands between two circles, this is one")
+        items = [*items[:-1], Hung(last.value, last.text, last.at, images[0].arc)]
+        images = images[1:]
+    return [*items, *images]
+
+
+# What lies between two of them ---------------------------------------------------------------------------------
+
+
+def between(a: Hung, b: Hung, at: int) -> tuple[ExactPoint, ExactPoint, list[Part]]:
+    """Where the belt leaves a, where it reaches b, and what lies between; `at`: the place to blame.
+
+    The table of xy.md, section 4.
+    """
+    if a.arc and not a.is_pin:
+        if b.is_pin:
+            raise TextFault(a.arc.at.start_pos, "a connecting arc stands between two circles")
+        arc = _connecting(a, b, a.arc)
+        return arc.start, arc.end, [arc]
+    if a.is_pin and b.is_pin:
+        line = ExactLine(a.value, (b.value - a.value).unit())
+        return a.value, b.value, [Stretch(line, a.value, b.value)]
+    for pin, circle in ((a, b), (b, a)):
+        if pin.is_pin:
+            if on(circle.value, pin.value):
+                return pin.value, pin.value, []
+            if (pin.value - circle.value.centre).size() < abs(circle.value.r):
+                raise TextFault(at, "the point lies inside the circle")
+    try:
+        line = belt_line(a.value, b.value)
+    except PlaneError:
+        raise TextFault(at, "no belt lies between these circles so: they cross, or one lies in the other") from None
+    if line is None:
+        touch = touching_point(a.value, b.value)
+        return touch, touch, [Pin(touch, join(a.text, "*", b.text))]
+    leaves, joins = (h.value if h.is_pin else touching_point(h.value, line) for h in (a, b))
+    return leaves, joins, [Stretch(line, leaves, joins, join(a.text, ":", b.text))]
+
+
+def _connecting(a: Hung, b: Hung, arc: Arc) -> Stretch:
+    """The arc of the given radius from one circle to the other (SKG book, B 9-5)."""
+    size = abs(arc.radius)
+    text = arc.text if arc.radius > 0 else minus(arc.text)
+    clockwise = arc.radius > 0
+    try:
+        if size <= TINY:
+            raise PlaneError("a radius is not 0")
+        step = size if clockwise else -size
+        beside = [parallel(h.value, step) for h in (a, b)]
+        if any(abs(circle.r) <= TINY for circle in beside):
+            raise PlaneError("it would be the circle itself")
+        found = [ExactCircle(centre, -step) for centre in crossings(*beside)]
+    except PlaneError as error:
+        raise TextFault(arc.at.start_pos, f"the connecting arc does not reach: {error}") from None
+
+    def stretch(circle: ExactCircle) -> Stretch:
+        return Stretch(circle, touching_point(a.value, circle), touching_point(b.value, circle))
+
+    best = min(map(stretch, found), key=Stretch.angle)
+    one, other = (join(h.text, ":", text if clockwise else minus(text)) for h in (a, b))
+    right = SkgText(f"-({other})", 0o55) if clockwise else other
+    best.text = join(join(one, "*", right), ":", minus(text) if clockwise else text)
+    if len(found) > 1 and not same_point(crossing_that_turns(*beside, left=not clockwise), best.curve.centre):
+        best.text = literal(best.curve)
+    return best
+
+
+# The contour ---------------------------------------------------------------------------------------------------
+
+
+def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
+    """The parts of the closed belt, from where the first item is reached, and which of them begins each item.
+
+    `closes` is the place of the ←.
+    """
+    if len(items) == 1:
+        if items[0].is_pin:
+            raise TextFault(closes, "a route of one point")
+        if items[0].arc:
+            raise TextFault(items[0].arc.at.start_pos, "a connecting arc stands between two circles")
+        circle = items[0].value
+        return [Stretch(circle, circle.centre, circle.centre, items[0].text, whole=True)], [0]
+    follows = [between(item, items[(index + 1) % len(items)],
+                       items[index + 1].at.start_pos if index + 1 < len(items) else closes)
+               for index, item in enumerate(items)]
+    parts: list[Part] = []
+    begins = []
+    for index, item in enumerate(items):
+        begins.append(len(parts))
+        leaves, _, after = follows[index]
+        if item.is_pin:
+            parts.append(Pin(item.value, item.text, item.arc))
+        else:
+            parts.append(Stretch(item.value, follows[index - 1][1], leaves, item.text))
+        parts += after
+    curves = [part for part in parts if isinstance(part, Stretch)]
+    if len(curves) == 1:
+        # One circle and a point on it.
+        curves[0].whole = True
+    if not any(stretch.is_travelled for stretch in curves):
+        raise TextFault(closes, "there is nothing to travel: the items meet in one point")
+    _round(parts)
+    return parts, begins
+
+
+def _round(parts: list[Part]) -> None:
+    """Find the arcs of all roundings, and shorten what they stand between."""
+    for index, pin in enumerate(parts):
+        if not isinstance(pin, Pin) or pin.rounding is None:
+            continue
+        at = pin.rounding.at.start_pos
+        if pin.rounding.radius <= TINY:
+            raise TextFault(at, "the radius of a rounding must be more than 0")
+        around = [part for part in parts[index + 1:] + parts[:index] if isinstance(part, Stretch)]
+        if not around or around[0].whole:
+            pin.rounding = None
+            continue
+        before, after = around[-1], around[0]
+        angle = turn(way_at(before.curve, pin.point), way_at(after.curve, pin.point))
+        if abs(angle) < SAME_WAY:
+            pin.rounding = None
+            continue
+        try:
+            pin.arc = _fillet(before.curve, after.curve, pin.rounding.radius, angle)
+        except PlaneError as error:
+            raise TextFault(at, f"the rounding does not fit: {error}") from None
+        if not before.has(pin.arc.start) or not after.has(pin.arc.end):
+            raise TextFault(at, "the rounding does not fit: it ends past its neighbours")
+        before.end, after.start = pin.arc.start, pin.arc.end
+
+
+def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Stretch:
+    """The arc that touches both on the inner side of a corner that turns by `angle`."""
+    if mp.pi - abs(angle) <= SAME_WAY:
+        raise PlaneError("the route turns straight back")
+    signed = radius if angle > 0 else -radius
+    inner = [parallel(curve, -signed) for curve in (e, f)]
+    for curve, moved in zip((e, f), inner, strict=True):
+        if isinstance(curve, ExactCircle) and (moved.r if curve.r > 0 else -moved.r) <= NEAR:
+            raise PlaneError("a circle beside it is smaller")
+    arc = ExactCircle(crossing_that_turns(*inner, left=angle > 0), signed)
+    ends = [touching_point(arc, curve) if isinstance(curve, ExactLine) else touching_point(curve, arc)
+            for curve in (e, f)]
+    return Stretch(arc, *ends)
+
+
+def stretches(parts: list[Part]) -> list[Stretch]:
+    """All that is travelled, the arcs of roundings too, in order."""
+    found = (part.arc if isinstance(part, Pin) else part for part in parts)
+    return [stretch for stretch in found if stretch is not None and stretch.is_travelled]
+
+
+def area(parts: list[Part]) -> Real:
+    """Signed area within the contour, mm²: positive when it runs counter-clockwise."""
+    total = ZERO
+    for stretch in stretches(parts):
+        total += stretch.start.cross(stretch.end) / 2
+        if isinstance(stretch.curve, ExactCircle):
+            angle = stretch.angle()
+            bulge = stretch.curve.r ** 2 * (angle - mp.sin(angle)) / 2
+            total += bulge if stretch.curve.r > 0 else -bulge
+    return total

@@ -1,0 +1,144 @@
+"""Where the wire enters an XY route, and the route written from there (docs/spec/xy.md, sections 5 and 8)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from skg.rivals.formula import SkgText, join
+from skg.rivals.plane import (
+    NEAR,
+    SAME_WAY,
+    ExactCircle,
+    ExactElement,
+    ExactLine,
+    ExactPoint,
+    PlaneError,
+    Real,
+    foot,
+    mp,
+    nearest,
+    nearest_crossing,
+    parallel,
+    turn,
+    way_at,
+)
+from skg.rivals.route import Part, Pin, Stretch, stretches
+
+#: Gives a name of the translator's own to an element: its SKG text (None: computed numbers), and its value.
+Namer = Callable[[SkgText | None, ExactElement], SkgText]
+#: An item of a CUT longer than this gets a name of its own.
+LONGEST_ITEM = 44
+
+
+@dataclass(frozen=True)
+class Entry:
+    """The first stretch that is cut, from the start point on; `inner`: the crossing on the wire's path where it enters,
+    None where it enters at the start point's own place."""
+
+    first: Stretch
+    inner: ExactPoint | None
+
+
+def entry(parts: list[Part], near: ExactPoint, offset: Real) -> Entry:
+    """The start, nearest to a point, and the entry for SKG's offset R."""
+    found = stretches(parts)
+    if found[0].whole:
+        pin = next((part.point for part in parts if isinstance(part, Pin)), None)
+        start = nearest(near, found[0].curve) if pin is None else pin
+        found[0].start = found[0].end = start
+        return Entry(found[0], None)
+    least = min((stretch.start - near).size() for stretch in found)
+    index = next(i for i, stretch in enumerate(found) if (stretch.start - near).size() <= least + NEAR)
+    return Entry(found[index], _inner_corner(found[index - 1], found[index], offset))
+
+
+def _inner_corner(last: Stretch, first: Stretch, offset: Real) -> ExactPoint | None:
+    """The corner of the wire's path where that lies along `first` behind the start point's own place."""
+    p = first.start
+    angle = abs(turn(way_at(last.curve, p), way_at(first.curve, p)))
+    if offset == 0 or angle <= SAME_WAY or mp.pi - angle <= SAME_WAY:
+        return None
+    paths = [parallel(stretch.curve, offset) for stretch in (last, first)]
+    if any(isinstance(path, ExactCircle) and path.r * stretch.curve.r <= 0
+           for path, stretch in zip(paths, (last, first), strict=True)):
+        return None
+    try:
+        corner = nearest_crossing(*paths, p)
+    except PlaneError:
+        return None
+    place = p - way_at(first.curve, p).left() * offset
+    path = paths[1]
+    if isinstance(path, ExactLine):
+        return corner if path.way.dot(corner - place) > NEAR else None
+    ahead = turn(place - path.centre, corner - path.centre) * path.r
+    return corner if ahead > NEAR else None
+
+
+def written(parts: list[Part], at: Entry, name: Namer) -> list[str]:
+    """The items of the CUT that cuts the whole route from its entry, up to where BACK closes it."""
+    index = next(i for i, part in enumerate(parts)
+                 if part is at.first or isinstance(part, Pin) and part.arc is at.first)
+    first = at.first
+    if isinstance(parts[index], Pin):
+        # It begins with the arc of a rounding.
+        begin = name(None, first.start)
+        circle = name(None, first.curve)
+        body = [Stretch(first.curve, first.start, first.end, circle), Pin(first.end, name(None, first.end))]
+        return [str(begin), *_texts([*body, *parts[index + 1:], *parts[:index]], name), str(begin)]
+    before = parts[index - 1]
+    rest = [*parts[index:], *parts[:index]]
+    if first.whole:
+        begin = before.text if isinstance(before, Pin) else name(None, first.start)
+        return [*_texts([Pin(first.start, begin), first], name), str(begin)]
+    if isinstance(before, Pin) and before.arc is None:
+        begin = _short(before.text, before.point, name)
+        rest.pop()
+        if at.inner is None:
+            return [str(begin), *_texts(rest, name), str(begin)]
+        if isinstance(first.curve, ExactLine):
+            return [str(name(None, foot(at.inner, first.curve))), *_texts(rest, name), str(begin)]
+        return [str(name(None, nearest(at.inner, first.curve))), *_texts(rest, name), str(begin),
+                *_texts([first], name)]
+    if isinstance(before, Pin):
+        begin = name(None, first.start)
+        return [str(begin), *_texts([*rest, first], name), str(begin)]
+    begin = name(_joint(before, first), first.start)
+    return [str(begin), *_texts(rest, name), str(begin)]
+
+
+def _joint(before: Stretch, first: Stretch) -> SkgText | None:
+    """Where a belt line and a circle touch, in their own terms."""
+    line, circle = (before, first) if isinstance(before.curve, ExactLine) else (first, before)
+    if isinstance(circle.curve, ExactLine) or isinstance(line.curve, ExactCircle) or line.text is None:
+        return None
+    return join(line.text, "*", circle.text)
+
+
+def _texts(parts: list[Part], name: Namer) -> list[str]:
+    found = []
+    for part in parts:
+        if isinstance(part, Pin):
+            text = _short(part.text, part.point, name)
+            found.append(f"{text},{part.rounding.text}" if part.rounding else str(text))
+        elif part.text is not None:
+            found.append(str(_short(part.text, part.curve, name)))
+    return found
+
+
+def _short(text: SkgText, value: ExactElement, name: Namer) -> SkgText:
+    return text if len(text.text) <= LONGEST_ITEM else name(text, value)
+
+
+def repeated(parts: list[Part], count: int, at: Entry, name: Namer) -> list[str] | None:
+    """The items of the CUT that REP repeats: the first `count` parts, which lead to the second copy.
+
+    None where the wire enters elsewhere than where the first item is reached.
+    """
+    begins = parts[0]
+    first = next(part for part in parts if isinstance(part, Stretch))
+    if at.inner is not None or at.first.whole or at.first is not first:
+        return None
+    if isinstance(begins, Pin):
+        return None if begins.arc else _texts(parts[:count], name)
+    return [str(name(None, first.start)), *_texts(parts[:count], name)]

@@ -1,0 +1,164 @@
+"""XY's text: the three spellings of its symbols made tokens, and these statements, each with its line and column.
+
+docs/spec/xy.md, sections 1 and 2. Statements come one by one, so that what is wrong first is said first.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import cache
+from importlib.resources import files
+
+from lark import Lark, Token, Tree, UnexpectedToken
+from lark.lexer import Lexer
+
+#: TeX words, as the scan has them, and code points, each as the one character that stands for its symbol.
+WORDS = {r"\oplus": "⊕", r"\Rightarrow": "⇒", r"\phi": "φ", r"\times": "×", r"\leftarrow": "←",
+         r"\rightarrow": "-", r"\quad": " "}  # fmt: skip
+FOLDED = str.maketrans("ϕ−–－→，；（）", "φ----,;()")
+#: Not there at all.
+DROPPED = "$_"
+SYMBOLS = {"⊕": "MAKE", "(+)": "MAKE", "⇒": "NAME_IT", "=>": "NAME_IT", "φ": "ROUTE", "(/)": "ROUTE", "×": "TIMES",
+           "*": "TIMES", "←": "CLOSE", "<-": "CLOSE", "-": "MINUS", "+": "PLUS", "/": "SLASH", "(": "LPAR", ")": "RPAR",
+           ",": "COMMA", ";": "SEMICOLON"}  # fmt: skip
+SHOWN = {"MAKE": "⊕", "NAME_IT": "⇒", "ROUTE": "φ", "TIMES": "×", "CLOSE": "←", "MINUS": "-", "PLUS": "+", "SLASH": "/",
+         "LPAR": "(", "RPAR": ")", "COMMA": ",", "SEMICOLON": ";", "WHOLE": "a number", "DECIMAL": "a number",
+         "VARIABLE": "a variable", "BARE_D": "a point", "OTHER_D": "a point", "BARE_X": "a line", "OTHER_X": "a line",
+         "BARE_Y": "a circle", "OTHER_Y": "a circle"}  # fmt: skip
+
+_TOKEN = re.compile(r"(?P<symbol>\(\+\)|\(/\)|<-|=>|[⊕⇒φ×*←\-+/(),;])|(?P<number>[0-9]+(?:\.[0-9]+)?)"
+                    r"|(?P<word>[A-Za-z]+[0-9]*)|(?P<blank>\s+)|(?P<other>.)")
+_TEX = re.compile(r"\\[A-Za-z]+")
+_NAME = re.compile(r"([A-Z])([0-9]*)")
+_SUBSCRIPT = re.compile(r"|0|[1-9][0-9]?")
+
+
+class TextFault(Exception):
+    """What is wrong with a text, and the index of the character where."""
+
+    def __init__(self, at: int, message: str) -> None:
+        super().__init__(message)
+        self.at = at
+        self.message = message
+
+
+def place(text: str, at: int) -> tuple[int, int]:
+    """Line and column of a character, both from 1."""
+    before = text[:at]
+    return before.count("\n") + 1, at - (before.rfind("\n") + 1) + 1
+
+
+def _folded(text: str) -> tuple[str, list[int], TextFault | None]:
+    """One character for each symbol, the index in `text` of each, and what breaks the text off, if anything does."""
+    out: list[str] = []
+    at: list[int] = []
+    index = 0
+    while index < len(text):
+        char = text[index]
+        length = 1
+        if char == "\\":
+            word = _TEX.match(text, index)
+            if not word or word[0] not in WORDS:
+                fault = TextFault(index, f"unknown word {word[0] if word else char}")
+                return "".join(out), [*at, index], fault
+            char, length = WORDS[word[0]], len(word[0])
+        if char not in DROPPED:
+            out.append(char.translate(FOLDED))
+            at.append(index)
+        index += length
+    return "".join(out), [*at, len(text)], None
+
+
+def tokens(text: str) -> Iterator[Token]:
+    """The tokens of a text; `TextFault` at the first that is none. A last one, $END, stands behind the others."""
+    folded, at, fault = _folded(text)
+    index = end = 0
+    while index < len(folded):
+        found = _TOKEN.match(folded, index)
+        start, index = index, found.end()
+        word = found[0]
+        match found.lastgroup:
+            case "blank":
+                continue
+            case "other":
+                wrong = f"unknown character {word!r}" if word != "." else "a number begins with a digit"
+                raise TextFault(at[start], wrong)
+            case "symbol":
+                kind = SYMBOLS[word]
+            case "number":
+                if folded[index:index + 1] == "." and "." not in word:
+                    raise TextFault(at[index] + 1, "expected a digit behind the point")
+                kind = "DECIMAL" if "." in word else "WHOLE"
+            case _:
+                word = word.upper()
+                kind = _kind(word, at[start])
+        end = at[index - 1] + 1
+        yield Token(kind, word, start_pos=at[start], end_pos=end)
+    if fault:
+        raise fault
+    yield Token("$END", "", start_pos=end, end_pos=end)
+
+
+def _kind(word: str, at: int) -> str:
+    if word in ("FS", "PY", "ZD", "ZB"):
+        return word
+    name = _NAME.fullmatch(word)
+    if not name:
+        raise TextFault(at, f"unknown word {word}")
+    letter, subscript = name.groups()
+    if not _SUBSCRIPT.fullmatch(subscript):
+        raise TextFault(at, f"{word}: names go from {letter}0 to {letter}99")
+    if letter not in "DXY":
+        return "VARIABLE"
+    return f"{'OTHER' if subscript else 'BARE'}_{letter}"
+
+
+@cache
+def _parser() -> Lark:
+    return Lark(files("skg.rivals").joinpath("xy.lark").read_text("utf-8"), start="statement", parser="lalr",
+                lexer=_NoLexer, maybe_placeholders=True)
+
+
+class _NoLexer(Lexer):
+    """The tokens are fed one by one."""
+
+    def __init__(self, _: object) -> None:
+        pass
+
+    def lex(self, data: object) -> Iterator[Token]:
+        """None of its own."""
+        return iter(data)
+
+
+def statements(text: str, is_made: Callable[[str], bool]) -> Iterator[Tree]:
+    """The statements of a text, each asked for when the one before has been carried out.
+
+    `is_made` tells whether a name has been made. `TextFault` at what the grammar does not take and at a name that is
+    used before it was made, whichever comes first.
+    """
+    stream = tokens(text)
+    token = next(stream)
+    while token.type != "$END":
+        parser = _parser().parse_interactive("")
+        before = ""
+        while True:
+            try:
+                parser.feed_token(token)
+            except UnexpectedToken as unexpected:
+                raise TextFault(token.start_pos, _expected(unexpected, token)) from None
+            is_name = token.type == "VARIABLE" or token.type[:-1] in ("BARE_", "OTHER_")
+            if is_name and before not in ("MAKE", "NAME_IT") and not is_made(token):
+                raise TextFault(token.start_pos, f"{token} has not been made")
+            if token.type == "SEMICOLON":
+                break
+            before = token.type
+            token = next(stream)
+        yield parser.feed_eof(token)
+        token = next(stream)
+
+
+def _expected(unexpected: UnexpectedToken, token: Token) -> str:
+    words = list(dict.fromkeys(SHOWN.get(kind, kind) for kind in sorted(unexpected.expected)))
+    wanted = f"{', '.join(words[:-1])} or {words[-1]}" if len(words) > 1 else words[0]
+    return f"expected {wanted}, found {token or 'the end'}"

@@ -1,0 +1,367 @@
+"""`skg xy`: an XY program made an SKG program (docs/spec/xy.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from lark import Token, Tree
+
+from skg.rivals.formula import SkgText, decimal, join, minus
+from skg.rivals.making import (
+    FORMS,
+    LETTERS,
+    Argument,
+    NewElement,
+    XYFrame,
+    curve_text,
+    image,
+    literal,
+    shift,
+    spin,
+)
+from skg.rivals.plane import (
+    TINY,
+    ExactElement,
+    ExactPoint,
+    PlaneError,
+    Real,
+    mirrored,
+    moved,
+    mp,
+    rotated,
+)
+from skg.rivals.route import (
+    Arc,
+    Hung,
+    area,
+    contour,
+    mirrored_items,
+    without_doubles,
+)
+from skg.rivals.start import entry, repeated, written
+from skg.rivals.text import TextFault, place, statements
+
+#: No line of the program is longer, its number included.
+WIDTH = 72
+#: SKG's name for a bare name, and the first of the translator's own.
+BARE, OWN = 100, 101
+LAST_SUBSCRIPT = 999
+LAST_LINE = 9999
+#: Routes that enclose no more (mm²) have no inside.
+NO_AREA = Real("1e-6")
+KINDS = {"d": "D", "x": "X", "y": "Y", "num": "N"}
+
+
+class XYFault(Exception):
+    """What is wrong with an XY program: `LINE:COLUMN: TEXT`, both from 1."""
+
+
+def translate(text: str, title: str = "") -> str:
+    """The SKG program that cuts what an XY program describes; `title` is its file's name. `XYFault` for bad input."""
+    machine = _Machine()
+    try:
+        for statement in statements(text, machine.has):
+            machine.carry_out(statement)
+        return machine.program(title)
+    except TextFault as fault:
+        line, column = place(text, fault.at)
+        raise XYFault(f"{line}:{column}: {fault.message}") from None
+    except RecursionError:
+        raise XYFault("1:1: parentheses too deep") from None
+
+
+@dataclass(frozen=True)
+class _Copies:
+    """A × that ends a route: how many of the items it repeats, and SKG's REP for it."""
+
+    items: int
+    statement: str
+    goes_round: bool
+
+
+@dataclass
+class _Machine:
+    """What has been made so far, and the SKG statements for it."""
+
+    elements: dict[str, ExactElement] = field(default_factory=dict)
+    variables: dict[str, tuple[int, Real]] = field(default_factory=dict)
+    frame: XYFrame = XYFrame()
+    body: list[str] = field(default_factory=list)
+    own: dict[str, int] = field(default_factory=dict)
+    renamed: list[str] = field(default_factory=list)
+    routes: int = 0
+
+    def has(self, name: str) -> bool:
+        """Whether a name has been made."""
+        return name in self.elements or name in self.variables
+
+    # Writing ----------------------------------------------------------------------------------------------------
+
+    def say(self, statement: str, instead: str = "") -> None:
+        """A statement, or another where it is too long for a line."""
+        self.body.append(statement if len(statement) <= WIDTH - len("9999 ") else instead or statement)
+
+    def name_own(self, text: SkgText | None, value: ExactElement | Real) -> SkgText:
+        """A name of the translator's own."""
+        if isinstance(value, ExactPoint):
+            letter, numbers = "P", literal(value)
+        elif isinstance(value, Real):
+            letter, numbers = "D", decimal(value)
+        else:
+            letter, numbers = "S" if curve_text(value).text.startswith("X") else "C", curve_text(value)
+        subscript = self.own[letter] = self.own.get(letter, OWN - 1) + 1
+        name = f"{letter}{subscript}"
+        self.say(f"{name}={text or numbers}", f"{name}={numbers}")
+        return SkgText(name)
+
+    def program(self, title: str) -> str:
+        """The whole program."""
+        heading = "".join(char if char.isascii() and char.isprintable() else "?" for char in title.upper())
+        lines = [f"REM {heading}"[:WIDTH - 5]]
+        words = ""
+        for renamed in self.renamed:
+            if words and len(words) + len(renamed) > WIDTH - 12:
+                lines.append(f"REM {words}")
+                words = ""
+            words += f"{', ' if words else ''}{renamed}"
+        lines += [f"REM {words}"] if words else []
+        lines += [*self.body, "END"]
+        step = 10 if len(lines) * 10 <= LAST_LINE else 1
+        if len(lines) > LAST_LINE or any(number > LAST_SUBSCRIPT for number in self.own.values()):
+            raise TextFault(0, "the program is too long for SKG")
+        return "".join(f"{number * step} {line}\n" for number, line in enumerate(lines, 1))
+
+    # Numbers and names ------------------------------------------------------------------------------------------
+
+    def number(self, tree: Tree | Token) -> tuple[Real, SkgText]:
+        """The value of a number, and its text."""
+        match tree.data:
+            case "literal":
+                return Real(tree.children[0].value), SkgText(tree.children[0].value)
+            case "variable":
+                index, value = self.variables[tree.children[0]]
+                return value, SkgText(f"A{index}")
+            case "inner":
+                return self.number(tree.children[1])
+            case "minus":
+                value, text = self.number(tree.children[1])
+                return -value, minus(text)
+        left, sign, right = tree.children
+        (a, a_text), (b, b_text) = self.number(left), self.number(right)
+        match sign.type:
+            case "PLUS":
+                return a + b, join(a_text, "+", b_text)
+            case "MINUS":
+                return a - b, join(a_text, "-", b_text)
+            case "TIMES":
+                return a * b, join(a_text, "*", b_text)
+        if b == 0:
+            raise TextFault(sign.start_pos, "division by zero")
+        return a / b, join(a_text, "/", b_text)
+
+    def element(self, tree: Tree, sign: Token | None = None) -> Argument:
+        """An element by its name, and its sign."""
+        token = tree.children[0]
+        letter, subscript = token[0], token[1:] or str(BARE)
+        text = SkgText(LETTERS[letter] + subscript)
+        value = self.elements[token]
+        if sign is not None and letter != "D":
+            return Argument(letter, -value, minus(text), token, sign)
+        return Argument(letter, value, text, token, sign)
+
+    def argument(self, tree: Tree) -> Argument:
+        """An argument of ⊕."""
+        *sign, inner = tree.children
+        if inner.data in KINDS:
+            return self.element(inner, sign[0] if sign else None)
+        value, text = self.number(inner)
+        return Argument("N", value, text, _first_token(inner))
+
+    # Statements -------------------------------------------------------------------------------------------------
+
+    def carry_out(self, tree: Tree) -> None:
+        """One statement."""
+        if tree.data == "cut":
+            self.cut(tree.children)
+            return
+        try:
+            getattr(self, f"_{tree.data}")(tree.children)
+        except PlaneError as error:
+            raise TextFault(tree.children[0].start_pos, str(error)) from None
+
+    def _make(self, children: list) -> None:
+        arguments = [self.argument(child) for child in children[3].children if isinstance(child, Tree)]
+        kinds = "".join(argument.kind for argument in arguments)
+        if (str(children[1]), kinds) not in FORMS:
+            raise TextFault(children[1].start_pos, "of these nothing is made")
+        allowed, form = FORMS[str(children[1]), kinds]
+        for argument, may in zip(arguments, allowed, strict=True):
+            if argument.sign and not may:
+                raise TextFault(argument.sign.start_pos, "no sign may stand here")
+        self._store(children[-2], form(self.frame, *arguments))
+
+    def _store(self, target: Tree, made: NewElement) -> None:
+        token = target.children[0]
+        name = LETTERS[token[0]] + (token[1:] or str(BARE))
+        self.elements[str(token)] = made.value
+        if len(token) == 1:
+            self._rename(f"{token} IS {name}")
+        numbers = literal(made.value) if isinstance(made.value, ExactPoint) else curve_text(made.value)
+        self.say(f"{name}={made.text}", f"{name}={numbers}")
+
+    def _rename(self, words: str) -> None:
+        if words not in self.renamed:
+            self.renamed.append(words)
+
+    def _image(self, children: list) -> None:
+        mirror = self.argument(children[5])
+        if mirror.kind != "X":
+            raise TextFault(children[1].start_pos, "a mirror is a line")
+        e = self.element(children[3])
+        self._store(children[-2], NewElement(mirrored(e.value, mirror.value), image(e.value, e.text, mirror.text)))
+
+    def _move(self, children: list) -> None:
+        e, x, y = self.element(children[3]), *(self._number_argument(children[i]) for i in (5, 7))
+        by = self.frame.vector(x, y)
+        self._store(children[-2], NewElement(moved(e.value, by.value), shift(e, by)))
+
+    def _number_argument(self, tree: Tree) -> Argument:
+        value, text = self.number(tree)
+        return Argument("N", value, text, _first_token(tree))
+
+    def _rotate(self, children: list) -> None:
+        e, about = self.element(children[3]), self.element(children[6])
+        angle, text = self._rotation(children[5], children[8])
+        self._store(children[-2], NewElement(rotated(e.value, angle, about.value), spin(e.text, about.text, text)))
+
+    def _rotation(self, sign: Token | None, tree: Tree) -> tuple[Real, SkgText]:
+        """An angle counter-clockwise: with a sign as it is, else clockwise."""
+        angle, text = self.number(tree)
+        return (angle, text) if sign is not None else (-angle, minus(text))
+
+    def _frame_at(self, children: list) -> None:
+        at = self.element(children[3])
+        self._take_frame(at.value, self.name_own(at.text, at.value), children[5])
+
+    def _frame(self, children: list) -> None:
+        (x, _), (y, _) = self.number(children[3]), self.number(children[5])
+        origin = ExactPoint(x, y)
+        self._take_frame(origin, None if x == y == 0 else self.name_own(None, origin), children[7])
+
+    def _take_frame(self, origin: ExactPoint, text: SkgText | None, tree: Tree) -> None:
+        angle, written_angle = self.number(tree)
+        if angle == 0:
+            written_angle = None
+        elif "A" in written_angle.text:
+            # The variable may change.
+            written_angle = self.name_own(written_angle, angle)
+        self.frame = XYFrame(origin, angle, text, written_angle)
+
+    def _assign(self, children: list) -> None:
+        value, text = self.number(children[0])
+        token = children[2]
+        index = self.variables.get(token, (len(self.variables) + 1,))[0]
+        self.variables[str(token)] = index, value
+        self._rename(f"{token} IS A{index}")
+        self.say(f"A{index}={text}", f"A{index}={decimal(value)}")
+
+    # Routes -----------------------------------------------------------------------------------------------------
+
+    def cut(self, children: list) -> None:
+        """φ: the heading, the wire's offset, the items of the CUT, BACK."""
+        closing = next(child for child in children if isinstance(child, Token) and child.type == "CLOSE")
+        gap, hole, near = children[children.index(closing) + 1], *(
+            self.element(child) for child in children[children.index(closing) + 3::2]
+            if isinstance(child, Tree) and child.data == "d")
+        closes = closing.start_pos
+        items, copies = self.items([child for child in children[1:children.index(closing)] if isinstance(child, Tree)])
+        hung = without_doubles(items)
+        parts, begins = contour(hung, closes)
+        distance, text = self.number(gap)
+        enclosed = area(parts)
+        if abs(enclosed) < NO_AREA and distance != 0:
+            raise TextFault(closes, "the route has no inside, so its gap must be 0")
+        if enclosed < 0:
+            distance, text = -distance, minus(text)
+        self.routes += 1
+        way = "COUNTER-CLOCKWISE" if enclosed > 0 else "CLOCKWISE"
+        self.body.append(f"REM ROUTE {self.routes}, {way}")
+        at = entry(parts, near.value, distance)
+        cuts = None
+        if copies and len(hung) == len(items):
+            is_open = copies.goes_round or hung[0].is_pin and hung[copies.items - 1].is_pin
+            cuts = repeated(parts, begins[copies.items], at, self.name_own) if is_open else None
+        last = [copies.statement, "BACK"] if cuts else ["BACK"]
+        cuts = cuts or written(parts, at, self.name_own)
+        self.body += [f"FROM {hole.text}", f"R={'0' if distance == 0 else text}", *_packed(cuts), *last]
+
+    def items(self, trees: list[Tree]) -> tuple[list[Hung], _Copies | None]:
+        """What hangs on the belt, with all copies and images, and the × that ends it, if one does."""
+        items: list[Hung] = []
+        copies: _Copies | None = None
+        for tree in trees:
+            at = _first_token(tree)
+            if tree.data in ("number", "times", "mirrored") and not items:
+                raise TextFault(at.start_pos, "expected a point or a circle first")
+            copies = None
+            match tree.data:
+                case "point" | "circle":
+                    e = self.element(tree.children[-1], tree.children[0] if len(tree.children) > 1 else None)
+                    items.append(Hung(e.value, e.text, at))
+                case "number":
+                    value, text = self.number(tree.children[0])
+                    items[-1] = _with_arc(items[-1], Arc(value, text, at))
+                case "mirrored":
+                    mirror = self.element(tree.children[3])
+
+                    def reflect(item: Hung, mirror: Argument = mirror) -> Hung:
+                        return Hung(mirrored(item.value, mirror.value), join(item.text, "/", mirror.text), item.at)
+
+                    items = mirrored_items(items, reflect)
+                case _:
+                    items, copies = self._copied(items, tree)
+        return items, copies
+
+    def _copied(self, items: list[Hung], tree: Tree) -> tuple[list[Hung], _Copies]:
+        word, count, _, sign, centre, _, tree_of_angle, _ = tree.children
+        times = int(count)
+        if times < 2:
+            raise TextFault(word.start_pos, "× is for two times or more")
+        if times * len(items) > LAST_LINE:
+            raise TextFault(word.start_pos, "more items than SKG's memory takes")
+        about = self.element(centre)
+        angle, text = self._rotation(sign, tree_of_angle)
+        found = list(items)
+        for copy in range(1, times):
+            whole = decimal(angle * copy) if mp.isint(angle * copy) or "A" not in text.text else \
+                join(SkgText(str(copy)), "*", text)
+            found += [Hung(rotated(item.value, angle * copy, about.value), spin(item.text, about.text, whole),
+                           item.at, item.arc) for item in items]
+        rest = mp.fmod(angle * times, 360)
+        goes_round = min(abs(rest), 360 - abs(rest)) <= TINY
+        return found, _Copies(len(items), f"REP {times},{join(text, ':', about.text)}", goes_round)
+
+
+def _with_arc(item: Hung, arc: Arc) -> Hung:
+    if item.arc is not None:
+        raise TextFault(arc.at.start_pos, "two numbers in a row")
+    if item.is_pin and arc.radius <= TINY:
+        raise TextFault(arc.at.start_pos, "the radius of a rounding must be more than 0")
+    return Hung(item.value, item.text, item.at, arc)
+
+
+def _first_token(tree: Tree) -> Token:
+    return min(tree.scan_values(lambda value: isinstance(value, Token)), key=lambda token: token.start_pos)
+
+
+def _packed(items: list[str]) -> Iterator[str]:
+    """CUT statements of items, each no longer than a line."""
+    line = ""
+    for item in items:
+        if line and len(line) + 1 + len(item) > WIDTH - len("9999 "):
+            yield line
+            line = ""
+        line += f",{item}" if line else f"CUT {item}"
+    yield line
+
