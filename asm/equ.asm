@@ -309,7 +309,7 @@ SSG     EQU 0BFH        ; M63 chord of the beginning of the circle C that a fill
 ;! MNODE1/100H == MNODE2/100H -- TRY changes the low byte alone
 ;! LINBUF & 0FFH == 80H and TOKS == LINBUF+80H -- GETLIN sees by C that the line is full, or empty; ERR counts blanks
 ;! TOKS & 0FFH == 0 -- LEX and STORE take a token's low address for its distance from the line's start
-;! TOKS+TOKMAX < STKLOW+1 and TOKMAX < 256 -- the stack is not in the tokens; a record's length is a byte
+;! TOKS+100H == STKLOW -- GETLIN refuses tokens that leave their page; a record's length is a byte
 ;! GSTKE & 0FFH == 0 and GSTKE/100H == PROG/100H -- SRETN looks for the end; CLRPTR changes the low byte alone
 ;! HELD & 0FFH == 0 and HELD+16*PLCSIZ < PROG-1 -- HELDN is a low byte; CLOSED and RBFULL lie in front of PROG
 ;! KEPT+25 == MNODE1 and MNODE1+25 == MNODE2 -- ROTATE and SWAP exchange neighbours
@@ -321,8 +321,7 @@ MWORK   EQU 20B0H       ; cells of monitor, lexer and io (55 bytes)
 KEPT    EQU 20E7H       ; the node of FIT that was kept last, in front of node 1
 MREG    EQU 2100H       ; 64 float registers of the calculator, 5 bytes each, from a page's start
 LINBUF  EQU 2280H       ; the line being typed, 126 characters; reaches up to TOKS
-TOKS    EQU 2300H       ; the same line as tokens, at a page's start
-TOKMAX  EQU 255         ; how many bytes of them
+TOKS    EQU 2300H       ; the same line as tokens, a page
 STKLOW  EQU 2400H       ; the stack may not grow below this
 STKTOP  EQU 25F0H       ; 8080 stack, downwards
 HELD    EQU 2600H       ; in front of it GOSUB's stack; places of the nodes that FIT has passed, 16

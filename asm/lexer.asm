@@ -1,12 +1,12 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LEXDEC LEXDIG LEXCH LISTLN PRNUM BLANK
 ; Uses:   float io monitor parser start
-; Room:   641 bytes
+; Room:   650 bytes
 ;
 ; The tokens are in equ.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
 ; what it does not know.  TOKS begins a page, so that the low byte of a token's address is
-; its distance from the line's start; what is longer than TOKMAX is refused after LEX, the
+; its distance from the line's start; what is longer than the page is refused after LEX, the
 ; stack having room for what the longest line can make.
 
 CBEL    EQU     07H
@@ -100,7 +100,11 @@ GETL6:  POP     H
         SHLD    TXTP
         INR     C
         JZ      ERMEM
-; (fall into LEX)
+        CALL    LEX
+        MOV     A,D
+        CPI     STKLOW/256
+        RC                      ; its tokens keep to their page
+        DB      ERROR,EMEM
 
 ; LEX - makes tokens of the text in LINBUF, but no further than the token in front of
 ;       TXTP, when TXTP is not TOKS

@@ -2,7 +2,7 @@
 ; Offers: TXTP PEND VBOT VTOP CHKF OUTSEL COLS LASTC KEYB VSUM LEXAT LINUM STMT0 CDOT CLBRK CLOWA
 ;         ERR ERR4 READY FINDLN LINE1 DIRECT MORE SLIST NEW1 CLEAR CLEAR1 CLRPTR
 ; Uses:   calc cut fit float io lexer parser repeat start tape
-; Room:   801 bytes, 803 with BRD51, 809 with PTTY
+; Room:   794 bytes, 796 with BRD51, 802 with PTTY
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
@@ -130,9 +130,6 @@ READY:  LXI     SP,STKTOP
         MVI     A,CPRMPT
         DB      PUTC
         CALL    GETLIN
-        LXI     H,-TOKS-TOKMAX-1
-        DAD     D
-        JC      ERMEM
 READY1: PUSH    D               ; -> behind the tokens
         DB      PEEK
         DCR     A               ; TFLT?

@@ -421,7 +421,7 @@ def test_ctrl_c_at_input(board: Board) -> None:
 
 def test_an_answer_too_long_or_too_deep_is_asked_again(board: Board) -> None:
     lines(board, "10 INPUT A,D", "20 PRINT A,D")
-    wrong = ["1" * 127, "1+" * 200 + "1", "(" * 100 + "1" + ")" * 20, "1#(" * 40 + "1", "1E99", "."]
+    wrong = ["1" * 127, "1+" * 200 + "1", "(" * 100 + "1" + ")" * 20, "1#(" * 40 + "1", ".1*" * 40 + "1", "1E99", "."]
     paper = answer(board, *wrong, "5", *wrong, "6")
     assert paper[-3:] == ["? 6", "5 6", "DD"]
     assert sum(line.startswith("? ") for line in paper) == 2 * len(wrong) + 2

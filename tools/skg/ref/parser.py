@@ -12,6 +12,7 @@ from lark import Lark, Token, Transformer, UnexpectedInput, v_args
 
 from skg.ref import real
 from skg.ref.fault import Code, Fault
+from skg.ref.listing import listed
 from skg.ref.real import Real
 
 LAST_LINE = 9999
@@ -412,7 +413,7 @@ def _parser() -> Lark:
 
 _BLANK = " "
 _FUNCTION_END = re.compile(r"(SQR|SIN|COS|TG|ABS|INT|K[123])$")
-_REMARK = re.compile(r"[ 0-9]*R *E *M", re.IGNORECASE)
+_REMARK = re.compile(r" *([0-9.][0-9. ]*(E[ +-]*[0-9][0-9 ]*)?)?R *E *M", re.IGNORECASE)
 
 
 def squeeze(text: str) -> tuple[str, list[int]]:
@@ -492,7 +493,15 @@ def parse_line(text: str) -> ProgramLine:
     line = _parse(text, "line")
     if line.number is None and isinstance(line.statement, Input):
         raise LineFault(Code.SYNTAX, len(text))
+    if line.number is not None and len(listed(squeeze(text)[0], remark(text))) > LONGEST:
+        raise LineFault(Code.MEMORY, len(text))
     return line
+
+
+def remark(text: str) -> str | None:
+    """The text behind REM, without the one blank that LIST puts there; None in other lines."""
+    word = _REMARK.match(text)
+    return text[word.end() :].removeprefix(" ") if word else None
 
 
 def parse_answer(text: str) -> Expression:

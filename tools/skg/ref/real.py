@@ -120,18 +120,18 @@ def literal(text: str) -> Real:
     return in_range(value * Real(10) ** int(exponent or 0))
 
 
-def show(value: Real) -> str:
-    """A number as PRINT writes it: at most 8 significant digits, an exponent outside 0.00001…99999999."""
+def show(value: Real, most: int = 8) -> str:
+    """A number as PRINT writes it: at most 8 significant digits (LIST: 9), an exponent outside 0.00001…99999999."""
     if value == 0:
         return "0"
     sign = "-" if value < 0 else ""
     size = abs(value)
     exponent = int(mp.floor(mp.log10(size)))
-    digits = int(mp.floor(size * Real(10) ** (7 - exponent) + Real("0.5")))
-    if digits < 10**7:  # the logarithm of a power of ten came out just too large
+    digits = int(mp.floor(size * Real(10) ** (most - 1 - exponent) + Real("0.5")))
+    if digits < 10 ** (most - 1):  # the logarithm of a power of ten came out just too large
         exponent -= 1
-        digits = int(mp.floor(size * Real(10) ** (7 - exponent) + Real("0.5")))
-    if digits >= 10**8:
+        digits = int(mp.floor(size * Real(10) ** (most - 1 - exponent) + Real("0.5")))
+    if digits >= 10**most:
         exponent += 1
         digits = (digits + 5) // 10
     text = str(digits).rstrip("0")

@@ -1,0 +1,38 @@
+"""How LIST writes a line: what it writes must be a line that LOAD takes (language.md, section 3)."""
+
+from __future__ import annotations
+
+import re
+
+from skg.ref import real
+
+_WORD = re.compile(
+    r"""(?P<text>"[^"]*")
+    |(?P<number>([0-9]+(\.[0-9]*)?|\.[0-9]+)(E[+-]?[0-9]+)?)
+    |(?P<function>SQR|SIN|COS|TG|ATG|ABS|INT|K[123])(␣|(?=\())
+    |(?P<statement>FROM|CUT|BACK|END|REM|PRINT|GOTO|IF|GOSUB|RETURN|READ|DATA|RESTORE|INPUT|SCALE|SYM|REP|RECUT|FIT|TOL)
+    |(?P<name>[ADRIJPOVCBTSXY])(?P<subscript>[0-9]*)
+    |(?P<sign>[^␣])""",
+    re.VERBOSE,
+)
+#: Significant digits of a number.
+DIGITS = 9
+
+
+def listed(squeezed: str, remark: str | None) -> str:
+    """A program line, squeezed (`skg.ref.parser.squeeze`), as LIST writes it; `remark`: the text behind REM."""
+    out = ""
+    for word in _WORD.finditer(squeezed):
+        if word["number"]:
+            out += real.show(real.literal(word["number"]), DIGITS)
+        elif word["function"]:
+            out += word["function"] + " "
+        elif word["statement"]:
+            out += ("" if out.endswith(" ") else " ") + word["statement"] + " "
+        elif word["name"]:
+            out += word["name"] + word["subscript"].lstrip("0")
+        else:
+            out += word[0]
+        if word.start() == 0:
+            out += " "
+    return out + remark if remark else out.rstrip()
