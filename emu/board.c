@@ -372,6 +372,12 @@ bool board_tape(board *b, const uint8_t *bytes, size_t length)
     return queue_add(&b->tape, bytes, length);
 }
 
+void board_take_tape(board *b)
+{
+    b->tape.first = b->tape.end;
+    b->aux.full = false;
+}
+
 void board_forget_typed(board *b)
 {
     b->typed.first = b->typed.end;

@@ -6,6 +6,7 @@ import pytest
 from asm8080 import assemble
 from emuhelp import ROMS
 
+import skg
 from skg.machine import Machine
 
 CTRL_C, CTRL_Q, CTRL_S = 3, 0x11, 0x13
@@ -217,3 +218,14 @@ def test_reset_keeps_ram_and_starts_the_ports_anew(kind: str) -> None:
     assert m.run() == "prompt"
     assert m.tty.startswith("\r\nSKG ")
     assert m.tty.endswith(">LIST\r\n10 PRINT 5\r\n>PRINT A\r\n7\r\n>")
+
+
+@pytest.mark.parametrize("rom", ["standard", "8251"])
+def test_a_new_tape_takes_the_place_of_one_that_was_refused(rom: str) -> None:
+    """What LOAD has not read of a tape with a mistake never comes into the program of the next one."""
+    board = skg.Board(rom)
+    assert board.load("10 PRINT (\n20 PRINT 2\n30 PRINT 3\n")[-1] == "ERR 01"
+    assert board.load("10 PRINT 1\n") == []
+    assert board.type("LIST") == ["10 PRINT 1"]
+    assert board.load("20 PRINT 4\n") == []
+    assert board.type("LIST") == ["10 PRINT 1", "20 PRINT 4"]

@@ -81,9 +81,11 @@ class Board:
         return self._lines(start)
 
     def load(self, program: str | bytes) -> list[str]:
-        """Put a program into the reader as a tape, and LOAD it. Returns the lines printed."""
+        """Put a program into the reader as a tape, in an old one's place, and LOAD it. Returns the lines printed."""
         tape = _ascii(program) if isinstance(program, str) else program
         # The last line is ended if the program does not; ctrl-Z ends a tape by itself.
+        # LOAD stops at a line that it refuses: the rest of that tape is not a part of this program.
+        self.machine.take_tape()
         self.machine.tape(tape if tape.endswith((b"\n", b"\r", b"\x1a")) else tape + b"\n")
         start = len(self.paper)
         self._type("LOAD")

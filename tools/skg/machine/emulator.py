@@ -110,6 +110,7 @@ def _library() -> ctypes.CDLL:
         "board_type": (flag, [pointer, ctypes.c_char_p, size]),
         "board_press": (flag, [pointer, ctypes.c_uint8]),
         "board_tape": (flag, [pointer, ctypes.c_char_p, size]),
+        "board_take_tape": (None, [pointer]),
         "board_reader": (None, [pointer, flag]),
         "image_rom": (ctypes.c_int, [ctypes.c_char_p] * 3 + [size, ctypes.c_char_p, size]),
         "machine_nobody": (ctypes.c_uint8, [pointer, ctypes.POINTER(flag)]),
@@ -194,6 +195,10 @@ class Machine:
         raw = data.encode("ascii") if isinstance(data, str) else data
         if not self._lib.board_tape(self._board, raw, len(raw)):
             raise MemoryError
+
+    def take_tape(self) -> None:
+        """Take what is left of the tape out of the reader."""
+        self._lib.board_take_tape(self._board)
 
     def reader(self, on: bool) -> None:
         """Move the lever of the teletype's own reader (boards with `punch_tty` only)."""
