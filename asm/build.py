@@ -20,9 +20,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-import facts
-
 ASM = Path(__file__).resolve().parent
+sys.path.insert(0, str(ASM))  # for tests, which load this file from elsewhere
+
+import facts  # noqa: E402
+
 ROOT = ASM.parent
 ROM_SIZE = 8192
 #: Source files in the order in which they stand in the ROM; equ.asm first, since it only names things.

@@ -55,9 +55,13 @@ def test_star_is_cut_from_another_hole() -> None:
 
 
 #: Where the wire enters, µm (docs/spec/xy.md, section 10), and whether it runs counter-clockwise.
-ENTRIES = {"xy-book-1-pointer": (83, 1498, False), "xy-book-2-hexagon": (12000, 0, False),
-           "xy-book-star": (20000, 0, True), "xy-book-3-disc": (-2000, -9798, False),
-           "xy-book-3-reversed": (-2000, -9798, True)}
+ENTRIES = {
+    "xy-book-1-pointer": (83, 1498, False),
+    "xy-book-2-hexagon": (12000, 0, False),
+    "xy-book-star": (20000, 0, True),
+    "xy-book-3-disc": (-2000, -9798, False),
+    "xy-book-3-reversed": (-2000, -9798, True),
+}
 
 
 @pytest.mark.parametrize("name", ENTRIES)

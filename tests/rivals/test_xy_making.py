@@ -212,23 +212,32 @@ CHECKS: dict[tuple[str, str], tuple[str, Check]] = {
 TEMPLATES = {"D": "{d}", "X": "±{x}", "Y": "±{y}"}
 CHECKS |= {("X", e + f): (f"{TEMPLATES[e]},{TEMPLATES[f]}", belt) for e in "DY" for f in "DY"}
 CHECKS |= {("Y", e + f + "N"): (f"{TEMPLATES[e]},{TEMPLATES[f]},{{r}}", two) for e in "DXY" for f in "DXY"}
-CHECKS |= {("Y", e + f + g): (f"{TEMPLATES[e]},{TEMPLATES[f]},{TEMPLATES[g]}", three)
-           for e in "DXY" for f in "DXY" for g in "DXY"}
+CHECKS |= {
+    ("Y", e + f + g): (f"{TEMPLATES[e]},{TEMPLATES[f]},{TEMPLATES[g]}", three)
+    for e in "DXY"
+    for f in "DXY"
+    for g in "DXY"
+}
 
 
 def start(rng: random.Random) -> str:
     """Four elements of each kind, of small numbers."""
     points = [f"⊕D({number(rng, -9, 9)},{number(rng, -9, 9)})⇒D{i};" for i in range(4)]
-    lines = [f"⊕X({number(rng, -9, 9)},{number(rng, -9, 9)},{rng.choice([0, 90, 45, 180, 37.5, 261])})⇒X{i};"
-             for i in range(4)]
+    lines = [
+        f"⊕X({number(rng, -9, 9)},{number(rng, -9, 9)},{rng.choice([0, 90, 45, 180, 37.5, 261])})⇒X{i};"
+        for i in range(4)
+    ]
     circles = [f"⊕Y({number(rng, -9, 9)},{number(rng, -9, 9)},{number(rng, 1, 8)})⇒Y{i};" for i in range(4)]
     return "\n".join(points + lines + circles) + "\n"
 
 
 def filled(rng: random.Random, template: str) -> tuple[str, list[str]]:
     """A template's text, and what stands in it."""
-    numbers = {"n": lambda: number(rng, -9, 9), "a": lambda: str(rng.choice([0, 30, -90, 71.3, 180, 200])),
-               "r": lambda: number(rng, 1, 9)}
+    numbers = {
+        "n": lambda: number(rng, -9, 9),
+        "a": lambda: str(rng.choice([0, 30, -90, 71.3, 180, 200])),
+        "r": lambda: number(rng, 1, 9),
+    }
     taken: dict[str, list[int]] = {c: rng.sample(range(4), 4) for c in "dxy"}
     words = []
     for word in template.split(","):
@@ -276,8 +285,10 @@ def test_moves(seed: int) -> None:
     u, v, a = number(rng, -9, 9), number(rng, -9, 9), rng.choice(["30", "90", "71.3"])
     text = start(rng)
     for k in "DXY":
-        text += (f"⊕PY({k}1,{u},{v})⇒{k}5; ⊕ZD({k}1,-D2,{a})⇒{k}6; ⊕ZD({k}1,D2,{a})⇒{k}7; ⊕FS({k}1,-X2)⇒{k}8;"
-                 f"⊕ZD({k}6,D2,{a})⇒{k}9;")
+        text += (
+            f"⊕PY({k}1,{u},{v})⇒{k}5; ⊕ZD({k}1,-D2,{a})⇒{k}6; ⊕ZD({k}1,D2,{a})⇒{k}7; ⊕FS({k}1,-X2)⇒{k}8;"
+            f"⊕ZD({k}6,D2,{a})⇒{k}9;"
+        )
     e = made(text)
     for p, moved_by in ((Point(mp.mpf(u), mp.mpf(v)), 5),):
         same(e[f"P{moved_by}"] - e["P1"], p)

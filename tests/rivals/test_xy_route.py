@@ -81,8 +81,7 @@ def written(belt: list[Hanger], gap: float, hole: XY, near: XY) -> str:
         else:
             text += f"⊕D({x},{y})⇒D{index};\n"
             items.append(f"D{index}")
-    return (f"{text}⊕D({hole[0]},{hole[1]})⇒D90;⊕D({near[0]},{near[1]})⇒D91;\n"
-            f"φ{','.join(items)},←{gap}(D90,D91);")
+    return f"{text}⊕D({hole[0]},{hole[1]})⇒D90;⊕D({near[0]},{near[1]})⇒D91;\nφ{','.join(items)},←{gap}(D90,D91);"
 
 
 def path(text: str) -> tuple[list[XY], XY]:
@@ -196,9 +195,15 @@ def places(route: str, made: str = "") -> list[tuple[float, float]]:
     return [(round(x, 4) + 0.0, round(y, 4) + 0.0) for x, y in path(f"{SQUARE}{made}{route}")[0]]
 
 
-@pytest.mark.parametrize(("gap", "near", "entry"), [
-    ("0", "D0", (0, 0)), ("0.5", "D2", (10.5, 10)), ("-0.5", "D2", (9.5, 9.5)), ("0.5", "D5", (0, -0.5)),
-])
+@pytest.mark.parametrize(
+    ("gap", "near", "entry"),
+    [
+        ("0", "D0", (0, 0)),
+        ("0.5", "D2", (10.5, 10)),
+        ("-0.5", "D2", (9.5, 9.5)),
+        ("0.5", "D5", (0, -0.5)),
+    ],
+)
 def test_entry_of_a_square(gap: str, near: str, entry: tuple[float, float]) -> None:
     """Outer corners at the foot of the start on what follows, inner ones at the crossing; in both directions."""
     begin = places(f"φD0,D1,D2,D3,←{gap}(D6,{near});")[0]

@@ -253,8 +253,14 @@ def test_a_bad_number_is_marked_in_its_turn(statement: str) -> None:
 def test_exponents_without_end(zeros: int) -> None:
     """A constant's value decides, not its exponent: what is too small is 0."""
     board = Board()
-    for statement in ("PRINT 1E-99", "PRINT 1E-100", "PRINT 1E-999", f"PRINT 1E-{'9' * 80}", f"PRINT 0E{'9' * 80}",
-                      f"PRINT 0.{'0' * zeros}1E-{200 + zeros}"):
+    for statement in (
+        "PRINT 1E-99",
+        "PRINT 1E-100",
+        "PRINT 1E-999",
+        f"PRINT 1E-{'9' * 80}",
+        f"PRINT 0E{'9' * 80}",
+        f"PRINT 0.{'0' * zeros}1E-{200 + zeros}",
+    ):
         assert board.type(statement) == ["0"], statement
     assert board.type(f"PRINT 0.{'0' * zeros}1E{zeros + 3}") == ["100"]
     assert board.type(f"PRINT 1{'0' * zeros}E-{zeros + 1}") == ["0.1"]
@@ -277,5 +283,5 @@ def test_a_line_that_list_would_make_too_long(count: int) -> None:
     line = "PRINT " + ",".join(["1E7"] * count)
     assert board.type(f"10 {line}")[-1] == "ERR 09"
     assert board.listing() == []
-    assert board.type(f"10 {line[:6 + 4 * 10 - 1]}") == []
+    assert board.type(f"10 {line[: 6 + 4 * 10 - 1]}") == []
     assert len(board.listing()[0]) <= 126

@@ -10,8 +10,14 @@ from skg.files import write_bytes
 
 @click.command(name="xy")
 @click.argument("part", type=click.Path(allow_dash=True))
-@click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True),
-              help="Program to write, - for the standard output.")
+@click.option(
+    "-o",
+    "--output",
+    default="-",
+    show_default=True,
+    type=click.Path(allow_dash=True),
+    help="Program to write, - for the standard output.",
+)
 def command(part: str, output: str) -> None:
     """Write the SKG program that cuts what PART describes in XY, the language of Beijing, 1979.
 

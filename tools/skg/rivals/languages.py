@@ -31,7 +31,7 @@ def translated(name: str, ending: str | None = None) -> str:
     try:
         return translate(data.decode("utf-8-sig"), Path(name).name)
     except UnicodeDecodeError as error:
-        good = data[:error.start].decode("utf-8-sig")
+        good = data[: error.start].decode("utf-8-sig")
         column = len(good) - good.rfind("\n")
         raise UserError(f"{name}:{good.count(chr(10)) + 1}:{column}: not UTF-8") from None
     except FAULTS as fault:

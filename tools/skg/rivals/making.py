@@ -97,7 +97,7 @@ def _form(letter: str, *patterns: str) -> Callable[[Form], Form]:
 
     def enter(function: Form) -> Form:
         for pattern in patterns:
-            allowed = tuple(pattern[index - 1:index] == "±" for index, char in enumerate(pattern) if char != "±")
+            allowed = tuple(pattern[index - 1 : index] == "±" for index, char in enumerate(pattern) if char != "±")
             FORMS[letter, pattern.replace("±", "")] = allowed, function
         return function
 

@@ -363,20 +363,30 @@ def touching_three(e: ExactElement, f: ExactElement, g: ExactElement) -> ExactCi
     """
     given = (e, f, g)
     origin = next((h.point if isinstance(h, ExactLine) else getattr(h, "centre", h)) for h in given)
-    rounds = [(h.centre - origin, h.r) if isinstance(h, ExactCircle) else (h - origin, ZERO)
-              for h in given if not isinstance(h, ExactLine)]
+    rounds = [
+        (h.centre - origin, h.r) if isinstance(h, ExactCircle) else (h - origin, ZERO)
+        for h in given
+        if not isinstance(h, ExactLine)
+    ]
     # A linear equation a·x + b·y + k·R = m as the tuple (a, b, k, m).
-    rows = [(h.way.y, -h.way.x, Real(-1), h.way.y * (h.point - origin).x - h.way.x * (h.point - origin).y)
-            for h in given if isinstance(h, ExactLine)]
+    rows = [
+        (h.way.y, -h.way.x, Real(-1), h.way.y * (h.point - origin).x - h.way.x * (h.point - origin).y)
+        for h in given
+        if isinstance(h, ExactLine)
+    ]
     for centre, r in rounds[1:]:
         first, s = rounds[0]
         step = centre - first
         rows.append((2 * step.x, 2 * step.y, 2 * (r - s), centre.dot(centre) - first.dot(first) - r * r + s * s))
-    found = [ExactCircle(ExactPoint(x, y) + origin, -size) for x, y, size in _solutions(rows, rounds)
-             if size > TINY]
-    found = [c for c in found
-             if all(isinstance(h, ExactPoint) or not isinstance(h, ExactCircle) or (h.centre - c.centre).size() > NEAR
-                    for h in given)]
+    found = [ExactCircle(ExactPoint(x, y) + origin, -size) for x, y, size in _solutions(rows, rounds) if size > TINY]
+    found = [
+        c
+        for c in found
+        if all(
+            isinstance(h, ExactPoint) or not isinstance(h, ExactCircle) or (h.centre - c.centre).size() > NEAR
+            for h in given
+        )
+    ]
     if len(found) > 1:
         found = [c for c in found if sweep(c, _touch(c, e), _touch(c, f)) <= sweep(c, _touch(c, e), _touch(c, g))]
     if not found:
@@ -386,8 +396,11 @@ def touching_three(e: ExactElement, f: ExactElement, g: ExactElement) -> ExactCi
 
 def _solutions(rows: list[tuple[Real, ...]], rounds: list[tuple[ExactPoint, Real]]) -> list[tuple[Real, Real, Real]]:
     """Solve the first two rows, then the third row or the first circle's quadratic, for (x, y, R)."""
-    rows = [tuple(value / scale for value in row) for row in rows
-            if (scale := mp.sqrt(row[0] ** 2 + row[1] ** 2 + row[2] ** 2)) > TINY]
+    rows = [
+        tuple(value / scale for value in row)
+        for row in rows
+        if (scale := mp.sqrt(row[0] ** 2 + row[1] ** 2 + row[2] ** 2)) > TINY
+    ]
     if len(rows) < 2 or len(rows) == 2 and not rounds:
         return []
     (a1, b1, k1, m1), (a2, b2, k2, m2) = rows[:2]

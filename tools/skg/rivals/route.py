@@ -238,9 +238,12 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
             raise TextFault(items[0].arc.at.start_pos, "a connecting arc stands between two circles")
         circle = items[0].value
         return [Stretch(circle, circle.centre, circle.centre, items[0].text, whole=True)], [0]
-    follows = [between(item, items[(index + 1) % len(items)],
-                       items[index + 1].at.start_pos if index + 1 < len(items) else closes)
-               for index, item in enumerate(items)]
+    follows = [
+        between(
+            item, items[(index + 1) % len(items)], items[index + 1].at.start_pos if index + 1 < len(items) else closes
+        )
+        for index, item in enumerate(items)
+    ]
     parts: list[Part] = []
     begins = []
     for index, item in enumerate(items):
@@ -269,7 +272,7 @@ def _round(parts: list[Part]) -> None:
         at = pin.rounding.at.start_pos
         if pin.rounding.radius <= TINY:
             raise TextFault(at, "the radius of a rounding must be more than 0")
-        around = [part for part in parts[index + 1:] + parts[:index] if isinstance(part, Stretch)]
+        around = [part for part in parts[index + 1 :] + parts[:index] if isinstance(part, Stretch)]
         if not around or around[0].whole:
             pin.rounding = None
             continue
@@ -297,8 +300,9 @@ def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Stretch:
         if isinstance(curve, ExactCircle) and (moved.r if curve.r > 0 else -moved.r) <= NEAR:
             raise PlaneError("a circle beside it is smaller")
     arc = ExactCircle(crossing_that_turns(*inner, left=angle > 0), signed)
-    ends = [touching_point(arc, curve) if isinstance(curve, ExactLine) else touching_point(curve, arc)
-            for curve in (e, f)]
+    ends = [
+        touching_point(arc, curve) if isinstance(curve, ExactLine) else touching_point(curve, arc) for curve in (e, f)
+    ]
     return Stretch(arc, *ends)
 
 
@@ -315,6 +319,6 @@ def area(parts: list[Part]) -> Real:
         total += stretch.start.cross(stretch.end) / 2
         if isinstance(stretch.curve, ExactCircle):
             angle = stretch.angle()
-            bulge = stretch.curve.r ** 2 * (angle - mp.sin(angle)) / 2
+            bulge = stretch.curve.r**2 * (angle - mp.sin(angle)) / 2
             total += bulge if stretch.curve.r > 0 else -bulge
     return total

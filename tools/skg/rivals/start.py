@@ -60,8 +60,10 @@ def _inner_corner(last: Stretch, first: Stretch, offset: Real) -> ExactPoint | N
     if offset == 0 or angle <= SAME_WAY or mp.pi - angle <= SAME_WAY:
         return None
     paths = [parallel(stretch.curve, offset) for stretch in (last, first)]
-    if any(isinstance(path, ExactCircle) and path.r * stretch.curve.r <= 0
-           for path, stretch in zip(paths, (last, first), strict=True)):
+    if any(
+        isinstance(path, ExactCircle) and path.r * stretch.curve.r <= 0
+        for path, stretch in zip(paths, (last, first), strict=True)
+    ):
         return None
     try:
         corner = nearest_crossing(*paths, p)
@@ -77,15 +79,16 @@ def _inner_corner(last: Stretch, first: Stretch, offset: Real) -> ExactPoint | N
 
 def written(parts: list[Part], at: Entry, name: Namer) -> list[str]:
     """The items of the CUT that cuts the whole route from its entry, up to where BACK closes it."""
-    index = next(i for i, part in enumerate(parts)
-                 if part is at.first or isinstance(part, Pin) and part.arc is at.first)
+    index = next(
+        i for i, part in enumerate(parts) if part is at.first or isinstance(part, Pin) and part.arc is at.first
+    )
     first = at.first
     if isinstance(parts[index], Pin):
         # It begins with the arc of a rounding.
         begin = name(None, first.start)
         circle = name(None, first.curve)
         body = [Stretch(first.curve, first.start, first.end, circle), Pin(first.end, name(None, first.end))]
-        return [str(begin), *_texts([*body, *parts[index + 1:], *parts[:index]], name), str(begin)]
+        return [str(begin), *_texts([*body, *parts[index + 1 :], *parts[:index]], name), str(begin)]
     before = parts[index - 1]
     rest = [*parts[index:], *parts[:index]]
     if first.whole:
@@ -98,8 +101,12 @@ def written(parts: list[Part], at: Entry, name: Namer) -> list[str]:
             return [str(begin), *_texts(rest, name), str(begin)]
         if isinstance(first.curve, ExactLine):
             return [str(name(None, foot(at.inner, first.curve))), *_texts(rest, name), str(begin)]
-        return [str(name(None, nearest(at.inner, first.curve))), *_texts(rest, name), str(begin),
-                *_texts([first], name)]
+        return [
+            str(name(None, nearest(at.inner, first.curve))),
+            *_texts(rest, name),
+            str(begin),
+            *_texts([first], name),
+        ]
     if isinstance(before, Pin):
         begin = name(None, first.start)
         return [str(begin), *_texts([*rest, first], name), str(begin)]

@@ -27,8 +27,10 @@ SHOWN = {"MAKE": "⊕", "NAME_IT": "⇒", "ROUTE": "φ", "TIMES": "×", "CLOSE":
          "VARIABLE": "a variable", "BARE_D": "a point", "OTHER_D": "a point", "BARE_X": "a line", "OTHER_X": "a line",
          "BARE_Y": "a circle", "OTHER_Y": "a circle"}  # fmt: skip
 
-_TOKEN = re.compile(r"(?P<symbol>\(\+\)|\(/\)|<-|=>|[⊕⇒φ×*←\-+/(),;])|(?P<number>[0-9]+(?:\.[0-9]+)?)"
-                    r"|(?P<word>[A-Za-z]+[0-9]*)|(?P<blank>\s+)|(?P<other>.)")
+_TOKEN = re.compile(
+    r"(?P<symbol>\(\+\)|\(/\)|<-|=>|[⊕⇒φ×*←\-+/(),;])|(?P<number>[0-9]+(?:\.[0-9]+)?)"
+    r"|(?P<word>[A-Za-z]+[0-9]*)|(?P<blank>\s+)|(?P<other>.)"
+)
 _TEX = re.compile(r"\\[A-Za-z]+")
 _NAME = re.compile(r"([A-Z])([0-9]*)")
 _SUBSCRIPT = re.compile(r"|0|[1-9][0-9]?")
@@ -87,7 +89,7 @@ def tokens(text: str) -> Iterator[Token]:
             case "symbol":
                 kind = SYMBOLS[word]
             case "number":
-                if folded[index:index + 1] == "." and "." not in word:
+                if folded[index : index + 1] == "." and "." not in word:
                     raise TextFault(at[index] + 1, "expected a digit behind the point")
                 kind = "DECIMAL" if "." in word else "WHOLE"
             case _:
@@ -116,8 +118,13 @@ def _kind(word: str, at: int) -> str:
 
 @cache
 def _parser() -> Lark:
-    return Lark(files("skg.rivals").joinpath("xy.lark").read_text("utf-8"), start="statement", parser="lalr",
-                lexer=_NoLexer, maybe_placeholders=True)
+    return Lark(
+        files("skg.rivals").joinpath("xy.lark").read_text("utf-8"),
+        start="statement",
+        parser="lalr",
+        lexer=_NoLexer,
+        maybe_placeholders=True,
+    )
 
 
 class _NoLexer(Lexer):

@@ -118,7 +118,7 @@ class _Machine:
     def program(self, title: str) -> str:
         """The whole program."""
         heading = "".join(char if char.isascii() and char.isprintable() else "?" for char in title.upper())
-        lines = [f"REM {heading}"[:WIDTH - 5]]
+        lines = [f"REM {heading}"[: WIDTH - 5]]
         words = ""
         for renamed in self.renamed:
             if words and len(words) + len(renamed) > WIDTH - 12:
@@ -271,11 +271,18 @@ class _Machine:
     def cut(self, children: list) -> None:
         """φ: the heading, the wire's offset, the items of the CUT, BACK."""
         closing = next(child for child in children if isinstance(child, Token) and child.type == "CLOSE")
-        gap, hole, near = children[children.index(closing) + 1], *(
-            self.element(child) for child in children[children.index(closing) + 3::2]
-            if isinstance(child, Tree) and child.data == "d")
+        gap, hole, near = (
+            children[children.index(closing) + 1],
+            *(
+                self.element(child)
+                for child in children[children.index(closing) + 3 :: 2]
+                if isinstance(child, Tree) and child.data == "d"
+            ),
+        )
         closes = closing.start_pos
-        items, copies = self.items([child for child in children[1:children.index(closing)] if isinstance(child, Tree)])
+        items, copies = self.items(
+            [child for child in children[1 : children.index(closing)] if isinstance(child, Tree)]
+        )
         hung = without_doubles(items)
         parts, begins = contour(hung, closes)
         distance, text = self.number(gap)
@@ -334,10 +341,20 @@ class _Machine:
         angle, text = self._rotation(sign, tree_of_angle)
         found = list(items)
         for copy in range(1, times):
-            whole = decimal(angle * copy) if mp.isint(angle * copy) or "A" not in text.text else \
-                join(SkgText(str(copy)), "*", text)
-            found += [Hung(rotated(item.value, angle * copy, about.value), spin(item.text, about.text, whole),
-                           item.at, item.arc) for item in items]
+            whole = (
+                decimal(angle * copy)
+                if mp.isint(angle * copy) or "A" not in text.text
+                else join(SkgText(str(copy)), "*", text)
+            )
+            found += [
+                Hung(
+                    rotated(item.value, angle * copy, about.value),
+                    spin(item.text, about.text, whole),
+                    item.at,
+                    item.arc,
+                )
+                for item in items
+            ]
         rest = mp.fmod(angle * times, 360)
         goes_round = min(abs(rest), 360 - abs(rest)) <= TINY
         return found, _Copies(len(items), f"REP {times},{join(text, ':', about.text)}", goes_round)
@@ -364,4 +381,3 @@ def _packed(items: list[str]) -> Iterator[str]:
             line = ""
         line += f",{item}" if line else f"CUT {item}"
     yield line
-
