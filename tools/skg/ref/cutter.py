@@ -16,6 +16,8 @@ from skg.ref.values import ORIGIN, Circle, Line, Point
 
 #: More items than the route buffer of any board has room for (56 KiB, 16 bytes an item).
 MOST_ITEMS = 3584
+#: So many copies REP makes here, so that a slip does not keep it busy for hours (language.md, section 4.7).
+MOST_COPIES = 10000
 
 
 def _in_memory(items: Sequence[Item]) -> None:
@@ -118,6 +120,8 @@ class Cutter:
     def repeat(self, count: int, angle: Real, about: Point, right: bool, offset: Real) -> None:
         """REP."""
         _in_memory(self._open_route().items)
+        if count > MOST_COPIES:
+            raise Fault(Code.MEMORY)
         self._open_route().repeat(count, angle, enlarged(about, self.scale), offset, right)
 
     def back(self) -> None:

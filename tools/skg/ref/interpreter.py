@@ -54,8 +54,6 @@ from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Rotation, Value, canon
 
 #: Levels of GOSUB.
 LEVELS = 8
-#: More than any route buffer holds.
-MOST_COPIES = 10000
 
 _PREDEFINED = {("O", 0): ORIGIN, ("X", 0): X_AXIS, ("Y", 0): Y_AXIS}
 
@@ -341,8 +339,6 @@ class Interpreter:
             if kind(rotation) != "D":
                 raise Fault(Code.KINDS)
             rotation = Rotation(rotation, ORIGIN)
-        if copies > MOST_COPIES:
-            raise Fault(Code.MEMORY)
         self.cutter.repeat(copies, rotation.angle, rotation.centre, s.right, self.offset)
 
     def _fit(self, node: Point, angle: Real | None) -> None:
