@@ -157,6 +157,15 @@ FNRM1:  MOV     A,B
 ; FMANT - product of two mantissas or fractions
 ; In:  B C D E, FY   Out: B C D E L = product, cut off   Clobbers A, H
 ; Cycles: 2,800, 500 less for every byte of FY that is 0
+;
+; The mantissa in halves, xh in BC and xl in DE, each times y; byte by byte:
+;
+;         xl * y            p5 p4 p3 p2 p1 p0
+;         xh * y      q5 q4 q3 q2 q1 q0
+;                     B  C  D  E  L
+;
+; p3 p2 go into the second product as its carry; p5 p4 are added to q3 q2 behind it; p1 p0 and
+; what becomes of q0 are cut off.
 FMANT:  PUSH    B
         LXI     B,0
         CALL    FMUL1           ; low half * y
@@ -651,6 +660,11 @@ FFLR1:  MOV     A,E
 ; Q.  The bits from the 24th on, together d, are what is left over 2Q + d.  There FDIV goes
 ; on with one divisor: Q + 2^-24 is right for d = 0 and for the greatest d, so that next to
 ; whole numbers all is exact; for those between the root is up to 2^-49 too small.
+;
+; What it borrows of FDIV: FDIV2 doubles the remainder, then takes a step; FDIV3 takes it without
+; doubling (an odd exponent's first bit); both return where FQ's mark comes out, to FSQR2, which
+; stands on the stack.  FDIVA is FDIV2 with the mark set, one bit for 80H.  FDIV0 finds the bits
+; from the 24th on, rounds and stores, as for a quotient.
 FSQR:   MOV     A,M
         ORA     A
         RZ

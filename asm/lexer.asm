@@ -109,6 +109,14 @@ GETL6:  POP     H
 ; LEX - makes tokens of the text in LINBUF, but no further than the token in front of
 ;       TXTP, when TXTP is not TOKS
 ; Out: DE-> behind the last token, HL-> behind its text; ERR 01, ERR 05   Clobbers all
+;
+;       00              its token; LEX is left (LEX3)
+;       "               the text as it is, up to the next quote (LEXRAW)
+;       digit, point    TFLT and a float (DECIN)
+;       a word          its token; behind REM the rest of the line as it is; a function is none
+;                       unless a blank or a parenthesis follows
+;       a letter        a name, or TSUB and a bracket (LEXNAM)
+;       else            the character itself
 LEX:    LXI     H,LINBUF
         LXI     D,TOKS-1
 LEX1:   INX     D

@@ -62,6 +62,14 @@ ERRLX1: PUSH    B               ; while ERR looked for the place: on there, with
 
 ; ERR - prints the error, after what belongs before it, and goes to READY
 ; In:  A = number (10 as 10H), the stack empty
+;
+;       error           while                           what comes of it
+;       01 to 09        an answer to INPUT is read      it is asked for again (ASKAGN)
+;       01, 05 of LEX   a line comes in                 it waits for its turn (ERRLX)
+;       01 to 09        a line is parsed                the line, the mark, ERR nn
+;       any             a statement works               D when a route is open; ERR nn, and LINE n
+;                                                       when a program runs
+;       10              the prompt or a tape waits      ERR 10
 ERR:    MOV     B,A
         LHLD    CHKF            ; L = CHKF, H = OUTSEL
         CPI     ETAPE
@@ -440,6 +448,13 @@ ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
 ; ASK - asks for a value; a wrong answer is known by OUTSEL = 0 (GETLIN) in a statement
 ;       that works
 ; In:  DE = name   Clobbers all
+;
+; The stack while the answer is read and worked out, for ASKAGN and READI3:
+;
+;       STKTOP-2        return address of STMT, in RUNLP
+;       STKTOP-4        return address of ASK, in SINPUT
+;       STKTOP-6        the name
+;       STKTOP-8        TXTP, behind the name in INPUT's list
 ASK:    CALL    CHKRET
         PUSH    D
         DB      PEEK            ; HL = TXTP
