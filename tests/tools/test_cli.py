@@ -24,6 +24,7 @@ COMMANDS = {
     "ref": ["ref", PART],
     "run": ["run", PART],
     "sim": ["sim", "--blocks", *[TAPE] * 50],
+    "xy": ["xy", "examples/xy-gear.xy"],
 }
 each = pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
 

@@ -15,7 +15,6 @@ from skg.plane import XY
 from skg.rivals.languages import is_program, is_rival, translated
 from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
-from skg.tape.joints import estimate, is_without_drift
 from skg.tape.placed import PlacedRoute, place, stop_places
 
 #: Cycles after which a program hangs: 140 hours of the 2 MHz board.
@@ -126,6 +125,8 @@ def lay_out(made: Made, start: XY, positions: str, joints: str, is_program: bool
     tape's rounding; "tape": at the whole µm that the blocks or the controller end at. `is_program`: the tape was just
     made by the standard ROM or the reference.
     """
+    from skg.tape.joints import estimate, is_without_drift  # which loads numpy
+
     home = micrometres(start[0]), micrometres(start[1])
     if joints == "tape":
         routes = place(made.tape, home, positions)

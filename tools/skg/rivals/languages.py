@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 from skg.errors import UserError
 from skg.files import read_bytes
-from skg.rivals import xy
 
-#: A rival's ending -> what makes SKG of it (text, the file's name).
-TRANSLATORS: dict[str, Callable[[str, str], str]] = {".xy": xy.translate}
-#: What bad input of a rival raises: its line, column and what is wrong.
-FAULTS = (xy.XYFault,)
+#: A rival's ending -> the module that makes SKG of it, loaded when it is needed: `translate` (text, the file's name),
+#: and `FAULT`, what bad input raises: line, column and what is wrong.
+MODULES = {".xy": "skg.rivals.xy"}
 
 
 def is_program(name: str) -> bool:
     """Whether a file is a program, SKG's or a rival's, by its ending."""
     ending = Path(name).suffix.lower()
-    return ending == ".skg" or ending in TRANSLATORS
+    return ending == ".skg" or ending in MODULES
 
 
 def translated(name: str, ending: str | None = None) -> str:
@@ -26,18 +24,18 @@ def translated(name: str, ending: str | None = None) -> str:
 
     `ending` says which rival's, where the name does not.
     """
-    translate = TRANSLATORS[ending or Path(name).suffix.lower()]
+    rival = import_module(MODULES[ending or Path(name).suffix.lower()])
     data = read_bytes(name)
     try:
-        return translate(data.decode("utf-8-sig"), Path(name).name)
+        return rival.translate(data.decode("utf-8-sig"), Path(name).name)
     except UnicodeDecodeError as error:
         good = data[: error.start].decode("utf-8-sig")
         column = len(good) - good.rfind("\n")
         raise UserError(f"{name}:{good.count(chr(10)) + 1}:{column}: not UTF-8") from None
-    except FAULTS as fault:
+    except rival.FAULT as fault:
         raise UserError(f"{name}:{fault}") from None
 
 
 def is_rival(name: str) -> bool:
     """Whether a file is a rival's program."""
-    return Path(name).suffix.lower() in TRANSLATORS
+    return Path(name).suffix.lower() in MODULES

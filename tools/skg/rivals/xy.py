@@ -57,6 +57,10 @@ class XYFault(Exception):
     """What is wrong with an XY program: `LINE:COLUMN: TEXT`, both from 1."""
 
 
+#: What bad input raises (languages.py).
+FAULT = XYFault
+
+
 def translate(text: str, title: str = "") -> str:
     """The SKG program that cuts what an XY program describes; `title` is its file's name. `XYFault` for bad input."""
     machine = _Machine()
