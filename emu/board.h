@@ -125,7 +125,6 @@ bool board_tape(board *b, const uint8_t *bytes, size_t length);
 /* Takes what is left of the tape out of the reader. */
 void board_take_tape(board *b);
 
-
 /* Takes back what was typed and pressed and has not arrived yet. */
 void board_forget_typed(board *b);
 
