@@ -24,11 +24,12 @@ from test_tape import blocks
 
 from skg import tape as tapes
 from skg.drawing import source
+from skg.drawing.account import Content
 from skg.drawing.chain import chain, without_doubles
 from skg.drawing.contour import Edge
 from skg.drawing.dxf import draw
+from skg.drawing.entities import collect
 from skg.drawing.plan import plan
-from skg.drawing.read import Content, collect
 from skg.drawing.source import lay_out
 from skg.drawing.write import write
 from skg.errors import UserError
@@ -336,7 +337,7 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     program, tape, back = (tmp_path / f"plate.{kind}" for kind in ("skg", "3b", "out.dxf"))
     result = run("from-dxf", drawing, "--offset", "0.1", "-o", program)
     assert result.exit_code == 0
-    assert result.stderr == f"skg: {drawing}: passed by 1 TEXT\n"
+    assert f"skg: {drawing}: layer 0: 10 entities, 9 cut, 1 left: 1 TEXT (nothing to cut)\n" in result.stderr
     tape.write_bytes(tapes.to_bytes(source.load(str(program), "reference").tape.items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
@@ -437,7 +438,7 @@ def tilted() -> Drawing:
 @pytest.mark.parametrize(("make", "arguments", "message"), [
     (branching, [], "3 edges meet at (0.000, 0.000), expected two at a corner"),
     (empty, [], "no lines, arcs or curves to cut"),
-    (tilted, [], "CIRCLE lies in a tilted plane"),
+    (tilted, [], "1 CIRCLE: lies in a tilted plane"),
     (drawings.die_plate, ["--layer", "CUT"], "no layer CUT, the drawing has 0"),
     (drawings.connecting_rod, ["--start", "0,0"] * 4, "4 start holes for 3 contours"),
 ])

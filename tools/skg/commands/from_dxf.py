@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
 from pathlib import Path
 
 import click
 
 from skg.commands.options import Coordinates
 from skg.drawing.plan import LEAD, plan
+from skg.drawing.read import OPEN, UNITS, Wishes, layer_lines, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.plane import XY
-
-
-def _listed(kinds: dict[str, int]) -> str:
-    return ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
 
 
 @click.command(name="from-dxf")
@@ -41,43 +37,32 @@ def _listed(kinds: dict[str, int]) -> str:
               type=click.FloatRange(0, min_open=True), help="Ends no further apart than this are one corner.")
 @click.option("--fit-tolerance", default=0.0002, show_default=True, metavar="MM",
               type=click.FloatRange(1e-5), help="How near FIT shall come to splines and ellipses.")
-@click.option("--units", type=click.Choice(("mm", "cm", "m", "inch")),
-              help="Units of the drawing. Default: as the drawing says, else mm.")
+@click.option("--units", type=click.Choice(UNITS), help="Units of the drawing. Default: as the file says, else mm.")
+@click.option("--open", "opened", type=click.Choice(OPEN),
+              help="What becomes of open contours. Default: cut without --offset, refuse with it.")
 @click.option("--no-fillets", is_flag=True, help="Write rounded corners as circles, not as fillet radii.")
 def command(file: str, output: str, layers: tuple[str, ...], list_layers: bool, offset: float, side: str,
             reverse: bool, starts: tuple[XY, ...], start_layer: str, lead: float, tolerance: float,
-            fit_tolerance: float, units: str | None, no_fillets: bool) -> None:
+            fit_tolerance: float, units: str | None, opened: str | None, no_fillets: bool) -> None:
     """Write the SKG program that cuts a DXF drawing.
 
     Lines, arcs, circles, polylines with bulges, ellipses and splines are chained into contours; openings are
     cut before the outline around them, each from a start hole of its own and entered in the middle of an
     edge. FILE - is the standard input.
     """
-    from skg.drawing.chain import chain, without_doubles
-    from skg.drawing.read import collect, load
     from skg.drawing.write import write
 
-    drawing = load(read_bytes(file), file)
+    wishes = Wishes(layers, start_layer, units, tolerance, fit_tolerance,
+                    opened or ("refuse" if offset else "cut"))
     if list_layers:
-        kinds: dict[str, Counter[str]] = defaultdict(Counter)
-        for entity in drawing.modelspace():
-            kinds[entity.dxf.layer][entity.dxftype()] += 1
-        for layer in sorted(kinds):
-            click.echo(f"{layer}: {_listed(kinds[layer])}")
+        for line in layer_lines(read_bytes(file), file):
+            click.echo(line)
         return
-    factor = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4}.get(units)
-    content = collect(drawing, layers, start_layer, fit_tolerance, factor)
-    edges = without_doubles(content.edges, tolerance)
-    if len(edges) < len(content.edges):
-        click.echo(f"skg: {file}: {len(content.edges) - len(edges)} edges are drawn twice", err=True)
-    if content.ignored:
-        click.echo(f"skg: {file}: passed by {_listed(content.ignored)}", err=True)
-    if not edges:
-        where = f" on {', '.join(layers)}" if layers else ""
-        raise UserError(f"{file}: no lines, arcs or curves to cut{where}")
+    reading = read(read_bytes(file), file, wishes)
+    for line in reading.report.lines():
+        click.echo(f"skg: {file}: {line}", err=True)
     try:
-        contours = chain(edges, tolerance)
-        routes = plan(contours, list(starts) or content.starts, offset, side, reverse, lead)
+        routes = plan(reading.contours, list(starts) or reading.starts, offset, side, reverse, lead)
     except UserError as error:
         raise UserError(f"{file}: {error}") from None
     title = "standard input" if file == "-" else Path(file).name

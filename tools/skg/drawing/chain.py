@@ -46,7 +46,7 @@ def _moved(edge: Edge, start: XY, end: XY) -> Edge:
     half = minus(end, start)[0] / 2, minus(end, start)[1] / 2
     height = 1 / tan(edge.sweep / 2)
     centre = start[0] + half[0] - half[1] * height, start[1] + half[1] + half[0] * height
-    return Edge(start, end, centre, edge.sweep)
+    return replace(edge, start=start, end=end, centre=centre)
 
 
 def _same(one: Edge, other: Edge, tolerance: float) -> bool:
@@ -120,15 +120,15 @@ def _merge(one: Edge, other: Edge) -> Edge | None:
     """Two neighbours as one edge, where they lie on one line or circle and run the same way, else None."""
     if one.is_line and other.is_line:
         if abs(turn(one.direction(), other.direction())) < 1e-7:
-            return Edge(one.start, other.end)
+            return replace(one, end=other.end)
     elif one.centre is not None and other.centre is not None:
         sweep = one.sweep + other.sweep
         if (distance(one.centre, other.centre) < 1e-6 and abs(one.radius - other.radius) < 1e-6
                 and one.sweep * other.sweep > 0 and abs(sweep) <= 2 * pi + 1e-6):
             is_full = distance(one.start, other.end) < 1e-6 and abs(sweep) > pi
             if is_full:
-                return Edge(one.start, one.start, one.centre, 2 * pi if sweep > 0 else -2 * pi)
-            return Edge(one.start, other.end, one.centre, sweep)
+                return replace(one, end=one.start, sweep=2 * pi if sweep > 0 else -2 * pi)
+            return replace(one, end=other.end, sweep=sweep)
     return None
 
 
@@ -147,4 +147,4 @@ def _merged(contour: Contour) -> Contour:
         edges[at] = both
         del edges[following]
         at = min(at, len(edges) - 1)
-    return Contour(tuple(edges), contour.is_closed)
+    return replace(contour, edges=tuple(edges))

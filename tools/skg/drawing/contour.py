@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import pi
 
@@ -22,11 +22,13 @@ class CurveNode:
 class Edge(Piece):
     """A line, an arc, or a curve: `nodes` from start to end, `samples` close to each other on the true curve.
 
-    Of a curve `at` gives a sample and `direction` the one at an end; `nearest` is for lines and arcs.
+    Of a curve `at` gives a sample and `direction` the one at an end; `nearest` is for lines and arcs. `entity`: the
+    number of the entity of the drawing that it comes from, -1 for none.
     """
 
     nodes: tuple[CurveNode, ...] = ()
     samples: tuple[XY, ...] = field(default=(), repr=False)
+    entity: int = -1
 
     @property
     def is_line(self) -> bool:
@@ -41,7 +43,7 @@ class Edge(Piece):
     def reversed(self) -> Edge:
         """The same edge, run through backwards."""
         nodes = tuple(CurveNode(node.point, node.angle + pi) for node in reversed(self.nodes))
-        return Edge(self.end, self.start, self.centre, -self.sweep, nodes, self.samples[::-1])
+        return Edge(self.end, self.start, self.centre, -self.sweep, nodes, self.samples[::-1], self.entity)
 
     def at(self, part: float) -> XY:
         """The place at `part` of the length."""
@@ -65,10 +67,14 @@ class Edge(Piece):
 
 @dataclass(frozen=True)
 class Contour:
-    """Edges that follow each other; the last one's end is the first one's start when it is closed."""
+    """Edges that follow each other; the last one's end is the first one's start when it is closed.
+
+    `layers`: the drawing's layers that its edges come from, in their order along it.
+    """
 
     edges: tuple[Edge, ...]
     is_closed: bool
+    layers: tuple[str, ...] = ()
 
     def points(self) -> list[XY]:
         """Points along the contour, see `Edge.points`."""
@@ -81,7 +87,7 @@ class Contour:
 
     def reversed(self) -> Contour:
         """The same contour, run through backwards."""
-        return Contour(tuple(edge.reversed() for edge in reversed(self.edges)), self.is_closed)
+        return replace(self, edges=tuple(edge.reversed() for edge in reversed(self.edges)))
 
     def holds(self, point: XY) -> bool:
         """Whether a point lies inside the closed contour (counts crossings of a ray to the right)."""

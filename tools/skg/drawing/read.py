@@ -1,194 +1,196 @@
-"""Reading DXF drawings: their entities as edges, lengths in millimetres."""
+"""Reading a drawing file: its contours in millimetres, and a report in which every entity is accounted for.
+
+    reading = read(data, "part.dxf", Wishes(units="inch"))
+    for contour in reading.contours: ...        # Contour: edges (lines, arcs, curves), is_closed, layers
+    print("\\n".join(reading.report.lines()))
+
+`read` is the one door for the commands; what it raises is a `UserError` that says what a person can do.
+"""
 
 from __future__ import annotations
 
-import io
-import re
-from collections import Counter
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
-from itertools import pairwise
-from math import atan2, cos, pi, sin
+from collections import Counter, defaultdict
+from dataclasses import dataclass, replace
+from math import inf
 
-import ezdxf
-from ezdxf import recover
-from ezdxf.document import Drawing
-from ezdxf.entities import DXFGraphic
-from ezdxf.lldxf.const import DXFError
-from ezdxf.math import Vec3
-
-from skg.drawing.contour import Edge
-from skg.drawing.curve import curve_edge
+from skg.drawing.account import Account, Content, Entity, LayerSum, OpenEnd, Overlap, counted, listed, short, shown
+from skg.drawing.chain import chain, without_doubles
+from skg.drawing.contour import Contour, Edge
 from skg.errors import UserError
-from skg.plane import XY, cross, minus, turn
+from skg.plane import XY, distance
+
+#: mm in one unit of a file.
+UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
+#: A drawing that does not tell its units is in mm when its larger side has this many, mm.
+USUAL = 1.0, 1500.0
+#: `Account.units_from` of such a drawing.
+NOT_TOLD = "the file does not say"
+#: What becomes of open contours.
+OPEN = ("cut", "leave", "refuse")
 
 
-@dataclass
-class Content:
-    """What a drawing holds: edges, start points, and how many entities of other kinds were passed by."""
+@dataclass(frozen=True)
+class Wishes:
+    """How a drawing is to be read.
 
-    edges: list[Edge] = field(default_factory=list)
-    starts: list[XY] = field(default_factory=list)
-    ignored: Counter[str] = field(default_factory=Counter)
-
-
-class _Collector:
-    """Turns entities into edges."""
-
-    def __init__(self, factor: float, tolerance: float, layers: tuple[str, ...], start_layer: str) -> None:
-        self.factor = factor
-        self.tolerance = tolerance
-        self.layers = tuple(layer.lower() for layer in layers)
-        self.start_layer = start_layer.lower()
-        self.content = Content()
-
-    def point(self, vector: Vec3) -> XY:
-        """A place of the drawing in mm."""
-        return vector.x * self.factor, vector.y * self.factor
-
-    def collect(self, entities: Iterable[DXFGraphic], inherited: str = "") -> None:
-        """Add all entities on the wanted layers; those of a block on layer 0 lie on its reference's layer."""
-        for entity in entities:
-            layer = entity.dxf.layer.lower()
-            if layer == "0" and inherited:
-                layer = inherited
-            if entity.dxftype() == "INSERT":
-                self.collect(entity.virtual_entities(), layer)
-            elif layer == self.start_layer:
-                self.start(entity)
-            elif not self.layers or layer in self.layers:
-                self.entity(entity)
-
-    def start(self, entity: DXFGraphic) -> None:
-        """A start hole: a POINT, or a CIRCLE around it."""
-        if entity.dxftype() == "POINT":
-            self.content.starts.append(self.point(entity.dxf.location))
-        elif entity.dxftype() == "CIRCLE":
-            self.content.starts.append(self.point(entity.ocs().to_wcs(entity.dxf.center)))
-        else:
-            self.content.ignored[entity.dxftype()] += 1
-
-    def entity(self, entity: DXFGraphic) -> None:
-        """Add one entity."""
-        kind = entity.dxftype()
-        if entity.dxf.hasattr("extrusion"):
-            direction = Vec3(entity.dxf.extrusion).normalize()
-            if abs(direction.z) < 1 - 1e-9:
-                raise UserError(f"{kind} lies in a tilted plane, expected a flat drawing")
-        match kind:
-            case "LINE":
-                self.add(Edge(self.point(entity.dxf.start), self.point(entity.dxf.end)))
-            case "CIRCLE" | "ARC":
-                self.arc(entity)
-            case "LWPOLYLINE" | "POLYLINE":
-                for part in entity.virtual_entities():
-                    self.entity(part)
-            case "ELLIPSE":
-                self.ellipse(entity)
-            case "SPLINE":
-                self.spline(entity)
-            case _:
-                self.content.ignored[kind] += 1
-
-    def add(self, edge: Edge) -> None:
-        """Keep an edge unless it has no length."""
-        if edge.length > 1e-6:
-            self.content.edges.append(edge)
-
-    def arc(self, entity: DXFGraphic) -> None:
-        ocs = entity.ocs()
-        centre = self.point(ocs.to_wcs(entity.dxf.center))
-        sense = 1 if Vec3(entity.dxf.extrusion).z > 0 else -1
-        if entity.dxftype() == "CIRCLE":
-            start = centre[0] + entity.dxf.radius * self.factor, centre[1]
-            self.add(Edge(start, start, centre, 2 * pi))
-            return
-        sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360 or 360
-        start, end = self.point(entity.start_point), self.point(entity.end_point)
-        self.add(Edge(start, start if sweep == 360 else end, centre, sense * sweep * pi / 180))
-
-    def ellipse(self, entity: DXFGraphic) -> None:
-        centre, major, minor = (self.point(Vec3(v)) for v in (
-            entity.dxf.center, entity.dxf.major_axis, entity.minor_axis))
-        first = entity.dxf.start_param
-        last = first + ((entity.dxf.end_param - first) % (2 * pi) or 2 * pi)
-        if last - first > 2 * pi - 1e-9:
-            last = first + 2 * pi
-
-        def curve(t: float) -> tuple[XY, float]:
-            point = tuple(centre[k] + cos(t) * major[k] + sin(t) * minor[k] for k in (0, 1))
-            way = tuple(-sin(t) * major[k] + cos(t) * minor[k] for k in (0, 1))
-            return point, atan2(way[1], way[0])
-
-        if abs(entity.dxf.ratio - 1) < 1e-9:
-            sense = 1 if cross(major, minor) > 0 else -1
-            end = first if last - first == 2 * pi else last
-            self.add(Edge(curve(first)[0], curve(end)[0], centre, sense * (last - first)))
-            return
-        quarters = [k * pi / 2 for k in range(-16, 17) if first + 1e-3 < k * pi / 2 < last - 1e-3]
-        edge = curve_edge(curve, [first, *quarters, last], self.tolerance)
-        self.add(replace(edge, end=edge.start) if last - first == 2 * pi else edge)
-
-    def spline(self, entity: DXFGraphic) -> None:
-        tool = entity.construction_tool()
-        knots = list(tool.knots())
-        low, high = knots[tool.degree], knots[len(tool.control_points)]
-        aside = 1e-9 * (high - low)
-
-        def direction(t: float) -> float:
-            way = tool.derivative(t, 1)[1]
-            if way.magnitude < 1e-12:
-                before, after = max(low, t - 1e3 * aside), min(high, t + 1e3 * aside)
-                way = tool.point(after) - tool.point(before)
-            return atan2(way.y, way.x)
-
-        # Between knots a spline is smooth; at a knot it may have a corner, where it is cut in two.
-        pieces = [[low]]
-        for knot in sorted({knot for knot in knots if low < knot < high}):
-            pieces[-1].append(knot)
-            if abs(turn(direction(knot - aside), direction(knot + aside))) > 1e-4:
-                pieces.append([knot])
-        pieces[-1].append(high)
-        for stations in pieces:
-            # At a corner the tangent is that of this piece, not of its neighbour.
-            inner = {stations[0]: stations[0] + aside, stations[-1]: stations[-1] - aside}
-
-            def curve(t: float, inner: dict[float, float] = inner) -> tuple[XY, float]:
-                is_knee = low < t < high and t in inner
-                return self.point(tool.point(t)), direction(inner[t] if is_knee else t)
-
-            edge = curve_edge(curve, stations, self.tolerance)
-            chords = (atan2(*reversed(minus(q, p))) for p, q in pairwise(edge.samples))
-            is_straight = all(abs(turn(edge.nodes[0].angle, chord)) < 1e-9 for chord in chords)
-            self.add(Edge(edge.start, edge.end) if is_straight else edge)
-
-
-def load(data: bytes, name: str) -> Drawing:
-    """Read a DXF file's bytes; a damaged one is mended as far as ezdxf can, else `UserError`."""
-    if b"SECTION" not in data:
-        raise UserError(f"{name}: not a DXF drawing, it has no SECTION")
-    try:
-        return recover.read(io.BytesIO(data))[0]
-    except (DXFError, OSError, ValueError, KeyError, IndexError, AttributeError) as error:
-        reason = re.sub(r"\s+", " ", str(error)) or type(error).__name__
-        raise UserError(f"{name}: not a DXF drawing that can be read ({reason})") from None
-
-
-def collect(drawing: Drawing, layers: tuple[str, ...] = (), start_layer: str = "START",
-            fit_tolerance: float = 0.0002, factor: float | None = None) -> Content:
-    """Return the edges of a drawing's model space on the given layers (all, when none are given), in mm.
-
-    `factor` is mm per drawing unit; without it $INSUNITS tells it, and a drawing without units is in mm.
-    A layer that the drawing does not have is a `UserError`.
+    `layers`: only these (none: all that are neither off nor frozen). `start_layer`: that of the start holes. `units`:
+    one of `UNITS`, None: what the file says. `tolerance`: ends no further apart are one corner, mm. `fit_tolerance`:
+    how near FIT shall come to splines and ellipses, mm. `open`: one of `OPEN`, what becomes of open contours.
     """
-    known = {layer.dxf.name.lower() for layer in drawing.layers}
-    known |= {entity.dxf.layer.lower() for entity in drawing.modelspace()}
-    for layer in layers:
-        if layer.lower() not in known:
-            raise UserError(f"no layer {layer}, the drawing has {', '.join(sorted(known))}")
-    if factor is None:
-        units = drawing.units
-        factor = ezdxf.units.conversion_factor(units, ezdxf.units.MM) if units else 1.0
-    collector = _Collector(factor, fit_tolerance, layers, start_layer)
-    collector.collect(drawing.modelspace())
-    return collector.content
+
+    layers: tuple[str, ...] = ()
+    start_layer: str = "START"
+    units: str | None = None
+    tolerance: float = 0.005
+    fit_tolerance: float = 0.0002
+    open: str = "cut"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A drawing that was read: contours in the order of the file (mm), start holes (mm), and the report."""
+
+    contours: list[Contour]
+    starts: list[XY]
+    report: Account
+
+
+def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
+    """Read a drawing file's bytes; `name` is the file's name, for messages and for its ending.
+
+    A drawing without anything to cut, or one that is refused, is a `UserError` that begins with the name.
+    """
+    wishes = wishes or Wishes()
+    try:
+        return _read(data, name, wishes)
+    except UserError as error:
+        raise UserError(f"{name}: {str(error).removeprefix(f'{name}: ')}") from None
+
+
+def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
+    content, report = _dxf(data, name, wishes)
+    kept = without_doubles(content.edges, wishes.tolerance)
+    _note_doubles(content, kept, report)
+    if not kept:
+        raise UserError(_nothing(content, wishes))
+    contours = [_with_layers(contour, content) for contour in chain(kept, wishes.tolerance)]
+    report.open_ends = _open_ends(contours, report.factor)
+    if report.open_ends and wishes.open != "cut":
+        contours = _without_open(contours, content, report, wishes)
+    _measure(contours, report)
+    _account(content.entities, report)
+    if report.units_from == NOT_TOLD and not USUAL[0] <= max(report.size) <= USUAL[1]:
+        width, height = map(short, report.size)
+        raise UserError(
+            f"the file does not say its units, and {width} x {height} mm is an odd size: "
+            f"give --units ({', '.join(UNITS)})"
+        )
+    return Reading(contours, content.starts, report)
+
+
+def layer_lines(data: bytes, name: str) -> list[str]:
+    """What is on each layer of a drawing file, a line each."""
+    from skg.drawing.dxf_file import load
+
+    kinds: dict[str, Counter[str]] = defaultdict(Counter)
+    for entity in load(data, name).modelspace():
+        kinds[entity.dxf.layer][entity.dxftype()] += 1
+    return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)]
+
+
+def _dxf(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
+    """A DXF drawing's content, and a report that has its units."""
+    from skg.drawing.dxf_file import load
+    from skg.drawing.entities import collect, unit_of
+
+    drawing = load(data, name)
+    unit, factor = unit_of(drawing)
+    report = Account(name, unit or "mm", "as the file says" if unit else NOT_TOLD, factor)
+    if wishes.units:
+        report = Account(name, wishes.units, "as asked for", UNITS[wishes.units])
+    return collect(drawing, wishes.layers, wishes.start_layer, wishes.fit_tolerance, report.factor), report
+
+
+def _in_file(place: XY, factor: float) -> XY:
+    """A place in the file's own units."""
+    return place[0] / factor, place[1] / factor
+
+
+def _note_doubles(content: Content, kept: list[Edge], report: Account) -> None:
+    """Account edges that were drawn twice; the entities that have no other edges are left."""
+    still = {edge.entity for edge in kept}
+    there = set(map(id, kept))
+    for edge in content.edges:
+        if id(edge) not in there:
+            entity = content.entities[edge.entity]
+            report.overlaps.append(Overlap("drawn twice", entity.layer, _in_file(edge.start, report.factor)))
+            if edge.entity not in still:
+                entity.left = "drawn twice"
+
+
+def _nothing(content: Content, wishes: Wishes) -> str:
+    """Why there is nothing to cut."""
+    where = f" on {', '.join(wishes.layers)}" if wishes.layers else ""
+    reasons = Counter(f"{entity.kind}: {entity.left}" for entity in content.entities)
+    found = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
+    return f"no lines, arcs or curves to cut{where}" + (f" ({found})" if found else "")
+
+
+def _with_layers(contour: Contour, content: Content) -> Contour:
+    layers = dict.fromkeys(content.entities[edge.entity].layer for edge in contour.edges)
+    return replace(contour, layers=tuple(layers))
+
+
+def _open_ends(contours: list[Contour], factor: float) -> list[OpenEnd]:
+    """Ends of open contours, each with the nearest other one."""
+    ends = [place for one in contours if not one.is_closed for place in (one.edges[0].start, one.edges[-1].end)]
+    found = []
+    for at, place in enumerate(ends):
+        gap, other = min(
+            ((distance(place, other), other) for number, other in enumerate(ends) if number != at),
+            default=(inf, None),
+        )
+        found.append(OpenEnd(_in_file(place, factor), other and _in_file(other, factor), gap))
+    return found
+
+
+def _without_open(contours: list[Contour], content: Content, report: Account, wishes: Wishes) -> list[Contour]:
+    """The closed contours; with the wish "refuse" the open ones are a `UserError`."""
+    if wishes.open == "refuse":
+        nearest = min(report.open_ends, key=lambda end: end.gap)
+        message = f"{counted(len(report.open_ends) // 2, 'contour')} open, the first end at {shown(nearest.place)}"
+        if nearest.other is not None:
+            message += f", {short(nearest.gap)} mm from that at {shown(nearest.other)}"
+        raise UserError(f"{message}: a larger --tolerance joins ends, --open cut or leave tells what becomes of them")
+    for contour in contours:
+        if not contour.is_closed:
+            for edge in contour.edges:
+                content.entities[edge.entity].left = "of an open contour"
+    return [contour for contour in contours if contour.is_closed]
+
+
+def _measure(contours: list[Contour], report: Account) -> None:
+    """Size, length and number of the contours."""
+    points = [point for contour in contours for point in contour.points()]
+    if points:
+        report.low = min(x for x, _ in points), min(y for _, y in points)
+        report.high = max(x for x, _ in points), max(y for _, y in points)
+    report.closed = sum(contour.is_closed for contour in contours)
+    report.open = len(contours) - report.closed
+    report.length = sum(edge.length for contour in contours for edge in contour.edges)
+
+
+def _account(entities: list[Entity], report: Account) -> None:
+    """The sums of the layers; one that does not agree is a `UserError`."""
+    sums: dict[str, LayerSum] = {}
+    for entity in entities:
+        layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
+        layer.read += 1
+        if entity.left:
+            layer.left += 1
+            layer.why[entity.left][entity.kind] += 1
+            if entity.is_odd:
+                report.not_understood.append(entity)
+        else:
+            layer.cut += 1
+    report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
