@@ -10,7 +10,8 @@ from skg.ref.interpreter import Interpreter
 from skg.ref.near import watching
 from skg.ref.tape import Punch
 from skg.ref.values import Circle, Line, Point, Value
-from skg.rivals.xy import XYFault, translate
+from skg.rivals.languages import RivalFault
+from skg.rivals.xy import translate
 
 ROOT = Path(__file__).parents[2]
 #: mm: the program's own numbers have 14 decimals.
@@ -39,7 +40,7 @@ def fault(text: str) -> str:
     """What is wrong with a text; empty: nothing."""
     try:
         translate(text)
-    except XYFault as wrong:
+    except RivalFault as wrong:
         return str(wrong)
     return ""
 

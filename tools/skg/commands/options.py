@@ -15,6 +15,11 @@ positions_option = click.option(
          "really stands then (machine: tapes without drift); auto: found out from the tape.")
 
 
+def output_option(text: str) -> Callable[[Callable], Callable]:
+    """The option -o, FILE or - for the standard output; `text` is its help."""
+    return click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True), help=text)
+
+
 def skg80_option(function: Callable) -> Callable:
     """Give a command the option --skg80."""
     return click.option(

@@ -7,6 +7,7 @@ from typing import BinaryIO
 
 import click
 
+from skg.commands.options import output_option
 from skg.errors import UserError
 from skg.files import write_bytes
 
@@ -21,14 +22,7 @@ def _text(file: BinaryIO) -> str:
 
 @click.command("ref")
 @click.argument("part", type=click.File("rb"))
-@click.option(
-    "-o",
-    "--output",
-    default="-",
-    show_default=True,
-    type=click.Path(allow_dash=True),
-    help="Where the tape goes.",
-)
+@output_option("Where the tape goes.")
 @click.option(
     "--input",
     "answers",

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import click
 
+from skg.commands.options import output_option
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, write_bytes
 from skg.machine.board import Board, BoardStopped
@@ -23,9 +24,7 @@ def _answers(name: str | None) -> Iterator[str]:
 
 @click.command(name="run")
 @click.argument("part", type=click.Path(allow_dash=True))
-@click.option(
-    "-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True), help="Where the tape goes."
-)
+@output_option("Where the tape goes.")
 @click.option(
     "--rom",
     default="standard",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skg.rivals.plane import Real, mp
+from skg.rivals.plane import ExactCircle, ExactElement, ExactLine, ExactPoint, Real, mp
 
 #: Priorities; higher binds tighter, same operator left to right.
 LEVELS = {"#": 0o45, ":": 0o46, "+": 0o47, "-": 0o50, "*": 0o51, "/": 0o52}
@@ -56,3 +56,27 @@ def decimal(value: Real) -> SkgText:
     digits = f"{int(mp.nint(abs(value) * 10**DECIMALS)):0{DECIMALS + 1}d}"
     text = f"{digits[:-DECIMALS]}.{digits[-DECIMALS:]}".rstrip("0").rstrip(".")
     return SkgText(f"-{text}", UNARY) if value < 0 and text != "0" else SkgText(text)
+
+
+X_AXIS = SkgText("X")
+
+
+def centre_text(circle: SkgText) -> SkgText:
+    """A circle's centre."""
+    return pair(call("K1", circle), call("K2", circle))
+
+
+def sloping(angle: SkgText) -> SkgText:
+    """A line at a direction angle."""
+    return join(X_AXIS, "#", angle)
+
+
+def literal(value: ExactElement) -> SkgText:
+    """An element in computed numbers."""
+    match value:
+        case ExactPoint(x, y):
+            return pair(decimal(x), decimal(y))
+        case ExactCircle(centre, r):
+            return join(literal(centre), ":", decimal(r))
+        case ExactLine(point, way):
+            return join(sloping(decimal(mp.degrees(mp.atan2(way.y, way.x)))), ":", literal(point))

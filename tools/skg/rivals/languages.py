@@ -8,9 +8,13 @@ from pathlib import Path
 from skg.errors import UserError
 from skg.files import read_bytes
 
-#: A rival's ending -> the module that makes SKG of it, loaded when it is needed: `translate` (text, the file's name),
-#: and `FAULT`, what bad input raises: line, column and what is wrong.
+#: A rival's ending -> the module that makes SKG of it, loaded when it is needed: its `translate` takes the text and
+#: the file's name.
 MODULES = {".xy": "skg.rivals.xy"}
+
+
+class RivalFault(Exception):
+    """What is wrong with a rival's program: `LINE:COLUMN: TEXT`, both from 1."""
 
 
 def is_program(name: str) -> bool:
@@ -32,7 +36,7 @@ def translated(name: str, ending: str | None = None) -> str:
         good = data[: error.start].decode("utf-8-sig")
         column = len(good) - good.rfind("\n")
         raise UserError(f"{name}:{good.count(chr(10)) + 1}:{column}: not UTF-8") from None
-    except rival.FAULT as fault:
+    except RivalFault as fault:
         raise UserError(f"{name}:{fault}") from None
 
 

@@ -11,25 +11,23 @@ from itertools import product
 
 from lark import Token
 
-from skg.rivals.formula import SkgText, call, decimal, join, minus, pair
+from skg.rivals.formula import SkgText, call, centre_text, decimal, join, literal, minus, pair, sloping
 from skg.rivals.plane import (
     TINY,
     ZERO,
     ExactCircle,
-    ExactCurve,
     ExactElement,
     ExactLine,
     ExactPoint,
     PlaneError,
     Real,
-    belt_line,
     crossings,
     direction,
     entering,
+    joining_line,
     mp,
     rotated,
     touching_line,
-    touching_point,
     touching_three,
     touching_two,
     turn,
@@ -108,19 +106,6 @@ def _all(kinds: tuple[str, ...], count: int, end: str = "") -> list[str]:
     return ["".join(row) + end for row in product(kinds, repeat=count)]
 
 
-X_AXIS = SkgText("X")
-
-
-def centre_text(circle: SkgText) -> SkgText:
-    """A circle's centre."""
-    return pair(call("K1", circle), call("K2", circle))
-
-
-def _sloping(angle: SkgText) -> SkgText:
-    """A line at a direction angle."""
-    return join(X_AXIS, "#", angle)
-
-
 def _circle(centre: ExactPoint, r: Real) -> ExactCircle:
     if r <= TINY:
         raise PlaneError("a radius must be more than 0")
@@ -162,13 +147,13 @@ def _entering_by_line(frame: XYFrame, circle: Argument, line: Argument) -> NewEl
 def _line(frame: XYFrame, x: Argument, y: Argument, angle: Argument) -> NewElement:
     made = frame.point(x, y)
     value, text = frame.turned(angle)
-    return NewElement(ExactLine(made.value, direction(value)), join(_sloping(text), ":", made.text))
+    return NewElement(ExactLine(made.value, direction(value)), join(sloping(text), ":", made.text))
 
 
 @_form("X", "DN", "±YN")
 def _line_at(frame: XYFrame, at: Argument, angle: Argument) -> NewElement:
     value, text = frame.turned(angle)
-    return NewElement(touching_line(at.value, direction(value)), join(_sloping(text), ":", at.text))
+    return NewElement(touching_line(at.value, direction(value)), join(sloping(text), ":", at.text))
 
 
 @_form("X", "D±XN", "±Y±XN")
@@ -179,14 +164,7 @@ def _line_from_line(_: XYFrame, at: Argument, line: Argument, angle: Argument) -
 
 @_form("X", *_all(("D", "±Y"), 2))
 def _belt(_: XYFrame, e: Argument, f: Argument) -> NewElement:
-    value = belt_line(e.value, f.value)
-    if value is None:
-        # They touch: the tangent there.
-        touch = touching_point(e.value, f.value) if e.kind == f.kind == "Y" else e.value if e.kind == "D" else f.value
-        circle = e.value if e.kind == "Y" else f.value
-        out = (touch - circle.centre).unit()
-        value = ExactLine(touch, out.left() if circle.r > 0 else -out.left())
-    return NewElement(value, join(e.text, ":", f.text))
+    return NewElement(joining_line(e.value, f.value), join(e.text, ":", f.text))
 
 
 @_form("X", "±XN")
@@ -255,18 +233,6 @@ def _circle_at_three(_: XYFrame, e: Argument, f: Argument, g: Argument) -> NewEl
     return NewElement(value, literal(value))
 
 
-def literal(value: ExactPoint | ExactCircle) -> SkgText:
-    """A point or circle in computed numbers."""
-    if isinstance(value, ExactPoint):
-        return pair(decimal(value.x), decimal(value.y))
-    return join(literal(value.centre), ":", decimal(value.r))
-
-
-def line_literal(value: ExactLine) -> SkgText:
-    """A line in computed numbers."""
-    return join(_sloping(decimal(mp.degrees(mp.atan2(value.way.y, value.way.x)))), ":", literal(value.point))
-
-
 def shift(e: Argument, by: NewElement) -> SkgText:
     """PY: an element moved by a vector."""
     if e.kind == "D":
@@ -285,8 +251,3 @@ def image(e: ExactElement, text: SkgText, mirror: SkgText) -> SkgText:
     """FS: a mirror image; SKG's own turns a line round."""
     made = join(text, "/", mirror)
     return minus(made) if isinstance(e, ExactLine) else made
-
-
-def curve_text(value: ExactCurve) -> SkgText:
-    """A curve in computed numbers."""
-    return line_literal(value) if isinstance(value, ExactLine) else literal(value)

@@ -212,6 +212,16 @@ def belt_line(e: ExactPoint | ExactCircle, f: ExactPoint | ExactCircle) -> Exact
     return ExactLine(c1 - way.left() * r1, way)
 
 
+def joining_line(e: ExactPoint | ExactCircle, f: ExactPoint | ExactCircle) -> ExactLine:
+    """The line that leaves e and joins f, each in its own direction; where they touch, the tangent there."""
+    line = belt_line(e, f)
+    if line is not None:
+        return line
+    circle = e if isinstance(e, ExactCircle) else f
+    touch = next((g for g in (e, f) if isinstance(g, ExactPoint)), None) or touching_point(e, f)
+    return ExactLine(touch, way_at(circle, touch))
+
+
 # Places on a curve -------------------------------------------------------------------------------------------
 
 

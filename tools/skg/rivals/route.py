@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from lark import Token
 
-from skg.rivals.formula import SkgText, join, minus
-from skg.rivals.making import literal
+from skg.rivals.formula import SkgText, join, literal, minus
 from skg.rivals.plane import (
     NEAR,
     SAME_WAY,
@@ -33,7 +32,7 @@ from skg.rivals.plane import (
     turn,
     way_at,
 )
-from skg.rivals.text import TextFault
+from skg.rivals.statement import TextFault
 
 
 @dataclass(frozen=True)

@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from lark import Token, Tree
 
-from skg.rivals.formula import SkgText, decimal, join, minus
-from skg.rivals.making import (
-    FORMS,
-    LETTERS,
-    Argument,
-    NewElement,
-    XYFrame,
-    curve_text,
-    image,
-    literal,
-    shift,
-    spin,
-)
+from skg.rivals.formula import SkgText, decimal, join, literal, minus
+from skg.rivals.making import FORMS, LETTERS, Argument, NewElement, XYFrame, image, shift, spin
 from skg.rivals.plane import (
     TINY,
     ExactElement,
+    ExactLine,
     ExactPoint,
     PlaneError,
     Real,
@@ -31,6 +20,7 @@ from skg.rivals.plane import (
     mp,
     rotated,
 )
+from skg.rivals.program import LAST_LINE, LAST_SUBSCRIPT, SkgProgram, packed, plain, too_long
 from skg.rivals.route import (
     Arc,
     Hung,
@@ -40,39 +30,23 @@ from skg.rivals.route import (
     without_doubles,
 )
 from skg.rivals.start import entry, repeated, written
-from skg.rivals.text import TextFault, place, statements
+from skg.rivals.statement import Figure, TextFault, figure, first_token, placing
+from skg.rivals.xy_text import statements
 
-#: No line of the program is longer, its number included.
-WIDTH = 72
 #: SKG's name for a bare name, and the first of the translator's own.
 BARE, OWN = 100, 101
-LAST_SUBSCRIPT = 999
-LAST_LINE = 9999
 #: Routes that enclose no more (mm²) have no inside.
 NO_AREA = Real("1e-6")
 KINDS = {"d": "D", "x": "X", "y": "Y", "num": "N"}
 
 
-class XYFault(Exception):
-    """What is wrong with an XY program: `LINE:COLUMN: TEXT`, both from 1."""
-
-
-#: What bad input raises (languages.py).
-FAULT = XYFault
-
-
 def translate(text: str, title: str = "") -> str:
-    """The SKG program that cuts what an XY program describes; `title` is its file's name. `XYFault` for bad input."""
-    machine = _Machine()
-    try:
+    """The SKG program that cuts what an XY program describes; `title`: its file's name. `RivalFault` for bad input."""
+    machine = _Machine(SkgProgram(headings=[plain(title)]))
+    with placing(text):
         for statement in statements(text, machine.has):
             machine.carry_out(statement)
-        return machine.program(title)
-    except TextFault as fault:
-        line, column = place(text, fault.at)
-        raise XYFault(f"{line}:{column}: {fault.message}") from None
-    except RecursionError:
-        raise XYFault("1:1: parentheses too deep") from None
+        return machine.program.text()
 
 
 @dataclass(frozen=True)
@@ -86,14 +60,13 @@ class _Copies:
 
 @dataclass
 class _Machine:
-    """What has been made so far, and the SKG statements for it."""
+    """What has been made so far, and the SKG program for it."""
 
+    program: SkgProgram
     elements: dict[str, ExactElement] = field(default_factory=dict)
     variables: dict[str, tuple[int, Real]] = field(default_factory=dict)
     frame: XYFrame = XYFrame()
-    body: list[str] = field(default_factory=list)
     own: dict[str, int] = field(default_factory=dict)
-    renamed: list[str] = field(default_factory=list)
     routes: int = 0
 
     def has(self, name: str) -> bool:
@@ -102,10 +75,6 @@ class _Machine:
 
     # Writing ----------------------------------------------------------------------------------------------------
 
-    def say(self, statement: str, instead: str = "") -> None:
-        """A statement, or another where it is too long for a line."""
-        self.body.append(statement if len(statement) <= WIDTH - len("9999 ") else instead or statement)
-
     def name_own(self, text: SkgText | None, value: ExactElement | Real) -> SkgText:
         """A name of the translator's own."""
         if isinstance(value, ExactPoint):
@@ -113,56 +82,23 @@ class _Machine:
         elif isinstance(value, Real):
             letter, numbers = "D", decimal(value)
         else:
-            letter, numbers = "S" if curve_text(value).text.startswith("X") else "C", curve_text(value)
+            letter, numbers = "S" if isinstance(value, ExactLine) else "C", literal(value)
         subscript = self.own[letter] = self.own.get(letter, OWN - 1) + 1
+        if subscript > LAST_SUBSCRIPT:
+            raise too_long()
         name = f"{letter}{subscript}"
-        self.say(f"{name}={text or numbers}", f"{name}={numbers}")
+        self.program.say(f"{name}={text or numbers}", f"{name}={numbers}")
         return SkgText(name)
-
-    def program(self, title: str) -> str:
-        """The whole program."""
-        heading = "".join(char if char.isascii() and char.isprintable() else "?" for char in title.upper())
-        lines = [f"REM {heading}"[: WIDTH - 5]]
-        words = ""
-        for renamed in self.renamed:
-            if words and len(words) + len(renamed) > WIDTH - 12:
-                lines.append(f"REM {words}")
-                words = ""
-            words += f"{', ' if words else ''}{renamed}"
-        lines += [f"REM {words}"] if words else []
-        lines += [*self.body, "END"]
-        step = 10 if len(lines) * 10 <= LAST_LINE else 1
-        if len(lines) > LAST_LINE or any(number > LAST_SUBSCRIPT for number in self.own.values()):
-            raise TextFault(0, "the program is too long for SKG")
-        return "".join(f"{number * step} {line}\n" for number, line in enumerate(lines, 1))
 
     # Numbers and names ------------------------------------------------------------------------------------------
 
-    def number(self, tree: Tree | Token) -> tuple[Real, SkgText]:
+    def number(self, tree: Tree) -> Figure:
         """The value of a number, and its text."""
-        match tree.data:
-            case "literal":
-                return Real(tree.children[0].value), SkgText(tree.children[0].value)
-            case "variable":
-                index, value = self.variables[tree.children[0]]
-                return value, SkgText(f"A{index}")
-            case "inner":
-                return self.number(tree.children[1])
-            case "minus":
-                value, text = self.number(tree.children[1])
-                return -value, minus(text)
-        left, sign, right = tree.children
-        (a, a_text), (b, b_text) = self.number(left), self.number(right)
-        match sign.type:
-            case "PLUS":
-                return a + b, join(a_text, "+", b_text)
-            case "MINUS":
-                return a - b, join(a_text, "-", b_text)
-            case "TIMES":
-                return a * b, join(a_text, "*", b_text)
-        if b == 0:
-            raise TextFault(sign.start_pos, "division by zero")
-        return a / b, join(a_text, "/", b_text)
+        return figure(tree, self._variable)
+
+    def _variable(self, tree: Tree) -> Figure:
+        index, value = self.variables[tree.children[0]]
+        return value, SkgText(f"A{index}")
 
     def element(self, tree: Tree, sign: Token | None = None) -> Argument:
         """An element by its name, and its sign."""
@@ -180,7 +116,7 @@ class _Machine:
         if inner.data in KINDS:
             return self.element(inner, sign[0] if sign else None)
         value, text = self.number(inner)
-        return Argument("N", value, text, _first_token(inner))
+        return Argument("N", value, text, first_token(inner))
 
     # Statements -------------------------------------------------------------------------------------------------
 
@@ -210,13 +146,8 @@ class _Machine:
         name = LETTERS[token[0]] + (token[1:] or str(BARE))
         self.elements[str(token)] = made.value
         if len(token) == 1:
-            self._rename(f"{token} IS {name}")
-        numbers = literal(made.value) if isinstance(made.value, ExactPoint) else curve_text(made.value)
-        self.say(f"{name}={made.text}", f"{name}={numbers}")
-
-    def _rename(self, words: str) -> None:
-        if words not in self.renamed:
-            self.renamed.append(words)
+            self.program.rename(token, name)
+        self.program.say(f"{name}={made.text}", f"{name}={literal(made.value)}")
 
     def _image(self, children: list) -> None:
         mirror = self.argument(children[5])
@@ -232,7 +163,7 @@ class _Machine:
 
     def _number_argument(self, tree: Tree) -> Argument:
         value, text = self.number(tree)
-        return Argument("N", value, text, _first_token(tree))
+        return Argument("N", value, text, first_token(tree))
 
     def _rotate(self, children: list) -> None:
         e, about = self.element(children[3]), self.element(children[6])
@@ -267,8 +198,8 @@ class _Machine:
         token = children[2]
         index = self.variables.get(token, (len(self.variables) + 1,))[0]
         self.variables[str(token)] = index, value
-        self._rename(f"{token} IS A{index}")
-        self.say(f"A{index}={text}", f"A{index}={decimal(value)}")
+        self.program.rename(token, f"A{index}")
+        self.program.say(f"A{index}={text}", f"A{index}={decimal(value)}")
 
     # Routes -----------------------------------------------------------------------------------------------------
 
@@ -297,7 +228,7 @@ class _Machine:
             distance, text = -distance, minus(text)
         self.routes += 1
         way = "COUNTER-CLOCKWISE" if enclosed > 0 else "CLOCKWISE"
-        self.body.append(f"REM ROUTE {self.routes}, {way}")
+        self.program.body.append(f"REM ROUTE {self.routes}, {way}")
         at = entry(parts, near.value, distance)
         cuts = None
         if copies and len(hung) == len(items):
@@ -305,14 +236,14 @@ class _Machine:
             cuts = repeated(parts, begins[copies.items], at, self.name_own) if is_open else None
         last = [copies.statement, "BACK"] if cuts else ["BACK"]
         cuts = cuts or written(parts, at, self.name_own)
-        self.body += [f"FROM {hole.text}", f"R={'0' if distance == 0 else text}", *_packed(cuts), *last]
+        self.program.body += [f"FROM {hole.text}", f"R={'0' if distance == 0 else text}", *packed("CUT", cuts), *last]
 
     def items(self, trees: list[Tree]) -> tuple[list[Hung], _Copies | None]:
         """What hangs on the belt, with all copies and images, and the × that ends it, if one does."""
         items: list[Hung] = []
         copies: _Copies | None = None
         for tree in trees:
-            at = _first_token(tree)
+            at = first_token(tree)
             if tree.data in ("number", "times", "mirrored") and not items:
                 raise TextFault(at.start_pos, "expected a point or a circle first")
             copies = None
@@ -370,18 +301,3 @@ def _with_arc(item: Hung, arc: Arc) -> Hung:
     if item.is_pin and arc.radius <= TINY:
         raise TextFault(arc.at.start_pos, "the radius of a rounding must be more than 0")
     return Hung(item.value, item.text, item.at, arc)
-
-
-def _first_token(tree: Tree) -> Token:
-    return min(tree.scan_values(lambda value: isinstance(value, Token)), key=lambda token: token.start_pos)
-
-
-def _packed(items: list[str]) -> Iterator[str]:
-    """CUT statements of items, each no longer than a line."""
-    line = ""
-    for item in items:
-        if line and len(line) + 1 + len(item) > WIDTH - len("9999 "):
-            yield line
-            line = ""
-        line += f",{item}" if line else f"CUT {item}"
-    yield line

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from functools import cache
-from importlib.resources import files
 
-from lark import Lark, Token, Tree, UnexpectedToken
-from lark.lexer import Lexer
+from lark import Token, Tree
+
+from skg.rivals.statement import TextFault, begin, feed
 
 #: TeX words, as the scan has them, and code points, each as the one character that stands for its symbol.
 WORDS = {r"\oplus": "⊕", r"\Rightarrow": "⇒", r"\phi": "φ", r"\times": "×", r"\leftarrow": "←",
@@ -34,21 +33,6 @@ _TOKEN = re.compile(
 _TEX = re.compile(r"\\[A-Za-z]+")
 _NAME = re.compile(r"([A-Z])([0-9]*)")
 _SUBSCRIPT = re.compile(r"|0|[1-9][0-9]?")
-
-
-class TextFault(Exception):
-    """What is wrong with a text, and the index of the character where."""
-
-    def __init__(self, at: int, message: str) -> None:
-        super().__init__(message)
-        self.at = at
-        self.message = message
-
-
-def place(text: str, at: int) -> tuple[int, int]:
-    """Line and column of a character, both from 1."""
-    before = text[:at]
-    return before.count("\n") + 1, at - (before.rfind("\n") + 1) + 1
 
 
 def _folded(text: str) -> tuple[str, list[int], TextFault | None]:
@@ -116,28 +100,6 @@ def _kind(word: str, at: int) -> str:
     return f"{'OTHER' if subscript else 'BARE'}_{letter}"
 
 
-@cache
-def _parser() -> Lark:
-    return Lark(
-        files("skg.rivals").joinpath("xy.lark").read_text("utf-8"),
-        start="statement",
-        parser="lalr",
-        lexer=_NoLexer,
-        maybe_placeholders=True,
-    )
-
-
-class _NoLexer(Lexer):
-    """The tokens are fed one by one."""
-
-    def __init__(self, _: object) -> None:
-        pass
-
-    def lex(self, data: object) -> Iterator[Token]:
-        """None of its own."""
-        return iter(data)
-
-
 def statements(text: str, is_made: Callable[[str], bool]) -> Iterator[Tree]:
     """The statements of a text, each asked for when the one before has been carried out.
 
@@ -147,13 +109,10 @@ def statements(text: str, is_made: Callable[[str], bool]) -> Iterator[Tree]:
     stream = tokens(text)
     token = next(stream)
     while token.type != "$END":
-        parser = _parser().parse_interactive("")
+        parser = begin("xy.lark")
         before = ""
         while True:
-            try:
-                parser.feed_token(token)
-            except UnexpectedToken as unexpected:
-                raise TextFault(token.start_pos, _expected(unexpected, token)) from None
+            feed(parser, token, SHOWN)
             is_name = token.type == "VARIABLE" or token.type[:-1] in ("BARE_", "OTHER_")
             if is_name and before not in ("MAKE", "NAME_IT") and not is_made(token):
                 raise TextFault(token.start_pos, f"{token} has not been made")
@@ -163,9 +122,3 @@ def statements(text: str, is_made: Callable[[str], bool]) -> Iterator[Tree]:
             token = next(stream)
         yield parser.feed_eof(token)
         token = next(stream)
-
-
-def _expected(unexpected: UnexpectedToken, token: Token) -> str:
-    words = list(dict.fromkeys(SHOWN.get(kind, kind) for kind in sorted(unexpected.expected)))
-    wanted = f"{', '.join(words[:-1])} or {words[-1]}" if len(words) > 1 else words[0]
-    return f"expected {wanted}, found {token or 'the end'}"

@@ -1,0 +1,119 @@
+"""What the translators share: statements parsed token by token, their numbers, the place of what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import cache
+from importlib.resources import files
+
+from lark import Lark, Token, Tree, UnexpectedToken
+from lark.lexer import Lexer
+from lark.parsers.lalr_interactive_parser import InteractiveParser
+
+from skg.rivals.formula import SkgText, join, minus
+from skg.rivals.languages import RivalFault
+from skg.rivals.plane import Real
+
+
+class TextFault(Exception):
+    """What is wrong with a text, and the index of the character where."""
+
+    def __init__(self, at: int, message: str) -> None:
+        super().__init__(message)
+        self.at = at
+        self.message = message
+
+
+@contextmanager
+def placing(text: str) -> Iterator[None]:
+    """Makes a `TextFault` in a text a `RivalFault`, with line and column, both from 1."""
+    try:
+        yield
+    except TextFault as fault:
+        before = text[: fault.at]
+        column = fault.at - (before.rfind("\n") + 1) + 1
+        raise RivalFault(f"{before.count(chr(10)) + 1}:{column}: {fault.message}") from None
+    except RecursionError:
+        raise RivalFault("1:1: parentheses too deep") from None
+
+
+# Parsing -----------------------------------------------------------------------------------------------------------
+
+
+class _NoLexer(Lexer):
+    """The tokens are fed one by one."""
+
+    def __init__(self, _: object) -> None:
+        pass
+
+    def lex(self, data: object) -> Iterator[Token]:
+        """None of its own."""
+        return iter(data)
+
+
+@cache
+def _parser(grammar: str) -> Lark:
+    return Lark(
+        files("skg.rivals").joinpath(grammar).read_text("utf-8"),
+        start="statement",
+        parser="lalr",
+        lexer=_NoLexer,
+        maybe_placeholders=True,
+    )
+
+
+def begin(grammar: str) -> InteractiveParser:
+    """A parser for one statement of a grammar beside this module."""
+    return _parser(grammar).parse_interactive("")
+
+
+def feed(parser: InteractiveParser, token: Token, shown: Mapping[str, str]) -> None:
+    """One token more; `TextFault` where it is none that the grammar takes. `shown` has the tokens' words for that."""
+    try:
+        parser.feed_token(token)
+    except UnexpectedToken as unexpected:
+        words = list(dict.fromkeys(shown.get(kind, kind) for kind in sorted(unexpected.expected)))
+        wanted = f"{', '.join(words[:-1])} or {words[-1]}" if len(words) > 1 else words[0]
+        raise TextFault(token.start_pos, f"expected {wanted}, found {token or 'the end'}") from None
+
+
+# Numbers -----------------------------------------------------------------------------------------------------------
+
+#: A number's value, and SKG's text for it.
+Figure = tuple[Real, SkgText]
+
+
+def figure(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
+    """The value of an expression, and its text; `name` knows the operands that are no literals."""
+    match tree.data:
+        case "literal":
+            return Real(tree.children[0].value), SkgText(tree.children[0].value)
+        case "inner":
+            return figure(tree.children[1], name)
+        case "minus":
+            value, text = figure(tree.children[1], name)
+            return -value, minus(text)
+        case "sum" | "product":
+            return _joined(tree, name)
+    return name(tree)
+
+
+def _joined(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
+    left, sign, right = tree.children
+    (a, a_text), (b, b_text) = figure(left, name), figure(right, name)
+    match sign.type:
+        case "PLUS":
+            return a + b, join(a_text, "+", b_text)
+        case "MINUS":
+            return a - b, join(a_text, "-", b_text)
+        case "TIMES":
+            return a * b, join(a_text, "*", b_text)
+    if b == 0:
+        raise TextFault(sign.start_pos, "division by zero")
+    return a / b, join(a_text, "/", b_text)
+
+
+def first_token(tree: Tree) -> Token:
+    """The first token of a tree's text."""
+    return min(tree.scan_values(lambda value: isinstance(value, Token)), key=lambda token: token.start_pos)
