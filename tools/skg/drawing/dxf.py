@@ -9,7 +9,7 @@ from ezdxf.document import Drawing
 from ezdxf.layouts import Modelspace
 
 from skg.plane import XY
-from skg.tape.placed import Placed, PlacedRoute
+from skg.tape.placed import CUT, WAY_IN, Placed, PlacedRoute
 
 #: Layer -> AutoCAD colour index. LEAD: from the start hole to the contour and back; MOVES: positioning.
 LAYERS = {"WIRE": 5, "LEAD": 3, "MOVES": 8, "START": 1, "STOPS": 6}
@@ -80,15 +80,15 @@ def draw(routes: list[PlacedRoute], stops: list[XY], polylines: bool = False) ->
             _add(space, route.blocks[0], "MOVES")
             continue
         space.add_point(_millimetres(route.start), {"layer": "START"})
-        cut = route.blocks
-        if route.leads:
-            cut = route.blocks[1:-1]
-            _add(space, route.blocks[0], "LEAD")
-        if polylines:
-            _add_polyline(space, cut)
-        else:
-            for placed in cut:
-                _add(space, placed, "WIRE")
+        for part, blocks in route.parts():
+            if part == WAY_IN:
+                # (the way back lies on it)
+                _add(space, blocks[0], "LEAD")
+            elif part == CUT and polylines:
+                _add_polyline(space, blocks)
+            elif part == CUT:
+                for placed in blocks:
+                    _add(space, placed, "WIRE")
     for stop in stops:
         space.add_point(_millimetres(stop), {"layer": "STOPS"})
     return drawing

@@ -259,6 +259,20 @@ class Tape:
                 found[-1].append(item)
         return found
 
+    def positioning(self) -> list[bool]:
+        """Tell for each of `stretches` whether it is positioning, with the wire out, and no cut.
+
+        A re-positioning is a stop, at most one straight move and another stop (language.md, section 3), so on a tape
+        of such every second stretch is one, and what stands between two of them is cut, a single line too. Any other
+        tape does not tell: a single line between two stops is taken for positioning.
+        """
+        stretches = self.stretches()
+        is_straight = [not blocks or (len(blocks) == 1 and blocks[0].is_line) for blocks in stretches]
+        if all(is_straight[1:-1:2]):
+            return [at % 2 == 1 and at < len(stretches) - 1 for at in range(len(stretches))]
+        return [bool(blocks) and is_straight[at] and 0 < at < len(stretches) - 1
+                for at, blocks in enumerate(stretches)]
+
 
 def micrometres(length: float) -> int:
     """A length in mm as whole µm, rounded as places on a tape are (tape-3b.md): ⌊1000·|v| + 0.502⌋, with v's sign."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from math import atan2, pi
 
@@ -14,6 +14,9 @@ from skg.tape.controller import run_block
 #: Where the next block starts, as `place` knows it: where the block before should have ended (programmed), or where the
 #: controller really stands then (machine: tapes without drift); auto: found out from the tape.
 POSITIONS = ("auto", "programmed", "machine")
+
+#: The parts of a route that is cut: from the start hole to the contour, the contour, and back to the hole.
+WAY_IN, CUT, WAY_BACK = "way in", "cut", "way back"
 
 
 @dataclass(frozen=True)
@@ -41,11 +44,7 @@ class Placed(Piece):
 
 @dataclass(frozen=True)
 class PlacedRoute:
-    """The blocks between two stops.
-
-    `is_move`: a straight move between two stops, with the wire out; else it is cut. `leads` is how many
-    blocks at the beginning and at the end belong to the way in from the start hole and back (0 or 1).
-    """
+    """The blocks between two stops; `is_move`: positioning (see `Tape.positioning`), else they are cut."""
 
     blocks: tuple[Placed, ...]
     is_move: bool
@@ -58,19 +57,42 @@ class PlacedRoute:
     @property
     def gap(self) -> float:
         """Larger coordinate of end minus start, µm."""
-        first, last = self.blocks[0].start, self.blocks[-1].end
-        return max(abs(last[0] - first[0]), abs(last[1] - first[1]))
+        return _apart(self.blocks[-1].end, self.blocks[0].start)
 
-    @property
-    def leads(self) -> int:
-        """1 when the last block is a line that goes back along the first, else 0."""
-        if len(self.blocks) < 3:
-            return 0
-        first, last = self.blocks[0].block, self.blocks[-1].block
-        if not (first.is_line and last.is_line):
-            return 0
-        (dx, dy), (ex, ey) = first.move, last.move
-        return int(max(abs(dx + ex), abs(dy + ey)) <= 1)
+    def parts(self) -> Iterator[tuple[str, tuple[Placed, ...]]]:
+        """Split the route into `WAY_IN` and `WAY_BACK`, one block each, and what is `CUT`.
+
+        A way in is a line, the way back the line that goes back along it later on: the path between them is closed.
+        There may be several, one after the other, when a contour is cut more than once.
+        """
+        blocks, at = self.blocks, 0
+        while at < len(blocks) and (back := self._way_back(at)):
+            yield WAY_IN, blocks[at : at + 1]
+            yield CUT, blocks[at + 1 : back]
+            yield WAY_BACK, blocks[back : back + 1]
+            at = back + 1
+        if at < len(blocks):
+            yield CUT, blocks[at:]
+
+    def _way_back(self, first: int) -> int | None:
+        """The line that goes back along the line `first`."""
+        lead = self.blocks[first]
+        if not lead.is_line:
+            return None
+        (dx, dy), arcs = lead.block.move, 0
+        for at, placed in enumerate(self.blocks[first + 1 :], first + 1):
+            arcs += not placed.is_line
+            ex, ey = placed.block.move
+            # Each arc between them may have ended beside its place; two lines alone enclose nothing.
+            if (placed.is_line and at > first + 1 and max(abs(dx + ex), abs(dy + ey)) <= 1
+                    and _apart(placed.start, lead.end) <= 2 * (arcs + 1)):
+                return at
+        return None
+
+
+def _apart(one: XY, other: XY) -> float:
+    """The larger coordinate of the way from one place to another."""
+    return max(abs(one[0] - other[0]), abs(one[1] - other[1]))
 
 
 def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") -> list[PlacedRoute]:
@@ -101,11 +123,9 @@ def lay(tape: Tape, start: XY,
     them in their places, and where the block after them starts.
     """
     routes: list[PlacedRoute] = []
-    stretches = tape.stretches()
-    for at, blocks in enumerate(stretches):
+    for blocks, is_move in zip(tape.stretches(), tape.positioning(), strict=True):
         if blocks:
             placed, start = place_blocks(blocks, start)
-            is_move = 0 < at < len(stretches) - 1 and len(placed) == 1 and placed[0].block.is_line
             routes.append(PlacedRoute(tuple(placed), is_move))
     return routes
 

@@ -33,7 +33,7 @@ class RouteReport:
     """The blocks between two stops.
 
     `gap` is where the controller ended minus where it started, µm; `programmed_gap` the same summed over the
-    ends that the blocks should have had. `is_move`: one straight move between two stops, nothing is cut.
+    ends that the blocks should have had. `is_move`: positioning, nothing is cut (see `Tape.positioning`).
     """
 
     first: int
@@ -111,18 +111,16 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     bar = tqdm(total=total, unit="step", unit_scale=True, delay=0.5, leave=False,
                disable=None if progress and total > _LONG else True)
 
-    def close_route(last: int, before_stop: bool) -> None:
+    def close_route(last: int, is_move: bool) -> None:
         nonlocal at_stop
         (x, y), (xp, yp), first = at_stop
         if last >= first:
-            is_move = before_stop and 1 < first == last and tape.blocks[first - 1].is_line
             routes.append(RouteReport(first, last, (real[0] - x, real[1] - y),
                                       (programmed[0] - xp, programmed[1] - yp), is_move))
         at_stop = real, programmed, last + 1
 
     with bar:
-        stretches = tape.stretches()
-        for at, blocks in enumerate(stretches):
+        for blocks, is_move in zip(tape.stretches(), tape.positioning(), strict=True):
             moves, drift = closed_moves(blocks), (real[0] - programmed[0], real[1] - programmed[1])
             made = _follow(blocks, moves, drift, bar.update)
             as_made = [outcome.move for _, _, outcome in made]
@@ -137,7 +135,7 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
                 off_curve = max(off_curve, outcome.off_curve)
                 off_path = max(off_path, outcome.off_path)
                 largest_drift = max(largest_drift, _size((real[0] - programmed[0], real[1] - programmed[1])))
-            close_route(len(each), at + 1 < len(stretches))
+            close_route(len(each), is_move)
     cut = [route for route in routes if not route.is_move] or [RouteReport(0, 0, (0, 0), (0, 0), False)]
     travel = sum(block.length for block in tape.blocks)
     missed = [max(abs(one.really[0] - one.should[0]), abs(one.really[1] - one.should[1])) for one in each]
