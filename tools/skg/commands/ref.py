@@ -35,8 +35,10 @@ def _text(file: BinaryIO) -> str:
     show_default=True,
     help="Let the controller's misses at the ends of arcs add up, or start each block where it really stands.",
 )
-def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool) -> None:
-    """Run PART in 50-digit arithmetic: the exact 3B tape that it must give.
+@click.option("--mill", is_flag=True, help="The milling machine's language and its ISO tape, as roms/skg-mill.bin.")
+@click.option("--grbl", is_flag=True, help="The same with LF alone behind each block, as roms/skg-grbl.bin.")
+def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool, mill: bool, grbl: bool) -> None:
+    """Run PART in 50-digit arithmetic: the exact tape that it must give, 3B or, with --mill, ISO.
 
     PART is an SKG program, or a rival's such as .xy, which is translated; `-`: an SKG program on the standard input.
 
@@ -44,11 +46,18 @@ def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool) 
     ended in ERR, 2 for wrong usage.
     """
     from skg.drawing.source import program_text
+    from skg.ref import mill as milling
     from skg.ref import run
     from skg.rivals.languages import is_rival
 
     program = program_text(part.name) if is_rival(part.name) else _text(part)
-    result = run(program, _text(answers).splitlines() if answers else [], drift=drift)
+    inputs = _text(answers).splitlines() if answers else []
+    if not (mill or grbl):
+        result = run(program, inputs, drift=drift)
+    elif drift:
+        result = milling.run(program, inputs, line_end="\n" if grbl else "\r\n")
+    else:
+        raise click.UsageError("--no-drift is for 3B tapes: an ISO tape has no drift")
     click.echo(result.paper, err=True, nl=False)
     write_bytes(output, result.tape)
     sys.exit(0 if result.error is None else 1)

@@ -89,8 +89,11 @@ class Cutter:
         self.moved = True
         self.closed = None
         if self.route is None:
-            self.route = Route(self.wire, self.from_point, self._emit)
+            self.route = self._new_route()
         self.route.feed(value, offset, right)
+
+    def _new_route(self) -> Route:
+        return Route(self.wire, self.from_point, self._emit)
 
     def fillet(self, radius: Real, right: bool) -> None:
         """A number of CUT."""
@@ -140,7 +143,7 @@ class Cutter:
         if closed is None or self.route is not None:
             raise Fault(Code.GEOMETRY)
         _in_memory(closed.items)
-        self.route = Route(self.wire, self.from_point, self._emit)
+        self.route = self._new_route()
         for item in closed.items:
             self.route.feed_item(item, offset)
         if closed.fillet is not None:
@@ -153,9 +156,13 @@ class Cutter:
         near.note("scale", factor, 1e-6)
         if factor <= 0:
             raise Fault(Code.RANGE)
+        self.refuse_in_route()
+        self.scale = factor
+
+    def refuse_in_route(self) -> None:
+        """Error 6 with a route open."""
         if self.route is not None:
             raise Fault(Code.GEOMETRY)
-        self.scale = factor
 
     def _open_route(self) -> Route:
         if self.route is None:

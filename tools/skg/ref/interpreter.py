@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from skg.errors import UserError
@@ -18,6 +18,7 @@ from skg.ref.parser import (
     LAST_SUBSCRIPT,
     LETTERS,
     LONGEST,
+    WIRE,
     Assign,
     Binary,
     Cut,
@@ -95,6 +96,8 @@ class Endless(Exception):
 class Interpreter:
     """One machine: a program, variables, a tape; `Endless` after `patience` lines (None: never)."""
 
+    dialect = WIRE
+
     def __init__(self, inputs: Iterable[str], watch: Watch, tape: Punch, patience: int | None = None) -> None:
         self.answers = iter(inputs)
         self.patience = patience
@@ -110,9 +113,12 @@ class Interpreter:
         self.variables: dict[tuple[str, int], Value] = {}
         self.data_at = 0
         self.returns: list[int | None] = []
-        self.cutter = Cutter(self.tape, self.path)
+        self.cutter = self._new_cutter()
         self.tape.place(ORIGIN)
         self.next: int | None = None
+
+    def _new_cutter(self) -> Cutter:
+        return Cutter(self.tape, self.path)
 
     # Lines ----------------------------------------------------------------------------------------------
 
@@ -120,7 +126,7 @@ class Interpreter:
         """Take in lines as if typed; the error that stopped it, if any."""
         for text in _lines(source):
             try:
-                line = parse_line(text)
+                line = parse_line(text, self.dialect)
             except LineFault as fault:
                 number = re.match(r"\s*(\d+)", text)
                 self.paper.append(f"{text[: LONGEST + 1]}\n{' ' * fault.column}^\n")
@@ -443,9 +449,16 @@ def run(
     With `bits`, everything is computed with a mantissa of that many bits instead of 50 digits. A program
     whose tape comes out differently at 33 bits is ill-conditioned for the machine's own floats.
     """
+    return carry_out(
+        lambda watch: Interpreter(inputs, watch, Punch() if drift else DriftlessPunch(), patience), source, bits
+    )
+
+
+def carry_out(machine: Callable[[Watch], Interpreter], source: str, bits: int | None) -> Result:
+    """Load and RUN a program on a machine; `bits` as in `run`."""
     with watching() as watch, real.mp.workprec(bits or real.mp.prec):
-        machine = Interpreter(inputs, watch, Punch() if drift else DriftlessPunch(), patience)
-        error = machine.load(source)
+        board = machine(watch)
+        error = board.load(source)
         if error is None:
-            error = machine.run()
-    return Result(machine.tape.bytes(), "".join(machine.paper), error, watch.calls, machine.path)
+            error = board.run()
+    return Result(board.tape.bytes(), "".join(board.paper), error, watch.calls, board.path)

@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 from skg.ref import real
 
-_WORD = re.compile(
-    r"""(?P<text>"[^"]*")
-    |(?P<number>([0-9]+(\.[0-9]*)?|\.[0-9]+)(E[+-]?[0-9]+)?)
-    |(?P<function>SQR|SIN|COS|TG|ATG|ABS|INT|K[123])(␣|(?=\())
-    |(?P<statement>FROM|CUT|BACK|END|REM|PRINT|GOTO|IF|GOSUB|RETURN|READ|DATA|RESTORE|INPUT|SCALE|SYM|REP|RECUT|FIT|TOL)
-    |(?P<name>[ADRIJPOVCBTSXY])(?P<subscript>[0-9]*)
-    |(?P<sign>[^␣])""",
-    re.VERBOSE,
+#: The words that statements begin with, and those inside of them.
+STATEMENTS = (
+    *("FROM", "CUT", "BACK", "SYM", "REP", "RECUT", "FIT", "TOL", "SCALE", "READ", "DATA", "RESTORE"),
+    *("PRINT", "INPUT", "GOTO", "IF", "GOSUB", "RETURN", "END", "REM"),
 )
+
+
+@cache
+def _words(statements: tuple[str, ...]) -> re.Pattern[str]:
+    return re.compile(
+        rf"""(?P<text>"[^"]*")
+        |(?P<number>([0-9]+(\.[0-9]*)?|\.[0-9]+)(E[+-]?[0-9]+)?)
+        |(?P<function>SQR|SIN|COS|TG|ATG|ABS|INT|K[123])(␣|(?=\())
+        |(?P<statement>{"|".join(statements)})
+        |(?P<name>[ADRIJPOVCBTSXY])(?P<subscript>[0-9]*)
+        |(?P<sign>[^␣])""",
+        re.VERBOSE,
+    )
+
+
 #: Significant digits of a number.
 DIGITS = 9
 
 
-def listed(squeezed: str, remark: str | None) -> str:
+def listed(squeezed: str, remark: str | None, statements: tuple[str, ...] = STATEMENTS) -> str:
     """A program line, squeezed (`skg.ref.parser.squeeze`), as LIST writes it; `remark`: the text behind REM."""
     out = ""
-    for word in _WORD.finditer(squeezed):
+    for word in _words(statements).finditer(squeezed):
         if word["number"]:
             out += real.show(real.literal(word["number"]), DIGITS)
         elif word["function"]:

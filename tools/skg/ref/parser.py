@@ -12,7 +12,7 @@ from lark import Lark, Token, Transformer, UnexpectedInput, v_args
 
 from skg.ref import real
 from skg.ref.fault import Code, Fault
-from skg.ref.listing import listed
+from skg.ref.listing import STATEMENTS, listed
 from skg.ref.real import Real
 
 LAST_LINE = 9999
@@ -254,7 +254,7 @@ def _line_number(token: Token) -> int:
     return int(value)
 
 
-class _Tree(Transformer):
+class Tree(Transformer):
     """lark's tree to ours, built while parsing."""
 
     def line(self, children: list) -> ProgramLine:
@@ -399,13 +399,30 @@ def _subscript_check(token: Token) -> Token:
     return token
 
 
+@dataclass(frozen=True)
+class Dialect:
+    """A variant of the language.
+
+    `grammar` are files of the package skg.ref, read one behind the other; `tree` makes the statements of what they
+    find; `words` are the words of all statements.
+    """
+
+    grammar: tuple[str, ...]
+    tree: type[Tree]
+    words: tuple[str, ...]
+
+
+#: The language of language.md.
+WIRE = Dialect(("skg.lark",), Tree, STATEMENTS)
+
+
 @cache
-def _parser() -> Lark:
+def _parser(dialect: Dialect) -> Lark:
     return Lark(
-        files("skg.ref").joinpath("skg.lark").read_text("utf-8"),
+        "\n".join(files("skg.ref").joinpath(name).read_text("utf-8") for name in dialect.grammar),
         start=["line", "expression"],
         parser="lalr",
-        transformer=_Tree(),
+        transformer=dialect.tree(),
         maybe_placeholders=True,
         lexer_callbacks={"NUMBER": _literal_check, "NAME": _subscript_check},
     )
@@ -441,46 +458,51 @@ def squeeze(text: str) -> tuple[str, list[int]]:
     return "".join(out), columns
 
 
-_WORD = re.compile(
-    r"""(?P<text>"[^"]*"?)|(?P<number>([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+)?)
-    |FROM|CUT|BACK|SYM|REP|RECUT|FIT|TOL|SCALE|READ|DATA|RESTORE|PRINT|INPUT|GOTO|IF|GOSUB|RETURN|END|REM
-    |SQR|SIN|COS|TG|ATG|ABS|INT|K[123]|[ADRIJPOVCBTSXY]\[|(?P<name>[ADRIJPOVCBTSXY][0-9]*)|(?P<blank>␣)|.""",
-    re.VERBOSE,
-)
+@cache
+def _words(statements: tuple[str, ...]) -> re.Pattern[str]:
+    return re.compile(
+        rf"""(?P<text>"[^"]*"?)|(?P<number>([0-9]+\.?[0-9]*|\.[0-9]+)(E[+-]?[0-9]+)?)
+        |{"|".join(statements)}
+        |SQR|SIN|COS|TG|ATG|ABS|INT|K[123]|[ADRIJPOVCBTSXY]\[|(?P<name>[ADRIJPOVCBTSXY][0-9]*)|(?P<blank>␣)|.""",
+        re.VERBOSE,
+    )
 
 
-def room(squeezed: str) -> int:
+def room(squeezed: str, statements: tuple[str, ...] = STATEMENTS) -> int:
     """Bytes that the words of a line take: a number 6, a name 2, a text its characters and quotes, all else 1."""
     sizes = {"number": 6, "name": 2, "blank": 0, None: 1}
-    return sum(len(word[0]) if word.lastgroup == "text" else sizes[word.lastgroup] for word in _WORD.finditer(squeezed))
+    return sum(
+        len(word[0]) if word.lastgroup == "text" else sizes[word.lastgroup]
+        for word in _words(statements).finditer(squeezed)
+    )
 
 
-def _earlier_fault(good: str, start: str, columns: list[int]) -> None:
+def _earlier_fault(good: str, start: str, columns: list[int], dialect: Dialect) -> None:
     """Raise what is wrong with the items that stand before the place where a line stops making sense."""
     for whole_items in (good, good[: max(good.rfind(","), good.rfind(";"), 0)]):
         try:
-            _parser().parse(whole_items, start=start)
+            _parser(dialect).parse(whole_items, start=start)
         except UnexpectedInput:
             continue
         except LineFault as fault:
             raise LineFault(fault.code, columns[fault.column]) from None
 
 
-def _parse(text: str, start: str) -> ProgramLine | Expression:
+def _parse(text: str, start: str, dialect: Dialect) -> ProgramLine | Expression:
     if len(text) > LONGEST:
         raise LineFault(Code.MEMORY, LONGEST + 1)
     squeezed, columns = squeeze(text)
-    if room(squeezed) > ROOM:
+    if room(squeezed, dialect.words) > ROOM:
         raise LineFault(Code.MEMORY, len(text))
     columns.append(len(text))
     try:
         if start == "line":
             _check_head(squeezed)
-        return _parser().parse(squeezed, start=start)
+        return _parser(dialect).parse(squeezed, start=start)
     except UnexpectedInput as unexpected:
         place = unexpected.pos_in_stream
         at_end = place is None or getattr(getattr(unexpected, "token", None), "type", "") == "$END"
-        _earlier_fault(squeezed if at_end else squeezed[:place], start, columns)
+        _earlier_fault(squeezed if at_end else squeezed[:place], start, columns, dialect)
         raise LineFault(Code.SYNTAX, columns[-1 if at_end else place]) from None
     except LineFault as fault:
         raise LineFault(fault.code, columns[fault.column]) from None
@@ -488,12 +510,12 @@ def _parse(text: str, start: str) -> ProgramLine | Expression:
         raise LineFault(Code.MEMORY, 0) from None
 
 
-def parse_line(text: str) -> ProgramLine:
+def parse_line(text: str, dialect: Dialect = WIRE) -> ProgramLine:
     """A line as typed; `LineFault` when it is not understood."""
-    line = _parse(text, "line")
+    line = _parse(text, "line", dialect)
     if line.number is None and isinstance(line.statement, Input):
         raise LineFault(Code.SYNTAX, len(text))
-    if line.number is not None and len(listed(squeeze(text)[0], remark(text))) > LONGEST:
+    if line.number is not None and len(listed(squeeze(text)[0], remark(text), dialect.words)) > LONGEST:
         raise LineFault(Code.MEMORY, len(text))
     return line
 
@@ -505,5 +527,5 @@ def remark(text: str) -> str | None:
 
 
 def parse_answer(text: str) -> Expression:
-    """An answer to INPUT: one expression."""
-    return _parse(text, "expression")
+    """An answer to INPUT: one expression, which is the same in all dialects."""
+    return _parse(text, "expression", WIRE)

@@ -68,12 +68,8 @@ def arc_block(start: Grid, end: Grid, clockwise: bool, true_sweep: Real) -> str 
     (xs, ys), (xe, ye) = start, end
     if clockwise:
         ys, ye = -ys, -ye
-    if (xs, ys) == (0, 0) or (xe, ye) == (0, 0):
-        return None
-    cross, dot = xs * ye - ys * xe, xs * xe + ys * ye
-    rounded = real.mp.atan2(cross, dot) % (2 * real.mp.pi)
-    turns = _nearest_turns(rounded, true_sweep)
-    if turns < 0 or (turns == 0 and cross == 0 and dot > 0):
+    turns = full_turns((xs, ys), (xe, ye), true_sweep)
+    if turns is None:
         return None
     axis = "Y" if abs(xe) > abs(ye) else "X"
     travel = _travel((xs, ys), (xe, ye), turns, axis)
@@ -82,6 +78,22 @@ def arc_block(start: Grid, end: Grid, clockwise: bool, true_sweep: Real) -> str 
     quadrant = quadrant_into(xs, ys)
     z = f"SR{5 - quadrant}" if clockwise else f"NR{quadrant}"
     return block(abs(xs), abs(ys), travel, axis, z)
+
+
+def full_turns(start: Grid, end: Grid, true_sweep: Real) -> int | None:
+    """Full turns that a counter-clockwise arc makes besides the way from start to end, relative to its rounded centre.
+
+    0 or 1; None where it goes out as a line: an end in the centre, or a rounded sweep that is not positive.
+    """
+    (xs, ys), (xe, ye) = start, end
+    if (xs, ys) == (0, 0) or (xe, ye) == (0, 0):
+        return None
+    cross, dot = xs * ye - ys * xe, xs * xe + ys * ye
+    rounded = real.mp.atan2(cross, dot) % (2 * real.mp.pi)
+    turns = _nearest_turns(rounded, true_sweep)
+    if turns < 0 or (turns == 0 and cross == 0 and dot > 0):
+        return None
+    return turns
 
 
 def _nearest_turns(rounded: Real, true_sweep: Real) -> int:
