@@ -1,3 +1,6 @@
+# What is committed besides the standard image (asm/images.py says what they are).
+VARIANTS := skg-8251 skg-tty skg-nodrift
+
 # The ROM images are committed: only a change of asm/ needs an assembler.
 asm80: asm/node_modules/.bin/asm80
 asm/node_modules/.bin/asm80: asm/package.json asm/package-lock.json
@@ -5,13 +8,11 @@ asm/node_modules/.bin/asm80: asm/package.json asm/package-lock.json
 	touch $@
 
 rom: asm80
-	@$(PYTHON) asm/build.py --listing build/skg.lst roms/skg
-	@$(PYTHON) asm/build.py --variant --set BRD51=1 roms/skg-8251
-	@$(PYTHON) asm/build.py --variant --set PTTY=1 roms/skg-tty
-	@$(PYTHON) asm/build.py --variant --set NODRIFT=1 roms/skg-nodrift
+	@$(PYTHON) asm/build.py --sym roms/skg.sym --listing build/skg.lst roms/skg
+	@for image in $(VARIANTS); do $(PYTHON) asm/build.py --image $$image roms/$$image || exit 1; done
 
 # The standard ROM's listing alone, for who reads it and for the fuzzer.
-build/skg.lst: $(wildcard asm/*.asm) asm/build.py | asm80
+build/skg.lst: $(wildcard asm/*.asm asm/*.py asm/words.txt) | asm80
 	@$(PYTHON) asm/build.py --listing $@ build/listed/skg >build/listed.txt
 
 .PHONY: asm80 rom

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Assemble the SKG firmware and say where the bytes went.
 
-    asm/build.py [--set NAME=VALUE] [--files a.asm,b.asm] [--limit BYTES] [--variant] [--listing FILE] OUT
+    asm/build.py [--image NAME] [--sym FILE] [--listing FILE] OUT
 
-writes OUT.bin (padded to 8,192 bytes), OUT.hex and OUT.sym (lines of value, name and, of a label, its source file) and
-prints bytes per source file. A variant of the ROM for another board differs in few lines: --variant writes the image
-alone, .bin and .hex, and prints one line. The assembler's listing goes to FILE.
+writes OUT.bin (padded to 8,192 bytes) and OUT.hex; the symbols go to one FILE (lines of value, name and, of a label,
+its source file), the assembler's listing to the other. asm/images.py says which files an image is made of. Of the
+standard image the bytes are printed file by file; of a variant in one line.
 The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from asm/node_modules.
 """
 
@@ -24,14 +24,11 @@ ASM = Path(__file__).resolve().parent
 sys.path.insert(0, str(ASM))  # for tests, which load this file from elsewhere
 
 import facts  # noqa: E402
+import words  # noqa: E402
+from images import IMAGES, STANDARD, Image  # noqa: E402
 
 ROOT = ASM.parent
 ROM_SIZE = 8192
-#: Source files in the order in which they stand in the ROM; equ.asm first, since it only names things.
-FILES = [
-    "equ", "start", "io", "calc", "ops", "consts", "float",
-    "parser", "geom", "cut", "tape", "repeat", "fit", "lexer", "monitor",
-]
 #: Fewer jumps of the calculator than this in a listing of all files: it was not understood.
 LEAST_JUMPS = 50
 #: Likewise of facts in the sources.
@@ -48,7 +45,6 @@ RESERVED = {
     "YHL", "YIX", "YIY", "YP", "YSP", "ZBC", "ZDE", "ZHL", "ZIX", "ZIY", "ZP", "ZSP",
     # fmt: on
 }
-OPTIONS = {"BRD51": 0, "PTTY": 0, "NODRIFT": 0}
 
 
 def fail(message: str) -> None:
@@ -57,10 +53,9 @@ def fail(message: str) -> None:
     sys.exit(1)
 
 
-def top_file(files: list[str], options: dict[str, int], include: str) -> str:
-    """The small top file: options, then every source between two labels that measure it."""
-    lines = [f"{name} EQU {value}" for name, value in options.items()]
-    lines.append("        ORG 0")
+def top_file(files: list[str], include: str) -> str:
+    """The small top file: every source between two labels that measure it."""
+    lines = ["        ORG 0"]
     for file in files:
         lines += [f"ZB{file.upper()}:", include.format(f"{file}.asm")]
     return "\n".join([*lines, "ZBEND:", ""])
@@ -108,10 +103,10 @@ def z88dk_listing(text: str, image: bytes) -> str:
     return "\n".join([*lines, ""])
 
 
-def add_unused(symbols: dict[str, int], files: list[str]) -> None:
+def add_unused(symbols: dict[str, int], texts: dict[str, str]) -> None:
     """Add the equates that nobody uses, which z88dk's map leaves out: sums of numbers and of names known by then."""
-    for file in files:
-        for name, value in re.findall(r"^(\w+)\s+EQU\s+([\w+-]+)", (ASM / f"{file}.asm").read_text(), re.M):
+    for text in texts.values():
+        for name, value in re.findall(r"^(\w+)\s+EQU\s+([\w+-]+)", text, re.M):
             terms = re.findall(r"([+-]?)(\w+)", value)
             if name not in symbols and all(term in symbols or term[0].isdigit() for _, term in terms):
                 numbers = [symbols.get(term) if term in symbols else number(term) for _, term in terms]
@@ -123,19 +118,28 @@ def number(text: str) -> int:
     return int(text[:-1], 16) if text.endswith("H") else int(text)
 
 
-def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[bytes, dict[str, int], str]:
-    """Image, symbols and listing of the given files, assembled in the empty directory `work`."""
-    for file in files:
-        shutil.copy(ASM / f"{file}.asm", work)
+def sources(image: Image) -> dict[str, str]:
+    """The text of every source file of an image, by name, in their order; words.asm is made here."""
+    try:
+        made = words.source(image.words)
+    except ValueError as fault:
+        fail(str(fault))
+    return {file: made if file == "words" else (ASM / f"{file}.asm").read_text() for file in image.files()}
+
+
+def assemble(texts: dict[str, str], work: Path) -> tuple[bytes, dict[str, int], str]:
+    """Image, symbols and listing of the given sources, assembled in the empty directory `work`."""
+    for file, text in texts.items():
+        (work / f"{file}.asm").write_text(text)
     wanted = os.environ.get("SKG_ASM", "")
     z88dk = z88dk_assembler()
     if z88dk and wanted != "asm80":
-        (work / "top.asm").write_text(top_file(files, options, 'INCLUDE "{}"'))
+        (work / "top.asm").write_text(top_file([*texts], 'INCLUDE "{}"'))
         run([z88dk, "-m8080_strict", "-b", "-l", "-m", "top.asm"], work)
         pattern = re.compile(r"^(\w+)\s*=\s*\$([0-9A-F]+)", re.M)
         found = pattern.findall((work / "top.map").read_text())
         symbols = {name.upper(): int(value, 16) for name, value in found if not name.startswith("__")}
-        add_unused(symbols, files)
+        add_unused(symbols, texts)
         listings = [path for suffix in (".lis", ".lst") if (path := work / f"top{suffix}").exists()]
         if not listings:
             fail(f"{z88dk} made no listing, top.lis or top.lst")
@@ -144,7 +148,7 @@ def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[byt
         asm80 = ASM / "node_modules" / ".bin" / "asm80"
         if not asm80.exists():
             fail("no assembler: neither z88dk's z80asm on the PATH nor asm80 in asm/node_modules (make asm80)")
-        (work / "top.asm").write_text(top_file(files, options, "        .include {}"))
+        (work / "top.asm").write_text(top_file([*texts], "        .include {}"))
         run([str(asm80), "-m", "I8080", "-t", "bin", "top.asm"], work)
         listing = (work / "top.lst").read_text()
         pattern = re.compile(r"^([A-Z_]\w*):\s+([0-9A-F]{4}) DEFINED", re.M)
@@ -154,11 +158,11 @@ def assemble(files: list[str], options: dict[str, int], work: Path) -> tuple[byt
     return (work / "top.bin").read_bytes()[: symbols["ZBEND"]], symbols, listing
 
 
-def check_words(files: list[str]) -> None:
+def check_words(texts: dict[str, str]) -> None:
     """Fail where a source file defines a reserved word, or has an RST: what stands behind it differs."""
     names = 0
-    for file in files:
-        for count, line in enumerate((ASM / f"{file}.asm").read_text().splitlines(), start=1):
+    for file, text in texts.items():
+        for count, line in enumerate(text.splitlines(), start=1):
             if found := re.match(r"(\w+)(?::|\s+EQU\b)", line):
                 names += 1
                 if found[1].upper() in RESERVED:
@@ -180,22 +184,18 @@ def check_jumps(listing: str, symbols: dict[str, int]) -> None:
             fail(f"calculator jump at {address} to {target}: {distance} bytes do not fit")
 
 
-def check_facts(symbols: dict[str, int]) -> None:
+def check_facts(texts: dict[str, str], symbols: dict[str, int]) -> None:
     """Fail when a fact that the sources rely on does not hold."""
-    count, wrong = facts.check([ASM / f"{file}.asm" for file in FILES], symbols)
+    count, wrong = facts.check(texts, symbols)
     if wrong:
         fail("\n  ".join(["facts", *wrong]))
     if count < LEAST_FACTS:
         fail(f"only {count} facts in the sources: is their form another one?")
 
 
-def label_files(files: list[str]) -> dict[str, str]:
+def label_files(texts: dict[str, str]) -> dict[str, str]:
     """The source file of every label; what else has a name is an equate."""
-    found = {}
-    for file in files:
-        text = (ASM / f"{file}.asm").read_text()
-        found |= {label.upper(): file for label in re.findall(r"^(\w+):", text, re.M)}
-    return found
+    return {label.upper(): file for file, text in texts.items() for label in re.findall(r"^(\w+):", text, re.M)}
 
 
 def intel_hex(image: bytes) -> str:
@@ -208,51 +208,57 @@ def intel_hex(image: bytes) -> str:
     return "\n".join([*records, ":00000001FF", ""])
 
 
+def build(name: str) -> tuple[bytes, dict[str, int], str, dict[str, str]]:
+    """Image, symbols, listing and sources of an image of IMAGES; ends the build when something is wrong with it."""
+    texts = sources(IMAGES[name])
+    check_words(texts)
+    with tempfile.TemporaryDirectory() as work:
+        image, symbols, listing = assemble(texts, Path(work))
+    check_jumps(listing, symbols)
+    check_facts(texts, symbols)
+    return image, symbols, listing, texts
+
+
+def bytes_of(texts: dict[str, str], symbols: dict[str, int]) -> dict[str, int]:
+    """Bytes of each source file of an assembled image."""
+    marks = [symbols[f"ZB{file.upper()}"] for file in texts] + [symbols["ZBEND"]]
+    return {file: end - begin for file, begin, end in zip(texts, marks, marks[1:], strict=False)}
+
+
+def write(path: Path, data: bytes) -> None:
+    """Write a file, in a directory that need not be there yet."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data)
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description="assemble the SKG firmware")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE")
-    parser.add_argument("--files", help="other source files, comma separated")
-    parser.add_argument("--limit", type=int, default=ROM_SIZE)
-    parser.add_argument("--variant", action="store_true", help="the image alone, and no table of bytes")
+    parser.add_argument("--image", choices=IMAGES, default=STANDARD)
+    parser.add_argument("--sym", type=Path, metavar="FILE")
     parser.add_argument("--listing", type=Path, metavar="FILE")
     parser.add_argument("out", type=Path)
     args = parser.parse_args()
-    options = dict(OPTIONS)
-    for item in args.set:
-        name, _, value = item.partition("=")
-        if name not in options or value not in ("0", "1"):
-            fail(f"--set {item}: one of {', '.join(options)} with 0 or 1")
-        options[name] = int(value)
-    files = args.files.split(",") if args.files else FILES
-    check_words(files)
-    with tempfile.TemporaryDirectory() as work:
-        image, symbols, listing = assemble(files, options, Path(work))
-    if files == FILES:
-        check_jumps(listing, symbols)
-        check_facts(symbols)
-    if args.variant:
-        print(f"  {args.out.name:12} {len(image):5}   left {args.limit - len(image)} of {args.limit}")
+    image, symbols, listing, texts = build(args.image)
+    left = f"{len(image):5}   left {ROM_SIZE - len(image)} of {ROM_SIZE}"
+    if args.image == STANDARD:
+        for file, size in bytes_of(texts, symbols).items():
+            print(f"  {file + '.asm':12} {size:5}")
+        print(f"  {'used':12} {left}")
     else:
-        marks = [symbols[f"ZB{file.upper()}"] for file in files] + [symbols["ZBEND"]]
-        for file, begin, end in zip(files, marks, marks[1:], strict=False):
-            print(f"  {file + '.asm':12} {end - begin:5}")
-        print(f"  {'used':12} {len(image):5}   left {args.limit - len(image)} of {args.limit}")
-    if len(image) > args.limit:
-        fail(f"{len(image) - args.limit} bytes too many")
-    args.out.parent.mkdir(parents=True, exist_ok=True)
+        print(f"  {args.image:12} {left}")
+    if len(image) > ROM_SIZE:
+        fail(f"{len(image) - ROM_SIZE} bytes too many")
     padded = image.ljust(ROM_SIZE, b"\xff")
-    args.out.with_suffix(".bin").write_bytes(padded)
-    args.out.with_suffix(".hex").write_text(intel_hex(padded))
+    write(args.out.with_suffix(".bin"), padded)
+    write(args.out.with_suffix(".hex"), intel_hex(padded).encode())
     if args.listing:
-        args.listing.parent.mkdir(parents=True, exist_ok=True)
-        args.listing.write_text(listing)
-    if args.variant:
-        return
-    places = label_files(files)
-    names = sorted((v, k) for k, v in symbols.items() if not k.startswith("ZB"))
-    lines = [f"{v:04X} {k} {places.get(k, '')}".rstrip() for v, k in names]
-    args.out.with_suffix(".sym").write_text("\n".join([*lines, ""]))
+        write(args.listing, listing.encode())
+    if args.sym:
+        places = label_files(texts)
+        names = sorted((v, k) for k, v in symbols.items() if not k.startswith("ZB"))
+        lines = [f"{v:04X} {k} {places.get(k, '')}".rstrip() for v, k in names]
+        write(args.sym, "\n".join([*lines, ""]).encode())
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: QEND QJN QJZ QDRP QJMP QRET QDUP QOVR QSWP QDBL QOWN CALINI FUN RUNBC CALC0 OOVR COPY5
-;         CALPOP OJMP1 XXCH OSWP1 OPTAB
-; Uses:   consts float geom
-; Room:   247 bytes
+; Offers: QEND QJN QJZ QDRP QSIG QMAX QE6N QJMP QRET QDUP QOVR QSWP QDBL QOWN CALINI FUN RUNBC CALC0
+;         OOVR COPY5 CALPOP OJMP1 ERGEO XXCH OSWP1 OPTAB
+; Uses:   consts float start
+; Room:   277 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;
@@ -215,6 +215,35 @@ ODBL:   MOV     D,H
         MOV     E,L
         JMP     FADD
 
+; QSIG: a number with its sign changed when a second one is negative
+XSIG:   INX     H               ; -> sign of the second one
+        MOV     A,M
+        ORA     A
+        RP
+        XCHG
+        JMP     FNEG
+
+; QMAX: the greater of two that are not negative: their bytes can be compared one by one
+XMAX:   PUSH    H
+        PUSH    D
+XMAX1:  LDAX    D
+        CMP     M
+        INX     D
+        INX     H
+        JZ      XMAX1           ; (past the end of equal ones, which does not matter)
+        POP     D
+        POP     H
+        RNC
+        XCHG
+        JMP     COPY5
+
+; QE6N: takes a number, ERR 06 when it is negative
+XE6N:   INX     H
+        MOV     A,M
+        ORA     A
+        RP
+ERGEO:  DB      ERROR,EGEOM
+
 ; XXCH - exchanges a and b (QXCH)
 ; Clobbers all
 XXCH:   LXI     D,MA
@@ -238,7 +267,7 @@ OSWP1:  LDAX    D
 ; comes next goes on with DW lines for QOWN, QOWN+1, ...
 OPTAB:  DW      FADD,FSUB,FMUL,FDIV
         DW      OJN,OJZ,ODRP
-        DW      XSIG,XMAX,XE6N  ; (geom.asm)
+        DW      XSIG,XMAX,XE6N
         DW      OJMP,ORET
         DW      ODUP,OOVR,OSWP,OSQ,ODBL
         DW      FNEG,FFLR,FSQR

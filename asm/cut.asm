@@ -1,9 +1,8 @@
 ; cut.asm - the route: from items to corners, fillets and closing
-; Offers: NKIND HELDN RITEMS RFILW RTURN FITN FITSM CLOSED RBFULL RBEND BLKNO RUNINI RTNEW RBNEW
-;         RBEMP SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL
-;         XNORM XTOK XNORMS SBACK SBACK1
-; Uses:   calc consts fit float geom io monitor parser repeat start tape
-; Room:   1249 bytes
+; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL
+;         ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL XNORM XTOK XNORMS XXING SBACK SBACK1
+; Uses:   arc_3b arc_nodrift calc consts fit float geom io_punch io_tty parser start tape value
+; Room:   1332 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -28,14 +27,10 @@ RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
 FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up to P
-CLOSED  EQU PROG-2      ; not 0 = RECUT may come: the buffer holds a route that is cut
-RBFULL  EQU PROG-1      ; not 0 = the route has outgrown its buffer
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
-RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN (tolerance, H, W and these two lie together)
-BLKNO   EQU MHX+21      ; number of the last block, four decimal digits
 
 ;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET clear two cells at once
 ;! RBFULL == CLOSED+1 and FITSM == FITN+1 -- RBNEW and FITEND clear two cells at once
@@ -60,14 +55,7 @@ RTNEW:  CALL    CORDON
 ; Clobbers HL
 RBNEW:  LXI     H,0
         SHLD    CLOSED          ; and RBFULL
-; (fall into RBEMP)
-
-; RBEMP - empties the route buffer
-; Clobbers HL
-RBEMP:  LHLD    PEND
-        INX     H
-        SHLD    RBEND
-        RET
+        JMP     RBEMP
 
 ; SCUT - statement: CUT item, item; item ...
 SCUT:   CALL    FITEND
@@ -86,6 +74,35 @@ SCUT2:  PUSH    PSW             ; ";": the corner to come turns right
         JZ      SCUT1
         CALL    MORE
         JMP     SCUT2
+
+; RECORD - notes an item in the route buffer
+; In:  a0 a1 a2, VKIND, RTURN, RITEMS   Clobbers all
+RECORD: LDA     RITEMS
+        ORA     A
+        CZ      RBNEW           ; a new route
+        LDA     RBFULL
+        ORA     A
+        RNZ
+        LHLD    RBEND
+        PUSH    H
+        LXI     D,16
+        DAD     D
+        XCHG
+        LHLD    VBOT
+        CALL    CPHD
+        POP     H
+        JC      RECO2
+        LDA     RTURN
+        ADI     0FFH            ; CY: right
+        LDA     VKIND
+        RAL
+        RRC                     ; bit 7
+        CALL    PUTVAL
+        SHLD    RBEND
+        RET
+RECO2:  LXI     H,RBFULL
+        INR     M
+        RET
 
 ; ITEM - takes one item into the route
 ; In:  a0 a1 a2, VKIND, B = token in front of it   Clobbers all (A, B in check mode)
@@ -674,6 +691,19 @@ XNORMS: DB      CALC,QNA,QNORM,QVEC ; x y
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET
 
+; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
+XXING:  DB      CALC,QNA        ; -
+        DB      LA2,LO2,QADD,SA2 ; -
+        DB      QXCH,QCA        ; -             b = N
+        DB      LA2,LO1,QADD,SA2,QEND ; -
+        LDA     RTURN
+        ORA     A
+        CNZ     NEGVAL          ; -C*N = C*-N
+        LDA     NKIND
+        ANI     7FH
+        MVI     C,RSTAR
+        JMP     BINOPK
+
 ; FIRST goes on when it has K: the wire goes there
 FIRST1: DB      CALC,LKX,SGX,LKY,SGY,QJMP ; -        G = K
         DB      ADVAN1-$
@@ -701,21 +731,22 @@ ADVANC: DB      CALC,LKX,LAX,QSUB,SB0 ; -
         DB      ADVAN2-$
         DB      QCRS            ; forward
         DB      QMU,QADD,QE6N   ; -
-ADVAN1: DB      QVK,QJMP        ; -             A = K (for FIRST1 and HOME too)
-        DB      ARCL-$          ; (tape.asm: goes to MOVE)
+ADVAN1: DB      QVK,QEND        ; -             A = K (for FIRST1 and HOME too)
+        JMP     MOVE
 ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -
         DB      ADVAN3-$
         DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
         DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
         DB      QDUP,QNEG,QJN   ; s
-        DB      ARC-$           ; (tape.asm)
+        DB      ADVAN4-$
         DB      LB0,LB1,QHYP,LSG,QSUB,QE6N ; s  K in what a fillet has left out
         DB      QJMP
-        DB      ARC-$
+        DB      ADVAN4-$
 ADVAN3: DB      QEND            ; no travel: the corner is the entry place
         LDA     RELEMS
         ORA     A
         RNZ
         DB      CALC,QM1        ; s             as ARC takes it
-; (fall into ARC)
+ADVAN4: DB      QEND            ; s
+        JMP     ARC

@@ -19,11 +19,6 @@
 ;
 ; A line ";! fact -- who relies on it" is checked by the build (asm/facts.py).
 
-; ---- Board options (the build sets them in the top file) -----------------
-;   BRD51   1 = two Intel 8251, 0 = two Motorola 6850
-;   PTTY    1 = the punch is the teletype's own (DC2 ... DC4)
-;   NODRIFT 1 = each block starts where the controller really stands (docs/drift.md)
-
 ; ---- Characters -----------------------------------------------------------
 CCTLC   EQU 03H         ; break
 CBS     EQU 08H
@@ -54,6 +49,18 @@ CLTN    EQU 4EH
 CLTR    EQU 52H
 CLTS    EQU 53H
 CLTY    EQU 59H
+
+CPRMPT  EQU     3EH             ; >
+CMARK   EQU     5EH             ; ^
+CDOT    EQU     2EH
+CLESS   EQU     3CH
+CGT     EQU     3EH
+CLBRK   EQU     5BH
+CLOWA   EQU     61H             ; a
+CBEL    EQU     07H
+CPOINT  EQU 2EH         ; .
+CPLUS   EQU 2BH         ; +
+CLTE    EQU 45H
 
 ; ---- Restarts -------------------------------------------------------------
 ; One byte each, written as data: assemblers do not agree on what stands behind RST
@@ -100,49 +107,14 @@ TFLT    EQU 01H         ; five bytes of float follow
 ; 80H...B7H: a name; letter index * 4 + subscript high bits, then subscript low byte
 TNAME   EQU 80H
 NAMER   EQU 8800H       ; the name R, the wire offset
-; C0H...CDH: letter index of a name whose subscript is computed: tokens of an
+; B8H...C5H: letter index of a name whose subscript is computed: tokens of an
 ; expression follow, then "]"
-TSUB    EQU 0C0H
+TSUB    EQU 0B8H
+;! TSUB == TNAME+4*14 and (TSUB & 15) == 8 -- LIST4 makes a letter of its low half by one XRI
 ; letter indices: A D R I J (numbers) P O V (points) C B T (circles) S X Y (lines)
-; words: functions first, then statements, then commands; the letters, which end KEYTAB,
-; come to the end of a byte
-TSQR    EQU 0CEH
-TSIN    EQU 0CFH
-TCOS    EQU 0D0H
-TTG     EQU 0D1H
-TATG    EQU 0D2H
-TABS    EQU 0D3H
-TINTF   EQU 0D4H        ; INT
-TK1     EQU 0D5H
-TK2     EQU 0D6H
-TK3     EQU 0D7H
-TFROM   EQU 0D8H
-TCUT    EQU 0D9H
-TBACK   EQU 0DAH
-TEND    EQU 0DBH
-TREM    EQU 0DCH
-TPRINT  EQU 0DDH
-TGOTO   EQU 0DEH
-TIF     EQU 0DFH
-TGOSUB  EQU 0E0H
-TRETN   EQU 0E1H
-TREAD   EQU 0E2H
-TDATA   EQU 0E3H
-TREST   EQU 0E4H        ; RESTORE
-TINPUT  EQU 0E5H
-TSCALE  EQU 0E6H
-TSYM    EQU 0E7H
-TREP    EQU 0E8H
-TRECUT  EQU 0E9H
-TFIT    EQU 0EAH
-TTOL    EQU 0EBH
-TRUN    EQU 0ECH        ; from here on: commands, not kept in a program
-TLIST   EQU 0EDH
-TNEW    EQU 0EEH
-TLOAD   EQU 0EFH
-TSAVE   EQU 0F0H
-TFREE   EQU 0F1H
-TLETR   EQU 0F2H        ; ...0FFH: in KEYTAB, the letters of the names
+; The words' tokens, from TSQR up, are in words.asm, which the build makes of words.txt:
+; functions first, then statements, then commands; the letters, which end KEYTAB, come to
+; the end of a byte
 
 ; ---- Calculator registers M0...M63 -------------------------------------------
 ; Lxx pushes a register, Sxx pops into it: one byte of byte-code each.
@@ -326,3 +298,30 @@ STKLOW  EQU 2400H       ; the stack may not grow below this
 STKTOP  EQU 25F0H       ; 8080 stack, downwards
 HELD    EQU 2600H       ; in front of it GOSUB's stack; places of the nodes that FIT has passed, 16
 PROG    EQU 26A2H       ; program lines from here up; variables from the top of RAM down
+
+; ---- Cells that several files know --------------------------------------------
+TXTP    EQU     MWORK           ; next token
+PEND    EQU     MWORK+2         ; end of the program
+VBOT    EQU     MWORK+4         ; lowest byte of the variables
+VTOP    EQU     MWORK+6         ; last byte of RAM
+NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
+CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: after an error
+OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper and punch; else paper
+COLS    EQU     MWORK+12        ; characters printed; STORE looks at it
+LASTC   EQU     MWORK+13        ; last character printed
+KEYB    EQU     MWORK+14        ; key typed ahead
+LOADF   EQU     MWORK+15        ; 1: lines come from the reader (OUTSEL to VSUM are walked through)
+VSUM    EQU     MWORK+16        ; check sum of the variables, as of the last prompt
+CURLIN  EQU     MWORK+17        ; number of the line that runs
+DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00 (or PROG-2: CLOSED, no comma)
+GSP     EQU     MWORK+21        ; top of the GOSUB stack
+GSTK    EQU     HELD-16         ; 8 lines to go back to, downwards
+GSTKE   EQU     HELD
+LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record
+STMT0   EQU     TOKS+6          ; its statement, behind the number token
+LEXAT   EQU     MWORK+23        ; -> text of the token that LEX makes; high byte 0: none is being made
+VKIND   EQU CWORK       ; kind of the value in a0 a1 a2; CHKRET writes the cell behind it too
+CLOSED  EQU PROG-2      ; not 0 = RECUT may come: the buffer holds a route that is cut
+RBFULL  EQU PROG-1      ; not 0 = the route has outgrown its buffer
+RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
+BLKNO   EQU MHX+21      ; number of the last block, four decimal digits

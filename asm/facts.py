@@ -14,8 +14,7 @@ from __future__ import annotations
 import ast
 import operator
 import re
-from collections.abc import Callable, Iterable, Mapping
-from pathlib import Path
+from collections.abc import Callable, Mapping
 
 FACT = re.compile(r"^\s*;!(.*)$", re.M)
 PARTS = re.compile(r"\s*(.+?)\s+--\s+(\S.*)")
@@ -57,22 +56,22 @@ def value(node: ast.expr, names: Mapping[str, int]) -> int:
     raise ValueError(ast.unparse(node))
 
 
-def check(sources: Iterable[Path], names: Mapping[str, int]) -> tuple[int, list[str]]:
-    """How many facts there are, and a line for each that does not hold or cannot be read."""
+def check(sources: Mapping[str, str], names: Mapping[str, int]) -> tuple[int, list[str]]:
+    """How many facts the sources (texts by name) state, and a line for each that does not hold or cannot be read."""
     count, wrong = 0, []
-    for path in sources:
-        for fact in FACT.findall(path.read_text()):
+    for file, source in sources.items():
+        for fact in FACT.findall(source):
             count += 1
             parts = PARTS.fullmatch(fact)
             if not parts:
-                wrong.append(f"{path.name}: no fact: {fact.strip()}")
+                wrong.append(f"{file}.asm: no fact: {fact.strip()}")
                 continue
             text = HEXADECIMAL.sub(lambda digits: str(int(digits[1], 16)), parts[1])
             try:
                 if not value(ast.parse(text, mode="eval").body, names):
-                    wrong.append(f"{path.name}: {parts[1]} does not hold: {parts[2]}")
+                    wrong.append(f"{file}.asm: {parts[1]} does not hold: {parts[2]}")
             except KeyError as error:
-                wrong.append(f"{path.name}: {parts[1]}: there is no {error.args[0]}")
+                wrong.append(f"{file}.asm: {parts[1]}: there is no {error.args[0]}")
             except (SyntaxError, ValueError):
-                wrong.append(f"{path.name}: no expression: {parts[1]}")
+                wrong.append(f"{file}.asm: no expression: {parts[1]}")
     return count, wrong

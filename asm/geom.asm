@@ -1,26 +1,13 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: XXING BINOPK BINOP BIN4 XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XALNG
-;         XROTV XLEG XSIG XMAX XE6D XE6N ERGEO
-; Uses:   calc consts cut float parser start
-; Room:   619 bytes
+; Offers: RSTAR BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
+;         XALNG XROTV XLEG XE6D
+; Uses:   calc consts float start value
+; Room:   562 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
 ; about (0,0).  The result goes to a0 a1 a2.  Byte-code lines carry the float stack
 ; behind them, top last.
-
-; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
-XXING:  DB      CALC,QNA        ; -
-        DB      LA2,LO2,QADD,SA2 ; -
-        DB      QXCH,QCA        ; -             b = N
-        DB      LA2,LO1,QADD,SA2,QEND ; -
-        LDA     RTURN
-        ORA     A
-        CNZ     NEGVAL          ; -C*N = C*-N
-        LDA     NKIND
-        ANI     7FH
-        MVI     C,RSTAR
-; (fall into BINOPK)
 
 ; BINOPK - carries out an operator
 ; In:  VKIND = kind of a, A = kind of b, C = rank   Out: as BINOP   Clobbers all
@@ -337,34 +324,7 @@ XLEG:   DB      CALC,QMU,QOVR,QSUB,QE6N ; g
 XLEG1:  DB      LT3,LT2,QSUB            ; r-e
         DB      LT3,LT2,QADD            ; r-e r+e
         DB      QMUL,QSQRT,QRET         ; h
-; QSIG: a number with its sign changed when a second one is negative
-XSIG:   INX     H               ; -> sign of the second one
-        MOV     A,M
-        ORA     A
-        RP
-        XCHG
-        JMP     FNEG
-
-; QMAX: the greater of two that are not negative: their bytes can be compared one by one
-XMAX:   PUSH    H
-        PUSH    D
-XMAX1:  LDAX    D
-        CMP     M
-        INX     D
-        INX     H
-        JZ      XMAX1           ; (past the end of equal ones, which does not matter)
-        POP     D
-        POP     H
-        RNC
-        XCHG
-        JMP     COPY5
 
 ; QE6D: takes two numbers, ERR 06 when they are more than 1 um apart
 XE6D:   DB      CALC,QSUB,QABS,QMU,QSWP,QSUB ; room
         DB      QE6N,QRET               ; -
-; QE6N: takes a number, ERR 06 when it is negative
-XE6N:   INX     H
-        MOV     A,M
-        ORA     A
-        RP
-ERGEO:  DB      ERROR,EGEOM

@@ -1,27 +1,11 @@
-; io.asm - teletype, punch and reader
-; Offers: TTYST PUNDT PUNST RXRDY PUTC1 PUNON SSAVE PUNOFF PAPON BREAK ERTAPE CRLF PUTSI PUTS
-; Uses:   monitor start
-; Room:   127 bytes
+; io.asm - the teletype: what is printed, the keyboard
+; Offers: PUTC1 PAPON BREAK ERTAPE CRLF PUTSI PUTS PUT2D
+; Uses:   io_6850 io_8251 io_punch io_tty start
+; Room:   116 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
 ; until BREAK looks at it, ctrl-S holds all output until the next key.
-
-        IF      BRD51
-TTYDT   EQU     10H             ; teletype: data
-TTYST   EQU     11H             ; teletype: status
-PUNDT   EQU     12H             ; punch and reader: data
-PUNST   EQU     13H             ; punch and reader: status
-TXRDY   EQU     01H             ; transmitter empty
-RXRDY   EQU     02H             ; receiver full
-        ELSE
-TTYST   EQU     10H
-TTYDT   EQU     11H
-PUNST   EQU     12H
-PUNDT   EQU     13H
-RXRDY   EQU     01H
-TXRDY   EQU     02H
-        ENDIF
 
 ; PUTC1 - the work of RST 2
 ; In:  A = character; PSW, HL and BC on the stack   Clobbers nothing
@@ -43,16 +27,8 @@ PAPER:  CALL    POLL
         JZ      PAPER
         MOV     A,B
         OUT     TTYDT
-        IF      PTTY
-        ELSE
         DCR     C
-        JNZ     PUTC2
-PUNCH:  IN      PUNST
-        ANI     TXRDY
-        JZ      PUNCH
-        MOV     A,B
-        OUT     PUNDT
-        ENDIF
+        CZ      BDPUN
 PUTC2:  POP     B
         POP     H
         POP     PSW
@@ -75,32 +51,8 @@ POLL2:  MOV     A,M
         RNZ
         JMP     POLL1
 
-; PUNON - what is printed from here on is punched too
-; Clobbers A
-        IF      PTTY
-PUNON:  MVI     A,CDC2
-        DB      PUTC
-        ELSE
-PUNON:  MVI     A,1
-        STA     OUTSEL
-        ENDIF
-        RET
-
-; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
-SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
-        CALL    SLIST
-        MVI     A,CEOF
-        DB      PUTC
-; (fall into PUNOFF)
-
-; PUNOFF - punch off; the place for a break, since the block is complete
-; PAPON - paper on: the same where the punch is not the teletype's
+; PAPON - paper on, no punch
 ; Clobbers A, HL
-PUNOFF:
-        IF      PTTY
-        MVI     A,CDC4
-        DB      PUTC
-        ENDIF
 PAPON:  MVI     A,2
         STA     OUTSEL
 ; (fall into BREAK)
@@ -134,4 +86,18 @@ PUTS:   MOV     A,M
         DB      PUTC            ; (without bit 7)
         INX     H
         JP      PUTS
+        RET
+
+; PUT2D - two decimal digits to the paper
+; In:  A = them   Clobbers A
+PUT2D:  PUSH    PSW
+        RRC
+        RRC
+        RRC
+        RRC
+        CALL    PUT1D
+        POP     PSW
+PUT1D:  ANI     0FH
+        ORI     CZERO
+        DB      PUTC
         RET

@@ -1,17 +1,15 @@
 ; lexer.asm - a line: typed, made tokens of, listed
-; Offers: GETLIN LEX LEXDEC LEXDIG LEXCH LISTLN PRNUM BLANK
-; Uses:   float io monitor parser start
-; Room:   650 bytes
+; Offers: GETLIN LEX LISTLN PRNUM BLANK
+; Uses:   decimal io io_punch io_tty monitor start value
+; Room:   455 bytes
 ;
-; The tokens are in equ.asm.  Words come before names; a character that begins
+; The tokens are in equ.asm, the words and theirs in words.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
 ; what it does not know.  TOKS begins a page, so that the low byte of a token's address is
 ; its distance from the line's start; what is longer than the page is refused after LEX, the
 ; stack having room for what the longest line can make.
 
-CBEL    EQU     07H
-DECMAX  EQU     3FFH            ; a number as good as any greater one: no subscript, past every exponent
-WAIT2   EQU     18000           ; turns of INCH1 in two seconds (115 us each)
+WAIT2   EQU     15500           ; turns of INCH1 in two seconds (130 us each)
 
 ; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
 ;          nothing is printed (OUTSEL = 0).  A control character that is no editing key
@@ -35,15 +33,8 @@ INCH1:  CALL    BREAK           ; else (INPUT's answers too) from the teletype
         MOV     A,D
         ORA     E
         JZ      GETL5           ; the reader has stopped
-        IF      PTTY
-        MOV     A,M
-        ELSE
-        IN      PUNST
-        ANI     RXRDY
-        JZ      INCH1
-        IN      PUNDT
+        CALL    BDREAD
         ANI     7FH
-        ENDIF
         CPI     CEOF            ; a tape's; of the teletype's keys it is none
         JZ      GETL5
 INCH2:  ORA     A               ; (HL-> KEYB, from BREAK)
@@ -83,12 +74,7 @@ GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         JNZ     ERTAPE
         INX     H               ; HL-> LOADF, A = 0
         MOV     M,A
-        IF      PTTY
-        LXI     H,OUTSEL
-        INR     M               ; paper on
-        MVI     A,CXOFF         ; the teletype's reader off
-        DB      PUTC
-        ENDIF
+        CALL    BDOFF
         JMP     READY
 GETL6:  POP     H
         CALL    CRLF
@@ -219,9 +205,10 @@ LEXNA1: PUSH    D
         CP      SUBCHK
         POP     H
         MOV     A,B
-        ADD     A               ; (4 * TSUB is 0 in a byte)
+        ADD     A
         ADD     A
         ADD     D
+        SUI     (4*TSUB)&255    ; 4 times the letter's index, and the subscript's high bits
         ORI     TNAME           ; (no digits: D = 80H)
         MOV     B,E
         POP     D
@@ -229,51 +216,6 @@ LEXNA1: PUSH    D
         INX     D
         MOV     A,B
         STAX    D
-        RET
-
-; LEXDEC - digits of a subscript or of an exponent of ten
-; In:  HL-> text   Out: DE = number, at most DECMAX, or 8000H when there is no digit; HL-> behind it
-; Clobbers A
-LEXDEC: LXI     D,8000H         ; (ten times that is 0)
-LEXD1:  CALL    LEXDIG
-        RNC
-        INX     H
-        PUSH    H
-        MOV     H,D
-        MOV     L,E
-        DAD     H
-        DAD     H
-        DAD     D
-        DAD     H
-        CALL    ADDA            ; 10 * number + digit
-        XCHG
-        POP     H
-        MOV     A,D
-        CPI     DECMAX/256+1
-        JC      LEXD1
-        LXI     D,DECMAX
-        JMP     LEXD1
-
-; LEXDIG - is the next character that counts a digit?
-; In:  HL-> text   Out: as DIGIT; HL-> it   Clobbers nothing else
-LEXDIG: CALL    LEXCH
-; (fall into DIGIT)
-
-; DIGIT - is the character a digit?
-; In:  A   Out: CY set: yes, A = its value   Clobbers A
-DIGIT:  SUI     CZERO
-        CPI     10
-        RET
-
-; LEXCH - next character that counts
-; In:  HL-> text   Out: A = it, in upper case; HL-> it   Clobbers nothing else
-LEXC1:  INX     H
-LEXCH:  MOV     A,M
-        CPI     CBLANK
-        JZ      LEXC1
-        CPI     CLOWA
-        RC
-        ANI     5FH             ; (what comes behind z turns into [ \ ] ^)
         RET
 
 ; LISTLN - prints a line
@@ -351,7 +293,8 @@ LISTDE: PUSH    H
         CALL    PRDEC
         POP     H
         RET
-LIST4:  CALL    PRLET
+LIST4:  XRI     TSUB&15         ; (its low half is that of the letter's index plus 8)
+        CALL    PRLET
         MVI     A,CLBRK
         DB      PUTC
         RET
@@ -373,48 +316,4 @@ PRWO1:  DCX     H
         INX     H
         CALL    PUTS
         POP     H
-        RET                     ; (bit 7 set: for SQR, the word in front)
-
-; The words in the order of their tokens, then the letters of the names; bit 7 set in the
-; last character
-KEYTAB: DB      "SQ",0D2H       ; SQR
-        DB      "SI",0CEH       ; SIN
-        DB      "CO",0D3H       ; COS
-        DB      "T",0C7H        ; TG
-        DB      "AT",0C7H       ; ATG
-        DB      "AB",0D3H       ; ABS
-        DB      "IN",0D4H       ; INT
-        DB      "K",0B1H        ; K1
-        DB      "K",0B2H        ; K2
-        DB      "K",0B3H        ; K3
-        DB      "FRO",0CDH      ; FROM
-        DB      "CU",0D4H       ; CUT
-        DB      "BAC",0CBH      ; BACK
-        DB      "EN",0C4H       ; END
-        DB      "RE",0CDH       ; REM
-        DB      "PRIN",0D4H     ; PRINT
-        DB      "GOT",0CFH      ; GOTO
-        DB      "I",0C6H        ; IF
-        DB      "GOSU",0C2H     ; GOSUB
-        DB      "RETUR",0CEH    ; RETURN
-        DB      "REA",0C4H      ; READ
-        DB      "DAT",0C1H      ; DATA
-        DB      "RESTOR",0C5H   ; RESTORE
-        DB      "INPU",0D4H     ; INPUT
-        DB      "SCAL",0C5H     ; SCALE
-        DB      "SY",0CDH       ; SYM
-        DB      "RE",0D0H       ; REP
-        DB      "RECU",0D4H     ; RECUT
-        DB      "FI",0D4H       ; FIT
-        DB      "TO",0CCH       ; TOL
-        DB      "RU",0CEH       ; RUN
-        DB      "LIS",0D4H      ; LIST
-        DB      "NE",0D7H       ; NEW
-        DB      "LOA",0C4H      ; LOAD
-        DB      "SAV",0C5H      ; SAVE
-        DB      "FRE",0C5H      ; FREE
-        DB      0C1H,0C4H,0D2H,0C9H,0CAH                ; A D R I J
-        DB      0D0H,0CFH,0D6H                          ; P O V
-        DB      0C3H,0C2H,0D4H                          ; C B T
-        DB      0D3H,0D8H,0D9H                          ; S X Y
-KEYEND:
+        RET

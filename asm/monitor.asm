@@ -1,50 +1,17 @@
-; monitor.asm - prompt, program lines, running them, errors
-; Offers: TXTP PEND VBOT VTOP CHKF OUTSEL COLS LASTC KEYB VSUM LEXAT LINUM STMT0 CDOT CLBRK CLOWA
-;         ERR ERR4 READY FINDLN LINE1 DIRECT MORE SLIST NEW1 CLEAR CLEAR1 CLRPTR
-; Uses:   calc cut fit float io lexer parser repeat start tape
-; Room:   794 bytes, 796 with BRD51, 802 with PTTY
-;
-; A program line: length of the record, line number (low byte first), tokens, 00, a byte
-; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
-; it.
-
-; ---- Cells -----------------------------------------------------------------
-TXTP    EQU     MWORK           ; next token
-PEND    EQU     MWORK+2         ; end of the program
-VBOT    EQU     MWORK+4         ; lowest byte of the variables
-VTOP    EQU     MWORK+6         ; last byte of RAM
-NXTP    EQU     MWORK+8         ; the line to run next; high byte 0: the line is a direct one
-CHKF    EQU     MWORK+10        ; 0: statements work; 1: they are only parsed; 2: after an error
-OUTSEL  EQU     MWORK+11        ; 0: nothing is printed; 1: paper and punch; else paper
-COLS    EQU     MWORK+12        ; characters printed; STORE looks at it
-LASTC   EQU     MWORK+13        ; last character printed
-KEYB    EQU     MWORK+14        ; key typed ahead
-LOADF   EQU     MWORK+15        ; 1: lines come from the reader (OUTSEL to VSUM are walked through)
-VSUM    EQU     MWORK+16        ; check sum of the variables, as of the last prompt
-CURLIN  EQU     MWORK+17        ; number of the line that runs
-DATP    EQU     MWORK+19        ; in front of the next DATA item: its comma, or a line's 00 (or PROG-2: CLOSED, no comma)
-GSP     EQU     MWORK+21        ; top of the GOSUB stack
-LEXAT   EQU     MWORK+23        ; -> text of the token that LEX makes; high byte 0: none is being made
-GSTK    EQU     HELD-16         ; 8 lines to go back to, downwards
-GSTKE   EQU     HELD
-LINUM   EQU     TOKS+4          ; number of the typed line, behind the length of its record
-STMT0   EQU     TOKS+6          ; its statement, behind the number token
+; monitor.asm - prompt, commands, running the program, errors, reset
+; Offers: ERR READY CHKED RESET SFREE SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST SREAD
+;         SINPUT SLIST SNEW SSAVE
+; Uses:   calc cut decimal float io io_6850 io_8251 io_punch io_tty lexer parser program start value
+; Room:   849 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
 ;! COLS == OUTSEL+1 and LASTC == COLS+1 -- PUTC1 walks back from LASTC
 ;! KEYB == LASTC+1 and LOADF == KEYB+1 and VSUM == LOADF+1 -- BREAK leaves HL -> KEYB; READY comes from VSUM
 ;! LINUM == TOKS+4 and STMT0 == TOKS+6 -- the record's head lies over the number's token
-;! STTEND-STTAB == 2*(TFREE+1-TFROM) -- an address for every word from FROM to FREE
-;! TLETR+14 == 100H and TLETR == TFREE+1 -- the words' tokens go on to the letters', which end with the byte
+;! STTEND-STTAB == 2*(TLETR-TFROM) -- an address for every word from FROM on
+;! TLETR+14 == 100H -- the letters' tokens end with the byte
 
 LASTLN  EQU     9999            ; greatest line number
-CPRMPT  EQU     3EH             ; >
-CMARK   EQU     5EH             ; ^
-CDOT    EQU     2EH
-CLESS   EQU     3CH
-CGT     EQU     3EH
-CLBRK   EQU     5BH
-CLOWA   EQU     61H             ; a
 
 ; ERRLX - LEX has refused something.  That waits for its turn: the parser may refuse what stands in
 ;         front of it, else it comes to the character that LEX has left there.  Then LEX, when ERR
@@ -88,12 +55,7 @@ ERR1:   DAD     H               ; (1 becomes 2: no mark)
         SHLD    CHKF
         XRA     A
         STA     LOADF
-        IF      PTTY
-        MVI     A,CDC4          ; the teletype's punch and reader off
-        DB      PUTC
-        MVI     A,CXOFF
-        DB      PUTC
-        ENDIF
+        CALL    BDOFF
         DCR     C
         PUSH    PSW
         JNZ     ERR3
@@ -161,47 +123,79 @@ STMT:   CALL    CALINI
         LXI     H,STTAB-2*TFROM+256 ; (JTAB takes 2*A in a byte)
         JMP     JTAB
 
-; The statements in the order of their tokens
-STTAB:  DW      SFROM,SCUT,SBACK,STEND,SREM,SPRINT,SGOTO,SIF
-        DW      SGOSUB,SRETN,SREAD,SDATA,SREST,SINPUT
-        DW      SSCALE,SSYM,SREP,SRECUT,SFIT,STOL
-        DW      SRUN,SLIST,SNEW,SLOAD,SSAVE,SFREE
-STTEND:                         ; (its end)
+; CHKED - the line is understood: stores it or carries it out
+; In:  at STKTOP-2: -> behind its tokens; the stack holds little more
+CHKED:  LXI     H,TOKS
+        SHLD    TXTP
+        MOV     A,M
+        CPI     TINPUT          ; in a program only: the answer would take the line's place
+        JZ      ERSYN
+        DCR     A               ; TFLT?
+        JNZ     DIRECT
+        CALL    STORE
+        CALL    RTNEW           ; the route buffer began at PEND
+        CALL    CLRPTR
+        JMP     READY
 
-; FINDLN - finds a line
-; In:  DE = number
-; Out: HL-> the first line with that number or a higher one, or the end; Z: it is that
-;      number, A = length of its record   Clobbers A, HL
-FINDLN: LXI     H,PROG
-        XRA     A
-FIND1L: CALL    ADDA
-        MOV     A,M
-        SUI     1
-        RC                      ; (Z clear)
-        PUSH    H
-        INX     H
-        MOV     A,M
-        INX     H
-        MOV     H,M
-        MOV     L,A
+; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
+;         sound in it, signs on
+RESET:  LXI     SP,STKTOP
+        CALL    CALINI
+        CALL    BDINIT
+        LXI     H,0
+        SHLD    KEYB            ; and LOADF
+        DCR     H
+        SHLD    CHKF            ; no check mode, paper on
+        MVI     H,RAM/256
+RESE2:  MOV     A,M             ; does this page keep what is written?
+        INR     A
+        INR     M
+        CMP     M
+        JNZ     RESE3
+        DCR     M
+        INR     H
+        MOV     A,H             ; the last page of all memory is left alone, so that no sum of an
+        INR     A               ; address and a length passes 0FFFFH
+        JNZ     RESE2
+RESE3:  DCX     H               ; HL-> last byte of RAM
+        XCHG
+        LHLD    VTOP
         CALL    CPHD
-        POP     H
+        XCHG
+        SHLD    VTOP
+        CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
+        LXI     H,PROG
+RESE4:  SHLD    PEND            ; sound so far
         MOV     A,M
-        JC      FIND1L
-        RET
+        ORA     A
+        JZ      RESE5
+        CALL    SUMREC
+        ORA     A
+        JZ      RESE4
+        LHLD    PEND
+        MVI     M,0             ; from here on it is lost
+        CALL    PUTSI
+        DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
+RESE5:  CALL    VARSUM
+        CNZ     CLEAR
+        CALL    CLEAR1          ; (once more does no harm)
+        CALL    PUTSI
+        DB      CCR,CLF,"SKG",0A0H
+        DB      SKIP1           ; skips the RST 7
+; (fall into SFREE)
 
-; PLINE - takes the head of a program line
-; In:  HL-> its record   Out: DE = number, HL-> tokens, A = bytes from there to the next
-;      record; CY: the program ends here   Clobbers nothing else
-PLINE:  MOV     A,M
-        SUI     3
-        RC
-        INX     H
-LINE1:  MOV     E,M             ; (STORE takes a number here, RETURN its line)
-        INX     H
-        MOV     D,M
-        INX     H
-        RET
+; SFREE - command: FREE
+SFREE:  DB      CHKEND
+        LHLD    PEND
+        XCHG
+        LHLD    VBOT
+        MOV     A,L
+        SUB     E
+        MOV     L,A
+        MOV     A,H
+        SBB     D
+        MOV     H,A
+        JMP     ERR4
 
 ; LINENO - takes a line number
 ; In:  TXTP   Out: HL = number, 0...65535; ERR 01   Clobbers all
@@ -367,20 +361,9 @@ SPRI4:  DB      NEXT
 ; SDATA - statement: DATA expression, ...: nothing, until READ comes
 SDATA:  CALL    CHECK
         RZ
-SDAT1:  LXI     H,SDAT1         ; where MORE returns to
-        PUSH    H
-        CALL    EVAL
-; (fall into MORE)
-
-; MORE - in a list: takes the comma; where there is none the statement must end, and
-;        the routine that called is left
-; Clobbers A, HL
-MORE:   DB      PEEK
-        CPI     CCOMMA
-        JZ      NEXT0
-        POP     H
-        DB      CHKEND
-        RET
+SDAT1:  CALL    EVAL
+        CALL    MORE
+        JMP     SDAT1
 
 ; SREST - statement: RESTORE, RESTORE n
 SREST:  CALL    OPTLN
@@ -519,23 +502,9 @@ CLRPTR: LXI     H,GSTKE
         MVI     L,PROG & 255    ; (in one page: a test looks)
         JMP     REST1
 
-; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it
-SLOAD:  DB      CHKEND
-        IF      PTTY
-        MVI     A,CXON          ; the teletype's reader on
+; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
+SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
+        CALL    SLIST
+        MVI     A,CEOF
         DB      PUTC
-        ENDIF
-SLOA1:  CALL    BREAK
-        IF      PTTY
-        ORA     A
-        ELSE
-        IN      PUNST
-        ANI     RXRDY
-        ENDIF
-        JZ      SLOA1
-        IF      BRD51+PTTY
-        MVI     A,1
-        ENDIF                   ; (RXRDY of the 6850 is 1)
-        INX     H               ; BREAK leaves HL-> KEYB: the next is LOADF
-        MOV     M,A
-        RET
+        JMP     PUNOFF

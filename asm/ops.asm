@@ -1,7 +1,7 @@
 ; ops.asm - operations that geometry, route and tape add to the calculator
 ; Offers: nothing
-; Uses:   calc cut geom parser tape
-; Room:   54 bytes, 56 with NODRIFT: 2 an operation
+; Uses:   calc cut geom parser tape value
+; Room:   54 bytes
 
 ; The entry QOWN itself is INT, which belongs behind FFLR there (OPFN, parser.asm); byte-code
 ; would have to see that x is a0
@@ -31,12 +31,8 @@ QCENT   EQU QOWN+23     ; x y ->  e  as QUNIT for two centres, x y apart; e = r1
 QTOK    EQU QOWN+24     ; x y ->  K = b0 b1 = x y
 QWAY    EQU QOWN+25     ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
 QVEC    EQU QOWN+26     ; ->      a0 a1
-QROOT   EQU QOWN+27     ; w -> least whole root of a0^2+a1^2-w^2 (option NODRIFT; the last)
 
         DW      FINT,XCRS,XDIF,XHYP,XDOT,XALNG,XROTV,XLEG
         DW      XE6D,XUNIT,XXCH
         DW      XCA,XNA,XRND,XVK,XJC,XONEL,XNORM,XFAR,XSENS
         DW      XNORMS,XXING,XSS,XCENT,XTOK,XWAY,XVEC
-        IF      NODRIFT
-        DW      XROOT
-        ENDIF

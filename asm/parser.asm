@@ -1,8 +1,8 @@
 ; parser.asm - expressions, names and variables
-; Offers: VKIND EVAL PUTN PUTVAL XCA XNA XNA1 COPY15 COPY JTAB OPFLT SETK NEGVAL FIND ASSIGN SETREF
-;         GETREF PRVAL EVINT SUBCHK ERRNG EVPNT EVNUM EVKIND ERKIND NOTURN CHKRET FINT CMPNE
-; Uses:   calc consts cut float geom io lexer monitor repeat start
-; Room:   650 bytes
+; Offers: EVAL JTAB OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF PRVAL MORE EVINT EVPNT EVNUM EVKIND
+;         ERKIND NOTURN FINT CMPNE
+; Uses:   calc consts float geom io lexer start value
+; Room:   587 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -18,9 +18,7 @@
 ; A variable is its name (high byte, low byte), then one, two or three floats.
 ; The newest lies lowest, at VBOT; a zero byte at VTOP ends the list.
 
-VKIND   EQU CWORK       ; kind of the value in a0 a1 a2; CHKRET writes the cell behind it too
 STKGAP  EQU 64          ; stack bytes that the deepest operation may need
-SUBMAX  EQU 999         ; greatest subscript
 
 ;! TATG-TSQR == QATG-QSQRT and TABS == TATG+1 and QABS == QATG+1 -- FNTAB: functions stand as in OPTAB
 ;! TK2 == TK1+1 and TK3 == TK1+2 and TK1 == TINTF+1 -- OPFN tells K1 K2 K3 from the others
@@ -73,58 +71,6 @@ EVA3:   POP     PSW
         JMP     EVA1
 
 OPCHRS: DB      "/*-+:#,"       ; operators, tightest (rank 7) first
-
-; PUTN - makes the value the next element (for cut)
-; In:  a0 a1 a2, A = kind   Clobbers A, DE, HL
-PUTN:   LXI     H,MNEXT
-; (fall into PUTVAL)
-
-; PUTVAL - puts the value into a record: kind, three numbers (for repeat)
-; In:  a0 a1 a2, A = kind, HL -> where to   Out: HL behind   Clobbers A, DE
-PUTVAL: MOV     M,A
-        INX     H
-; (fall into PUTA)
-
-; PUTA - copies the value in a0 a1 a2
-; In:  HL -> to   Out: DE, HL behind   Clobbers A
-PUTA:   LXI     D,MA
-        JMP     COPY15
-
-; XCA, XNA - QCA: a = C.  QNA: a = N.  VKIND with it.  (Operations of the route, which end as GETA)
-; XNA1 - the same for a record: kind, three numbers (for SAME and FETCH, which has a turn in bit 7)
-; In:  XNA1: DE -> record   Clobbers all
-XCA:    MVI     E,MCUR & 255
-        DB      SKIP2           ; skips the MVI
-XNA:    MVI     E,MNEXT & 255
-        MVI     D,MREG/256      ; (both are in the registers' first page)
-XNA1:   LDAX    D
-        ANI     7FH
-        STA     VKIND
-        INX     D
-; (fall into GETA)
-
-; GETA - copies a value to a0 a1 a2
-; In:  DE -> from   Out: DE, HL behind   Clobbers A
-GETA:   LXI     H,MA
-; (fall into COPY15)
-
-; COPY15 - copies a value (three floats)
-; In:  DE -> from, HL -> to   Out: DE, HL behind   Clobbers A
-COPY15: MVI     A,15
-; (fall into COPY)
-
-; COPY - copies A bytes
-; In:  DE -> from, HL -> to, A = count   Out: DE, HL behind   Clobbers A
-COPY:   PUSH    B
-        MOV     B,A
-COPY1:  LDAX    D
-        MOV     M,A
-        INX     D
-        INX     H
-        DCR     B
-        JNZ     COPY1
-        POP     B
-        RET
 
 ; OPND - value of one operand
 ; In:  TXTP -> its first token   Out: as EVAL   Clobbers all
@@ -200,28 +146,7 @@ OPFLT:  DB      PEEK
         CALL    COPY5
         XCHG
         CALL    NEXT1           ; TXTP = HL+1
-; (fall into SETNUM)
-
-; SETNUM - makes the value a number: a1 and a2 zero
-; Out: VKIND   Clobbers A, B, HL
-SETNUM: XRA     A
-; (fall into SETK)
-
-; SETK - makes the value one of kind A: the floats that it has not are zero
-; In:  A = kind   Out: VKIND   Clobbers A, B, HL
-SETK:   STA     VKIND
-        SUI     KCIR
-        RNC                     ; three floats
-        MOV     B,A
-        ADD     A
-        ADD     A
-        ADD     B               ; A = -5 for each float that is missing
-        LXI     H,MA+14
-SETK1:  MVI     M,0
-        DCX     H
-        INR     A
-        JNZ     SETK1
-        RET
+        JMP     SETNUM
 
 ; OPNAM - value of a name
 ; In:  A = its first token   Out: as EVAL; ERR 03 when it has none
@@ -265,9 +190,9 @@ NAME:   MOV     D,A             ; (all of it when a byte follows)
         DB      EXPECT,CRBRK
         CALL    SUBCHK
         POP     PSW
-        ADD     A               ; (4 * TSUB is 0 in a byte)
+        ADD     A               ; 4 times the letter's index ...
         ADD     A
-        ORI     TNAME
+        ADI     TNAME-4*(TSUB-TNAME)+256 ; ... and TNAME
         ORA     D
         MOV     D,A
         RET
@@ -374,6 +299,13 @@ SETR1:  MOV     A,C
         LXI     D,MA
         JMP     COPY
 
+; RBEMP - empties the route buffer
+; Clobbers HL
+RBEMP:  LHLD    PEND
+        INX     H
+        SHLD    RBEND
+        RET
+
 ; GETREF - a name on the left side, or in READ and INPUT
 ; In:  TXTP -> name   Out: DE = name; ERR 03 for O, X, Y   Clobbers all
 GETREF: DB      NEXT
@@ -407,6 +339,16 @@ PRV2:   DB      PUTC
         DB      PUTC
         RET
 
+; MORE - in a list: takes the comma; where there is none the statement must end, and
+;        the routine that called is left
+; Clobbers A, HL
+MORE:   DB      PEEK
+        CPI     CCOMMA
+        JZ      NEXT0
+        POP     H
+        DB      CHKEND
+        RET
+
 ; EVINT - value of an expression that must be a whole number
 ; In:  TXTP -> it   Out: HL = 0...65535 (4 in check mode); ERR 05   Clobbers all
 EVINT:  CALL    EVNUM
@@ -417,13 +359,6 @@ EVINT:  CALL    EVNUM
         CALL    FTOI16
         RNC
         DB      ERROR,ERANGE
-
-; SUBCHK - demands that a subscript is not too large
-; In:  DE   Out: ERR 05   Clobbers HL
-SUBCHK: LXI     H,-SUBMAX-1
-        DAD     D
-        RNC
-ERRNG:  DB      ERROR,ERANGE
 
 ; EVPNT - value of an expression that must be a point
 ; EVNUM - of one that must be a number
@@ -452,15 +387,6 @@ NOTURN: LDA     VKIND
         CPI     KTURN
         RNZ
         DB      ERROR,EKIND
-
-; CHKRET - in check mode leaves the routine that called it; the kind of the value is not known then
-; In:  CHKF   Out: in check mode HL = 4, a number that does anywhere, and VKIND = KTURN   Clobbers A
-CHKRET: CALL    CHECK
-        RZ
-        POP     H
-        LXI     H,KTURN         ; (a kind that no name and no constant has)
-        SHLD    VKIND           ; (the cell behind it is free)
-        RET
 
 ; FINT - INT: greatest whole number not above, nearly whole ones taken as whole
 ; In:  a0   Out: a0   Clobbers all

@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
-; Offers: RECORD CPHD SREP SSYM SRECUT SSCALE
-; Uses:   calc consts cut fit float geom io monitor parser start
-; Room:   398 bytes
+; Offers: SREP SSYM SRECUT SSCALE
+; Uses:   calc consts cut fit float geom io parser start value
+; Room:   342 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
@@ -14,35 +14,6 @@ RJOIN   EQU CWORK+26    ; turn at the corner that SYM or REP makes
 ROP     EQU CWORK+27    ; operation on the items: rank
 ROPK    EQU CWORK+28    ; and kind of its right operand
 RCOUNT  EQU CWORK+31    ; copies that are wanted
-
-; RECORD - notes an item in the route buffer
-; In:  a0 a1 a2, VKIND, RTURN, RITEMS   Clobbers all
-RECORD: LDA     RITEMS
-        ORA     A
-        CZ      RBNEW           ; a new route
-        LDA     RBFULL
-        ORA     A
-        RNZ
-        LHLD    RBEND
-        PUSH    H
-        LXI     D,16
-        DAD     D
-        XCHG
-        LHLD    VBOT
-        CALL    CPHD
-        POP     H
-        JC      RECO2
-        LDA     RTURN
-        ADI     0FFH            ; CY: right
-        LDA     VKIND
-        RAL
-        RRC                     ; bit 7
-        CALL    PUTVAL
-        SHLD    RBEND
-        RET
-RECO2:  LXI     H,RBFULL
-        INR     M
-        RET
 
 ; FETCH - an item of the buffer as the value
 ; In:  RSRC; bit 7 of A: its corner turns right   Out: a0 a1 a2, VKIND, RTURN
@@ -103,16 +74,7 @@ STEP1:  LHLD    RSRC            ; (for STEPB)
         XCHG
         LHLD    RSTOP
         XCHG
-; (fall into CPHD)
-
-; CPHD - compares
-; In:  HL, DE   Out: flags of HL - DE: CY less, Z equal   Clobbers A
-CPHD:   MOV     A,H
-        CMP     D
-        RNZ
-        MOV     A,L
-        CMP     E
-        RET
+        JMP     CPHD
 
 ; JOINT - ends a curve, takes the ";" that SYM and REP may begin with
 ; Out: RJOIN   Clobbers all

@@ -8,8 +8,9 @@
 
 A name belongs to the file that defines it, as a label or by EQU. A file uses another one when it names something of
 it in an instruction, a DB, DW or EQU. An operation of the calculator (`QCRS`) belongs to the file of its routine
-(`XCRS`), which OPTAB tells; a restart's byte (`DB CALC,...`) to start.asm. What equ.asm defines belongs to all.
-The line Room: says how many bytes a file may have, and how many with an option: `Room:   400 bytes, 480 with NODRIFT`.
+(`XCRS`), which OPTAB tells; a restart's byte (`DB CALC,...`) to start.asm. What equ.asm and words.asm define belongs to
+all. Each file leans on those below it alone, but for calc and float, which are one thing in two files, and for HOOKS.
+The line Room: says how many bytes a file may have.
 """
 
 from __future__ import annotations
@@ -18,13 +19,27 @@ import re
 import sys
 import textwrap
 from collections import defaultdict
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 ASM = Path(__file__).resolve().parent
-#: Belongs to everybody.
-COMMON = "equ"
+#: Belong to everybody: names, and the words with their routines (made by the build: words.py).
+COMMON = ("equ", "words")
+#: Names that a file calls upwards, each at one place that says so. Who is called there depends on the image, or is
+#: somebody who could not be below.
+HOOKS = {
+    "RESET": "restart 0 goes to the monitor",
+    "ERR": "restart 1 goes to the monitor",
+    "PUTC1": "restart 2 goes to the teletype",
+    "CALC0": "restart 5 goes to the calculator",
+    "CHKED": "restart 7: the monitor stores the line or carries it out",
+    "BDPUN": "the teletype's characters go to the punch too: the board's",
+    "READY": "the reader has stopped: the prompt",
+    "FITEND": "an item of the route ends a curve",
+}
+#: Files that may lean on each other.
+ONE = ("calc", "float")
 
 DEFINITION = re.compile(r"^(\w+)(?::|\s+EQU\b)")
 #: An instruction or directive, then its operands.
@@ -35,8 +50,7 @@ OPERATION = re.compile(r"^(Q\w+)\s+EQU\s+(?:(\w+)H|QOWN\+(\d+))\b")
 TABLE = re.compile(r"(?:OPTAB:)?\s+DW\s+(.*)")
 #: A header's line, with those that go on with it, further in.
 OFFERS = re.compile(r"^; Offers:.*\n(?:;  +.*\n)*", re.M)
-ROOM = re.compile(r"^; Room: +(\d+) bytes(?:, (.*))?$", re.M)
-WITH = re.compile(r"(\d+) with (\w+)")
+ROOM = re.compile(r"^; Room: +(\d+) bytes$", re.M)
 USES = re.compile(r"^; Uses:.*\n(?:;  +.*\n)*", re.M)
 
 
@@ -73,9 +87,9 @@ def operations(rooms: dict[str, Room]) -> dict[str, str]:
     return {name: routines[n - 1] for name, n in numbers.items() if 1 <= n <= len(routines)}
 
 
-def read(files: Collection[str]) -> dict[str, Room]:
-    """All rooms, in the order of the ROM."""
-    rooms = {name: Room(name, (ASM / f"{name}.asm").read_text().splitlines()) for name in files}
+def read(texts: Mapping[str, str]) -> dict[str, Room]:
+    """The rooms of an image, from its sources' texts by name, in the order of the ROM."""
+    rooms = {name: Room(name, text.splitlines()) for name, text in texts.items()}
     owner: dict[str, str] = {}
     for room in rooms.values():
         room.defines = [found[1] for line in room.lines if (found := DEFINITION.match(line))]
@@ -85,13 +99,13 @@ def read(files: Collection[str]) -> dict[str, Room]:
         for line in map(code, room.lines):
             operands = STATEMENT.match(line)
             for name in WORD.findall(operands[1]) if operands else ():
-                home = owner.get(routines.get(name, name)) or owner.get(name, COMMON)
-                if home not in (room.name, COMMON):
+                home = owner.get(routines.get(name, name)) or owner.get(name, COMMON[0])
+                if home not in (room.name, *COMMON):
                     room.uses[home].add(name)
     return rooms
 
 
-def leans(rooms: dict[str, Room], hooks: Collection[str] = ()) -> dict[str, list[str]]:
+def leans(rooms: dict[str, Room], hooks: Collection[str] = HOOKS) -> dict[str, list[str]]:
     """The files that each file leans on; what is named in `hooks` does not count."""
     return {room.name: [other for other, names in room.uses.items() if names - set(hooks)] for room in rooms.values()}
 
@@ -130,7 +144,7 @@ def offered(rooms: dict[str, Room], room: Room) -> dict[str, set[str]]:
 
 def header(rooms: dict[str, Room], room: Room) -> tuple[str, str]:
     """The lines Offers: and Uses: as they should be."""
-    wanted = set().union(*offered(rooms, room).values()) if room.name != COMMON else set()
+    wanted: set[str] = set().union(*offered(rooms, room).values()) if room.name not in COMMON else set()
     names = [name for name in dict.fromkeys(room.defines) if name in wanted]
     names = [name for name in sorted(wanted) if name.startswith("RST")] + names
 
@@ -138,26 +152,33 @@ def header(rooms: dict[str, Room], room: Room) -> tuple[str, str]:
         text = " ".join(items) or "nothing"
         return textwrap.fill(text, 100, initial_indent=f"; {word:8}", subsequent_indent=";         ") + "\n"
 
-    return lines("Offers:", ["names for all"] if room.name == COMMON else names), lines("Uses:", sorted(room.uses))
+    return lines("Offers:", ["names for all"] if room.name in COMMON else names), lines("Uses:", sorted(room.uses))
 
 
-def room_of(text: str) -> dict[str, int]:
-    """Bytes that a header gives its file: without options (""), and with each option that needs more."""
-    found = ROOM.findall(text)
-    if len(found) != 1:
-        return {}
-    bytes_, more = found[0]
-    return {"": int(bytes_)} | {option: int(n) for n, option in WITH.findall(more)}
+def room_of(room: Room) -> int:
+    """Bytes that a header gives its file; 0 when it says nothing."""
+    found = ROOM.findall("\n".join(room.lines))
+    return int(found[0]) if len(found) == 1 else 0
+
+
+def tangled(rooms: dict[str, Room]) -> list[str]:
+    """Files that lean on each other round about and may not, a line each; hooks that nobody needs."""
+    wrong = [f"{' '.join(group)} lean on each other" for group in knots(leans(rooms))
+             if len(group) > 1 and group != sorted(ONE)]
+    used = set().union(*(names for room in rooms.values() for names in room.uses.values()))
+    return wrong + [f"{name} is a hook that nobody calls" for name in HOOKS if name not in used]
 
 
 def wrong_headers(rooms: dict[str, Room]) -> list[str]:
     """What is wrong with the lines Offers: and Uses:, one line each; and headers that have no Room:."""
     wrong = []
     for room in rooms.values():
+        if room.name == "words":
+            continue
         text = "\n".join(room.lines) + "\n"
         for shape, line in zip((OFFERS, USES), header(rooms, room), strict=True):
             word = line.split()[1]
-            if room.name == COMMON and word == "Uses:":
+            if room.name in COMMON and word == "Uses:":
                 continue
             said = shape.findall(text)
             if len(said) != 1:
@@ -167,19 +188,40 @@ def wrong_headers(rooms: dict[str, Room]) -> list[str]:
                 lacks, too_much = " ".join(sorted(want - have)), " ".join(sorted(have - want))
                 wrong.append(f"{room.name}.asm: {word} lacks [{lacks}], has too much [{too_much}]"
                              if lacks or too_much else f"{room.name}.asm: {word} is written in another way")
-        if room.name != COMMON and not room_of(text):
+        if room.name not in COMMON and not room_of(room):
             wrong.append(f"{room.name}.asm: no line Room: N bytes")
     return wrong
 
 
+def every() -> dict[str, dict[str, Room]]:
+    """The rooms of each image, by its name."""
+    from images import IMAGES
+
+    from build import sources
+
+    return {name: read(sources(image)) for name, image in IMAGES.items()}
+
+
+def merged(images: dict[str, dict[str, Room]]) -> dict[str, Room]:
+    """The rooms of all images in one: what a file offers and uses in any of them."""
+    rooms: dict[str, Room] = {}
+    for image in images.values():
+        for name, room in image.items():
+            known = rooms.setdefault(name, Room(name, room.lines, room.defines))
+            for other, names in room.uses.items():
+                known.uses[other] |= names
+    return rooms
+
+
 def main() -> None:
     """Command line."""
-    from build import FILES
-
-    rooms = read(FILES)
+    images = every()
+    rooms = merged(images)
     if sys.argv[1:] == ["--headers"]:
         for room in rooms.values():
             path = ASM / f"{room.name}.asm"
+            if not path.exists():
+                continue
             text = path.read_text()
             for shape, line in zip((OFFERS, USES), header(rooms, room), strict=True):
                 text = shape.sub(lambda _, line=line: line, text, count=1)
@@ -194,10 +236,11 @@ def main() -> None:
         for other, names in room.uses.items():
             print(f"  of  {other:10} {' '.join(sorted(names))}")
     else:
-        for group in knots(leans(rooms)):
-            print("  " + " ".join(group))
-        pairs = [f"{a}-{b}" for a in rooms for b in rooms if a < b and b in rooms[a].uses and a in rooms[b].uses]
-        print(f"  {len(pairs)} mutual pairs: {' '.join(pairs)}")
+        for name, image in images.items():
+            print(f"{name}:")
+            for group in knots(leans(image)):
+                print("  " + " ".join(group))
+        print(f"hooks: {' '.join(HOOKS)}")
 
 
 if __name__ == "__main__":

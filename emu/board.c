@@ -9,7 +9,7 @@ enum {
     PORT_AUX = 0x12,        /* of the punch's and reader's */
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
-    POLL_GAP = 250,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
+    POLL_GAP = 300,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
     VAIN_READS = 1000,      /* so often a chip may be read before it is readied (its receiver may be emptied) */
     NO_ANSWER = 0xff        /* what an open bus reads */
 };

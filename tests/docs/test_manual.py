@@ -291,7 +291,7 @@ def test_bytes_add_up() -> None:
     """Every source file of the ROM has its row, and the sum is right."""
     build = runpy.run_path(str(ROOT / "asm" / "build.py"))
     *files, (used, total) = byte_table()
-    assert [name for name, _ in files] == [f"{name}.asm" for name in build["FILES"]]
+    assert [name for name, _ in files] == [f"{name}.asm" for name in build["IMAGES"]["skg"].files()]
     assert used == "used"
     assert sum(count for _, count in files) == total <= build["ROM_SIZE"]
 

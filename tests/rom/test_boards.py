@@ -114,7 +114,7 @@ def test_a_teletype_alone_is_told_what_to_do() -> None:
     board.machine.tape(lines + chr(CTRL_Z))
     start = len(board.machine.tty)
     board.type("LOAD")
-    assert board.machine.tty[start:] == f"LOAD\r\n{chr(XON)}{chr(XOFF)}>"
+    assert board.machine.tty[start:] == f"LOAD\r\n{chr(XON)}{chr(DC4)}{chr(XOFF)}>", "both off at its end"
     board.machine.clear()
     board.type("RUN")
     on, off = chr(DC2), chr(DC4)

@@ -28,14 +28,9 @@ _spec.loader.exec_module(builder)
 
 ROMS = ROOT / "roms"
 ROM_SIZE = 8192
-#: Every image: options of asm/build.py, and what of it is committed.
-IMAGE, ALL = (".bin", ".hex"), (".bin", ".hex", ".sym")
-VARIANTS = {
-    "skg": ([], ALL),
-    "skg-8251": (["--set", "BRD51=1"], IMAGE),
-    "skg-tty": (["--set", "PTTY=1"], IMAGE),
-    "skg-nodrift": (["--set", "NODRIFT=1"], IMAGE),
-}
+#: Every image, and what of it is committed.
+ALL = (".bin", ".hex", ".sym")
+VARIANTS = {name: ALL if name == builder.STANDARD else ALL[:2] for name in builder.IMAGES}
 
 REGISTERS = "BCDEHLMA"
 PAIRS = ["B", "D", "H", "SP"]
@@ -182,7 +177,8 @@ def built(name: str) -> dict[str, bytes]:
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch) / name
         done = subprocess.run(
-            [sys.executable, ROOT / "asm" / "build.py", "--listing", out.with_suffix(".lst"), *VARIANTS[name][0], out],
+            [sys.executable, ROOT / "asm" / "build.py", "--image", name, "--sym", out.with_suffix(".sym"), "--listing",
+             out.with_suffix(".lst"), out],
             capture_output=True, text=True,
         )
         assert done.returncode == 0, done.stdout + done.stderr
@@ -212,13 +208,13 @@ def test_nothing_fetched_is_committed() -> None:
 
 def test_every_image_is_known() -> None:
     assert {path.name for path in ROMS.iterdir()} == {
-        f"{name}{suffix}" for name, (_, suffixes) in VARIANTS.items() for suffix in suffixes
+        f"{name}{suffix}" for name, suffixes in VARIANTS.items() for suffix in suffixes
     }
 
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_built_anew_it_is_the_same(name: str) -> None:
-    for suffix in VARIANTS[name][1]:
+    for suffix in VARIANTS[name]:
         committed = (ROMS / name).with_suffix(suffix)
         assert built(name)[suffix] == committed.read_bytes(), f"{committed}: make rom"
 
@@ -350,11 +346,9 @@ def refused(capsys: pytest.CaptureFixture[str], check: Callable[..., None], *arg
     ],
 )
 def test_words_that_an_assembler_refuses(
-    line: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    line: str, why: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (tmp_path / "some.asm").write_text(f"{line}\n")
-    monkeypatch.setattr(builder, "ASM", tmp_path)
-    assert why in refused(capsys, builder.check_words, ["some"])
+    assert why in refused(capsys, builder.check_words, {"some": f"{line}\n"})
 
 
 def test_jumps_that_do_not_fit_and_listings_that_are_not_understood(capsys: pytest.CaptureFixture[str]) -> None:

@@ -228,7 +228,7 @@ def test_breakpoints_by_label_distance_and_address(nothing: Path) -> None:
         "break",
         "delete",
         "break",
-        "break MOVE",
+        "break ADVAN1",
         "continue",
         "continue",
         "code 0",
@@ -239,7 +239,7 @@ def test_breakpoints_by_label_distance_and_address(nothing: Path) -> None:
     assert answers[5].strip().startswith(f"; {at + 1:04X} RUNINI+1"), "the operation behind RST 5"
     assert answers[7] == f"{at + 1:04X} RUNINI+1\n"
     assert answers[9] == ""
-    assert all(f"; {names['MOVE']:04X} MOVE " in answer for answer in answers[11:13])
+    assert all(f"; {names['ADVAN1']:04X} ADVAN1 " in answer for answer in answers[11:13])
 
 
 def test_all_breakpoints_of_a_run_are_reached(traced: tuple[list[str], str]) -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+import re
 import sys
-import tempfile
-from pathlib import Path
 
 import pytest
 from romhelp import ROOT
@@ -15,40 +14,44 @@ import rooms
 import build
 
 #: Bytes of the ROM that are kept for what is to come.
-KEPT = 450
-FILES = rooms.read(build.FILES)
-
-
-def bytes_of(options: dict[str, int]) -> dict[str, int]:
-    """Bytes of each source file in an image."""
-    with tempfile.TemporaryDirectory() as work:
-        _, symbols, _ = build.assemble(build.FILES, options, Path(work))
-    marks = [symbols[f"ZB{name.upper()}"] for name in build.FILES] + [symbols["ZBEND"]]
-    return {name: end - begin for name, begin, end in zip(build.FILES, marks, marks[1:], strict=False)}
-
-
-def given() -> dict[str, dict[str, int]]:
-    """Bytes that each header gives its file."""
-    return {name: rooms.room_of("\n".join(room.lines)) for name, room in FILES.items() if name != rooms.COMMON}
+KEPT = 395
+IMAGES = rooms.every()
+ALL = rooms.merged(IMAGES)
 
 
 def test_offers_and_uses() -> None:
-    assert len(FILES) == len(build.FILES) > 10
-    assert sum(len(room.uses) for room in FILES.values()) > len(FILES)
-    assert rooms.wrong_headers(FILES) == [], "asm/rooms.py --headers writes these lines anew"
+    assert len(ALL) > 20
+    assert sum(len(room.uses) for room in ALL.values()) > len(ALL)
+    assert rooms.wrong_headers(ALL) == [], "asm/rooms.py --headers writes these lines anew"
 
 
-@pytest.mark.parametrize("option", ["", *build.OPTIONS])
-def test_room(option: str) -> None:
-    """No file is longer than its header allows, with any one option."""
-    sizes = bytes_of(build.OPTIONS | ({option: 1} if option else {}))
-    allowed = {name: room.get(option, room[""]) for name, room in given().items()}
-    assert {name: f"{sizes[name]} of {n} bytes" for name, n in allowed.items() if sizes[name] > n} == {}
+@pytest.mark.parametrize("image", IMAGES)
+def test_no_knot(image: str) -> None:
+    """Each file leans on those below it alone."""
+    assert rooms.tangled(IMAGES[image]) == []
+
+
+@pytest.mark.parametrize("image", IMAGES)
+def test_room(image: str) -> None:
+    """No file is longer than its header allows."""
+    _, symbols, _, texts = build.build(image)
+    allowed = {name: rooms.room_of(room) for name, room in IMAGES[image].items()}
+    sizes = {name: size for name, size in build.bytes_of(texts, symbols).items() if name not in rooms.COMMON}
+    assert sum(sizes.values()) > 7000
+    assert {name: f"{n} of {allowed[name]} bytes" for name, n in sizes.items() if n > allowed[name]} == {}
 
 
 def test_rooms_leave_what_is_kept() -> None:
-    """All rooms together leave the bytes that are kept."""
-    assert sum(room[""] for room in given().values()) <= build.ROM_SIZE - KEPT
+    """The standard image's rooms together leave the bytes that are kept."""
+    rest = [rooms.room_of(room) for name, room in IMAGES["skg"].items() if name != "equ"]
+    assert sum(rest) <= build.ROM_SIZE - KEPT
+
+
+def test_no_file_asks_which_image_it_is_in() -> None:
+    """What differs between images is a file of its own."""
+    lines = [f"{room.name}.asm: {line}" for room in ALL.values() for line in map(rooms.code, room.lines)]
+    assert len(lines) > 5000
+    assert [line for line in lines if re.search(r"(?<!\w)(IF|ELSE|ENDIF|IFDEF|IFNDEF)\b", line, re.I)] == []
 
 
 # The reader of headers itself, on small sources -----------------------------------------------------------------------
@@ -58,23 +61,21 @@ TWO = {
     "equ": "; Offers: names for all\nCELL EQU 2000H\n",
     "one": "; Offers: STATE PLAY XMIN\n; Uses:   two\n; Room:   9 bytes\n"
            "STATE EQU CELL+1\nPLAY: CALL WORK ; not OTHER\nXMIN: RET\nHERE: DB \"OTHER\"\n",
-    "two": "; Offers: WORK\n; Uses:   one\n; Room:   9 bytes, 12 with LONG\n"
+    "two": "; Offers: WORK\n; Uses:   one\n; Room:   12 bytes\n"
            "WORK: LDA STATE\n DB QMIN\n CALL PLAY\nOTHER: RET\n" + TABLES + "OADD: RET\n",
 }
 
 
-def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, **changes: str) -> dict[str, rooms.Room]:
+def small(**changes: str) -> dict[str, rooms.Room]:
     """The two small sources, with some text instead of other."""
-    for name, text in TWO.items():
-        (tmp_path / f"{name}.asm").write_text(text.replace(*changes[name].split("|")) if name in changes else text)
-    monkeypatch.setattr(rooms, "ASM", tmp_path)
-    return rooms.read(TWO)
+    return rooms.read({name: text.replace(*changes[name].split("|")) if name in changes else text
+                       for name, text in TWO.items()})
 
 
-def test_small_sources_are_right(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_small_sources_are_right() -> None:
     """Routines, cells, equates and the routines of operations count; names in comments and texts do not."""
-    assert rooms.wrong_headers(small(tmp_path, monkeypatch)) == []
-    assert rooms.room_of(TWO["two"]) == {"": 9, "LONG": 12}
+    assert rooms.wrong_headers(small()) == []
+    assert rooms.room_of(rooms.read(TWO)["two"]) == 12
 
 
 @pytest.mark.parametrize(("file", "change", "said"), [
@@ -84,9 +85,16 @@ def test_small_sources_are_right(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     ("one", "; Uses:   two|; Uses:   three", "one.asm: Uses: lacks [two], has too much [three]"),
     ("one", "CALL WORK|CALL CELL", "one.asm: Uses: lacks [nothing], has too much [two]"),
     ("one", "; Uses:   two\n|", "one.asm: 0 lines Uses:"),
-    ("two", "; Room:   9 bytes|; Room:   some", "two.asm: no line Room: N bytes"),
+    ("two", "; Room:   12 bytes|; Room:   some", "two.asm: no line Room: N bytes"),
 ])
-def test_what_is_wrong_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, change: str,
-                               said: str) -> None:
-    found = small(tmp_path, monkeypatch, **{file: change})
-    assert said in rooms.wrong_headers(found)
+def test_what_is_wrong_is_said(file: str, change: str, said: str) -> None:
+    assert said in rooms.wrong_headers(small(**{file: change}))
+
+
+def test_a_knot_is_said() -> None:
+    """`one` calls WORK of `two`, which calls PLAY of `one`; the hooks' names are not among these."""
+    assert rooms.tangled(small())[0] == "one two lean on each other"
+    hooks = ["PLAY", "STATE", "XMIN", "QMIN"]
+    assert rooms.knots(rooms.leans(small(), hooks)) == [["equ"], ["two"], ["one"]]
+    said = [line for line in rooms.tangled(small()) if "READY" in line]
+    assert said == ["READY is a hook that nobody calls"]

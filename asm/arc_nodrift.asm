@@ -1,0 +1,107 @@
+; arc_nodrift.asm - arcs as 3B blocks, each from where the controller stands (docs/drift.md)
+; Offers: ARC
+; Uses:   calc consts float geom start tape
+; Room:   254 bytes
+;
+; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there
+; is one sense to think about; for the count along Y it is turned by a quarter, so that the
+; count always runs along u:
+;
+;       (u,v) going round counter-clockwise from (r,0): u falls from r to -r in the
+;       upper half plane, rises again in the lower.  F = r-u there, 3r+u here, is the
+;       travel counted since (r,0): F = 2r - (u+r) * sign of v.  J = F(end) - F(start),
+;       and 4r more when (r,0) was passed.  That is so when the difference is below -r,
+;       or below r when the arc is more than half a turn: nothing between comes up.
+;       r cancels out, and its square root is saved, when both ends lie in one half
+;       plane; a start on the axis does not matter: it is r or -r itself.
+;
+; W is where the controller really stands, and the centre of an arc is moved, so that the
+; arc from there passes V (docs/drift.md).
+
+; ARC - the wire goes along the circle C to K, from where the controller stands
+; In:  C, K, W; on the float stack: negative when it is more than half a turn   Out: W = V
+; Clobbers all
+ARC:    DB      CALC,QVK,ST3    ; -
+        DB      LC0,QRND,SA0    ; -
+        DB      LC1,QRND,SA1    ; -
+        DB      LVX,SB0,LVY,SB1 ; -
+        DB      QDIF,LC2,QSIG   ; u v           of the end; mirrored when clockwise
+        DB      LWX,SB0,LWY,SB1 ; u v
+        DB      QDIF,LC2,QSIG   ; u v u v       of the start
+        DB      SA1,SA0,SB1,SB0 ; -             a = start, b = end
+        DB      QDIF,ST1,ST0    ; -             t0 t1 = chord d
+        DB      LT0,LT1,QSS,ST4 ; -             t4 = |d|^2
+        DB      QDOT,QJN        ; -             ends far apart: no doubt
+        DB      ARC0-$
+        DB      LT3,QJN         ; -             nearly round: any shift is too much
+        DB      ARC1-$
+        DB      QVEC,QHYP,QDBL ; 2r
+        DB      LT4,QSUB,QJN    ; -             short; |d|^2 <= 2r, within 1/4 um:
+        DB      ARC0-$
+ARCL:   DB      QEND            ;               a line
+        JMP     MOVE
+; the centre goes along the chord to where both ends are equally far from it
+ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
+        DB      LT4,QDIV,QHALF,QADD,ST2 ; -     t2 = shift / d
+        DB      LA0,LT2,LT0,QMUL,Q502,QADD,QFLR,QSUB,SA0 ; -
+        DB      LA1,LT2,LT1,QMUL,Q502,QADD,QFLR,QSUB,SA1 ; -
+        DB      LA0,LT0,QADD,SB0,LA1,LT1,QADD,SB1 ; -
+ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
+        DB      LBX,LBY,QMAX,QJZ ; -            the start is the centre: no arc
+        DB      ARCL-$
+        DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
+        DB      QEND
+        CALL    QUAD
+        LDA     MC2+1           ; sign
+        ORA     A
+        MVI     B,CLTN
+        JP      ARC3
+        MVI     A,2*CZERO+5     ; clockwise quadrants are mirrored ones
+        SUB     C
+        MOV     C,A
+        MVI     B,CLTS
+ARC3:   CALL    SETZG
+        JC      ARC4
+        DB      CALC            ; count along Y: turned by a quarter
+        DB      LA1,LA0,QNEG,SA1,SA0 ; -
+        DB      LB1,LB0,QNEG,SB1,SB0 ; -
+        DB      QEND
+ARC4:   DB      CALC,LT3,QJN    ; -             an arc of up to half a turn ...
+        DB      ARC5-$
+        DB      LA1,LB1,QSIG,QJN ; -            ... in one half plane needs no r
+        DB      ARC5-$
+        DB      LA0,LB0,QSUB,LB1,QSIG ; d       = F(end)-F(start)
+        DB      QDUP,QNEG,QJN   ; d             (below 0 when (r,0) was passed)
+        DB      ARC7-$
+        DB      QDRP            ; -
+ARC5:   DB      Q1,QEND
+        CALL    AROOT
+        DB      CALC,ST5        ; -             t5 = where the controller turns
+ARC6:   DB      LA0,LT5,QADD,LA1,QSIG ; 2r-F(start)
+        DB      LB0,LT5,QADD,LB1,QSIG,QSUB ; d  = F(end)-F(start)
+        DB      QDUP,LT5,LT3,QSIG,QADD ; d d+r  long: d-r; below 0 when (r,0) was passed
+        DB      LT5,QDBL,QSWP,QSIG,QSUB ; d-2r     then d+2r
+        DB      LT5,QDBL,QADD   ; J
+ARC7:   DB      QABS,QDUP,SBJ,QJZ ; -
+        DB      ARCL2-$         ; counted as nothing: a line
+; V = where the controller will stand: the step that ends the block goes from w+1 to w
+        DB      LB0,LB1,QSIG,ST1 ; -            t1 = w
+        DB      LT1,Q1,QADD,QEND ; w+1
+        CALL    AROOT           ; |v|
+        DB      CALC,QHALF,LT1,QSIG,QADD,QHALF,QSUB ; |v|    less 1 when w < 0
+        DB      LB1,QSIG,LB1,QSUB ; dv          v less that of b
+        DB      LT0,QNEG,QJN    ; dv            back into the drawing's axes
+        DB      ARC8-$
+        DB      LC2,QSIG,LVY,QADD,SVY ; -
+        DB      QJMP
+        DB      ARC9-$
+ARC8:   DB      LVX,QSWP,QSUB,SVX ; -
+ARC9:   DB      QEND
+        JMP     PUTBLK
+ARCL2:  DB      QEND            ;               (ARCL is too far away)
+        JMP     MOVE
+
+; AROOT - w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
+; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
+AROOT:  DB      CALC,QSQ,QVEC,QSS,QSUB ; w^2-n
+        DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root

@@ -1,0 +1,44 @@
+; io_punch.asm - punch and reader on a port of their own
+; Offers: BDPUN BDREAD SLOAD PUNOFF PUNON BDOFF
+; Uses:   io io_6850 io_8251 start
+; Room:   40 bytes
+
+; BDPUN - punches a character (PUTC1 of io.asm calls it)
+; In:  B   Clobbers A
+BDPUN:  IN      PUNST
+        ANI     TXRDY
+        JZ      BDPUN
+        MOV     A,B
+        OUT     PUNDT
+        RET
+
+; BDREAD - a character from the reader
+; In:  HL -> KEYB   Out: A = it, 0 when there is none   Clobbers nothing else
+BDREAD: IN      PUNST
+        ANI     RXRDY
+        RZ
+        IN      PUNDT
+        RET
+
+; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it
+SLOAD:  DB      CHKEND
+SLOA1:  CALL    BREAK
+        IN      PUNST
+        ANI     RXRDY
+        JZ      SLOA1
+        INX     H               ; BREAK leaves HL-> KEYB: the next is LOADF
+        MVI     M,1
+        RET
+
+; PUNOFF - punch off; the place for a break, since the block is complete
+; Clobbers A, HL
+PUNOFF  EQU PAPON
+
+; PUNON - what is printed from here on is punched too
+; Clobbers A
+PUNON:  MVI     A,1
+        STA     OUTSEL
+; (fall into BDOFF)
+
+; BDOFF - after an error and at a tape's end: punch and reader off.  They have no switch
+BDOFF:  RET

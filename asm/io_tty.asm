@@ -1,0 +1,46 @@
+; io_tty.asm - punch and reader are the teletype's own, switched by DC1 to DC4
+; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDOFF
+; Uses:   io start
+; Room:   41 bytes
+
+; BDREAD - a character from the reader: what the keyboard has sent
+; In:  HL -> KEYB   Out: A = it, 0 when there is none   Clobbers nothing else
+BDREAD: MOV     A,M
+        RET
+
+; SLOAD - command: LOAD; starts the reader, waits for the tape's first character, then lines come
+;         from it
+SLOAD:  DB      CHKEND
+        MVI     A,CXON
+        DB      PUTC
+SLOA1:  CALL    BREAK
+        ORA     A
+        JZ      SLOA1
+        INX     H               ; BREAK leaves HL-> KEYB: the next is LOADF
+        MVI     M,1
+        RET
+
+; PUNON - what is printed from here on is punched too
+; Clobbers A
+PUNON:  MVI     A,CDC2
+        DB      PUTC
+; (fall into BDPUN)
+
+; BDPUN - punches a character (PUTC1 of io.asm calls it, were OUTSEL 1): the teletype has done so
+BDPUN:  RET
+
+; PUNOFF - punch off; the place for a break, since the block is complete
+; Clobbers A, HL
+PUNOFF: MVI     A,CDC4
+        DB      PUTC
+        JMP     PAPON
+
+; BDOFF - after an error and at a tape's end: punch and reader off
+; Clobbers A, HL
+BDOFF:  LXI     H,OUTSEL
+        MVI     M,2             ; paper on
+        MVI     A,CDC4
+        DB      PUTC
+        MVI     A,CXOFF
+        DB      PUTC
+        RET

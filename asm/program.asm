@@ -1,0 +1,152 @@
+; program.asm - the lines of the program and how they are kept
+; Offers: STORE FINDLN PLINE LINE1 SUMREC VARSUM
+; Uses:   lexer start value
+; Room:   207 bytes
+;
+; A program line: length of the record, line number (low byte first), tokens, 00, a byte
+; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
+; it.
+
+; STORE - puts the line into the program, or takes it out; to READY
+; In:  LINUM = its number, STKTOP-2
+STORE:  MVI     L,STMT0 & 255
+        SHLD    TXTP
+        DB      NEXT
+        CPI     TRUN
+        JNC     ERSYN           ; commands do not go into a program
+        XRA     A               ; it is listed, unseen (OUTSEL = 0, from GETLIN): is it a line
+        STA     COLS            ; that LOAD takes?
+        MVI     L,LINUM & 255   ; (HL-> STMT0+1, from NEXT)
+        CALL    LINE1
+        CALL    LISTLN
+        LDA     COLS
+        CPI     126+2+1         ; CR and LF count
+        JNC     ERMEM
+        MVI     L,(LINUM-1) & 255 ; the record's head takes the place of the number token
+        LDA     STKTOP-2        ; low byte of -> behind the tokens
+        SUI     (STMT0+1) & 255
+        JZ      STOR1           ; the number alone: no record
+        ADI     STMT0+1-LINUM+2 ; (the check byte comes to the tokens)
+STOR1:  MOV     M,A
+        MOV     C,A             ; C = length
+        PUSH    H
+        DCR     A
+        CALL    SUMREC
+        MOV     M,A             ; (no record: somewhere in the stack's free room)
+        LHLD    LINUM
+        XCHG
+        CALL    FINDLN          ; HL-> its place
+        JZ      STOR2           ; A = length of the line that it replaces
+        XRA     A
+STOR2:  PUSH    H
+        MOV     D,H
+        MOV     E,L
+        CALL    ADDA
+        XCHG                    ; DE-> the program behind it
+        MOV     A,C
+        CALL    ADDA            ; HL-> where that must go
+        LDA     PEND
+        SUB     E
+        MOV     C,A
+        LDA     PEND+1
+        SBB     D
+        MOV     B,A             ; BC = its length - 1
+        PUSH    D
+        PUSH    H
+        DAD     B
+        XCHG
+        LHLD    VBOT
+        XCHG
+        CALL    CPHD
+        JNC     ERMEM
+        SHLD    PEND
+        POP     H
+        POP     D
+        CALL    CPHD
+        JC      STOR3           ; down: first byte first
+        DAD     B               ; up: last byte first
+        XCHG
+        DAD     B
+        XCHG
+STOR3:  LDAX    D               ; (CY: down)
+        MOV     M,A
+        JC      STOR4
+        DCX     D
+        DCX     D
+        DCX     H
+        DCX     H
+STOR4:  INX     D
+        INX     H
+        DCX     B
+        MOV     A,B             ; below 0?
+        INR     A
+        JNZ     STOR3
+        POP     H
+        POP     D
+        LDAX    D
+        ORA     A
+        CNZ     COPY
+        RET
+
+; FINDLN - finds a line
+; In:  DE = number
+; Out: HL-> the first line with that number or a higher one, or the end; Z: it is that
+;      number, A = length of its record   Clobbers A, HL
+FINDLN: LXI     H,PROG
+        XRA     A
+FIND1L: CALL    ADDA
+        MOV     A,M
+        SUI     1
+        RC                      ; (Z clear)
+        PUSH    H
+        INX     H
+        MOV     A,M
+        INX     H
+        MOV     H,M
+        MOV     L,A
+        CALL    CPHD
+        POP     H
+        MOV     A,M
+        JC      FIND1L
+        RET
+
+; PLINE - takes the head of a program line
+; In:  HL-> its record   Out: DE = number, HL-> tokens, A = bytes from there to the next
+;      record; CY: the program ends here   Clobbers nothing else
+PLINE:  MOV     A,M
+        SUI     3
+        RC
+        INX     H
+LINE1:  MOV     E,M             ; (STORE takes a number here, RETURN its line)
+        INX     H
+        MOV     D,M
+        INX     H
+        RET
+
+; SUMREC - check sum: a sound record of the program sums up to 0
+; In:  HL-> bytes, A = how many   Out: A = 0 less their sum; HL behind; B = 0
+SUMREC: MOV     B,A
+        XRA     A
+SUMR1:  SUB     M               ; (VARSUM goes on with its sum here)
+        INX     H
+        DCR     B
+        JNZ     SUMR1
+        RET
+
+; VARSUM - check sum of the variables, to VSUM
+; Out: Z when it is the same as last time, HL-> VSUM   Clobbers A, B, C
+VARSUM: LHLD    VBOT
+        XRA     A
+        SUB     L
+        MOV     B,A             ; to the end of the page
+VARS1:  CALL    SUMR1           ; then whole pages: B = 0
+        MOV     C,A
+        LDA     VTOP+1
+        INR     A
+        CMP     H
+        MOV     A,C
+        JNZ     VARS1
+        LXI     H,VSUM
+        CMP     M
+        MOV     M,A
+        RET
