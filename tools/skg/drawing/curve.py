@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
-from math import ceil, cos, pi, sin, sqrt
+from math import ceil, cos, inf, pi, sin, sqrt
 
 from skg.drawing.contour import CurveNode, Edge
 from skg.plane import XY, cross, distance, dot, minus, turn
 from skg.ref.fit import FLAT, STRAIGHT
 
-#: A curve's point and the direction angle of its tangent (radians) at a parameter.
-Parametric = Callable[[float], tuple[XY, float]]
+#: A curve's point at a parameter, and the direction angle of its tangent there (radians).
+At = Callable[[float], XY]
+Heading = Callable[[float], float]
+#: One biarc bends by no more than this, radians.
+_BEND = 1.2
+#: The part of a tolerance that the tried places take: between them the curve may be a little further away.
+_SPARE = 0.9
 #: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm.
 _FLAT, _STRAIGHT = float(FLAT), float(STRAIGHT)
 
@@ -30,65 +36,99 @@ def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
                  for p, a, q, b in zip(one.point, t, other.point, u, strict=True))
 
 
-def _off_arc(point: XY, start: XY, angle: float, end: XY) -> float:
-    """Distance of a point from the arc that leaves `start` in direction `angle` for `end`, as FIT cuts it: a flat
-    or a very large one as the line of its chord (language.md, section 5)."""
+def _off_arc(point: XY, start: XY, angle: float, end: XY) -> tuple[float, float]:
+    """Distance of a point from the arc that leaves `start` in direction `angle` for `end`: from the arc itself, and as
+    FIT cuts it, a flat or a very large one as the line of its chord (language.md, section 5)."""
     normal = -sin(angle), cos(angle)
     w = minus(end, start)
     height = dot(normal, w)
     square = dot(w, w)
-    if abs(height) <= _FLAT or square >= 2 * _STRAIGHT * abs(height):
-        return abs(cross(w, minus(point, start))) / sqrt(square)
+    off_chord = abs(cross(w, minus(point, start))) / sqrt(square)
+    if abs(height) < 1e-9:
+        return off_chord, off_chord
     radius = square / (2 * height)
     centre = start[0] + radius * normal[0], start[1] + radius * normal[1]
-    return abs(distance(point, centre) - abs(radius))
+    off = abs(distance(point, centre) - abs(radius))
+    return off, off_chord if abs(height) <= _FLAT or abs(radius) >= _STRAIGHT else off
 
 
-def _fits(curve: Parametric, low: float, high: float, tolerance: float) -> bool:
-    """Whether the biarc between two parameters stays within the tolerance of the curve."""
-    one, other = (CurveNode(*curve(t)) for t in (low, high))
-    if distance(one.point, other.point) < 1e-6 or abs(turn(one.angle, other.angle)) > 1.2:
-        return False
+def _off(at: At, heading: Heading, low: float, high: float, breaks: Sequence[float]) -> tuple[float, float]:
+    """How far the curve leaves the biarc between two parameters, and what FIT cuts of it; infinity where there is no
+    good one. It is tried at eleven places, and at three between two breaks."""
+    one, other = (CurveNode(at(t), heading(t)) for t in (low, high))
+    if distance(one.point, other.point) < 1e-6 or abs(turn(one.angle, other.angle)) > _BEND:
+        return inf, inf
     joint = biarc_joint(one, other)
     if joint is None:
-        return False
+        return inf, inf
     chord = minus(other.point, one.point)
     middle = dot(minus(joint, one.point), chord)
-    for k in range(1, 12):
-        point = curve(low + k / 12 * (high - low))[0]
+    tried = [low + k / 12 * (high - low) for k in range(1, 12)]
+    inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
+    if len(inner) > 2:
+        tried += [p + k / 4 * (q - p) for p, q in pairwise(inner) for k in range(1, 5)][:-1]
+    worst = as_cut = 0.0
+    for t in tried:
+        point = at(t)
         if dot(minus(point, one.point), chord) < middle:
             off = _off_arc(point, one.point, one.angle, joint)
         else:
             # Seen from its end the second arc leaves along the reversed tangent.
             off = _off_arc(point, other.point, other.angle + pi, joint)
-        if off > tolerance:
-            return False
-    return True
+        worst, as_cut = max(worst, off[0]), max(as_cut, off[1])
+    return worst, as_cut
 
 
-def curve_edge(curve: Parametric, breaks: list[float], tolerance: float) -> Edge:
+def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Edge:
     """Return a smooth curve as an edge whose nodes FIT takes to within `tolerance`, mm.
 
-    `breaks` are parameters, the first and the last one included, between which halving begins.
+    `breaks`: parameters in rising order, the first and the last one included; between two of them the curve is as
+    smooth as a polynomial of low degree.
     """
-    found = [breaks[0]]
-
-    def halve(low: float, high: float, depth: int) -> None:
-        if depth < 14 and not _fits(curve, low, high, tolerance):
-            middle = (low + high) / 2
-            halve(low, middle, depth + 1)
-            halve(middle, high, depth + 1)
-        else:
-            found.append(high)
-
-    for low, high in pairwise(breaks):
-        halve(low, high, 0)
-    nodes = tuple(CurveNode(*curve(t)) for t in found)
+    found = list(_stations(at, heading, breaks, tolerance))
+    nodes = tuple(CurveNode(at(t), heading(t)) for t in found)
     samples: list[XY] = []
-    for low, high in pairwise(found):
+    for (one, other), (low, high) in zip(pairwise(nodes), pairwise(found), strict=True):
         # n chords of a span of length l that bends by θ are lθ/8n² away from it: 0.05 µm here.
-        one, other = (CurveNode(*curve(t)) for t in (low, high))
         bend = abs(turn(one.angle, other.angle)) + 0.01
         pieces = ceil(sqrt(distance(one.point, other.point) * bend / 8 / 5e-5)) + 3
-        samples += [curve(low + k / pieces * (high - low))[0] for k in range(pieces)]
+        samples += [one.point, *(at(low + k / pieces * (high - low)) for k in range(1, pieces))]
     return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=(*samples, nodes[-1].point))
+
+
+def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Iterator[float]:
+    """The parameters of the nodes: each span as long as the tolerance allows, the last two of one length.
+
+    A biarc's error is of third order: what is tried next follows from the error found. A flat arc is cut as its chord
+    and is worse than a longer one that is not flat: so the longest good biarc is looked for, and only where FIT does
+    not cut that one well a shorter.
+    """
+    now, end = breaks[0], breaks[-1]
+    least = (end - now) * 1e-6
+    step = (end - now) / 8
+    tolerance *= _SPARE
+    yield now
+    while now < end:
+        good, bad = 0.0, inf
+        for _ in range(16):
+            step = min(step, end - now)
+            if step < least:
+                break
+            off = _off(at, heading, now, now + step, breaks)[0]
+            if off <= tolerance:
+                good = step
+                if now + step >= end or off > 0.6 * tolerance:
+                    break
+            else:
+                bad = step
+            wanted = step * min(3.0, max(0.2, 0.93 * (tolerance / off) ** (1 / 3) if off else 3.0))
+            step = min(wanted, 0.5 * (good + bad) if bad < inf else inf)
+            if step <= 1.05 * good:
+                break
+        step = good or least
+        while step > least and _off(at, heading, now, now + step, breaks)[1] > tolerance:
+            step *= 0.8
+        if now + step < end < now + 1.4 * step:
+            step = (end - now) / 2
+        now = end if now + step > end - least else now + step
+        yield now

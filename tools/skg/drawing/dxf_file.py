@@ -1,23 +1,265 @@
-"""A DXF file's bytes as ezdxf's drawing."""
+"""A DXF file's bytes as records: its entities as they stand in the file, its blocks, layers and units.
+
+ezdxf reads a file whole or not at all, and what it mends it may lose: entities whose handles repeat, all that follows a
+section without its end, a polyline without its subclass. So the file is cut into records here, and ezdxf makes an
+entity of each by itself (`Record.entity`): one that it cannot read is named, and costs no other.
+"""
 
 from __future__ import annotations
 
-import io
+import logging
 import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 
-from ezdxf import recover
-from ezdxf.document import Drawing
+from ezdxf.entities import DXFEntity, factory
 from ezdxf.lldxf.const import DXFError
+from ezdxf.lldxf.extendedtags import ExtendedTags
+from ezdxf.lldxf.repair import tag_reorder_layer
+from ezdxf.lldxf.tagger import binary_tags_loader, tag_compiler
+from ezdxf.lldxf.tags import Tags
+from ezdxf.lldxf.types import DXFTag
+from ezdxf.tools.codepage import toencoding
 
 from skg.errors import UserError
+from skg.plane import XY
+
+# What ezdxf would say is said here, in one line.
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+logging.getLogger("ezdxf").propagate = False
+
+#: A group: its code and its value as text.
+Group = tuple[int, str]
+#: $INSUNITS -> the name of the units, and mm in one.
+UNITS = {
+    1: ("inch", 25.4), 2: ("foot", 304.8), 4: ("mm", 1.0), 5: ("cm", 10.0), 6: ("m", 1000.0), 8: ("microinch", 2.54e-5),
+    9: ("mil", 0.0254), 10: ("yard", 914.4), 13: ("um", 0.001), 14: ("dm", 100.0), 16: ("hm", 1e5), 7: ("km", 1e6),
+    21: ("US survey foot", 1200 / 3937 * 1000),
+}  # fmt: skip
+_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+#: Kinds that belong to the entity before them.
+_PARTS = ("VERTEX", "ATTRIB", "SEQEND")
+#: The subclass that ezdxf asks for where a file has none.
+_SUBCLASS = {"LWPOLYLINE": "AcDbPolyline", "SPLINE": "AcDbSpline", "HELIX": "AcDbSpline"}
+#: Where a block definition tells that its content is in another file.
+_EXTERNAL = 4 | 8 | 16
 
 
-def load(data: bytes, name: str) -> Drawing:
-    """Read a DXF file's bytes; a damaged one is mended as far as ezdxf can, else `UserError`."""
-    if b"SECTION" not in data:
-        raise UserError(f"{name}: not a DXF drawing, it has no SECTION")
+@dataclass(slots=True)
+class Record:
+    """An entity as it stands in the file, with those that follow it as its parts."""
+
+    groups: list[Group]
+    parts: list[Record] = field(default_factory=list)
+
+    @property
+    def kind(self) -> str:
+        """Its name, such as LINE."""
+        return self.groups[0][1].strip().upper()
+
+    def value(self, code: int, default: str = "") -> str:
+        """The first value with a code."""
+        return next((value for found, value in self.groups if found == code), default)
+
+    def whole(self, code: int) -> int:
+        """The first value with a code as a whole number, 0 when there is none."""
+        try:
+            return int(float(self.value(code, "0")))
+        except (ValueError, OverflowError):
+            return 0
+
+    @property
+    def layer(self) -> str:
+        """The name of its layer."""
+        return self.value(8).strip() or "0"
+
+    @property
+    def place(self) -> XY:
+        """The first place that it tells, as it stands there."""
+        try:
+            return float(self.value(10, "0")), float(self.value(20, "0"))
+        except ValueError:
+            return 0.0, 0.0
+
+    def entity(self) -> DXFEntity:
+        """Return ezdxf's entity, without a document; `DXFError` and whatever else ezdxf raises."""
+        entity = factory.load(ExtendedTags(Tags(_tags(self.groups))))
+        for part in self.parts:
+            if part.kind != "SEQEND":
+                entity.link_entity(part.entity())
+        # (only now does ezdxf see whether a polyline is a mesh)
+        return entity.cast() if self.parts and hasattr(entity, "cast") else entity
+
+
+@dataclass
+class Definition:
+    """A block as it is defined: what each reference to it shows."""
+
+    base: tuple[float, float, float]
+    is_external: bool
+    records: list[Record] = field(default_factory=list)
+
+
+@dataclass
+class DxfFile:
+    """What a DXF file holds. `units`: name and mm in one, None when it does not tell. Names of layers and blocks are
+    in lower case as keys. `states`: "off" or "frozen" of layers that are not seen. `notes`: what was mended."""
+
+    units: tuple[str, float] | None = None
+    layers: dict[str, str] = field(default_factory=dict)
+    states: dict[str, str] = field(default_factory=dict)
+    blocks: dict[str, Definition] = field(default_factory=dict)
+    model: list[Record] = field(default_factory=list)
+    paper: list[Record] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+def load(data: bytes) -> DxfFile:
+    """Read a DXF file's bytes, text or binary; what is none is a `UserError`."""
+    if data[:4] == b"AC10" and data[4:6].isdigit():
+        raise UserError("a DWG file, expected DXF: save it as DXF")
+    found = DxfFile()
+    if data.startswith(_BINARY):
+        groups = _of_binary(data)
+    elif b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
+        raise UserError("not a DXF drawing, it has no SECTION")
+    else:
+        groups = _of_text(_decoded(data), found.notes)
+    section = ""
+    records = _records(groups)
+    block: Definition | None = None
+    for record in records:
+        kind = record.kind
+        if kind == "SECTION":
+            section, block = record.value(2).strip().upper(), None
+            if section == "HEADER":
+                found.units = _units(record.groups)
+        elif kind in ("ENDSEC", "EOF"):
+            section = ""
+        elif section == "TABLES" and kind == "LAYER":
+            _layer(found, record)
+        elif section == "BLOCKS":
+            if kind == "BLOCK":
+                block = _block(record)
+                found.blocks[record.value(2).strip().lower()] = block
+            elif kind == "ENDBLK":
+                block = None
+            elif block is not None:
+                _add(block.records, record)
+        elif section == "ENTITIES":
+            _add(found.paper if record.whole(67) else found.model, record)
+    for name, block in found.blocks.items():
+        if name.startswith(("*paper_space", "$paper_space")):
+            found.paper += block.records
+    return found
+
+
+def _add(records: list[Record], record: Record) -> None:
+    if record.kind in _PARTS and records:
+        records[-1].parts.append(record)
+    else:
+        records.append(record)
+
+
+def _records(groups: Iterable[Group]) -> Iterator[Record]:
+    """Groups from each code 0 up to the next."""
+    record: list[Group] = []
+    for group in groups:
+        if group[0] == 0:
+            if record:
+                yield Record(record)
+            record = [group]
+        elif record:
+            record.append(group)
+    if record:
+        yield Record(record)
+
+
+def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
+    """The groups of a text file."""
+    lines = re.split("\r*\n|\r", text)
+    first = 0
+    while first < len(lines) and not lines[first].strip():
+        first += 1
+    value = ""
+    for at in range(first, len(lines) - 1, 2):
+        try:
+            code = int(lines[at])
+        except ValueError:
+            raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
+        value = lines[at + 1]
+        yield code, value
+        if code == 0 and value.strip() == "EOF":
+            return
+    notes.append("the file has no EOF at its end, it may have been cut off")
+
+
+def _of_binary(data: bytes) -> Iterator[Group]:
+    """The groups of a binary file, as text."""
     try:
-        return recover.read(io.BytesIO(data))[0]
-    except (DXFError, OSError, ValueError, KeyError, IndexError, AttributeError) as error:
-        reason = re.sub(r"\s+", " ", str(error)) or type(error).__name__
-        raise UserError(f"{name}: not a DXF drawing that can be read ({reason})") from None
+        for tag in binary_tags_loader(data):
+            value = tag.value
+            yield tag.code, value.hex() if isinstance(value, bytes) else str(value)
+    except (DXFError, IndexError, ValueError) as error:
+        raise UserError(f"not a binary DXF drawing that can be read ({error or type(error).__name__})") from None
+
+
+def _decoded(data: bytes) -> str:
+    """The text of a file: UTF-8 where it is that, else the code page that it tells."""
+    for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"\xef\xbb\xbf", "utf-8-sig")):
+        if data.startswith(mark):
+            return data.decode(encoding, "replace")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        page = re.search(rb"\$DWGCODEPAGE\s+3\s+(\S+)", data)
+        encoding = toencoding(page[1].decode("ascii", "replace")) if page else "cp1252"
+        return data.decode("cp1252" if encoding == "utf8" else encoding, "replace")
+
+
+def _units(header: list[Group]) -> tuple[str, float] | None:
+    """What $INSUNITS tells."""
+    for (code, name), (_, value) in zip(header, header[1:], strict=False):
+        if code == 9 and name.strip() == "$INSUNITS":
+            return UNITS.get(int(value)) if value.strip().isdigit() else None
+    return None
+
+
+def _layer(found: DxfFile, record: Record) -> None:
+    name = record.value(2).strip()
+    found.layers[name.lower()] = name
+    if record.whole(70) & 1:
+        found.states[name.lower()] = "frozen"
+    elif record.whole(62) < 0:
+        found.states[name.lower()] = "off"
+
+
+def _block(record: Record) -> Definition:
+    try:
+        base = tuple(float(record.value(code, "0")) for code in (10, 20, 30))
+    except ValueError:
+        base = 0.0, 0.0, 0.0
+    return Definition(base, bool(record.whole(70) & _EXTERNAL))
+
+
+def _tags(groups: list[Group]) -> list[DXFTag]:
+    """An entity's groups as ezdxf's tags, without handles, application data and extended data."""
+    kept: list[DXFTag] = []
+    is_application, has_subclass = False, False
+    for code, value in groups:
+        if code == 102:
+            is_application = value.strip().startswith("{")
+        elif code >= 1000:
+            break
+        elif code == 100:
+            has_subclass = True
+            kept.append(DXFTag(100, value.strip()))
+        elif not is_application and (code != 5 and code != 330 or has_subclass):
+            kept.append(DXFTag(code, value))
+    kind = kept[0].value.strip().upper()
+    kept[0] = DXFTag(0, kind)
+    if not has_subclass and kind in _SUBCLASS:
+        kept[1:1] = [DXFTag(100, "AcDbEntity"), DXFTag(100, _SUBCLASS[kind])]
+    # (the tag behind the last one makes the reordering let go of an entity)
+    *tags, _ = tag_compiler(tag_reorder_layer(iter([*kept, DXFTag(0, "EOF")])))
+    return tags

@@ -2,294 +2,315 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from math import atan2, cos, isfinite, pi, sin
+from math import pi, radians
 
-from ezdxf import units as dxf_units
-from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic
 from ezdxf.lldxf.const import DXFError
-from ezdxf.math import Vec3
+from ezdxf.math import BSpline, Matrix44, Vec3, bulge_to_arc
 
 from skg.drawing.account import Content, Entity
 from skg.drawing.contour import Edge
-from skg.drawing.curve import curve_edge
+from skg.drawing.dxf_file import DxfFile, Record
+from skg.drawing.shapes import conic, is_number, spline_edges
 from skg.errors import UserError
-from skg.plane import XY, cross, minus, turn
+from skg.plane import XY
 
 #: Kinds that write on a drawing, or that fill what is drawn: nothing to cut.
 NOTES = frozenset(
     """TEXT MTEXT ATTRIB ATTDEF DIMENSION ARC_DIMENSION LARGE_RADIAL_DIMENSION LEADER MULTILEADER MLEADER TOLERANCE
-    HATCH MPOLYGON VIEWPORT IMAGE PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY WIPEOUT OLEFRAME OLE2FRAME ACAD_TABLE RTEXT
-    ARCALIGNEDTEXT POINT LIGHT CAMERA SECTION SUN GEODATA SHAPE""".split()  # noqa: SIM905 (one a line is no table)
+    HATCH MPOLYGON SOLID TRACE VIEWPORT IMAGE PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY WIPEOUT OLEFRAME OLE2FRAME
+    ACAD_TABLE RTEXT ARCALIGNEDTEXT POINT LIGHT CAMERA SECTION SUN GEODATA SHAPE RAY XLINE""".split()  # noqa: SIM905
 )
-#: A direction this near to the z axis is that axis; edges shorter than this (mm) have no length.
-_FLAT, _NONE = 1e-9, 1e-6
 #: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
 _LEVEL = 1e-3
 #: Blocks within blocks within blocks.
 _DEPTH = 32
+#: More entities than this in all are no drawing, but blocks that hold copies of copies.
+_MOST = 1_000_000
+#: A vertex of a polyline that is not on it, but pulls at it.
+_FRAME = 16
+#: What an entity that cannot be read may raise.
+UNREADABLE = (DXFError, ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError, AssertionError)
 
 
 class NotFlat(Exception):
-    """An entity that leaves the drawing's plane."""
+    """An entity that is not understood, or leaves the drawing's plane; the message is the reason."""
 
 
 class _Collector:
-    """Turns entities into edges."""
+    """Turns records into edges. `matrix`: from where the present block's records stand to the drawing."""
 
     def __init__(
-        self,
-        factor: float,
-        tolerance: float,
-        is_wanted: Callable[[str], str],
-        start_layer: str,
+        self, file: DxfFile, factor: float, tolerance: float, is_wanted: Callable[[str], str], start_layer: str
     ) -> None:
+        self.file = file
         self.factor = factor
         self.tolerance = tolerance
         self.is_wanted = is_wanted
         self.start_layer = start_layer.lower()
         self.content = Content()
+        self.matrix: Matrix44 | None = None
+        self.known: dict[int, DXFGraphic] = {}
 
-    def point(self, vector: Vec3) -> XY:
-        """A place of the drawing in mm."""
-        return vector.x * self.factor, vector.y * self.factor
+    def collect(self, records: Iterable[Record], inherited: str, hidden: str, blocks: tuple[str, ...]) -> None:
+        """Add records; those of a block on layer 0 lie on its reference's layer.
 
-    def collect(self, entities: Iterable[DXFGraphic], inherited: str = "", hidden: str = "", depth: int = 0) -> None:
-        """Add all entities; those of a block on layer 0 lie on its reference's layer.
-
-        `hidden`: why nothing of them is cut, for those of a block whose reference is not seen.
+        `hidden`: why nothing of them is seen; `blocks`: the names of those around.
         """
-        for entity in entities:
-            layer = entity.dxf.layer
-            if layer == "0" and inherited:
-                layer = inherited
-            if entity.dxftype() == "INSERT":
-                self.insert(entity, layer, hidden, depth)
+        for record in records:
+            layer = inherited if record.layer == "0" and inherited else record.layer
+            if record.kind == "INSERT":
+                self.insert(record, layer, hidden, blocks)
             else:
-                self.one(entity, layer, hidden)
+                self.one(record, layer, hidden)
 
-    def one(self, entity: DXFGraphic, layer: str, hidden: str) -> None:
-        """Add an entity that is no block reference, and account for it."""
-        kind = entity.dxftype()
-        account = Entity(kind, layer, _place(entity))
-        self.content.entities.append(account)
-        account.left = hidden or self.is_wanted(layer) or ("invisible" if entity.dxf.get("invisible", 0) else "")
+    def place(self, record: Record) -> XY:
+        """A place on a record's entity, in the drawing's units."""
+        at = record.place
+        if not all(map(is_number, at)):
+            return 0.0, 0.0
+        if record.value(230).strip().startswith("-1"):
+            at = -at[0], at[1]
+        if self.matrix is not None:
+            at = self.matrix.transform(Vec3(at)).xyz[:2]
+        return at
+
+    def account(self, record: Record, layer: str) -> Entity:
+        """Add an account of a record."""
+        found = Entity(record.kind, layer, self.place(record))
+        self.content.entities.append(found)
+        if len(self.content.entities) > _MOST:
+            raise UserError(f"more than {_MOST:,} entities, expected a drawing")
+        return found
+
+    def one(self, record: Record, layer: str, hidden: str) -> None:
+        """Add what is no block reference."""
+        account = self.account(record, layer)
+        account.left = hidden or self.is_wanted(layer) or ("invisible" if record.whole(60) else "")
         if account.left:
             return
-        if layer.lower() == self.start_layer and kind in ("POINT", "CIRCLE"):
-            at = entity.dxf.location if kind == "POINT" else entity.ocs().to_wcs(entity.dxf.center)
-            self.content.starts.append(self.point(at))
-            account.left = "a start hole"
-            return
-        if layer.lower() == self.start_layer or kind in NOTES:
+        is_start = layer.lower() == self.start_layer
+        if (
+            record.kind in NOTES
+            and not (is_start and record.kind == "POINT")
+            or is_start
+            and record.kind
+            not in (
+                "POINT",
+                "CIRCLE",
+            )
+        ):
             account.left = "nothing to cut"
             return
         known = len(self.content.edges)
         try:
-            self.entity(entity)
+            if is_start:
+                self.content.starts.append(self.start(self.entity(record)))
+                account.left = "a start hole"
+            else:
+                for edge in self.edges(self.entity(record)):
+                    self.add(edge)
+                if len(self.content.edges) == known:
+                    account.left = "it has no length"
+                return
         except NotFlat as error:
             account.left = str(error)
-        except (DXFError, ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError) as error:
-            account.left = f"not understood ({str(error) or type(error).__name__})"
-        if account.left:
-            account.is_odd = True
-            del self.content.edges[known:]
-        elif len(self.content.edges) == known:
-            account.left = "it has no length"
+        except UNREADABLE as error:
+            account.left = f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
+        account.is_odd = account.left != "a start hole"
+        del self.content.edges[known:]
 
-    def insert(self, entity: DXFGraphic, layer: str, hidden: str, depth: int) -> None:
-        """Add what a block reference shows."""
-        block = entity.block()
-        if block is None or block.block.is_xref or depth > _DEPTH:
-            account = Entity("INSERT", layer, _place(entity), is_odd=True)
-            account.left = hidden or f"its block {entity.dxf.name} is " + (
-                "not in the file" if depth <= _DEPTH else "part of itself"
-            )
-            self.content.entities.append(account)
+    def entity(self, record: Record) -> DXFGraphic:
+        """ezdxf's entity of a record, made once."""
+        if self.matrix is None:
+            return record.entity()
+        if id(record) not in self.known:
+            self.known[id(record)] = record.entity()
+        return self.known[id(record)]
+
+    def insert(self, record: Record, layer: str, hidden: str, blocks: tuple[str, ...]) -> None:
+        """Add what a block reference shows, once for each place of its array."""
+        name = record.value(2).strip()
+        block = self.file.blocks.get(name.lower())
+        reason = ""
+        if block is None:
+            reason = f"its block {name} is not in the file"
+        elif block.is_external:
+            reason = f"its block {name} is in another file"
+        elif name.lower() in blocks or len(blocks) > _DEPTH:
+            reason = f"its block {name} is part of itself"
+        hidden = hidden or ("invisible" if record.whole(60) else "")
+        if self.file.states.get(layer.lower()) == "frozen":
+            hidden = hidden or self.is_wanted(layer)
+        outer = self.matrix
+        try:
+            matrices = [] if reason else [self.placed(single, block.base) for single in _singles(record.entity())]
+        except UNREADABLE as error:
+            reason = f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
+        if reason:
+            account = self.account(record, layer)
+            account.left = hidden or self.is_wanted(layer) or reason
+            account.is_odd = account.left == reason
             return
-        if not hidden and entity.dxf.get("invisible", 0):
-            hidden = "invisible"
-        for single in entity.multi_insert() if entity.mcount > 1 else (entity,):
-            self.collect(single.attribs, layer, hidden, depth + 1)
-            self.collect(single.virtual_entities(), layer, hidden, depth + 1)
+        for matrix in matrices:
+            self.matrix = matrix
+            self.collect(block.records, layer, hidden, (*blocks, name.lower()))
+        self.matrix = outer
+        self.collect((part for part in record.parts if part.kind == "ATTRIB"), layer, hidden, blocks)
 
-    def entity(self, entity: DXFGraphic) -> None:
-        """Add one entity's edges."""
-        kind = entity.dxftype()
-        if entity.dxf.hasattr("extrusion"):
-            direction = Vec3(entity.dxf.extrusion).normalize()
-            if abs(direction.z) < 1 - _FLAT:
-                raise NotFlat("lies in a tilted plane, expected a flat drawing")
-        match kind:
+    def placed(self, insert: DXFGraphic, base: tuple[float, float, float]) -> Matrix44:
+        """From a block's content to the drawing, for one reference."""
+        if Vec3(insert.dxf.extrusion).is_null:
+            insert.dxf.extrusion = Vec3(0, 0, 1)
+        matrix = Matrix44.translate(*(-ordinate for ordinate in base)) @ insert.matrix44()
+        return matrix if self.matrix is None else matrix @ self.matrix
+
+    def start(self, entity: DXFGraphic) -> XY:
+        """A start hole: a POINT, or a CIRCLE around it."""
+        if entity.dxftype() == "POINT":
+            return self.point(entity.dxf.location)
+        return self.point(entity.ocs().to_wcs(entity.dxf.center))
+
+    def edges(self, entity: DXFGraphic) -> Iterable[Edge]:
+        """One entity's edges."""
+        match entity.dxftype():
             case "LINE":
-                start, end = entity.dxf.start, entity.dxf.end
-                self.level(start, end)
-                self.add(Edge(self.point(start), self.point(end)))
-            case "CIRCLE" | "ARC":
-                self.arc(entity)
-            case "LWPOLYLINE" | "POLYLINE":
-                self.polyline(entity)
+                return [Edge(*self.points([entity.dxf.start, entity.dxf.end]))]
+            case "CIRCLE":
+                return self.arc(entity, 0.0, 2 * pi)
+            case "ARC":
+                sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360 or 360
+                return self.arc(entity, radians(entity.dxf.start_angle), radians(sweep))
             case "ELLIPSE":
-                self.ellipse(entity)
+                first = entity.dxf.start_param
+                sweep = (entity.dxf.end_param - first) % (2 * pi) or 2 * pi
+                sweep = 2 * pi if sweep > 2 * pi - 1e-9 else sweep
+                return self.conic(entity.dxf.center, entity.dxf.major_axis, entity.minor_axis, first, sweep)
+            case "LWPOLYLINE":
+                points = [Vec3(x, y, entity.dxf.elevation) for x, y in entity.vertices()]
+                bulges = [bulge for (bulge,) in entity.get_points("b")]
+                return self.polyline(entity, points, bulges, bool(entity.closed))
+            case "POLYLINE" if entity.is_2d_polyline or entity.is_3d_polyline:
+                vertices = [vertex for vertex in entity.vertices if not vertex.dxf.flags & _FRAME]
+                points = [Vec3(vertex.dxf.location) for vertex in vertices]
+                bulges = [vertex.dxf.bulge if entity.is_2d_polyline else 0.0 for vertex in vertices]
+                if entity.is_2d_polyline:
+                    height = Vec3(entity.dxf.elevation).z if entity.dxf.hasattr("elevation") else 0.0
+                    points = [Vec3(point.x, point.y, height) for point in points]
+                return self.polyline(entity, points, bulges, entity.is_closed)
             case "SPLINE" | "HELIX":
-                self.spline(entity)
+                return self.spline(entity)
+            case "POLYLINE":
+                raise NotFlat("a mesh, expected a flat drawing")
+            case "REGION" | "BODY" | "3DSOLID" | "SURFACE" | "ACAD_PROXY_ENTITY" | "PROXY":
+                raise NotFlat("not understood, explode it in the CAD program")
             case _:
                 raise NotFlat("not understood")
 
-    def level(self, *points: Vec3) -> None:
-        """Refuse places at different heights."""
-        heights = [point.z for point in points]
-        if (max(heights) - min(heights)) * self.factor > _LEVEL:
-            raise NotFlat("leaves the drawing's plane, expected a flat drawing")
-
     def add(self, edge: Edge) -> None:
         """Keep an edge unless it has no length."""
-        if not all(map(isfinite, (*edge.start, *edge.end, *(edge.centre or (0.0,)), edge.sweep))):
-            raise ValueError("a number that is none")
-        if edge.length > _NONE:
+        if not all(map(is_number, (*edge.start, *edge.end, *(edge.centre or (0.0,)), edge.sweep))):
+            raise NotFlat("a place of it is no number")
+        if edge.length > 0:
             self.content.edges.append(replace(edge, entity=len(self.content.entities) - 1))
 
-    def polyline(self, entity: DXFGraphic) -> None:
-        if entity.dxftype() == "POLYLINE" and not (entity.is_2d_polyline or entity.is_3d_polyline):
-            raise NotFlat("a mesh, not understood")
-        for part in entity.virtual_entities():
-            self.entity(part)
+    def in_drawing(self, points: Sequence[Vec3]) -> list[Vec3]:
+        """Places of the present block on the drawing; those of different heights are refused."""
+        found = [Vec3(point) for point in points]
+        if self.matrix is not None:
+            found = list(self.matrix.transform_vertices(found))
+        heights = [point.z for point in found]
+        if heights and (max(heights) - min(heights)) * self.factor > _LEVEL:
+            raise NotFlat("leaves the drawing's plane, expected a flat drawing")
+        return found
 
-    def arc(self, entity: DXFGraphic) -> None:
-        ocs = entity.ocs()
-        centre = self.point(ocs.to_wcs(entity.dxf.center))
-        sense = 1 if Vec3(entity.dxf.extrusion).z > 0 else -1
+    def points(self, points: Sequence[Vec3]) -> list[XY]:
+        """Places of the present block in mm."""
+        return [(point.x * self.factor, point.y * self.factor) for point in self.in_drawing(points)]
+
+    def point(self, point: Vec3) -> XY:
+        """One place in mm."""
+        return self.points([point])[0]
+
+    def arc(self, entity: DXFGraphic, first: float, sweep: float) -> list[Edge]:
+        """An arc or circle, which stands in a coordinate system of its own."""
+        ocs = entity.ocs() if not Vec3(entity.dxf.extrusion).is_null else None
         radius = abs(entity.dxf.radius)
-        if entity.dxftype() == "CIRCLE":
-            start = centre[0] + radius * self.factor, centre[1]
-            self.add(Edge(start, start, centre, 2 * pi))
-            return
-        sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360 or 360
-        start, end = self.point(entity.start_point), self.point(entity.end_point)
-        self.add(Edge(start, start if sweep == 360 else end, centre, sense * sweep * pi / 180))
+        frame = [Vec3(entity.dxf.center), Vec3(radius, 0, 0), Vec3(0, radius, 0)]
+        return self.conic(*(frame if ocs is None else ocs.points_to_wcs(frame)), first, sweep)
 
-    def ellipse(self, entity: DXFGraphic) -> None:
-        self.level(Vec3(0, 0, 0), entity.dxf.major_axis)
-        centre, major, minor = (
-            self.point(Vec3(v)) for v in (entity.dxf.center, entity.dxf.major_axis, entity.minor_axis)
-        )
-        first = entity.dxf.start_param
-        last = first + ((entity.dxf.end_param - first) % (2 * pi) or 2 * pi)
-        if last - first > 2 * pi - 1e-9:
-            last = first + 2 * pi
+    def conic(self, centre: Vec3, u: Vec3, v: Vec3, first: float, sweep: float) -> list[Edge]:
+        """centre + u cos t + v sin t from `first` on."""
+        middle, one, other = self.points([Vec3(centre), Vec3(centre) + Vec3(u), Vec3(centre) + Vec3(v)])
+        axes = [(end[0] - middle[0], end[1] - middle[1]) for end in (one, other)]
+        return [conic(middle, *axes, first, sweep, self.tolerance)]
 
-        def curve(t: float) -> tuple[XY, float]:
-            point = tuple(centre[k] + cos(t) * major[k] + sin(t) * minor[k] for k in (0, 1))
-            way = tuple(-sin(t) * major[k] + cos(t) * minor[k] for k in (0, 1))
-            return point, atan2(way[1], way[0])
+    def polyline(self, entity: DXFGraphic, points: list[Vec3], bulges: list[float], is_closed: bool) -> Iterator[Edge]:
+        """Lines and arcs through points; those of a flat polyline stand in a coordinate system of its own."""
+        if is_closed and points:
+            points, bulges = [*points, points[0]], [*bulges, 0.0]
+        is_flat = entity.dxftype() == "LWPOLYLINE" or entity.is_2d_polyline
+        ocs = entity.ocs() if is_flat and not Vec3(entity.dxf.extrusion).is_null else None
+        in_drawing = self.points(list(ocs.points_to_wcs(points)) if ocs else points)
+        for (p, q), (start, end), bulge in zip(pairwise(points), pairwise(in_drawing), bulges, strict=False):
+            if not bulge or start == end:
+                yield Edge(start, end)
+                continue
+            centre, first, last, radius = bulge_to_arc(p, q, bulge)
+            frame = [Vec3(centre.x, centre.y, p.z), Vec3(radius, 0, 0), Vec3(0, radius, 0)]
+            sweep = (last - first) % (2 * pi)
+            frame = list(ocs.points_to_wcs(frame)) if ocs else frame
+            for edge in self.conic(*frame, first, sweep):
+                turned = edge if bulge > 0 else edge.reversed()
+                yield turned if turned.nodes else replace(turned, start=start, end=end)
 
-        if abs(entity.dxf.ratio - 1) < 1e-9:
-            sense = 1 if cross(major, minor) > 0 else -1
-            end = first if last - first == 2 * pi else last
-            self.add(Edge(curve(first)[0], curve(end)[0], centre, sense * (last - first)))
-            return
-        quarters = [k * pi / 2 for k in range(-16, 17) if first + 1e-3 < k * pi / 2 < last - 1e-3]
-        edge = curve_edge(curve, [first, *quarters, last], self.tolerance)
-        self.add(replace(edge, end=edge.start) if last - first == 2 * pi else edge)
-
-    def spline(self, entity: DXFGraphic) -> None:
+    def spline(self, entity: DXFGraphic) -> list[Edge]:
         tool = entity.construction_tool()
-        self.level(*tool.control_points)
-        knots = list(tool.knots())
-        low, high = knots[tool.degree], knots[len(tool.control_points)]
-        aside = 1e-9 * (high - low)
-
-        def direction(t: float) -> float:
-            way = tool.derivative(t, 1)[1]
-            if way.magnitude < 1e-12:
-                before, after = max(low, t - 1e3 * aside), min(high, t + 1e3 * aside)
-                way = tool.point(after) - tool.point(before)
-            return atan2(way.y, way.x)
-
-        # Between knots a spline is smooth; at a knot it may have a corner, where it is cut in two.
-        pieces = [[low]]
-        for knot in sorted({knot for knot in knots if low < knot < high}):
-            pieces[-1].append(knot)
-            if abs(turn(direction(knot - aside), direction(knot + aside))) > 1e-4:
-                pieces.append([knot])
-        pieces[-1].append(high)
-        for stations in pieces:
-            # At a corner the tangent is that of this piece, not of its neighbour.
-            inner = {stations[0]: stations[0] + aside, stations[-1]: stations[-1] - aside}
-
-            def curve(t: float, inner: dict[float, float] = inner) -> tuple[XY, float]:
-                is_knee = low < t < high and t in inner
-                return self.point(tool.point(t)), direction(inner[t] if is_knee else t)
-
-            edge = curve_edge(curve, stations, self.tolerance)
-            chords = (atan2(*reversed(minus(q, p))) for p, q in pairwise(edge.samples))
-            is_straight = all(abs(turn(edge.nodes[0].angle, chord)) < 1e-9 for chord in chords)
-            self.add(Edge(edge.start, edge.end) if is_straight else edge)
+        controls = [Vec3(x, y) for x, y in self.points(tool.control_points)]
+        return spline_edges(BSpline(controls, tool.order, tool.knots(), tool.weights() or None), self.tolerance)
 
 
-def _place(entity: DXFGraphic) -> XY:
-    """A place on an entity, in the drawing's units."""
-    for name in ("start", "center", "insert", "location", "defpoint", "vtx0"):
-        if entity.dxf.is_supported(name) and entity.dxf.hasattr(name):
-            at = Vec3(entity.dxf.get(name))
-            if name in ("center", "insert") and entity.dxf.hasattr("extrusion"):
-                with suppress(DXFError, ArithmeticError):
-                    at = entity.ocs().to_wcs(at)
-            return at.x, at.y
-    with suppress(DXFError, ArithmeticError, AttributeError, ValueError, TypeError, IndexError):
-        match entity.dxftype():
-            case "LWPOLYLINE":
-                at = next(iter(entity.vertices_in_wcs()))
-            case "POLYLINE":
-                at = next(iter(entity.points_in_wcs()))
-            case "SPLINE" | "HELIX":
-                at = Vec3([*entity.control_points, *entity.fit_points][0])
-            case _:
-                return 0.0, 0.0
-        return at.x, at.y
-    return 0.0, 0.0
-
-
-def unit_of(drawing: Drawing) -> tuple[str, float]:
-    """The name of a drawing's units and mm in one; without units "" and 1."""
-    if not drawing.units:
-        return "", 1.0
-    return dxf_units.unit_name(drawing.units).lower(), dxf_units.conversion_factor(drawing.units, dxf_units.MM)
+def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:
+    """The references that one with rows and columns stands for."""
+    return insert.multi_insert() if insert.mcount > 1 else (insert,)
 
 
 def collect(
-    drawing: Drawing,
+    file: DxfFile,
     layers: tuple[str, ...] = (),
     start_layer: str = "START",
     fit_tolerance: float = 0.0002,
     factor: float | None = None,
 ) -> Content:
-    """Return the entities of a drawing's model space, and the edges of those on the given layers, in mm.
+    """Return the entities of a drawing, and the edges of those of its model space on the given layers, in mm.
 
     Without layers those of all layers but the frozen ones and those that are off. `factor`: mm per drawing unit,
-    None: as `unit_of` has it. A layer that the drawing does not have is a `UserError`.
+    None: as the file says, else 1. A layer that the drawing does not have is a `UserError`.
     """
-    known = {layer.dxf.name.lower(): layer.dxf.name for layer in drawing.layers}
-    for entity in drawing.modelspace():
-        known.setdefault(entity.dxf.layer.lower(), entity.dxf.layer)
+    known = dict(file.layers)
+    for record in file.model:
+        known.setdefault(record.layer.lower(), record.layer)
     for layer in layers:
         if layer.lower() not in known:
             raise UserError(f"no layer {layer}, the drawing has {', '.join(sorted(known.values()))}")
     asked_for = {layer.lower() for layer in layers}
-    hidden = {layer.dxf.name.lower(): "off" for layer in drawing.layers if layer.is_off()}
-    hidden |= {layer.dxf.name.lower(): "frozen" for layer in drawing.layers if layer.is_frozen()}
 
     def is_wanted(layer: str) -> str:
         if asked_for:
-            is_asked = layer.lower() in asked_for or layer.lower() == start_layer.lower()
-            return "" if is_asked else "not asked for"
-        state = hidden.get(layer.lower())
+            return "" if layer.lower() in (*asked_for, start_layer.lower()) else "not asked for"
+        if layer.lower() == "defpoints":
+            return "a layer that is never plotted"
+        state = file.states.get(layer.lower())
         return f"the layer is {state}" if state else ""
 
-    collector = _Collector(unit_of(drawing)[1] if factor is None else factor, fit_tolerance, is_wanted, start_layer)
-    collector.collect(drawing.modelspace())
+    if factor is None:
+        factor = file.units[1] if file.units else 1.0
+    collector = _Collector(file, factor, fit_tolerance, is_wanted, start_layer)
+    collector.collect(file.model, "", "", ())
+    collector.matrix = None
+    for record in file.paper:
+        collector.account(record, record.layer).left = "in paper space"
     return collector.content

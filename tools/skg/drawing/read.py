@@ -93,22 +93,22 @@ def layer_lines(data: bytes, name: str) -> list[str]:
     from skg.drawing.dxf_file import load
 
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
-    for entity in load(data, name).modelspace():
-        kinds[entity.dxf.layer][entity.dxftype()] += 1
+    for record in load(data).model:
+        kinds[record.layer][record.kind] += 1
     return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)]
 
 
 def _dxf(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
-    """A DXF drawing's content, and a report that has its units."""
+    """A DXF drawing's content, and an account that has its units."""
     from skg.drawing.dxf_file import load
-    from skg.drawing.entities import collect, unit_of
+    from skg.drawing.entities import collect
 
-    drawing = load(data, name)
-    unit, factor = unit_of(drawing)
-    report = Account(name, unit or "mm", "as the file says" if unit else NOT_TOLD, factor)
+    file = load(data)
+    units = (*file.units, "as the file says") if file.units else ("mm", 1.0, NOT_TOLD)
     if wishes.units:
-        report = Account(name, wishes.units, "as asked for", UNITS[wishes.units])
-    return collect(drawing, wishes.layers, wishes.start_layer, wishes.fit_tolerance, report.factor), report
+        units = wishes.units, UNITS[wishes.units], "as asked for"
+    report = Account(name, units[0], units[2], units[1], notes=file.notes)
+    return collect(file, wishes.layers, wishes.start_layer, wishes.fit_tolerance, report.factor), report
 
 
 def _in_file(place: XY, factor: float) -> XY:
