@@ -7,6 +7,7 @@
 #   make docs     tables, sessions and pictures of the pages, written anew
 #   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
+#   make web      the machine in a web page, web/dist; make web-serve shows it, make test-web looks at it in browsers
 #   make hunt     a million random programs, firmware against reference (PROGRAMS=1000000)
 PYTHON ?= python3
 VENV   := .venv
@@ -22,6 +23,7 @@ include asm/asm.mk
 include tools/tools.mk
 include tests/fuzz/fuzz.mk
 include tests/rom/soup.mk
+include web/web.mk
 -include tests/floats/floats.mk
 
 # The virtual environment of the host tools and tests, made anew when the pinned list changes. The tools are installed as
@@ -43,19 +45,19 @@ run: build/skg80
 	@echo
 	@echo "The tape is in build/run.3b."
 
-test: venv asm80 emu tools
+test: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q -n 2 tests
 	@$(MAKE) -s lint
 
 # One test, or some: T=tests/rom/test_build.py, T="-k wrench".
-t: venv asm80 emu tools
+t: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q $(if $(findstring tests,$(T)),,tests) $(T)
 
 # Style. Not formatted: Python files on the list in tools/pyproject.toml (not yet), C files in .clang-format-ignore
 # (tables made by hand), assembly (in columns, by hand).
 RUFF      := --config tools/pyproject.toml tools asm tests
 C_SOURCES := $(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c))
-C_STYLED  := $(wildcard $(foreach folder,emu tests/emu tests/fuzz tools/skg/native,$(folder)/*.[ch]))
+C_STYLED  := $(wildcard $(foreach folder,emu tests/emu tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]))
 
 format: venv
 	$(VENV)/bin/ruff format -q $(RUFF)

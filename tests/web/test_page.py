@@ -1,0 +1,134 @@
+"""The page in web/: its WebAssembly, its types, and its own code in node, against the tools in Python.
+
+What a browser shows is tested in browsers: `make test-web`.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import ezdxf
+import pytest
+from ezdxf.entities import DXFEntity
+
+from skg.drawing.dxf import draw
+from skg.drawing.source import Made, lay_out
+from skg.tape import gcode, text
+from skg.tape.placed import CUT, WAY_BACK, WAY_IN, PlacedRoute, place
+from skg.tape.simulation import simulate
+
+ROOT = Path(__file__).parents[2]
+WEB = ROOT / "web"
+BIN = WEB / "node_modules" / ".bin"
+TAPES = {path.stem: text.read(str(path)) for path in sorted((ROOT / "examples").glob("*.3b"))}
+
+
+def run(*command: str | Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        command, cwd=ROOT, env=os.environ | environment, capture_output=True, text=True, timeout=300, check=False
+    )
+
+
+@pytest.mark.skipif(not (shutil.which("clang-14") and shutil.which("wasm-ld-14")), reason="no clang and lld 14")
+def test_wasm_is_what_its_sources_give(tmp_path: Path) -> None:
+    made = run("sh", WEB / "wasm" / "build.sh", tmp_path)
+    assert made.returncode == 0, made.stderr
+    for name in ("board.wasm", "walk.wasm"):
+        assert (tmp_path / name).read_bytes() == (WEB / "wasm" / name).read_bytes(), f"{name}: run make web-wasm"
+
+
+def test_types() -> None:
+    made = run(BIN / "tsc", "-p", WEB)
+    assert made.returncode == 0, made.stdout
+
+
+def roles(routes: list[PlacedRoute]) -> list[str]:
+    """What each block is for, in the page's words."""
+    words = {WAY_IN: "in", CUT: "cut", WAY_BACK: "back"}
+    return [
+        "move" if route.is_move else words[part] for route in routes for part, blocks in route.parts() for _ in blocks
+    ]
+
+
+def golden(name: str) -> dict[str, object]:
+    tape = TAPES[name]
+    routes = place(tape, (0, 0), "programmed")
+    blocks = [placed for route in routes for placed in route.blocks]
+    report = simulate(tape, positions="programmed")
+    each = [{"steps": one.steps, "really": one.really, "gap": report.gap} for one in report.each]
+    return {
+        "tape": (ROOT / "examples" / f"{name}.3b").read_bytes().decode("ascii"),
+        "iso": gcode.write(tape),
+        "ends": [placed.end for placed in blocks],
+        "sweeps": [placed.sweep for placed in blocks],
+        "roles": roles(routes),
+        "offPath": report.off_path,
+        "simulated": each,
+    }
+
+
+def shape(entity: DXFEntity) -> tuple[object, ...]:
+    """What an entity is and where, to a nanometre; a line or an arc by its ends in either order."""
+
+    def at(point: object) -> tuple[float, float]:
+        return round(point[0], 6) + 0.0, round(point[1], 6) + 0.0
+
+    kind, layer = entity.dxftype(), entity.dxf.layer
+    match kind:
+        case "LINE":
+            return kind, layer, at(entity.dxf.start), at(entity.dxf.end)
+        case "ARC":
+            return (
+                kind,
+                layer,
+                at(entity.dxf.center),
+                round(entity.dxf.radius, 6),
+                at(entity.start_point),
+                at(entity.end_point),
+            )
+        case "CIRCLE":
+            return kind, layer, at(entity.dxf.center), round(entity.dxf.radius, 6)
+        case _:
+            return kind, layer, at(entity.dxf.location)
+
+
+def near(one: object, other: object) -> bool:
+    """The same, numbers to two nanometres."""
+    if isinstance(one, tuple):
+        return len(one) == len(other) and all(map(near, one, other))
+    return abs(one - other) < 2.1e-6 if isinstance(one, float) else one == other
+
+
+def test_units_in_node(tmp_path: Path) -> None:
+    """The tests of web/test in node; then the drawings that they wrote are compared with those of `skg dxf`."""
+    (tmp_path / "golden.json").write_text(json.dumps({name: golden(name) for name in TAPES}))
+    sources = sorted(WEB.glob("test/*.test.ts"))
+    built = run(
+        BIN / "esbuild",
+        *sources,
+        "--bundle",
+        "--platform=node",
+        "--format=esm",
+        "--target=node20",
+        "--log-level=warning",
+        f"--outdir={tmp_path}",
+        "--out-extension:.js=.mjs",
+    )
+    assert built.returncode == 0, built.stderr
+    done = run("node", "--test", *sorted(tmp_path.glob("*.mjs")), PAGE_TEST=str(tmp_path))
+    assert done.returncode == 0, done.stdout[-6000:]
+    for name, tape in TAPES.items():
+        drawing = ezdxf.readfile(tmp_path / f"{name}.dxf")
+        assert not drawing.audit().errors
+        wanted = draw(*lay_out(Made(tape), (0.0, 0.0), "programmed", "tape", False))
+        ours, theirs = (sorted(map(shape, one.modelspace()), key=str) for one in (drawing, wanted))
+        assert len(ours) == len(theirs), name
+        left = list(theirs)
+        for one in ours:
+            match = next((other for other in left if near(one, other)), None)
+            assert match, (name, one)
+            left.remove(match)

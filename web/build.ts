@@ -1,0 +1,115 @@
+/** Makes web/dist: the page with ROM, examples and manual as they are now. `make web` runs it at the repository's top. */
+import { execFileSync } from "node:child_process";
+import { createHash } from "node:crypto";
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { basename, join } from "node:path";
+import { build, type BuildOptions } from "esbuild";
+import { Marked } from "marked";
+import { readNames, ROM_BYTES } from "./src/board.ts";
+import { pack } from "./src/link.ts";
+import type { Part } from "./src/parts.ts";
+import { layOut } from "./src/placed.ts";
+import { thumbnail } from "./src/svg.ts";
+import { readTape } from "./src/tape.ts";
+
+const OUT = "web/dist";
+/** Programs in other languages are translated when the page is built: by which command of skg. */
+const TRANSLATORS: Record<string, string> = { ".xy": "xy", ".tkh": "tekhtran" };
+const SKG = process.env["SKG"] ?? ".venv/bin/skg";
+
+const common: BuildOptions = { bundle: true, minify: true, target: "es2022", charset: "utf8", legalComments: "none", logLevel: "warning" };
+
+function programOf(path: string, ending: string): string {
+  const command = TRANSLATORS[ending];
+  return command ? execFileSync(SKG, [command, path], { encoding: "latin1" }) : readFileSync(path, "latin1");
+}
+
+/** All of examples/: those with a tape and a program that the standard ROM runs. */
+function parts(): Part[] {
+  const files = readdirSync("examples").sort();
+  return files.filter((file) => file.endsWith(".3b")).flatMap((tape) => {
+    const name = basename(tape, ".3b");
+    const ending = [".skg", ...Object.keys(TRANSLATORS)].find((each) => files.includes(name + each));
+    if (!ending) return [];
+    const program = programOf(join("examples", name + ending), ending);
+    const { items } = readTape(readFileSync(join("examples", tape), "latin1"));
+    const title = /^\d+\s*REM\s*(.*)$/im.exec(program)?.[1] ?? "";
+    return [{ name, title, program, picture: thumbnail(layOut(items).layout, 64) }];
+  });
+}
+
+/** docs/manual.md as a page; behind every program of it stands a link that runs it. */
+async function manual(): Promise<string> {
+  const text = readFileSync("docs/manual.md", "utf8");
+  const links = new Map<string, string>();
+  for (const [, program = ""] of text.matchAll(/^```skg.*\n([^]*?)^```$/gm)) {
+    links.set(program.trim(), `./#z=${await pack(program)}&run`);
+  }
+  const slug = (heading: string): string =>
+    heading.toLowerCase().replace(/<[^>]*>|&[a-z]+;|[^\p{L}\p{N} _-]/gu, "").trim().replace(/ /g, "-");
+  const escape = (code: string): string => code.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+  const pages = new Marked({
+    renderer: {
+      code({ text: code, lang }) {
+        const link = links.get(code.trim());
+        const attempt = (lang ?? "").startsWith("skg") && link
+          ? `<p class="try"><a href="${link}" aria-label="try this program in the machine">try</a></p>` : "";
+        return `<pre tabindex="0"><code>${escape(code)}</code></pre>\n${attempt}`;
+      },
+      heading({ tokens, depth, text: heading }) {
+        return `<h${depth} id="${slug(heading)}">${this.parser.parseInline(tokens)}</h${depth}>\n`;
+      },
+      link({ href, tokens }) {
+        const inside = this.parser.parseInline(tokens);
+        // (other pages of the repository are not in this one)
+        return /^(#|https?:)/.test(href) ? `<a href="${href}">${inside}</a>` : inside;
+      },
+      image({ href, text: name }) {
+        const picture = basename(href);
+        copyFileSync(join("docs", href), join(OUT, picture));
+        return `<img src="${picture}" alt="${escape(name)}" loading="lazy">`;
+      },
+    },
+  });
+  const body = await pages.parse(text);
+  return `<!doctype html>
+<html lang="en"><head><meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'self'; img-src 'self'; base-uri 'none'; form-action 'none'">
+<meta name="viewport" content="width=device-width, initial-scale=1"><title>The SKG language</title>
+<link rel="icon" href="icon.svg" type="image/svg+xml"><link rel="stylesheet" href="manual.css"></head>
+<body><nav><a href="./">SKG in the browser</a></nav><main>${body}</main></body></html>
+`;
+}
+
+async function main(): Promise<void> {
+  rmSync(OUT, { recursive: true, force: true });
+  mkdirSync(OUT, { recursive: true });
+  if (readFileSync("roms/skg.bin").length !== ROM_BYTES) throw new Error(`roms/skg.bin has not ${ROM_BYTES} bytes`);
+  const sym = readFileSync("roms/skg.sym", "latin1");
+  readNames(sym); // (says what is missing)
+  writeFileSync(join(OUT, "skg.sym"), sym.split("\n").filter((line) => WANTED.test(line)).join("\n") + "\n");
+  copyFileSync("roms/skg.bin", join(OUT, "skg.bin"));
+  for (const wasm of ["board.wasm", "walk.wasm"]) copyFileSync(join("web/wasm", wasm), join(OUT, wasm));
+  for (const file of ["index.html", "icon.svg", "manual.css"]) copyFileSync(join("web/src", file), join(OUT, file));
+  writeFileSync(join(OUT, "manifest.webmanifest"), JSON.stringify({
+    name: "SKG", short_name: "SKG", start_url: "./", display: "standalone", background_color: "#f4f4f1", theme_color: "#0b5394",
+    icons: [{ src: "icon.svg", sizes: "any", type: "image/svg+xml" }],
+  }));
+  writeFileSync(join(OUT, "parts.json"), JSON.stringify(parts()));
+  writeFileSync(join(OUT, "manual.html"), await manual());
+  await build({ ...common, format: "esm", entryPoints: ["web/src/main.ts", "web/src/style.css"], outdir: OUT });
+  await build({ ...common, format: "iife", entryPoints: ["web/src/worker.ts"], outdir: OUT });
+  const files = readdirSync(OUT).sort();
+  const hash = createHash("sha256");
+  for (const file of files) hash.update(file).update(readFileSync(join(OUT, file)));
+  await build({
+    ...common, format: "iife", entryPoints: ["web/src/offline.ts"], outdir: OUT,
+    define: { FILES: JSON.stringify(["./", ...files]), VERSION: JSON.stringify(hash.digest("hex").slice(0, 12)) },
+  });
+  if (!existsSync(join(OUT, "main.js"))) throw new Error("no main.js");
+}
+
+/** The names of roms/skg.sym that the page looks at. */
+const WANTED = /^[0-9A-F]{4} (CURLIN|NXTP|NTOC|ADVANC|SRUN|MREG|SWX)\b/;
+
+await main();

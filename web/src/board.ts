@@ -1,0 +1,246 @@
+/** The SKG board in WebAssembly (wasm/page.c): the real ROM, the emulator's own core and board. */
+
+/** Why a run ended, in the order of `board_reason` (emu/board.h). */
+export const REASONS = ["cycles", "prompt", "input", "wait", "halt", "break", "nobody"] as const;
+export type Reason = (typeof REASONS)[number];
+
+/** Addresses out of roms/skg.sym, see page_names in wasm/page.c. */
+export interface Names {
+  current: number;
+  direct: number;
+  element: number;
+  along: number;
+  run: number;
+  wire: number;
+}
+
+/** A line on the punch: a block, `D` or `DD`, or `RUN` where a new tape begins; the program line that made it (0: a direct
+ * statement), and where the wire stands behind it, whole µm. */
+export interface Punched {
+  text: string;
+  line: number;
+  x: number;
+  y: number;
+}
+
+interface Exports {
+  memory: WebAssembly.Memory;
+  page_buffer(length: number): number;
+  page_names(current: number, direct: number, element: number, along: number, run: number, wire: number): void;
+  page_board(which: number, length: number): number;
+  page_reset(which: number): void;
+  page_type(which: number, length: number): number;
+  page_press(which: number, key: number): number;
+  page_forget(which: number): void;
+  page_tape(which: number, length: number): number;
+  page_take_tape(which: number): void;
+  page_idle(which: number): number;
+  page_silence(which: number): number;
+  page_baud(which: number, baud: number): void;
+  page_cycles(which: number): number;
+  page_run(which: number, cycles: number): number;
+  page_printed(which: number): number;
+  page_take_paper(which: number): number;
+  page_punched(which: number): number;
+  page_take_punch(which: number): number;
+  page_made(which: number): number;
+  page_take_makers(which: number): number;
+  page_save(which: number): number;
+  page_restore(which: number, length: number): void;
+}
+
+export const RAM_BYTES = 8192;
+export const ROM_BYTES = 8192;
+const MAKER = 3;
+const VISITORS = 0;
+const SCRATCH = 1;
+/** Cycles that LIST and a reset may take on the second board: 50 s of the real one. */
+const PATIENCE = 100_000_000;
+/** LOAD looks at the empty reader for so many cycles before it is said that it waits for a tape. */
+const SILENCE = 6_000_000;
+
+/** Addresses for `Names` from a .sym file: lines with a hexadecimal value and a name. A missing name is an Error. */
+export function readNames(sym: string): Names {
+  const values = new Map(sym.split("\n").map((line) => {
+    const [value = "", name = ""] = line.split(/\s+/);
+    return [name, parseInt(value, 16)] as const;
+  }));
+  const value = (name: string): number => {
+    const found = values.get(name);
+    if (found === undefined) throw new Error(`skg.sym has no ${name}`);
+    return found;
+  };
+  const register = value("SWX") - 0x80;
+  return {
+    current: value("CURLIN"), direct: value("NXTP"), element: value("NTOC"), along: value("ADVANC"),
+    run: value("SRUN"), wire: value("MREG") + 5 * register,
+  };
+}
+
+export class Board {
+  readonly #wasm: Exports;
+  readonly #rom: Uint8Array;
+  #rest = new Uint8Array(0);
+  #scratch = false;
+
+  private constructor(wasm: Exports, rom: Uint8Array, names: Names) {
+    this.#wasm = wasm;
+    this.#rom = rom;
+    wasm.page_names(names.current, names.direct, names.element, names.along, names.run, names.wire);
+    this.#make(VISITORS);
+  }
+
+  /** A board with this ROM, before its first reset ends; `module` is board.wasm. */
+  static async create(module: WebAssembly.Module, rom: Uint8Array, names: Names): Promise<Board> {
+    const instance = await WebAssembly.instantiate(module, {});
+    return new Board(instance.exports as unknown as Exports, rom, names);
+  }
+
+  type(bytes: Uint8Array): void {
+    this.#wasm.page_type(VISITORS, this.#give(bytes));
+  }
+
+  press(key: number): void {
+    this.#wasm.page_press(VISITORS, key);
+  }
+
+  forget(): void {
+    this.#wasm.page_forget(VISITORS);
+  }
+
+  /** Puts a tape into the reader, in the old one's place. */
+  tape(bytes: Uint8Array): void {
+    this.#wasm.page_take_tape(VISITORS);
+    this.#wasm.page_tape(VISITORS, this.#give(bytes));
+  }
+
+  /** The reset button. */
+  reset(): void {
+    this.#wasm.page_reset(VISITORS);
+  }
+
+  /** 0: no time at all. */
+  baud(baud: number): void {
+    this.#wasm.page_baud(VISITORS, baud);
+  }
+
+  run(cycles: number): Reason {
+    return REASONS[this.#wasm.page_run(VISITORS, cycles)] ?? "halt";
+  }
+
+  get cycles(): number {
+    return this.#wasm.page_cycles(VISITORS);
+  }
+
+  /** True when all that was typed has been taken. */
+  get idle(): boolean {
+    return this.#wasm.page_idle(VISITORS) !== 0;
+  }
+
+  /** True when LOAD waits for a tape. */
+  get readerEmpty(): boolean {
+    return this.#wasm.page_silence(VISITORS) > SILENCE;
+  }
+
+  /** What was printed since this was last asked. */
+  takePaper(): Uint8Array {
+    const length = this.#wasm.page_printed(VISITORS);
+    return this.#copy(this.#wasm.page_take_paper(VISITORS), length);
+  }
+
+  /** The lines that were punched since this was last asked; one that is not whole yet stays for the next time. */
+  takePunched(): Punched[] {
+    const made = this.#wasm.page_made(VISITORS) / 8;
+    const makers = new Float64Array(this.#copy(this.#wasm.page_take_makers(VISITORS), made * 8).buffer);
+    const length = this.#wasm.page_punched(VISITORS);
+    const bytes = this.#copy(this.#wasm.page_take_punch(VISITORS), length);
+    const all = join(this.#rest, bytes);
+    const kept = this.#kept.concat([...makers]);
+    const found: Punched[] = [];
+    let first = 0;
+    for (let at = 0; at < all.length; at++) {
+      if (all[at] !== 10) continue;
+      const text = ascii(all.subarray(first, at)).replace(/[^ -~]/g, "");
+      first = at + 1;
+      if (!text) continue;
+      const [line = 0, x = 0, y = 0] = kept.splice(0, MAKER);
+      found.push({ text, line, x, y });
+    }
+    this.#rest = all.slice(first);
+    this.#kept = kept;
+    return found;
+  }
+
+  #kept: number[] = [];
+
+  /** A copy of the RAM. */
+  save(): Uint8Array {
+    return this.#copy(this.#wasm.page_save(VISITORS), RAM_BYTES);
+  }
+
+  /** Puts a saved RAM back and pushes the reset button: the firmware keeps program and variables where they are whole. */
+  restore(ram: Uint8Array): void {
+    this.#wasm.page_restore(VISITORS, this.#give(ram));
+    this.reset();
+  }
+
+  /** The program that is in a RAM, as LIST prints it. (On a second board: the visitor's one does not notice.) */
+  list(ram: Uint8Array): string {
+    if (!this.#scratch) {
+      this.#make(SCRATCH);
+      this.#scratch = true;
+    }
+    const wasm = this.#wasm;
+    const until = (): void => {
+      const end = wasm.page_cycles(SCRATCH) + PATIENCE;
+      while (wasm.page_cycles(SCRATCH) < end && REASONS[wasm.page_run(SCRATCH, 1_000_000)] !== "prompt");
+    };
+    wasm.page_restore(SCRATCH, this.#give(ram));
+    wasm.page_forget(SCRATCH);
+    wasm.page_reset(SCRATCH);
+    until();
+    wasm.page_take_paper(SCRATCH);
+    wasm.page_type(SCRATCH, this.#give(bytesOf("LIST\r")));
+    until();
+    const length = wasm.page_printed(SCRATCH);
+    const lines = ascii(this.#copy(wasm.page_take_paper(SCRATCH), length)).split("\r\n");
+    return lines.slice(1).filter((line) => /^\d/.test(line)).map((line) => `${line}\n`).join("");
+  }
+
+  #make(which: number): void {
+    if (!this.#wasm.page_board(which, this.#give(this.#rom))) throw new Error("no memory for the board");
+  }
+
+  #give(bytes: Uint8Array): number {
+    const at = this.#wasm.page_buffer(bytes.length);
+    if (!at) throw new Error("no memory for the board");
+    new Uint8Array(this.#wasm.memory.buffer, at, bytes.length).set(bytes);
+    return bytes.length;
+  }
+
+  #copy(at: number, length: number): Uint8Array<ArrayBuffer> {
+    return new Uint8Array(this.#wasm.memory.buffer, at, length).slice();
+  }
+}
+
+/** Text of bytes below 128; others keep their low seven bits. */
+export function ascii(bytes: Uint8Array): string {
+  let text = "";
+  for (let at = 0; at < bytes.length; at += 8192) {
+    text += String.fromCharCode(...bytes.subarray(at, at + 8192).map((byte) => byte & 0x7f));
+  }
+  return text;
+}
+
+/** Bytes of a text; characters beyond ASCII become `?`. */
+export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(text, (character) => Math.min(character.codePointAt(0) ?? 63, 128)).map(
+    (byte) => (byte > 126 && byte !== 127 ? 63 : byte));
+}
+
+function join(a: Uint8Array, b: Uint8Array): Uint8Array<ArrayBuffer> {
+  const both = new Uint8Array(a.length + b.length);
+  both.set(a);
+  both.set(b, a.length);
+  return both;
+}

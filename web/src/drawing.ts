@@ -1,0 +1,495 @@
+/** The part on a canvas, to scale: blocks as they come, leads, stops, start holes, direction, the wire's cut, what is chosen and
+ * where the controller is. */
+import type { Choice, Chooser } from "./choice.ts";
+import { boxOf, directionAt, distanceFrom, isLine, lengthOf, nothing, placeAt, type Layout, type Placed } from "./placed.ts";
+import type { XY } from "./tape.ts";
+import { View } from "./view.ts";
+
+/** A curve is drawn as lines that leave it by at most so much, a corner nearer than this to the last is left out: pixels. */
+const TOLERANCE = 0.15;
+const NEAR = 0.4;
+/** A pointer finds blocks within so many pixels. */
+const REACH = 12;
+const PAN_STEP = 60;
+const ZOOM_STEP = 1.25;
+/** Arrow heads stand no nearer to each other than this, pixels. */
+const ARROWS = 90;
+
+type Box = [number, number, number, number];
+
+export interface Colours {
+  wire: string;
+  lead: string;
+  chosen: string;
+  walk: string;
+  ruler: string;
+}
+
+/** Where the controller is, for the picture of the wire. */
+export interface Wire {
+  place: XY;
+  at: number;
+  done: number;
+}
+
+export class Drawing {
+  readonly view = new View();
+  readonly #base: HTMLCanvasElement;
+  readonly #over: HTMLCanvasElement;
+  readonly #chooser: Chooser;
+  #layout: Layout = nothing();
+  #boxes: Box[] = [];
+  #extent: Box | undefined;
+  #colours: Colours = { wire: "#000", lead: "#000", chosen: "#000", walk: "#000", ruler: "#000" };
+  #wireWidth = 0;
+  #walk: Wire | undefined;
+  /** The visitor has looked closer: the window stays where it is. */
+  #isHeld = false;
+  #drawn = 0;
+  #needsAll = true;
+  #asked = 0;
+  #pixels = 1;
+  #size: XY = [300, 200];
+  #since = ARROWS;
+  readonly #pointers = new Map<number, XY>();
+  #moved = false;
+  /** Called with the place under the pointer, µm, or undefined. */
+  onPoint: ((place: XY | undefined) => void) | undefined;
+  /** How long the last drawing took, ms, for those who measure. */
+  took = 0;
+
+  constructor(base: HTMLCanvasElement, over: HTMLCanvasElement, chooser: Chooser) {
+    this.#base = base;
+    this.#over = over;
+    this.#chooser = chooser;
+    new ResizeObserver(() => this.#resize()).observe(base);
+    chooser.onChange((choice, by) => {
+      if (by !== this) this.#bringIn(choice);
+      this.#ask(false);
+    });
+    this.#listen();
+    this.#resize();
+  }
+
+  /** Another tape; what is drawn of it comes with `grown`. */
+  show(layout: Layout): void {
+    this.#layout = layout;
+    this.#boxes = [];
+    this.#extent = undefined;
+    this.#isHeld = false;
+    this.#walk = undefined;
+    this.#note();
+    this.fit();
+  }
+
+  /** The layout has more blocks than before; `again`: what was there is not the same either. */
+  grown(again = false): void {
+    this.#note();
+    if (!this.#isHeld && this.#extent && !this.#isInside(this.#extent)) this.fit();
+    else this.#ask(again);
+  }
+
+  #note(): void {
+    const { blocks } = this.#layout;
+    for (let at = this.#boxes.length; at < blocks.length; at++) {
+      const box = boxOf(blocks[at] as Placed);
+      this.#boxes.push(box);
+      this.#extent = this.#extent
+        ? [Math.min(this.#extent[0], box[0]), Math.min(this.#extent[1], box[1]),
+          Math.max(this.#extent[2], box[2]), Math.max(this.#extent[3], box[3])]
+        : box;
+    }
+  }
+
+  fit(): void {
+    this.#isHeld = false;
+    if (this.#extent) this.view.fit(this.#extent, ...this.#size);
+    this.#ask(true);
+  }
+
+  zoom(by: number, about: XY = [this.#size[0] / 2, this.#size[1] / 2]): void {
+    this.#isHeld = true;
+    this.view.zoom(by, about);
+    this.#ask(true);
+  }
+
+  pan(dx: number, dy: number): void {
+    this.#isHeld = true;
+    this.view.pan(dx, dy);
+    this.#ask(true);
+  }
+
+  /** Diameter of the wire whose cut is drawn, mm; 0: none. */
+  set wireWidth(wire: number) {
+    this.#wireWidth = wire * 1000;
+    this.#ask(true);
+  }
+
+  set colours(colours: Colours) {
+    this.#colours = colours;
+    this.#ask(true);
+  }
+
+  set walk(walk: Wire | undefined) {
+    this.#walk = walk;
+    this.#ask(false);
+  }
+
+  #isInside([left, bottom, right, top]: Box): boolean {
+    const [x0, y0] = this.view.toPixel([left, top]);
+    const [x1, y1] = this.view.toPixel([right, bottom]);
+    return x0 >= 0 && y0 >= 0 && x1 <= this.#size[0] && y1 <= this.#size[1];
+  }
+
+  #resize(): void {
+    const { clientWidth, clientHeight } = this.#base;
+    if (!clientWidth || !clientHeight) return;
+    this.#pixels = Math.min(2, devicePixelRatio || 1);
+    this.#size = [clientWidth, clientHeight];
+    for (const canvas of [this.#base, this.#over]) {
+      canvas.width = Math.round(clientWidth * this.#pixels);
+      canvas.height = Math.round(clientHeight * this.#pixels);
+    }
+    if (this.#isHeld) this.#ask(true);
+    else this.fit();
+  }
+
+  #ask(all: boolean): void {
+    this.#needsAll ||= all;
+    this.#asked ||= requestAnimationFrame(() => {
+      this.#asked = 0;
+      this.draw();
+    });
+  }
+
+  /** Draws what is new, or all when something else has changed. */
+  draw(): void {
+    const began = performance.now();
+    const context = this.#base.getContext("2d");
+    if (!context) return;
+    context.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
+    const { blocks } = this.#layout;
+    if (this.#needsAll || this.#drawn > blocks.length) {
+      context.clearRect(0, 0, ...this.#size);
+      this.#needsAll = false;
+      this.#drawn = 0;
+      this.#since = ARROWS;
+      this.#rulers(context);
+      this.#marks(context);
+    }
+    if (this.#drawn < blocks.length) {
+      const from = this.#drawn;
+      this.#drawn = blocks.length;
+      this.#curves(context, from);
+    }
+    this.#overlay();
+    this.took = performance.now() - began;
+  }
+
+  #curves(context: CanvasRenderingContext2D, from: number): void {
+    const { blocks } = this.#layout;
+    const cut = new Path2D();
+    const leads = new Path2D();
+    this.#trace(cut, blocks, from, ({ role }) => role === "cut");
+    this.#trace(leads, blocks, from, ({ role }) => role !== "cut");
+    context.lineJoin = "round";
+    if (this.#wireWidth * this.view.scale > 1.5) {
+      context.save();
+      context.globalAlpha = 0.25;
+      context.lineCap = "round";
+      context.strokeStyle = this.#colours.wire;
+      context.lineWidth = this.#wireWidth * this.view.scale;
+      context.stroke(cut);
+      context.restore();
+    }
+    // A thin line by its joins alone: with many blocks they cost more than all else.
+    context.lineJoin = blocks.length - from > 4000 ? "bevel" : "round";
+    context.strokeStyle = this.#colours.wire;
+    context.lineWidth = 1.25;
+    context.stroke(cut);
+    context.save();
+    context.setLineDash([5, 4]);
+    context.strokeStyle = this.#colours.lead;
+    context.stroke(leads);
+    context.restore();
+    this.#arrows(context, from);
+  }
+
+  /** Adds blocks to a path, in pixels; those outside of the window are left out. */
+  #trace(path: Path2D, blocks: readonly Placed[], from: number, wanted: (placed: Placed) => boolean): void {
+    const margin = this.#wireWidth * this.view.scale + 4;
+    const [left, bottom] = this.view.toPlace([-margin, this.#size[1] + margin]);
+    const [right, top] = this.view.toPlace([this.#size[0] + margin, -margin]);
+    let penX = NaN;
+    let penY = NaN;
+    const { scale, x: originX, y: originY } = this.view;
+    const to = (x: number, y: number, always: boolean): void => {
+      const px = originX + x * scale;
+      const py = originY - y * scale;
+      if (!always && Math.abs(px - penX) < NEAR && Math.abs(py - penY) < NEAR) return;
+      path.lineTo(px, py);
+      penX = px;
+      penY = py;
+    };
+    let last: Placed | undefined;
+    for (let at = from; at < blocks.length; at++) {
+      const placed = blocks[at] as Placed;
+      const box = this.#boxes[at];
+      if (!wanted(placed) || (box && (box[0] > right || box[2] < left || box[1] > top || box[3] < bottom))) {
+        last = undefined;
+        continue;
+      }
+      if (!last || last.end[0] !== placed.start[0] || last.end[1] !== placed.start[1]) {
+        penX = originX + placed.start[0] * scale;
+        penY = originY - placed.start[1] * scale;
+        path.moveTo(penX, penY);
+      }
+      last = placed;
+      if (!isLine(placed)) this.#arc(placed, to);
+      to(placed.end[0], placed.end[1], at === blocks.length - 1);
+    }
+  }
+
+  /** The places along an arc, so near to each other that it looks round. */
+  #arc(placed: Placed, to: (x: number, y: number, always: boolean) => void): void {
+    const radius = placed.radius * this.view.scale;
+    if (radius * Math.abs(placed.sweep) < NEAR) return;
+    const step = 2 * Math.acos(Math.max(0, 1 - TOLERANCE / Math.max(radius, TOLERANCE)));
+    const parts = Math.min(20_000, Math.ceil(Math.abs(placed.sweep) / Math.max(step, 1e-6)));
+    for (let part = 1; part < parts; part++) {
+      const angle = placed.first + (placed.sweep * part) / parts;
+      to(placed.centre[0] + placed.radius * Math.cos(angle), placed.centre[1] + placed.radius * Math.sin(angle), false);
+    }
+  }
+
+  #arrows(context: CanvasRenderingContext2D, from: number): void {
+    const { blocks } = this.#layout;
+    context.fillStyle = this.#colours.wire;
+    const heads = new Path2D();
+    for (let at = from; at < blocks.length; at++) {
+      const placed = blocks[at] as Placed;
+      const length = lengthOf(placed) * this.view.scale;
+      this.#since += length;
+      if (this.#since < ARROWS || length < 14) continue;
+      this.#since = 0;
+      const [x, y] = this.view.toPixel(placeAt(placed, 0.5));
+      const way = -directionAt(placed, 0.5);
+      heads.moveTo(x + 7 * Math.cos(way), y + 7 * Math.sin(way));
+      heads.lineTo(x + 5 * Math.cos(way + 2.5), y + 5 * Math.sin(way + 2.5));
+      heads.lineTo(x + 5 * Math.cos(way - 2.5), y + 5 * Math.sin(way - 2.5));
+      heads.closePath();
+    }
+    context.fill(heads);
+  }
+
+  /** Stops as squares, start holes as circles, and the entry: where the way in meets the contour. */
+  #marks(context: CanvasRenderingContext2D): void {
+    const { holes, stops, blocks } = this.#layout;
+    context.strokeStyle = this.#colours.lead;
+    context.fillStyle = this.#colours.lead;
+    context.lineWidth = 1.25;
+    for (const hole of holes) {
+      const [x, y] = this.view.toPixel(hole);
+      context.beginPath();
+      context.arc(x, y, 5, 0, 2 * Math.PI);
+      context.stroke();
+    }
+    for (const { at } of stops) {
+      const [x, y] = this.view.toPixel(at);
+      context.strokeRect(x - 7.5, y - 7.5, 15, 15);
+    }
+    for (const placed of blocks) {
+      if (placed.role !== "in") continue;
+      const [x, y] = this.view.toPixel(placed.end);
+      context.beginPath();
+      context.arc(x, y, 3, 0, 2 * Math.PI);
+      context.fill();
+    }
+  }
+
+  /** A length below, to read sizes by; and the axes' crossing. */
+  #rulers(context: CanvasRenderingContext2D): void {
+    const wanted = 110 / this.view.scale / 1000;
+    const ten = 10 ** Math.floor(Math.log10(wanted));
+    const length = ten * (wanted / ten >= 5 ? 5 : wanted / ten >= 2 ? 2 : 1);
+    const pixels = length * 1000 * this.view.scale;
+    const [x, y] = [12, this.#size[1] - 12];
+    context.strokeStyle = context.fillStyle = this.#colours.ruler;
+    context.lineWidth = 1;
+    context.beginPath();
+    context.moveTo(x, y - 5);
+    context.lineTo(x, y);
+    context.lineTo(x + pixels, y);
+    context.lineTo(x + pixels, y - 5);
+    const [ox, oy] = this.view.toPixel([0, 0]);
+    context.moveTo(ox - 6, oy);
+    context.lineTo(ox + 6, oy);
+    context.moveTo(ox, oy - 6);
+    context.lineTo(ox, oy + 6);
+    context.stroke();
+    context.font = "12px system-ui, sans-serif";
+    context.fillText(length >= 0.01 ? `${Number(length.toPrecision(3))} mm` : `${Number((length * 1000).toPrecision(3))} µm`,
+      x + 4, y - 6);
+  }
+
+  #overlay(): void {
+    const context = this.#over.getContext("2d");
+    if (!context) return;
+    context.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
+    context.clearRect(0, 0, ...this.#size);
+    const { blocks } = this.#layout;
+    const chosen = chosenBlocks(this.#chooser.choice, blocks);
+    if (chosen.size) {
+      const path = new Path2D();
+      this.#trace(path, blocks, 0, (placed) => chosen.has(placed.number));
+      context.strokeStyle = this.#colours.chosen;
+      context.lineWidth = 4;
+      context.lineCap = "round";
+      context.stroke(path);
+    }
+    const walk = this.#walk;
+    if (!walk) return;
+    const path = new Path2D();
+    this.#trace(path, blocks.slice(0, walk.at), 0, ({ role }) => role === "cut");
+    context.strokeStyle = this.#colours.walk;
+    context.lineWidth = 2.5;
+    context.stroke(path);
+    const [x, y] = this.view.toPixel(walk.place);
+    const present = blocks[walk.at];
+    if (present) {
+      const part = new Path2D();
+      this.#trace(part, [{ ...present, sweep: present.sweep * walk.done, end: walk.place }], 0, () => true);
+      context.stroke(part);
+    }
+    context.beginPath();
+    context.arc(x, y, Math.max(4, (this.#wireWidth / 2) * this.view.scale), 0, 2 * Math.PI);
+    context.fillStyle = this.#colours.walk;
+    context.fill();
+  }
+
+  /** Pans so that what was chosen elsewhere can be seen, when nothing of it can. */
+  #bringIn(choice: Choice): void {
+    if (!this.#isHeld) return;
+    const chosen = chosenBlocks(choice, this.#layout.blocks);
+    const [first] = chosen;
+    if (first === undefined) return;
+    const [width, height] = this.#size;
+    const seen = [...chosen].some((number) => {
+      const [left, bottom, right, top] = this.#boxes[number - 1] ?? [0, 0, 0, 0];
+      const [x0, y0] = this.view.toPixel([left, top]);
+      const [x1, y1] = this.view.toPixel([right, bottom]);
+      return x1 > 0 && y1 > 0 && x0 < width && y0 < height;
+    });
+    if (seen) return;
+    const [x, y] = this.view.toPixel(placeAt(this.#layout.blocks[first - 1] as Placed, 0.5));
+    this.pan(width / 2 - x, height / 2 - y);
+  }
+
+  /** The block that is nearest to a pixel, within reach. */
+  #nearest(pixel: XY): Placed | undefined {
+    const place = this.view.toPlace(pixel);
+    const reach = REACH / this.view.scale;
+    let best = reach;
+    let found: Placed | undefined;
+    this.#layout.blocks.forEach((placed, at) => {
+      const box = this.#boxes[at];
+      if (!box || place[0] < box[0] - best || place[0] > box[2] + best || place[1] < box[1] - best || place[1] > box[3] + best) {
+        return;
+      }
+      const distance = distanceFrom(placed, place);
+      if (distance < best) {
+        best = distance;
+        found = placed;
+      }
+    });
+    return found;
+  }
+
+  #listen(): void {
+    const canvas = this.#over;
+    const pixel = (event: MouseEvent): XY => {
+      const box = canvas.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      const lines = event.deltaMode ? event.deltaY * 30 : event.deltaY;
+      this.zoom(Math.exp(-Math.max(-300, Math.min(300, lines)) / 400), pixel(event));
+    }, { passive: false });
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      this.#pointers.set(event.pointerId, pixel(event));
+      this.#moved = false;
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const now = pixel(event);
+      const before = this.#pointers.get(event.pointerId);
+      if (before) this.#drag(event.pointerId, before, now);
+      else this.#point(now);
+      this.onPoint?.(this.view.toPlace(now));
+    });
+    const lift = (event: PointerEvent): void => {
+      if (this.#pointers.delete(event.pointerId) && !this.#moved) this.#point(pixel(event));
+    };
+    canvas.addEventListener("pointerup", lift);
+    canvas.addEventListener("pointercancel", lift);
+    canvas.addEventListener("pointerleave", () => this.onPoint?.(undefined));
+    canvas.addEventListener("dblclick", () => this.fit());
+    canvas.addEventListener("keydown", (event) => {
+      if (event.ctrlKey || event.altKey || event.metaKey) return;
+      const action = this.#keys[event.key];
+      if (!action) return;
+      event.preventDefault();
+      action();
+    });
+  }
+
+  readonly #keys: Record<string, () => void> = {
+    "+": () => this.zoom(ZOOM_STEP),
+    "=": () => this.zoom(ZOOM_STEP),
+    "-": () => this.zoom(1 / ZOOM_STEP),
+    "0": () => this.fit(),
+    Home: () => this.fit(),
+    ArrowLeft: () => this.pan(PAN_STEP, 0),
+    ArrowRight: () => this.pan(-PAN_STEP, 0),
+    ArrowUp: () => this.pan(0, PAN_STEP),
+    ArrowDown: () => this.pan(0, -PAN_STEP),
+    n: () => this.#step(1),
+    p: () => this.#step(-1),
+  };
+
+  /** The next or the last block is chosen. */
+  #step(by: number): void {
+    const { choice } = this.#chooser;
+    const at = choice && "block" in choice ? choice.block : by > 0 ? 0 : this.#layout.blocks.length + 1;
+    const next = Math.min(this.#layout.blocks.length, Math.max(1, at + by));
+    if (this.#layout.blocks.length) this.#chooser.choose({ block: next });
+  }
+
+  #point(now: XY): void {
+    const found = this.#nearest(now);
+    if (found) this.#chooser.choose({ block: found.number }, this);
+  }
+
+  /** One pointer pans; two zoom and pan. */
+  #drag(id: number, before: XY, now: XY): void {
+    const other = [...this.#pointers].find(([each]) => each !== id)?.[1];
+    if (Math.hypot(now[0] - before[0], now[1] - before[1]) < 3 && !this.#moved) return;
+    this.#moved = true;
+    this.#pointers.set(id, now);
+    if (!other) {
+      this.pan(now[0] - before[0], now[1] - before[1]);
+      return;
+    }
+    const [was, is] = [before, now].map(([x, y]) => Math.max(1, Math.hypot(x - other[0], y - other[1])));
+    this.view.pan((now[0] - before[0]) / 2, (now[1] - before[1]) / 2);
+    this.zoom((is as number) / (was as number), [(now[0] + other[0]) / 2, (now[1] + other[1]) / 2]);
+  }
+}
+
+/** Numbers of the blocks that a choice means. */
+export function chosenBlocks(choice: Choice, blocks: readonly Placed[]): Set<number> {
+  if (!choice) return new Set();
+  if ("block" in choice) return new Set(choice.block <= blocks.length ? [choice.block] : []);
+  return new Set(blocks.filter((placed) => placed.line === choice.line).map((placed) => placed.number));
+}

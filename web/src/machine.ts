@@ -1,0 +1,76 @@
+/** The page's side of the board's worker. */
+import { bytesOf, type Punched } from "./board.ts";
+import type { News, Order, Speed, State } from "./worker.ts";
+
+export interface Listener {
+  /** `seen` is to be called when all of it has been shown: the board waits for that. */
+  out(paper: string, punched: Punched[], seen: () => void): void;
+  state(state: State, cycles: number): void;
+  memory(ram: Uint8Array, program: string, rom: string): void;
+  failed(why: string): void;
+}
+
+export class Machine {
+  readonly #worker: Worker;
+  readonly #listener: Listener;
+
+  constructor(listener: Listener) {
+    this.#listener = listener;
+    this.#worker = new Worker(new URL("worker.js", document.baseURI));
+    this.#worker.onmessage = (event: MessageEvent<News>) => this.#hear(event.data);
+    this.#worker.onerror = (event) => listener.failed(event.message || "worker");
+  }
+
+  start(speed: Speed, kept?: { ram: Uint8Array | undefined; program: string; rom: string }): void {
+    this.#say({
+      kind: "start", speed,
+      ...(kept ? { program: kept.program, rom: kept.rom, ...(kept.ram ? { ram: kept.ram } : {}) } : {}),
+    });
+  }
+
+  /** Types at the machine's pace: a character goes in when the board asks for one. */
+  type(text: string): void {
+    this.#say({ kind: "type", bytes: bytesOf(text.replace(/\r?\n/g, "\r")) });
+  }
+
+  /** Presses a key now, whatever waits to be typed. */
+  press(key: number): void {
+    this.#say({ kind: "press", key });
+  }
+
+  /** NEW (`clear`), LOAD and RUN of a program; what runs is broken off. */
+  load(program: string, run: boolean, clear = true): void {
+    this.#say({ kind: "load", program, run, clear });
+  }
+
+  restore(ram: Uint8Array): void {
+    this.#say({ kind: "restore", ram });
+  }
+
+  reset(): void {
+    this.#say({ kind: "reset" });
+  }
+
+  speed(speed: Speed): void {
+    this.#say({ kind: "speed", speed });
+  }
+
+  #say(order: Order): void {
+    this.#worker.postMessage(order);
+  }
+
+  #hear(news: News): void {
+    switch (news.kind) {
+      case "out":
+        this.#listener.out(news.paper, news.punched, () => this.#say({ kind: "seen" }));
+        this.#listener.state(news.state, news.cycles);
+        break;
+      case "memory":
+        this.#listener.memory(news.ram, news.program, news.rom);
+        break;
+      case "failed":
+        this.#listener.failed(news.why);
+        break;
+    }
+  }
+}

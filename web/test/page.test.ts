@@ -1,0 +1,106 @@
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { test } from "node:test";
+import { recognize, tooLarge } from "../src/files.ts";
+import { isWord, preferred, t } from "../src/language.ts";
+import { LinkError, pack, readLink, unpack } from "../src/link.ts";
+import { fromBase64, readEverything, Store, toBase64 } from "../src/store.ts";
+import { View } from "../src/view.ts";
+
+const bytes = (text: string): Uint8Array => Uint8Array.from(text, (character) => character.charCodeAt(0));
+
+test("a link carries every example and opens it again", async () => {
+  for (const file of readdirSync("examples").filter((name) => name.endsWith(".skg"))) {
+    const program = readFileSync(`examples/${file}`, "latin1");
+    const code = await pack(program);
+    assert.match(code, /^[\w-]+$/);
+    const link = await readLink(`#z=${code}&run&embed`);
+    assert.deepEqual(link, { program, run: true, embed: true });
+  }
+  assert.deepEqual(await readLink("#part=wrench"), { part: "wrench", run: false, embed: false });
+  assert.deepEqual(await readLink(""), { run: false, embed: false });
+});
+
+test("a link cut short, at any place, or with a wrong character is no program", async () => {
+  const code = await pack(readFileSync("examples/wrench.skg", "latin1"));
+  for (let length = 0; length < code.length - 1; length += 7) await assert.rejects(unpack(code.slice(0, length)), LinkError);
+  await assert.rejects(unpack(code.slice(0, -2)), LinkError);
+  const middle = code.length >> 1;
+  await assert.rejects(unpack(code.slice(0, middle) + (code[middle] === "A" ? "B" : "A") + code.slice(middle + 1)), LinkError);
+  await assert.rejects(unpack("%%%"), LinkError);
+  await assert.rejects(unpack(await pack("X".repeat(70_000))), LinkError);
+});
+
+test("files are what they are", () => {
+  const kind = (name: string, text: string): string => {
+    const found = recognize(name, bytes(text));
+    return found.kind === "refused" ? found.why : found.kind;
+  };
+  for (const [name, text, expected] of [
+    ["a.skg", "10 CUT X\n", "program"], ["a.txt", "10 CUT X\r\n20 END", "program"], ["a.SKG", "REM direct\n10 A=1", "program"],
+    ["a.3b", "B1B2B2GYL1DD", "tape"], ["a.txt", "B 1 B 2 B 2 GY L1\nDD", "tape"], ["a.TXT", "N 1: B1B2B2GYL1", "tape"],
+    ["a.3b", "10 CUT X\n", "badTape"], ["a.3b", "", "badEmpty"], ["a.skg", " \n", "badEmpty"], ["a.skg", "10 REM \xe9\n", "badText"],
+    ["a.png", "\x89PNG\r\n\x1a\n", "badKind"], ["a.txt", "hello", "badKind"], ["a.dxf", "0\nSECTION", "noDxf"], ["a.xy", "(+)D(0,0)", "noXy"],
+    ["a.tkh", "x", "noXy"], ["a.json", "{}", "badSaved"], ["a.json", '{"format":"skg-page","version":1', "badSaved"],
+    ["a.skg", "10 REM\n".repeat(20_000), "badLarge"],
+    ["a.json", '{"format":"skg-page","version":1,"kept":null,"settings":{},"tape":""}', "saved"],
+    ["a.json", '{"format":"skg-page","version":1,"kept":{"ram":1},"settings":{},"tape":""}', "badSaved"],
+  ] as const) {
+    assert.equal(kind(name, text), expected, `${name} ${text.slice(0, 20)}`);
+  }
+  assert.equal(tooLarge("a.3b", 20_000_000)?.kind, "refused");
+  assert.equal(tooLarge("a.3b", 1_000_000), undefined);
+  assert.ok(isWord("badLarge") && t("badTape", "a.3b", 1, 2, 3, "x").includes("a.3b"));
+});
+
+test("every word that the page asks for is there", () => {
+  const page = readFileSync("web/src/index.html", "utf8");
+  const words = [...page.matchAll(/data-[tl]="(\w+)"/g)].map((match) => match[1] as string);
+  assert.ok(words.length > 50);
+  for (const word of words) assert.ok(isWord(word), word);
+  assert.equal(preferred(["fr", "zh-TW", "en"]), "zh");
+  assert.equal(preferred(["en-GB", "zh"]), "en");
+  assert.equal(preferred(["ru"]), "en");
+});
+
+test("a browser that refuses to keep anything is told of once, and nothing else happens", () => {
+  let refusals = 0;
+  const refuse = (): never => { throw new Error("no"); };
+  Object.defineProperty(globalThis, "localStorage", { configurable: true, value: { getItem: refuse, setItem: refuse } });
+  const store = new Store(() => refusals++);
+  store.settings = { speed: "real" };
+  store.machine = null;
+  assert.equal(store.machine, null);
+  assert.deepEqual(store.settings, {});
+  assert.equal(refusals, 1);
+  const kept = new Map<string, string>([["skg.machine", '{"ram":5}']]);
+  Object.defineProperty(globalThis, "localStorage", {
+    value: { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => kept.set(key, value) },
+  });
+  assert.equal(store.machine, null, "what is not whole is nothing");
+  store.settings = { wire: 0.2 };
+  store.settings = { theme: "dark" };
+  assert.deepEqual(store.settings, { wire: 0.2, theme: "dark" });
+});
+
+test("base64 and saved pages", () => {
+  const some = Uint8Array.from({ length: 8192 }, (_, at) => at * 7);
+  assert.deepEqual(fromBase64(toBase64(some)), some);
+  assert.equal(fromBase64("*"), undefined);
+  assert.equal(readEverything("not json"), undefined);
+});
+
+test("the window zooms about a pixel and shows all of a box", () => {
+  const view = new View();
+  view.fit([-1000, 0, 9000, 4000], 400, 300);
+  for (const corner of [[-1000, 0], [9000, 4000]] as const) {
+    const [x, y] = view.toPixel(corner);
+    assert.ok(x >= 0 && x <= 400 && y >= 0 && y <= 300);
+  }
+  const place = view.toPlace([123, 45]);
+  view.zoom(3, [123, 45]);
+  const [x, y] = view.toPlace([123, 45]);
+  assert.ok(Math.hypot(x - place[0], y - place[1]) < 1e-6);
+  view.zoom(1e30, [0, 0]);
+  assert.equal(view.scale, 1000);
+});

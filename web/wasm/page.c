@@ -1,0 +1,302 @@
+/* The board as the page holds it: what board.ts calls in board.wasm
+ *
+ * One board for the visitor, and a second one to look into copies of its memory (`which` 0 and 1). Paper and punch are kept
+ * until they are taken. Of every line on the punch (a block, D, DD) it is noted which line of the program made it and
+ * where the wire stands behind it.
+ *
+ * That is read in the firmware's cells and at two of its labels (page_names): when an element of the route becomes the
+ * present one (`element`), the line that runs is its line; while the wire goes along it (from `along` until it returns),
+ * what is punched is that line's. All else - the way from the start hole and back, from hole to hole, D, DD - belongs to the
+ * line that runs. Line 0: a direct statement. Where a run begins (`run`), the punch gets a line RUN that is not the
+ * firmware's: what follows is a new tape.
+ */
+#include "../../emu/board.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define EXPORT(name) __attribute__((export_name(#name)))
+
+enum { BOARDS = 2, RAM_KIB = 8, RAM = RAM_KIB * 1024, FLOAT = 5, EXCESS = 128, BUFFER_STEP = 4096 };
+
+typedef struct {
+    uint8_t *bytes;
+    size_t length, size;
+} record;
+
+/* What made a line on the punch, and where the wire stands behind it (um). */
+typedef struct {
+    double line, x, y;
+} maker;
+
+static struct held {
+    board *board;
+    record paper, punch, makers;
+    bool punching;              /* in the middle of a line of the punch */
+    uint16_t element_line;      /* of the present element of the route */
+    bool along;                 /* the wire goes along it */
+    uint16_t back;              /* where that ends */
+} boards[BOARDS];
+
+static record buffer;           /* what goes in */
+
+static struct {
+    uint16_t current, direct, element, along, run, wire;
+} names;
+
+static bool room(record *r, size_t length)
+{
+    if (r->length + length > r->size) {
+        size_t size = r->size + r->size / 2 + length + BUFFER_STEP;
+        uint8_t *grown = realloc(r->bytes, size);
+        if (!grown) {
+            return false;
+        }
+        r->bytes = grown;
+        r->size = size;
+    }
+    return true;
+}
+
+static void keep(record *r, const void *bytes, size_t length)
+{
+    if (!room(r, length)) {
+        __builtin_trap();       /* a page that loses tape must not go on */
+    }
+    memcpy(r->bytes + r->length, bytes, length);
+    r->length += length;
+}
+
+static uint16_t word_at(const struct held *h, uint16_t address)
+{
+    const i8080 *c = &h->board->cpu;
+    return (uint16_t)(i8080_peek(c, address) | i8080_peek(c, (uint16_t)(address + 1)) << 8);
+}
+
+/* A float of the firmware's: excess, then the mantissa with the sign in place of its first bit. */
+static double float_at(const struct held *h, uint16_t address)
+{
+    uint8_t bytes[FLOAT];
+    for (unsigned i = 0; i < FLOAT; i++) {
+        bytes[i] = i8080_peek(&h->board->cpu, (uint16_t)(address + i));
+    }
+    if (!bytes[0]) {
+        return 0;
+    }
+    double value = (bytes[1] | 0x80u) << 24 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 8 | bytes[4];
+    for (int excess = bytes[0] - EXCESS - 32; excess; excess += excess < 0 ? 1 : -1) {
+        value = excess < 0 ? value / 2 : value * 2;
+    }
+    return bytes[1] & 0x80 ? -value : value;
+}
+
+static uint16_t running_line(const struct held *h)
+{
+    return i8080_peek(&h->board->cpu, (uint16_t)(names.direct + 1)) ? word_at(h, names.current) : 0;
+}
+
+static bool is_name(uint16_t address)
+{
+    return address == names.element || address == names.along || address == names.run;
+}
+
+static void print(void *user, uint8_t byte)
+{
+    keep(&((struct held *)user)->paper, &byte, 1);
+}
+
+static void punch(void *user, uint8_t byte)
+{
+    struct held *h = user;
+    keep(&h->punch, &byte, 1);
+    if (!h->punching && byte >= ' ') {
+        maker m = { .line = h->along ? h->element_line : running_line(h),
+                    .x = float_at(h, names.wire),
+                    .y = float_at(h, (uint16_t)(names.wire + FLOAT)) };
+        keep(&h->makers, &m, sizeof m);
+    }
+    h->punching = byte >= ' ';
+}
+
+/* ---- what board.ts calls ---- */
+
+/* Room for so many bytes that go in with the next call; 0 without memory. */
+EXPORT(page_buffer) uint8_t *page_buffer(uint32_t length)
+{
+    buffer.length = 0;
+    return room(&buffer, length) ? buffer.bytes : NULL;
+}
+
+/* Addresses: cell of the line that runs; cell whose high byte is 0 for a direct statement; the three labels; the first of
+ * two floats, where the wire stands. */
+EXPORT(page_names)
+void page_names(uint32_t current, uint32_t direct, uint32_t element, uint32_t along, uint32_t run, uint32_t wire)
+{
+    names.current = (uint16_t)current;
+    names.direct = (uint16_t)direct;
+    names.element = (uint16_t)element;
+    names.along = (uint16_t)along;
+    names.run = (uint16_t)run;
+    names.wire = (uint16_t)wire;
+}
+
+/* A board with the ROM in the buffer; false without memory. */
+EXPORT(page_board) bool page_board(uint32_t which, uint32_t length)
+{
+    struct held *h = &boards[which];
+    board_free(h->board);
+    h->board = board_new(BOARD_6850, RAM_KIB);
+    if (!h->board) {
+        return false;
+    }
+    h->board->paper = print;
+    h->board->punch = punch;
+    h->board->user = h;
+    board_rom(h->board, buffer.bytes, length);
+    i8080_break(&h->board->cpu, names.element, true);
+    i8080_break(&h->board->cpu, names.along, true);
+    i8080_break(&h->board->cpu, names.run, true);
+    return true;
+}
+
+EXPORT(page_reset) void page_reset(uint32_t which)
+{
+    boards[which].along = false;
+    board_reset(boards[which].board);
+}
+
+EXPORT(page_type) bool page_type(uint32_t which, uint32_t length)
+{
+    return board_type(boards[which].board, buffer.bytes, length);
+}
+
+EXPORT(page_press) bool page_press(uint32_t which, uint32_t key)
+{
+    return board_press(boards[which].board, (uint8_t)key);
+}
+
+EXPORT(page_forget) void page_forget(uint32_t which)
+{
+    board_forget_typed(boards[which].board);
+}
+
+EXPORT(page_tape) bool page_tape(uint32_t which, uint32_t length)
+{
+    return board_tape(boards[which].board, buffer.bytes, length);
+}
+
+EXPORT(page_take_tape) void page_take_tape(uint32_t which)
+{
+    board_take_tape(boards[which].board);
+}
+
+EXPORT(page_idle) bool page_idle(uint32_t which)
+{
+    return board_idle(boards[which].board);
+}
+
+EXPORT(page_silence) double page_silence(uint32_t which)
+{
+    return (double)board_reader_silence(boards[which].board);
+}
+
+EXPORT(page_baud) void page_baud(uint32_t which, uint32_t baud)
+{
+    boards[which].board->baud = baud;
+}
+
+EXPORT(page_cycles) double page_cycles(uint32_t which)
+{
+    return (double)boards[which].board->cpu.cycles;
+}
+
+/* The present element changes, or the wire sets out along it, or comes back from there. */
+static void follow(struct held *h)
+{
+    i8080 *c = &h->board->cpu;
+    if (h->along && c->pc == h->back) {
+        h->along = false;
+        i8080_break(c, h->back, is_name(h->back));
+    }
+    if (c->pc == names.run) {
+        h->along = false;
+        for (const char *at = "RUN\n"; *at; at++) {
+            punch(h, (uint8_t)*at);
+        }
+    } else if (c->pc == names.element) {
+        h->element_line = running_line(h);
+        h->along = false; /* (an error may have left it so) */
+    } else if (c->pc == names.along) {
+        h->along = true;
+        h->back = word_at(h, c->sp);
+        i8080_break(c, h->back, true);
+    }
+}
+
+/* Runs as board_run does. */
+EXPORT(page_run) uint32_t page_run(uint32_t which, double cycles)
+{
+    struct held *h = &boards[which];
+    i8080 *c = &h->board->cpu;
+    uint64_t end = c->cycles + (uint64_t)cycles;
+    for (;;) {
+        board_reason reason = board_run(h->board, end > c->cycles ? end - c->cycles : 0);
+        if (reason != BOARD_BREAK) {
+            return reason;
+        }
+        follow(h);
+        /* On over the breakpoint. */
+        uint16_t here = c->pc;
+        i8080_break(c, here, false);
+        i8080_run(c, 1);
+        i8080_break(c, here, is_name(here));
+    }
+}
+
+static uint8_t *taken(record *r)
+{
+    r->length = 0;
+    return r->bytes;
+}
+
+/* Length of what was printed, punched, and of its makers; then the bytes, which are forgotten. */
+EXPORT(page_printed) uint32_t page_printed(uint32_t which)
+{
+    return boards[which].paper.length;
+}
+EXPORT(page_take_paper) uint8_t *page_take_paper(uint32_t which)
+{
+    return taken(&boards[which].paper);
+}
+EXPORT(page_punched) uint32_t page_punched(uint32_t which)
+{
+    return boards[which].punch.length;
+}
+EXPORT(page_take_punch) uint8_t *page_take_punch(uint32_t which)
+{
+    return taken(&boards[which].punch);
+}
+EXPORT(page_made) uint32_t page_made(uint32_t which)
+{
+    return boards[which].makers.length;
+}
+EXPORT(page_take_makers) uint8_t *page_take_makers(uint32_t which)
+{
+    return taken(&boards[which].makers);
+}
+
+/* The RAM into the buffer, and the buffer into the RAM (RAM_KIB). */
+EXPORT(page_save) uint8_t *page_save(uint32_t which)
+{
+    uint8_t *bytes = page_buffer(RAM);
+    for (unsigned i = 0; bytes && i < RAM; i++) {
+        bytes[i] = i8080_peek(&boards[which].board->cpu, (uint16_t)(BOARD_RAM_START + i));
+    }
+    return bytes;
+}
+EXPORT(page_restore) void page_restore(uint32_t which, uint32_t length)
+{
+    for (unsigned i = 0; i < RAM && i < length; i++) {
+        i8080_poke(&boards[which].board->cpu, (uint16_t)(BOARD_RAM_START + i), buffer.bytes[i]);
+    }
+}

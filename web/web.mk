@@ -1,0 +1,28 @@
+# The machine in a web page: web/dist. Needs node; the .wasm are committed, `make web-wasm` compiles them (clang and lld 14).
+WEB_BIN := web/node_modules/.bin
+
+web-modules: web/node_modules/.package-lock.json
+web/node_modules/.package-lock.json: web/package.json web/package-lock.json
+	npm ci --prefix web --silent --no-audit --no-fund --ignore-scripts
+	touch $@
+
+# A TypeScript file as a node program.
+web/build/%.mjs: web/%.ts $(wildcard web/src/*.ts web/test/*.ts) web/node_modules/.package-lock.json
+	@$(WEB_BIN)/esbuild $< --bundle --platform=node --format=esm --packages=external --target=node20 --log-level=warning \
+		--outfile=$@
+
+web: venv web/build/build.mjs
+	@node web/build/build.mjs
+	@echo "The page is in web/dist: make web-serve shows it, any web server serves it."
+
+web-serve: web
+	$(PYTHON) -m http.server --bind 127.0.0.1 --directory web/dist 8080
+
+web-wasm:
+	web/wasm/build.sh
+
+# In real browsers: Debian's chromium and firefox-esr, as far as they are there.
+test-web: web
+	$(PY) -m pytest -q web/test
+
+.PHONY: web web-modules web-serve web-wasm test-web
