@@ -131,7 +131,7 @@ def path_edges(program: str) -> list[Edge]:
 
 
 def tape_edges(made: source.Made, positions: str, polylines: bool = False, joints: str = "drawn") -> list[Edge]:
-    routes, stops = lay_out(made, made.start, positions, joints, is_program=False)
+    routes, stops = lay_out(made, made.start, positions, joints)
     return collect(draw(routes, stops, polylines), ("WIRE",)).edges
 
 
@@ -218,7 +218,7 @@ def test_joints_of_the_tape() -> None:
     """With --joints tape every joint is a whole micrometre, where the controller or the block ends."""
     made = by_reference(program_of(drawings.cam), True)
     for positions in ("programmed", "machine"):
-        routes = lay_out(made, made.start, positions, "tape", is_program=False)[0]
+        routes = lay_out(made, made.start, positions, "tape")[0]
         assert all(ordinate % 1 == 0 for route in routes for placed in route.blocks for ordinate in placed.end)
         assert apart(tape_edges(made, positions, joints="tape"), edges_of(drawings.cam)) > LIMIT
 

@@ -6,7 +6,7 @@ import io
 
 import click
 
-from skg.commands.options import Coordinates, positions_option, skg80_option
+from skg.commands.options import Coordinates, decided, positions_option, skg80_option
 from skg.files import write_bytes
 from skg.plane import XY
 
@@ -31,10 +31,9 @@ def command(file: str, output: str, start: XY | None, polylines: bool, positions
     """
     from skg.drawing.dxf import draw
     from skg.drawing.source import lay_out, load
-    from skg.rivals.languages import is_program
 
     made = load(file, skg80)
-    routes, stops = lay_out(made, start or made.start, positions, joints, is_program(file))
+    routes, stops = lay_out(made, start or made.start, decided(made.tape, positions), joints)
     text = io.StringIO()
     draw(routes, stops, polylines).write(text)
     write_bytes(output, text.getvalue().encode())

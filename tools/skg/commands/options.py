@@ -6,13 +6,24 @@ from collections.abc import Callable
 
 import click
 
-from skg.tape.block import MAX_DIGITS
-from skg.tape.placed import POSITIONS
+from skg.tape.block import MAX_DIGITS, Tape
+from skg.tape.positions import POSITIONS, decide
 
 positions_option = click.option(
     "--positions", type=click.Choice(POSITIONS), default="auto", show_default=True,
     help="Start each block where the block before should have ended (programmed), or where the controller "
-         "really stands then (machine: tapes without drift); auto: found out from the tape.")
+         "really stands then (machine: tapes without drift); auto: as the tape says, else found out, and said.")
+
+
+def decided(tape: Tape, positions: str) -> str:
+    """Where a tape's blocks start, "programmed" or "machine"; `positions` is what --positions says.
+
+    What had to be found out, and how, goes to standard error in one line, and so does what was noted when it was read.
+    """
+    decision = decide(tape, positions)
+    for note in (*tape.notes, *filter(None, [decision.why])):
+        click.echo(f"skg: {tape.name}: {note}", err=True)
+    return decision.positions
 
 
 def output_option(text: str) -> Callable[[Callable], Callable]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import Coordinates, positions_option, skg80_option
+from skg.commands.options import Coordinates, decided, positions_option, skg80_option
 from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import micrometres
@@ -57,7 +57,7 @@ def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool,
         made = load(name, skg80, show_offset)
         x, y = start[at] if at < len(start) else made.start
         home = micrometres(x), micrometres(y)
-        routes = place(made.tape, home, positions)
+        routes = place(made.tape, home, decided(made.tape, positions))
         sheets.append(Sheet(Path(name).name, routes, made.contour))
         stops.append(stop_places(made.tape, routes, home))
     if not any(sheet.routes for sheet in sheets):

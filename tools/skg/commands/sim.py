@@ -7,7 +7,7 @@ from dataclasses import asdict, replace
 
 import click
 
-from skg.commands.options import positions_option
+from skg.commands.options import decided, positions_option
 from skg.drawing.source import load
 from skg.plane import XY
 from skg.tape.simulation import Report, closing, duration, simulate
@@ -70,7 +70,8 @@ def command(tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, 
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
     and whether the path closes. A program (.skg, .xy) is run first. TAPE - is the standard input.
     """
-    reports = [simulate(load(name).tape, feed, progress=True, positions=positions) for name in tapes_]
+    tapes = [load(name).tape for name in tapes_]
+    reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
     if as_json:
         kept = reports if blocks else [replace(report, each=()) for report in reports]
         click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))

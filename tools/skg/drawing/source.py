@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from skg.errors import UserError
@@ -16,6 +16,7 @@ from skg.rivals.languages import is_program, is_rival, translated
 from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
 from skg.tape.placed import PlacedRoute, place, stop_places
+from skg.tape.positions import decide
 
 #: Cycles after which a program hangs: 140 hours of the 2 MHz board.
 _MOST_CYCLES = 10**12
@@ -42,7 +43,11 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
         return Made(tapes.read(name))
     # The reference is needed in any case: only it knows where on the drawing the wire is.
     data, start, contour = _run(name, skg80, with_contour)
-    return Made(tapes.parse(data, name), start, contour)
+    tape = tapes.parse(data, name)
+    if skg80 in (None, "reference"):
+        # The standard ROM or the reference as it is.
+        tape = replace(tape, drift=True)
+    return Made(tape, start, contour)
 
 
 def tape_bytes(name: str, skg80: str | None = None) -> bytes:
@@ -117,22 +122,17 @@ def _run_reference(name: str, text: str, with_contour: bool) -> tuple[bytes, XY,
     return result.tape, start, nominal(result.path) if with_contour else ()
 
 
-def lay_out(made: Made, start: XY, positions: str, joints: str, is_program: bool,
-            ) -> tuple[list[PlacedRoute], list[XY]]:
+def lay_out(made: Made, start: XY, positions: str, joints: str) -> tuple[list[PlacedRoute], list[XY]]:
     """Return a tape's routes and stops in µm, its wire starting at `start` (mm).
 
-    `positions` is one of `skg.tape.placed.POSITIONS`. `joints` "drawn": where the corners most likely were before the
-    tape's rounding; "tape": at the whole µm that the blocks or the controller end at. `is_program`: the tape was just
-    made by the standard ROM or the reference.
+    `positions` is one of `skg.tape.positions.POSITIONS`. `joints` "drawn": where the corners most likely were before
+    the tape's rounding; "tape": at the whole µm that the blocks or the controller end at.
     """
-    from skg.tape.joints import estimate, is_without_drift  # which loads numpy
+    from skg.tape.joints import estimate  # which loads numpy
 
     home = micrometres(start[0]), micrometres(start[1])
     if joints == "tape":
         routes = place(made.tape, home, positions)
     else:
-        if positions == "auto":
-            # A program was just run by the standard ROM or the reference as it is.
-            positions = "machine" if not is_program and is_without_drift(made.tape) else "programmed"
-        routes = estimate(made.tape, home, positions == "machine")
+        routes = estimate(made.tape, home, decide(made.tape, positions).positions == "machine")
     return routes, stop_places(made.tape, routes, home)

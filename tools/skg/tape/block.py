@@ -234,10 +234,17 @@ class Stop:
 
 @dataclass(frozen=True)
 class Tape:
-    """A tape: blocks and stops in order; `name` is where it came from."""
+    """A tape: blocks and stops in order; `name` is where it came from.
+
+    `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so, in words (empty:
+    it was made just now). `notes`: what there is to say of how it was read.
+    """
 
     name: str
     items: tuple[Block | Stop, ...]
+    drift: bool | None = None
+    drift_by: str = ""
+    notes: tuple[str, ...] = ()
 
     @property
     def blocks(self) -> list[Block]:

@@ -8,34 +8,32 @@ each axis.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import cos, exp, floor, hypot, log, sin, sqrt
+from math import cos, exp, floor, hypot, sin, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
-from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import Block, Tape
-from skg.tape.controller import run_block
 from skg.tape.placed import Placed, PlacedRoute, lay
+from skg.tape.roundings import (
+    VARIANCE,
+    Misses,
+    Vector,
+    closes,
+    end_on_machine,
+    gap_of,
+    goes,
+    likelihood,
+    move_of,
+)
 
-#: Variance of an error spread evenly over ±½.
-_VARIANCE = 1 / 12
 #: Arcs of a larger sweep (radians) were drawn as arcs; those of fitted curves are shorter.
 _DRAWN = 0.25
 #: Radii of arcs on a tape that follow each other this closely are taken for the roundings of one radius: a
 #: radius is off by δ − γ along a line, by at most √2 to each side.
 _SAME_RADIUS, _RADIUS_SPREAD = 0.8, 2 * sqrt(2)
-#: A route is meant to close when it does so to this many standard deviations.
-_CLOSES = 4
-#: Log likelihood for a tape without drift where a route closes on the machine alone; against it, as programmed alone.
-_SURE = 10
-#: No more than this, and it is a tape of the standard ROM, of which there are more.
-_DOUBT = 1
 
-Vector = NDArray[np.float64]
 #: Block number -> the radius of its group and how many arcs and circles have it.
 Radii = dict[int, tuple[float, int]]
 
@@ -51,61 +49,11 @@ def estimate(tape: Tape, start: tuple[int, int], without_drift: bool) -> list[Pl
     return lay(tape, start, lambda blocks, at: _from_machine(blocks, at, radii))
 
 
-def is_without_drift(tape: Tape) -> bool:
-    """Whether a tape's blocks start where the controller stands.
-
-    Then a route that closes does so on the machine, and the circle of an arc whose centre was moved (docs/drift.md)
-    passes close to a whole micrometre at the block's end, the closer the shorter the arc. On another tape it passes
-    anywhere, and routes that close as programmed seldom do so on the machine. Where the tape does not tell, because
-    the drawing lies on whole micrometres or is symmetrical, the answer is a guess.
-    """
-    try:
-        return sum(map(_evidence_of_route, tape.stretches())) > _DOUBT
-    except UserError:
-        # A block that never ends on the controller (a circle of a few µm): it cannot tell where it stands.
-        return False
-
-
-def _evidence_of_route(blocks: list[Block]) -> float:
-    """Log likelihood that the blocks between two stops are without drift, against a tape with drift."""
-    arcs = [block for block in blocks if block.is_arc]
-    if not arcs:
-        return 0.0
-    evidence = sum(map(_evidence, arcs))
-    gap, spread = _gap(blocks)
-    is_closed = [sum(ordinates) for ordinates in zip(*map(_goes, blocks), strict=True)] == [0, 0]
-    if not _closes(gap, spread):
-        return evidence + _SURE * is_closed
-    return evidence + (log(1 + len(arcs)) if is_closed else -_SURE)
-
-
 # Arcs -----------------------------------------------------------------------------------------------------
 
 def _is_drawn(block: Block) -> bool:
     """A circle, or an arc that is too long to be part of a fitted curve."""
     return abs(block.sweep) > _DRAWN
-
-
-def _end(block: Block) -> Vector:
-    """An arc's end about its centre: whole along the count axis, across it on the circle."""
-    return np.array(block.on_circle(block.end))
-
-
-@lru_cache(maxsize=100_000)
-def _goes(block: Block) -> tuple[int, int]:
-    """Where the controller goes with a block, (dx, dy)."""
-    return run_block(block).move
-
-
-def _end_on_machine(block: Block) -> Vector:
-    """An arc's end where the controller stops: a tape without drift counts J as it does."""
-    (xs, ys), (dx, dy) = block.start, _goes(block)
-    return np.array(block.on_circle((xs + dx, ys + dy)))
-
-
-def _move(block: Block) -> Vector:
-    """From a block's start to its end, not rounded."""
-    return _end(block) - block.start if block.is_arc else np.array(block.move, float)
 
 
 def _same_radii(radii: dict[int, float]) -> Radii:
@@ -146,72 +94,12 @@ def _xy(point: Vector) -> XY:
 
 # A tape with drift ----------------------------------------------------------------------------------------
 
-class _Misses:
-    """What the roundings do to the ends of the arcs of a route, to first order.
-
-    The roundings are one array: the δ of the joints, then the γ of each block's centre. An arc's true end lies off
-    its unrounded end by e = (s·δ₀ − t·δ₁ + (t − s)·γ) / t across the count axis, s and t the directions from the
-    centre to start and end: both true ends are equally far from the true centre.
-    """
-
-    def __init__(self, blocks: list[Block], closed: bool) -> None:
-        self.blocks = blocks
-        count = len(blocks)
-        # A circle ends at the joint where it starts, a closed route too.
-        joints = list(accumulate((not block.is_full_circle for block in blocks), initial=0))
-        if closed:
-            joints = [0 if joint == joints[-1] else joint for joint in joints]
-        self.joints = joints
-        self.centres = range(count + 1, 2 * count + 1)
-        self.parts: list[list[tuple[int, Vector]]] = []
-        for at, block in enumerate(blocks):
-            self.parts.append([])
-            if block.is_arc:
-                radius, across = hypot(block.x, block.y), block.across
-                first, last = np.array(block.start) / radius, _end(block) / radius
-                # By its count axis an arc ends at 0.7 across it, but for circles of a few µm.
-                if abs(last[across]) > 0.1:
-                    self.parts[at] = [(place, way / last[across]) for place, way in (
-                        (joints[at], first), (joints[at + 1], -last), (self.centres[at], last - first))]
-
-    def none(self) -> Vector:
-        """Roundings, all 0."""
-        return np.zeros((2 * len(self.blocks) + 1, 2))
-
-    def pulls(self) -> Vector:
-        """How much each rounding adds to the sum of all e on each axis (2 × roundings × 2)."""
-        found = np.array([self.none(), self.none()])
-        for block, parts in zip(self.blocks, self.parts, strict=True):
-            for place, way in parts:
-                found[block.across, place] += way
-        return found
-
-    def of(self, roundings: Vector) -> Vector:
-        """Every block's e as a vector (blocks × 2)."""
-        found = np.zeros((len(self.blocks), 2))
-        for at, (block, parts) in enumerate(zip(self.blocks, self.parts, strict=True)):
-            for place, way in parts:
-                found[at, block.across] += way @ roundings[place]
-        return found
-
-
-def _gap(blocks: list[Block]) -> tuple[Vector, Vector]:
-    """By how much a route's unrounded moves do not close, and the standard deviation of that, were it closed."""
-    pulls = _Misses(blocks, True).pulls()
-    return sum(map(_move, blocks)), np.sqrt(_VARIANCE * (pulls**2).sum(axis=(1, 2)))
-
-
-def _closes(gap: Vector, spread: Vector) -> bool:
-    """Whether roundings alone explain a route's gap."""
-    return bool((abs(gap) <= _CLOSES * spread + 1e-6).all())
-
-
 def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Placed], XY]:
     """Lay out a route whose blocks start at the rounded ends: the roundings are those with the least sum of squares
     by which arcs of one radius have it and a closed route closes."""
-    gap, spread = _gap(blocks)
-    closes = len(blocks) > 1 and _closes(gap, spread)
-    misses = _Misses(blocks, closes)
+    gap, spread = gap_of(blocks)
+    is_closed = len(blocks) > 1 and closes(gap, spread)
+    misses = Misses(blocks, is_closed)
     roundings, pulls = misses.none(), misses.pulls()
     for k, block in enumerate(blocks):
         if block.number not in radii:
@@ -227,13 +115,13 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
             part = (pull[joint] - pull[centre]) @ first / 2
             pull[joint] -= part * first
             pull[centre] += part * first
-    if closes:
+    if is_closed:
         products = np.einsum("ikl,jkl->ij", pulls, pulls)
         roundings += np.einsum("i,ikl->kl", np.linalg.pinv(products, rcond=1e-9)
                                @ (gap - misses.of(roundings).sum(axis=0)), pulls)
     ends = misses.of(roundings)
     # The rounded joints as far as the estimate goes, and from them the true ones.
-    rounded = list(accumulate((_move(block) - end for block, end in zip(blocks, ends, strict=True)),
+    rounded = list(accumulate((move_of(block) - end for block, end in zip(blocks, ends, strict=True)),
                               initial=np.array(at, float)))
     joints = [place - roundings[joint] for place, joint in zip(rounded, misses.joints, strict=True)]
     centres = [place - block.start - roundings[centre]
@@ -246,7 +134,7 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
 def _from_machine(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Placed], XY]:
     """Lay out a route whose blocks start where the controller stands: an arc meant to end at the rounded place that
     its centre was moved for, a line and a circle do end there."""
-    stands = list(accumulate((np.array(_goes(block)) for block in blocks), initial=np.array(at)))
+    stands = list(accumulate((np.array(goes(block)) for block in blocks), initial=np.array(at)))
     joints, centres = [np.array(at, float)], []
     for block, (start, end) in zip(blocks, pairwise(stands), strict=True):
         centre = np.array(start - block.start, float)
@@ -271,17 +159,17 @@ def _meant(block: Block, start: Vector, radius: tuple[float, int] | None) -> Vec
     known (with how many arcs have it), that it was rounded to what `start` (the joint, about the centre) and end
     make of it.
     """
-    end, across = _end_on_machine(block), block.across
+    end, across = end_on_machine(block), block.across
     centre = np.zeros(2)
     half = abs(block.sweep) / 2
     total = mean = 0.0
     for whole in range(floor(end[across]) - 2, floor(end[across]) + 4):
         place = end.copy()
         place[across] = whole
-        weight = _likelihood(block, place)
+        weight = likelihood(block, place)
         if radius and weight:
             # The centre's two roundings count as cos half, the chord's two as half of sin half.
-            variance = _VARIANCE * (2 * cos(half) ** 2 + sin(half) ** 2 / 2 + 1 / radius[1])
+            variance = VARIANCE * (2 * cos(half) ** 2 + sin(half) ** 2 / 2 + 1 / radius[1])
             off = hypot(*(start - _between(start, place, centre))) - radius[0]
             weight *= exp(-off**2 / 2 / variance)
         total += weight
@@ -289,36 +177,3 @@ def _meant(block: Block, start: Vector, radius: tuple[float, int] | None) -> Vec
     if total > 1e-9:
         end[across] = mean / total
     return end
-
-
-def _likelihood(block: Block, end: Vector) -> float:
-    """Density at a whole end of how far along the chord the centre was rounded, per µm across the count axis.
-
-    With d the chord, r the rounding and n = x² + y²: |end|² − n = −2 r·d, and r is spread evenly over ±½ on
-    each axis. The sum of two such is a trapezoid.
-    """
-    dx, dy = end - block.start
-    short, long = sorted((abs(dx), abs(dy)))
-    off = abs(end @ end - block.x**2 - block.y**2) / 2
-    inside = (long + short) / 2 - off
-    if inside <= 0:
-        return 0.0
-    return min(1.0, inside / short if short else 1.0) / long * abs(end[block.across])
-
-
-def _evidence(block: Block) -> float:
-    """Log likelihood of an arc on a tape without drift, against any other tape."""
-    start, end, across = np.array(block.start), _end_on_machine(block), block.across
-    is_near = start @ end >= 0
-    if is_near and abs(block.sweep) > np.pi:
-        # The centre was not moved.
-        return 0.0
-    density = 0.0
-    for whole in range(floor(end[across]) - 2, floor(end[across]) + 4):
-        place = end.copy()
-        place[across] = whole
-        if place @ place == block.x**2 + block.y**2:
-            # A drawing on whole micrometres: its arcs fit on any tape.
-            return 0.0
-        density += _likelihood(block, place)
-    return log(max(density, 1e-3))

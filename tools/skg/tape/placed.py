@@ -10,10 +10,8 @@ from skg.piece import Piece
 from skg.plane import XY, minus
 from skg.tape.block import Block, Tape
 from skg.tape.controller import run_block
-
-#: Where the next block starts, as `place` knows it: where the block before should have ended (programmed), or where the
-#: controller really stands then (machine: tapes without drift); auto: found out from the tape.
-POSITIONS = ("auto", "programmed", "machine")
+from skg.tape.moves import closed_moves
+from skg.tape.positions import decide
 
 #: The parts of a route that is cut: from the start hole to the contour, the contour, and back to the hole.
 WAY_IN, CUT, WAY_BACK = "way in", "cut", "way back"
@@ -96,14 +94,9 @@ def _apart(one: XY, other: XY) -> float:
 
 
 def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") -> list[PlacedRoute]:
-    """Lay a tape out from `start` (µm); `positions` is one of `POSITIONS`."""
-    if positions == "auto":
-        both = [_place(tape, start, machine) for machine in (False, True)]
-        return min(both, key=lambda routes: sum(min(route.gap, 10) for route in routes))
-    return _place(tape, start, positions == "machine")
+    """Lay a tape out from `start` (µm); `positions` is one of `skg.tape.positions.POSITIONS`."""
+    machine = decide(tape, positions).positions == "machine"
 
-
-def _place(tape: Tape, start: tuple[int, int], machine: bool) -> list[PlacedRoute]:
     def end_to_end(blocks: list[Block], at: XY) -> tuple[list[Placed], XY]:
         moves = [run_block(block).move for block in blocks] if machine else closed_moves(blocks)
         placed = []
@@ -128,42 +121,6 @@ def lay(tape: Tape, start: XY,
             placed, start = place_blocks(blocks, start)
             routes.append(PlacedRoute(tuple(placed), is_move))
     return routes
-
-
-def closed_moves(blocks: list[Block]) -> list[tuple[int, int]]:
-    """Return the moves of the blocks of one route, so that a route that is meant to close does close.
-
-    A block tells an arc's end exactly along the count axis, but across it only as well as its start gives the
-    radius: the tape's own rounded end may be a µm away from `Block.end`. Where those µm leave a gap that they
-    can explain, the arcs whose end was the closest call give a µm each until the gap is gone.
-    """
-    moves = [block.move for block in blocks]
-    for axis in (0, 1):
-        gap = sum(move[axis] for move in moves)
-        # How far the unrounded end lies from the rounded one, for the arcs that can give on this axis.
-        doubts = {at: _doubt(block) for at, block in enumerate(blocks)
-                  if block.is_arc and block.across == axis}
-        if abs(gap) > len(doubts):
-            continue
-        way = -1 if gap > 0 else 1
-        ranked = sorted(doubts, key=lambda at: -way * doubts[at])
-        for at in [at for at in ranked if _may_give(blocks[at], axis, way)][:abs(gap)]:
-            move = list(moves[at])
-            move[axis] += way
-            moves[at] = tuple(move)
-    return moves
-
-
-def _doubt(block: Block) -> float:
-    """An arc's unrounded end minus its rounded one, across the count axis, µm."""
-    return block.on_circle(block.end)[block.across] - block.end[block.across]
-
-
-def _may_give(block: Block, axis: int, way: int) -> bool:
-    """Whether the count direction is still right when an arc's end moves by a µm across it."""
-    other = abs(block.end[axis] + way)
-    along = abs(block.end[1 - axis])
-    return along <= other if block.axis == "X" else along < other
 
 
 def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:

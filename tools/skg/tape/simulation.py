@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from tqdm import tqdm
@@ -10,7 +10,8 @@ from tqdm import tqdm
 from skg.plane import XY
 from skg.tape.block import Block, Tape
 from skg.tape.controller import Outcome, run_block
-from skg.tape.placed import closed_moves
+from skg.tape.moves import closed_moves
+from skg.tape.positions import decide
 
 #: A progress bar appears on tapes of more steps than this (about a second's worth).
 _LONG = 50_000_000
@@ -45,9 +46,11 @@ class RouteReport:
 
 @dataclass(frozen=True)
 class Report:
-    """A whole tape; lengths in µm, times in seconds. `gap` is the larger of all cut routes' gaps."""
+    """A whole tape; lengths in µm, times in seconds. `gap` is the larger of all cut routes' gaps; `positions` is where
+    the blocks were taken to start, "programmed" or "machine"."""
 
     name: str
+    positions: str
     blocks: int
     stops: int
     travel: float
@@ -76,31 +79,26 @@ def expected_steps(block: Block) -> int:
     return block.x + block.y if block.is_line else 2 * block.j
 
 
-def _follow(blocks: list[Block], moves: list[XY], drift: XY,
-            progress: Callable[[int], object] = lambda steps: None) -> list[tuple[Block, XY, Outcome]]:
-    """Run blocks that should make these moves; `drift` is how far the controller is off before them, µm."""
-    made = []
-    for block, should in zip(blocks, moves, strict=True):
+def _follow(blocks: list[Block], moves: list[XY] | None, drift: XY,
+            progress: Callable[[int], object] = lambda steps: None) -> Iterator[tuple[Block, XY, Outcome]]:
+    """Run blocks that should make these moves, or (None) are right where they end; `drift` is how far the controller
+    is off before them, µm. Gives each block's move as it should be, and what came of it."""
+    for at, block in enumerate(blocks):
         outcome = run_block(block, drift, progress)
-        made.append((block, should, outcome))
+        should = moves[at] if moves else outcome.move
+        yield block, should, outcome
         drift = drift[0] + outcome.move[0] - should[0], drift[1] + outcome.move[1] - should[1]
-    return made
-
-
-def _total(moves: Iterable[XY]) -> XY:
-    """The sum of moves."""
-    moves = list(moves)
-    return sum(x for x, _ in moves), sum(y for _, y in moves)
 
 
 def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: str = "auto") -> Report:
     """Follow every block of `tape`.
 
     `feed` is in mm/min; `progress` shows a bar on stderr when that is a terminal and the tape long. `positions`
-    (see `skg.tape.placed`): "programmed" takes a block to start where the moves (`closed_moves`) that the
+    (see `skg.tape.positions`): "programmed" takes a block to start where the moves (`closed_moves`) that the
     blocks before it should have made add up to, "machine" where the controller stands, as a tape without drift
-    means it; "auto" takes the second for routes that close so and not as programmed.
+    means it.
     """
+    positions = decide(tape, positions).positions
     each: list[BlockReport] = []
     routes: list[RouteReport] = []
     real, programmed = (0, 0), (0, 0)
@@ -121,13 +119,9 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
 
     with bar:
         for blocks, is_move in zip(tape.stretches(), tape.positioning(), strict=True):
-            moves, drift = closed_moves(blocks), (real[0] - programmed[0], real[1] - programmed[1])
-            made = _follow(blocks, moves, drift, bar.update)
-            as_made = [outcome.move for _, _, outcome in made]
-            closes_so = _total(as_made) == (0, 0) != _total(moves)
-            if positions == "machine" or (positions == "auto" and closes_so):
-                made = _follow(blocks, as_made, drift)
-            for block, should, outcome in made:
+            moves = closed_moves(blocks) if positions == "programmed" else None
+            drift = real[0] - programmed[0], real[1] - programmed[1]
+            for block, should, outcome in _follow(blocks, moves, drift, bar.update):
                 each.append(BlockReport(block.number, str(block), should, outcome.move, outcome.steps,
                                         outcome.off_curve))
                 real = real[0] + outcome.move[0], real[1] + outcome.move[1]
@@ -140,7 +134,7 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     travel = sum(block.length for block in tape.blocks)
     missed = [max(abs(one.really[0] - one.should[0]), abs(one.really[1] - one.should[1])) for one in each]
     return Report(
-        name=tape.name, blocks=len(each), stops=len(tape.stops),
+        name=tape.name, positions=positions, blocks=len(each), stops=len(tape.stops),
         travel=travel, steps=sum(one.steps for one in each), feed=feed, time=travel / 1000 / feed * 60,
         gap=max((route.gap for route in cut), key=_size),
         programmed_gap=max((route.programmed_gap for route in cut), key=_size), end=real,

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from skg.errors import UserError
 from skg.files import read_bytes
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
+
+#: How the name of a file ends that holds a tape without drift.
+WITHOUT_DRIFT = ".nodrift.3b"
 
 
 @dataclass(frozen=True)
@@ -147,8 +150,12 @@ def parse(data: bytes, name: str = "-") -> Tape:
 
 
 def read(path: str) -> Tape:
-    """Read a tape from a file or, for `-`, the standard input; raises as `parse` does."""
-    return parse(read_bytes(path), path)
+    """Read a tape from a file or, for `-`, the standard input; raises as `parse` does.
+
+    One whose name ends in `WITHOUT_DRIFT` is without drift.
+    """
+    tape = parse(read_bytes(path), path)
+    return replace(tape, drift=False, drift_by="its name") if path.lower().endswith(WITHOUT_DRIFT) else tape
 
 
 def to_bytes(items: Iterable[Block | Stop]) -> bytes:

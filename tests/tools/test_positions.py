@@ -1,0 +1,98 @@
+"""With or without drift: a tape says it, or it is found out and said; one decision for the whole tape."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, Run
+
+from skg import tape as tapes
+from skg.ref import run as reference
+from skg.tape.placed import place
+from skg.tape.positions import decide
+
+EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
+
+
+def both_tapes(part: Path) -> tuple[bytes, bytes]:
+    """The standard tape of an example, and the one without drift."""
+    return part.with_suffix(".3b").read_bytes(), reference(part.read_text(), drift=False).tape
+
+
+@pytest.mark.parametrize("positions", ["programmed", "machine"])
+def test_found_out(positions: str) -> None:
+    """Of all examples whose two tapes differ: a tape with drift is always taken for one, one without drift is not where
+    a symmetrical part closes either way, and then it is said that this is not certain.
+    """
+    right = doubtful = 0
+    for part in EXAMPLES:
+        made = both_tapes(part)
+        tape = tapes.parse(made[positions == "machine"])
+        layouts = [
+            [(one.start, one.end) for route in place(tape, (0, 0), name) for one in route.blocks]
+            for name in ("programmed", "machine")
+        ]
+        decision = decide(tape)
+        if made[0] == made[1] or layouts[0] == layouts[1]:
+            assert not decision.why, part.stem
+        elif decision.positions == positions:
+            right += 1
+        else:
+            assert positions == "machine" and "not certain" in decision.why, part.stem
+            doubtful += 1
+    assert right > 2 * doubtful and right + doubtful > 20
+
+
+@pytest.fixture
+def belts(tmp_path: Path) -> tuple[Path, Path]:
+    """A part's two tapes as files whose names do not tell which is which."""
+    paths = tmp_path / "one.3b", tmp_path / "other.3b"
+    for path, tape in zip(paths, both_tapes(ROOT / "examples" / "skg06-belts.skg"), strict=True):
+        path.write_bytes(tape)
+    return paths
+
+
+@pytest.mark.parametrize(("command", "more"), [("sim", []), ("plot", ["-o"]), ("dxf", ["-o"])])
+def test_what_is_found_out_is_said(run: Run, belts: tuple[Path, Path], command: str, more: list[str]) -> None:
+    """In one line on standard error, with the reason, and nothing where the option says it."""
+    output = [*more, belts[0].with_suffix(".svg" if command == "plot" else ".out")] if more else []
+    for path, word in zip(belts, ("with drift (programmed)", "without drift (machine)"), strict=True):
+        result = run(command, path, *output)
+        assert result.exit_code == 0
+        assert re.fullmatch(rf"skg: {path}: taken as {re.escape(word)}[:,] .*\n", result.stderr)
+        for positions in ("programmed", "machine"):
+            assert run(command, path, *output, "--positions", positions).stderr == ""
+
+
+def test_name_says_it(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "ratchet.nodrift.3b"
+    path.write_bytes((ROOT / "examples" / "ratchet.3b").read_bytes())
+    result = run("sim", "--json", path)
+    assert json.loads(result.stdout)[0]["positions"] == "machine"
+    assert result.stderr == f"skg: {path}: without drift (machine), its name says so\n"
+
+
+def test_program_needs_no_word(run: Run) -> None:
+    result = run("sim", "--json", ROOT / "examples" / "skg06-belts.skg")
+    assert json.loads(result.stdout)[0]["positions"] == "programmed"
+    assert result.stderr == ""
+
+
+def test_one_decision_for_all_routes(run: Run, tmp_path: Path) -> None:
+    """A contour that closes on any tape stands between two that tell; what drifts is the whole tape or none of it."""
+    statements = []
+    for x in (0, 90, 180):
+        statements += [f"FROM ({x},-5)", f"CUT ({x},0.3),({x}+20.07,7.01),4,({x}+20,31.7),3,({x}-20.2,31.1),2", "BACK"]
+        statements += [f"FROM ({x}+40,0)", f"CUT ({x}+40,0):3", "BACK"]
+    text = "".join(f"{line} {statement}\n" for line, statement in enumerate(statements, 10))
+    for drift, positions in ((True, "programmed"), (False, "machine")):
+        made = reference(text, drift=drift)
+        assert made.error is None
+        path = tmp_path / "part.3b"
+        path.write_bytes(made.tape)
+        report = json.loads(run("sim", "--json", path).stdout)[0]
+        assert report["positions"] == positions
+        assert (report["largest_drift"] == 0) == (not drift)
