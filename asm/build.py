@@ -155,7 +155,7 @@ def assemble(texts: dict[str, str], work: Path) -> tuple[bytes, dict[str, int], 
         symbols = {name: int(value, 16) for name, value in pattern.findall(listing)}
     if "ZBEND" not in symbols:
         fail("the assembler's symbols cannot be read")
-    return (work / "top.bin").read_bytes()[: symbols["ZBEND"]], symbols, listing
+    return (work / "top.bin").read_bytes()[symbols["ORIGIN"] : symbols["ZBEND"]], symbols, listing
 
 
 def check_words(texts: dict[str, str]) -> None:

@@ -392,10 +392,6 @@ OFFCHK: DB      CALC,QNA,LNR,QSENS,QJN ; -
 OFFCH1: DB      QEND
         DB      ERROR,EOFFS
 
-; a corner that no point names: the crossing
-CROSS:  DB      CALC,QXING      ; -
-ATOK:   DB      QVEC,QTOK,QRET  ; -
-
 ; CORNER - the corner between C and N as offset
 ; In:  C, N, RTURN, RNAMED, P   Out: K, O1, O2   Clobbers all
 CORNER: DB      CALC,LCR,SO1,LNR,SO2,QEND ; -
@@ -431,6 +427,9 @@ CORNO:  LDA     RNAMED
         DB      QSUB,QJN        ; -
         DB      ATOK-$
 CORN9:  DB      QRET
+; a corner that no point names: the crossing
+CROSS:  DB      CALC,QXING      ; -
+ATOK:   DB      QVEC,QTOK,QRET  ; -
 CORN2:  DB      CALC            ; as seen from P both pass at their offsets alone
         DB      LO1,SA2,LO2,SB2,QEND ; -
         CALL    SXS

@@ -285,19 +285,18 @@ SSG     EQU 0BFH        ; M63 chord of the beginning of the circle C that a fill
 ;! GSTKE & 0FFH == 0 and GSTKE/100H == PROG/100H -- SRETN looks for the end; CLRPTR changes the low byte alone
 ;! HELD & 0FFH == 0 and HELD+16*PLCSIZ < PROG-1 -- HELDN is a low byte; CLOSED and RBFULL lie in front of PROG
 ;! KEPT+25 == MNODE1 and MNODE1+25 == MNODE2 -- ROTATE and SWAP exchange neighbours
-RAM     EQU 2000H
-FSTK    EQU 2000H       ; float stack of the calculator, 12 floats, within a page
-CWORK   EQU 203CH       ; cells of parser, geom, cut and tape (68 bytes)
-FWORK   EQU 2080H       ; work cells of float.asm and calc.asm (48 bytes); FSQR counts on the 80H
-MWORK   EQU 20B0H       ; cells of monitor, lexer and io (55 bytes)
-KEPT    EQU 20E7H       ; the node of FIT that was kept last, in front of node 1
-MREG    EQU 2100H       ; 64 float registers of the calculator, 5 bytes each, from a page's start
-LINBUF  EQU 2280H       ; the line being typed, 126 characters; reaches up to TOKS
-TOKS    EQU 2300H       ; the same line as tokens, a page
-STKLOW  EQU 2400H       ; the stack may not grow below this
-STKTOP  EQU 25F0H       ; 8080 stack, downwards
-HELD    EQU 2600H       ; in front of it GOSUB's stack; places of the nodes that FIT has passed, 16
-PROG    EQU 26A2H       ; program lines from here up; variables from the top of RAM down
+FSTK    EQU RAM         ; float stack of the calculator, 12 floats, within a page
+CWORK   EQU RAM+003CH   ; cells of parser, geom, cut and tape (68 bytes)
+FWORK   EQU RAM+0080H   ; work cells of float.asm and calc.asm (48 bytes); FSQR counts on the 80H
+MWORK   EQU RAM+00B0H   ; cells of monitor, lexer and io (55 bytes)
+KEPT    EQU RAM+00E7H   ; the node of FIT that was kept last, in front of node 1
+MREG    EQU RAM+0100H   ; 64 float registers of the calculator, 5 bytes each, from a page's start
+LINBUF  EQU RAM+0280H   ; the line being typed, 126 characters; reaches up to TOKS
+TOKS    EQU RAM+0300H   ; the same line as tokens, a page
+STKLOW  EQU RAM+0400H   ; the stack may not grow below this
+STKTOP  EQU RAM+05F0H+BDSTK ; 8080 stack, downwards
+HELD    EQU RAM+0600H+BDSTK ; in front of it GOSUB's stack; places of the nodes that FIT has passed, 16
+PROG    EQU RAM+06A2H+BDSTK ; program lines from here up; variables from the top of RAM down
 
 ; ---- Cells that several files know --------------------------------------------
 TXTP    EQU     MWORK           ; next token

@@ -1,7 +1,7 @@
 ; io.asm - the teletype: what is printed, the keyboard
 ; Offers: PUTC1 PAPON BREAK ERTAPE CRLF PUTSI PUTS PUT2D
-; Uses:   io_6850 io_8251 io_punch io_tty start
-; Room:   116 bytes
+; Uses:   io_port start
+; Room:   73 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
@@ -20,36 +20,11 @@ PUTC3:  DCX     H
         MOV     A,M             ; OUTSEL
         MOV     C,A
         ORA     A
-        JZ      PUTC2
-PAPER:  CALL    POLL
-        IN      TTYST
-        ANI     TXRDY
-        JZ      PAPER
-        MOV     A,B
-        OUT     TTYDT
-        DCR     C
-        CZ      BDPUN
-PUTC2:  POP     B
+        CNZ     PAPER
+        POP     B
         POP     H
         POP     PSW
         RET
-
-; POLL - looks at the keyboard; while ctrl-S holds, does not come back
-; Out: A = KEYB, HL-> it   Clobbers nothing else
-POLL:   LXI     H,KEYB
-POLL1:  MOV     A,M
-        CPI     CCTLC
-        RZ                      ; a break waits
-        IN      TTYST
-        ANI     RXRDY
-        JZ      POLL2
-        IN      TTYDT
-        ANI     7FH
-        MOV     M,A
-POLL2:  MOV     A,M
-        CPI     CXOFF
-        RNZ
-        JMP     POLL1
 
 ; PAPON - paper on, no punch
 ; Clobbers A, HL

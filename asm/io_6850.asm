@@ -1,7 +1,7 @@
 ; io_6850.asm - ports of the board: two Motorola 6850 (MITS 88-2SIO)
 ; Offers: TTYST TTYDT PUNST PUNDT RXRDY TXRDY BDINIT
-; Uses:   nothing
-; Room:   13 bytes
+; Uses:   reset
+; Room:   15 bytes
 
 TTYST   EQU 10H         ; teletype: status and control
 TTYDT   EQU 11H         ; teletype: data
@@ -21,4 +21,4 @@ BDINIT: MVI     A,SIORST
         MVI     A,SIO8N2
         OUT     TTYST
         OUT     PUNST
-        RET
+        JMP     RESET

@@ -1,7 +1,7 @@
 ; io_8251.asm - ports of the board: two Intel 8251
 ; Offers: TTYDT TTYST PUNDT PUNST TXRDY RXRDY BDINIT
-; Uses:   nothing
-; Room:   21 bytes
+; Uses:   reset
+; Room:   24 bytes
 
 TTYDT   EQU 10H         ; teletype: data
 TTYST   EQU 11H         ; teletype: status and control
@@ -21,7 +21,7 @@ BDINI1: MOV     A,M
         OUT     PUNST
         CPI     USARUN
         JNZ     BDINI1
-        RET
+        JMP     RESET
 
 BDTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for
         DB      40H             ; reset

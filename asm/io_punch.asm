@@ -1,7 +1,7 @@
 ; io_punch.asm - punch and reader on a port of their own
 ; Offers: BDPUN BDREAD SLOAD PUNOFF PUNON BDOFF
 ; Uses:   io io_6850 io_8251 start
-; Room:   40 bytes
+; Room:   45 bytes
 
 ; BDPUN - punches a character (PUTC1 of io.asm calls it)
 ; In:  B   Clobbers A
@@ -38,7 +38,10 @@ PUNOFF  EQU PAPON
 ; Clobbers A
 PUNON:  MVI     A,1
         STA     OUTSEL
-; (fall into BDOFF)
+        RET
 
-; BDOFF - after an error and at a tape's end: punch and reader off.  They have no switch
-BDOFF:  RET
+; BDOFF - after an error and at a tape's end: no more lines from the reader
+; Clobbers A
+BDOFF:  XRA     A
+        STA     LOADF
+        RET

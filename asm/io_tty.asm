@@ -1,7 +1,7 @@
 ; io_tty.asm - punch and reader are the teletype's own, switched by DC1 to DC4
 ; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDOFF
 ; Uses:   io start
-; Room:   41 bytes
+; Room:   46 bytes
 
 ; BDREAD - a character from the reader: what the keyboard has sent
 ; In:  HL -> KEYB   Out: A = it, 0 when there is none   Clobbers nothing else
@@ -35,9 +35,11 @@ PUNOFF: MVI     A,CDC4
         DB      PUTC
         JMP     PAPON
 
-; BDOFF - after an error and at a tape's end: punch and reader off
+; BDOFF - after an error and at a tape's end: no more lines from the reader; punch and reader off
 ; Clobbers A, HL
-BDOFF:  LXI     H,OUTSEL
+BDOFF:  XRA     A
+        STA     LOADF
+        LXI     H,OUTSEL
         MVI     M,2             ; paper on
         MVI     A,CDC4
         DB      PUTC

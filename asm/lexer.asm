@@ -1,7 +1,7 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LISTLN PRNUM BLANK
 ; Uses:   decimal io io_punch io_tty monitor start value
-; Room:   455 bytes
+; Room:   453 bytes
 ;
 ; The tokens are in equ.asm, the words and theirs in words.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
@@ -72,8 +72,6 @@ GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ADD     A
         CNZ     CRLF            ; (not printed; ERR looks at LASTC)
         JNZ     ERTAPE
-        INX     H               ; HL-> LOADF, A = 0
-        MOV     M,A
         CALL    BDOFF
         JMP     READY
 GETL6:  POP     H

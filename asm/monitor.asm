@@ -1,8 +1,8 @@
 ; monitor.asm - prompt, commands, running the program, errors, reset
-; Offers: ERR READY CHKED RESET SFREE SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST SREAD
-;         SINPUT SLIST SNEW SSAVE
-; Uses:   calc cut decimal float io io_6850 io_8251 io_punch io_tty lexer parser program start value
-; Room:   849 bytes
+; Offers: ERR READY CHKED SFREE FREE SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST SREAD
+;         SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
+; Uses:   calc cut decimal float io io_punch io_tty lexer parser program reset start value
+; Room:   729 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
 ;! COLS == OUTSEL+1 and LASTC == COLS+1 -- PUTC1 walks back from LASTC
@@ -53,8 +53,6 @@ ERR1:   DAD     H               ; (1 becomes 2: no mark)
         PUSH    B
         LXI     H,0202H         ; paper on; an error while the mark is made needs none
         SHLD    CHKF
-        XRA     A
-        STA     LOADF
         CALL    BDOFF
         DCR     C
         PUSH    PSW
@@ -90,7 +88,7 @@ ERR5:   CALL    CRLF
 
 ; READY - the prompt: takes a line, for ever; it is parsed, then CHKED is the place
 READY:  LXI     SP,STKTOP
-        CALL    VARSUM
+        CALL    BDRDY
         DCX     H               ; from VSUM to LOADF
         MOV     A,M
         DCR     A
@@ -137,56 +135,10 @@ CHKED:  LXI     H,TOKS
         CALL    CLRPTR
         JMP     READY
 
-; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
-;         sound in it, signs on
-RESET:  LXI     SP,STKTOP
-        CALL    CALINI
-        CALL    BDINIT
-        LXI     H,0
-        SHLD    KEYB            ; and LOADF
-        DCR     H
-        SHLD    CHKF            ; no check mode, paper on
-        MVI     H,RAM/256
-RESE2:  MOV     A,M             ; does this page keep what is written?
-        INR     A
-        INR     M
-        CMP     M
-        JNZ     RESE3
-        DCR     M
-        INR     H
-        MOV     A,H             ; the last page of all memory is left alone, so that no sum of an
-        INR     A               ; address and a length passes 0FFFFH
-        JNZ     RESE2
-RESE3:  DCX     H               ; HL-> last byte of RAM
-        XCHG
-        LHLD    VTOP
-        CALL    CPHD
-        XCHG
-        SHLD    VTOP
-        CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
-        LXI     H,PROG
-RESE4:  SHLD    PEND            ; sound so far
-        MOV     A,M
-        ORA     A
-        JZ      RESE5
-        CALL    SUMREC
-        ORA     A
-        JZ      RESE4
-        LHLD    PEND
-        MVI     M,0             ; from here on it is lost
-        CALL    PUTSI
-        DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
-RESE5:  CALL    VARSUM
-        CNZ     CLEAR
-        CALL    CLEAR1          ; (once more does no harm)
-        CALL    PUTSI
-        DB      CCR,CLF,"SKG",0A0H
-        DB      SKIP1           ; skips the RST 7
-; (fall into SFREE)
-
 ; SFREE - command: FREE
 SFREE:  DB      CHKEND
-        LHLD    PEND
+; FREE - prints the bytes left, and the prompt
+FREE:   LHLD    PEND
         XCHG
         LHLD    VBOT
         MOV     A,L
@@ -501,10 +453,3 @@ CLRPTR: LXI     H,GSTKE
         SHLD    GSP
         MVI     L,PROG & 255    ; (in one page: a test looks)
         JMP     REST1
-
-; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
-SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
-        CALL    SLIST
-        MVI     A,CEOF
-        DB      PUTC
-        JMP     PUNOFF

@@ -18,7 +18,7 @@
 ; A variable is its name (high byte, low byte), then one, two or three floats.
 ; The newest lies lowest, at VBOT; a zero byte at VTOP ends the list.
 
-STKGAP  EQU 64          ; stack bytes that the deepest operation may need
+STKGAP  EQU BDSTK+64    ; stack bytes that the deepest operation may need
 
 ;! TATG-TSQR == QATG-QSQRT and TABS == TATG+1 and QABS == QATG+1 -- FNTAB: functions stand as in OPTAB
 ;! TK2 == TK1+1 and TK3 == TK1+2 and TK1 == TINTF+1 -- OPFN tells K1 K2 K3 from the others

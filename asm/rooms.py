@@ -25,16 +25,18 @@ from pathlib import Path
 
 ASM = Path(__file__).resolve().parent
 #: Belong to everybody: names, and the words with their routines (made by the build: words.py).
-COMMON = ("equ", "words")
+COMMON = ("equ", "map_rom", "words")
 #: Names that a file calls upwards, each at one place that says so. Who is called there depends on the image, or is
 #: somebody who could not be below.
 HOOKS = {
-    "RESET": "restart 0 goes to the monitor",
+    "BDINIT": "restart 0 goes to the board",
+    "RESET": "its ports are ready",
     "ERR": "restart 1 goes to the monitor",
     "PUTC1": "restart 2 goes to the teletype",
     "CALC0": "restart 5 goes to the calculator",
     "CHKED": "restart 7: the monitor stores the line or carries it out",
     "BDPUN": "the teletype's characters go to the punch too: the board's",
+    "BDRDY": "the prompt is there: the board's",
     "READY": "the reader has stopped: the prompt",
     "FITEND": "an item of the route ends a curve",
 }
@@ -162,11 +164,15 @@ def room_of(room: Room) -> int:
 
 
 def tangled(rooms: dict[str, Room]) -> list[str]:
-    """Files that lean on each other round about and may not, a line each; hooks that nobody needs."""
-    wrong = [f"{' '.join(group)} lean on each other" for group in knots(leans(rooms))
-             if len(group) > 1 and group != sorted(ONE)]
+    """Files that lean on each other round about and may not, a line each."""
+    groups = [group for group in knots(leans(rooms)) if len(group) > 1 and group != sorted(ONE)]
+    return [f"{' '.join(group)} lean on each other" for group in groups]
+
+
+def idle_hooks(rooms: dict[str, Room]) -> list[str]:
+    """Hooks that nobody needs, a line each."""
     used = set().union(*(names for room in rooms.values() for names in room.uses.values()))
-    return wrong + [f"{name} is a hook that nobody calls" for name in HOOKS if name not in used]
+    return [f"{name} is a hook that nobody calls" for name in HOOKS if name not in used]
 
 
 def wrong_headers(rooms: dict[str, Room]) -> list[str]:

@@ -1,7 +1,7 @@
 ; start.asm - restarts, and what stands in the gaps between them
 ; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK PUTC0 NEXT0 NEXT1 ERMEM ERSYN ADDA ERDATA
 ;         CHKEN0 SREM CPHD
-; Uses:   calc io monitor
+; Uses:   calc io io_6850 io_8251 monitor
 ; Room:   71 bytes
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
@@ -16,11 +16,10 @@ CALC    EQU     0EFH
 PEEK    EQU     0F7H
 CHKEND  EQU     0FFH
 
-;! ERROR0 == 8 and PUTC0 == 10H and NEXT0 == 18H and EXPEC0 == 20H and PEEK0 == 30H and CHKEN0 == 38H -- the restarts go there
 ;! ERROR == 0C7H+8 and PUTC == 0C7H+10H and NEXT == 0C7H+18H and EXPECT == 0C7H+20H -- RST n is one byte
 ;! CALC == 0C7H+28H and PEEK == 0C7H+30H and CHKEND == 0C7H+38H -- RST n is one byte
 ; RST 0 - reset
-        JMP     RESET
+        JMP     BDINIT
 
 ; CHECK - is the statement only parsed?
 ; In:  CHKF   Out: A = CHKF, Z: no, it works   Clobbers nothing else

@@ -22,6 +22,7 @@ import pytest
 from click.testing import CliRunner
 
 from skg.cli import cli
+from skg.machine import symbols
 from skg.ref import Result, run
 from skg.ref.operations import OPERATIONS
 from skg.ref.values import C, D, P, S, T
@@ -298,11 +299,10 @@ def test_bytes_add_up() -> None:
 
 def test_memory_map() -> None:
     """The addresses of the page are those of the sources."""
-    equates = dict(re.findall(r"^(\w+)\s+EQU\s+([0-9A-F]+)H\b", (ROOT / "asm" / "equ.asm").read_text()
-                              + (ROOT / "asm" / "monitor.asm").read_text(), re.M))
+    equates = symbols((ROOT / "roms" / "skg.sym").read_text())
     shown = re.findall(r"^\| ([0-9A-F]{4}) \| [^|]+ \| `(\w+)` \|", FIRMWARE.read_text(), re.M)
     assert len(shown) > 8
-    assert [(place, name) for place, name in shown if equates[name].lstrip("0") != place] == []
+    assert [(place, name) for place, name in shown if equates[name] != int(place, 16)] == []
 
 
 # Writing the pages anew

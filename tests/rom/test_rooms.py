@@ -31,6 +31,11 @@ def test_no_knot(image: str) -> None:
     assert rooms.tangled(IMAGES[image]) == []
 
 
+def test_no_idle_hook() -> None:
+    """What is a hook in no image may not be called one."""
+    assert rooms.idle_hooks(ALL) == []
+
+
 @pytest.mark.parametrize("image", IMAGES)
 def test_room(image: str) -> None:
     """No file is longer than its header allows."""
@@ -96,5 +101,5 @@ def test_a_knot_is_said() -> None:
     assert rooms.tangled(small())[0] == "one two lean on each other"
     hooks = ["PLAY", "STATE", "XMIN", "QMIN"]
     assert rooms.knots(rooms.leans(small(), hooks)) == [["equ"], ["two"], ["one"]]
-    said = [line for line in rooms.tangled(small()) if "READY" in line]
+    said = [line for line in rooms.idle_hooks(small()) if "READY" in line]
     assert said == ["READY is a hook that nobody calls"]

@@ -1,0 +1,60 @@
+; reset.asm - what a board does that is alone with the ROM: reset, SAVE to the punch
+; Offers: RESET SSAVE BDRDY
+; Uses:   calc io io_punch io_tty monitor program start
+; Room:   115 bytes
+
+; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
+;         sound in it, signs on
+RESET:  LXI     SP,STKTOP
+        CALL    CALINI
+        LXI     H,0
+        SHLD    KEYB            ; and LOADF
+        DCR     H
+        SHLD    CHKF            ; no check mode, paper on
+        MVI     H,RAM/256
+RESE2:  MOV     A,M             ; does this page keep what is written?
+        INR     A
+        INR     M
+        CMP     M
+        JNZ     RESE3
+        DCR     M
+        INR     H
+        MOV     A,H             ; the last page of all memory is left alone, so that no sum of an
+        INR     A               ; address and a length passes 0FFFFH
+        JNZ     RESE2
+RESE3:  DCX     H               ; HL-> last byte of RAM
+        XCHG
+        LHLD    VTOP
+        CALL    CPHD
+        XCHG
+        SHLD    VTOP
+        CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
+        LXI     H,PROG
+RESE4:  SHLD    PEND            ; sound so far
+        MOV     A,M
+        ORA     A
+        JZ      RESE5
+        CALL    SUMREC
+        ORA     A
+        JZ      RESE4
+        LHLD    PEND
+        MVI     M,0             ; from here on it is lost
+        CALL    PUTSI
+        DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
+RESE5:  CALL    VARSUM
+        CNZ     CLEAR
+        CALL    CLEAR1          ; (once more does no harm)
+        CALL    PUTSI
+        DB      CCR,CLF,"SKG",0A0H
+        JMP     FREE
+
+; SSAVE - command: SAVE, SAVE n, SAVE n,m; ctrl-Z tells LOAD where the tape ends
+SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is printed then)
+        CALL    SLIST
+        MVI     A,CEOF
+        DB      PUTC
+        JMP     PUNOFF
+
+; BDRDY - what a board does at the prompt
+; Out: HL-> VSUM   Clobbers A, B, C
+BDRDY   EQU     VARSUM
