@@ -12,7 +12,11 @@
  * The teletype alone has no punch of its own in a terminal: without --punch FILE what is punched is lost, since the
  * firmware lists every block on the paper anyway.
  *
- * NOT IMPLEMENTED: the tape reader's and punch's own speed; saving the state of the machine.
+ * With --punch-pty the punch and the reader are a pseudo-terminal with a machine behind it; standard output has its name
+ * (behind that of --pty), and what is punched goes to --punch FILE alone besides. A part is read before the machine
+ * is listened to. What the machine says waits until the board asks for it.
+ *
+ * NOT IMPLEMENTED: the tape reader's and punch's own speed; characters that a machine loses when nobody asks; saving the state of the machine.
  */
 #include "board.h"
 #include "com.h"
@@ -33,6 +37,8 @@ enum {
     FILE_LIMIT = 16 << 20,          /* bytes; a part or a list of answers is a few thousand */
     PATIENCE = 20000000,            /* cycles that a silent machine may wait for a key nobody will press */
     READER_PATIENCE = 6000000,      /* cycles; LOAD gives up after 4,000,000, unless nothing has come yet */
+    MACHINE_PATIENCE = 10000,       /* cycles that the board asks for the machine's answer before time stands still */
+    LINE_PATIENCE_MS = 5000,        /* so long a machine may leave its line full */
     SLICE_MS = 5,                   /* real time is kept, and the keyboard looked at, so often */
     UNPACED_SLICE = 1000000         /* cycles, when no time is kept */
 };
@@ -44,6 +50,8 @@ typedef struct {
     debug *debug;                   /* NULL: nobody looks */
     symbols *names;
     terminal terminal;
+    terminal line;                  /* the machine's, with --punch-pty */
+    bool running;                   /* the part has been loaded and RUN typed */
     pacer pacer;
     FILE *paper, *punch;            /* NULL: nowhere */
     uint64_t printed;               /* characters on the paper */
@@ -83,6 +91,10 @@ static void punch(void *user, uint8_t byte)
     if (s->punch) {
         put(s, byte, s->punch);
     }
+    if (s->o.punch_pty) {
+        terminal_print(&s->line, byte);
+        s->failed = s->line.deaf ? ETIMEDOUT : s->failed;
+    }
 }
 
 /* Gives all output away; false when some of it is lost. */
@@ -101,6 +113,9 @@ static bool flush(session *s)
 
 static int report_failure(const session *s)
 {
+    if (s->line.deaf) {
+        return complain(EXIT_USAGE, "%s: nobody reads what is punched", s->line.name);
+    }
     return complain(EXIT_USAGE, "cannot write: %s", strerror(s->failed));
 }
 
@@ -202,6 +217,12 @@ static int report_wait(const session *s)
                     unread ? ", its tape unread: is this ROM for --punch-tty?" : "");
 }
 
+/* The board waits for the machine's answer: it has asked the reader for a while, and that is empty. */
+static bool asks_machine(const session *s)
+{
+    return s->o.punch_pty && board_reader_silence(s->board) > MACHINE_PATIENCE;
+}
+
 /* Lets the machine run until it asks the operator something, has lost output or used up all cycles. BOARD_WAIT only when
  * it says nothing for too long. */
 static board_reason until_asked(session *s)
@@ -217,7 +238,12 @@ static board_reason until_asked(session *s)
             printed = s->printed;
             since = c->cycles;
         }
-        if (board_reader_silence(s->board) > READER_PATIENCE) {
+        if (s->running && asks_machine(s)) {
+            if (!terminal_feed(&s->line, s->board, -1)) {
+                return BOARD_CYCLES;
+            }
+            since = c->cycles;
+        } else if (board_reader_silence(s->board) > READER_PATIENCE) {
             return BOARD_WAIT;
         }
         if (reason != BOARD_CYCLES && (reason != BOARD_WAIT || c->cycles - since > PATIENCE)) {
@@ -265,6 +291,7 @@ static int run_part(session *s, const char *answers)
             if (given++ == 0) {
                 board_reader(s->board, true);
             }
+            s->running = given == COMMANDS;
             break;
         case BOARD_INPUT: {
             if (!*answers) {
@@ -291,7 +318,7 @@ static int run_part(session *s, const char *answers)
  * it off; else 0. */
 static int watch_reader(const session *s, bool *told)
 {
-    bool empty = board_reader_silence(s->board) > READER_PATIENCE;
+    bool empty = board_reader_silence(s->board) > READER_PATIENCE && !s->o.punch_pty;
     if (empty && s->terminal.ended) {
         return report_reader();
     }
@@ -351,7 +378,9 @@ static int run_terminal(session *s)
         } else if (c->cycles - since_end > PATIENCE) {
             return complain(EXIT_ERR, "the input ended in the middle of `%s`", s->board->line);
         }
-        if (!terminal_listen(t, s->board, told && !wait ? SLICE_MS : wait)) {
+        bool idle = told || asks_machine(s);
+        if (!terminal_listen(t, s->board, idle && !wait ? SLICE_MS : wait)
+            || (asks_machine(s) && !terminal_feed(&s->line, s->board, 0))) {
             return complain(EXIT_ERR, "out of memory");
         }
         if (t->reset) {
@@ -532,6 +561,26 @@ static int set_board(session *s)
     return set_rom(s);
 }
 
+/* Makes a pseudo-terminal and prints its name. */
+static int offer(terminal *t)
+{
+    if (terminal_open_pty(t)) {
+        return complain(EXIT_USAGE, "no pseudo-terminal: %s", strerror(errno));
+    }
+    if (printf("%s\n", t->name) < 0 || fflush(stdout)) {
+        return complain(EXIT_USAGE, "cannot write: %s", strerror(errno));
+    }
+    return 0;
+}
+
+/* The line to the machine, when there is one. */
+static int offer_line(session *s)
+{
+    int code = s->o.punch_pty ? offer(&s->line) : 0;
+    s->line.patience = LINE_PATIENCE_MS;
+    return code;
+}
+
 static int with_part(session *s)
 {
     char error[256];
@@ -541,12 +590,17 @@ static int with_part(session *s)
         return complain(EXIT_USAGE, "%s", error);
     }
     s->paper = stderr;
-    s->punch = stdout;
+    s->punch = s->o.punch_pty ? NULL : stdout;
     int code = set_tape(s, s->o.part);
     code = code ? code : open_output(&s->paper, s->o.tty);
     code = code ? code : open_output(&s->punch, s->o.punch);
     complain_beside(s->paper == stderr ? s->board : NULL);
+    code = code ? code : offer_line(s);
     code = code ? code : run_part(s, answers ? (const char *)answers : "");
+    if (s->o.punch_pty && *s->line.name && !s->line.deaf) {
+        terminal_drain(&s->line);
+        s->failed = s->line.deaf ? ETIMEDOUT : s->failed;
+    }
     free(answers);
     return code;
 }
@@ -560,12 +614,13 @@ static int with_terminal(session *s)
     if (code) {
         return code;
     }
+    code = s->o.pty ? offer(&s->terminal) : 0;
+    code = code ? code : offer_line(s);
+    if (code) {
+        return code;
+    }
     if (!s->o.pty) {
         terminal_open(&s->terminal);
-    } else if (terminal_open_pty(&s->terminal)) {
-        return complain(EXIT_USAGE, "no pseudo-terminal: %s", strerror(errno));
-    } else if (printf("%s\n", s->terminal.name) < 0 || fflush(stdout)) {
-        return complain(EXIT_USAGE, "cannot write: %s", strerror(errno));
     }
     s->terminal.copy = copy;
     terminal_catch_reset();

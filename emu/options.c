@@ -25,6 +25,7 @@ static const char USAGE[] =
     "  --baud N          speed of the teletype's line, 110 to 9600\n"
     "  --board KIND      6850 or 8251 (6850)\n"
     "  --punch-tty       a teletype alone: its own punch and reader\n"
+    "  --punch-pty       punch and reader are a pseudo-terminal, whose name is printed: a machine behind it answers\n"
     "  --stats           cycles, instructions, time and memory used, on standard error\n"
     "  --max-cycles N    give up with exit 3\n"
     "  --debug           stop before the first instruction and ask what to do (help); ctrl-^ asks again\n"
@@ -50,8 +51,8 @@ static bool whole_number(const char *text, uint64_t least, uint64_t most, uint64
 static const char *misfit(const options *o)
 {
     if (o->com
-        && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->debug
-            || o->break_count || o->trace || o->sym)) {
+        && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->punch_pty
+            || o->debug || o->break_count || o->trace || o->sym)) {
         return "--com goes with --stats and --max-cycles alone";
     }
     if (o->part && o->pty) {
@@ -59,6 +60,9 @@ static const char *misfit(const options *o)
     }
     if (o->part && o->tape) {
         return "the part is the tape: no --tape with it";
+    }
+    if (o->punch_tty && o->punch_pty) {
+        return "--punch-pty is a port of its own: a teletype alone has none";
     }
     if (o->input && !o->part) {
         return "--input needs a part";
@@ -119,8 +123,8 @@ static int refuse(char **argv)
 int options_read(int argc, char **argv, options *o)
 {
     // clang-format off
-    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, STATS, MAX_CYCLES, COM, DEBUG, BREAK, TRACE,
-           SYM, HELP };
+    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, PUNCH_PTY, STATS, MAX_CYCLES, COM, DEBUG, BREAK,
+           TRACE, SYM, HELP };
     // clang-format on
     static const struct option list[] = {
         { "rom", required_argument, NULL, ROM },
@@ -134,6 +138,7 @@ int options_read(int argc, char **argv, options *o)
         { "baud", required_argument, NULL, BAUD },
         { "board", required_argument, NULL, BOARD },
         { "punch-tty", no_argument, NULL, PUNCH_TTY },
+        { "punch-pty", no_argument, NULL, PUNCH_PTY },
         { "stats", no_argument, NULL, STATS },
         { "max-cycles", required_argument, NULL, MAX_CYCLES },
         { "com", required_argument, NULL, COM },
@@ -200,6 +205,9 @@ int options_read(int argc, char **argv, options *o)
             break;
         case PUNCH_TTY:
             o->punch_tty = true;
+            break;
+        case PUNCH_PTY:
+            o->punch_pty = true;
             break;
         case STATS:
             o->stats = true;

@@ -14,7 +14,7 @@ typedef struct {
     double mhz;                     /* 0: no time is kept */
     uint64_t max_cycles;
     board_kind kind;
-    bool pty, stats, punch_tty, debug;
+    bool pty, stats, punch_tty, punch_pty, debug;
 } options;
 
 /* Fills `o`. Returns 0, or the exit code after a message; -1: all is said and done (--help). */

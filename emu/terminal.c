@@ -7,11 +7,12 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
 enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BACKSLASH = 0x1c, CTRL_BRACKET = 0x1d, CTRL_CARET = 0x1e };
-enum { DEAF_AFTER = 1000 };         /* ms; so long a full pseudo-terminal may keep the board waiting */
+enum { DEAF_AFTER = 1000 };         /* ms; so long a full teletype may keep the board waiting */
 
 /* ---- raw mode ---- */
 
@@ -156,6 +157,7 @@ int terminal_open_pty(terminal *t)
 {
     memset(t, 0, sizeof *t);
     t->keyboard = true;
+    t->patience = DEAF_AFTER;
     t->in = t->out = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
     if (t->in < 0 || grantpt(t->in) || unlockpt(t->in)) {
         return -1;
@@ -166,13 +168,13 @@ int terminal_open_pty(terminal *t)
     }
     strcpy(t->name, name);
     /* Our own end of the line stays open, so that it is still there, and still raw, when its user hangs up. */
-    int line = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
+    t->line = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
     struct termios settings;
-    if (line < 0 || tcgetattr(line, &settings)) {
+    if (t->line < 0 || tcgetattr(t->line, &settings)) {
         return -1;
     }
     cfmakeraw(&settings);
-    if (tcsetattr(line, TCSANOW, &settings)) {
+    if (tcsetattr(t->line, TCSANOW, &settings)) {
         return -1;
     }
     return fcntl(t->in, F_SETFL, fcntl(t->in, F_GETFL) | O_NONBLOCK);
@@ -197,7 +199,7 @@ void terminal_print(terminal *t, uint8_t c)
         if (errno != EAGAIN || t->deaf) {
             return;             /* a teletype that is switched off prints nothing */
         }
-        if (poll(&line, 1, *t->name ? DEAF_AFTER : -1) == 0) {
+        if (poll(&line, 1, *t->name ? t->patience : -1) == 0) {
             t->deaf = true;
             return;
         }
@@ -272,6 +274,33 @@ bool terminal_listen(terminal *t, board *b, int milliseconds)
         }
     }
     return true;
+}
+
+bool terminal_feed(terminal *t, board *b, int milliseconds)
+{
+    struct pollfd line = { .fd = t->in, .events = POLLIN };
+    uint8_t bytes[256];
+    if (poll(&line, 1, milliseconds) <= 0) {
+        return true;
+    }
+    ssize_t count = read(t->in, bytes, sizeof bytes);
+    return count <= 0 || board_tape(b, bytes, (size_t)count);
+}
+
+void terminal_drain(terminal *t)
+{
+    /* What was written is on its way for a while before it can be read: the line must be seen empty several times. */
+    enum { STEP_MS = 5, TIMES_EMPTY = 10 };
+    static const struct timespec step = { .tv_nsec = STEP_MS * 1000000 };
+    int unread = 0;
+    for (int ms = 0, empty = 0; empty < TIMES_EMPTY; ms += STEP_MS) {
+        if (ioctl(t->line, FIONREAD, &unread) || ms >= t->patience) {
+            t->deaf = true;
+            return;
+        }
+        empty = unread ? 0 : empty + 1;
+        nanosleep(&step, NULL);
+    }
 }
 
 /* ---- real time ---- */

@@ -1,4 +1,5 @@
-/* The operator's side of the teletype: this terminal, a pipe, or a pseudo-terminal; and real time
+/* The operator's side of the teletype: this terminal, a pipe, or a pseudo-terminal; the machine's side of the punch, which
+ * may be one too; and real time
  *
  * A terminal is switched to raw mode and put back on exit and on every signal that ends or stops the program. ctrl-]
  * leaves, ctrl-\ is the reset button. ctrl-C, ctrl-S and ctrl-Q reach the board at once, ctrl-C drops what was typed
@@ -16,19 +17,21 @@
 #include <time.h>
 
 typedef struct {
-    int in, out;            /* file descriptors */
-    bool keyboard;          /* a person or a program at a line (not a pipe): keys, not text */
-    bool leaves;            /* ctrl-] leaves, ctrl-\ resets */
-    bool ended;             /* no more will come, or ctrl-] */
-    bool left;              /* ctrl-] */
-    bool reset;             /* ctrl-\ or USR1; who has seen to it makes it false again */
-    bool stop;              /* ctrl-^, when there is a debugger to stop for; likewise */
-    bool stops;             /* there is one */
-    int failed;             /* errno of a character that could not be printed; 0: none */
-    bool deaf;              /* nobody reads the pseudo-terminal */
+    int in, out; /* file descriptors */
+    int line; /* of a pseudo-terminal, the end that its user has too */
+    bool keyboard; /* a person or a program at a line (not a pipe): keys, not text */
+    bool leaves; /* ctrl-] leaves, ctrl-\ resets */
+    bool ended; /* no more will come, or ctrl-] */
+    bool left; /* ctrl-] */
+    bool reset; /* ctrl-\ or USR1; who has seen to it makes it false again */
+    bool stop; /* ctrl-^, when there is a debugger to stop for; likewise */
+    bool stops; /* there is one */
+    int failed; /* errno of a character that could not be printed; 0: none */
+    int patience; /* ms; so long a full pseudo-terminal may keep the board waiting */
+    bool deaf; /* nobody reads the pseudo-terminal */
     bool after_cr;
-    FILE *copy;             /* of all that is printed; NULL: none */
-    char name[64];          /* of the pseudo-terminal */
+    FILE *copy; /* of all that is printed; NULL: none */
+    char name[64]; /* of the pseudo-terminal */
 } terminal;
 
 /* Real time at `hz`; hz = 0: no time at all. */
@@ -60,6 +63,13 @@ void terminal_print(terminal *t, uint8_t c);
 /* Waits up to so many milliseconds (-1: for ever) for keys and gives them to the board; a reset ends the waiting. False
  * without memory. */
 bool terminal_listen(terminal *t, board *b, int milliseconds);
+
+/* Waits up to so many milliseconds (-1: for ever) for what a machine says to the board, at a pseudo-terminal that is the
+ * punch's and reader's, and puts it into the reader. False without memory. */
+bool terminal_feed(terminal *t, board *b, int milliseconds);
+
+/* Waits until all that was printed at a pseudo-terminal has been read; after its patience it is deaf. */
+void terminal_drain(terminal *t);
 
 /* Starts real time now, and sleeps until the processor's cycles are due. */
 void pacer_start(pacer *p, double hz, uint64_t cycles);

@@ -1,0 +1,227 @@
+"""`skg80 --punch-pty`: punch and reader are a line with a machine at its end, which a test plays."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from grblhelp import GREETING, OK, ROMS, ROOT, SKG80, Answer, driven
+
+from skg.ref import mill
+
+GRBL = ROMS / "skg-grbl.bin"
+needs_grbl = pytest.mark.skipif(not GRBL.exists(), reason="there is no roms/skg-grbl.bin")
+
+PART = "10 F 300,60\n20 Z -1,3\n30 FROM (-5,0)\n40 CUT O,(10,0),(0,7)\n50 BACK\n60 HOLE (1,1),(2,2)\n"
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "part.skg"
+    path.write_text(PART)
+    return path
+
+
+def always(_block: str, _number: int) -> bytes:
+    return OK
+
+
+# The line itself, with the ROM that waits for nobody ------------------------------------------------------------------
+
+
+def test_the_tape_goes_to_the_line(tmp_path: Path) -> None:
+    example = ROOT / "examples" / "fit-gear.skg"
+    part = tmp_path / "part.skg"
+    part.write_bytes(example.read_bytes())
+    copy = tmp_path / "copy.3b"
+    with driven("skg", part, always, "--punch", copy) as (board, machine):
+        assert board.wait() == 0
+        tape = example.with_suffix(".3b").read_bytes()
+        assert len(tape) > 4096  # more than a line holds
+        for _ in range(100):
+            if len(machine.raw) == len(tape):
+                break
+            time.sleep(0.02)
+        assert machine.raw == tape == copy.read_bytes()
+        assert board.process.stdout.read() == b""
+
+
+def test_nobody_reads(part: Path) -> None:
+    """Blocks that nobody takes are not lost without a word."""
+    part.write_text((ROOT / "examples" / "xy-star.skg").read_text())
+    done = subprocess.run([SKG80, "--punch-pty", part], capture_output=True, text=True, timeout=30)
+    assert done.returncode == 2
+    assert done.stderr.endswith(f"skg80: {done.stdout.strip()}: nobody reads what is punched\n")
+
+
+@pytest.mark.parametrize(("options", "wrong"), [
+    (["--punch-pty", "--punch-tty"], "--punch-pty is a port of its own: a teletype alone has none"),
+    (["--punch-pty", "--com", "x.com"], "--com goes with --stats and --max-cycles alone"),
+])  # fmt: skip
+def test_wrong_usage(options: list[str], wrong: str) -> None:
+    done = subprocess.run([SKG80, *options], capture_output=True, text=True, timeout=30)
+    assert (done.returncode, done.stderr) == (2, f"skg80: {wrong}\n")
+
+
+#: 6850s readied, then what comes in at the punch's port goes out there: MVI A,3; OUT 12H; MVI A,15H; OUT 12H;
+#: IN 12H; ANI 1; JZ 0008; IN 13H; OUT 13H; JMP 0008.
+ECHO = bytes.fromhex("3E03D312 3E15D312 DB12 E601 CA0800 DB13 D313 C30800")
+
+
+@contextlib.contextmanager
+def terminal(*options: object) -> Iterator[tuple[int, int]]:
+    """skg80 with two pseudo-terminals: the teletype's and the line's file descriptors."""
+    words = [SKG80, "--pty", "--punch-pty", *options]
+    process = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE)
+    ends = []
+    try:
+        for _ in range(2):
+            ends.append(os.open(process.stdout.readline().decode().strip(), os.O_RDWR | os.O_NOCTTY))
+        yield ends[0], ends[1]
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+        for end in ends:
+            os.close(end)
+
+
+def until(end: int, wanted: bytes, seconds: float = 10) -> bytes:
+    """What comes from a line until it ends in something."""
+    came, last = b"", time.monotonic() + seconds
+    while not came.endswith(wanted):
+        assert time.monotonic() < last, came
+        if select.select([end], [], [], 0.1)[0]:
+            came += os.read(end, 4096)
+    return came
+
+
+def test_what_the_machine_says_reaches_the_board(tmp_path: Path) -> None:
+    rom = tmp_path / "echo.bin"
+    rom.write_bytes(ECHO.ljust(8192, b"\xff"))
+    with terminal("--rom", rom) as (_, line):
+        for said in (b"ok\r\n", bytes(range(256)), b"error:33\r\n"):
+            os.write(line, said)
+            assert until(line, said[-4:]) == said
+
+
+def test_save_and_load_through_the_line() -> None:
+    """The standard ROM: a program goes out to the line, and another one comes in from there."""
+    with terminal() as (teletype, line):
+        until(teletype, b">")
+        os.write(teletype, b"10 PRINT 6*7\rSAVE\r")
+        assert b"10 PRINT 6*7\r\n" in until(line, b"\x1a").replace(b"\0", b"")
+        until(teletype, b">")
+        os.write(teletype, b"NEW\r")
+        until(teletype, b">")
+        os.write(teletype, b"LOAD\r")
+        until(teletype, b"LOAD\r\n")
+        os.write(line, b"10 PRINT 7*8\r\n\x1a")
+        until(teletype, b">")
+        os.write(teletype, b"RUN\r")
+        assert b"56\r\n" in until(teletype, b">")
+
+
+# The handshake ----------------------------------------------------------------------------------------------------
+
+
+@needs_grbl
+@pytest.mark.parametrize("slow", [0.0, 0.05])
+def test_block_by_block(part: Path, slow: float) -> None:
+    wanted = mill.run(PART, line_end="\n").tape
+    with driven("skg-grbl", part, always, slow=slow) as (board, machine):
+        assert board.wait() == 0
+    assert machine.raw == wanted
+    assert machine.blocks == wanted.decode().splitlines()
+    assert machine.early == []
+
+
+def junk(block: str, number: int) -> bytes:
+    """Everything that a machine may say besides `ok`, and then that."""
+    kinds = [
+        b"[MSG:Caution: Unlocked]\r\n", b"\r\n\r\n", b"<Idle|MPos:0.000,0.000,0.000|FS:0,0>\r\n",
+        b"echo:busy: processing\r\n",
+        b"o\r\nk\r\n", b" ok\r\n", b"OK\r\n", b"Error\r\n", b"alarm\r\n", b"err\r\nALAR\r\n",
+        bytes(range(0x80, 0x100)) + b"\r\n", b"not ok\r\n", b"x" * 300 + b"\r\n", b"eok\r\nAok\r\n",
+    ]  # fmt: skip
+    return kinds[number % len(kinds)] + (b"ok\n" if number % 2 else b"ok: and more\r\n")
+
+
+@needs_grbl
+def test_junk_means_nothing(part: Path) -> None:
+    with driven("skg-grbl", part, junk) as (board, machine):
+        assert board.wait() == 0
+    assert machine.raw == mill.run(PART, line_end="\n").tape
+    assert machine.early == []
+
+
+@needs_grbl
+@pytest.mark.parametrize("said", [b"error:33", b"ALARM:1", b"error: Bad number format"])
+@pytest.mark.parametrize("at", [3, 7])
+def test_error_and_alarm(part: Path, said: bytes, at: int) -> None:
+    """The line is typed, the run ends with error 10; in mid-route (block 7) M0 goes out and is not waited for."""
+
+    def answer(_block: str, number: int) -> bytes | None:
+        return said + b"\r\n" if number == at else OK if number < at else None
+
+    with driven("skg-grbl", part, answer) as (board, machine):
+        assert board.wait() == 1
+        time.sleep(0.1)
+    printed = [line for line in board.printed() if line]
+    line = {3: 30, 7: 40}[at]
+    at_error = printed.index(said.decode())
+    assert printed[at_error + 1] in ([f"N{at + 1}M0"] if at == 7 else []) + [f"ERR 10 LINE {line}"]
+    assert f"ERR 10 LINE {line}" in printed
+    wanted = mill.run(PART, line_end="\n").tape.decode().splitlines()[:at]
+    assert machine.blocks == wanted + ([f"N{at + 1}M0"] if at == 7 else [])
+
+
+@needs_grbl
+def test_silence_waits(part: Path) -> None:
+    """However long: the next block does not come."""
+
+    def answer(_block: str, number: int) -> bytes | None:
+        return OK if number < 4 else None
+
+    with driven("skg-grbl", part, answer) as (board, machine):
+        time.sleep(1)
+        assert board.process.poll() is None
+        assert len(machine.blocks) == 4
+        machine.answer = always
+        machine.say(OK)
+        assert board.wait() == 0
+    assert machine.raw == mill.run(PART, line_end="\n").tape
+
+
+@needs_grbl
+def test_ctrl_c_ends_the_wait() -> None:
+    with terminal("--rom", GRBL) as (teletype, line):
+        until(teletype, b">")
+        for text in PART.splitlines():
+            os.write(teletype, text.encode() + b"\r")
+            until(teletype, b">")
+        os.write(teletype, b"RUN\r")
+        until(line, b"\n")
+        os.write(line, GREETING + OK)
+        until(line, b"\n")
+        os.write(teletype, b"\x03")
+        assert b"ERR 10 LINE 30\r\n" in until(teletype, b">")
+
+
+def refuse(_block: str, _number: int) -> bytes:
+    return b"error:9\r\n"
+
+
+@needs_grbl
+@pytest.mark.parametrize("answer", [refuse])
+def test_a_locked_machine(part: Path, answer: Answer) -> None:
+    """It refuses the first block; nothing else goes out."""
+    with driven("skg-grbl", part, answer) as (board, machine):
+        assert board.wait() == 1
+    assert machine.blocks == ["N1G17G21G90G94"]
