@@ -26,8 +26,8 @@ from test_tape import blocks
 from skg import tape as tapes
 from skg.drawing import dxf_file, entities, source
 from skg.drawing.account import Content
-from skg.drawing.chain import chain, without_doubles
-from skg.drawing.contour import Edge
+from skg.drawing.chain import chain, merged
+from skg.drawing.contour import Contour, Edge
 from skg.drawing.dxf import draw
 from skg.drawing.plan import plan
 from skg.drawing.source import lay_out
@@ -70,11 +70,15 @@ def content_of(make: Callable[[], Drawing]) -> Content:
 
 
 def edges_of(make: Callable[[], Drawing]) -> list[Edge]:
-    return without_doubles(content_of(make).edges, 0.005)
+    return content_of(make).edges
+
+
+def contours_of(edges: list[Edge]) -> list[Contour]:
+    return [merged(contour) for contour in chain(edges, 0.005).contours]
 
 
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
-    contours = chain(edges_of(make), 0.005)
+    contours = contours_of(edges_of(make))
     return write(plan(contours, content_of(make).starts, offset, str(wishes.get("side", "auto")),
                       bool(wishes.get("reverse"))), make.__name__, bool(wishes.get("fillets", True)))
 
@@ -398,7 +402,7 @@ def test_large_curves_are_cut_as_arcs() -> None:
     space.add_ellipse((0, 0), (400, 0), 0.75)
     edge = collect(drawing).edges[0]
     assert len(edge.nodes) < 200
-    assert apart(path_edges(write(plan(chain([edge], 0.005), [], 0.0, "on"), "ELLIPSE")), [edge]) < 0.3
+    assert apart(path_edges(write(plan(contours_of([edge]), [], 0.0, "on"), "ELLIPSE")), [edge]) < 0.3
 
 
 def star(count: int) -> list[XY]:
@@ -443,7 +447,7 @@ def tilted() -> Drawing:
 
 
 @pytest.mark.parametrize(("make", "arguments", "message"), [
-    (branching, [], "3 edges meet at (0.000, 0.000), expected two at a corner"),
+    (branching, [], "no closed outline: 3 entities meet at junctions or cross, as at (0, 0)"),
     (empty, [], "no lines, arcs or curves to cut"),
     (tilted, [], "leaves the drawing's plane, expected a flat drawing"),
     (drawings.die_plate, ["--layer", "CUT"], "no layer CUT, the drawing has 0"),

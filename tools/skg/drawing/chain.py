@@ -1,119 +1,420 @@
-"""Chaining: the contours that edges make, whose ends lie within a tolerance of each other."""
+"""Chaining: the contours that edges make, and what is left where more than two of them meet.
+
+An entity that closes by itself (a circle, a closed polyline) is a contour, whatever touches it. All other edges are the
+lines of a graph whose corners are places where ends meet. A corner of two edges is a corner of a contour; where more
+meet, the closed outlines are found so:
+
+1. what hangs on a junction and ends free is no outline, nor is what alone joins two parts of the drawing (a bridge);
+2. what then is left falls into blocks that hang together at single corners: a block that is a ring is an outline;
+3. of a block with junctions the boundary around all of it is an outline, followed from its lowest place on;
+4. what lies within that is looked at once more, and rings are outlines unless they turn off at a junction where
+   another edge goes straight on (cells between crossing lines).
+
+The rest is handed back, nothing is dropped.
+"""
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator
-from dataclasses import replace
-from math import pi, tan
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from math import asin, atan2, copysign, hypot, pi
 
 from skg.drawing.contour import Contour, CurveNode, Edge
-from skg.errors import UserError
-from skg.plane import XY, distance, minus, turn
+from skg.plane import XY, distance, dot, minus, turn
+
+#: Shorter edges of one polyline (mm) go into their neighbour: the ROM takes such places for one.
+_LEAST = 1e-3
+#: Ends of neighbours in one entity lie within this of each other, mm.
+_EXACT = 1e-6
+#: Directions within this (radians) run straight on.
+_STRAIGHT_ON = 0.02
+#: An arc whose ends were moved may leave the drawn one by this, mm; else it is bent at its ends alone.
+_BENT = 1e-3
+
+
+@dataclass
+class Chains:
+    """What edges make; each edge that went in is in one of these, once.
+
+    `contours`: in the order of the edges, their ends moved to common corners; `rest`: runs of edges at junctions that
+    belong to no closed outline; `doubles`: drawn twice; `short`: shorter than the tolerance.
+    """
+
+    contours: list[Contour] = field(default_factory=list)
+    rest: list[Contour] = field(default_factory=list)
+    doubles: list[Edge] = field(default_factory=list)
+    short: list[Edge] = field(default_factory=list)
 
 
 class _Corners:
-    """Ends of edges, those within a tolerance of each other taken as one corner."""
+    """Ends of edges, those within a tolerance of each other taken as one corner, in their middle."""
 
     def __init__(self, tolerance: float) -> None:
         self.tolerance = tolerance
         self.cells: dict[tuple[int, int], list[int]] = defaultdict(list)
-        self.points: list[XY] = []
+        self.first: list[XY] = []
+        self.members: list[list[XY]] = []
 
     def index(self, point: XY) -> int:
         """The number of the corner at a point."""
         column, row = (int(ordinate // self.tolerance) for ordinate in point)
-        for i in (column - 1, column, column + 1):
-            for j in (row - 1, row, row + 1):
+        for i in (column, column - 1, column + 1):
+            for j in (row, row - 1, row + 1):
                 for known in self.cells.get((i, j), ()):
-                    if distance(self.points[known], point) <= self.tolerance:
+                    if distance(self.first[known], point) <= self.tolerance:
+                        self.members[known].append(point)
                         return known
-        self.points.append(point)
-        self.cells[column, row].append(len(self.points) - 1)
-        return len(self.points) - 1
+        self.first.append(point)
+        self.members.append([point])
+        self.cells[column, row].append(len(self.first) - 1)
+        return len(self.first) - 1
+
+    def points(self) -> list[XY]:
+        """Where the corners are."""
+        return [
+            (sum(x for x, _ in members) / len(members), sum(y for _, y in members) / len(members))
+            for members in self.members
+        ]
 
 
-def _moved(edge: Edge, start: XY, end: XY) -> Edge:
-    """The edge with its ends moved to given points; an arc keeps its sweep, a curve its shape."""
+def moved(edge: Edge, start: XY, end: XY) -> Edge:
+    """The edge with its ends moved to given places; it stays where it was as nearly as it can."""
+    if (edge.start, edge.end) == (start, end):
+        return edge
     if edge.nodes:
         nodes = (CurveNode(start, edge.nodes[0].angle), *edge.nodes[1:-1], CurveNode(end, edge.nodes[-1].angle))
-        return replace(edge, start=start, end=end, nodes=nodes)
+        return replace(edge, start=start, end=end, nodes=nodes, samples=(start, *edge.samples[1:-1], end))
     if edge.centre is None or edge.is_circle:
         return replace(edge, start=start, end=end)
     off = max(abs(distance(point, edge.centre) - edge.radius) for point in (start, end))
     if off < 1e-4:
         return replace(edge, start=start, end=end)
-    half = minus(end, start)[0] / 2, minus(end, start)[1] / 2
-    height = 1 / tan(edge.sweep / 2)
-    centre = start[0] + half[0] - half[1] * height, start[1] + half[1] + half[0] * height
-    return replace(edge, start=start, end=end, centre=centre)
+    # The centre goes to the nearest place that has the same distance from both ends.
+    chord = minus(end, start)
+    length = hypot(*chord)
+    if length > 0:
+        middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+        part = dot(minus(middle, edge.centre), chord) / length**2
+        centre = edge.centre[0] + part * chord[0], edge.centre[1] + part * chord[1]
+        if distance(centre, edge.centre) < _BENT:
+            angles = (atan2(*reversed(minus(point, centre))) for point in (start, end))
+            sweep = edge.sweep + turn(edge.sweep, turn(*angles))
+            return replace(edge, start=start, end=end, centre=centre, sweep=sweep)
+    pieces = max(3, int(abs(edge.sweep) / 0.5) + 1)
+    nodes = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
+    nodes[0], nodes[-1] = CurveNode(start, nodes[0].angle), CurveNode(end, nodes[-1].angle)
+    samples = (start, *edge.points()[1:-1], end)
+    return Edge(start, end, nodes=tuple(nodes), samples=samples, entity=edge.entity)
 
 
 def _same(one: Edge, other: Edge, tolerance: float) -> bool:
     """Whether an edge was drawn twice."""
-    if len({edge.centre is None for edge in (one, other)} | {bool(edge.nodes) for edge in (one, other)}) > 2:
+    for way in (other, other.reversed()):
+        pairs = ((one.start, way.start), (one.end, way.end), (one.at(0.5), way.at(0.5)))
+        if all(distance(p, q) <= tolerance for p, q in pairs):
+            return True
+    return False
+
+
+def chain(edges: Iterable[Edge], tolerance: float) -> Chains:
+    """Return what edges make whose ends within `tolerance` (mm) of each other join."""
+    found = Chains()
+    loose: list[Edge] = []
+    groups: dict[int, list[Edge]] = defaultdict(list)
+    for edge in edges:
+        groups[edge.entity if edge.entity >= 0 else -1 - len(groups)].append(edge)
+    for group in groups.values():
+        kept, short = _without_short(group) if _is_ring(group, tolerance) else ([], [])
+        if not kept:
+            loose += group
+            continue
+        found.short += short
+        found.contours.append(Contour(tuple(kept), True))
+    _Graph(loose, tolerance, found).chain()
+    found.contours.sort(key=lambda contour: min(edge.entity for edge in contour.edges))
+    return found
+
+
+def _is_ring(group: list[Edge], tolerance: float) -> bool:
+    """Whether the edges of one entity close by themselves, around some area."""
+    if len(group) == 1:
+        edge = group[0]
+        return edge.is_circle or (edge.start == edge.end and edge.length > 3 * tolerance)
+    following = [*group[1:], group[0]]
+    if any(distance(one.end, other.start) > _EXACT for one, other in zip(group, following, strict=True)):
         return False
-    ways = [other, other.reversed()]
-    return any(all(distance(p, q) <= tolerance for p, q in (
-        (one.start, way.start), (one.end, way.end), (one.at(0.5), way.at(0.5)))) for way in ways)
+    length = sum(edge.length for edge in group)
+    return abs(Contour(tuple(group), True).area) > 0.1 * tolerance * length
 
 
-def without_doubles(edges: list[Edge], tolerance: float) -> list[Edge]:
-    """Return the edges with those left out that were drawn twice."""
+def _without_short(group: list[Edge]) -> tuple[list[Edge], list[Edge]]:
+    """A ring's edges without those that are too short for the ROM, and these."""
     kept: list[Edge] = []
-    corners = _Corners(tolerance)
-    seen: dict[frozenset[int], list[Edge]] = defaultdict(list)
-    for edge in edges:
-        ends = frozenset((corners.index(edge.start), corners.index(edge.end)))
-        if not any(_same(edge, known, tolerance) for known in seen[ends]):
-            seen[ends].append(edge)
+    short: list[Edge] = []
+    for edge in group:
+        if distance(edge.start, edge.end) < _LEAST and edge.length < 2 * _LEAST:
+            short.append(edge)
+        elif kept:
+            kept.append(moved(edge, kept[-1].end, edge.end))
+        else:
             kept.append(edge)
-    return kept
+    if kept and kept[-1].end != kept[0].start:
+        kept[-1] = moved(kept[-1], kept[-1].start, kept[0].start)
+    return kept, short
 
 
-def chain(edges: list[Edge], tolerance: float) -> list[Contour]:
-    """Return the contours that edges make; ends within `tolerance` (mm) of each other join.
-
-    Where more than two edges meet: `UserError`. Neighbours on one line or circle are merged.
-    """
-    corners = _Corners(tolerance)
-    joined: list[tuple[int, int, Edge]] = []
-    at_corner: dict[int, list[int]] = defaultdict(list)
-    contours: list[Contour] = []
-    for edge in edges:
-        first, last = corners.index(edge.start), corners.index(edge.end)
-        if first == last and (edge.is_circle or edge.length > 3 * tolerance):
-            contours.append(Contour((_moved(edge, edge.start, edge.start),), True))
-        elif first != last:
-            at_corner[first].append(len(joined))
-            at_corner[last].append(len(joined))
-            joined.append((first, last, _moved(edge, corners.points[first], corners.points[last])))
-    for corner, meeting in at_corner.items():
-        if len(meeting) > 2:
-            x, y = corners.points[corner]
-            raise UserError(f"{len(meeting)} edges meet at ({x:.3f}, {y:.3f}), expected two at a corner")
-    used: set[int] = set()
-    ends = [corner for corner, meeting in at_corner.items() if len(meeting) == 1]
-    for corner in [*ends, *at_corner]:
-        free = [at for at in at_corner[corner] if at not in used]
-        if free:
-            run = list(_follow(corner, free[0], joined, at_corner, used))
-            contours.append(_merged(Contour(tuple(run), corner not in ends)))
-    return contours
+#: An edge of the graph by its number, and whether it is run through from its first end to its last.
+_Step = tuple[int, bool]
 
 
-def _follow(corner: int, at: int, joined: list[tuple[int, int, Edge]], at_corner: dict[int, list[int]],
-            used: set[int]) -> Iterator[Edge]:
-    """Walk from a corner along an edge and on, until there is no unused edge."""
-    while True:
-        used.add(at)
-        first, last, edge = joined[at]
-        yield edge if first == corner else edge.reversed()
-        corner = last if first == corner else first
-        following = [other for other in at_corner[corner] if other not in used]
-        if not following:
-            return
-        at = following[0]
+class _Graph:
+    """Edges whose ends are corners."""
+
+    def __init__(self, edges: list[Edge], tolerance: float, found: Chains) -> None:
+        self.found = found
+        corners = _Corners(tolerance)
+        self.edges: list[Edge] = []
+        self.ends: list[tuple[int, int]] = []
+        self.at: dict[int, list[int]] = defaultdict(list)
+        known: dict[tuple[int, int], list[Edge]] = defaultdict(list)
+        for edge in edges:
+            first, last = corners.index(edge.start), corners.index(edge.end)
+            alike = known[min(first, last), max(first, last)]
+            if first == last and edge.length <= 3 * tolerance:
+                found.short.append(edge)
+            elif any(_same(edge, other, tolerance) for other in alike):
+                found.doubles.append(edge)
+            elif first == last:
+                alike.append(edge)
+                found.contours.append(Contour((moved(edge, edge.start, edge.start),), True))
+            else:
+                alike.append(edge)
+                for corner in (first, last):
+                    self.at[corner].append(len(self.edges))
+                self.edges.append(edge)
+                self.ends.append((first, last))
+        self.corners = corners.points()
+
+    def other(self, at: int, corner: int) -> int:
+        """The corner at an edge's other end."""
+        first, last = self.ends[at]
+        return last if first == corner else first
+
+    def chain(self) -> None:
+        """Find all contours."""
+        for part in self.parts():
+            degrees = self.degrees(part)
+            if max(degrees.values()) <= 2:
+                (run,) = self.runs(part)
+                self.keep(run, 1 not in degrees.values())
+                continue
+            rings, rest = self.outlines(part)
+            for ring in rings:
+                self.keep(ring, True)
+            for run in self.runs(rest):
+                steps = tuple(self.edges[at] if ahead else self.edges[at].reversed() for at, ahead in run)
+                self.found.rest.append(Contour(steps, self.is_closed(run)))
+
+    def is_closed(self, run: list[_Step]) -> bool:
+        """Whether a run ends where it begins."""
+        (first, ahead), (last, goes) = run[0], run[-1]
+        return self.ends[first][not ahead] == self.ends[last][goes]
+
+    def keep(self, run: list[_Step], is_closed: bool) -> None:
+        """Make a contour of a run of edges."""
+        steps = []
+        for at, ahead in run:
+            start, end = (self.corners[corner] for corner in self.ends[at])
+            edge = moved(self.edges[at], start, end)
+            steps.append(edge if ahead else edge.reversed())
+        self.found.contours.append(Contour(tuple(steps), is_closed))
+
+    def degrees(self, part: Iterable[int]) -> Counter[int]:
+        """How many of some edges meet at each corner."""
+        return Counter(corner for at in part for corner in self.ends[at])
+
+    def parts(self) -> Iterator[set[int]]:
+        """Edges that hang together."""
+        seen: set[int] = set()
+        for begin in range(len(self.edges)):
+            if begin in seen:
+                continue
+            part, open_ones = {begin}, [begin]
+            while open_ones:
+                for corner in self.ends[open_ones.pop()]:
+                    for at in self.at[corner]:
+                        if at not in part:
+                            part.add(at)
+                            open_ones.append(at)
+            seen |= part
+            yield part
+
+    def runs(self, part: Iterable[int]) -> Iterator[list[_Step]]:
+        """Edges that follow each other, from where none or more than one other edge meets them to the next such
+        place; a ring from its first edge's start on."""
+        part = sorted(part)
+        degrees = self.degrees(part)
+        free = set(part)
+        begins = [(at, ahead) for at in part for ahead in (True, False) if degrees[self.ends[at][not ahead]] != 2]
+        for begin in [*begins, *((at, True) for at in part)]:
+            if begin[0] not in free:
+                continue
+            at, ahead = begin
+            run = []
+            while True:
+                free.discard(at)
+                run.append((at, ahead))
+                corner = self.ends[at][ahead]
+                following = [other for other in self.at[corner] if other in free]
+                if degrees[corner] != 2 or not following:
+                    break
+                at = following[0]
+                ahead = self.ends[at][0] == corner
+            yield run
+
+    def outlines(self, part: set[int]) -> tuple[list[list[_Step]], set[int]]:
+        """The closed outlines of edges with junctions, and what is left."""
+        rings: list[list[_Step]] = []
+        for block in self.blocks(self.peeled(part)):
+            if self.is_ring(block):
+                rings += [ring for ring in self.runs(block) if not self.is_cell(ring)]
+                continue
+            boundary = self.boundary(block)
+            if boundary is None:
+                continue
+            rings.append(boundary)
+            inner = block - {at for at, _ in boundary}
+            for within in self.blocks(self.peeled(inner)):
+                if self.is_ring(within):
+                    rings += [ring for ring in self.runs(within) if not self.is_cell(ring)]
+        return rings, part - {at for ring in rings for at, _ in ring}
+
+    def is_ring(self, part: set[int]) -> bool:
+        """Whether edges that hang together are one ring."""
+        return all(degree == 2 for degree in self.degrees(part).values())
+
+    def peeled(self, part: set[int]) -> set[int]:
+        """Edges without those that end free."""
+        part = set(part)
+        degrees = self.degrees(part)
+        open_ones = [corner for corner, degree in degrees.items() if degree == 1]
+        while open_ones:
+            corner = open_ones.pop()
+            for at in self.at[corner]:
+                if at in part:
+                    part.discard(at)
+                    other = self.other(at, corner)
+                    degrees[other] -= 1
+                    if degrees[other] == 1:
+                        open_ones.append(other)
+        return part
+
+    def blocks(self, part: set[int]) -> Iterator[set[int]]:
+        """The blocks of more than one edge: edges any two of which lie on a ring. (Hopcroft and Tarjan, 1973.)"""
+        number: dict[int, int] = {}
+        low: dict[int, int] = {}
+        for root in self.degrees(part):
+            if root in number:
+                continue
+            number[root] = low[root] = len(number)
+            passed: list[int] = []
+            stack = [(root, -1, iter(self.at[root]))]
+            while stack:
+                corner, came, edges = stack[-1]
+                at = next(edges, None)
+                if at is None:
+                    stack.pop()
+                    if not stack:
+                        continue
+                    before = stack[-1][0]
+                    low[before] = min(low[before], low[corner])
+                    if low[corner] >= number[before]:
+                        block: set[int] = set()
+                        while came not in block:
+                            block.add(passed.pop())
+                        if len(block) > 1:
+                            yield block
+                    continue
+                if at == came or at not in part:
+                    continue
+                other = self.other(at, corner)
+                if other not in number:
+                    number[other] = low[other] = len(number)
+                    passed.append(at)
+                    stack.append((other, at, iter(self.at[other])))
+                elif number[other] < number[corner]:
+                    passed.append(at)
+                    low[corner] = min(low[corner], number[other])
+
+    def ahead(self, at: int, corner: int, reach: float) -> float:
+        """The direction from a corner to where an edge leaves the circle of radius `reach` around it."""
+        edge = self.edges[at] if self.ends[at][0] == corner else self.edges[at].reversed()
+        if edge.is_line:
+            return edge.direction()
+        if edge.centre is not None:
+            return edge.direction() + copysign(asin(min(1.0, reach / (2 * edge.radius))), edge.sweep)
+        before, after = next(
+            ((p, q) for p, q in pairwise(edge.samples) if distance(q, edge.start) >= reach), edge.samples[-2:]
+        )
+        near, far = (distance(place, edge.start) for place in (before, after))
+        part = (reach - near) / (far - near) if far > near else 0.0
+        x, y = (p + part * (q - p) - o for p, q, o in zip(before, after, edge.start, strict=True))
+        return atan2(y, x)
+
+    def boundary(self, block: set[int]) -> list[_Step] | None:
+        """The ring around all edges of a block, counter-clockwise; None where they cross so that there is none."""
+        lowest = min(((y, x, at, k) for at in block for k, (x, y) in enumerate(self.edges[at].points())))
+        at, place = lowest[2:]
+        points = self.edges[at].points()
+        if 0 < place < len(points) - 1:
+            begin = at, points[place + 1][0] > points[place - 1][0]
+        else:
+            corner = self.ends[at][place > 0]
+            begin = self.rightmost([other for other in self.at[corner] if other in block], corner, 0.0)
+        run: list[_Step] = []
+        seen: set[int] = set()
+        step = begin
+        while True:
+            at, ahead = step
+            run.append(step)
+            corner = self.ends[at][ahead]
+            if corner in seen:
+                return None
+            seen.add(corner)
+            others = [other for other in self.at[corner] if other in block and other != at]
+            reach = self.reach([at, *others])
+            step = self.rightmost(others, corner, self.ahead(at, corner, reach) + pi, reach)
+            if step == begin:
+                return run
+
+    def reach(self, edges: list[int]) -> float:
+        """How far along edges their directions are compared."""
+        chords = (distance(self.edges[at].start, self.edges[at].end) for at in edges)
+        return min(1.0, 0.3 * min(chords))
+
+    def rightmost(self, edges: list[int], corner: int, heading: float, reach: float | None = None) -> _Step:
+        """The edge that turns most to the right of a heading at a corner."""
+        far = self.reach(edges) if reach is None else reach
+        at = min(edges, key=lambda other: turn(heading, self.ahead(other, corner, far)))
+        return at, self.ends[at][0] == corner
+
+    def is_cell(self, ring: list[_Step]) -> bool:
+        """Whether a ring turns off at junctions alone, and each time another edge goes straight on."""
+        within = {at for at, _ in ring}
+        turns = 0
+        for (at, ahead), (following, _) in zip(ring, [*ring[1:], ring[0]], strict=True):
+            corner = self.ends[at][ahead]
+            others = [other for other in self.at[corner] if other not in within]
+            reach = self.reach([at, following, *others])
+            heading = self.ahead(at, corner, reach) + pi
+            if abs(turn(heading, self.ahead(following, corner, reach))) < _STRAIGHT_ON:
+                continue
+            turns += 1
+            if not any(abs(turn(heading, self.ahead(other, corner, reach))) < _STRAIGHT_ON for other in others):
+                return False
+        return turns > 0
 
 
 def _merge(one: Edge, other: Edge) -> Edge | None:
@@ -123,28 +424,25 @@ def _merge(one: Edge, other: Edge) -> Edge | None:
             return replace(one, end=other.end)
     elif one.centre is not None and other.centre is not None:
         sweep = one.sweep + other.sweep
-        if (distance(one.centre, other.centre) < 1e-6 and abs(one.radius - other.radius) < 1e-6
-                and one.sweep * other.sweep > 0 and abs(sweep) <= 2 * pi + 1e-6):
-            is_full = distance(one.start, other.end) < 1e-6 and abs(sweep) > pi
-            if is_full:
+        is_same = distance(one.centre, other.centre) < 1e-6 and abs(one.radius - other.radius) < 1e-6
+        if is_same and one.sweep * other.sweep > 0 and abs(sweep) <= 2 * pi + 1e-6:
+            if distance(one.start, other.end) < 1e-6 and abs(sweep) > pi:
                 return replace(one, end=one.start, sweep=2 * pi if sweep > 0 else -2 * pi)
             return replace(one, end=other.end, sweep=sweep)
     return None
 
 
-def _merged(contour: Contour) -> Contour:
+def merged(contour: Contour) -> Contour:
     """The contour with neighbours merged where they are the same line or circle."""
-    edges = list(contour.edges)
-    at = 0
-    while at < len(edges) and len(edges) > 1:
-        following = (at + 1) % len(edges)
-        if following == 0 and not contour.is_closed:
-            break
-        both = _merge(edges[at], edges[following])
+    edges: list[Edge] = []
+    for edge in contour.edges:
+        both = _merge(edges[-1], edge) if edges else None
         if both is None:
-            at += 1
-            continue
-        edges[at] = both
-        del edges[following]
-        at = min(at, len(edges) - 1)
+            edges.append(edge)
+        else:
+            edges[-1] = both
+    if contour.is_closed and len(edges) > 1:
+        both = _merge(edges[-1], edges[0])
+        if both is not None:
+            edges = [both, *edges[1:-1]]
     return replace(contour, edges=tuple(edges))

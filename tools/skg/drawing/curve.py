@@ -56,7 +56,11 @@ def _off(at: At, heading: Heading, low: float, high: float, breaks: Sequence[flo
     """How far the curve leaves the biarc between two parameters, and what FIT cuts of it; infinity where there is no
     good one. It is tried at eleven places, and at three between two breaks."""
     one, other = (CurveNode(at(t), heading(t)) for t in (low, high))
-    if distance(one.point, other.point) < 1e-6 or abs(turn(one.angle, other.angle)) > _BEND:
+    if distance(one.point, other.point) < 1e-6:
+        # A stretch without any length is one place; else the curve comes back to where it was.
+        is_place = all(distance(at(low + k / 8 * (high - low)), one.point) < 1e-6 for k in range(1, 8))
+        return (0.0, 0.0) if is_place else (inf, inf)
+    if abs(turn(one.angle, other.angle)) > _BEND:
         return inf, inf
     joint = biarc_joint(one, other)
     if joint is None:
@@ -132,3 +136,5 @@ def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: floa
             step = (end - now) / 2
         now = end if now + step > end - least else now + step
         yield now
+        # (behind a place that no biarc takes well, such as a cusp, the way is free again)
+        step = step if good else (end - now) / 8

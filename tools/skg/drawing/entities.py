@@ -26,6 +26,8 @@ NOTES = frozenset(
 )
 #: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
 _LEVEL = 1e-3
+#: Angles are whole turns apart when they miss it by no more than this part of one.
+_WHOLE = 1e-8
 #: Blocks within blocks within blocks.
 _DEPTH = 32
 #: More entities than this in all are no drawing, but blocks that hold copies of copies.
@@ -115,6 +117,9 @@ class _Collector:
                     self.add(edge)
                 if len(self.content.edges) == known:
                     account.left = "it has no length"
+                else:
+                    x, y = self.content.edges[known].start
+                    account.place = x / self.factor, y / self.factor
                 return
         except NotFlat as error:
             account.left = str(error)
@@ -182,13 +187,12 @@ class _Collector:
             case "CIRCLE":
                 return self.arc(entity, 0.0, 2 * pi)
             case "ARC":
-                sweep = (entity.dxf.end_angle - entity.dxf.start_angle) % 360 or 360
-                return self.arc(entity, radians(entity.dxf.start_angle), radians(sweep))
+                first, last = (radians(angle) for angle in (entity.dxf.start_angle, entity.dxf.end_angle))
+                return self.arc(entity, first, _sweep(first, last))
             case "ELLIPSE":
-                first = entity.dxf.start_param
-                sweep = (entity.dxf.end_param - first) % (2 * pi) or 2 * pi
-                sweep = 2 * pi if sweep > 2 * pi - 1e-9 else sweep
-                return self.conic(entity.dxf.center, entity.dxf.major_axis, entity.minor_axis, first, sweep)
+                first, last = entity.dxf.start_param, entity.dxf.end_param
+                axes = entity.dxf.major_axis, entity.minor_axis
+                return self.conic(entity.dxf.center, *axes, first, _sweep(first, last))
             case "LWPOLYLINE":
                 points = [Vec3(x, y, entity.dxf.elevation) for x, y in entity.vertices()]
                 bulges = [bulge for (bulge,) in entity.get_points("b")]
@@ -271,6 +275,12 @@ class _Collector:
         tool = entity.construction_tool()
         controls = [Vec3(x, y) for x, y in self.points(tool.control_points)]
         return spline_edges(BSpline(controls, tool.order, tool.knots(), tool.weights() or None), self.tolerance)
+
+
+def _sweep(first: float, last: float) -> float:
+    """From one angle on to the other, radians; whole turns, as files round them, are one."""
+    turns = (last - first) / (2 * pi)
+    return 2 * pi if abs(turns - round(turns)) < _WHOLE else (last - first) % (2 * pi)
 
 
 def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:

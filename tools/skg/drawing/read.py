@@ -10,11 +10,12 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from math import inf
 
-from skg.drawing.account import Account, Content, Entity, LayerSum, OpenEnd, Overlap, counted, listed, short, shown
-from skg.drawing.chain import chain, without_doubles
+from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, counted, listed, short, shown
+from skg.drawing.chain import chain, merged
 from skg.drawing.contour import Contour, Edge
 from skg.errors import UserError
 from skg.plane import XY, distance
@@ -22,11 +23,15 @@ from skg.plane import XY, distance
 #: mm in one unit of a file.
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
 #: A drawing that does not tell its units is in mm when its larger side has this many, mm.
-USUAL = 1.0, 1500.0
+USUAL = 3.0, 3000.0
 #: `Account.units_from` of such a drawing.
 NOT_TOLD = "the file does not say"
-#: What becomes of open contours.
-OPEN = ("cut", "leave", "refuse")
+#: What becomes of open contours; "all" cuts what is at junctions as well.
+OPEN = ("cut", "leave", "refuse", "all")
+#: No drawing that is cut has a larger side, mm.
+FARTHEST = 50_000.0
+#: Why an edge is not cut.
+SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
 
 
 @dataclass(frozen=True)
@@ -68,23 +73,48 @@ def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
 
 
 def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
+    from skg.drawing.touching import relations
+
     content, report = _dxf(data, name, wishes)
-    kept = without_doubles(content.edges, wishes.tolerance)
-    _note_doubles(content, kept, report)
-    if not kept:
+    if not content.edges:
         raise UserError(_nothing(content, wishes))
-    contours = [_with_layers(contour, content) for contour in chain(kept, wishes.tolerance)]
-    report.open_ends = _open_ends(contours, report.factor)
-    if report.open_ends and wishes.open != "cut":
-        contours = _without_open(contours, content, report, wishes)
+    chains = chain(content.edges, wishes.tolerance)
+    fates = _Fates(content, report.factor)
+    fates.of_edges(chains.short, SHORT)
+    fates.of_edges(chains.doubles, DOUBLE)
+    report.overlaps += [fates.overlap(DOUBLE, edge, edge.start) for edge in chains.doubles]
+    contours, rest = chains.contours, chains.rest
+    found = relations(contours + rest, wishes.tolerance)
+    for at in found.repeated:
+        repeated = (contours + rest)[at].edges
+        fates.of_edges(repeated, DOUBLE)
+        report.overlaps.append(fates.overlap(DOUBLE, repeated[0], repeated[0].start))
+    for what, at, place in found.meetings:
+        if at < len(contours):
+            report.overlaps.append(fates.overlap(what, contours[at].edges[0], place))
+    gone = set(found.repeated)
+    hanging = {at for at in found.touched if at < len(contours)} - gone
+    rest = [one for at, one in enumerate(rest, len(contours)) if at not in gone]
+    rest += [contours[at] for at in sorted(hanging)]
+    kept = [one for at, one in enumerate(contours) if at not in gone | hanging]
+    if wishes.open == "all":
+        kept, rest = kept + rest, []
+    for run in rest:
+        fates.of_edges(run.edges, JUNCTION)
+    opened = [one for one in kept if not one.is_closed]
+    report.open_ends = _open_ends(opened, report.factor)
+    if opened and wishes.open == "refuse":
+        raise UserError(_refusal(report))
+    if wishes.open == "leave":
+        kept = [one for one in kept if one.is_closed]
+        for one in opened:
+            fates.of_edges(one.edges, "of an open contour")
+    fates.account(kept, report)
+    if not kept:
+        raise UserError(_no_outline(report))
+    contours = [replace(merged(one), layers=fates.layers(one)) for one in kept]
     _measure(contours, report)
-    _account(content.entities, report)
-    if report.units_from == NOT_TOLD and not USUAL[0] <= max(report.size) <= USUAL[1]:
-        width, height = map(short, report.size)
-        raise UserError(
-            f"the file does not say its units, and {width} x {height} mm is an odd size: "
-            f"give --units ({', '.join(UNITS)})"
-        )
+    _check_size(report)
     return Reading(contours, content.starts, report)
 
 
@@ -111,21 +141,62 @@ def _dxf(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     return collect(file, wishes.layers, wishes.start_layer, wishes.fit_tolerance, report.factor), report
 
 
-def _in_file(place: XY, factor: float) -> XY:
-    """A place in the file's own units."""
+class _Fates:
+    """What becomes of each entity's edges."""
+
+    def __init__(self, content: Content, factor: float) -> None:
+        self.entities = content.entities
+        self.factor = factor
+        self.parts = Counter(edge.entity for edge in content.edges)
+        self.gone: dict[int, Counter[str]] = defaultdict(Counter)
+
+    def of_edges(self, edges: Iterable[Edge], why: str) -> None:
+        """Say why edges are not cut."""
+        for edge in edges:
+            self.gone[edge.entity][why] += 1
+
+    def overlap(self, what: str, edge: Edge, place: XY) -> Overlap:
+        """A line of the report."""
+        return Overlap(what, self.entities[edge.entity].layer, in_file(place, self.factor))
+
+    def layers(self, contour: Contour) -> tuple[str, ...]:
+        """The layers of a contour's edges."""
+        return tuple(dict.fromkeys(self.entities[edge.entity].layer for edge in contour.edges))
+
+    def account(self, contours: list[Contour], report: Account) -> None:
+        """Put the sums of the layers into the report; one that does not agree is a `UserError`."""
+        cut = Counter(edge.entity for contour in contours for edge in contour.edges)
+        sums: dict[str, LayerSum] = {}
+        for at, entity in enumerate(self.entities):
+            layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
+            layer.read += 1
+            gone = self.gone[at]
+            if cut[at] + gone.total() != self.parts[at] or not (self.parts[at] or entity.left):
+                raise UserError(
+                    f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: of its {self.parts[at]} parts "
+                    f"{cut[at] + gone.total()} are accounted for; a mistake in skg, please report it"
+                )
+            # (what is short or drawn twice is cut with its neighbour)
+            lost = [why for why in gone if not cut[at] or why not in (SHORT, DOUBLE)]
+            if not lost and not entity.left:
+                layer.cut += 1
+                continue
+            entity.left = entity.left or " and ".join(lost)
+            if cut[at]:
+                layer.part += 1
+            else:
+                layer.left += 1
+            layer.why[entity.left][entity.kind] += 1
+            if JUNCTION in gone:
+                report.rest.append(entity)
+            elif entity.is_odd:
+                report.not_understood.append(entity)
+        report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
+
+
+def in_file(place: XY, factor: float) -> XY:
+    """A place (mm) in the file's own units."""
     return place[0] / factor, place[1] / factor
-
-
-def _note_doubles(content: Content, kept: list[Edge], report: Account) -> None:
-    """Account edges that were drawn twice; the entities that have no other edges are left."""
-    still = {edge.entity for edge in kept}
-    there = set(map(id, kept))
-    for edge in content.edges:
-        if id(edge) not in there:
-            entity = content.entities[edge.entity]
-            report.overlaps.append(Overlap("drawn twice", entity.layer, _in_file(edge.start, report.factor)))
-            if edge.entity not in still:
-                entity.left = "drawn twice"
 
 
 def _nothing(content: Content, wishes: Wishes) -> str:
@@ -136,61 +207,60 @@ def _nothing(content: Content, wishes: Wishes) -> str:
     return f"no lines, arcs or curves to cut{where}" + (f" ({found})" if found else "")
 
 
-def _with_layers(contour: Contour, content: Content) -> Contour:
-    layers = dict.fromkeys(content.entities[edge.entity].layer for edge in contour.edges)
-    return replace(contour, layers=tuple(layers))
+def _no_outline(report: Account) -> str:
+    """Why no contour is left."""
+    if not report.rest:
+        return f"no closed outline, {_first_gap(report)}"
+    places = ", ".join(shown(entity.place) for entity in report.rest[:3])
+    return (
+        f"no closed outline: {counted(len(report.rest), 'entity', 'entities')} meet at junctions or cross, "
+        f"as at {places}: --open all cuts them as they are"
+    )
+
+
+def _refusal(report: Account) -> str:
+    count = counted(len(report.open_ends) // 2, "open contour")
+    return f"{count}, {_first_gap(report)}: a larger --tolerance joins ends, --open cut or leave tells what to do"
+
+
+def _first_gap(report: Account) -> str:
+    """The narrowest gap."""
+    nearest = min(report.open_ends, key=lambda end: end.gap)
+    message = f"the first end at {shown(nearest.place)}"
+    return message + f", {short(nearest.gap)} mm from that at {shown(nearest.other)}" * (nearest.other is not None)
 
 
 def _open_ends(contours: list[Contour], factor: float) -> list[OpenEnd]:
     """Ends of open contours, each with the nearest other one."""
-    ends = [place for one in contours if not one.is_closed for place in (one.edges[0].start, one.edges[-1].end)]
+    from skg.drawing.touching import nearest
+
+    ends = [place for one in contours for place in (one.edges[0].start, one.edges[-1].end)]
     found = []
-    for at, place in enumerate(ends):
-        gap, other = min(
-            ((distance(place, other), other) for number, other in enumerate(ends) if number != at),
-            default=(inf, None),
-        )
-        found.append(OpenEnd(_in_file(place, factor), other and _in_file(other, factor), gap))
+    for place, other in zip(ends, nearest(ends), strict=True):
+        if other is None:
+            found.append(OpenEnd(in_file(place, factor), None, inf))
+        else:
+            found.append(OpenEnd(in_file(place, factor), in_file(other, factor), distance(place, other)))
     return found
-
-
-def _without_open(contours: list[Contour], content: Content, report: Account, wishes: Wishes) -> list[Contour]:
-    """The closed contours; with the wish "refuse" the open ones are a `UserError`."""
-    if wishes.open == "refuse":
-        nearest = min(report.open_ends, key=lambda end: end.gap)
-        message = f"{counted(len(report.open_ends) // 2, 'contour')} open, the first end at {shown(nearest.place)}"
-        if nearest.other is not None:
-            message += f", {short(nearest.gap)} mm from that at {shown(nearest.other)}"
-        raise UserError(f"{message}: a larger --tolerance joins ends, --open cut or leave tells what becomes of them")
-    for contour in contours:
-        if not contour.is_closed:
-            for edge in contour.edges:
-                content.entities[edge.entity].left = "of an open contour"
-    return [contour for contour in contours if contour.is_closed]
 
 
 def _measure(contours: list[Contour], report: Account) -> None:
     """Size, length and number of the contours."""
-    points = [point for contour in contours for point in contour.points()]
-    if points:
-        report.low = min(x for x, _ in points), min(y for _, y in points)
-        report.high = max(x for x, _ in points), max(y for _, y in points)
+    found = [point for contour in contours for point in contour.points()]
+    report.low = min(x for x, _ in found), min(y for _, y in found)
+    report.high = max(x for x, _ in found), max(y for _, y in found)
     report.closed = sum(contour.is_closed for contour in contours)
     report.open = len(contours) - report.closed
     report.length = sum(edge.length for contour in contours for edge in contour.edges)
 
 
-def _account(entities: list[Entity], report: Account) -> None:
-    """The sums of the layers; one that does not agree is a `UserError`."""
-    sums: dict[str, LayerSum] = {}
-    for entity in entities:
-        layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
-        layer.read += 1
-        if entity.left:
-            layer.left += 1
-            layer.why[entity.left][entity.kind] += 1
-            if entity.is_odd:
-                report.not_understood.append(entity)
-        else:
-            layer.cut += 1
-    report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
+def _check_size(report: Account) -> None:
+    """Refuse an odd size that nobody vouches for, and what is too large for a tape."""
+    width, height = map(short, report.size)
+    if report.units_from == NOT_TOLD and not USUAL[0] <= max(report.size) <= USUAL[1]:
+        raise UserError(
+            f"the file does not say its units, and {width} x {height} mm is an odd size: "
+            f"give --units ({', '.join(UNITS)})"
+        )
+    if max(report.size) >= FARTHEST:
+        raise UserError(f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; see --units")

@@ -1,0 +1,112 @@
+"""Which contours of a drawing touch, cross, overlap or repeat each other (shapely finds the pairs)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import acos, ceil
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from skg.drawing.contour import Contour, Edge
+from skg.plane import XY
+
+#: The chords that stand for an arc here leave it by no more than this, mm.
+_CHORD = 5e-4
+#: Contours that run along each other for more than this part of the shorter one overlap, else they touch.
+_ALONG = 0.03
+
+
+@dataclass
+class Relations:
+    """Contours by their numbers. `repeated`: those that are the same as an earlier one; `touched`: open ones that touch
+    or cross another one; `meetings`: what two closed ones do at a place, by the number of the later one."""
+
+    repeated: list[int] = field(default_factory=list)
+    touched: set[int] = field(default_factory=set)
+    meetings: list[tuple[str, int, XY]] = field(default_factory=list)
+
+
+def relations(contours: list[Contour], tolerance: float) -> Relations:
+    """Find which contours meet: are nowhere further apart than `tolerance`, mm."""
+    found = Relations()
+    coordinates, numbers = _coordinates(contours)
+    lines = shapely.linestrings(coordinates, indices=numbers)
+    is_closed = np.array([contour.is_closed for contour in contours], bool)
+    one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=tolerance + 2 * _CHORD)
+    one, other = one[one < other], other[one < other]
+    repeats = _repeats(lines[one], lines[other], tolerance) & (is_closed[one] == is_closed[other])
+    found.repeated = sorted(set(other[repeats].tolist()))
+    gone = set(found.repeated)
+    for at, second in zip(one.tolist(), other.tolist(), strict=True):
+        if at in gone or second in gone:
+            continue
+        found.touched |= {number for number in (at, second) if not is_closed[number]}
+        if is_closed[at] and is_closed[second]:
+            what, place = _meeting(lines[at], lines[second], tolerance)
+            found.meetings.append((what, second, place))
+    for at in np.flatnonzero(~shapely.is_simple(lines) & is_closed).tolist():
+        if at not in gone:
+            reason = shapely.is_valid_reason(shapely.Polygon(lines[at].coords))
+            place = reason.partition("[")[2].rstrip("]").split()
+            where = (float(place[0]), float(place[1])) if len(place) == 2 else contours[at].edges[0].start
+            found.meetings.append(("cross", at, where))
+    return found
+
+
+def _coordinates(contours: list[Contour]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Points along all contours, and the number of the contour of each."""
+    found = [np.vstack([_points(edge) for edge in contour.edges]) for contour in contours]
+    return np.vstack(found), np.repeat(np.arange(len(found)), [len(points) for points in found])
+
+
+def _points(edge: Edge) -> NDArray[np.float64]:
+    """Points along an edge, both ends included."""
+    if edge.nodes:
+        return np.array(edge.samples)
+    if edge.centre is None:
+        return np.array([edge.start, edge.end])
+    step = 2 * acos(max(0.5, 1 - _CHORD / edge.radius))
+    first, last = edge.angles
+    angles = np.linspace(first, last, max(2, ceil(abs(edge.sweep) / step)) + 1)
+    found = np.array(edge.centre) + edge.radius * np.column_stack((np.cos(angles), np.sin(angles)))
+    found[0], found[-1] = edge.start, edge.end
+    return found
+
+
+def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
+    """Which pairs of lines are the same."""
+    found = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= 2 * tolerance
+    found &= np.abs(shapely.length(ones) - shapely.length(others)) <= 1e-3 * shapely.length(ones) + tolerance
+    found[found] = shapely.hausdorff_distance(ones[found], others[found], 0.5) <= 2 * tolerance + 2 * _CHORD
+    return found
+
+
+def _meeting(one: shapely.LineString, other: shapely.LineString, tolerance: float) -> tuple[str, XY]:
+    """What two closed lines do, and where."""
+    near = shapely.intersection(one, other.buffer(tolerance + 2 * _CHORD, quad_segs=2))
+    place = shapely.get_coordinates(shapely.shortest_line(one, other) if near.is_empty else near)[0]
+    areas = shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in (one, other)]))
+    common = shapely.intersection(*areas).area
+    smaller = min(shapely.area(areas))
+    # (a strip as wide as the tolerance along the shorter line is no more than touching)
+    strip = 2 * tolerance * min(one.length, other.length)
+    if strip < common < smaller - strip:
+        return "cross", (float(place[0]), float(place[1]))
+    longest = max(part.length for part in getattr(near, "geoms", [near]))
+    what = "overlap" if longest > _ALONG * min(one.length, other.length) else "touch"
+    return what, (float(place[0]), float(place[1]))
+
+
+def nearest(places: list[XY]) -> list[XY | None]:
+    """For each place the nearest of the others that is not the same place."""
+    if not places:
+        return []
+    points = shapely.points(places)
+    at, other = shapely.STRtree(points).query_nearest(points, exclusive=True, all_matches=False)
+    found: list[XY | None] = [None] * len(places)
+    for number, neighbour in zip(at.tolist(), other.tolist(), strict=True):
+        found[number] = places[neighbour]
+    return found
