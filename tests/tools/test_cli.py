@@ -16,6 +16,7 @@ TAPE, PART = "examples/fit-gear.3b", "examples/fit-gear.skg"
 COMMANDS = {
     "help": ["--help"],
     "check": ["check", *[TAPE] * 50],
+    "cut": ["cut", "docs/pictures/bracket.dxf"],
     "dxf": ["dxf", TAPE],
     "from-dxf": ["from-dxf", "docs/pictures/bracket.dxf"],
     "gcode": ["gcode", TAPE],

@@ -24,7 +24,8 @@ ALLOWED = {
     "quality": {COMMON, "ref"},
     "rivals": {COMMON},
     "drawing": {COMMON, "ref", "tape", "machine", "rivals"},
-    "commands": {COMMON, "ref", "tape", "machine", "quality", "rivals", "drawing"},
+    "cutting": {COMMON, "tape", "machine", "drawing"},
+    "commands": {COMMON, "ref", "tape", "machine", "quality", "rivals", "drawing", "cutting"},
 }
 #: Modules beside the wings that are nobody's ground: the package's door, and the command line.
 DOORS = {"skg", "skg.cli"}

@@ -11,6 +11,7 @@ from skg.commands.options import output_option
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, write_bytes
 from skg.machine.board import Board, BoardStopped
+from skg.machine.feeding import MEMORY_FULL, is_stored, too_large
 from skg.rivals.languages import is_rival, translated
 
 #: Exit codes, those of build/skg80; by the reason for which the board stopped, else ERR.
@@ -57,6 +58,7 @@ def command(part: str, output: str, rom: str, ram: int, answers: str | None, max
     if part == answers == "-":
         raise UserError("the program and the answers cannot both come from the standard input")
     program, line_begins = translated(part).encode() if is_rival(part) else read_bytes(part), True
+    text = program.decode("latin-1")
 
     def show(paper: str) -> None:
         nonlocal line_begins
@@ -68,11 +70,13 @@ def command(part: str, output: str, rom: str, ram: int, answers: str | None, max
         board = Board(rom, ram, max_cycles=max_cycles, on_paper=show)
         try:
             board.load(program)
-            if not board.error:
+            if not board.error and is_stored(text):
                 board.run(_answers(answers))
         finally:
             tape = board.tape
         code = ERR if board.error else 0
+        if board.error and board.error.number == MEMORY_FULL and not answers:
+            click.echo(f"skg: {too_large(part, text, ram, rom)}", err=True)
     except BoardStopped as stopped:
         if not line_begins:
             show("\r\n")

@@ -1,24 +1,86 @@
-"""Planning: in which order and direction contours are cut, and from which start holes."""
+"""Planning: in which order and direction contours are cut, from which start holes, in which passes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import cos, inf, pi, sin
+from math import cos, inf, pi
+
+import numpy as np
 
 from skg.drawing.contour import Contour, Edge
+from skg.drawing.field import Field
 from skg.errors import UserError
-from skg.plane import XY, cross, distance, minus, polar, turn
+from skg.plane import XY, distance, minus, polar, turn
 
 #: A start hole is this far from the contour where there is room, mm.
 LEAD = 3.0
+#: How many edges of a contour are tried for a start hole with room around it.
+_TRIED = 8
+#: A start hole has room enough when nothing is nearer than this part of the lead.
+_ENOUGH = 0.5
+#: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
+#: entry for a lead that is an arc.
+_SQUARE = 1e-6
+
+
+@dataclass(frozen=True)
+class Lead:
+    """The way between a start hole and the contour: straight, or from the hole to an arc about it, and along that.
+
+    `hole`: where the wire is threaded; `entry`: the place on the contour. `way`: the direction of travel along the
+    contour there, radians. `is_arc`: a quarter of a circle about the hole touches the contour at the entry.
+    """
+
+    hole: XY
+    entry: XY
+    way: float
+    is_arc: bool
+
+    def arc(self, is_in: bool) -> Edge:
+        """The arc that comes to the entry, or that leaves it."""
+        aside = turn(self.way, _angle(minus(self.entry, self.hole)))
+        sweep = pi / 2 if aside < 0 else -pi / 2
+        reach = distance(self.hole, self.entry)
+        if is_in:
+            return Edge(polar(self.hole, reach, self.way + pi), self.entry, self.hole, sweep)
+        return Edge(self.entry, polar(self.hole, reach, self.way), self.hole, sweep)
+
+    def reversed(self) -> Lead:
+        """The same lead, for the contour run through backwards."""
+        return replace(self, way=self.way + pi)
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way of the wire along a contour, or a part of it: edges that follow each other, at one offset.
+
+    `offset` is R for this direction. `into`, `out`: how the wire comes from its start hole and goes to one; without
+    them a closed run begins and ends at the start hole of its route (BACK), an open one at its own ends. `stop`: what
+    the operator is to do before it, the machine stops for it; empty: nothing.
+    """
+
+    edges: tuple[Edge, ...]
+    offset: float
+    into: Lead | None = None
+    out: Lead | None = None
+    stop: str = ""
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether it ends where it began."""
+        return distance(self.edges[0].start, self.edges[-1].end) < 1e-9
 
 
 @dataclass(frozen=True)
 class PlannedContour:
     """A contour with where it is entered: from `start` to the point at `part` of its first edge.
 
-    `offset` is R: positive, the wire runs on the right of travel. `depth`: how many contours lie around it.
+    `offset` is R of the last pass: positive, the wire runs on the right of travel. `depth`: how many contours lie
+    around it. `passes`: R of each pass, as if all were cut in the contour's direction; every second one is cut
+    backwards. `tab`: the length before the entry that stays until the last cut, mm; `tab_hole`: the other start hole.
+    `number`: its place among the contours that were planned, from 0. `room`: from the start hole to what is nearest.
     """
 
     contour: Contour
@@ -26,18 +88,125 @@ class PlannedContour:
     part: float
     offset: float
     depth: int
+    passes: tuple[float, ...] = ()
+    tab: float = 0.0
+    tab_hole: XY = (0.0, 0.0)
+    is_arc: bool = False
+    number: int = 0
+    room: float = inf
 
     @property
     def entry(self) -> XY:
         """Where the contour is entered (on its first edge, without the offset)."""
         return self.contour.edges[0].at(self.part)
 
+    @property
+    def is_opening(self) -> bool:
+        """Whether it is cut from inside: what falls out is the slug."""
+        return self.contour.is_closed and self.depth % 2 == 1
 
-def _oriented(contour: Contour, side: str, depth: int, offset: float, reverse: bool) -> tuple[Contour, float]:
-    """Return the contour in the direction in which it is cut, and R."""
+    def chain(self) -> tuple[Edge, ...]:
+        """The edges from the entry on; a closed contour's come back to it."""
+        return chain_from(self.contour, self.part)
+
+    def runs(self) -> Iterator[Way]:
+        """Every way of the wire, in order."""
+        edges = self.chain()
+        passes = self.passes or (self.offset,)
+        if not self.contour.is_closed:
+            yield Way(edges, passes[-1])
+        elif self.tab:
+            yield from self._with_tab(edges, passes)
+        else:
+            lead = self._lead(self.start, edges[0]) if self.is_arc else None
+            for at, r in enumerate(passes):
+                falls = "IS" if at == 1 and len(passes) > 1 else ""
+                stop = falls and ("TAKE THE SLUG OUT" if self.is_opening else "THE PART IS FREE")
+                run = Way(edges, r, lead, lead, stop)
+                yield _backwards(run) if at % 2 else run
+
+    def _lead(self, hole: XY, edge: Edge, at_end: bool = False) -> Lead:
+        way = edge.direction(1.0 if at_end else 0.0)
+        entry = edge.end if at_end else edge.start
+        square = abs(cos(_angle(minus(hole, entry)) - way)) < _SQUARE
+        return Lead(hole, entry, way, self.is_arc and square)
+
+    def _with_tab(self, edges: tuple[Edge, ...], passes: tuple[float, ...]) -> Iterator[Way]:
+        """The passes up to the tab, forth and back, then the tab."""
+        main, tab = split_at_end(edges, self.tab)
+        into, out = self._lead(self.start, main[0]), self._lead(self.tab_hole, main[-1], True)
+        for at, r in enumerate(passes):
+            run = Way(main, r, into, out)
+            yield _backwards(run) if at % 2 else run
+        is_there = len(passes) % 2 == 1
+        last = Way(tab, passes[-1], out, into, "HOLD THE PART, THE NEXT CUT FREES IT")
+        yield last if is_there else _backwards(last)
+
+
+def _backwards(run: Way) -> Way:
+    edges = tuple(edge.reversed() for edge in reversed(run.edges))
+    into, out = (lead and lead.reversed() for lead in (run.out, run.into))
+    return Way(edges, -run.offset, into, out, run.stop)
+
+
+def _angle(way: XY) -> float:
+    return float(np.arctan2(way[1], way[0]))
+
+
+def part_of(edge: Edge, first: float, last: float) -> Edge:
+    """A line's or an arc's piece between two parts of its length."""
+    start = edge.start if first == 0 else edge.at(first)
+    end = edge.end if last == 1 else edge.at(last)
+    return replace(edge, start=start, end=end, sweep=edge.sweep * (last - first))
+
+
+def chain_from(contour: Contour, part: float) -> tuple[Edge, ...]:
+    """A contour's edges from `part` of the first one on; a closed one's come back there."""
+    first, *others = contour.edges
+    if part == 0:
+        return contour.edges
+    if first.is_circle:
+        place = first.at(part)
+        return (replace(first, start=place, end=place),)
+    return (part_of(first, part, 1), *others, part_of(first, 0, part))
+
+
+def split_at_end(edges: tuple[Edge, ...], length: float) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
+    """The edges up to `length` before their end, and those from there on.
+
+    A curve is split at the node there, or at the one before it.
+    """
+    *before, last = edges
+    if not last.nodes:
+        part = 1 - length / last.length
+        return (*before, part_of(last, 0, part)), (part_of(last, part, 1),)
+    lengths = np.cumsum([0.0, *(distance(p, q) for p, q in pairwise(last.samples))])
+    near = [node_sample(last, at) for at in range(len(last.nodes))]
+    at = max((at for at in range(1, len(near) - 1) if lengths[-1] - lengths[near[at]] >= length), default=0)
+    if not at:
+        return tuple(before), (last,)
+    head, tail = split_curve(last, at)
+    return (*before, head), (tail,)
+
+
+def node_sample(edge: Edge, at: int) -> int:
+    """The number of the sample at a curve's node."""
+    samples = np.asarray(edge.samples)
+    return int(np.argmin(((samples - edge.nodes[at].point) ** 2).sum(1)))
+
+
+def split_curve(edge: Edge, at: int) -> tuple[Edge, Edge]:
+    """A curve as two, the first up to its node number `at`."""
+    point, cut = edge.nodes[at].point, node_sample(edge, at)
+    head = replace(edge, end=point, nodes=edge.nodes[: at + 1], samples=edge.samples[: cut + 1])
+    return head, replace(edge, start=point, nodes=edge.nodes[at:], samples=edge.samples[cut:])
+
+
+def _oriented(contour: Contour, side: str, depth: int, reverse: bool) -> tuple[Contour, float]:
+    """Return the contour in the direction in which it is cut, and the sign of R."""
     if not contour.is_closed:
         sign = {"left": -1.0, "right": 1.0}.get(side, 0.0)
-        return (contour.reversed(), -sign * offset) if reverse else (contour, sign * offset)
+        return (contour.reversed(), -sign) if reverse else (contour, sign)
     # With the wire on the right of travel an outline is cut counter-clockwise and an opening clockwise.
     is_opening = depth % 2 == 1
     if side in ("inside", "outside"):
@@ -47,12 +216,12 @@ def _oriented(contour: Contour, side: str, depth: int, offset: float, reverse: b
         contour = contour.reversed()
     if reverse:
         contour, sign = contour.reversed(), -sign
-    return contour, sign * offset
+    return contour, sign
 
 
 def _turned_to(contour: Contour, at: int) -> Contour:
     """The closed contour, beginning with another of its edges."""
-    return Contour(contour.edges[at:] + contour.edges[:at], True)
+    return replace(contour, edges=contour.edges[at:] + contour.edges[:at])
 
 
 def _entry_near(contour: Contour, start: XY, offset: float) -> tuple[Contour, float]:
@@ -77,95 +246,183 @@ def _entry_on_curve(contour: Contour) -> tuple[Contour, float]:
     at = max(range(len(contour.edges)), key=lambda k: contour.edges[k].length)
     edge = contour.edges[at]
     is_smooth = len(contour.edges) == 1 and abs(turn(edge.nodes[0].angle, edge.nodes[-1].angle)) < 1e-3
-    middle = len(edge.nodes) // 2
     if is_smooth or len(edge.nodes) < 3:
         return _turned_to(contour, at), 0.0
-    point = edge.nodes[middle].point
-    cut = min(range(len(edge.samples)), key=lambda k: distance(edge.samples[k], point))
-    before = Edge(edge.start, point, nodes=edge.nodes[:middle + 1], samples=edge.samples[:cut + 1])
-    after = Edge(point, edge.end, nodes=edge.nodes[middle:], samples=edge.samples[cut:])
+    before, after = split_curve(edge, len(edge.nodes) // 2)
     turned = _turned_to(contour, at).edges
-    return Contour((after, *turned[1:], before), True), 0.0
+    return replace(contour, edges=(after, *turned[1:], before)), 0.0
 
 
-def _entry(contour: Contour) -> tuple[Contour, float]:
-    """Begin a closed contour in the middle of its longest line, else of its longest arc, else on a curve."""
-    def rank(at: int) -> tuple[bool, float]:
-        return contour.edges[at].is_line, contour.edges[at].length
+def _entries(contour: Contour, tab: float) -> Iterator[tuple[Contour, float]]:
+    """Where a closed contour may begin: in its longest lines, else in its longest arcs, else on a curve.
 
-    candidates = [at for at, edge in enumerate(contour.edges) if not edge.nodes]
-    if not candidates:
-        return _entry_on_curve(contour)
-    at = max(candidates, key=rank)
-    return _turned_to(contour, at), 0.0 if contour.edges[at].is_circle else 0.5
-
-
-def _room(point: XY, angle: float, contours: list[Contour], least: float) -> float:
-    """How far it is from a point in a direction to the next contour, mm; what is nearer than `least` is none."""
-    way = cos(angle), sin(angle)
-    nearest = inf
-    for contour in contours:
-        for p, q in pairwise(contour.points()):
-            side = minus(q, p)
-            area = cross(way, side)
-            if abs(area) < 1e-12:
-                continue
-            to = minus(p, point)
-            along, part = cross(to, side) / area, cross(to, way) / area
-            if along > least and 0 <= part <= 1:
-                nearest = min(nearest, along)
-    return nearest
+    The tab lies before the entry, on the same edge.
+    """
+    ranked = sorted(
+        (at for at, edge in enumerate(contour.edges) if not edge.nodes),
+        key=lambda at: (not contour.edges[at].is_line, -contour.edges[at].length),
+    )
+    fitting = [at for at in ranked if contour.edges[at].length > 1.2 * tab]
+    for at in fitting[:_TRIED]:
+        edge = contour.edges[at]
+        aside = tab / 2 / edge.length
+        for part in (0.0, 0.25, 0.5, 0.75) if edge.is_circle else (0.5, 0.3, 0.7):
+            part += aside
+            if edge.is_circle or part - 2 * aside > 0.05 and part < 0.95:
+                yield _turned_to(contour, at), part % 1
+    if not ranked or not fitting and any(edge.nodes and edge.length > 1.2 * tab for edge in contour.edges):
+        yield _entry_on_curve(contour)
 
 
-def _start_hole(contour: Contour, part: float, offset: float, is_opening: bool, lead: float,
-                contours: list[Contour]) -> XY:
-    """Choose a start hole square to the entry, on the wire's side: `lead` away, or in the middle of what room
-    there is. An opening that is one circle is entered from its centre."""
-    edge = contour.edges[0]
-    entry = edge.at(part)
-    is_ccw = contour.area > 0
-    is_outside = is_ccw == (offset > 0) if offset else not is_opening
-    if edge.is_circle and not is_outside:
-        return edge.centre
-    way = edge.direction(part)
-    square = way - pi / 2 if is_outside == is_ccw else way + pi / 2
-    # An arc's own chords lie up to 0.1 % of its radius inside of it.
-    least = 1e-3 * (1 + edge.radius) if edge.centre is not None else 1e-3
-    room = _room(entry, square, contours, least)
-    return polar(entry, min(lead + abs(offset), room / 2), square)
+@dataclass(frozen=True)
+class Method:
+    """How contours are cut. `passes`: what each pass leaves to the last offset, mm; see `plan` for the rest."""
+
+    offset: float = 0.0
+    side: str = "auto"
+    reverse: bool = False
+    lead: float = LEAD
+    passes: tuple[float, ...] = (0.0,)
+    tab: float = 0.0
+    is_arc: bool = False
 
 
-def plan(contours: list[Contour], starts: list[XY], offset: float, side: str, reverse: bool = False,
-         lead: float = LEAD) -> list[PlannedContour]:
+class _Planner:
+    """Plans one contour after the other; knows what lies around them."""
+
+    def __init__(self, contours: list[Contour], method: Method) -> None:
+        self.field = Field(contours)
+        self.method = method
+
+    def plan(self, number: int, contour: Contour, sign: float, depth: int, given: XY | None) -> PlannedContour:
+        method = self.method
+        passes = tuple(sign * (method.offset + more) for more in method.passes)
+        offset = passes[-1]
+        if not contour.is_closed:
+            start = given or contour.edges[0].start
+            return PlannedContour(contour, start, 0.0, offset, depth, passes, number=number)
+        is_ccw = contour.area > 0
+        is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
+        tab = method.tab if is_outside else 0.0
+        made = PlannedContour(contour, (0.0, 0.0), 0.0, offset, depth, passes, tab, is_arc=method.is_arc, number=number)
+        if given is not None:
+            contour, part = _entry_near(contour, given, max(passes, key=abs))
+            if tab:
+                contour, part = self._tab_before(contour, part, number)
+            made = replace(made, contour=contour, start=given, part=part)
+            return self._with_tab_hole(made, is_outside == is_ccw)
+        return self._chosen(made, is_outside, is_ccw)
+
+    def _chosen(self, made: PlannedContour, is_outside: bool, is_ccw: bool) -> PlannedContour:
+        """Choose the entry with the most room: the first one with enough, else the best one."""
+        method = self.method
+        reach = method.lead + max(map(abs, made.passes))
+        best: PlannedContour | None = None
+        for contour, part in _entries(made.contour, made.tab):
+            edge = contour.edges[0]
+            if edge.is_circle and not is_outside and not made.is_arc:
+                # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
+                part = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
+                start = edge.centre
+            else:
+                start, _ = self._hole(edge, part, is_outside == is_ccw, reach)
+            one = replace(made, contour=contour, start=start, part=part)
+            one = self._with_tab_hole(one, is_outside == is_ccw)
+            one = replace(one, room=self._room(one))
+            if best is None or one.room > best.room:
+                best = one
+            if one.room >= _ENOUGH * reach or start == edge.centre:
+                break
+        if best is None:
+            raise self._too_short(made.contour)
+        return best
+
+    def _too_short(self, contour: Contour) -> UserError:
+        x, y = contour.edges[0].start
+        longest = max(edge.length for edge in contour.edges)
+        return UserError(
+            f"no edge of the contour at ({x:.3f}, {y:.3f}) is long enough for a tab of {self.method.tab:g} mm: "
+            f"the longest has {longest:.3f} mm"
+        )
+
+    def _tab_before(self, contour: Contour, part: float, number: int) -> tuple[Contour, float]:
+        edge = contour.edges[0]
+        aside = self.method.tab / edge.length
+        if edge.is_circle:
+            return contour, part
+        if aside > 0.8:
+            raise self._too_short(contour)
+        return contour, min(0.95, max(part, aside + 0.05))
+
+    def _hole(self, edge: Edge, part: float, is_right: bool, reach: float, at_end: bool = False) -> tuple[XY, float]:
+        """A start hole square to the entry, on the wire's side: `reach` away, or in the middle of the room there is."""
+        entry = edge.at(part)
+        way = edge.direction(1.0 if at_end else part)
+        square = way - pi / 2 if is_right else way + pi / 2
+        # An arc's own chords lie up to 0.1 % of its radius inside of it.
+        least = 1e-3 * (1 + edge.radius) if edge.centre is not None else 1e-3
+        room = self.field.way(entry, square, 2 * reach + least, least)
+        return polar(entry, min(reach, room / 2), square), room
+
+    def _with_tab_hole(self, made: PlannedContour, is_right: bool) -> PlannedContour:
+        if not made.tab:
+            return made
+        main, _ = split_at_end(made.chain(), made.tab)
+        reach = distance(made.start, made.entry)
+        hole, _ = self._hole(main[-1], 1.0, is_right, reach, True)
+        return replace(made, tab_hole=hole)
+
+    def _room(self, made: PlannedContour) -> float:
+        """How far the nearest contour is from the start holes."""
+        holes = [made.start, made.tab_hole] if made.tab else [made.start]
+        return min(self.field.distance(hole, 2 * distance(made.start, made.entry) + 1e-3) for hole in holes)
+
+
+def _part_at(edge: Edge, place: XY) -> float:
+    part = edge.nearest(place)
+    return 0.0 if distance(place, edge.start) < 1e-9 else part
+
+
+def plan(
+    contours: list[Contour],
+    starts: Sequence[XY],
+    offset: float,
+    side: str,
+    reverse: bool = False,
+    lead: float = LEAD,
+    *,
+    passes: tuple[float, ...] = (0.0,),
+    tab: float = 0.0,
+    arc: bool = False,
+) -> list[PlannedContour]:
     """Return the contours in the order in which they are cut: inner ones first, and then the nearest.
 
-    Each start hole goes to the innermost contour around it that is cut from inside, else to the nearest one.
+    Each start hole goes to the innermost contour around it that is cut from inside, else to the nearest one. `passes`:
+    what each pass leaves to `offset`, mm. `tab`: the bridge that keeps a part cut from outside, mm. `arc`: the wire
+    comes to the contour along an arc.
     """
-    closed = [contour for contour in contours if contour.is_closed]
-    depths = [sum(other is not one and other.holds(one.edges[0].start) for other in closed)
-              for one in contours]
-    ready = [_oriented(one, side, depth, offset, reverse)
-             for one, depth in zip(contours, depths, strict=True)]
-    given = _given_starts([contour for contour, _ in ready], depths, starts)
-    routes = []
-    for at, (contour, shift) in enumerate(ready):
-        start = given.get(at)
-        part = 0.0
-        if not contour.is_closed:
-            start = start or contour.edges[0].start
-        elif start is None:
-            contour, part = _entry(contour)
-            start = _start_hole(contour, part, shift, depths[at] % 2 == 1, lead, contours)
-        else:
-            contour, part = _entry_near(contour, start, shift)
-        routes.append(PlannedContour(contour, start, part, shift, depths[at]))
+    method = Method(offset, side, reverse, lead, passes, tab, arc)
+    planner = _Planner(contours, method)
+    depths = planner.field.depths()
+    ready = [_oriented(one, side, depth, reverse) for one, depth in zip(contours, depths, strict=True)]
+    given = _given_starts([contour for contour, _ in ready], depths, list(starts))
+    routes = [planner.plan(at, contour, sign, depths[at], given.get(at)) for at, (contour, sign) in enumerate(ready)]
+    return _ordered(routes)
+
+
+def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
+    """Inner routes before those around them, then the nearest next."""
+    places = np.array([route.start for route in routes], float).reshape(-1, 2)
+    depths = np.array([route.depth for route in routes], int)
     ordered: list[PlannedContour] = []
-    at_now = 0.0, 0.0
-    while routes:
-        nearest = min(routes, key=lambda route: (-route.depth, distance(route.start, at_now)))
-        routes.remove(nearest)
-        ordered.append(nearest)
-        at_now = nearest.start
+    at_now = np.zeros(2)
+    for depth in sorted(set(depths.tolist()), reverse=True):
+        left = np.flatnonzero(depths == depth)
+        while len(left):
+            nearest = int(np.argmin(((places[left] - at_now) ** 2).sum(1)))
+            ordered.append(routes[left[nearest]])
+            at_now = places[left[nearest]]
+            left = np.delete(left, nearest)
     return ordered
 
 
@@ -173,8 +430,11 @@ def _given_starts(contours: list[Contour], depths: list[int], starts: list[XY]) 
     """Which contour (by its number) each given start hole belongs to."""
     found: dict[int, XY] = {}
     for start in starts:
-        around = [at for at, contour in enumerate(contours)
-                  if at not in found and depths[at] % 2 and contour.is_closed and contour.holds(start)]
+        around = [
+            at
+            for at, contour in enumerate(contours)
+            if at not in found and depths[at] % 2 and contour.is_closed and contour.holds(start)
+        ]
         free = [at for at in range(len(contours)) if at not in found]
         if not free:
             raise UserError(f"{len(starts)} start holes for {len(contours)} contours")

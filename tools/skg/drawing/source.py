@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes
-from skg.machine.board import Board, BoardStopped
+from skg.machine.board import BoardStopped, find_error
+from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, feed, least_ram, too_large
 from skg.piece import Piece
 from skg.plane import XY
 from skg.rivals.languages import is_program, is_rival, translated
@@ -17,9 +19,6 @@ from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
 from skg.tape.placed import PlacedRoute, place, stop_places
 from skg.tape.positions import decide
-
-#: Cycles after which a program hangs: 140 hours of the 2 MHz board.
-_MOST_CYCLES = 10**12
 
 
 @dataclass(frozen=True)
@@ -72,17 +71,20 @@ def _run(name: str, skg80: str | None, with_contour: bool) -> tuple[bytes, XY, t
 
 
 def _run_rom(name: str, text: str) -> bytes:
-    """Run a program on the board, by the standard ROM."""
-    board = Board(max_cycles=_MOST_CYCLES)
+    """Run a program on the board, by the standard ROM; one that needs more memory gets it, with a word."""
     try:
-        board.load(text.encode())
-        if not board.error:
-            board.run()
+        fed = feed(text)
+        if fed.error and fed.error.number == MEMORY_FULL:
+            fed = feed(text, ram_kib=MOST_RAM)
+            if fed.error and fed.error.number == MEMORY_FULL:
+                raise too_large(name, text, MOST_RAM)
+            if not fed.error:
+                print(f"skg: {name}: takes {least_ram(text)} KiB of RAM, more than the board's 8", file=sys.stderr)
     except BoardStopped as stopped:
         raise UserError(f"{name}: {stopped}") from None
-    if board.error:
-        raise _failure(name, *board.error)
-    return board.tape
+    if fed.error:
+        raise _failure(name, *fed.error)
+    return fed.tape
 
 
 def _run_emulator(name: str, text: str, skg80: str) -> bytes:
@@ -93,11 +95,16 @@ def _run_emulator(name: str, text: str, skg80: str) -> bytes:
         with tempfile.TemporaryDirectory() as folder:
             part = Path(folder) / "part.skg"
             part.write_text(text)
-            done = subprocess.run([skg80, "--max-cycles", str(_MOST_CYCLES), part], capture_output=True, check=False)
+            done = subprocess.run([skg80, "--max-cycles", str(MOST_CYCLES), part], capture_output=True, check=False)
     except PermissionError:
         raise UserError(f"{skg80}: not a program that can be run") from None
     if done.returncode:
-        last = done.stderr.decode("ascii", "replace").strip().splitlines()[-1:]
+        lines = done.stderr.decode("ascii", "replace").strip().splitlines()
+        error, last = find_error(lines), lines[-1:]
+        if error and error.number == MEMORY_FULL:
+            raise too_large(name, text, 8)
+        if error:
+            raise _failure(name, *error)
         raise UserError(f"{name}: {last[0] if last else f'{skg80} ended with {done.returncode}'}")
     return done.stdout
 

@@ -1,14 +1,19 @@
-"""Writing: the SKG program that cuts planned contours, written the way a person would write it."""
+"""Writing: the SKG program that cuts planned contours, written the way a person would write it.
+
+A program has two forms. With line numbers it is stored and RUN; points that are used again have names, curves are nodes
+in DATA lines. Without, each line is carried out as it is loaded: any length goes through any memory.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from math import degrees, pi, tan
 
 from skg.drawing.contour import Edge
-from skg.drawing.plan import PlannedContour
+from skg.drawing.plan import Lead, PlannedContour, Way
 from skg.errors import UserError
 from skg.plane import XY, distance, polar, turn
 
@@ -34,153 +39,287 @@ def literal(point: XY) -> str:
     return f"({number(point[0])},{number(point[1])})"
 
 
-@dataclass
-class Writer:
-    """The statements of a program, and the names in use."""
+@dataclass(frozen=True)
+class Step:
+    """A statement: its text, and of which route it is and at which place of the drawing (mm), if of any."""
 
-    fillets: bool = True
-    statements: list[str] = field(default_factory=list)
+    text: str
+    route: int | None = None
+    place: XY | None = None
+
+
+@dataclass(frozen=True)
+class _Item:
+    """What stands between two separators of a CUT: its text, the letter that its name may have, its place."""
+
+    text: str
+    letter: str
+    place: XY
+
+
+def _point(point: XY) -> _Item:
+    return _Item(literal(point), "P", point)
+
+
+def _circle(edge: Edge) -> _Item:
+    """An arc's circle, clockwise with a negative radius."""
+    radius = edge.radius if edge.sweep > 0 else -edge.radius
+    return _Item(f"{literal(edge.centre)}:{number(radius)}", "C", edge.at(0.5))
+
+
+def _fillet(edges: tuple[Edge, ...], at: int) -> tuple[XY, float] | None:
+    """The corner and radius of the arc after edge number `at`, where a fillet makes it, else None."""
+    if at + 2 >= len(edges):
+        return None
+    before, arc, after = edges[at : at + 3]
+    if not before.is_line or arc.centre is None or not after.is_line:
+        return None
+    bend = turn(before.direction(), after.direction())
+    if abs(bend) > 2.8 or abs(bend) < 0.01 or abs(bend - arc.sweep) > _TANGENT:
+        return None
+    if abs(turn(before.direction(), arc.direction())) > _TANGENT:
+        return None
+    reach = arc.radius * tan(abs(bend) / 2)
+    corner = polar(arc.start, reach, before.direction())
+    other = polar(arc.end, reach, after.direction() + pi)
+    return (corner, arc.radius) if distance(corner, other) < _FILLET_MISS else None
+
+
+def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
+    """What stands in the CUT statements of a run, from its first point on, and its curves."""
+    edges = run.edges
+    goes_back = run.is_closed and not run.out
+    if goes_back and edges[0].is_circle:
+        yield _circle(edges[0])
+        return
+    if not edges[0].nodes or run.into:
+        yield _point(edges[0].start)
+    # A contour that was entered in the middle of an edge ends with the rest of it: BACK goes along that to the entry.
+    is_split = goes_back and not edges[0].nodes
+    at = 0
+    while at < len(edges):
+        edge = edges[at]
+        if edge.nodes:
+            if at and edges[at - 1].nodes:
+                # Two curves that follow each other are two runs of FIT with a statement between them.
+                yield _point(edge.start)
+            yield edge
+            at += 1
+            continue
+        if edge.centre is not None:
+            yield _circle(edge)
+        if edge.is_circle:
+            # (not the only thing in its route: the point on its far side makes it a whole one)
+            yield _point(edge.at(0.5))
+            yield _circle(edge)
+        fillet = _fillet(edges, at) if fillets else None
+        if fillet:
+            corner, radius = fillet
+            yield _point(corner)
+            yield _Item(number(radius), "", corner)
+            at += 2
+            continue
+        # A curve's first node is the corner before it, but a line between two curves must be written.
+        is_between = edge.is_line and at and edges[at - 1].nodes
+        is_last = at + 1 == len(edges)
+        if (is_last and not is_split) or (not is_last and not edges[at + 1].nodes) or is_between:
+            yield _point(edge.end)
+        at += 1
+
+
+def _into(lead: Lead, r: float) -> Iterator[float | _Item]:
+    """From the start hole to the contour: straight pieces are the wire's own path, without an offset."""
+    yield 0.0
+    yield _point(lead.hole)
+    if lead.is_arc:
+        arc = lead.arc(True)
+        yield _point(arc.start)
+        yield r
+        yield _circle(arc)
+    yield _point(lead.entry)
+    yield r
+
+
+def _out(lead: Lead) -> Iterator[float | _Item]:
+    if lead.is_arc:
+        arc = lead.arc(False)
+        yield _circle(arc)
+        yield _point(arc.end)
+    yield 0.0
+    yield _point(lead.hole)
+
+
+def _pieces(route: PlannedContour, fillets: bool) -> Iterator[str | float | _Item | Edge]:
+    """A route as statements (text), offsets from here on (numbers), items of CUTs, and curves."""
+    here: XY | None = None
+    for at, run in enumerate(route.runs()):
+        hole = run.into.hole if run.into else route.start
+        if run.stop:
+            yield f"REM STOP: {run.stop}"
+        if not run.into:
+            yield run.offset
+        if at == 0 or run.stop:
+            yield f"FROM {literal(hole)}"
+            here = None
+        parts = [
+            *(_into(run.into, run.offset) if run.into else ()),
+            *_items(run, fillets),
+            *(_out(run.out) if run.out else ()),
+        ]
+        for part in parts:
+            if isinstance(part, _Item) and part.letter == "P":
+                if part.place == here:
+                    continue
+                here = part.place
+            elif isinstance(part, Edge):
+                # (the same point again ends this curve where another one follows)
+                here = None
+            yield part
+        if run.is_closed and not run.out:
+            yield "BACK"
+            here = None
+
+
+@dataclass
+class _Writer:
+    """The statements of a program, and the names in use. `names`: the items that are used again, none: no names."""
+
+    is_stored: bool
+    uses: Counter[tuple[str, str]] = field(default_factory=Counter)
+    statements: list[Step] = field(default_factory=list)
     data: list[str] = field(default_factory=list)
     names: dict[tuple[str, str], str] = field(default_factory=dict)
-    used: dict[str, int] = field(default_factory=dict)
+    used: Counter[str] = field(default_factory=Counter)
     r: float | None = None
+    route: int | None = None
 
-    def say(self, *statements: str) -> None:
-        """Add statements."""
-        self.statements += statements
+    def say(self, text: str, place: XY | None = None) -> None:
+        """Add a statement."""
+        self.statements.append(Step(text, self.route, place))
 
-    def name(self, letter: str, value: str) -> str:
-        """Return a name for a value, given on a line before where it is new; the value itself when all names
-        of its letter are taken."""
-        if (letter, value) not in self.names:
-            taken = self.used.get(letter, 0) + 1
-            if taken > _LAST_NAME:
-                return value if letter == "P" else f"({value})"
-            self.used[letter] = taken
-            self.names[letter, value] = f"{letter}{taken}"
-            self.say(f"{letter}{taken}={value}")
-        return self.names[letter, value]
+    def named(self, item: _Item) -> str:
+        """The item's text in a CUT: the name of one that is used again, given on a line before where it is new."""
+        key = item.letter, item.text
+        if not item.letter or self.uses[key] < 2:
+            return item.text
+        if key not in self.names:
+            if self.used[item.letter] == _LAST_NAME:
+                return item.text
+            self.used[item.letter] += 1
+            self.names[key] = f"{item.letter}{self.used[item.letter]}"
+            self.say(f"{self.names[key]}={item.text}", item.place)
+        return self.names[key]
 
-    def point(self, point: XY) -> str:
-        """Name a point."""
-        return self.name("P", literal(point))
-
-    def circle(self, edge: Edge) -> str:
-        """Name an arc's circle, clockwise with a negative radius."""
-        radius = edge.radius if edge.sweep > 0 else -edge.radius
-        return self.name("C", f"{literal(edge.centre)}:{number(radius)}")
-
-    def route(self, route: PlannedContour, title: str) -> None:
-        """Write a contour."""
+    def write(self, at: int, title: str, pieces: Iterable[str | float | _Item | Edge]) -> None:
+        """Write a route."""
+        self.route = at
         self.say(f"REM {title}")
-        if self.r is None and not route.offset:
-            pass
-        elif route.offset != self.r:
-            self.say(f"R={number(route.offset)}")
-            self.r = route.offset
-        first = len(self.statements)
-        items = list(self.items(route))
-        names = self.statements[first:]
-        del self.statements[first:]
-        self.say(*names, f"FROM {literal(route.start)}")
-        cut: list[str] = []
-        for item in [*items, None]:
-            if isinstance(item, str):
-                cut.append(item)
+        if not self.is_stored and self.r == 0:
+            self.r = None
+        is_first = True
+        cut: list[tuple[str, XY]] = []
+        for piece in pieces:
+            if isinstance(piece, _Item):
+                cut.append((self.named(piece), piece.place))
+                continue
+            if isinstance(piece, float):
+                is_new = piece != self.r if self.r is not None else piece != 0
+                if is_new or (is_first and not self.is_stored and piece):
+                    self.cut(cut)
+                    self.say(f"R={number(piece)}")
+                    self.r = piece
+                is_first = False
                 continue
             self.cut(cut)
-            cut = []
-            if item is not None:
-                self.fit(item)
-        if route.contour.is_closed:
-            self.say("BACK")
+            if isinstance(piece, Edge):
+                self.fit(piece)
+            else:
+                self.say(piece)
+        self.cut(cut)
+        self.route = None
 
-    def items(self, route: PlannedContour) -> Iterator[str | Edge]:
-        """Yield what stands in the CUT statements of a route, and its curves."""
-        edges = route.contour.edges
-        if edges[0].is_circle:
-            yield self.circle(edges[0])
-            return
-        if not edges[0].nodes:
-            yield self.point(route.entry)
-        at = 0
-        while at < len(edges):
-            edge = edges[at]
-            if edge.nodes:
-                if at and edges[at - 1].nodes:
-                    # Two curves that follow each other are two runs of FIT with a statement between them.
-                    yield self.point(edge.start)
-                yield edge
-                at += 1
-                continue
-            if edge.centre is not None:
-                yield self.circle(edge)
-            fillet = self.fillet(route, at)
-            if fillet:
-                corner, radius = fillet
-                yield self.point(corner)
-                yield number(radius)
-                at += 2
-                continue
-            # A curve's first node is the corner before it, but a line between two curves must be written.
-            is_between = edge.is_line and at and edges[at - 1].nodes
-            if at + 1 == len(edges) or not edges[at + 1].nodes or is_between:
-                yield self.point(edge.end)
-            at += 1
-        if route.contour.is_closed and edges[0].centre is not None:
-            # Between a last point and a first one BACK would bring in a line: the rest of the first arc stands here.
-            yield self.circle(edges[0])
-
-    def fillet(self, route: PlannedContour, at: int) -> tuple[XY, float] | None:
-        """The corner and radius of the arc after edge number `at`, where a fillet makes it, else None."""
-        edges = route.contour.edges
-        following = at + 2
-        last = len(edges) + (1 if route.contour.is_closed else 0)
-        if not self.fillets or at + 1 >= len(edges) or following >= last:
-            return None
-        before, arc, after = edges[at], edges[at + 1], edges[following % len(edges)]
-        if not before.is_line or arc.centre is None or not after.is_line or len(edges) < 3:
-            return None
-        bend = turn(before.direction(), after.direction())
-        if abs(bend) > 2.8 or abs(bend) < 0.01 or abs(bend - arc.sweep) > _TANGENT:
-            return None
-        if abs(turn(before.direction(), arc.direction())) > _TANGENT:
-            return None
-        reach = arc.radius * tan(abs(bend) / 2)
-        corner = polar(arc.start, reach, before.direction())
-        other = polar(arc.end, reach, after.direction() + pi)
-        return (corner, arc.radius) if distance(corner, other) < _FILLET_MISS else None
-
-    def cut(self, items: list[str]) -> None:
+    def cut(self, items: list[tuple[str, XY]]) -> None:
         """Write elements as CUT statements, as many as they need."""
-        line = ""
-        for item in items:
+        line, place = "", (0.0, 0.0)
+        for item, where in items:
             if line and len(line) + len(item) + len("9999 CUT ,") > _WIDTH:
-                self.say(f"CUT {line}")
+                self.say(f"CUT {line}", place)
                 line = ""
+            place = place if line else where
             line += f",{item}" if line else item
         if line:
-            self.say(f"CUT {line}")
+            self.say(f"CUT {line}", place)
+        items.clear()
 
     def fit(self, edge: Edge) -> None:
-        """Write a curve: its nodes go to DATA lines at the program's end, a subroutine fits them."""
-        self.say(f"REM CURVE OF {len(edge.nodes)} NODES", f"I={len(edge.nodes)}", "GOSUB *")
-        angles = [degrees(turn(0, node.angle)) for node in edge.nodes]
-        self.data += [f"{literal(node.point)},{number(angle)}"
-                      for node, angle in zip(edge.nodes, angles, strict=True)]
+        """Write a curve: a FIT for each node, or nodes in DATA lines at the program's end, fitted by a subroutine."""
+        nodes = [f"{literal(node.point)},{number(degrees(turn(0, node.angle)))}" for node in edge.nodes]
+        if not self.is_stored:
+            for node, text in zip(edge.nodes, nodes, strict=True):
+                self.say(f"FIT {text}", node.point)
+            return
+        for text in (f"REM CURVE OF {len(nodes)} NODES", f"I={len(nodes)}", "GOSUB *"):
+            self.say(text, edge.start)
+        self.data += nodes
 
-    def program(self) -> str:
-        """Return the numbered program; too many lines are a `UserError`."""
-        lines = [*self.statements, "END"]
+
+@dataclass
+class Program:
+    """A program that cuts routes; `title` goes into its first line. `fillets`: arcs between lines are fillet radii."""
+
+    routes: list[PlannedContour]
+    title: str
+    fillets: bool = True
+
+    def __post_init__(self) -> None:
+        plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
+        self.head = Step(f"REM {plain}: {_count(len(self.routes), 'CONTOUR')}")
+
+    def _written(self, is_stored: bool) -> _Writer:
+        pieces = [list(_pieces(route, self.fillets)) for route in self.routes]
+        writer = _Writer(is_stored)
+        if is_stored:
+            writer.uses.update(
+                (piece.letter, piece.text) for route in pieces for piece in route if isinstance(piece, _Item)
+            )
+        for at, route in enumerate(self.routes):
+            writer.write(at, f"{at + 1}. {describe(route)}", pieces[at])
+        return writer
+
+    def unnumbered(self) -> Iterator[list[Step]]:
+        """The statements without line numbers: the title, a list for each route, the end."""
+        yield [self.head]
+        statements = self._written(False).statements
+        at = 0
+        for route in range(len(self.routes)):
+            first = at
+            while at < len(statements) and statements[at].route == route:
+                at += 1
+            yield statements[first:at]
+        yield [Step("END")]
+
+    def numbered(self) -> str:
+        """The program with line numbers; too many lines are a `UserError`."""
+        writer = self._written(True)
+        lines = [self.head.text, *(statement.text for statement in writer.statements), "END"]
         subroutine = len(lines)
-        if self.data:
-            lines += ["REM SUBROUTINE: I NODES WITH THE DIRECTION OF THEIR TANGENTS", "READ P,A", "FIT P,A",
-                      "I=I-1", "IF I>0 GOTO *", "RETURN", "REM NODES: PLACE, DIRECTION"]
-            lines += _data(self.data)
+        if writer.data:
+            lines += [
+                "REM SUBROUTINE: I NODES WITH THE DIRECTION OF THEIR TANGENTS",
+                "READ P,A",
+                "FIT P,A",
+                "I=I-1",
+                "IF I>0 GOTO *",
+                "RETURN",
+                "REM NODES: PLACE, DIRECTION",
+            ]
+            lines += _data(writer.data)
         step = 10 if len(lines) * 10 <= _LAST_LINE else 1
         if len(lines) * step > _LAST_LINE:
-            raise UserError(f"the program would have {len(lines)} lines, at most {_LAST_LINE} fit; "
-                            "a larger --fit-tolerance makes fewer nodes")
+            raise UserError(
+                f"the program would have {len(lines)} lines, at most {_LAST_LINE} fit; "
+                "a larger --fit-tolerance makes fewer nodes"
+            )
         target = str((subroutine + 2) * step)
         return "".join(f"{at * step} {_pointed(line, target)}\n" for at, line in enumerate(lines, 1))
 
@@ -207,10 +346,12 @@ def _count(count: int, noun: str) -> str:
 def describe(route: PlannedContour) -> str:
     """Say what a contour is made of."""
     contour = route.contour
-    kinds = [("LINE", sum(edge.is_line for edge in contour.edges)),
-             ("ARC", sum(edge.centre is not None and not edge.is_circle for edge in contour.edges)),
-             ("CIRCLE", sum(edge.is_circle for edge in contour.edges)),
-             ("CURVE", sum(bool(edge.nodes) for edge in contour.edges))]
+    kinds = [
+        ("LINE", sum(edge.is_line for edge in contour.edges)),
+        ("ARC", sum(edge.centre is not None and not edge.is_circle for edge in contour.edges)),
+        ("CIRCLE", sum(edge.is_circle for edge in contour.edges)),
+        ("CURVE", sum(bool(edge.nodes) for edge in contour.edges)),
+    ]
     parts = ", ".join(_count(count, noun) for noun, count in kinds if count)
     if not contour.is_closed:
         return f"OPEN: {parts}"
@@ -219,10 +360,5 @@ def describe(route: PlannedContour) -> str:
 
 
 def write(routes: list[PlannedContour], title: str, fillets: bool = True) -> str:
-    """Return the program that cuts the routes; `title` goes into its first line."""
-    writer = Writer(fillets)
-    plain = re.sub(r"[^ -~]", "?", title.upper())[:_WIDTH - 30]
-    writer.say(f"REM {plain}: {_count(len(routes), 'CONTOUR')}")
-    for at, route in enumerate(routes, 1):
-        writer.route(route, f"{at}. {describe(route)}")
-    return writer.program()
+    """Return the numbered program that cuts the routes; `title` goes into its first line."""
+    return Program(routes, title, fillets).numbered()

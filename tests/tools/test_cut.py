@@ -1,0 +1,227 @@
+"""`skg cut`: drawings to checked tapes. The judge is shapely, which knows nothing of SKG."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterator
+from math import cos, pi, sin
+from pathlib import Path
+
+import ezdxf
+import pytest
+import shapely
+from conftest import Run
+from ezdxf.document import Drawing
+from shapely.geometry import LineString, Point, Polygon
+
+from skg import tape as tapes
+from skg.machine.feeding import feed, is_stored, without_numbers
+from skg.plane import XY
+from skg.tape.block import Block
+from skg.tape.controller import run_block
+
+#: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
+LIMIT, CHORDS = 0.003, 0.0005
+
+
+def drawing() -> Drawing:
+    found = ezdxf.new()
+    found.units = ezdxf.units.MM
+    return found
+
+
+def polygon(corners: list[XY], page: Drawing, **attributes: object) -> Polygon:
+    page.modelspace().add_lwpolyline(corners, close=True, dxfattribs=attributes)
+    return Polygon(corners)
+
+
+def plate(page: Drawing) -> tuple[Polygon, list[Polygon]]:
+    """A plate with slanted and concave corners, a round hole and a window; as shapely has them."""
+    outline = polygon([(0, 0), (40, 0), (40, 12), (25, 15), (25, 30), (4, 33)], page)
+    page.modelspace().add_circle((12, 10), 5)
+    window = polygon([(10, 20), (20, 20), (20, 27), (14, 24), (10, 27)], page)
+    return outline, [Point(12, 10).buffer(5, quad_segs=400), window]
+
+
+def saved(page: Drawing, folder: Path) -> Path:
+    path = folder / "part.dxf"
+    page.saveas(path)
+    return path
+
+
+def along(block: Block, at: XY) -> tuple[list[XY], XY]:
+    """Where the controller goes in a block, from a place in mm: its places, thinned out."""
+    (dx, dy), start = run_block(block).move, block.start
+    end = at[0] + dx / 1000, at[1] + dy / 1000
+    if block.is_line:
+        return [at, end], end
+    centre = at[0] - start[0] / 1000, at[1] - start[1] / 1000
+    radius = ((block.x**2 + block.y**2) ** 0.5) / 1000
+    begin = complex(start[0], start[1])
+    steps = max(4, int(abs(block.sweep) * (radius / CHORDS / 8) ** 0.5) + 2)
+    places = []
+    for k in range(steps + 1):
+        turned = begin * complex(cos(block.sweep * k / steps), sin(block.sweep * k / steps)) / 1000
+        places.append((centre[0] + turned.real, centre[1] + turned.imag))
+    return [*places[:-1], end], end
+
+
+def stretches(data: bytes, start: XY) -> Iterator[list[XY]]:
+    """The places of the wire between stops; moves between start holes are passed over."""
+    at = start
+    for number, blocks in enumerate(tapes.parse(data, "tape").stretches()):
+        places = [at]
+        for block in blocks:
+            more, at = along(block, at)
+            places += more[1:]
+        if number % 2 == 0:
+            yield places
+
+
+def apart(one: shapely.Geometry, other: shapely.Geometry) -> float:
+    """Hausdorff distance, both ways, of two curves (mm)."""
+    return max(
+        one.segmentize(0.02).hausdorff_distance(other),
+        other.segmentize(0.02).hausdorff_distance(one),
+    )
+
+
+def test_plate(run: Run, tmp_path: Path) -> None:
+    """Every contour is shapely's offset of it, sharp corners included, and ends where it began."""
+    page = drawing()
+    outline, holes = plate(page)
+    tape, program = tmp_path / "part.3b", tmp_path / "part.skg"
+    result = run(
+        "cut",
+        saved(page, tmp_path),
+        "-o",
+        tape,
+        "--wire",
+        0.18,
+        "--gap",
+        0.01,
+        "--program",
+        program,
+    )
+    assert result.exit_code == 0
+    assert "40 x 33 mm" in result.stderr and "3 start holes" in result.stderr
+    assert "no-drift" in result.stderr
+    assert feed(program.read_text(), "no-drift").tape == tape.read_bytes()
+    first = program.read_text().split("FROM (")[1].split(")")[0].split(",")
+    wanted = [hole.buffer(-0.1, join_style="mitre") for hole in holes]
+    wanted.append(outline.buffer(0.1, join_style="mitre", mitre_limit=50))
+    cuts = list(stretches(tape.read_bytes(), (float(first[0]), float(first[1]))))
+    assert len(cuts) == len(wanted)
+    for places, shape in zip(cuts, sorted(wanted, key=lambda shape: _order(shape, cuts)), strict=True):
+        assert places[0] == pytest.approx(places[-1], abs=1e-9)
+        contour = LineString(places[1:-1])
+        assert apart(contour, shape.exterior) < LIMIT + 0.0005
+
+
+def _order(shape: Polygon, cuts: list[list[XY]]) -> int:
+    return min(
+        range(len(cuts)),
+        key=lambda at: LineString(cuts[at]).hausdorff_distance(shape.exterior),
+    )
+
+
+@pytest.mark.parametrize(
+    ("offset", "words"),
+    [
+        (0.6, ["the wire", "mm into it", "no room"]),
+        (2.5, ["contour 1 (opening", "ERR 07", "smaller --offset"]),
+    ],
+)
+def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: list[str]) -> None:
+    """A slot that the wire does not fit into, and an arc that it eats: refused, nothing is written."""
+    page = drawing()
+    polygon([(0, 0), (30, 0), (30, 20), (0, 20)], page)
+    if offset < 1:
+        neck = [
+            (10, 8),
+            (20, 8),
+            (20, 5),
+            (25, 5),
+            (25, 12),
+            (20, 12),
+            (20, 9),
+            (10, 9),
+        ]
+        polygon([(5, 5), (10, 5), *neck, (10, 12), (5, 12)], page)
+    else:
+        page.modelspace().add_lwpolyline(
+            [(5, 5, 0), (15, 5, 0.41421356), (17, 7, 0), (17, 15, 0), (5, 15, 0)],
+            "xyb",
+            close=True,
+        )
+    result = run_failing(
+        run,
+        "cut",
+        saved(page, tmp_path),
+        "-o",
+        tmp_path / "part.3b",
+        "--offset",
+        offset,
+    )
+    for word in words:
+        assert word in result
+    assert not (tmp_path / "part.3b").exists()
+
+
+def run_failing(run: Run, *words: object) -> str:
+    from skg.errors import UserError
+
+    with pytest.raises(UserError) as failed:
+        run(*words)
+    return str(failed.value)
+
+
+def test_wrong_tapes_are_found() -> None:
+    """The check is no yes-man: a tape for another offset, one block bent, one contour left out."""
+    from skg.cutting.check import check
+    from skg.cutting.job import Settings, make
+    from skg.drawing.contour import Contour, Edge
+    from skg.drawing.plan import plan
+    from skg.errors import UserError
+
+    corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
+    edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
+    round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
+    routes = plan([Contour(edges, True), round_hole], [], 0.1, "auto")
+    job = make(routes, "part", 1.0, Settings())
+    assert not job.checked.faults and job.checked.off < LIMIT
+    wider = plan([Contour(edges, True), round_hole], [], 0.105, "auto")
+    assert {fault.route for fault in check(job.tape, wider, True).faults} == {0, 1}
+    # The slanted edge goes 9 µm too far up, the one after it comes back.
+    slanted = re.search(rb"B(\d+)B(\d+)B\1GXL2", job.data)
+    bent = job.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 9, slanted[1]))
+    faults = check(tapes.parse(bent, "bent"), routes, True).faults
+    assert faults and faults[0].route == 1
+    with pytest.raises(UserError, match="stops"):
+        check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), routes, True)
+
+
+def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
+    """A drawing that no memory holds goes line by line, in bounded time (2,000 elements)."""
+    page = drawing()
+    for at in range(500):
+        x, y = at % 25 * 7.0, at // 25 * 6.0
+        polygon([(x, y), (x + 4, y), (x + 4, y + 3), (x, y + 3)], page)
+    tape, program = tmp_path / "part.3b", tmp_path / "part.skg"
+    began = time.process_time()
+    result = run("cut", saved(page, tmp_path), "-o", tape, "--offset", 0.1, "--program", program)
+    assert time.process_time() - began < 12
+    assert "lines without numbers" in result.stderr and "500 closed contours" in result.stderr
+    text = program.read_text()
+    assert not is_stored(text) and text.count("BACK") == 500
+    assert feed(text, "no-drift", 2).tape == tape.read_bytes()
+
+
+def test_numbers_taken_off() -> None:
+    """A stored program's lines as lines that are carried out; one that jumps cannot be taken so."""
+    program = "20 CUT (0,0),(5,0),(5,5)\n10 FROM (0,-3)\n30 BACK\n40 END\n"
+    plain = without_numbers(program)
+    assert plain == "FROM (0,-3)\nCUT (0,0),(5,0),(5,5)\nBACK\nEND\n"
+    assert feed(plain).tape == feed(program).tape
+    assert without_numbers(program + "35 IF 1>2 GOTO 10\n") is None

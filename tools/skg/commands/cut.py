@@ -1,0 +1,146 @@
+"""`skg cut`: a drawing as a tape, checked before it is written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from skg.commands.options import Coordinates
+from skg.drawing.plan import LEAD, plan
+from skg.drawing.read import OPEN, UNITS, Wishes, read
+from skg.errors import UserError
+from skg.files import read_bytes, write_bytes
+from skg.plane import XY
+
+
+@click.command(name="cut")
+@click.argument("file", type=click.Path(allow_dash=True))
+@click.option(
+    "-o",
+    "--output",
+    default="-",
+    show_default=True,
+    type=click.Path(allow_dash=True),
+    help="Tape to write, - for the standard output.",
+)
+@click.option("--program", metavar="FILE", type=click.Path(), help="Also write the SKG program.")
+@click.option("--wire", metavar="MM", type=click.FloatRange(0, min_open=True), help="Diameter of the wire.")
+@click.option("--gap", metavar="MM", default=0.0, type=click.FloatRange(0), help="Spark gap on each side of the wire.")
+@click.option(
+    "--offset",
+    metavar="MM",
+    type=click.FloatRange(0),
+    help="The wire's distance from the contour, instead of half of --wire and --gap. Default: 0.",
+)
+@click.option(
+    "--side",
+    default="auto",
+    show_default=True,
+    type=click.Choice(("auto", "inside", "outside", "left", "right", "on")),
+    help="Where the wire runs. auto: around outlines, within the openings in them.",
+)
+@click.option("--reverse", is_flag=True, help="Cut in the other direction.")
+@click.option("--layer", "layers", multiple=True, help="Take only this layer; may be given again.")
+@click.option("--units", type=click.Choice(tuple(UNITS)), help="Units of the drawing. Default: as the file says.")
+@click.option(
+    "--open",
+    "opened",
+    type=click.Choice(OPEN),
+    help="What becomes of open contours. Default: cut without an offset, refuse with one.",
+)
+@click.option(
+    "--start",
+    "starts",
+    multiple=True,
+    type=Coordinates(),
+    help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
+)
+@click.option("--start-layer", default="START", show_default=True, help="Layer of the points for start holes.")
+@click.option(
+    "--lead",
+    default=LEAD,
+    show_default=True,
+    metavar="MM",
+    type=click.FloatRange(0, min_open=True),
+    help="From a chosen start hole to the contour, where there is room.",
+)
+@click.option(
+    "--tolerance",
+    default=0.005,
+    show_default=True,
+    metavar="MM",
+    type=click.FloatRange(0, min_open=True),
+    help="Ends no further apart than this are one corner.",
+)
+@click.option(
+    "--rom",
+    default="no-drift",
+    show_default=True,
+    type=click.Choice(("no-drift", "nodrift", "standard")),
+    help="The ROM that makes the tape. On a standard tape the misses of the arcs add up.",
+)
+@click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
+@click.option(
+    "--feed",
+    default=5.0,
+    show_default=True,
+    metavar="MM/MIN",
+    type=click.FloatRange(0, min_open=True),
+    help="Feed, for the time.",
+)
+@click.option("--quiet", is_flag=True, help="No report.")
+def command(
+    file: str,
+    output: str,
+    program: str | None,
+    wire: float | None,
+    gap: float,
+    offset: float | None,
+    side: str,
+    reverse: bool,
+    layers: tuple[str, ...],
+    units: str | None,
+    opened: str | None,
+    starts: tuple[XY, ...],
+    start_layer: str,
+    lead: float,
+    tolerance: float,
+    rom: str,
+    ram: int,
+    feed: float,
+    quiet: bool,
+) -> None:
+    """Cut a drawing: FILE (.dxf or .svg) becomes a 3B tape.
+
+    The contours are planned as in `skg from-dxf`, the program runs on the board in this process, and the tape is
+    followed with the controller's simulation and compared with the drawing before it is written. The report goes to
+    standard error. FILE - is the standard input.
+    """
+    from skg.cutting.job import Settings, make, report
+
+    distance = _offset(wire, gap, offset)
+    wishes = Wishes(layers, start_layer, units, tolerance, open=opened or ("refuse" if distance else "cut"))
+    reading = read(read_bytes(file), file, wishes)
+    factor = reading.report.factor
+    settings = Settings("no-drift" if rom == "nodrift" else rom, ram, feed)
+    try:
+        routes = plan(reading.contours, list(starts) or reading.starts, distance, side, reverse, lead)
+        job = make(routes, "standard input" if file == "-" else Path(file).name, factor, settings)
+    except UserError as error:
+        raise UserError(f"{file}: {error}") from None
+    write_bytes(output, job.data)
+    if program:
+        write_bytes(program, job.program.encode("ascii"))
+    if not quiet:
+        for line in [*reading.report.lines(), *report(job, factor)]:
+            click.echo(line, err=True)
+
+
+def _offset(wire: float | None, gap: float, offset: float | None) -> float:
+    """The wire's distance from the contour, mm."""
+    if offset is not None and (wire is not None or gap):
+        raise UserError("--offset and --wire with --gap say the same thing: give one of them")
+    if gap and wire is None:
+        raise UserError("--gap goes with --wire")
+    return wire / 2 + gap if wire is not None else offset or 0.0

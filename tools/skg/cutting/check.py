@@ -1,0 +1,270 @@
+"""Checking a tape against the drawing that it was made from: where the controller goes, beside where it should.
+
+Nothing here is computed as the ROM does it, there are no corners and no crossings. A tape is right when
+
+- every place of the wire lies R beside its contour (at a sharp corner, outside: beside the line or circle there), and
+  never nearer, also where another part of the contour comes by;
+- beside every place of the contour that the wire can reach it has been R away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from math import cos, sin
+
+import numpy as np
+
+from skg.cutting.near import Floats, Pieces, Whole
+from skg.drawing.contour import Edge
+from skg.drawing.plan import Lead, PlannedContour
+from skg.errors import UserError
+from skg.piece import Piece
+from skg.plane import XY
+from skg.tape.block import Block, Tape, micrometres
+from skg.tape.controller import run_block
+from skg.tape.placed import Placed, closed_moves
+
+#: The controller may be this far from where the drawing has the wire, mm.
+LIMIT = 0.003
+#: Rounding takes a block's end up to this far, mm: where it is further off there may be a reason.
+_USUAL = 0.0008
+#: The wire's path is looked at in no more places than this.
+_MOST_PLACES = 400_000
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """A place (mm) where the wire is not where the drawing has it: `route` by its number in the order of cutting,
+    how far it is off, and whether it runs into its own contour there."""
+
+    route: int
+    place: XY
+    off: float
+    is_into: bool
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """The wire of one route comes into another's contour by `depth` mm."""
+
+    route: int
+    other: int
+    place: XY
+    depth: float
+
+
+@dataclass(frozen=True)
+class Threading:
+    """One stretch of cutting, from where the wire is threaded: its pieces (mm) and whose it is."""
+
+    route: int
+    pieces: tuple[Placed, ...]
+    off_curve: tuple[float, ...]
+    gap: tuple[int, int]
+
+    @property
+    def length(self) -> float:
+        """What the wire travels, mm."""
+        return sum(piece.length for piece in self.pieces) / 1000
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A tape as it was followed: its cuts, the largest distance from the drawing (mm), what is wrong."""
+
+    cuts: list[Threading]
+    off: float
+    faults: list[Misfit]
+    crossings: list[Crossing]
+
+
+def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> list[Threading]:
+    """Follow a tape from the first start hole with the controller; `is_without_drift`: blocks start where it stands.
+
+    A tape whose stops are not those of the routes is a `UserError`.
+    """
+    stretches = tape.stretches()
+    owners = [at for at, route in enumerate(routes) for first, run in enumerate(route.runs()) if not first or run.stop]
+    if len(stretches) != 2 * len(owners) - 1:
+        raise UserError(f"the tape has {len(stretches) - 1} stops, expected {2 * len(owners) - 2}")
+    at = micrometres(routes[0].start[0]), micrometres(routes[0].start[1])
+    cuts = []
+    for number, blocks in enumerate(stretches):
+        outcomes = [run_block(block) for block in blocks]
+        moves = [outcome.move for outcome in outcomes] if is_without_drift else closed_moves(blocks)
+        begin = at
+        pieces, at = _placed(blocks, moves, at)
+        if number % 2 == 0:
+            gap = at[0] - begin[0], at[1] - begin[1]
+            cuts.append(Threading(owners[number // 2], pieces, tuple(one.off_curve for one in outcomes), gap))
+    return cuts
+
+
+def _placed(blocks: list[Block], moves: list[XY], at: XY) -> tuple[tuple[Placed, ...], XY]:
+    placed = []
+    for block, (dx, dy) in zip(blocks, moves, strict=True):
+        placed.append(Placed.between(block, at, (at[0] + dx, at[1] + dy)))
+        at = placed[-1].end
+    return tuple(placed), at
+
+
+def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
+    """Follow a tape and compare it with the routes that it should cut."""
+    cuts = follow(tape, routes, is_without_drift)
+    drawn = Pieces((piece, at) for at, route in enumerate(routes) for piece in _drawn(route))
+    wire = Pieces((_millimetres(piece), cut.route) for cut in cuts for piece in cut.pieces)
+    steps = np.array([off for cut in cuts for off in cut.off_curve], float) / 1000
+    offsets = _offsets(routes)
+    widest = float(np.abs(offsets).max(initial=0.0))
+    faults, crossings, worst = _beside(wire, steps, drawn, routes, offsets, widest)
+    more, far = _reached(wire, drawn, offsets, widest)
+    return Checked(cuts, max(worst, far), faults + more, crossings)
+
+
+def _offsets(routes: list[PlannedContour]) -> Floats:
+    """R of the passes of each route, in its own direction; one that has fewer has its last one again."""
+    most = max(len(route.passes) for route in routes)
+    return np.array([(*route.passes, *(most - len(route.passes)) * route.passes[-1:]) for route in routes], float)
+
+
+def _drawn(route: PlannedContour) -> Iterator[Piece]:
+    """A contour as lines and arcs, in its direction."""
+    for edge in route.chain():
+        if not edge.nodes:
+            yield edge
+            continue
+        for p, q in pairwise(edge.samples):
+            if p != q:
+                yield Piece(p, q)
+
+
+def _millimetres(piece: Placed) -> Piece:
+    start, end = ((x / 1000, y / 1000) for x, y in (piece.start, piece.end))
+    centre = piece.centre and (piece.centre[0] / 1000, piece.centre[1] / 1000)
+    return Piece(start, end, centre, piece.sweep)
+
+
+def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
+    """The ways between start holes and the contour that a route may take."""
+    for run in route.runs():
+        leads = [run.into, run.out] if run.into else [_plain_lead(route, run.edges[0])]
+        for lead in leads:
+            for is_in in (True, False):
+                yield from _one_lead(lead, run.offset, is_in)
+
+
+def _plain_lead(route: PlannedContour, edge: Edge) -> Lead:
+    return Lead(route.start, edge.start, edge.direction(), False)
+
+
+def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
+    if not lead.is_arc:
+        # The contour's right is where R is positive.
+        yield Piece(lead.hole, (lead.entry[0] + r * sin(lead.way), lead.entry[1] - r * cos(lead.way)))
+        return
+    arc = lead.arc(is_in)
+    part = 1 - abs(r) / arc.radius
+
+    def inner(place: XY) -> XY:
+        return tuple(h + part * (p - h) for h, p in zip(lead.hole, place, strict=True))
+
+    yield Piece(inner(arc.start), inner(arc.end), arc.centre, arc.sweep)
+    yield Piece(lead.hole, inner(arc.start if is_in else arc.end))
+
+
+def _spacing(pieces: Pieces, widest: float) -> float:
+    """How near to each other places of a path are looked at: nothing is missed that is as large as the wire."""
+    return max(widest / 2, float(pieces.length.sum()) / _MOST_PLACES) if widest else np.inf
+
+
+def _beside(
+    wire: Pieces, steps: Floats, drawn: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
+) -> tuple[list[Misfit], list[Crossing], float]:
+    """Whether every place of the wire lies as far beside its contour as it should."""
+    which, part = wire.samples(_spacing(wire, widest), 2)
+    places, owners, step = wire.at(which, part), wire.owner[which], steps[which]
+    wanted = np.abs(offsets)[owners]
+    near = drawn.nearest(places, owners, widest + 2 * LIMIT)
+    off = np.abs(near.own[:, None] - wanted).min(1)
+    into = near.own < wanted.min(1) - LIMIT
+    is_open = np.array([not route.contour.is_closed for route in routes])
+    # The wire of an open contour begins on it and goes aside.
+    begins = np.flatnonzero(into & is_open[owners])
+    into[begins] = _off_leads(places[begins], owners[begins], routes) > LIMIT
+    doubtful = np.flatnonzero((off > _USUAL) & ~into)
+    off[doubtful] = np.minimum(off[doubtful], _off_leads(places[doubtful], owners[doubtful], routes))
+    doubtful = doubtful[off[doubtful] > _USUAL]
+    off[doubtful] = np.minimum(off[doubtful], _off_corners(places[doubtful], owners[doubtful], drawn, wanted[doubtful]))
+    total = off + step
+    faults = [
+        Misfit(int(owners[at]), _xy(places[at]), float(abs(wanted[at].min() - near.own[at])), bool(into[at]))
+        for at in _first_of_each(owners, (total > LIMIT) | into)
+    ]
+    deep = wanted.min(1) - near.other
+    crossings = [
+        Crossing(int(owners[at]), int(drawn.owner[near.other_at[at]]), _xy(places[at]), float(deep[at]))
+        for at in _first_of_each(owners, deep > LIMIT)
+    ]
+    good = ~into & np.isfinite(total)
+    return faults, crossings, float(total[good].max(initial=0.0))
+
+
+def _first_of_each(owners: Whole, mask: np.ndarray) -> list[int]:
+    """The first place of each owner where something is so."""
+    at = np.flatnonzero(mask)
+    return [int(at[k]) for k in np.unique(owners[at], return_index=True)[1]]
+
+
+def _xy(place: Floats) -> XY:
+    return float(place[0]), float(place[1])
+
+
+def _off_leads(places: Floats, owners: Whole, routes: list[PlannedContour]) -> Floats:
+    """How far places are from the ways between start holes and contours."""
+    wanted = set(owners.tolist())
+    leads = Pieces((piece, at) for at, route in enumerate(routes) if at in wanted for piece in _lead_pieces(route))
+    return leads.nearest(places, owners, 2 * LIMIT).own
+
+
+def _off_corners(places: Floats, owners: Whole, drawn: Pieces, wanted: Floats) -> Floats:
+    """How far places outside of sharp corners are from where they should be: beside a line or circle there."""
+    off = np.full(len(places), np.inf)
+    reach = max(float(wanted.max(initial=0.0)), LIMIT)
+    left = np.arange(len(places))
+    for _ in range(4):
+        reach *= 6
+        near = drawn.nearest(places[left], owners[left], reach)
+        found = near.own_at >= 0
+        first = np.searchsorted(drawn.owner, owners[left][found])
+        count = np.searchsorted(drawn.owner, owners[left][found], "right") - first
+        for beside in (-1, 0, 1):
+            other = first + (near.own_at[found] - first + beside) % count
+            carrier = drawn.from_carrier(places[left][found], other)
+            at = left[found]
+            off[at] = np.minimum(off[at], np.abs(carrier[:, None] - wanted[at]).min(1))
+        left = left[~found]
+        if not len(left):
+            break
+    return off
+
+
+def _reached(wire: Pieces, drawn: Pieces, offsets: Floats, widest: float) -> tuple[list[Misfit], float]:
+    """Whether the wire has been beside every place of the contours that it can reach."""
+    which, part = drawn.samples(_spacing(drawn, widest), 2)
+    owners = drawn.owner[which]
+    on, square = drawn.at(which, part), drawn.normal(which, part)
+    faults: list[Misfit] = []
+    worst = 0.0
+    for r in offsets.T:
+        aside = r[owners]
+        places = on + aside[:, None] * square
+        free = np.ones(len(places), bool)
+        if widest:
+            free = drawn.nearest(places, owners, widest).own > np.abs(aside) - LIMIT / 10
+        off = wire.nearest(places[free], owners[free], 2 * LIMIT).own
+        for at in _first_of_each(owners[free], off > LIMIT):
+            faults.append(Misfit(int(owners[free][at]), _xy(places[free][at]), float(off[at]), False))
+        worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
+    return faults, worst

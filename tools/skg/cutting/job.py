@@ -1,0 +1,224 @@
+"""From planned contours to a tape that was checked: program, board, controller, report."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+
+from skg.cutting.check import LIMIT, Checked, Threading, check
+from skg.drawing.account import counted, short, shown
+from skg.drawing.plan import PlannedContour
+from skg.drawing.write import Program, Step
+from skg.errors import UserError
+from skg.machine.board import ErrorLine
+from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines
+from skg.plane import XY
+from skg.tape import text as tapes
+from skg.tape.block import Tape
+from skg.tape.simulation import duration
+
+#: Places that a line of the report names before it says how many more there are.
+_PLACES = 5
+#: What the errors of a route mean (language.md, section 6), and what to do.
+_MEANING = {
+    5: ("a number is out of range", "is a radius or a place in the drawing absurdly small or large?"),
+    6: (
+        "the contour cannot be cut as it is drawn",
+        "with an offset a short edge or corner has vanished: try a smaller --offset, another --side or --start; "
+        "without one look for edges that nearly touch there",
+    ),
+    7: ("the offset is larger than the radius of an inner arc", "a thinner wire or a smaller --offset"),
+    9: ("the board's memory is full", "a larger --ram"),
+    10: ("a move is too long for a tape", "is the drawing in the right --units? a tape ends at 100 m"),
+}
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The board: its ROM ("no-drift", "standard") and RAM (KiB); the feed, mm/min."""
+
+    rom: str = "no-drift"
+    ram_kib: int = 8
+    feed: float = 5.0
+
+    @property
+    def is_without_drift(self) -> bool:
+        """Whether blocks start where the controller stands."""
+        return self.rom == "no-drift"
+
+
+@dataclass(frozen=True)
+class Job:
+    """A tape that was checked, the program that made it, how it went into the board."""
+
+    routes: list[PlannedContour]
+    program: str
+    is_stored: bool
+    cycles: int
+    data: bytes
+    tape: Tape
+    checked: Checked
+    settings: Settings
+
+    @property
+    def cut_length(self) -> float:
+        """What the wire travels while it cuts, mm."""
+        return sum(cut.length for cut in self.checked.cuts)
+
+    @property
+    def seconds(self) -> float:
+        """How long it cuts, s."""
+        return self.cut_length / self.settings.feed * 60
+
+
+def make(routes: list[PlannedContour], title: str, factor: float, settings: Settings, fillets: bool = True) -> Job:
+    """Write the program that cuts the routes, let the board run it, check the tape.
+
+    `factor`: mm in a unit of the file, for the places that a `UserError` names. Nothing is returned that is wrong: a
+    contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
+    """
+    program = Program(routes, title, fillets)
+    text, is_stored, fed = _through(program, settings)
+    if fed.error:
+        if fillets:
+            # A rounded corner without room to round it may still go as an arc.
+            return make(routes, title, factor, settings, False)
+        raise UserError(_located(program, fed.error, factor, settings))
+    tape = tapes.parse(fed.tape, title)
+    checked = check(tape, routes, settings.is_without_drift)
+    _refuse(checked, routes, factor)
+    return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings)
+
+
+def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
+    """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
+    try:
+        text = program.numbered()
+    except UserError:
+        text = ""
+    if text:
+        fed = feed(text, settings.rom, settings.ram_kib)
+        if fed.error is None or fed.error.number != MEMORY_FULL:
+            return text, True, fed
+    parts = [_text(part) for part in program.unnumbered()]
+    fed, _ = feed_lines(parts, settings.rom, settings.ram_kib)
+    return "".join(parts), False, fed
+
+
+def _text(statements: list[Step]) -> str:
+    return "".join(f"{statement.text}\n" for statement in statements)
+
+
+def _located(program: Program, error: ErrorLine, factor: float, settings: Settings) -> str:
+    """An error of the ROM as a contour and its place: each route alone, statement by statement."""
+    _, *routes, _ = program.unnumbered()
+    for number, statements in enumerate(routes):
+        fed, _ = feed_lines([_text(statements)], settings.rom, settings.ram_kib)
+        if fed.error is None:
+            continue
+        _, done = feed_lines([_text([one]) for one in statements], settings.rom, settings.ram_kib)
+        places = [one.place for one in statements[: done + 1] if one.place] or [program.routes[number].entry]
+        what, then = _MEANING.get(fed.error.number, ("the board refuses it", "see language.md, section 6"))
+        where = _named(program.routes[number], number, factor)
+        return f"{where}, near {_in_file(places[-1], factor)}: ERR {fed.error.number:02d}, {what}: {then}"
+    what, then = _MEANING.get(error.number, ("the board refuses it", "see language.md, section 6"))
+    return f"ERR {error.number:02d}, {what}: {then}"
+
+
+def _in_file(place: XY, factor: float) -> str:
+    return shown((place[0] / factor, place[1] / factor))
+
+
+def kind(route: PlannedContour) -> str:
+    """What a contour is."""
+    if not route.contour.is_closed:
+        return "open contour"
+    return "opening" if route.depth % 2 else "outline"
+
+
+def _named(route: PlannedContour, number: int, factor: float) -> str:
+    layers = f", layer {', '.join(route.contour.layers)}" if route.contour.layers else ""
+    return f"contour {number + 1} ({kind(route)} from {_in_file(route.contour.edges[0].start, factor)}{layers})"
+
+
+def _refuse(checked: Checked, routes: list[PlannedContour], factor: float) -> None:
+    """Raise what is wrong with a tape."""
+    for fault in sorted(checked.faults, key=lambda fault: (not fault.is_into, fault.route)):
+        route, where = routes[fault.route], _in_file(fault.place, factor)
+        named = _named(route, fault.route, factor)
+        if fault.is_into:
+            raise UserError(
+                f"{named}: the wire, {short(abs(route.offset))} mm beside it, cuts {short(fault.off)} mm into it at "
+                f"{where}: there is no room for this offset, take a smaller one or a thinner wire"
+            )
+        raise UserError(
+            f"{named}: the wire would be {short(1000 * fault.off)} µm off the drawing at {where}, more than "
+            f"{1000 * LIMIT:g}: nothing was written"
+        )
+    for cut in checked.cuts:
+        route = routes[cut.route]
+        if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
+            raise UserError(
+                f"{_named(route, cut.route, factor)}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
+                "controller"
+            )
+
+
+def report(job: Job, factor: float) -> list[str]:
+    """What a person must know about a tape, line by line."""
+    settings, routes = job.settings, job.routes
+    kinds = Counter(kind(route) for route in routes)
+    order = ", ".join(counted(count, one) for one, count in kinds.items())
+    holes = [route.start for route in routes]
+    lines = [
+        f"cut in this order: {order}; {counted(len(holes), 'start hole')}: "
+        + ", ".join(_in_file(hole, factor) for hole in holes[:_PLACES])
+        + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
+    ]
+    lines += _offsets(routes)
+    lines += [
+        f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {settings.feed:g} mm/min; "
+        f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}",
+        _how(job),
+        f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
+        + _closing(job.checked.cuts, routes),
+    ]
+    for crossing in job.checked.crossings[:_PLACES]:
+        lines.append(
+            f"take care: the cut of contour {crossing.route + 1} comes {short(crossing.depth)} mm into contour "
+            f"{crossing.other + 1} at {_in_file(crossing.place, factor)}"
+        )
+    if len(job.checked.crossings) > _PLACES:
+        lines.append(f"and {len(job.checked.crossings) - _PLACES} more such places")
+    return lines
+
+
+def _offsets(routes: list[PlannedContour]) -> list[str]:
+    passes = next((route.passes for route in routes if any(route.passes)), ())
+    if not passes:
+        return ["the wire's middle runs on the contours: no --offset"]
+    lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours"]
+    if len(passes) > 1:
+        lines[0] += f" in {len(passes)} passes, every second one backwards"
+        free = [at + 1 for at, route in enumerate(routes) if route.contour.is_closed and not route.tab]
+        outer = [at for at in free if not routes[at - 1].is_opening]
+        if outer:
+            lines.append(
+                f"take care: {counted(len(outer), 'part')} come free after the first pass "
+                f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
+            )
+    return lines
+
+
+def _how(job: Job) -> str:
+    how = (
+        "a stored program"
+        if job.is_stored
+        else "lines without numbers, carried out as they are loaded: stored it would not fit"
+    )
+    return f"made by the {job.settings.rom} ROM with {job.settings.ram_kib} KiB of RAM from {how}"
+
+
+def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> str:
+    closed = [cut for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tab]
+    return f"; {counted(len(closed), 'closed contour')} end where they begin" if closed else ""

@@ -1,0 +1,89 @@
+"""How a program gets through a board: stored and RUN where it fits, else line by line as it is loaded."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from skg.errors import UserError
+from skg.machine.board import Board, BoardStopped, ErrorLine, find_error
+
+#: Cycles after which a program hangs: 140 hours of the 2 MHz board.
+MOST_CYCLES = 10**12
+#: RAM that a board may have, KiB.
+LEAST_RAM, MOST_RAM = 2, 56
+MEMORY_FULL = 9
+_NUMBERED = re.compile(r"\s*\d")
+_PLAIN = re.compile(r"\s*\d+\s*")
+#: Statements that need a stored program; and those that only one can read.
+_STORED = re.compile(r"\s*\d+\s*(GOTO|GOSUB|IF|RETURN|READ|DATA|RESTORE|INPUT)\b", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Fed:
+    """What became of a program: the tape, the error that ended it (none: it went through), cycles of the board."""
+
+    tape: bytes
+    error: ErrorLine | None
+    cycles: int
+
+
+def is_stored(program: str) -> bool:
+    """Whether a program must be RUN: one without a line number that ends with END has done all when it is loaded."""
+    lines = [line for line in program.splitlines() if line.strip()]
+    return any(map(_NUMBERED.match, lines)) or lines[-1:] != ["END"]
+
+
+def without_numbers(program: str) -> str | None:
+    """A numbered program as lines that are carried out as they are loaded; None where it jumps, asks or has DATA."""
+    lines = program.splitlines()
+    if any(_STORED.match(line) or not _NUMBERED.match(line) for line in lines if line.strip()):
+        return None
+    ordered = sorted((line for line in lines if line.strip()), key=lambda line: int(line.split()[0]))
+    return "".join(f"{_PLAIN.sub('', line, count=1)}\n" for line in ordered)
+
+
+def feed(program: str, rom: str | bytes = "standard", ram_kib: int = 8) -> Fed:
+    """LOAD a program, and RUN it if it has numbered lines. A board that does not come back is a `BoardStopped`."""
+    board = Board(rom, ram_kib, max_cycles=MOST_CYCLES)
+    board.load(program)
+    if not board.error and is_stored(program):
+        board.run()
+    return Fed(board.tape, board.error, board.machine.cycles)
+
+
+def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fed, int]:
+    """LOAD parts of a program without line numbers, one after the other, until one ends in ERR.
+
+    Returns what became of them, and how many went through.
+    """
+    board = Board(rom, ram_kib, max_cycles=MOST_CYCLES)
+    done, error = 0, None
+    for part in parts:
+        error = find_error(board.load(part))
+        if error:
+            break
+        done += 1
+    return Fed(board.tape, error, board.machine.cycles), done
+
+
+def least_ram(program: str, rom: str | bytes = "standard") -> int | None:
+    """The RAM that a program takes, KiB; None when the largest board is too small, or another error ends it."""
+    low, high = LEAST_RAM, MOST_RAM
+    try:
+        if feed(program, rom, high).error:
+            return None
+    except BoardStopped:
+        return None
+    while low < high:
+        middle = (low + high) // 2
+        low, high = (middle + 1, high) if feed(program, rom, middle).error else (low, middle)
+    return low
+
+
+def too_large(name: str, program: str, ram_kib: int, rom: str | bytes = "standard") -> UserError:
+    """What to say when a program does not fit in the memory of a board."""
+    least = least_ram(program, rom)
+    more = f"it takes {least} KiB" if least else f"{MOST_RAM} KiB, the most there can be, are too little as well"
+    return UserError(f"{name}: ERR 09, memory full with {ram_kib} KiB of RAM: {more}")
