@@ -25,6 +25,7 @@ COMMANDS = {
     "ref": ["ref", PART],
     "run": ["run", PART],
     "sim": ["sim", "--blocks", *[TAPE] * 50],
+    "tape": ["tape", TAPE],
     "xy": ["xy", "examples/xy-gear.xy"],
 }
 each = pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
@@ -93,7 +94,7 @@ def test_help_loads_no_command() -> None:
     assert done.stdout == "['skg.errors', 'skg.cli']\n"
 
 
-@pytest.mark.parametrize("command", ["run", "sim", "check", "gcode"])
+@pytest.mark.parametrize("command", ["run", "sim", "check", "gcode", "tape"])
 def test_small_commands_start_fast(command: str) -> None:
     """They load no library that takes a tenth of a second and more."""
     text = (

@@ -21,9 +21,14 @@ def decided(tape: Tape, positions: str) -> str:
     What had to be found out, and how, goes to standard error in one line, and so does what was noted when it was read.
     """
     decision = decide(tape, positions)
-    for note in (*tape.notes, *filter(None, [decision.why])):
-        click.echo(f"skg: {tape.name}: {note}", err=True)
+    say(tape, decision.why)
     return decision.positions
+
+
+def say(tape: Tape, more: str = "") -> None:
+    """Write to standard error what was noted when a tape was read, and what else there is to say."""
+    for note in (*tape.notes, *filter(None, [more])):
+        click.echo(f"skg: {tape.name}: {note}", err=True)
 
 
 def output_option(text: str) -> Callable[[Callable], Callable]:

@@ -39,7 +39,8 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
     if not is_program(name):
         if with_contour:
             raise UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
-        return Made(tapes.read(name))
+        tape = tapes.read(name)
+        return Made(tape, tape.start or (0.0, 0.0))
     # The reference is needed in any case: only it knows where on the drawing the wire is.
     data, start, contour = _run(name, skg80, with_contour)
     tape = tapes.parse(data, name)

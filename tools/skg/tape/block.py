@@ -237,7 +237,8 @@ class Tape:
     """A tape: blocks and stops in order; `name` is where it came from.
 
     `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so, in words (empty:
-    it was made just now). `notes`: what there is to say of how it was read.
+    it was made just now). `notes`: what there is to say of how it was read. `start`: where the wire starts on the
+    drawing, mm, where the tape says so.
     """
 
     name: str
@@ -245,6 +246,7 @@ class Tape:
     drift: bool | None = None
     drift_by: str = ""
     notes: tuple[str, ...] = ()
+    start: tuple[float, float] | None = None
 
     @property
     def blocks(self) -> list[Block]:

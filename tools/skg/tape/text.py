@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from skg.errors import UserError
 from skg.files import read_bytes
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
+from skg.tape.styles import read_any, to_style
 
 #: How the name of a file ends that holds a tape without drift.
 WITHOUT_DRIFT = ".nodrift.3b"
@@ -138,15 +138,13 @@ def scan(data: bytes, name: str = "-") -> tuple[Tape, list[Finding]]:
 
 
 def parse(data: bytes, name: str = "-") -> Tape:
-    """Return the tape in `data`, or raise `UserError` with the first thing that is wrong.
+    """Return the tape in `data`, in the punch's own style or another one (see `skg.tape.styles`), or raise `UserError`
+    with the first thing that is wrong.
 
     Line ends of LF alone are let pass here (an editor may have made them); `skg check` reports them.
     """
     tape, findings = scan(data, name)
-    serious = [finding for finding in findings if "LF" not in finding.message]
-    if serious:
-        raise UserError(f"{name}: {serious[0]}")
-    return tape
+    return read_any(data, name) if any("LF" not in finding.message for finding in findings) else tape
 
 
 def read(path: str) -> Tape:
@@ -163,8 +161,4 @@ def to_bytes(items: Iterable[Block | Stop]) -> bytes:
 
     A number of more than 8 digits does not fit: `UserError`.
     """
-    lines = ["D" if isinstance(item, Stop) else str(item) for item in items]
-    for number, line in enumerate(lines, 1):
-        if any(len(digits) > MAX_DIGITS for digits in re.findall(r"\d+", line)):
-            raise UserError(f"line {number}: {line} has a number of more than {MAX_DIGITS} digits")
-    return "".join(f"{line}\r\n" for line in [*lines, "DD"]).encode("ascii")
+    return to_style(items, "punch")

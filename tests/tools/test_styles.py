@@ -1,0 +1,200 @@
+"""3B as other people write it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from conftest import CAD_TAPE, Run
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from test_tape import blocks
+
+from skg import tape as tapes
+from skg.errors import UserError
+from skg.tape import Block, Stop
+from skg.tape.styles import STYLES, read_any, to_style
+
+BLOCKS = [
+    "B9900B0B9900GXL3",
+    "B0B70100B70100GYL2",
+    "B55000B0B55000GXL3",
+    "B50100B100B100000GYNR1",
+    "B54900B0B54900GXL3",
+]
+
+#: The CAD package's tape of tape-3b.md in other styles, and what is noted.
+SAME = {
+    "published": (
+        "B 9900B 0B 9900 GX L3 B 0B 70100B 70100 GY L2 B 55000B 0B 55000 GX L3 B 50100B 100B 100000 GY NR1"
+        "B 54900B 0B 54900 GX L3",
+        "blanks, no DD at the end",
+    ),
+    "numbered": (
+        "N 1: B 9900 B 0 B 9900 GX L3\nN 2: B 0 B 70100 B 70100 GY L2\nN 3: B 55000 B 0 B 55000 GX L3\n"
+        "N 4: B 50100 B 100 B 100000 GY NR1\nN 5: B 54900 B 0 B 54900 GX L3\nN 6: DD\n",
+        "block numbers, blanks",
+    ),
+    "with header and places": (
+        "****\nCAM -Version 2.0 , Name : part\nConner R= 0.00000 , Offset F= 0.10000 ,Length= 290.000 mm\n****\n"
+        "Start Point =  115.00000 ,  -10.00000        ;     X ,   Y\n"
+        "N   1: B   9900 B      0 B   9900 GX   L3 ;  105.100 , -10.000\n"
+        "N   2: B      0 B  70100 B  70100 GY   L2 ;  105.100 ,  60.100\n"
+        "N   3: B  55000 B      0 B  55000 GX   L3 ;   50.100 ,  60.100\n"
+        "N   4: B  50100 B    100 B 100000 GY  NR1 ;  -50.100 ,  60.100\n"
+        "N   5: B  54900 B      0 B  54900 GX   L3 ; -105.000 ,  60.100\nN   6: DD\n",
+        "comments, a header of 5 lines, block numbers, blanks",
+    ),
+    "teletype's listing": (
+        "0001 B9900B0B9900GXL3\n0002 B0B70100B70100GYL2\n0003 B55000B0B55000GXL3\n0004 B50100B100B100000GYNR1\n"
+        "0005 B54900B0B54900GXL3\nDD\n",
+        "block numbers",
+    ),
+    "keyed in": (
+        "b009900b000000b009900gxl3\nb0b070100b070100gyl2\nb055000b0b055000gxl3\nb050100b000100b100000gynr1\n"
+        "b054900b0b054900gxl3\nE\n",
+        "leading zeros, small letters, E for the end",
+    ),
+    "as little as there is": (
+        "BBB9900GxL3\r\nBBB70100GyL2\r\nBBB55000GxL3\r\nB50100B100B100000GyNR1\r\nBBB54900GxL3\r\nFF\r\n",
+        "zeros left out, small letters, lines along an axis by J alone, FF for the end",
+    ),
+    "by slope": (
+        "B1B0B9900GXL3\r\nB0B1B70100GYL2\r\nB1B0B55000GXL3\r\nB50100B100B100000GYNR1\r\nB9B0B54900GXL3\r\nDD\r\n",
+        "lines by their slope, x and y a part of what J says",
+    ),
+    "the axis of the quadrant before": (
+        "B9900B0B9900GXL2\r\nB0B70100B70100GYL1\r\nB55000B0B55000GXL2\r\nB50100B100B100000GYNR1\r\nB54900B0B54900GXL3\r\nDD\r\n",
+        "the other quadrant on lines along an axis",
+    ),
+    "commas and comments": (
+        "# a part\nB9900,B0,B9900,GX,L3 (in)\nB0,B70100,B70100,GY,L2 // up\nB55000,B0,B55000,GX,L3\n"
+        "B50100,B100,B100000,GY,NR1\nB54900,B0,B54900,GX,L3\nDD\n\x1a",
+        "comments, blanks",
+    ),
+}
+
+
+@pytest.mark.parametrize(("text", "noted"), SAME.values(), ids=SAME)
+def test_the_same_tape(text: str, noted: str) -> None:
+    tape = tapes.parse(text.encode("latin-1"))
+    assert [str(block) for block in tape.blocks] == BLOCKS
+    assert tape.stops == []
+    assert tape.notes == (f"written in another style: {noted}",)
+
+
+def test_own_style_is_not_noted() -> None:
+    assert tapes.parse(CAD_TAPE).notes == read_any(CAD_TAPE).notes == ()
+    assert read_any(CAD_TAPE).items == tapes.parse(CAD_TAPE).items
+
+
+@pytest.mark.parametrize(("text", "blocks_", "stops"), [
+    ("B5B0B5GXL1 D B0B5B5GYL2 A B5B0B5GXL3 DD", 3, [1, 2]),
+    ("D\nB 5 B0 B5 GX L1\nD\nB0B5B5GYL2\nDD", 2, [0, 1]),
+    ("N1 B5B0B5GXL1\nN2 D\nN3 B0B5B5GYL2\nN4 D\n", 2, [1, 2]),
+    ("B5B0B5GXL1DB0B5B5GYL2DB 5B0B5GXL3DD", 3, [1, 2]),
+])  # fmt: skip
+def test_stops(text: str, blocks_: int, stops: list[int]) -> None:
+    tape = tapes.parse(text.encode())
+    assert len(tape.blocks) == blocks_
+    assert [stop.after for stop in tape.stops] == stops
+
+
+def test_diagonals_and_arcs_on_an_axis() -> None:
+    """G of a line at 45 degrees may be either; an arc that starts on an axis may go by either quadrant."""
+    tape = tapes.parse(b"B5B5B5GXL1\r\nB1B1B700GYL2\r\nB500B0B500GXSR1\r\nDD\r\n")
+    assert [str(block) for block in tape.blocks] == ["B5B5B5GYL1", "B700B700B700GXL2", "B500B0B500GXSR4"]
+    assert tape.blocks[0].move == (5, 5) and tape.blocks[1].move == (-700, 700)
+
+
+EXPECTED = "expected a block B x B y B J G Z"
+IS_4B = (
+    "this is 4B, with the radius after J or D, DD before Z; its controller offsets the wire by itself. "
+    "Expected 3B: have the package write that"
+)
+
+
+@pytest.mark.parametrize(("text", "message"), [
+    ("B 5B0B5GXL1\nB0B5B5GYL2\nB5B0B5GXL\nDD", f"line 3, column 1: {EXPECTED}, D or DD, found 'B5B0B5GXL'"),
+    ("B 5B0B5GXL1\nhello\nDD", f"line 2, column 1: {EXPECTED}, D or DD, found 'hello'"),
+    ("B1B1GYL1\r\nB5B0B5GXL1\r\nDD\r\n", "line 1, column 1: expected a block B x B y B J G Z"),
+    ("B5B0B5GXL1\r\nB0B5B5GYL2\r\n", "line 3, column 1: expected DD, found the end of the tape"),
+    ("B5B0B5GXL1\r\nDD\r\nB0B5B5GYL2\r\nDD\r\n", "line 3, column 1: expected nothing after DD, found a block"),
+    ("B5B0B5GXL1\r\nDD\r\nB1", "line 3, column 1: expected nothing after DD, found 'B1'"),
+    ("B 7B5B6GXL1 DD", "line 1, column 1: block 1: J = 6 is less than the larger of x and y, 7"),
+    ("B 7B9B9GXL1 DD", "line 1, column 1: block 1: GX counts the wrong axis, expected GY"),
+    ("B 5000B0B5001GXL1 DD", "line 1, column 1: block 1: J = 5001 is more than the larger of x and y, 5000"),
+    ("B 123456789B0B123456789GXL1 DD", "line 1, column 1: x has 9 digits, at most 8 fit"),
+    ("B 0B0B5GYL1 DD", "line 1, column 1: block 1: x and y are both 0"),
+    ("  0\nSECTION\n  2\nENTITIES\n", f"line 1, column 1: {EXPECTED}, there is none: is this a tape?"),
+    ("B0B0B2900GXL1\nB2900B0B2900B2900GYDNR1\nDD",
+     f"line 2, column 1: {IS_4B}"),
+    ("B3000B0B3000GXDL1\nDD", f"line 1, column 13: {IS_4B}"),
+])  # fmt: skip
+def test_refused(text: str, message: str) -> None:
+    with pytest.raises(UserError) as error:
+        tapes.parse(text.encode(), "x.3b")
+    assert str(error.value) == f"x.3b: {message}"
+
+
+def test_a_line_that_is_missing() -> None:
+    tape = tapes.parse(b"N1 B5B0B5GXL1\nN2 B0B5B5GYL2\nN4 B5B0B5GXL3\nDD\n")
+    assert tape.notes[0].endswith("block numbers that do not go on evenly: is a line missing?")
+
+
+@given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0))), min_size=1).filter(
+    lambda items: any(isinstance(item, Block) for item in items)))  # fmt: skip
+@settings(deadline=None, max_examples=60)
+def test_every_style_is_read_again(items: list[Block | Stop]) -> None:
+    own = to_style(items, "punch")
+    for style in STYLES:
+        tape = tapes.parse(to_style(items, style))
+        assert to_style(tape.items, "punch") == own, style
+
+
+def test_start_point(run: Run, tmp_path: Path) -> None:
+    """Where a header says where the wire starts, it is drawn there."""
+    path = tmp_path / "other.3b"
+    path.write_text(SAME["with header and places"][0])
+    drawing = run("dxf", path).stdout
+    assert " 10\n115.0\n 20\n-10.0\n" in drawing
+
+
+@pytest.mark.parametrize("words", [["sim"], ["plot", "-o", "-"], ["dxf"], ["tape"]], ids=lambda words: words[0])
+def test_every_tool_reads_it_and_says_so(run: Run, tmp_path: Path, words: list[str]) -> None:
+    own, other = tmp_path / "part.3b", tmp_path / "other" / "part.3b"
+    other.parent.mkdir()
+    own.write_bytes(CAD_TAPE)
+    other.write_text(SAME["published"][0])
+    ones, others = (run(words[0], path, *words[1:]) for path in (own, other))
+    assert others.exit_code == 0
+    assert f"skg: {other}: written in another style: blanks, no DD at the end\n" in others.stderr
+    texts = [result.stdout.replace(str(other), str(own)) for result in (ones, others)]
+    if words == ["dxf"]:
+        texts = [text.rpartition("\nENTITIES\n")[2].partition("\nOBJECTS\n")[0] for text in texts]
+    assert texts[0] == texts[1]
+
+
+def test_check_says_what_is_different(run: Run, tmp_path: Path) -> None:
+    """It goes by the punch's own style, names the first findings, and does not print a drawing's every line."""
+    path = tmp_path / "other.3b"
+    path.write_text("\n".join(f"N{k} B 5B0B5 GX L1" for k in range(1, 99)) + "\nDD\n")
+    result = run("check", path)
+    assert result.exit_code == 1
+    assert len(result.stdout.splitlines()) == 21
+    assert result.stdout.endswith("more (--all lists them)\n")
+    assert "written in another style: block numbers, blanks; the other commands read it so" in result.stderr
+    assert len(run("check", "--all", path).stdout.splitlines()) > 98
+    path.write_text("  0\nSECTION\n  2\nENTITIES\n" * 1000)
+    result = run("check", path)
+    assert (result.exit_code, len(result.stdout.splitlines())) == (1, 1)
+    assert "there is none: is this a tape?" in result.stdout
+
+
+def test_written_in_a_style(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "part.3b"
+    path.write_bytes(CAD_TAPE)
+    assert run("tape", path).stdout.encode() == CAD_TAPE.replace(b"\r\n", b"\n")
+    assert run("tape", path, "--style", "joined").stdout == SAME["published"][0].replace("NR1B", "NR1 B") + " DD "
+    assert run("tape", path, "--style", "numbered").stdout.splitlines()[3] == "N   4: B 50100 B 100 B 100000 GY NR1"
+    assert run("tape", path, "--style", "padded").stdout.splitlines()[0] == "B009900B000000B009900GXL3"

@@ -1,0 +1,39 @@
+"""`skg tape`: a tape of any style, written in one."""
+
+from __future__ import annotations
+
+import click
+
+from skg.commands.options import say
+from skg.drawing.source import load
+from skg.files import write_bytes
+from skg.tape.styles import STYLES, to_style
+
+
+@click.command(name="tape")
+@click.argument("file", default="-", type=click.Path(allow_dash=True))
+@click.option(
+    "-o",
+    "--output",
+    default="-",
+    show_default=True,
+    type=click.Path(allow_dash=True),
+    help="Tape to write, - for the standard output.",
+)
+@click.option(
+    "--style",
+    type=click.Choice(list(STYLES)),
+    default="punch",
+    show_default=True,
+    help="How blocks are written. punch: as the board does; spaced: with blanks; numbered: N 1: and blanks; "
+    "padded: with zeros to six digits; joined: all in one line.",
+)
+def command(file: str, output: str, style: str) -> None:
+    """Read a 3B tape as anybody writes it, and write it in one style.
+
+    What was different from the punch's own style is said on standard error. A program (.skg, .xy) is run first. FILE -
+    (or none) is the standard input.
+    """
+    tape = load(file).tape
+    say(tape)
+    write_bytes(output, to_style(tape.items, style))

@@ -1,0 +1,247 @@
+"""3B as other people write it: read with a note of what is different, and written.
+
+What CAM packages, textbooks and controllers' keyboards have in common is the block, B x B y B J G Z. Around it they put
+blanks, numbers, headers, comments and words of their own for stops and the end; docs/tools.md, section "skg tape", has
+the list.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from skg.errors import UserError
+from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, line_block, start_quadrant
+
+#: Words for a stop, and for the end of the tape.
+STOPS, ENDS = ("D", "A"), ("DD", "FF", "E", "MJ")
+_NUMBER = r"(?:N\s*(\d+)\s*[:.]?|(\d+)\s*[:.]?)?\s*"
+_BLOCK = re.compile(
+    _NUMBER + r"(B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*G\s*([XY])[\s,]*(L|[NS]R)\s*([1-4]))", re.I
+)
+_WORD = re.compile(_NUMBER + r"(DD|FF|MJ|[DAE])(?=[BN]\s*\d|[^A-Z]|$)", re.I)
+_BLANK = re.compile(r"[\s,]*")
+_COMMENT = re.compile(r"\([^()\n]*\)|(?:;|//|#)[^\n]*")
+_START = re.compile(r"START\s+POINT\s*=\s*([-+]?[\d.]+)\s*,\s*([-+]?[\d.]+)", re.I)
+#: A line that is, or is meant to be, a block.
+_LIKE_A_BLOCK = re.compile(r"^\s*(?:N?\s*\d+\s*[:.]?\s*)?B\s*\d|G\s*[XY]\s*(?:L|[NS]R)\s*\d", re.I | re.M)
+_FOUR = re.compile(r"B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*G|G\s*[XY]\s*DD?\s*(?:L|[NS]R)\s*[1-4]", re.I)
+
+
+def read_any(data: bytes, name: str = "-") -> Tape:
+    """Return the tape in `data`, whatever its style; `Tape.notes` says what is different from the punch's own.
+
+    What cannot be read, or cannot be right, is a `UserError` with line and column. A tape in the punch's own style must
+    be whole; of any other it is noted where no word ends it.
+    """
+    text = data.decode("latin-1").strip("\0\x1a\x7f").removeprefix("\xef\xbb\xbf")
+    return _StyleReader(name, re.sub("\r\n?", "\n", text)).read()
+
+
+@dataclass
+class _StyleReader:
+    """A tape that is being read; `seen` is what was different, with how often."""
+
+    name: str
+    text: str
+    seen: Counter[str] = field(default_factory=Counter)
+    items: list[Block | Stop] = field(default_factory=list)
+    numbers: list[int] = field(default_factory=list)
+    blocks: int = 0
+
+    def error(self, at: int, message: str) -> UserError:
+        """What is wrong at a place of the text."""
+        line = self.text.count("\n", 0, at) + 1
+        column = at - (self.text.rfind("\n", 0, at) + 1) + 1
+        return UserError(f"{self.name}: line {line}, column {column}: {message}")
+
+    def read(self) -> Tape:
+        start = _START.search(self.text)
+        # Comments give way to blanks: places stay what they are.
+        bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), self.text)
+        self.seen["comments"] += bare != self.text
+        at = self._header(bare)
+        end = None
+        while (at := _BLANK.match(bare, at).end()) < len(bare):
+            if block := _BLOCK.match(bare, at):
+                self._block(block)
+                at = block.end()
+            elif word := _WORD.match(bare, at):
+                at = word.end()
+                self._number(word)
+                if word[3].upper() in ENDS:
+                    end = word[3].upper()
+                    break
+                self._note(word[3] != "D", f"{word[3]} for a stop")
+                self.items.append(Stop(self.blocks))
+            else:
+                raise self.error(at, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, at)}")
+        self._trailer(bare, at, end)
+        place = (float(start[1]), float(start[2])) if start else None
+        return Tape(self.name, tuple(self.items), notes=self._notes(), start=place)
+
+    def _note(self, is_so: bool, what: str) -> None:
+        self.seen[what] += is_so
+
+    def _header(self, bare: str) -> int:
+        """Pass by what stands before the first block."""
+        if four := _FOUR.search(bare):
+            raise self.error(
+                four.start(),
+                "this is 4B, with the radius after J or D, DD before Z; its controller "
+                "offsets the wire by itself. Expected 3B: have the package write that",
+            )
+        first = _BLOCK.search(bare)
+        if not first:
+            like = _LIKE_A_BLOCK.search(bare)
+            raise self.error(
+                like.start() if like else 0,
+                "expected a block B x B y B J G Z" + ("" if like else ", there is none: is this a tape?"),
+            )
+        header = bare[: first.start()]
+        if like := _LIKE_A_BLOCK.search(header):
+            raise self.error(like.start() + len(like[0]) - len(like[0].lstrip()), "expected a block B x B y B J G Z")
+        at = 0
+        while word := _WORD.match(bare, _BLANK.match(bare, at).end()):
+            at = word.end()
+        if _BLANK.match(bare, at).end() >= first.start():
+            # Nothing but stops: no header.
+            return 0
+        lines = sum(bool(line.strip()) for line in header.split("\n"))
+        self.seen[f"a header of {lines} line{'s' * (lines > 1)}"] += 1
+        return first.start()
+
+    def _trailer(self, bare: str, at: int, end: str | None) -> None:
+        """Look at what stands after the last word."""
+        at = _BLANK.match(bare, at).end()
+        if _BLOCK.search(bare, at):
+            raise self.error(at, f"expected nothing after {end}, found a block")
+        self._note(end not in ("DD", None), f"{end} for the end")
+        lines = sum(bool(line.strip()) for line in bare[at:].split("\n"))
+        if lines and not self.styled():
+            raise self.error(at, f"expected nothing after DD, found {_found(bare, at)}")
+        self._note(lines > 0, f"{lines} more line{'s' * (lines > 1)} after the end")
+        if end is None and not self.styled():
+            raise self.error(len(bare), "expected DD, found the end of the tape")
+        self._note(end is None, "no DD at the end")
+
+    def styled(self) -> bool:
+        """Whether the tape is in another style than the punch's own."""
+        return any(self.seen.values())
+
+    def _number(self, match: re.Match[str]) -> None:
+        if number := match[1] or match[2]:
+            self.numbers.append(int(number))
+            self.seen["block numbers"] += 1
+
+    def _block(self, match: re.Match[str]) -> None:
+        self._number(match)
+        self.blocks += 1
+        written, digits = match[3], match.group(4, 5, 6)
+        for name, number in zip("xyJ", digits, strict=True):
+            if len(number.lstrip("0")) > MAX_DIGITS:
+                raise self.error(match.start(3), f"{name} has {len(number)} digits, at most {MAX_DIGITS} fit")
+        self._note(any(number[:1] == "0" and len(number) > 1 for number in digits), "leading zeros")
+        self._note("" in digits, "zeros left out")
+        self._note(bool(re.search(r"[\s,]", written)), "blanks")
+        self._note(written != written.upper(), "small letters")
+        x, y, j = (int(number or 0) for number in digits)
+        given = Block(x, y, j, match[7].upper(), (match[8] + match[9]).upper(), self.blocks)
+        block = self._line(given) if given.is_line else self._arc(given)
+        if problems := block.problems():
+            raise self.error(match.start(3), f"block {self.blocks}: {problems[0]}")
+        self.items.append(block)
+
+    def _line(self, given: Block) -> Block:
+        """A line as the punch has it."""
+        # An axis names the direction, when x and y do not.
+        along_x, right = given.quadrant % 2 == 1, given.quadrant in (1, 4)
+        x, y, j = given.x, given.y, given.j
+        if (x, y) == (0, 0) and j and along_x == (given.axis == "X"):
+            self.seen["lines along an axis by J alone"] += 1
+            x, y = (j, 0) if along_x else (0, j)
+        count = x if given.axis == "X" else y
+        if count and j > count and j % count == 0 and j != max(x, y):
+            self.seen["lines by their slope, x and y a part of what J says"] += 1
+            x, y = x * j // count, y * j // count
+        elif count != j:
+            return given
+        if (x, y) == (0, 0):
+            return given
+        made = line_block(x if right else -x, y if given.quadrant < 3 else -y)
+        self._note(made.axis != given.axis, "the other G on lines at 45°")
+        self._note(made.code != given.code, "the other quadrant on lines along an axis")
+        return Block(made.x, made.y, made.j, made.axis, made.code, given.number)
+
+    def _arc(self, given: Block) -> Block:
+        """An arc as the punch has it: one that starts on an axis is named by the quadrant that it moves into."""
+        if (given.x, given.y) == (0, 0):
+            return given
+        quadrant = start_quadrant(*given.start, given.sense)
+        self._note(quadrant != given.quadrant, "the other quadrant on arcs that start on an axis")
+        return Block(given.x, given.y, given.j, given.axis, f"{given.code[:2]}{quadrant}", given.number)
+
+    def _notes(self) -> tuple[str, ...]:
+        found = [what for what, count in self.seen.items() if count]
+        steps = {later - earlier for earlier, later in zip(self.numbers, self.numbers[1:], strict=False)}
+        if len(steps) > 1:
+            found.append("block numbers that do not go on evenly: is a line missing?")
+        return (f"written in another style: {', '.join(found)}",) if found else ()
+
+
+def _found(text: str, at: int) -> str:
+    """What stands at a place, for a message."""
+    if at >= len(text):
+        return "the end of the tape"
+    word = re.match(r"\w+|.", text[at:])[0][:20]
+    return repr(word) if word.isprintable() else f"byte {ord(word[0]):02X}H"
+
+
+# Writing --------------------------------------------------------------------------------------------------
+
+
+def _punch(number: int, item: Block | str) -> str:
+    return f"{item}\r\n"
+
+
+def _spaced(number: int, item: Block | str) -> str:
+    if isinstance(item, str):
+        return f"{item}\r\n"
+    return f"B {item.x} B {item.y} B {item.j} G{item.axis} {item.code}\r\n"
+
+
+def _numbered(number: int, item: Block | str) -> str:
+    return f"N{number:4}: {_spaced(number, item)}"
+
+
+def _padded(number: int, item: Block | str) -> str:
+    if isinstance(item, str):
+        return f"{item}\r\n"
+    return f"B{item.x:06}B{item.y:06}B{item.j:06}G{item.axis}{item.code}\r\n"
+
+
+def _joined(number: int, item: Block | str) -> str:
+    if isinstance(item, str):
+        return f"{item} "
+    return f"B {item.x}B {item.y}B {item.j} G{item.axis} {item.code} "
+
+
+#: Name -> how an item is written, its number on the tape (from 1) and a block or a word given.
+STYLES: dict[str, Callable[[int, Block | str], str]] = {
+    "punch": _punch,
+    "spaced": _spaced,
+    "numbered": _numbered,
+    "padded": _padded,
+    "joined": _joined,
+}
+
+
+def to_style(items: Iterable[Block | Stop], style: str) -> bytes:
+    """Return a tape in one of `STYLES`, its end included. A number of more than 8 digits does not fit: `UserError`."""
+    words: list[Block | str] = ["D" if isinstance(item, Stop) else item for item in items]
+    for number, item in enumerate(words, 1):
+        if isinstance(item, Block) and max(item.x, item.y, item.j) >= 10**MAX_DIGITS:
+            raise UserError(f"line {number}: {item} has a number of more than {MAX_DIGITS} digits")
+    return "".join(STYLES[style](number, item) for number, item in enumerate([*words, "DD"], 1)).encode("ascii")
