@@ -21,8 +21,8 @@ web-serve: web
 web-wasm:
 	web/wasm/build.sh
 
-# In real browsers: Debian's chromium and firefox-esr, as far as they are there.
-test-web: web
-	$(PY) -m pytest -q web/test
+# In real browsers: Debian's chromium and firefox-esr, as far as they are there. Screenshots go to web/build/shots.
+test-web: web web/build/test/chromium.browser.mjs web/build/test/firefox.browser.mjs
+	node --test --test-reporter=spec web/build/test/*.browser.mjs
 
 .PHONY: web web-modules web-serve web-wasm test-web

@@ -55,8 +55,6 @@ export class Drawing {
   #moved = false;
   /** Called with the place under the pointer, µm, or undefined. */
   onPoint: ((place: XY | undefined) => void) | undefined;
-  /** How long the last drawing took, ms, for those who measure. */
-  took = 0;
 
   constructor(base: HTMLCanvasElement, over: HTMLCanvasElement, chooser: Chooser) {
     this.#base = base;
@@ -183,7 +181,9 @@ export class Drawing {
       this.#curves(context, from);
     }
     this.#overlay();
-    this.took = performance.now() - began;
+    // (for who looks at the page from outside: the window, and how long this took, ms)
+    const { scale, x, y } = this.view;
+    Object.assign(this.#base.dataset, { window: `${scale} ${x} ${y} ${this.#pixels}`, took: String(performance.now() - began) });
   }
 
   #curves(context: CanvasRenderingContext2D, from: number): void {
@@ -264,8 +264,7 @@ export class Drawing {
 
   #arrows(context: CanvasRenderingContext2D, from: number): void {
     const { blocks } = this.#layout;
-    context.fillStyle = this.#colours.wire;
-    const heads = new Path2D();
+    const [cut, leads] = [new Path2D(), new Path2D()];
     for (let at = from; at < blocks.length; at++) {
       const placed = blocks[at] as Placed;
       const length = lengthOf(placed) * this.view.scale;
@@ -274,12 +273,16 @@ export class Drawing {
       this.#since = 0;
       const [x, y] = this.view.toPixel(placeAt(placed, 0.5));
       const way = -directionAt(placed, 0.5);
+      const heads = placed.role === "cut" ? cut : leads;
       heads.moveTo(x + 7 * Math.cos(way), y + 7 * Math.sin(way));
       heads.lineTo(x + 5 * Math.cos(way + 2.5), y + 5 * Math.sin(way + 2.5));
       heads.lineTo(x + 5 * Math.cos(way - 2.5), y + 5 * Math.sin(way - 2.5));
       heads.closePath();
     }
-    context.fill(heads);
+    context.fillStyle = this.#colours.wire;
+    context.fill(cut);
+    context.fillStyle = this.#colours.lead;
+    context.fill(leads);
   }
 
   /** Stops as squares, start holes as circles, and the entry: where the way in meets the contour. */

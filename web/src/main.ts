@@ -364,6 +364,8 @@ on("copy-embed", () => void address(true).then((url) =>
   copy(`<iframe src="${url}" title="SKG" width="800" height="500"></iframe>`)));
 
 for (const button of document.querySelectorAll<HTMLElement>("[data-key]")) {
+  // (who types goes on typing: the teletype keeps the focus, and a phone its keyboard)
+  button.addEventListener("mousedown", (event) => event.preventDefault());
   button.addEventListener("click", () => {
     const key = Number(button.dataset["key"]);
     if (key === 13 || key === 127) machine.type(String.fromCharCode(key));
@@ -379,7 +381,7 @@ for (const button of document.querySelectorAll<HTMLElement>("[data-save]")) {
 }
 
 const picker = get<HTMLInputElement>("file");
-let picked: (file: File) => void = () => {};
+let picked = (file: File): void => void openFile(file);
 function pick(use: (file: File) => void): void {
   picked = use;
   picker.value = "";
@@ -540,7 +542,7 @@ async function begin(): Promise<void> {
     .then(startWalk).catch((error: unknown) => say("noWalk", String(error)));
   await Promise.all([reading, walking]);
   await followLink();
-  document.body.dataset["ready"] = "true";
+  document.body.dataset["ready"] = String(Math.round(performance.now()));
   if ("serviceWorker" in navigator && !isEmbedded) {
     await navigator.serviceWorker.register("offline.js").catch(() => undefined);
   }

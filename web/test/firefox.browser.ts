@@ -1,0 +1,114 @@
+/** The page in Debian's firefox-esr, over WebDriver BiDi: what the chromium tests look at closely works here too. */
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { after, before, describe, test } from "node:test";
+import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import { serve, type Served } from "./served.ts";
+
+const FIREFOX = "/usr/bin/firefox-esr";
+const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
+
+let browser: Browser;
+let served: Served;
+const said: string[] = [];
+
+const paper = (page: Page): Promise<string> => page.evaluate(() =>
+  [...document.querySelectorAll(".xterm-rows > div")].map((row) => row.textContent?.trimEnd()).join("\n"));
+
+async function until(page: Page, what: string, look: () => Promise<boolean>): Promise<void> {
+  for (const end = Date.now() + 20_000; Date.now() < end; await new Promise((resume) => setTimeout(resume, 50))) {
+    if (await look()) return;
+  }
+  throw new Error(`${what}: ${await paper(page)}`);
+}
+
+const onPaper = (page: Page, text: string) => until(page, text, async () => (await paper(page)).includes(text));
+const sum = (page: Page) => page.$eval("#sum", (element) => element.textContent ?? "");
+
+async function visit(hash = ""): Promise<Page> {
+  const page = await browser.newPage();
+  page.on("console", (message) => said.push(`${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => said.push(String(error)));
+  await page.setViewport({ width: 1400, height: 900 });
+  await page.goto(served.url + hash);
+  await page.waitForSelector("body[data-ready]");
+  return page;
+}
+
+describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-esr is not installed" }, () => {
+  before(async () => {
+    served = await serve();
+    browser = await puppeteer.launch({ browser: "firefox", executablePath: FIREFOX, headless: true, args: ["--no-sandbox"] });
+  });
+  after(async () => {
+    await browser?.close();
+    await served?.stop();
+  });
+
+  test("typing, tapes, drawing, reload, link", async (t) => {
+    const page = await visit();
+    t.diagnostic(`ready after ${await page.$eval("body", (body) => body.dataset["ready"])} ms`);
+    await onPaper(page, "\n>");
+    await page.click("#terminal");
+    await page.keyboard.type("PRINT 2*3\r");
+    await onPaper(page, "\n6\n");
+    for (const name of ["wrench", "fit-tol-cam", "gosub-holes", "xy-gear"]) {
+      const wanted = readFileSync(`examples/${name}.3b`, "latin1");
+      const blocks = wanted.split("\r\n").filter((line) => line.startsWith("B"));
+      await page.click(`[data-part="${name}"]`);
+      await until(page, name, async () => await sum(page) === "" &&
+        await page.$eval("#state", (element) => element.textContent) === "at its prompt");
+      await page.click("#run");
+      await until(page, name, async () => new RegExp(`^${blocks.length} blocks · [\\d.]+ mm$`).test(await sum(page)));
+      // block by block down the list: that is the tape
+      await page.focus("#list");
+      await page.keyboard.press("Home");
+      const found: string[] = [];
+      for (let at = 0; at < Math.min(blocks.length, 40); at++) {
+        await page.waitForFunction((id) => document.getElementById(id)?.ariaSelected === "true" ||
+          document.getElementById(id)?.getAttribute("aria-selected") === "true", {}, `block-${at + 1}`);
+        found.push(await page.$eval(`#block-${at + 1} .text`, (element) => element.textContent ?? ""));
+        await page.keyboard.press("ArrowDown");
+      }
+      assert.deepEqual(found, blocks.slice(0, 40), name);
+    }
+    const colours = await page.$eval("#base", (element) => {
+      const canvas = element as HTMLCanvasElement;
+      const { data } = (canvas.getContext("2d") as CanvasRenderingContext2D).getImageData(0, 0, canvas.width, canvas.height);
+      return new Set(new Uint32Array(data.buffer)).size;
+    });
+    assert.ok(colours > 10, "something is drawn");
+    mkdirSync(SHOTS, { recursive: true });
+    await page.screenshot({ path: `${SHOTS}/firefox.png` });
+    await page.evaluate(() => { document.location.reload(); });
+    await new Promise((resume) => setTimeout(resume, 500));
+    await page.waitForSelector("body[data-ready]");
+    await until(page, "program kept", async () => (await page.$$("#lines > div")).length > 10);
+    await page.close();
+    const other = await visit("#part=scale&run");
+    await until(other, "link", async () => /^\d+ blocks/.test(await sum(other)));
+    assert.deepEqual(said, []);
+    await other.close();
+  });
+
+  test("20,000 blocks panned", async (t) => {
+    const page = await visit();
+    const rate = await page.evaluate(async () => {
+      const many = Array.from({ length: 5000 }, () => "B900B0B900GXL1\r\nB100B100B100GYL1\r\nB700B0B1400GYNR1\r\nB300B200B300GXL2\r\n");
+      const data = new DataTransfer();
+      data.items.add(new File([`${many.join("")}DD\r\n`], "many.3b"));
+      dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
+      while (!/^20000/.test(document.getElementById("sum")?.textContent ?? "")) await new Promise((next) => setTimeout(next, 20));
+      const canvas = document.getElementById("over") as HTMLElement;
+      const began = performance.now();
+      for (let frames = 0; frames < 60; frames++) {
+        canvas.dispatchEvent(new KeyboardEvent("keydown", { key: frames % 2 ? "ArrowLeft" : "ArrowUp" }));
+        await new Promise((next) => requestAnimationFrame(next));
+      }
+      return (performance.now() - began) / 60;
+    });
+    t.diagnostic(`20,000 blocks: ${rate.toFixed(1)} ms a frame`);
+    assert.ok(rate < 150);
+    await page.close();
+  });
+});

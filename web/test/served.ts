@@ -1,0 +1,43 @@
+/** A web server for web/dist, as any is: files, their types, and nothing else. */
+import { readFileSync } from "node:fs";
+import { createServer, type Server } from "node:http";
+import type { AddressInfo } from "node:net";
+import { gzipSync } from "node:zlib";
+
+const TYPES: Record<string, string> = {
+  html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", json: "application/json", wasm: "application/wasm",
+  svg: "image/svg+xml", webmanifest: "application/manifest+json",
+};
+
+export interface Served {
+  url: string;
+  /** Bytes of each file asked for since it was last emptied, gzipped. */
+  sent: Map<string, number>;
+  stop(): Promise<void>;
+}
+
+/** Serves the page from a folder of its own; on a port that was used before when `port` is not 0. */
+export async function serve(port = 0, folder = "web/dist"): Promise<Served> {
+  const sent = new Map<string, number>();
+  const server: Server = createServer((request, response) => {
+    const name = (request.url ?? "").replace(/^\/some\/folder\//, "").replace(/[?#].*/, "") || "index.html";
+    try {
+      if (/[/\\]/.test(name)) throw new Error(name);
+      const bytes = readFileSync(`${folder}/${name}`);
+      sent.set(name, gzipSync(bytes, { level: 9 }).length);
+      response.writeHead(200, { "content-type": TYPES[name.split(".").at(-1) ?? ""] ?? "application/octet-stream" });
+      response.end(bytes);
+    } catch {
+      response.writeHead(404);
+      response.end();
+    }
+  });
+  await new Promise<void>((started) => server.listen(port, "127.0.0.1", started));
+  return {
+    url: `http://127.0.0.1:${(server.address() as AddressInfo).port}/some/folder/`, sent,
+    stop: () => new Promise((stopped) => {
+      server.close(() => stopped());
+      server.closeAllConnections();
+    }),
+  };
+}
