@@ -45,6 +45,8 @@ let script: (() => void)[] = [];
 let errors = "";
 /** A ctrl-C that makes room for the script has been pressed: its ERR 10 is none of the script's. */
 let broken = false;
+/** It has not been at its prompt since it was switched on or reset: nothing runs that could be broken off. */
+let isStarting = true;
 let last = 0;
 
 const tell = (news: News): void => postMessage(news);
@@ -98,7 +100,7 @@ function stateOf(reason: Reason): State {
 
 function atPrompt(): void {
   if (!broken && /(^|\n)ERR \d\d/.test(errors)) script = [];
-  broken = false;
+  broken = isStarting = false;
   const next = script.shift();
   if (next) {
     errors = "";
@@ -125,7 +127,7 @@ function carryOut(steps: (() => void)[]): void {
     atPrompt();
   } else {
     broken = true;
-    board.press(CTRL_C);
+    if (!isStarting) board.press(CTRL_C);
     wake();
   }
 }
@@ -204,11 +206,13 @@ function obey(order: Order): void {
       script = [];
       board.forget();
       board.restore(order.ram);
+      isStarting = true;
       break;
     case "reset":
       script = [];
       board.forget();
       board.reset();
+      isStarting = true;
       break;
     case "speed":
       setSpeed(order.speed);

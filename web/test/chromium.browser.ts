@@ -7,7 +7,7 @@ import type { Part } from "../src/parts.ts";
 import { layOut } from "../src/placed.ts";
 import { readTape } from "../src/tape.ts";
 import { Walk } from "../src/walk.ts";
-import { serve, type Served } from "./served.ts";
+import { longTape, serve, type Served } from "./served.ts";
 
 const CHROMIUM = "/usr/bin/chromium";
 const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
@@ -391,6 +391,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     assert.equal(await small.page.isVisible("#parts"), false);
     assert.equal(await small.page.isVisible("#full"), true);
     assert.equal(await small.page.evaluate(() => localStorage.length), 0, "the visitor's own machine is left alone");
+    assert.equal(await small.page.isVisible("#message"), false, "there is nothing to complain of");
     await shot(small.page, "embed");
     await small.context.close();
   });
@@ -559,7 +560,8 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await wholeTape(page);
     for (const view of ["parts", "program", "teletype", "drawing", "blocks"]) {
       await page.tap(`#views [data-view=${view}]`);
-      assert.equal(await page.isVisible(`#${view}`), true);
+      const box = await page.locator(`#${view}`).boundingBox();
+      assert.ok(box && box.height > 450 && box.width > 340, `${view} has the screen: ${JSON.stringify(box)}`);
       assert.ok(await fits(), view);
       await shot(page, `phone-${view}`);
     }
@@ -611,9 +613,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     const { page, context } = await visit();
     await runPart(page, "wrench");
     const block = Number(await page.getAttribute("#base", "data-took"));
-    const many: string[] = [];
-    for (let at = 0; at < 5000; at++) many.push("B900B0B900GXL1", "B100B100B100GYL1", "B700B0B1400GYNR1", "B300B200B300GXL2");
-    await open(page, "many.3b", `${many.join("\r\n")}\r\nDD\r\n`);
+    await open(page, "many.3b", longTape());
     await page.waitForFunction(() => /^20000 blocks/.test(document.getElementById("sum")?.textContent ?? ""));
     await page.focus("#over");
     const rate = await page.evaluate(() => new Promise<{ frame: number; draw: number }>((tell) => {
@@ -628,7 +628,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
           tell({ frame: (performance.now() - began) / 60, draw: draw / 60 });
           return;
         }
-        canvas.dispatchEvent(new KeyboardEvent("keydown", { key: frames % 2 ? "ArrowLeft" : "ArrowUp" }));
+        canvas.dispatchEvent(new KeyboardEvent("keydown", { key: frames % 2 ? "ArrowLeft" : "ArrowRight" }));
         requestAnimationFrame(frame);
       };
       requestAnimationFrame(frame);

@@ -41,3 +41,13 @@ export async function serve(port = 0, folder = "web/dist"): Promise<Served> {
     }),
   };
 }
+
+/** A tape of 20,000 blocks, lines and half circles, row upon row: 100 mm high. */
+export function longTape(): string {
+  const rows: string[] = [];
+  for (let row = 0; row < 100; row++) {
+    const pair = row % 2 ? ["B500B0B500GXL3", "B250B0B500GYNR1"] : ["B500B0B500GXL1", "B250B0B500GYSR2"];
+    rows.push(...Array.from({ length: 99 }, () => pair).flat(), "B0B500B500GYL2", "B0B500B500GYL2");
+  }
+  return `${rows.join("\r\n")}\r\nDD\r\n`;
+}
