@@ -16,9 +16,8 @@ import pytest
 from ezdxf.entities import DXFEntity
 
 from skg.drawing.dxf import draw
-from skg.drawing.source import Made, lay_out
 from skg.tape import gcode, text
-from skg.tape.placed import CUT, WAY_BACK, WAY_IN, PlacedRoute, place
+from skg.tape.placed import CUT, WAY_BACK, WAY_IN, PlacedRoute, place, stop_places
 from skg.tape.simulation import simulate
 
 ROOT = Path(__file__).parents[2]
@@ -124,7 +123,8 @@ def test_units_in_node(tmp_path: Path) -> None:
     for name, tape in TAPES.items():
         drawing = ezdxf.readfile(tmp_path / f"{name}.dxf")
         assert not drawing.audit().errors
-        wanted = draw(*lay_out(Made(tape), (0.0, 0.0), "programmed", "tape", False))
+        routes = place(tape, (0, 0), "programmed")
+        wanted = draw(routes, stop_places(tape, routes, (0, 0)))
         ours, theirs = (sorted(map(shape, one.modelspace()), key=str) for one in (drawing, wanted))
         assert len(ours) == len(theirs), name
         left = list(theirs)
