@@ -1,8 +1,9 @@
-"""Short ways to ask the translator, and what its SKG program makes by the reference."""
+"""Short ways to ask a translator, and what its SKG program makes by the reference."""
 
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 from pathlib import Path
 
 from skg.ref import Result, real, run
@@ -10,15 +11,16 @@ from skg.ref.interpreter import Interpreter
 from skg.ref.near import watching
 from skg.ref.tape import Punch
 from skg.ref.values import Circle, Line, Point, Value
+from skg.rivals import xy
 from skg.rivals.languages import RivalFault
-from skg.rivals.xy import translate
 
 ROOT = Path(__file__).parents[2]
+Translate = Callable[[str], str]
 #: mm: the program's own numbers have 14 decimals.
 EXACT = 1e-10
 
 
-def made(text: str) -> dict[str, Value]:
+def made(text: str, translate: Translate = xy.translate) -> dict[str, Value]:
     """The elements that a translated program makes, by SKG's names."""
     program = translate(text)
     with watching() as watch, real.mp.workprec(real.mp.prec):
@@ -28,7 +30,7 @@ def made(text: str) -> dict[str, Value]:
     return {f"{letter}{number}": value for (letter, number), value in machine.variables.items()}
 
 
-def cut(text: str) -> Result:
+def cut(text: str, translate: Translate = xy.translate) -> Result:
     """The result of a translated program, which must not fail."""
     program = translate(text)
     result = run(program)
@@ -36,7 +38,7 @@ def cut(text: str) -> Result:
     return result
 
 
-def fault(text: str) -> str:
+def fault(text: str, translate: Translate = xy.translate) -> str:
     """What is wrong with a text; empty: nothing."""
     try:
         translate(text)

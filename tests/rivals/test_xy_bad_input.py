@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
-from click.testing import CliRunner
 from rivalhelp import fault
-
-from skg.cli import cli
 
 MADE = "⊕D(0,0)⇒D0;⊕D(9,0)⇒D1;⊕D(9,9)⇒D2;⊕X(0,0,0)⇒X1;⊕X(0,5,0)⇒X2;⊕Y(0,0,3)⇒Y1;⊕Y(20,0,2)⇒Y2;⊕Y(2,0,4)⇒Y3;\n"
 
@@ -140,21 +135,3 @@ def test_first_of_two() -> None:
     assert fault("⊕D(1,2)⇒D1;\n@\n⊕D(X1,X1)⇒D1;").startswith("2:1: ")
     assert fault("⊕X(0,0,0)⇒X1;\n⊕D(X1,X1)⇒D1;\n@").startswith("2:1: ")
     assert fault("⊕D(X1,+)⇒D1;").startswith("1:4: ")
-
-
-@pytest.mark.parametrize(
-    ("data", "where"),
-    [
-        ("⊕D(0,0)⇒D0;\n  @".encode(), "2:3: "),
-        (b"ab\n\xff", "2:1: not UTF-8"),
-        (b"\\oplus D(0,0)\\Rightarrow D_0;\n\\phi D1", "2:6: "),
-        (b"(" * 3000 + b"1", "1:"),
-    ],
-)
-def test_command(tmp_path: Path, data: bytes, where: str) -> None:
-    part = tmp_path / "part.xy"
-    part.write_bytes(data)
-    result = CliRunner(mix_stderr=False).invoke(cli, ["xy", str(part)])
-    assert (result.exit_code, result.stdout) == (1, "")
-    assert result.stderr.startswith(f"{part}:{where}")
-    assert result.stderr.count("\n") == 1

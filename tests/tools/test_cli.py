@@ -26,6 +26,7 @@ COMMANDS = {
     "run": ["run", PART],
     "sim": ["sim", "--blocks", *[TAPE] * 50],
     "tape": ["tape", TAPE],
+    "tekhtran": ["tekhtran", "examples/tkh-maltese.tkh"],
     "xy": ["xy", "examples/xy-gear.xy"],
 }
 each = pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)

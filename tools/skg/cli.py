@@ -25,6 +25,7 @@ COMMANDS = {
     "run": "Run a program on the board, by the ROM itself.",
     "sim": "Follow tapes step by step as a controller does.",
     "tape": "Write a 3B tape of any style in another one.",
+    "tekhtran": "Make an SKG program of one in TEKHTRAN.",
     "term": "Be the teletype of a board on a serial port.",
     "xy": "Make an SKG program of one in XY.",
 }

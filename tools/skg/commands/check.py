@@ -24,7 +24,7 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool) -> None:
     """Find everything on TAPE that a 3B controller would choke on.
 
     One line for each finding: file, block, column, what was expected. Exit code 1 when there is any.
-    A program (.skg, .xy) is run first.
+    A program (.skg, .xy, .tkh) is run first.
     TAPE - is the standard input.
     """
     found: list[tuple[str, Finding]] = []

@@ -24,7 +24,7 @@ from skg.plane import XY
 @skg80_option
 def command(file: str, output: str, start: XY | None, polylines: bool, positions: str,
             joints: str, skg80: str | None) -> None:
-    """Turn a tape (.3b) or a program (.skg, .xy) into a DXF drawing of the wire's path.
+    """Turn a tape (.3b) or a program (.skg, .xy, .tkh) into a DXF drawing of the wire's path.
 
     Layers: WIRE what is cut, LEAD the way from the start hole to the contour, MOVES positioning, START and
     STOPS points. FILE - is a tape on the standard input.

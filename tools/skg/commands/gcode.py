@@ -23,7 +23,7 @@ def command(source: str, output: str, back: bool, start: tuple[int, int], mm: bo
 
     Written are G91, G92, G01, G02 and G03 with I and J, M00 for a stop and M02 at the end. Read are also G90,
     G00, G17, G21, G40, N and F words and comments; a number with a decimal point is millimetres, one without
-    micrometres. A program (.skg, .xy) is run first. FILE - (or none) is the standard input.
+    micrometres. A program (.skg, .xy, .tkh) is run first. FILE - (or none) is the standard input.
     """
     if back:
         write_bytes(output, to_bytes(gcode.read(read_ascii(source), source).items))

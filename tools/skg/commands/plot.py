@@ -42,7 +42,7 @@ def _form(output: str, form: str | None) -> str:
 def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool, wire: float, no_arrows: bool,
             show_offset: bool, start: tuple[XY, ...], scale: float | None, title: str,
             positions: str, skg80: str | None) -> None:
-    """Draw tapes (.3b) and programs (.skg, .xy), several in one picture.
+    """Draw tapes (.3b) and programs (.skg, .xy, .tkh), several in one picture.
 
     Start holes are circles, stops squares, positioning moves dashed. A program is run first, by the ROM
     or by what --skg80 names. FILE - is a tape on the standard input.

@@ -40,7 +40,7 @@ def _text(file: BinaryIO) -> str:
 def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool, mill: bool, grbl: bool) -> None:
     """Run PART in 50-digit arithmetic: the exact tape that it must give, 3B or, with --mill, ISO.
 
-    PART is an SKG program, or a rival's such as .xy, which is translated; `-`: an SKG program on the standard input.
+    PART is an SKG program, or a rival's (.xy, .tkh), which is translated; `-`: an SKG program on the standard input.
 
     The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.

@@ -50,7 +50,7 @@ def _answers(name: str | None) -> Iterator[str]:
 def command(part: str, output: str, rom: str, ram: int, answers: str | None, max_cycles: int | None) -> None:
     """LOAD and RUN PART on the board, by the ROM itself.
 
-    PART is an SKG program, or a rival's such as .xy, which is translated; `-`: an SKG program on the standard input.
+    PART is an SKG program, or a rival's (.xy, .tkh), which is translated; `-`: an SKG program on the standard input.
 
     The teletype's paper goes to standard error, the tape to --output. Exit code 1 when the run ended in ERR, when INPUT
     found no answer or the machine halted, 2 for wrong usage, files and ROMs, 3 when --max-cycles were not enough.

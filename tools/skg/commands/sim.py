@@ -68,7 +68,7 @@ def command(tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, 
     """Follow TAPE step by step as a 3B controller does.
 
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
-    and whether the path closes. A program (.skg, .xy) is run first. TAPE - is the standard input.
+    and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input.
     """
     tapes = [load(name).tape for name in tapes_]
     reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]

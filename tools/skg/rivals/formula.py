@@ -71,8 +71,8 @@ def sloping(angle: SkgText) -> SkgText:
     return join(X_AXIS, "#", angle)
 
 
-def literal(value: ExactElement) -> SkgText:
-    """An element in computed numbers."""
+def literal(value: ExactElement | Real) -> SkgText:
+    """An element, or a number, in computed numbers."""
     match value:
         case ExactPoint(x, y):
             return pair(decimal(x), decimal(y))
@@ -80,3 +80,4 @@ def literal(value: ExactElement) -> SkgText:
             return join(literal(centre), ":", decimal(r))
         case ExactLine(point, way):
             return join(sloping(decimal(mp.degrees(mp.atan2(way.y, way.x)))), ":", literal(point))
+    return decimal(value)

@@ -10,7 +10,7 @@ from skg.files import read_bytes
 
 #: A rival's ending -> the module that makes SKG of it, loaded when it is needed: its `translate` takes the text and
 #: the file's name.
-MODULES = {".xy": "skg.rivals.xy"}
+MODULES = {".xy": "skg.rivals.xy", ".tkh": "skg.rivals.tekhtran"}
 
 
 class RivalFault(Exception):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+from skg.rivals.formula import SkgText, literal
+from skg.rivals.plane import ExactElement, Real
 from skg.rivals.statement import TextFault
 
 #: No line of the program is longer, its number included.
@@ -44,9 +46,10 @@ class SkgProgram:
     headings: list[str] = field(default_factory=list)
     renamed: list[str] = field(default_factory=list)
 
-    def say(self, statement: str, instead: str = "") -> None:
-        """A statement, or another where it is too long for a line."""
-        self.body.append(statement if len(statement) <= STATEMENT else instead or statement)
+    def assign(self, name: str, text: SkgText | None, value: ExactElement | Real) -> None:
+        """A name's expression, or where that is too long for a line (or there is none) computed numbers."""
+        statement = f"{name}={text or literal(value)}"
+        self.body.append(statement if len(statement) <= STATEMENT else f"{name}={literal(value)}")
 
     def rename(self, name: str, skg: str) -> None:
         """Say at the head what a name is in SKG."""

@@ -10,6 +10,7 @@ from skg.rivals.plane import (
     NEAR,
     SAME_WAY,
     ExactCircle,
+    ExactCurve,
     ExactElement,
     ExactLine,
     ExactPoint,
@@ -50,27 +51,36 @@ def entry(parts: list[Part], near: ExactPoint, offset: Real) -> Entry:
         return Entry(found[0], None)
     least = min((stretch.start - near).size() for stretch in found)
     index = next(i for i, stretch in enumerate(found) if (stretch.start - near).size() <= least + NEAR)
-    return Entry(found[index], _inner_corner(found[index - 1], found[index], offset))
+    first = found[index]
+    return Entry(first, inner_corner(found[index - 1].curve, first.curve, first.start, offset))
 
 
-def _inner_corner(last: Stretch, first: Stretch, offset: Real) -> ExactPoint | None:
-    """The corner of the wire's path where that lies along `first` behind the start point's own place."""
-    p = first.start
-    angle = abs(turn(way_at(last.curve, p), way_at(first.curve, p)))
-    if offset == 0 or angle <= SAME_WAY or mp.pi - angle <= SAME_WAY:
+def wire_corner(e: ExactCurve, f: ExactCurve, p: ExactPoint, offset: Real) -> ExactPoint | None:
+    """Where the wire's path goes over from e to f, whose corner is p (language.md, section 4.4).
+
+    None where SKG refuses the corner.
+    """
+    angle = abs(turn(way_at(e, p), way_at(f, p)))
+    if offset == 0 or angle <= SAME_WAY:
+        return p - way_at(e, p).left() * offset
+    if mp.pi - angle <= SAME_WAY:
         return None
-    paths = [parallel(stretch.curve, offset) for stretch in (last, first)]
-    if any(
-        isinstance(path, ExactCircle) and path.r * stretch.curve.r <= 0
-        for path, stretch in zip(paths, (last, first), strict=True)
-    ):
+    paths = [parallel(curve, offset) for curve in (e, f)]
+    if any(isinstance(path, ExactCircle) and path.r * curve.r <= 0 for path, curve in zip(paths, (e, f), strict=True)):
         return None
     try:
-        corner = nearest_crossing(*paths, p)
+        return nearest_crossing(*paths, p)
     except PlaneError:
         return None
-    place = p - way_at(first.curve, p).left() * offset
-    path = paths[1]
+
+
+def inner_corner(last: ExactCurve, first: ExactCurve, p: ExactPoint, offset: Real) -> ExactPoint | None:
+    """The corner of the wire's path where that lies along `first` behind the own place of the start p."""
+    corner = wire_corner(last, first, p, offset)
+    if corner is None:
+        return None
+    place = p - way_at(first, p).left() * offset
+    path = parallel(first, offset)
     if isinstance(path, ExactLine):
         return corner if path.way.dot(corner - place) > NEAR else None
     ahead = turn(place - path.centre, corner - path.centre) * path.r

@@ -73,13 +73,19 @@ def feed(parser: InteractiveParser, token: Token, shown: Mapping[str, str]) -> N
     try:
         parser.feed_token(token)
     except UnexpectedToken as unexpected:
-        words = list(dict.fromkeys(shown.get(kind, kind) for kind in sorted(unexpected.expected)))
+        kinds = unexpected.expected
+        if "WHOLE" in kinds:
+            # A number; what else it may begin with goes without saying.
+            kinds = kinds - {"MINUS", "LPAR"}
+        words = list(dict.fromkeys(shown.get(kind, kind) for kind in sorted(kinds)))
         wanted = f"{', '.join(words[:-1])} or {words[-1]}" if len(words) > 1 else words[0]
         raise TextFault(token.start_pos, f"expected {wanted}, found {token or 'the end'}") from None
 
 
 # Numbers -----------------------------------------------------------------------------------------------------------
 
+#: SKG's numbers are smaller (docs/spec/language.md, section 1).
+LARGEST = 2**127
 #: A number's value, and SKG's text for it.
 Figure = tuple[Real, SkgText]
 
@@ -88,7 +94,7 @@ def figure(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
     """The value of an expression, and its text; `name` knows the operands that are no literals."""
     match tree.data:
         case "literal":
-            return Real(tree.children[0].value), SkgText(tree.children[0].value)
+            return _literal(tree.children[0])
         case "inner":
             return figure(tree.children[1], name)
         case "minus":
@@ -97,6 +103,12 @@ def figure(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
         case "sum" | "product":
             return _joined(tree, name)
     return name(tree)
+
+
+def _literal(token: Token) -> Figure:
+    if Real(token.value) >= LARGEST:
+        raise TextFault(token.start_pos, "a number larger than SKG's largest, 1.7E38")
+    return Real(token.value), SkgText(token.value)
 
 
 def _joined(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from lark import Token, Tree
 
-from skg.rivals.formula import SkgText, decimal, join, literal, minus
+from skg.rivals.formula import SkgText, decimal, join, minus
 from skg.rivals.making import FORMS, LETTERS, Argument, NewElement, XYFrame, image, shift, spin
 from skg.rivals.plane import (
     TINY,
@@ -78,16 +78,16 @@ class _Machine:
     def name_own(self, text: SkgText | None, value: ExactElement | Real) -> SkgText:
         """A name of the translator's own."""
         if isinstance(value, ExactPoint):
-            letter, numbers = "P", literal(value)
+            letter = "P"
         elif isinstance(value, Real):
-            letter, numbers = "D", decimal(value)
+            letter = "D"
         else:
-            letter, numbers = "S" if isinstance(value, ExactLine) else "C", literal(value)
+            letter = "S" if isinstance(value, ExactLine) else "C"
         subscript = self.own[letter] = self.own.get(letter, OWN - 1) + 1
         if subscript > LAST_SUBSCRIPT:
             raise too_long()
         name = f"{letter}{subscript}"
-        self.program.say(f"{name}={text or numbers}", f"{name}={numbers}")
+        self.program.assign(name, text, value)
         return SkgText(name)
 
     # Numbers and names ------------------------------------------------------------------------------------------
@@ -147,7 +147,7 @@ class _Machine:
         self.elements[str(token)] = made.value
         if len(token) == 1:
             self.program.rename(token, name)
-        self.program.say(f"{name}={made.text}", f"{name}={literal(made.value)}")
+        self.program.assign(name, made.text, made.value)
 
     def _image(self, children: list) -> None:
         mirror = self.argument(children[5])
@@ -199,7 +199,7 @@ class _Machine:
         index = self.variables.get(token, (len(self.variables) + 1,))[0]
         self.variables[str(token)] = index, value
         self.program.rename(token, f"A{index}")
-        self.program.say(f"A{index}={text}", f"A{index}={decimal(value)}")
+        self.program.assign(f"A{index}", text, value)
 
     # Routes -----------------------------------------------------------------------------------------------------
 

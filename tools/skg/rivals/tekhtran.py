@@ -1,0 +1,300 @@
+"""`skg tekhtran`: a TEKHTRAN program made an SKG program (docs/spec/tekhtran.md)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field, replace
+
+from lark import Token, Tree
+
+from skg.rivals.formula import SkgText, call, decimal, literal, minus
+from skg.rivals.plane import ZERO, ExactCircle, ExactLine, ExactPoint, PlaneError, Real, nearest, same_point
+from skg.rivals.program import LAST_SUBSCRIPT, STATEMENT, SkgProgram, packed, too_long
+from skg.rivals.statement import Figure, TextFault, figure, first_token, placing
+from skg.rivals.tekhtran_contour import ContourItem, cut_items
+from skg.rivals.tekhtran_making import FORMS, Matrix, Operand, normal
+from skg.rivals.tekhtran_text import latin, statements
+
+#: Kind -> SKG's letter.
+LETTERS = {"POINT": "P", "LINE": "S", "CIRCLE": "C", "VECTOR": "V", "NUMBER": "D"}
+#: Names that keep their number, up to 899; the first of those that do not.
+_NUMBERED = re.compile(r"(?:ТЧ|ПР|КР|ВЕ)(0|[1-9][0-9]?|[1-8][0-9][0-9])")
+OWN = 900
+#: How tokens of names that may be defined begin; the tokens of those that are.
+NEW, KIND_WORDS = "NEW_", {*LETTERS, "MATRIX", "PLANE"}
+#: Words that only hold others apart.
+FILLERS = {"COMMA", "PERESECH", "CENTR"}
+#: A name's letters that REM and PRINT show.
+SHOWN_LETTERS = 30
+
+
+def translate(text: str, title: str = "") -> str:
+    """The SKG program that cuts what a TEKHTRAN program describes; `title`: its file's name.
+
+    `RivalFault` for bad input.
+    """
+    machine = _TekhtranMachine(SkgProgram(headings=[latin(title)]))
+    with placing(text):
+        for statement in statements(text, machine):
+            machine.carry_out(statement)
+        return machine.program.text()
+
+
+@dataclass(frozen=True)
+class _Named:
+    """What a name means: its kind, its value, its z, its name in SKG (matrices and planes: none)."""
+
+    kind: str
+    value: ExactPoint | ExactLine | ExactCircle | Real | Matrix
+    z: Real
+    skg: str = ""
+
+
+@dataclass
+class _Wire:
+    """Where the wire is, the point that says so in SKG, and whether it is moving from its start hole."""
+
+    at: ExactPoint
+    name: str = ""
+    is_moving: bool = False
+
+    @property
+    def text(self) -> str:
+        """The place in SKG."""
+        return self.name or str(literal(self.at))
+
+
+@dataclass
+class _TekhtranMachine:
+    """What has been defined so far, and the SKG program for it."""
+
+    program: SkgProgram
+    named: dict[str, _Named] = field(default_factory=dict)
+    kinds: dict[str, str] = field(default_factory=dict)
+    last: dict[str, int] = field(default_factory=dict)
+    height: Real = ZERO
+    is_traced: bool = False
+    wire: _Wire | None = None
+    contours: int = 0
+
+    def kind(self, name: str) -> str | None:
+        """The kind of what has been defined by this name."""
+        return self.named[name].kind if name in self.named else None
+
+    def declared(self, name: str) -> str | None:
+        """The kind that a name has, defined or not."""
+        return self.kinds.get(name)
+
+    def carry_out(self, tree: Tree) -> None:
+        """One statement."""
+        children = [child for child in tree.children if child is not None]
+        try:
+            getattr(self, f"_{tree.data}")(children)
+        except PlaneError as error:
+            raise TextFault(first_token(tree).start_pos, str(error)) from None
+
+    # Operands ---------------------------------------------------------------------------------------------------
+
+    def number(self, tree: Tree) -> Figure:
+        """The value of a number, and its text."""
+        return figure(tree, self._name_of_number)
+
+    def _name_of_number(self, tree: Tree) -> Figure:
+        if tree.data == "coordinate":
+            return self._coordinate(tree.children[2], tree.children[4])
+        named = self.named[tree.children[0]]
+        return named.value, SkgText(named.skg)
+
+    def _coordinate(self, index: Tree, name: Token) -> Figure:
+        """КООРД."""
+        which, _ = self.number(index)
+        if which not in (1, 2, 3):
+            raise TextFault(first_token(index).start_pos, "expected 1, 2 or 3")
+        return self.canonical(name)[int(which) - 1]
+
+    def canonical(self, name: Token) -> list[Figure]:
+        """The numbers of a name's canonical form, and SKG's expressions for them."""
+        named = self.named[name]
+        parts = [call(f"K{index}", SkgText(named.skg)) for index in (1, 2, 3)]
+        match named.value:
+            case ExactPoint(x, y):
+                return [(x, parts[0]), (y, parts[1]), (named.z, decimal(named.z))]
+            case ExactCircle(centre, r):
+                return list(zip((centre.x, centre.y, r), parts, strict=True))
+            case ExactLine():
+                values, runs_so = normal(named.value)
+                return list(zip(values, parts if runs_so else map(minus, parts), strict=True))
+            case tuple(numbers):
+                return [(number, decimal(number)) for number in numbers]
+        if named.kind == "PLANE":
+            return [(number, decimal(number)) for number in (ZERO, ZERO, Real(1), named.value)]
+        return [(named.value, SkgText(named.skg))]
+
+    def operand(self, child: Tree | Token) -> Operand | Token:
+        """What stands in a statement: a number, or what a name means; words as they are."""
+        if isinstance(child, Tree):
+            return Operand(*self.number(child), first_token(child))
+        if child.type not in KIND_WORDS:
+            return child
+        named = self.named[child]
+        return Operand(named.value, SkgText(named.skg), child, named.z)
+
+    # Definitions ------------------------------------------------------------------------------------------------
+
+    def _title(self, children: list) -> None:
+        self.program.headings.append(latin(children[0]))
+
+    def _declare(self, children: list) -> None:
+        for child in children:
+            if child.type.startswith(NEW):
+                self.kinds[str(child)] = child.type.removeprefix(NEW)
+
+    def _define(self, children: list) -> None:
+        form = next(child for child in children if isinstance(child, Tree))
+        arguments = [self.operand(child) for child in form.children if child is not None and not _is_filler(child)]
+        made = FORMS[form.data](*arguments)
+        target = next(child for child in children if isinstance(child, Token) and child.type.startswith(NEW))
+        kind = target.type.removeprefix(NEW)
+        skg = self._skg_name(target, kind) if kind in LETTERS else ""
+        if skg:
+            self.program.assign(skg, made.text, made.value)
+        self.kinds[str(target)] = kind
+        self.named[str(target)] = _Named(kind, made.value, self.height if made.z is None else made.z, skg)
+        if self.wire and self.wire.name == skg:
+            # The wire stays where that point was.
+            self.wire.name = ""
+        if self.is_traced and kind != "NUMBER":
+            self._say_canonical(target)
+
+    def _skg_name(self, name: Token, kind: str) -> str:
+        if name in self.named:
+            return self.named[name].skg
+        numbered = _NUMBERED.fullmatch(name)
+        if numbered:
+            return LETTERS[kind] + numbered[1]
+        letter = LETTERS[kind]
+        number = self.last[letter] = self.last.get(letter, 0 if kind == "NUMBER" else OWN - 1) + 1
+        if number > LAST_SUBSCRIPT:
+            raise too_long()
+        self.program.rename(_shown(name), f"{letter}{number}")
+        return f"{letter}{number}"
+
+    def _height(self, children: list) -> None:
+        if isinstance(children[1], Tree):
+            self.height, _ = self.number(children[1])
+        else:
+            self.height = ZERO if children[1].type == "OTMEN" else self.named[children[1]].value
+
+    # Printing ---------------------------------------------------------------------------------------------------
+
+    def _print(self, children: list) -> None:
+        for child in children:
+            if child.type in KIND_WORDS:
+                self._say_canonical(child)
+
+    def _say_canonical(self, name: Token) -> None:
+        texts = (str(text) for _, text in self.canonical(name))
+        self.program.body += packed("PRINT", [f'"{_shown(name)}"', *texts])
+
+    def _trace(self, children: list) -> None:
+        self.is_traced = children[1].type != "VYKL"
+
+    # Moves ------------------------------------------------------------------------------------------------------
+
+    def _start(self, children: list) -> None:
+        place = self._place(children)
+        self.program.body.append(f"FROM {place.text}")
+        self.wire = place
+
+    def _place(self, children: list) -> _Wire:
+        """A place in a statement."""
+        operands = [self.operand(child) for child in children if isinstance(child, Tree) or child.type == "POINT"]
+        if len(operands) == 1:
+            return _Wire(operands[0].value, str(operands[0].text))
+        return _Wire(ExactPoint(operands[0].value, operands[1].value))
+
+    def _started(self, at: Token) -> _Wire:
+        if self.wire is None:
+            raise TextFault(at.start_pos, "the wire has not been started by ИЗ")
+        return self.wire
+
+    def _go(self, children: list) -> None:
+        self._move(children[0], self._place(children))
+
+    def _step(self, children: list) -> None:
+        wire = self._started(children[0])
+        steps = [self.number(child)[0] for child in children if isinstance(child, Tree)]
+        if len(steps) > 1:
+            self._move(children[0], _Wire(wire.at + ExactPoint(*steps[:2])))
+
+    def _approach(self, children: list) -> None:
+        wire = self._started(children[0])
+        self._move(children[0], _Wire(nearest(wire.at, self.named[children[2]].value)))
+
+    def _move(self, at: Token, to: _Wire) -> None:
+        """Straight to a place, on the wire's centre: a point more in an open CUT."""
+        wire = self._started(at)
+        if same_point(wire.at, to.at):
+            return
+        body = self.program.body
+        if not wire.is_moving:
+            body += ["R=0", f"CUT {wire.text},{to.text}"]
+        elif body[-1].startswith("CUT") and len(body[-1]) + 1 + len(to.text) <= STATEMENT:
+            body[-1] += f",{to.text}"
+        else:
+            body.append(f"CUT {to.text}")
+        to.is_moving = True
+        self.wire = to
+
+    # Contours ---------------------------------------------------------------------------------------------------
+
+    def _contour(self, children: list) -> None:
+        word, *rest = children
+        wire = self._started(word)
+        if wire.is_moving:
+            raise TextFault(word.start_pos, "after a move a contour needs another ИЗ")
+        offset, text = ZERO, SkgText("0")
+        if rest[0].type in ("SPRAVA", "SLEVA"):
+            offset, text = self.number(rest[2])
+            if offset <= 0:
+                raise TextFault(first_token(rest[2]).start_pos, "a distance from the contour is more than 0")
+            if rest[0].type == "SLEVA":
+                offset, text = -offset, minus(text)
+            rest = rest[4:]
+        self.contours += 1
+        self.program.body.append(f"REM CONTOUR {self.contours}")
+        own = self.last.get("P", OWN - 1)
+
+        def name(expression: SkgText, at: ExactPoint) -> SkgText:
+            """A point of this contour's own; the next contour takes the same names."""
+            nonlocal own
+            own += 1
+            if own > LAST_SUBSCRIPT:
+                return literal(at)
+            self.program.assign(f"P{own}", expression, at)
+            return SkgText(f"P{own}")
+
+        cuts = cut_items(self._items(rest), word, wire.at, offset, name)
+        self.program.assign("R", text, offset)
+        self.program.body += [*packed("CUT", cuts), "BACK"]
+
+    def _items(self, tokens: list[Token]) -> list[ContourItem]:
+        items: list[ContourItem] = []
+        for token in tokens:
+            match token.type:
+                case "POINT" | "LINE" | "CIRCLE":
+                    items.append(ContourItem(self.named[token].value, self.named[token].skg, token))
+                case "POCHS":
+                    items[-1] = items[-1].backwards()
+                case "KHB" | "KHM" | "UB" | "UM":
+                    items[-1] = replace(items[-1], choice=token)
+        return items
+
+
+def _is_filler(child: Tree | Token) -> bool:
+    return isinstance(child, Token) and child.type in FILLERS
+
+
+def _shown(name: str) -> str:
+    """A name as REM and PRINT show it."""
+    return latin(name)[:SHOWN_LETTERS]

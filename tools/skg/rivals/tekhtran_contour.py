@@ -1,0 +1,176 @@
+"""TEKHTRAN's КОНТУР: its corners, the senses of its lines, its entry, and the items of the CUT (docs/spec/tekhtran.md,
+section 6).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from lark import Token
+
+from skg.rivals.formula import SkgText, minus
+from skg.rivals.plane import (
+    ExactCircle,
+    ExactElement,
+    ExactLine,
+    ExactPoint,
+    PlaneError,
+    Real,
+    crossings,
+    nearest,
+    on,
+    parallel,
+    same_point,
+)
+from skg.rivals.route import Stretch
+from skg.rivals.start import inner_corner, wire_corner
+from skg.rivals.statement import TextFault
+from skg.rivals.tekhtran_making import chosen, crossing_text
+
+
+@dataclass(frozen=True)
+class ContourItem:
+    """A point, a line or a circle with its sense; which of two corners with the item before.
+
+    `name` is SKG's for the element as it was defined, which may be run backwards.
+    """
+
+    value: ExactElement
+    name: str
+    at: Token
+    choice: Token | None = None
+    is_backwards: bool = False
+
+    @property
+    def is_point(self) -> bool:
+        """No curve."""
+        return isinstance(self.value, ExactPoint)
+
+    @property
+    def text(self) -> SkgText:
+        """As it stands in CUT."""
+        return minus(SkgText(self.name)) if self.is_backwards else SkgText(self.name)
+
+    def backwards(self) -> ContourItem:
+        """A curve, run the other way."""
+        return replace(self, value=-self.value, is_backwards=True)
+
+
+#: Gives a corner a name: SKG's expression for it, and where it is.
+CornerNamer = Callable[[SkgText, ExactPoint], SkgText]
+
+
+@dataclass(frozen=True)
+class _Corner:
+    """Where two neighbours meet; a text where neither is a point."""
+
+    at: ExactPoint
+    text: SkgText | None = None
+
+
+def cut_items(items: list[ContourItem], at: Token, wire: ExactPoint, offset: Real, name: CornerNamer) -> list[str]:
+    """The items of the CUT that BACK makes a contour, from where the wire is; `at`: the statement's word."""
+    items = _without_doubles(items)
+    if len(items) == 1 and not isinstance(items[0].value, ExactCircle):
+        raise TextFault(at.start_pos, "a contour of one point or line")
+    if len(items) == 1:
+        return [str(items[0].text)]
+    corners = [_corner(items[index - 1], item) for index, item in enumerate(items[1:], 1)]
+    corners.insert(0, _corner(items[-1], items[0]))
+    if not _is_whole_circle(items):
+        ends = [*corners[1:], corners[0]]
+        items = [_run(*between) for between in zip(items, corners, ends, strict=True)]
+        stretches = _stretches(items, corners, ends)
+        if not any(stretch.is_travelled for stretch in stretches):
+            raise TextFault(at.start_pos, "there is nothing to travel: the items meet in one point")
+        _check_entry(items[0], stretches, wire, offset)
+    return _texts(items, corners, name)
+
+
+def _without_doubles(items: list[ContourItem]) -> list[ContourItem]:
+    """The items of a closed contour, points that follow themselves once."""
+    found: list[ContourItem] = []
+    for item in items:
+        if not (found and _is_double(found[-1], item)):
+            found.append(item)
+    while len(found) > 1 and _is_double(found[-1], found[0]):
+        found.pop()
+    return found
+
+
+def _is_double(a: ContourItem, b: ContourItem) -> bool:
+    return a.is_point and b.is_point and same_point(a.value, b.value)
+
+
+def _is_whole_circle(items: list[ContourItem]) -> bool:
+    """A circle and one point of it."""
+    circles = [item for item in items if isinstance(item.value, ExactCircle)]
+    return len(items) == 2 and len(circles) == 1 and any(item.is_point for item in items)
+
+
+def _corner(before: ContourItem, item: ContourItem) -> _Corner:
+    """Where an item begins; of two points: at the second."""
+    for point, curve in ((item, before), (before, item)):
+        if point.is_point:
+            if not curve.is_point and not on(curve.value, point.value):
+                raise TextFault(point.at.start_pos, f"{point.at} does not lie on {curve.at}")
+            return _Corner(point.value)
+    try:
+        found = crossings(before.value, item.value)
+        if len(found) > 1 and item.choice is None:
+            raise PlaneError("there are two: choose by ХБ, ХМ, УБ or УМ")
+        at = chosen(found, item.choice)
+    except PlaneError as error:
+        raise TextFault(item.at.start_pos, f"the corner of {before.at} and {item.at}: {error}") from None
+    e, f = (-each.value if each.is_backwards else each.value for each in (before, item))
+    return _Corner(at, crossing_text(e, f, at, (SkgText(before.name), SkgText(item.name))))
+
+
+def _run(item: ContourItem, start: _Corner, end: _Corner) -> ContourItem:
+    """A line as it runs from one corner to the other; all else as it is."""
+    if not isinstance(item.value, ExactLine):
+        return item
+    if same_point(start.at, end.at):
+        raise TextFault(item.at.start_pos, f"{item.at} begins and ends in one point")
+    return item if item.value.way.dot(end.at - start.at) > 0 else item.backwards()
+
+
+def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corner]) -> list[Stretch]:
+    """What is travelled: curves, and the lines between points."""
+    found = []
+    following = [*items[1:], items[0]]
+    for item, start, end, after in zip(items, starts, ends, following, strict=True):
+        if not item.is_point:
+            found.append(Stretch(item.value, start.at, end.at))
+        elif after.is_point:
+            way = (after.value - item.value).unit()
+            found.append(Stretch(ExactLine(item.value, way), item.value, after.value))
+    return found
+
+
+def _check_entry(item: ContourItem, stretches: list[Stretch], wire: ExactPoint, offset: Real) -> None:
+    """Whether BACK will find where the wire has entered the first item."""
+    last, first, second = stretches[-1], stretches[0], stretches[1]
+    if item.is_point:
+        if inner_corner(last.curve, first.curve, item.value, offset):
+            raise TextFault(item.at.start_pos, "an inner corner for the wire: begin with a line or circle")
+        return
+    if not (first.is_travelled and first.has(nearest(wire, first.curve))):
+        raise TextFault(item.at.start_pos, f"the wire would not enter {item.at} between its corners")
+    path = parallel(first.curve, offset)
+    start = wire_corner(last.curve, first.curve, first.start, offset)
+    end = wire_corner(first.curve, second.curve, first.end, offset)
+    # (where there is no corner, SKG says so)
+    if start and end and not Stretch(path, start, end).has(nearest(wire, path)):
+        raise TextFault(item.at.start_pos, f"the wire would enter {item.at} outside of its own corners beside it")
+
+
+def _texts(items: list[ContourItem], corners: list[_Corner], name: CornerNamer) -> list[str]:
+    names = [str(name(corner.text, corner.at)) if corner.text else "" for corner in corners]
+    texts: list[str] = []
+    for item, corner in zip(items, names, strict=True):
+        texts += [corner, str(item.text)] if corner else [str(item.text)]
+    if items[0].is_point:
+        return [*texts, texts[0]]
+    return [*texts[1:], texts[0]] if names[0] else texts

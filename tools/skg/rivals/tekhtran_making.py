@@ -1,0 +1,340 @@
+"""TEKHTRAN's definitions: what each form makes, and the SKG expression that makes the same (docs/spec/tekhtran.md,
+sections 3 to 5). Lines run as SKG's of the same expression do; circles run counter-clockwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from lark import Token
+
+from skg.rivals.formula import SkgText, call, centre_text, decimal, join, minus, pair, sloping
+from skg.rivals.plane import (
+    NEAR,
+    TINY,
+    ZERO,
+    ExactCircle,
+    ExactCurve,
+    ExactElement,
+    ExactLine,
+    ExactPoint,
+    PlaneError,
+    Real,
+    belt_line,
+    crossings,
+    direction,
+    joining_line,
+    mp,
+    on,
+    rotated,
+    same_point,
+    touching_point,
+    way_at,
+)
+from skg.rivals.statement import TextFault
+
+ORIGIN = ExactPoint(ZERO, ZERO)
+Matrix = tuple[Real, ...]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Operand:
+    """What stands in a definition: a number, or what a name means; its SKG text, its z, its place."""
+
+    value: ExactElement | Real | Matrix
+    text: SkgText
+    at: Token
+    z: Real = ZERO
+
+
+@dataclass(frozen=True)
+class Defined:
+    """What a definition makes; no text: computed numbers; no z: that of ПЛЗ."""
+
+    value: ExactElement | Real | Matrix
+    text: SkgText | None = None
+    z: Real | None = None
+
+
+#: A form's name in the grammar -> what makes it. It gets the operands and words in order, without commas.
+FORMS: dict[str, Callable[..., Defined]] = {}
+
+
+def _form(function: Callable[..., Defined]) -> Callable[..., Defined]:
+    FORMS[function.__name__] = function
+    return function
+
+
+def chosen(found: Sequence[T], choice: str, place: Callable[[T], ExactPoint] = lambda found: found) -> T:
+    """Of one or two the one with the greater (Б) or smaller (М) coordinate."""
+    if len(found) == 1:
+        return found[0]
+    one, other = ((place(e).x if choice[0] == "Х" else place(e).y) for e in found)
+    if abs(one - other) <= NEAR:
+        raise PlaneError(f"{choice} does not decide between two")
+    return found[(one < other) == (choice[1] == "Б")]
+
+
+def crossing_text(e: ExactCurve, f: ExactCurve, at: ExactPoint, texts: tuple[SkgText, SkgText]) -> SkgText:
+    """SKG's expression for one of the places where two curves cross or touch."""
+    turns_right = len(crossings(e, f)) > 1 and way_at(e, at).cross(way_at(f, at)) < 0
+    return join(texts[0], "*", minus(texts[1]) if turns_right else texts[1])
+
+
+def normal(line: ExactLine) -> tuple[tuple[Real, Real, Real], bool]:
+    """cos α, sin α and p of a line's canonical form; whether SKG's numbers of the line have this sign."""
+    values = (line.way.y, -line.way.x, line.way.y * line.point.x - line.way.x * line.point.y)
+    runs_so = next(value for value in reversed(values) if abs(value) > TINY) > 0
+    return (values if runs_so else tuple(-value for value in values)), runs_so
+
+
+def _distance(d: Operand) -> Real:
+    if d.value < 0:
+        raise PlaneError("a distance is not negative")
+    return d.value
+
+
+def _on(curve: Operand, point: Operand) -> None:
+    if not on(curve.value, point.value):
+        raise TextFault(point.at.start_pos, f"{point.at} does not lie on {curve.at}")
+
+
+def _clockwise(turn: Token, value: Real, text: SkgText) -> tuple[Real, SkgText]:
+    """An angle, counter-clockwise positive."""
+    return (-value, minus(text)) if turn == "ПОЧС" else (value, text)
+
+
+# Points ------------------------------------------------------------------------------------------------------------
+
+
+@_form
+def point_at(x: Operand, y: Operand, z: Operand | None = None) -> Defined:
+    return Defined(ExactPoint(x.value, y.value), pair(x.text, y.text), z.value if z else None)
+
+
+@_form
+def point_of_lines(one: Operand, other: Operand) -> Defined:
+    return Defined(crossings(one.value, other.value)[0], join(one.text, "*", other.text))
+
+
+@_form
+def point_of_curves(e: Operand, f: Operand, choice: Token) -> Defined:
+    at = chosen(crossings(e.value, f.value), choice)
+    return Defined(at, crossing_text(e.value, f.value, at, (e.text, f.text)))
+
+
+@_form
+def point_at_angle(circle: Operand, turn: Token, angle: Operand) -> Defined:
+    value, text = _clockwise(turn, angle.value, angle.text)
+    at = circle.value.centre + direction(value) * circle.value.r
+    return Defined(at, join(centre_text(circle.text), "+", join(call("K3", circle.text), "#", text)))
+
+
+@_form
+def point_centre(circle: Operand) -> Defined:
+    return Defined(circle.value.centre, centre_text(circle.text))
+
+
+@_form
+def point_along_circle(circle: Operand, point: Operand, turn: Token, d: Operand) -> Defined:
+    _on(circle, point)
+    angle, _ = _clockwise(turn, 180 * _distance(d) / (mp.pi * circle.value.r), d.text)
+    about = join(decimal(angle), ":", centre_text(circle.text))
+    return Defined(rotated(point.value, angle, circle.value.centre), join(point.text, "#", about))
+
+
+@_form
+def point_with_coordinate(line: Operand, axis: Token, n: Operand) -> Defined:
+    if axis == "ХКООРД":
+        square, text = ExactLine(ExactPoint(n.value, ZERO), direction(Real(90))), join(SkgText("Y"), ":", n.text)
+    else:
+        square, text = ExactLine(ExactPoint(ZERO, n.value), direction(ZERO)), join(SkgText("X"), ":", minus(n.text))
+    return Defined(crossings(line.value, square)[0], join(line.text, "*", text))
+
+
+@_form
+def point_along_line(line: Operand, point: Operand, d: Operand, choice: Token) -> Defined:
+    _on(line, point)
+    if _distance(d) <= TINY:
+        return Defined(point.value, point.text)
+    circle, text = ExactCircle(point.value, d.value), join(point.text, ":", d.text)
+    at = chosen(crossings(line.value, circle), choice)
+    return Defined(at, crossing_text(line.value, circle, at, (line.text, text)))
+
+
+@_form
+def point_moved(point: Operand, _: Token, dx: Operand, dy: Operand) -> Defined:
+    return Defined(point.value + ExactPoint(dx.value, dy.value), join(point.text, "+", pair(dx.text, dy.text)))
+
+
+@_form
+def point_away(point: Operand, turn: Token, angle: Operand, d: Operand) -> Defined:
+    value, text = _clockwise(turn, angle.value, angle.text)
+    return Defined(point.value + direction(value) * _distance(d), join(point.text, "+", join(d.text, "#", text)))
+
+
+@_form
+def point_transformed(point: Operand, matrix: Operand) -> Defined:
+    rows = (matrix.value[0:4], matrix.value[4:8], matrix.value[8:12])
+    x, y, z = (a * point.value.x + b * point.value.y + c * point.z + d for a, b, c, d in rows)
+    return Defined(ExactPoint(x, y), None, z)
+
+
+@_form
+def point_same(point: Operand) -> Defined:
+    return Defined(point.value, point.text)
+
+
+@_form
+def point_of_vector(vector: Operand) -> Defined:
+    return Defined(vector.value, vector.text, vector.z)
+
+
+# Lines -------------------------------------------------------------------------------------------------------------
+
+
+@_form
+def line_of_numbers(x1: Operand, y1: Operand, x2: Operand, y2: Operand) -> Defined:
+    one, other = (point_at(x, y) for x, y in ((x1, y1), (x2, y2)))
+    return _line_through(one.value, other.value, (one.text, other.text))
+
+
+def _line_through(one: ExactPoint, other: ExactPoint, texts: tuple[SkgText, SkgText]) -> Defined:
+    if same_point(one, other):
+        raise PlaneError("through one point twice there is no line")
+    return Defined(joining_line(one, other), join(texts[0], ":", texts[1]))
+
+
+@_form
+def line_through(one: Operand, other: Operand) -> Defined:
+    return _line_through(one.value, other.value, (one.text, other.text))
+
+
+def _sided(side: Token, circle: Operand) -> tuple[ExactCircle, SkgText]:
+    """A circle that runs so that a line along it touches it on a side."""
+    return (circle.value, circle.text) if side == "СПРАВА" else (-circle.value, minus(circle.text))
+
+
+@_form
+def line_touching(point: Operand, side: Token, circle: Operand) -> Defined:
+    value, text = _sided(side, circle)
+    return Defined(joining_line(point.value, value), join(point.text, ":", text))
+
+
+@_form
+def line_touching_chosen(point: Operand, circle: Operand, choice: Token) -> Defined:
+    ways = ((circle.value, circle.text), (-circle.value, minus(circle.text)))
+    if belt_line(point.value, circle.value) is None:
+        ways = ways[:1]
+    found = [(joining_line(point.value, value), value, text) for value, text in ways]
+    line, _, text = chosen(found, choice, lambda way: touching_point(way[1], way[0]))
+    return Defined(line, join(point.text, ":", text))
+
+
+@_form
+def line_touching_both(side: Token, circle: Operand, other_side: Token, other: Operand) -> Defined:
+    (e, e_text), (f, f_text) = _sided(side, circle), _sided(other_side, other)
+    return Defined(joining_line(e, f), join(e_text, ":", f_text))
+
+
+@_form
+def line_at_angle(point: Operand, angle: Operand) -> Defined:
+    return Defined(ExactLine(point.value, direction(angle.value)), join(sloping(angle.text), ":", point.text))
+
+
+@_form
+def line_turned(line: Operand, point: Operand, angle: Operand) -> Defined:
+    return _line_at(point, line, angle.value, angle.text)
+
+
+@_form
+def line_square(point: Operand, _: Token, line: Operand) -> Defined:
+    return _line_at(point, line, Real(90), SkgText("90"))
+
+
+def _line_at(point: Operand, line: Operand, angle: Real, text: SkgText) -> Defined:
+    way = rotated(line.value.way, angle, ORIGIN)
+    return Defined(ExactLine(point.value, way), join(join(line.text, "#", text), ":", point.text))
+
+
+@_form
+def line_parallel(point: Operand, _: Token, line: Operand) -> Defined:
+    return Defined(ExactLine(point.value, line.value.way), join(line.text, ":", point.text))
+
+
+# Circles -----------------------------------------------------------------------------------------------------------
+
+
+def _circle(centre: ExactPoint, r: Real, text: SkgText) -> Defined:
+    if r <= TINY:
+        raise PlaneError("a radius must be more than 0")
+    return Defined(ExactCircle(centre, r), text)
+
+
+@_form
+def circle_of_numbers(x: Operand, y: Operand, r: Operand) -> Defined:
+    centre = point_at(x, y)
+    return _circle(centre.value, r.value, join(centre.text, ":", r.text))
+
+
+@_form
+def circle_about(centre: Operand, r: Operand) -> Defined:
+    return _circle(centre.value, r.value, join(centre.text, ":", r.text))
+
+
+@_form
+def circle_through(one: Operand, other: Operand, third: Operand) -> Defined:
+    bisectors = [
+        ExactLine((p.value + q.value) * Real("0.5"), (q.value - p.value).unit().left())
+        for p, q in ((one, other), (other, third))
+    ]
+    centre = crossings(*bisectors)[0]
+    halves = join(join(one.text, "#", other.text), "*", join(other.text, "#", third.text))
+    return _circle(centre, (other.value - centre).size(), join(halves, "/", other.text))
+
+
+# Vectors, matrices, planes, numbers --------------------------------------------------------------------------------
+
+
+@_form
+def vector_of_numbers(dx: Operand, dy: Operand, dz: Operand | None = None) -> Defined:
+    return Defined(ExactPoint(dx.value, dy.value), pair(dx.text, dy.text), dz.value if dz else ZERO)
+
+
+@_form
+def vector_times(n: Operand, vector: Operand) -> Defined:
+    return Defined(vector.value * n.value, join(vector.text, "*", n.text), vector.z * n.value)
+
+
+@_form
+def vector_to_point(point: Operand) -> Defined:
+    return Defined(point.value, point.text, point.z)
+
+
+@_form
+def vector_between(x1: Operand, y1: Operand, x2: Operand, y2: Operand) -> Defined:
+    value = ExactPoint(x2.value - x1.value, y2.value - y1.value)
+    return Defined(value, pair(join(x2.text, "-", x1.text), join(y2.text, "-", y1.text)), ZERO)
+
+
+@_form
+def vector_of_line(line: Operand, choice: Token) -> Defined:
+    return Defined(chosen((line.value.way, -line.value.way), choice), None, ZERO)
+
+
+@_form
+def matrix_of_numbers(*numbers: Operand) -> Defined:
+    return Defined(tuple(number.value for number in numbers))
+
+
+@_form
+def plane_at(n: Operand) -> Defined:
+    return Defined(n.value)
+
+
+@_form
+def number_of(n: Operand) -> Defined:
+    return Defined(n.value, n.text)

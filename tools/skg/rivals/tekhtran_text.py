@@ -1,0 +1,145 @@
+"""TEKHTRAN's text: Cyrillic words, names and numbers as tokens, and statements of these.
+
+docs/spec/tekhtran.md, sections 1 and 2. Statements come one by one, so that what is wrong first is said first, and a
+name's kind is known.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Protocol
+
+from lark import Token, Tree
+
+from skg.rivals.statement import TextFault, begin, feed
+
+#: Latin letters that are read as the Cyrillic ones of that shape.
+FOLDED = str.maketrans("ABCEHKMOPTXY", "АВСЕНКМОРТХУ")
+_CYRILLIC = "А Б В Г Д Е Ж З И Й К Л М Н О П Р С Т У Ф Х Ц Ч Ш Щ Ы Э Ю Я Ё"
+_SPELLING = "A B V G D E ZH Z I J K L M N O P R S T U F KH C CH SH SHCH Y EH YU YA E"
+LATIN = dict(zip(_CYRILLIC.split(), _SPELLING.split(), strict=True)) | {"Ъ": "", "Ь": ""}
+
+
+def latin(text: str) -> str:
+    """A text in the letters that SKG has; `?` for what is neither Cyrillic nor ASCII."""
+    return "".join(
+        LATIN[char] if char in LATIN else char if char.isascii() and char.isprintable() else "?"
+        for char in text.upper()
+    )
+
+
+#: Words of kinds -> the kind.
+KINDS = {"ТОЧКА": "POINT", "ПРЯМАЯ": "LINE", "ОКРУЖИ": "CIRCLE", "ОКРУЖН": "CIRCLE", "ВЕКТОР": "VECTOR",
+         "МАТР": "MATRIX", "ПЛОСК": "PLANE"}  # fmt: skip
+#: How names begin that need no word.
+BEGINNINGS = {"ТЧ": "POINT", "ПР": "LINE", "КР": "CIRCLE", "ВЕ": "VECTOR", "МК": "MATRIX", "ПЛ": "PLANE"}
+_OTHER_WORDS = """ДЕТАЛЬ КОНЕЦ ПЛЗ ПЧТ1 СЛЕД ИЗ ВТОЧКУ ПРИРАЩ ИДИ НА КОНТУР ПЕРЕСЕЧ ЦЕНТР ПРЧС ПОЧС ХБ ХМ УБ УМ ХКООРД
+УКООРД ПЕРЕНОС СПРАВА СЛЕВА ПЕРП ПАРЛЕЛ КООРД ОТМЕН ВКЛ ВСЕ ВЫКЛ"""
+#: Word -> its token.
+WORDS = {word: latin(word) for word in [*KINDS, *_OTHER_WORDS.split()]} | {"ОКРУЖИ": latin("ОКРУЖН")}
+SYMBOLS = {"+": "PLUS", "-": "MINUS", "−": "MINUS", "–": "MINUS", "*": "TIMES", "/": "SLASH", "(": "LPAR", ")": "RPAR",
+           ",": "COMMA", "=": "EQUALS"}  # fmt: skip
+NAMES = {"POINT": "a point", "LINE": "a line", "CIRCLE": "a circle", "VECTOR": "a vector", "MATRIX": "a matrix",
+         "PLANE": "a plane", "NUMBER": "a number"}  # fmt: skip
+SHOWN = (
+    {kind: word for word, kind in WORDS.items()}
+    | {kind: symbol for symbol, kind in reversed(SYMBOLS.items())}
+    | NAMES
+    | {f"NEW_{kind}": f"{words}'s name" for kind, words in NAMES.items()}
+    | {
+        "WHOLE": "a number",
+        "DECIMAL": "a number",
+        "KOORD": "a number",
+        "END": "the statement's end",
+        "COMMA": "a comma",
+    }
+)
+_LETTER = "А-Яа-яЁёABCEHKMOPTXYabcehkmoptxy"
+_TOKEN = re.compile(
+    rf"(?P<symbol>[-+−–*/(),=])|(?P<number>[0-9]+(?:\.[0-9]+)?)|(?P<word>[{_LETTER}][{_LETTER}0-9]*)"
+    r"|(?P<end>[;\n])|(?P<blank>\s+?)|(?P<other>.)",
+    re.S,
+)
+
+
+class Names(Protocol):
+    """What the names mean so far."""
+
+    def kind(self, name: str) -> str | None:
+        """The kind of what has been defined by this name."""
+
+    def declared(self, name: str) -> str | None:
+        """The kind that a name has, defined or not."""
+
+
+def tokens(text: str) -> Iterator[Token]:
+    """The tokens of a text, names as NAME, END behind each line and each `;`; `TextFault` at the first that is none."""
+    index = end = 0
+    while index < len(text):
+        found = _TOKEN.match(text, index)
+        start, index = index, found.end()
+        word = found[0]
+        match found.lastgroup:
+            case "blank":
+                continue
+            case "other":
+                raise TextFault(start, f"unknown character {word!r}")
+            case "end":
+                yield Token("END", word.strip(), start_pos=start if word == ";" else end)
+                continue
+            case "symbol":
+                kind = SYMBOLS[word]
+            case "number":
+                kind = "DECIMAL" if "." in word else "WHOLE"
+            case _:
+                word = word.upper().translate(FOLDED)
+                kind = WORDS.get(word, "NAME")
+        if word == "ДЕТАЛЬ":
+            index = (text + "\n").index("\n", start)
+            word = text[found.end() : index].strip()
+        end = index
+        yield Token(kind, word, start_pos=start)
+    yield Token("END", "", start_pos=end)
+
+
+def statements(text: str, names: Names) -> Iterator[Tree]:
+    """The statements of a text up to КОНЕЦ, each asked for when the one before has been carried out.
+
+    `TextFault` at what the grammar does not take and at a name that is used before it was defined.
+    """
+    stream = tokens(text)
+    for token in stream:
+        if token.type == "END":
+            continue
+        if token.type == "KONEC":
+            return
+        parser = begin("tekhtran.lark")
+        # The word of a kind, and whether names that come are new.
+        word, is_new = KINDS.get(token), True
+        first = _as_kind(token, names, word, is_new)
+        if first.type not in parser.choices():
+            raise TextFault(token.start_pos, f"expected a statement, found {token}")
+        feed(parser, first, SHOWN)
+        while token.type != "END":
+            is_new = is_new and token.type != "EQUALS" and first.type in _MAKING
+            token = next(stream)
+            feed(parser, _as_kind(token, names, word, is_new), SHOWN)
+        yield parser.feed_eof(token)
+
+
+#: Tokens that begin a definition.
+_MAKING = {f"NEW_{kind}" for kind in NAMES} | {WORDS[word] for word in KINDS}
+
+
+def _as_kind(token: Token, names: Names, word: str | None, is_new: bool) -> Token:
+    """A name as its kind; other tokens as they are."""
+    if token.type != "NAME":
+        return token
+    if is_new:
+        kind = f"NEW_{names.declared(token) or BEGINNINGS.get(token[:2]) or word or 'NUMBER'}"
+    else:
+        kind = names.kind(token)
+        if kind is None:
+            raise TextFault(token.start_pos, f"{token} has not been defined")
+    return Token(kind, token.value, start_pos=token.start_pos)
