@@ -31,6 +31,7 @@ from skg.drawing.contour import Contour, Edge
 from skg.drawing.dxf import draw
 from skg.drawing.plan import plan
 from skg.drawing.source import lay_out
+from skg.drawing.wishes import Wishes
 from skg.drawing.write import write
 from skg.errors import UserError
 from skg.plane import XY, distance, minus, polar
@@ -60,7 +61,8 @@ def collect(drawing: Drawing, layers: tuple[str, ...] = (), **wishes: float) -> 
     """What is read from a drawing."""
     text = io.StringIO()
     drawing.write(text)
-    return entities.collect(dxf_file.load(text.getvalue().encode()), layers, **wishes)
+    file = dxf_file.load(text.getvalue().encode())
+    return entities.collect(file, Wishes(layers, **wishes), file.units[1])
 
 
 @cache

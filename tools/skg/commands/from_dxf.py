@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import Coordinates
+from skg.commands.options import MOST_OFFSET, Coordinates
 from skg.drawing.plan import LEAD, plan
 from skg.drawing.read import OPEN, UNITS, Wishes, layer_lines, read
 from skg.errors import UserError
@@ -20,7 +20,7 @@ from skg.plane import XY
               help="Program to write, - for the standard output.")
 @click.option("--layer", "layers", multiple=True, help="Take only this layer; may be given again.")
 @click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and write nothing.")
-@click.option("--offset", default=0.0, metavar="MM", type=click.FloatRange(0),
+@click.option("--offset", default=0.0, metavar="MM", type=click.FloatRange(0, MOST_OFFSET),
               help="R: half the wire and its spark gap. Default: 0, the wire's middle runs on the contour.")
 @click.option("--side", default="auto", show_default=True,
               type=click.Choice(("auto", "inside", "outside", "left", "right", "on")),

@@ -35,6 +35,9 @@ def output_option(text: str) -> Callable[[Callable], Callable]:
     """The option -o, FILE or - for the standard output; `text` is its help."""
     return click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True), help=text)
 
+#: No wire with its spark gap is wider than twice this, mm.
+MOST_OFFSET = 5.0
+
 
 def skg80_option(function: Callable) -> Callable:
     """Give a command the option --skg80."""

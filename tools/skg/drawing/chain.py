@@ -208,28 +208,25 @@ class _Graph:
             degrees = self.degrees(part)
             if max(degrees.values()) <= 2:
                 (run,) = self.runs(part)
-                self.keep(run, 1 not in degrees.values())
+                self.found.contours.append(self.contour(run, 1 not in degrees.values()))
                 continue
             rings, rest = self.outlines(part)
-            for ring in rings:
-                self.keep(ring, True)
-            for run in self.runs(rest):
-                steps = tuple(self.edges[at] if ahead else self.edges[at].reversed() for at, ahead in run)
-                self.found.rest.append(Contour(steps, self.is_closed(run)))
+            self.found.contours += [self.contour(ring, True) for ring in rings]
+            self.found.rest += [self.contour(run, self.is_closed(run)) for run in self.runs(rest)]
 
     def is_closed(self, run: list[_Step]) -> bool:
         """Whether a run ends where it begins."""
         (first, ahead), (last, goes) = run[0], run[-1]
         return self.ends[first][not ahead] == self.ends[last][goes]
 
-    def keep(self, run: list[_Step], is_closed: bool) -> None:
-        """Make a contour of a run of edges."""
+    def contour(self, run: list[_Step], is_closed: bool) -> Contour:
+        """A run of edges, their ends moved to the corners."""
         steps = []
         for at, ahead in run:
             start, end = (self.corners[corner] for corner in self.ends[at])
             edge = moved(self.edges[at], start, end)
             steps.append(edge if ahead else edge.reversed())
-        self.found.contours.append(Contour(tuple(steps), is_closed))
+        return Contour(tuple(steps), is_closed)
 
     def degrees(self, part: Iterable[int]) -> Counter[int]:
         """How many of some edges meet at each corner."""

@@ -45,21 +45,20 @@ _SUBCLASS = {"LWPOLYLINE": "AcDbPolyline", "SPLINE": "AcDbSpline", "HELIX": "AcD
 _EXTERNAL = 4 | 8 | 16
 
 
-@dataclass(slots=True)
 class Record:
-    """An entity as it stands in the file, with those that follow it as its parts."""
+    """An entity as it stands in the file, with those that follow it as its parts. `kind`: its name, such as LINE."""
 
-    groups: list[Group]
-    parts: list[Record] = field(default_factory=list)
+    __slots__ = ("groups", "parts", "kind", "first")
 
-    @property
-    def kind(self) -> str:
-        """Its name, such as LINE."""
-        return self.groups[0][1].strip().upper()
+    def __init__(self, groups: list[Group]) -> None:
+        self.groups = groups
+        self.parts: list[Record] = []
+        self.kind = groups[0][1].strip().upper()
+        self.first = dict(reversed(groups))
 
     def value(self, code: int, default: str = "") -> str:
         """The first value with a code."""
-        return next((value for found, value in self.groups if found == code), default)
+        return self.first.get(code, default)
 
     def whole(self, code: int) -> int:
         """The first value with a code as a whole number, 0 when there is none."""
@@ -260,6 +259,8 @@ def _tags(groups: list[Group]) -> list[DXFTag]:
     kept[0] = DXFTag(0, kind)
     if not has_subclass and kind in _SUBCLASS:
         kept[1:1] = [DXFTag(100, "AcDbEntity"), DXFTag(100, _SUBCLASS[kind])]
-    # (the tag behind the last one makes the reordering let go of an entity)
-    *tags, _ = tag_compiler(tag_reorder_layer(iter([*kept, DXFTag(0, "EOF")])))
-    return tags
+    # (the tag behind the last one makes ezdxf let go of the place or the entity before it)
+    tags = iter([*kept, DXFTag(0, "EOF")])
+    # Old programs write the places of a line as x, x, y, y.
+    *found, _ = tag_compiler(tag_reorder_layer(tags) if kind == "LINE" else tags)
+    return found

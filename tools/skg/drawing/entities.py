@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import pi, radians
@@ -15,6 +15,7 @@ from skg.drawing.account import Content, Entity
 from skg.drawing.contour import Edge
 from skg.drawing.dxf_file import DxfFile, Record
 from skg.drawing.shapes import conic, is_number, spline_edges
+from skg.drawing.wishes import Wishes
 from skg.errors import UserError
 from skg.plane import XY
 
@@ -45,14 +46,10 @@ class NotFlat(Exception):
 class _Collector:
     """Turns records into edges. `matrix`: from where the present block's records stand to the drawing."""
 
-    def __init__(
-        self, file: DxfFile, factor: float, tolerance: float, is_wanted: Callable[[str], str], start_layer: str
-    ) -> None:
+    def __init__(self, file: DxfFile, wishes: Wishes, factor: float) -> None:
         self.file = file
+        self.wishes = wishes
         self.factor = factor
-        self.tolerance = tolerance
-        self.is_wanted = is_wanted
-        self.start_layer = start_layer.lower()
         self.content = Content()
         self.matrix: Matrix44 | None = None
         self.known: dict[int, DXFGraphic] = {}
@@ -68,6 +65,10 @@ class _Collector:
                 self.insert(record, layer, hidden, blocks)
             else:
                 self.one(record, layer, hidden)
+
+    def unwanted(self, layer: str) -> str:
+        """Why what is on a layer is left."""
+        return self.wishes.unwanted(layer, self.file.states.get(layer.lower(), ""))
 
     def place(self, record: Record) -> XY:
         """A place on a record's entity, in the drawing's units."""
@@ -91,10 +92,10 @@ class _Collector:
     def one(self, record: Record, layer: str, hidden: str) -> None:
         """Add what is no block reference."""
         account = self.account(record, layer)
-        account.left = hidden or self.is_wanted(layer) or ("invisible" if record.whole(60) else "")
+        account.left = hidden or self.unwanted(layer) or ("invisible" if record.whole(60) else "")
         if account.left:
             return
-        is_start = layer.lower() == self.start_layer
+        is_start = self.wishes.is_start(layer)
         if (
             record.kind in NOTES
             and not (is_start and record.kind == "POINT")
@@ -149,7 +150,7 @@ class _Collector:
             reason = f"its block {name} is part of itself"
         hidden = hidden or ("invisible" if record.whole(60) else "")
         if self.file.states.get(layer.lower()) == "frozen":
-            hidden = hidden or self.is_wanted(layer)
+            hidden = hidden or self.unwanted(layer)
         outer = self.matrix
         try:
             matrices = [] if reason else [self.placed(single, block.base) for single in _singles(record.entity())]
@@ -157,7 +158,7 @@ class _Collector:
             reason = f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
         if reason:
             account = self.account(record, layer)
-            account.left = hidden or self.is_wanted(layer) or reason
+            account.left = hidden or self.unwanted(layer) or reason
             account.is_odd = account.left == reason
             return
         for matrix in matrices:
@@ -250,7 +251,7 @@ class _Collector:
         """centre + u cos t + v sin t from `first` on."""
         middle, one, other = self.points([Vec3(centre), Vec3(centre) + Vec3(u), Vec3(centre) + Vec3(v)])
         axes = [(end[0] - middle[0], end[1] - middle[1]) for end in (one, other)]
-        return [conic(middle, *axes, first, sweep, self.tolerance)]
+        return [conic(middle, *axes, first, sweep, self.wishes.fit_tolerance)]
 
     def polyline(self, entity: DXFGraphic, points: list[Vec3], bulges: list[float], is_closed: bool) -> Iterator[Edge]:
         """Lines and arcs through points; those of a flat polyline stand in a coordinate system of its own."""
@@ -274,7 +275,8 @@ class _Collector:
     def spline(self, entity: DXFGraphic) -> list[Edge]:
         tool = entity.construction_tool()
         controls = [Vec3(x, y) for x, y in self.points(tool.control_points)]
-        return spline_edges(BSpline(controls, tool.order, tool.knots(), tool.weights() or None), self.tolerance)
+        flat = BSpline(controls, tool.order, tool.knots(), tool.weights() or None)
+        return spline_edges(flat, self.wishes.fit_tolerance)
 
 
 def _sweep(first: float, last: float) -> float:
@@ -288,37 +290,13 @@ def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:
     return insert.multi_insert() if insert.mcount > 1 else (insert,)
 
 
-def collect(
-    file: DxfFile,
-    layers: tuple[str, ...] = (),
-    start_layer: str = "START",
-    fit_tolerance: float = 0.0002,
-    factor: float | None = None,
-) -> Content:
-    """Return the entities of a drawing, and the edges of those of its model space on the given layers, in mm.
+def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
+    """Return the entities of a drawing, and the edges of those of its model space that are wanted, in mm.
 
-    Without layers those of all layers but the frozen ones and those that are off. `factor`: mm per drawing unit,
-    None: as the file says, else 1. A layer that the drawing does not have is a `UserError`.
+    `factor`: mm per drawing unit. A layer that the drawing does not have is a `UserError`.
     """
-    known = dict(file.layers)
-    for record in file.model:
-        known.setdefault(record.layer.lower(), record.layer)
-    for layer in layers:
-        if layer.lower() not in known:
-            raise UserError(f"no layer {layer}, the drawing has {', '.join(sorted(known.values()))}")
-    asked_for = {layer.lower() for layer in layers}
-
-    def is_wanted(layer: str) -> str:
-        if asked_for:
-            return "" if layer.lower() in (*asked_for, start_layer.lower()) else "not asked for"
-        if layer.lower() == "defpoints":
-            return "a layer that is never plotted"
-        state = file.states.get(layer.lower())
-        return f"the layer is {state}" if state else ""
-
-    if factor is None:
-        factor = file.units[1] if file.units else 1.0
-    collector = _Collector(file, factor, fit_tolerance, is_wanted, start_layer)
+    wishes.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
+    collector = _Collector(file, wishes, factor)
     collector.collect(file.model, "", "", ())
     collector.matrix = None
     for record in file.paper:

@@ -17,38 +17,20 @@ from math import inf
 from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, counted, listed, short, shown
 from skg.drawing.chain import chain, merged
 from skg.drawing.contour import Contour, Edge
+from skg.drawing.wishes import OPEN, UNITS, Wishes
 from skg.errors import UserError
 from skg.plane import XY, distance
 
-#: mm in one unit of a file.
-UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
+__all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
+
 #: A drawing that does not tell its units is in mm when its larger side has this many, mm.
 USUAL = 3.0, 3000.0
-#: `Account.units_from` of such a drawing.
-NOT_TOLD = "the file does not say"
-#: What becomes of open contours; "all" cuts what is at junctions as well.
-OPEN = ("cut", "leave", "refuse", "all")
 #: No drawing that is cut has a larger side, mm.
 FARTHEST = 50_000.0
+#: Who says what units a drawing is in.
+TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
-
-
-@dataclass(frozen=True)
-class Wishes:
-    """How a drawing is to be read.
-
-    `layers`: only these (none: all that are neither off nor frozen). `start_layer`: that of the start holes. `units`:
-    one of `UNITS`, None: what the file says. `tolerance`: ends no further apart are one corner, mm. `fit_tolerance`:
-    how near FIT shall come to splines and ellipses, mm. `open`: one of `OPEN`, what becomes of open contours.
-    """
-
-    layers: tuple[str, ...] = ()
-    start_layer: str = "START"
-    units: str | None = None
-    tolerance: float = 0.005
-    fit_tolerance: float = 0.0002
-    open: str = "cut"
 
 
 @dataclass(frozen=True)
@@ -75,7 +57,7 @@ def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
 def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     from skg.drawing.touching import relations
 
-    content, report = _dxf(data, name, wishes)
+    content, report = _content(data, name, wishes)
     if not content.edges:
         raise UserError(_nothing(content, wishes))
     chains = chain(content.edges, wishes.tolerance)
@@ -120,25 +102,34 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
 
 def layer_lines(data: bytes, name: str) -> list[str]:
     """What is on each layer of a drawing file, a line each."""
-    from skg.drawing.dxf_file import load
-
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
-    for record in load(data).model:
-        kinds[record.layer][record.kind] += 1
+    for entity in _content(data, name, Wishes())[0].entities:
+        kinds[entity.layer][entity.kind] += 1
     return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)]
 
 
-def _dxf(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
-    """A DXF drawing's content, and an account that has its units."""
-    from skg.drawing.dxf_file import load
-    from skg.drawing.entities import collect
+def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
+    """What a file holds, and an account that has its units."""
+    from skg.drawing import dxf_file, entities, svg
 
-    file = load(data)
-    units = (*file.units, "as the file says") if file.units else ("mm", 1.0, NOT_TOLD)
+    if svg.is_svg(data, name):
+        page = svg.SvgFile(data)
+        told, px = page.units, svg.PX
+        units = (told[0], told[1], TOLD) if told else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
+        if wishes.units:
+            # Without a page in mm or inches a pixel is one of the units asked for.
+            units = wishes.units, UNITS[wishes.units], ASKED
+            px = UNITS[wishes.units] * (svg.PX / told[1] if told else 1.0)
+        elif not told:
+            px = page.guess
+        report = Account(name, units[0], units[2], units[1])
+        return svg.collect(page, px, units[1], wishes), report
+    file = dxf_file.load(data)
+    units = (*file.units, TOLD) if file.units else ("mm", 1.0, NOT_TOLD)
     if wishes.units:
-        units = wishes.units, UNITS[wishes.units], "as asked for"
+        units = wishes.units, UNITS[wishes.units], ASKED
     report = Account(name, units[0], units[2], units[1], notes=file.notes)
-    return collect(file, wishes.layers, wishes.start_layer, wishes.fit_tolerance, report.factor), report
+    return entities.collect(file, wishes, units[1]), report
 
 
 class _Fates:
@@ -257,7 +248,7 @@ def _measure(contours: list[Contour], report: Account) -> None:
 def _check_size(report: Account) -> None:
     """Refuse an odd size that nobody vouches for, and what is too large for a tape."""
     width, height = map(short, report.size)
-    if report.units_from == NOT_TOLD and not USUAL[0] <= max(report.size) <= USUAL[1]:
+    if report.units_from.startswith(NOT_TOLD) and not USUAL[0] <= max(report.size) <= USUAL[1]:
         raise UserError(
             f"the file does not say its units, and {width} x {height} mm is an odd size: "
             f"give --units ({', '.join(UNITS)})"

@@ -62,16 +62,18 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
     knots = list(tool.knots())
     low, high = knots[tool.degree], knots[len(tool.control_points)]
     aside = 1e-9 * (high - low)
+    # (a new one each time that the spline is asked for it)
+    evaluator = tool.evaluator
 
     def at(t: float) -> XY:
-        point = tool.point(t)
+        point = evaluator.point(t)
         return point.x, point.y
 
     def heading(t: float) -> float:
-        way = tool.derivative(t, 1)[1]
+        way = evaluator.derivative(t, 1)[1]
         if way.magnitude < 1e-9:
             # Controls that coincide: the direction is that from just before to just behind.
-            way = tool.point(min(high, t + 1e4 * aside)) - tool.point(max(low, t - 1e4 * aside))
+            way = evaluator.point(min(high, t + 1e4 * aside)) - evaluator.point(max(low, t - 1e4 * aside))
         return atan2(way.y, way.x)
 
     stations = [low]

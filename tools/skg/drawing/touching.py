@@ -40,7 +40,7 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
     repeats = _repeats(lines[one], lines[other], tolerance) & (is_closed[one] == is_closed[other])
     found.repeated = sorted(set(other[repeats].tolist()))
     gone = set(found.repeated)
-    for at, second in zip(one.tolist(), other.tolist(), strict=True):
+    for at, second in sorted(zip(one.tolist(), other.tolist(), strict=True)):
         if at in gone or second in gone:
             continue
         found.touched |= {number for number in (at, second) if not is_closed[number]}

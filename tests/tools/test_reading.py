@@ -1,0 +1,648 @@
+"""Drawings as other people's programs write them, and worse: what is cut, what is left, and that it is said."""
+
+from __future__ import annotations
+
+import io
+import time
+from itertools import pairwise
+from math import cos, hypot, pi, radians, sin
+from pathlib import Path
+from random import Random
+
+import ezdxf
+import pytest
+from conftest import Run
+from ezdxf import path as dxf_path
+from ezdxf.document import Drawing
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from skg.drawing.contour import Contour
+from skg.drawing.read import Reading, Wishes, read
+from skg.errors import UserError
+from skg.plane import XY, distance
+
+FORMATS = ("R2000", "R2010", "R2018")
+
+
+def raw(*entities: str, header: str = "", layers: str = "") -> bytes:
+    """A DXF file of entities that are written as `KIND code value code value …`."""
+    text = "0\nSECTION\n2\nHEADER\n" + header + "0\nENDSEC\n"
+    text += "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n" + layers + "0\nENDTAB\n0\nENDSEC\n"
+    text += "0\nSECTION\n2\nENTITIES\n"
+    text += "".join("0\n" + "\n".join(entity.split()) + "\n" for entity in entities)
+    return (text + "0\nENDSEC\n0\nEOF\n").encode()
+
+
+def line(x1: float, y1: float, x2: float, y2: float, layer: str = "0") -> str:
+    return f"LINE 8 {layer} 10 {x1} 20 {y1} 11 {x2} 21 {y2}"
+
+
+def square(x: float, y: float, side: float, layer: str = "0") -> list[str]:
+    corners = [(x, y), (x + side, y), (x + side, y + side), (x, y + side), (x, y)]
+    return [line(*p, *q, layer) for p, q in pairwise(corners)]
+
+
+def polygon(*corners: XY, handle: str = "") -> str:
+    """A closed R12 polyline."""
+    vertices = "".join(f"\n0\nVERTEX\n8\n0\n10\n{x}\n20\n{y}" for x, y in corners)
+    return f"POLYLINE {'5 ' + handle if handle else ''} 8 0 66 1 70 1" + vertices + "\n0\nSEQEND"
+
+
+def dxf_bytes(drawing: Drawing, binary: bool = False) -> bytes:
+    if binary:
+        stream = io.BytesIO()
+        drawing.write(stream, fmt="bin")
+        return stream.getvalue()
+    text = io.StringIO()
+    drawing.write(text)
+    return text.getvalue().encode()
+
+
+def length_by_ezdxf(drawing: Drawing) -> float:
+    """The length of all that is drawn, by ezdxf's own exploding and flattening."""
+    from ezdxf.disassemble import recursive_decompose
+
+    total = 0.0
+    for entity in recursive_decompose(drawing.modelspace()):
+        if entity.dxftype() in ("LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "LWPOLYLINE", "POLYLINE"):
+            points = list(dxf_path.make_path(entity).flattening(1e-5))
+            total += sum(p.distance(q) for p, q in pairwise(points))
+    return total
+
+
+def length(contours: list[Contour]) -> float:
+    return sum(edge.length for contour in contours for edge in contour.edges)
+
+
+def checked(data: bytes, **wishes: object) -> Reading:
+    """A drawing that is read: every contour hangs together, a closed one closes to 0, and the sums agree."""
+    reading = read(data, "part.dxf", Wishes(units=wishes.pop("units", "mm"), **wishes))
+    for contour in reading.contours:
+        edges = contour.edges
+        assert all(one.end == other.start for one, other in pairwise(edges))
+        assert (edges[-1].end == edges[0].start) == contour.is_closed
+    report = reading.report
+    assert report.layers
+    assert all(layer.read == layer.cut + layer.part + layer.left for layer in report.layers)
+    assert all(sum(kinds.total() for kinds in layer.why.values()) == layer.part + layer.left for layer in report.layers)
+    return reading
+
+
+def left(reading: Reading) -> dict[str, int]:
+    """How many entities are left for each reason."""
+    found: dict[str, int] = {}
+    for layer in reading.report.layers:
+        for why, kinds in layer.why.items():
+            found[why] = found.get(why, 0) + kinds.total()
+    return found
+
+
+JUNCTION = "at a junction, of no closed outline"
+
+
+def test_handles_that_repeat() -> None:
+    """A program that gives each polyline the handle of the first."""
+    data = raw(*(polygon((x, 0), (x + 9, 0), (x + 4, 7), handle="90") for x in range(0, 50, 10)))
+    assert len(checked(data).contours) == 5
+
+
+def test_no_subclasses() -> None:
+    """A file of AutoCAD 2000 by its header, whose entities have no subclasses."""
+    header = "9\n$ACADVER\n1\nAC1015\n"
+    data = raw(
+        "LWPOLYLINE 8 0 90 3 70 1 10 0 20 0 42 0.5 10 9 20 0 10 4 20 7",
+        "CIRCLE 8 0 10 30 20 0 40 3",
+        "ELLIPSE 8 0 10 50 20 0 11 5 21 0 40 0.5 41 0 42 6.28318530718",
+        "SPLINE 8 0 70 8 71 3 72 8 73 4 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1"
+        " 10 70 20 0 10 75 20 9 10 80 20 9 10 85 20 0",
+        line(85, 0, 70, 0),
+        header=header,
+    )
+    found = checked(data).contours
+    assert [len(contour.edges) for contour in found] == [3, 1, 1, 2]
+    assert all(contour.is_closed for contour in found)
+
+
+def a_bit_of_everything() -> Drawing:
+    drawing = ezdxf.new("R2010", units=ezdxf.units.MM)
+    space = drawing.modelspace()
+    inner = drawing.blocks.new("INNER", base_point=(1, 2))
+    inner.add_circle((3, 3), 2)
+    inner.add_lwpolyline([(0, 0, 0.4), (6, 0, 0), (6, 6, -1), (0, 6, 0)], format="xyb", close=True)
+    outer = drawing.blocks.new("OUTER")
+    outer.add_blockref("INNER", (20, 0), {"xscale": -1, "rotation": 30})
+    outer.add_blockref("INNER", (0, 20), {"xscale": 1.5, "yscale": 0.5})
+    outer.add_ellipse((0, 0), (4, 1), 0.4)
+    space.add_blockref("OUTER", (100, 50), {"yscale": -2, "xscale": 2, "rotation": 77})
+    space.add_blockref(
+        "OUTER", (0, 200), {"row_count": 2, "column_count": 3, "row_spacing": 60, "column_spacing": 70, "rotation": 20}
+    )
+    space.add_circle((-300, 0), 7, {"extrusion": (0, 0, -1)})
+    space.add_polyline2d([(400, 0, 0, 0, 1), (410, 0, 0, 0, 0.2), (405, 8, 0, 0, 0)], format="xyseb", close=True)
+    return drawing
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("release", FORMATS)
+def test_blocks_as_ezdxf_explodes_them(release: str, binary: bool) -> None:
+    """Nested, mirrored, turned, squeezed and in arrays: the length of all lines is that of ezdxf's own exploding."""
+    drawing = a_bit_of_everything()
+    drawing.dxfversion = release
+    reading = checked(dxf_bytes(drawing, binary))
+    # OUTER stands seven times, with two INNER of two entities and an ellipse.
+    assert sum(layer.cut for layer in reading.report.layers) == 7 * 5 + 2
+    # (ezdxf flattens an arc by way of Bézier curves, which are longer by up to 0.02 %)
+    assert length(reading.contours) == pytest.approx(length_by_ezdxf(drawing), rel=2e-4)
+    assert all(contour.is_closed for contour in reading.contours)
+
+
+def test_layers_that_are_not_seen() -> None:
+    drawing = ezdxf.new("R2000", units=ezdxf.units.MM)
+    space = drawing.modelspace()
+    for name in ("SEEN", "OFF", "FROZEN"):
+        drawing.layers.add(name)
+        space.add_circle((0, 0), {"SEEN": 10, "OFF": 20, "FROZEN": 30}[name], {"layer": name})
+    drawing.layers.get("OFF").off()
+    drawing.layers.get("FROZEN").freeze()
+    block = drawing.blocks.new("PIN")
+    block.add_circle((0, 0), 1)
+    block.add_circle((0, 0), 2, {"layer": "SEEN"})
+    space.add_blockref("PIN", (50, 0), {"layer": "OFF"})
+    space.add_blockref("PIN", (60, 0), {"layer": "FROZEN"})
+    space.add_circle((90, 0), 3, {"invisible": 1})
+    drawing.paperspace().add_circle((0, 0), 100)
+    reading = checked(dxf_bytes(drawing))
+    # What is on another layer is seen in a block on a layer that is off, not in one on a frozen layer.
+    assert sorted(contour.edges[0].radius for contour in reading.contours) == pytest.approx([2, 10])
+    assert left(reading) == {"the layer is off": 2, "the layer is frozen": 3, "invisible": 1, "in paper space": 1}
+    assert len(checked(dxf_bytes(drawing), layers=("off",)).contours) == 2
+
+
+def test_what_is_not_flat_or_not_known() -> None:
+    data = raw(
+        *square(0, 0, 10),
+        "CIRCLE 8 TILT 10 5 20 5 40 2 210 0 220 1 230 1",
+        "LINE 8 STEEP 10 1 20 1 30 0 11 3 21 1 31 8",
+        "3DFACE 8 FACE 10 1 20 2 11 3 21 2 12 3 22 4 13 1 23 4",
+        "CIRCLE 8 BAD 10 abc 20 5 40 2",
+        "INSERT 8 LOST 2 NOWHERE 10 7 20 8",
+        "TEXT 8 NOTE 10 1 20 1 1 HELLO",
+    )
+    report = checked(data).report
+    kinds = [(entity.kind, entity.layer, entity.place) for entity in report.not_understood]
+    assert kinds == [
+        ("CIRCLE", "TILT", (5, 5)),
+        ("LINE", "STEEP", (1, 1)),
+        ("3DFACE", "FACE", (1, 2)),
+        ("CIRCLE", "BAD", (0, 0)),
+        ("INSERT", "LOST", (7, 8)),
+    ]
+    text = "\n".join(report.lines())
+    assert "not cut: INSERT on layer LOST at (7, 8): its block NOWHERE is not in the file" in text
+    assert "layer NOTE: 1 entity, 1 left: 1 TEXT (nothing to cut)" in text
+
+
+@pytest.mark.parametrize("gap", [1, 2, 5, 6, 10, 20, 50])
+def test_gaps(gap: int) -> None:
+    """A gap wider than the tolerance stays open, and its width is told; else both ends go to its middle."""
+    data = raw(line(0, 0, 10, 0), line(10, 0, 10, 10), "ARC 8 0 10 5 20 10 40 5 50 0 51 180", line(0, 10, 0, gap / 1e3))
+    reading = checked(data)
+    (contour,) = reading.contours
+    assert contour.is_closed == (gap <= 5)
+    if not contour.is_closed:
+        assert [end.gap for end in reading.report.open_ends] == pytest.approx([gap / 1e3] * 2)
+        wider = float("\n".join(reading.report.lines()).split("--tolerance ")[1].split()[0])
+        assert checked(data, tolerance=wider).contours[0].is_closed
+        with pytest.raises(UserError, match=r"1 open contour, the first end at \(0, 0"):
+            checked(data, open="refuse")
+    else:
+        assert max(abs(y) for edge in contour.edges for _, y in (edge.start,) if y < 1) <= gap / 2e3 + 1e-9
+
+
+def test_ends_of_arcs_that_miss() -> None:
+    """A keyway: the arc of almost a full turn stays within the tolerance where its ends are moved."""
+    half, r = 0.4, 20.0
+    angle = 1.1459919983885
+    x = r * cos(radians(angle))
+    data = raw(
+        f"ARC 8 0 10 0 20 0 40 {r} 50 {angle} 51 {360 - angle}",
+        line(x, half + 0.004, x + 3, half),
+        line(x + 3, half, x + 3, -half),
+        line(x + 3, -half, x, -half - 0.001),
+    )
+    (contour,) = checked(data).contours
+    assert contour.is_closed
+    points = [point for edge in contour.edges if not edge.is_line for point in edge.points()]
+    assert max(abs(hypot(*point) - r) for point in points) < 0.003
+
+
+def test_touching_and_repeated() -> None:
+    """Closed polylines are contours, whatever touches them: two with a common edge, two at a corner, one twice."""
+    data = raw(
+        polygon((0, 0), (10, 0), (10, 10), (0, 10)),
+        polygon((10, 0), (20, 0), (20, 10), (10, 10)),
+        polygon((20, 10), (30, 10), (30, 20), (20, 20)),
+        polygon((30, 20), (20, 20), (20, 10), (30, 10)),
+        polygon((5, 5), (15, 5), (15, 8), (5, 8)),
+        "CIRCLE 8 0 10 40 20 40 40 5",
+        "CIRCLE 8 0 10 48 20 40 40 3",
+        "CIRCLE 8 0 10 40 20 40 40 5",
+    )
+    reading = checked(data)
+    assert len(reading.contours) == 6
+    assert left(reading) == {"drawn twice": 2}
+    what = [(overlap.what, overlap.place) for overlap in reading.report.overlaps]
+    assert what == [
+        ("drawn twice", (30, 20)),
+        ("drawn twice", (45, 40)),
+        ("overlap", pytest.approx((10, 0), abs=0.01)),
+        ("cross", pytest.approx((10, 5), abs=0.01)),
+        ("touch", pytest.approx((20, 10), abs=0.01)),
+        ("cross", pytest.approx((10, 8), abs=0.01)),
+        ("touch", pytest.approx((45, 40), abs=0.2)),
+    ]
+
+
+def test_hatching_centre_lines_and_frames() -> None:
+    """Lines that end on an outline, cross it or hang on its corners are left, with their places."""
+    data = raw(
+        *square(0, 0, 40, "PART"),
+        "CIRCLE 8 PART 10 20 20 20 40 8",
+        line(-5, 20, 45, 20, "AXES"),
+        line(20, -5, 20, 45, "AXES"),
+        *(line(x, 0, x, 10, "HATCH") for x in (3, 6, 9)),
+        line(40, 40, 60, 60, "LEADER"),
+    )
+    reading = checked(data)
+    assert [contour.layers for contour in reading.contours] == [("PART",), ("PART",)]
+    assert left(reading) == {JUNCTION: 6}
+    text = "\n".join(reading.report.lines())
+    assert "not cut, it belongs to no closed outline: 3 LINE on layer HATCH at (3, 0), (6, 0), (9, 0)" in text
+    assert "1 LINE on layer LEADER at (40, 40)" in text
+    assert len(checked(data, open="all").contours) == 8
+
+
+@pytest.mark.parametrize(
+    ("lines", "closed", "rest"),
+    [
+        # a plate that a line divides, drawn from corner to corner: its boundary
+        ([*square(0, 0, 10), line(0, 0, 10, 10)], 1, 1),
+        # the same, the sides drawn in two halves
+        (
+            [
+                line(0, 0, 5, 0),
+                line(5, 0, 10, 0),
+                line(10, 0, 10, 9),
+                line(10, 9, 5, 9),
+                line(5, 9, 0, 9),
+                line(0, 9, 0, 0),
+                line(5, 0, 5, 9),
+            ],
+            1,
+            1,
+        ),
+        # a plate and a square hole, hatched from corner to corner
+        ([*square(0, 0, 30), *square(10, 10, 10), line(0, 0, 10, 10), line(30, 30, 20, 20), line(0, 30, 10, 20)], 2, 3),
+        # two squares that share a corner
+        ([*square(0, 0, 10), *square(10, 10, 10)], 2, 0),
+        # two squares, and a line from one to the other
+        ([*square(0, 0, 10), *square(20, 20, 10), line(10, 10, 20, 20)], 2, 1),
+        # crossing lines: their cell is no outline
+        (
+            [
+                *square(50, 50, 5),
+                *(line(x, y, x + 10, y) for x in (0, 10, 20) for y in (10, 20)),
+                *(line(x, y, x, y + 10) for x in (10, 20) for y in (0, 10, 20)),
+            ],
+            1,
+            12,
+        ),
+        # an outline whose corners other lines go straight on from
+        ([*square(0, 0, 10), line(10, 0, 20, 0), line(10, 10, 10, 20)], 1, 2),
+    ],
+)
+def test_junctions(lines: list[str], closed: int, rest: int) -> None:
+    reading = checked(raw(*lines))
+    assert [contour.is_closed for contour in reading.contours] == [True] * closed
+    assert len(reading.report.rest) == rest
+    if rest == 3:
+        assert length(reading.contours) == pytest.approx(160)
+
+
+def test_no_outline_is_refused() -> None:
+    with pytest.raises(UserError, match=r"no closed outline: 3 entities meet .* as at \(0, 0\).*--open all"):
+        checked(raw(*(line(0, 0, *end) for end in ((5, 0), (0, 5), (-5, -5)))))
+
+
+@given(st.integers(0, 10**9))
+@settings(max_examples=60, deadline=None)
+def test_small_whole_numbers_thrown_together(seed: int) -> None:
+    """Lines, arcs and circles between places of a small grid: touching, crossing, coincident, double, without length.
+    Whatever is cut, no length is lost: what is cut is drawn, what is closed is closed, and what is left is told."""
+    random = Random(seed)
+    entities = []
+    for _ in range(random.randint(1, 40)):
+        x, y, u, v = (random.randint(0, 4) for _ in range(4))
+        match random.randint(0, 4):
+            case 0:
+                entities.append(f"CIRCLE 8 0 10 {x} 20 {y} 40 {random.randint(0, 2)}")
+            case 1:
+                first = random.choice((0, 90, 180, 270))
+                entities.append(f"ARC 8 0 10 {x} 20 {y} 40 {random.randint(0, 2)} 50 {first} 51 {first + 90}")
+            case _:
+                entities.append(line(x, y, u, v))
+    try:
+        reading = checked(raw(*entities), open=random.choice(("cut", "all", "leave")))
+    except UserError as error:
+        assert "no closed outline" in str(error) or "no lines" in str(error), error
+        return
+    assert sum(layer.read for layer in reading.report.layers) == len(entities)
+    cut = sum(layer.cut + layer.part for layer in reading.report.layers)
+    assert len({edge.entity for contour in reading.contours for edge in contour.edges}) <= cut
+    assert "\n".join(reading.report.lines())
+
+
+@pytest.mark.parametrize("place", [0, 1e3, 5e5, -4e6])
+def test_far_away(place: float) -> None:
+    """A map's coordinates."""
+    (contour,) = checked(raw(*square(place, place, 10), line(place, place, place, place))).contours
+    assert contour.is_closed
+    assert contour.area == pytest.approx(100, rel=1e-6)
+
+
+def test_units() -> None:
+    """Those of the file, those asked for; a file without any is asked about when its size is odd."""
+    inches = raw(*square(0, 0, 2), header="9\n$INSUNITS\n70\n1\n")
+    assert read(inches, "a.dxf").report.size == (50.8, 50.8)
+    assert read(inches, "a.dxf").report.lines()[0] == "50.8 x 50.8 mm, read in inch (as the file says)"
+    assert read(raw(*square(0, 0, 20)), "a.dxf").report.units_from == "the file does not say"
+    assert read(raw(*square(0, 0, 2)), "a.dxf", Wishes(units="foot")).report.size == pytest.approx((609.6, 609.6))
+    for side in (0.5, 2.0, 5000.0):
+        with pytest.raises(UserError, match=r"a.dxf: the file does not say its units, and .* odd size: give --units"):
+            read(raw(*square(0, 0, side)), "a.dxf")
+    with pytest.raises(UserError, match="a tape has room for 100 m"):
+        read(raw(*square(0, 0, 9e4)), "a.dxf", Wishes(units="m"))
+
+
+def test_repeated_vertices_and_no_length() -> None:
+    data = raw(
+        polygon((0, 0), (0, 0), (9, 0), (9, 0.0004), (9, 7), (0, 7), (0, 0)),
+        line(50, 50, 50, 50),
+        "LINE 8 0 10 60 20 60 11 60.002 21 60",
+    )
+    reading = checked(data)
+    assert [len(contour.edges) for contour in reading.contours] == [4]
+    assert left(reading) == {"it has no length": 1, "shorter than the tolerance": 1}
+
+
+def spline(controls: list[XY], knots: list[float], degree: int = 3) -> str:
+    text = f"SPLINE 8 0 70 8 71 {degree} 72 {len(knots)} 73 {len(controls)} "
+    return text + " ".join([f"40 {knot}" for knot in knots] + [f"10 {x} 20 {y}" for x, y in controls])
+
+
+def test_splines_with_odd_knots() -> None:
+    """Knots that repeat up to a corner, spans of no length, and one of nearly none."""
+    controls = [(0, 0), (5, 0), (10, 5), (10, 10), (10, 15), (5, 20), (0, 20), (-5, 15), (-5, 5), (0, 0)]
+    knots = [0, 0, 0, 0, 1, 1, 1, 1 + 1e-13, 2, 2, 3, 3, 3, 3]
+    (contour,) = checked(raw(spline(controls, knots))).contours
+    assert contour.is_closed
+    assert sum(len(edge.nodes) for edge in contour.edges) < 200
+    # Controls that coincide: the direction there is that of the places beside it.
+    controls = [(0, 0), (0, 0), (10, 0), (10, 0), (20, 10)]
+    knots = [0, 0, 0, 0, 0.5, 1, 1, 1, 1]
+    (contour,) = checked(raw(spline(controls, knots))).contours
+    assert contour.edges[0].start == (0, 0) and contour.edges[-1].end == (20, 10)
+
+
+def test_splines_that_are_lines_and_circles() -> None:
+    """A straight spline is a line, one of weights that make it a circle an arc."""
+    straight = spline([(0, 0), (3, 0), (6, 0), (9, 0)], [0, 0, 0, 0, 1, 1, 1, 1])
+    root = 0.5**0.5
+    quarter = "SPLINE 8 0 70 12 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 " + f"{root} 41 1"
+    quarter += " 10 9 20 0 10 9 20 9 10 0 20 9"
+    (contour,) = checked(raw(straight, quarter, line(0, 9, 0, 0))).contours
+    kinds = [(edge.is_line, edge.centre is not None) for edge in contour.edges]
+    assert kinds == [(True, False), (False, True), (True, False)]
+    assert contour.edges[1].centre == pytest.approx((0, 0), abs=1e-6)
+
+
+@pytest.mark.parametrize("last", [6.28318530718, 2 * pi, 6.283185, 0.0])
+def test_ellipses_that_are_whole(last: float) -> None:
+    (contour,) = checked(raw(f"ELLIPSE 8 0 10 0 20 0 11 5 21 0 40 0.5 41 0 42 {last}")).contours
+    assert contour.is_closed
+    assert length([contour]) == pytest.approx(24.22112, abs=1e-4)
+
+
+def test_a_digitised_curve_is_quick() -> None:
+    """3,072 control points: no more nodes than the curve needs, and no more time."""
+    controls = [(100 * cos(t / 300), 70 * sin(t / 300) + 5 * sin(t / 60)) for t in range(1500)]
+    knots = [0] * 4 + list(range(1, len(controls) - 3)) + [len(controls) - 3] * 4
+    began = time.process_time()
+    (contour,) = checked(raw(spline(controls, knots))).contours
+    assert time.process_time() - began < 4
+    assert sum(len(edge.nodes) for edge in contour.edges) < 400
+
+
+def test_twenty_thousand_elements() -> None:
+    """The whole reading of 5,000 squares, each of four lines, in a grid with its frame."""
+    lines = [side for k in range(5000) for side in square(3 * (k % 100), 3 * (k // 100), 2)]
+    data = raw(*lines, *square(-5, -5, 320))
+    began = time.process_time()
+    assert len(checked(data).contours) == 5001
+    assert time.process_time() - began < 5
+
+
+@pytest.mark.parametrize(
+    ("encoding", "page"),
+    [("cp1252", "ANSI_1252"), ("gbk", "ANSI_936"), ("utf-8", ""), ("utf-16", ""), ("utf-8-sig", "")],
+)
+def test_encodings(encoding: str, page: str) -> None:
+    name = "形状" if encoding != "cp1252" else "Maße"
+    header = f"9\n$DWGCODEPAGE\n3\n{page}\n" if page else ""
+    data = raw(*square(0, 0, 10, name), header=header).decode().encode(encoding)
+    assert checked(data).contours[0].layers == (name,)
+    for end in (b"\r\n", b"\r", b"\r\r\n"):
+        if encoding == "utf-8":
+            assert checked(data.replace(b"\n", end)).contours[0].layers == (name,)
+
+
+def test_old_files() -> None:
+    """No HEADER and no TABLES, blank lines before it, coordinates in the order x, x, y, y, an end that is missing."""
+    data = b"\n\n0\nSECTION\n2\nENTITIES\n" + b"".join(
+        b"0\nLINE\n8\nA\n10\n%d\n11\n%d\n20\n%d\n21\n%d\n" % (p[0], q[0], p[1], q[1])
+        for p, q in pairwise([(0, 0), (9, 0), (5, 7), (0, 0)])
+    )
+    reading = checked(data)
+    assert reading.contours[0].is_closed
+    assert "the file has no EOF at its end, it may have been cut off" in reading.report.lines()
+
+
+@given(st.data())
+@settings(max_examples=80, deadline=None)
+def test_damaged_files(data: st.DataObject) -> None:
+    """Lines lost, doubled or garbled: a drawing, or one line that says what is wrong; never anything else."""
+    drawing = DAMAGED.splitlines(keepends=True)
+    for _ in range(data.draw(st.integers(1, 6))):
+        at = data.draw(st.integers(0, max(0, len(drawing) - 11)))
+        if len(drawing) < 20:
+            break
+        match data.draw(st.integers(0, 3)):
+            case 0:
+                del drawing[at : at + data.draw(st.sampled_from((1, 2, 10)))]
+            case 1:
+                drawing.insert(at, drawing[at])
+            case 2:
+                drawing[at] = data.draw(st.sampled_from((b"", b"-1", b"1e999", b"nan", b"\xff", b"x", b"0"))) + b"\n"
+            case 3:
+                drawing = drawing[: max(at, 1)]
+    try:
+        reading = read(b"".join(drawing), "part.dxf", Wishes(units="mm"))
+    except UserError as error:
+        assert str(error).startswith("part.dxf: ") and "\n" not in str(error)
+    else:
+        assert reading.report.lines()
+
+
+def _damaged() -> bytes:
+    drawing = ezdxf.new("R2000", setup=False)
+    space = drawing.modelspace()
+    block = drawing.blocks.new("B")
+    block.add_circle((0, 0), 2)
+    block.add_spline([(0, 0), (5, 2), (9, 0)])
+    space.add_blockref("B", (3, 4), {"row_count": 2, "row_spacing": 30})
+    space.add_lwpolyline([(0, 0, 0.4), (60, 0, 0), (60, 60, -1), (0, 60, 0)], format="xyb", close=True)
+    space.add_ellipse((5, 5), (4, 1), 0.4)
+    space.add_polyline2d([(100, 0), (110, 0), (105, 8)], close=True)
+    text = dxf_bytes(drawing)
+    # (what is read of it: units, layers, blocks, entities)
+    keep = [part for part in text.split(b"  0\nSECTION\n") if part.lstrip().startswith((b"2\nBLOCKS", b"2\nENTITIES"))]
+    return b"".join(b"  0\nSECTION\n" + part for part in keep) + b"  0\nEOF\n"
+
+
+DAMAGED = _damaged()
+
+
+SVG = """<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"
+ xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" {size}>{content}</svg>"""
+
+
+def svg(content: str, size: str = 'width="200mm" height="100mm" viewBox="0 0 200 100"') -> bytes:
+    return SVG.format(content=content, size=size).encode()
+
+
+def read_svg(content: str, **wishes: object) -> Reading:
+    return read(svg(content), "part.svg", Wishes(**wishes))
+
+
+def test_svg_shapes() -> None:
+    """Every shape, where it stands with y upwards from the page's lower edge."""
+    reading = read_svg(
+        '<rect x="10" y="20" width="30" height="40"/><rect x="50" y="20" width="30" height="40" rx="5"/>'
+        '<circle cx="100" cy="50" r="8"/><ellipse cx="130" cy="50" rx="10" ry="5"/>'
+        '<polygon points="150,10 160,10 155,20"/><path d="M170 10 h10 v10 h-10 z M172 12 h2 v2 h-2 z"/>'
+        '<path d="M170 50 a5 5 0 0 1 10 0 z"/><path d="M150 80 c0 -10 10 -10 10 0 q-5 5 -10 0"/>'
+        '<line x1="5" y1="95" x2="9" y2="95"/><text x="1" y="1">A</text><path d="M0 0"/>'
+    )
+    report = reading.report
+    assert (report.units, report.units_from) == ("mm", "as the file says")
+    assert [contour.is_closed for contour in reading.contours] == [True] * 9 + [False]
+    assert sorted(reading.contours[0].points())[0] == pytest.approx((10, 40))
+    assert len(reading.contours[1].edges) == 8
+    circle = reading.contours[2].edges[0]
+    assert circle.is_circle and circle.centre == pytest.approx((100, 50)) and circle.radius == pytest.approx(8)
+    assert length([reading.contours[3]]) == pytest.approx(48.4422, abs=1e-3)
+    (half,) = [
+        contour
+        for contour in reading.contours
+        if any(edge.centre for edge in contour.edges) and len(contour.edges) == 2
+    ]
+    assert max(y for _, y in half.points()) == pytest.approx(55)
+    assert left(reading) == {"text, convert it to paths": 1, "it has no length": 1}
+
+
+def test_svg_transforms() -> None:
+    """Groups within groups, mirrored, turned, skewed, used twice: by the matrix of each, worked out by hand."""
+    reading = read_svg(
+        '<defs><path id="p" d="M0 0 h10 a5 3 0 0 1 0 6 h-10 z"/></defs>'
+        '<g transform="translate(50 50)"><g transform="rotate(90) scale(1 -1)"><use xlink:href="#p"/></g></g>'
+        '<g transform="matrix(1 0 0.5 1 120 20)"><use xlink:href="#p" x="5"/></g>'
+    )
+    one, other = reading.contours
+    # (x, y) -> (50 + y, 50 + x) on the page, then upwards; half an ellipse of 3 by 5 at the end
+    assert max(y for _, y in one.points()) == pytest.approx(100 - 50)
+    assert min(y for _, y in one.points()) == pytest.approx(100 - 50 - 10 - 5 * 3 / 3, abs=0.01)
+    assert max(x for x, _ in one.points()) == pytest.approx(56)
+    # a skew keeps areas: 60 and half an ellipse of 5 and 3
+    for contour in (one, other):
+        assert abs(contour.area) == pytest.approx(60 + pi * 5 * 3 / 2, abs=0.01)
+
+
+def test_svg_layers_and_units(run: Run, tmp_path: Path) -> None:
+    content = (
+        '<g inkscape:groupmode="layer" inkscape:label="Cut"><circle cx="20" cy="20" r="9"/></g>'
+        '<g inkscape:groupmode="layer" inkscape:label="START"><circle cx="20" cy="20" r="1"/></g>'
+        '<g inkscape:groupmode="layer" inkscape:label="Old" style="display:none"><circle cx="50" cy="20" r="9"/></g>'
+    )
+    reading = read_svg(content)
+    assert reading.starts == [pytest.approx((20, 80))]
+    assert left(reading) == {"a start hole": 1, "not displayed": 1}
+    part = tmp_path / "part.svg"
+    part.write_bytes(svg(content, 'width="200" height="100"'))
+    assert "read in px (the file does not say; 96 px are an inch)" in run("from-dxf", part).stderr
+    assert "CUT (20,80):9" in run("from-dxf", part, "--units", "mm", "--layer", "cut").stdout
+    assert run("from-dxf", part, "--list-layers").stdout == "Cut: 1 circle\nOld: 1 circle\nSTART: 1 circle\n"
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"<svg", "not an SVG drawing that can be read"),
+        (b"<html></html>", "not an SVG drawing, its root is html"),
+        (svg("<path d='M0 0 L10 x'/><text>a</text>"), "no lines, arcs or curves to cut"),
+        (svg("<image/>"), "a picture"),
+    ],
+)
+def test_svg_that_is_none(data: bytes, message: str) -> None:
+    with pytest.raises(UserError, match=message):
+        read(data, "part.svg")
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"AC1015\0\0\0", "a DWG file, expected DXF"),
+        (b"AutoCAD Binary DXF\r\n\x1a\0\0\0SEC", "not a binary DXF drawing that can be read"),
+        (b"0\nSECTION\n2\nENTITIES\nLINE\n", "line 5: expected a group code, found 'LINE'"),
+    ],
+)
+def test_files_that_are_none(data: bytes, message: str) -> None:
+    with pytest.raises(UserError, match=f"part.dxf: {message}"):
+        read(data, "part.dxf")
+
+
+def test_command(run: Run, tmp_path: Path) -> None:
+    """An open contour is not cut with an offset unless that is asked for; an offset that no wire has is refused."""
+    part = tmp_path / "part.dxf"
+    part.write_bytes(raw(line(0, 0, 10, 0), line(10, 0, 10, 10), *square(20, 20, 10)))
+    with pytest.raises(UserError) as refused:
+        run("from-dxf", part, "--offset", "0.1")
+    assert str(refused.value) == (
+        f"{part}: 1 open contour, the first end at (0, 0), 14.1421 mm from that at (10, 10): "
+        "a larger --tolerance joins ends, --open cut or leave tells what to do"
+    )
+    counts = [
+        run("from-dxf", part, "--offset", "0.1", "--open", word).stdout.count("FROM")
+        for word in ("cut", "leave", "all")
+    ]
+    assert counts == [2, 1, 2]
+    too_far = run("from-dxf", part, "--offset", "100")
+    assert (too_far.exit_code, "'--offset'" in too_far.stderr) == (2, True)
+
+
+def test_near_is_distance() -> None:
+    """The nearest other end is told, not the other end of the contour."""
+    reading = checked(raw(line(0, 0, 10, 0), line(10.3, 0, 20, 0)))
+    gaps = {end.place: (end.other, end.gap) for end in reading.report.open_ends}
+    assert gaps[10, 0] == ((10.3, 0), pytest.approx(0.3))
+    assert distance((0, 0), gaps[0, 0][0]) == pytest.approx(10)

@@ -1,0 +1,50 @@
+"""How a drawing is to be read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from skg.errors import UserError
+
+#: mm in one unit of a file.
+UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
+#: What becomes of open contours; "all" cuts what is at junctions as well.
+OPEN = ("cut", "leave", "refuse", "all")
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """How a drawing is to be read.
+
+    `layers`: only these (none: all that are neither off nor frozen). `start_layer`: that of the start holes. `units`:
+    one of `UNITS`, None: what the file says. `tolerance`: ends no further apart are one corner, mm. `fit_tolerance`:
+    how near FIT shall come to splines and ellipses, mm. `open`: one of `OPEN`, what becomes of open contours.
+    """
+
+    layers: tuple[str, ...] = ()
+    start_layer: str = "START"
+    units: str | None = None
+    tolerance: float = 0.005
+    fit_tolerance: float = 0.0002
+    open: str = "cut"
+
+    def check_layers(self, known: Iterable[str]) -> None:
+        """Refuse (`UserError`) a layer that a drawing with these does not have."""
+        names = {name.lower(): name for name in known}
+        for layer in self.layers:
+            if layer.lower() not in names:
+                raise UserError(f"no layer {layer}, the drawing has {', '.join(sorted(names.values())) or 'none'}")
+
+    def is_start(self, layer: str) -> bool:
+        """Whether a layer is that of the start holes."""
+        return layer.lower() == self.start_layer.lower()
+
+    def unwanted(self, layer: str, state: str = "") -> str:
+        """Why what is on a layer is left; empty when it is not. `state`: "off" or "frozen" for one that is not seen."""
+        if self.layers:
+            is_asked = self.is_start(layer) or layer.lower() in map(str.lower, self.layers)
+            return "" if is_asked else "not asked for"
+        if layer.lower() == "defpoints":
+            return "a layer that is never plotted"
+        return f"the layer is {state}" if state else ""
