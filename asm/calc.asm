@@ -1,8 +1,8 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: QEND QJN QJZ QDRP QSIG QMAX QE6N QJMP QRET QDUP QOVR QSWP QDBL QOWN CALINI FUN RUNBC CALC0
-;         OOVR COPY5 CALPOP OJMP1 ERGEO XXCH OSWP1 OPTAB
+; Offers: CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALC3 CALPOP OJN OJZ OJMP OJMP1 ORET ODBL XSIG
+;         XMAX XE6N ERGEO XXCH OSWP OSWP1
 ; Uses:   consts float start
-; Room:   277 bytes
+; Room:   218 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;
@@ -23,59 +23,18 @@
 ; an operation may use RST 5 itself.
 ;
 ; An operation is a subroutine:
-; In:  HL -> top, DE -> second, FSP -> behind the top; for the numbers up to QPOP
+; In:  HL -> top, DE -> second, FSP -> behind the top; for the numbers up to OPPOP
 ;      FSP = HL, that is: the top is popped, but still there to be read
 ; Out: FSP and floats   Clobbers all
+; One from OPBYTE on is byte-code, up to QRET, or up to QEND and machine code behind it.
 
 FSP     EQU FWORK+46    ; stack pointer of the calculator
-
-QEND    EQU 00H
-QADD    EQU 01H         ; x y -> x+y
-QSUB    EQU 02H         ; x y -> x-y
-QMUL    EQU 03H         ; x y -> x*y
-QDIV    EQU 04H         ; x y -> x/y
-QJN     EQU 05H         ; x ->
-QJZ     EQU 06H         ; x ->
-QDRP    EQU 07H         ; x ->
-QSIG    EQU 08H         ; x y -> x, or -x when y is negative
-QMAX    EQU 09H         ; x y -> the greater; neither may be negative (else but: 0 when both are 0)
-QE6N    EQU 0AH         ; x ->    ERR 06 when negative
-QPOP    EQU 0AH         ; the last that pops
-QJMP    EQU 0BH
-QRET    EQU 0CH         ; ends the byte-code and returns from the routine, A not 0, Z clear
-QDUP    EQU 0DH         ; x -> x x
-QOVR    EQU 0EH         ; x y -> x y x
-QSWP    EQU 0FH         ; x y -> y x
-QSQ     EQU 10H         ; x -> x*x
-QDBL    EQU 11H         ; x -> x+x
-QNEG    EQU 12H         ; x -> -x
-QFLR    EQU 13H         ; x -> greatest whole number not above
-QSQRT   EQU 14H         ; x -> square root
-QSIN    EQU 15H         ; x -> sine of x degrees
-QCOS    EQU 16H
-QTG     EQU 17H
-QATG    EQU 18H         ; x -> arc tangent in degrees
-QABS    EQU 19H         ; x -> |x|
-QOWN    EQU 1AH         ; number of the first operation that another file adds
 
 ; CALINI - empties the float stack
 ; Clobbers HL
 CALINI: LXI     H,FSTK
         SHLD    FSP
         RET
-
-; FUN - puts x on the float stack and runs the byte-code behind the call; when the routine that
-;       called FUN returns, what is on top there goes back to x
-; In:  HL -> x, on the stack: code pointer   Clobbers all
-FUN:    XCHG
-        POP     H
-        PUSH    D
-        LXI     B,FUN1
-        PUSH    B
-        PUSH    H
-        CALL    OOVR
-        POP     D
-; (fall into RUNBC)
 
 ; RUNBC - runs byte-code that ends with QEND and a RET, or with QRET
 ; In:  DE -> byte-code   Clobbers all
@@ -84,7 +43,7 @@ RUNBC:  PUSH    D
 
 ; CALC - runs byte-code (RST 5 jumps here)
 ; In:  on the stack: code pointer   Clobbers all
-; Cycles: a load 283, a store 315, a constant 317, an operation 235 + its own
+; Cycles: a load 283, a store 315, a constant 317, an operation 244 + its own, byte-code 158 + its own
 CALC0:  POP     B
 CALC1:  LDAX    B
         INX     B
@@ -142,21 +101,24 @@ COPY5:  LDAX    D
         MOV     M,A
 ODRP:   RET
 
-; an operation, or QEND
+; CALC3 - an operation, or QEND (OPFN carries out an operation that way)
+; In:  A = number, BC -> byte-code that goes on behind it
 CALC3:  PUSH    B
         ORA     A
         RZ                      ; QEND: on behind it
         LXI     H,CALC0
         PUSH    H               ; every operation returns there
-        LXI     H,OPTAB-2
         ADD     A
+        ADI     (OPTAB-2)&255   ; (the table lies within a page)
         MOV     C,A
-        MVI     B,0
-        DAD     B
+        MOV     L,A
+        MVI     H,OPTAB/256
         MOV     E,M
         INX     H
         MOV     D,M
         PUSH    D               ; operation
+        CPI     2*OPBYTE+((OPTAB-2)&255)
+        JNC     CALC0           ; byte-code
         LHLD    FSP
         MOV     A,L             ; FSTK lies within a page
         SUI     5
@@ -165,13 +127,10 @@ CALC3:  PUSH    B
         MOV     E,A
         MOV     D,H             ; DE -> second
         MOV     A,C
-        CPI     2*QPOP+1
+        CPI     2*OPPOP+1+((OPTAB-2)&255)
         RNC
         SHLD    FSP
         RET
-
-FUN1:   POP     D
-; (fall into CALPOP)
 
 ; CALPOP - pops a float
 ; In:  DE -> where to   Out: DE, HL -> last bytes   Clobbers A
@@ -262,14 +221,3 @@ OSWP1:  LDAX    D
         DCR     C
         JNZ     OSWP1
         RET
-
-; OPTAB - addresses of the operations from 1 on.  It is left open: a file that
-; comes next goes on with DW lines for QOWN, QOWN+1, ...
-OPTAB:  DW      FADD,FSUB,FMUL,FDIV
-        DW      OJN,OJZ,ODRP
-        DW      XSIG,XMAX,XE6N
-        DW      OJMP,ORET
-        DW      ODUP,OOVR,OSWP,OSQ,ODBL
-        DW      FNEG,FFLR,FSQR
-        DW      FSIN,FCOS,FTG,FATG
-        DW      FABS

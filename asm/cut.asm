@@ -2,7 +2,7 @@
 ; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL
 ;         ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL XNORM XTOK XNORMS XXING SBACK SBACK1
 ; Uses:   arc_3b arc_nodrift calc consts fit float geom io_punch io_tty parser start tape value
-; Room:   1332 bytes
+; Room:   1327 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -651,7 +651,7 @@ ROUTER: LDA     RITEMS
 ; Operations of the calculator that the route adds
 
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
-XSENS:  DB      CALC,QJC
+XSENS:  DB      QJC
         DB      XSENS1-$
         DB      QABS,QRET       ; >= 0
 XSENS1: DB      LA2,QADD        ; r'
@@ -674,7 +674,7 @@ XONEL1: DB      QDIF,QHYP       ; distance
         DB      LA2,QABS        ; distance |r|
 XONEL2: DB      QE6D,QRET       ; -
 ; QNORM: a0 a1 = right normal of the element a at the point b
-XNORM:  DB      CALC,QJC
+XNORM:  DB      QJC
         DB      XNORM1-$
         DB      QRET
 XNORM1: DB      QDIF            ; dx dy
@@ -682,16 +682,16 @@ XNORM1: DB      QDIF            ; dx dy
         DB      LA2,QSIG,QSWP   ; +-dx +-dy
         DB      QUNIT,QRET      ; -
 ; QTOK: K = b = a point
-XTOK:   DB      CALC,QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -
+XTOK:   DB      QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -
 ; QNORMS: a0 a1, b0 b1 = right normals of C and N at K = b; negative when they differ by less than
 ; 0.001 rad
-XNORMS: DB      CALC,QNA,QNORM,QVEC ; x y
+XNORMS: DB      QNA,QNORM,QVEC ; x y
         DB      QCA,QNORM,SB1,SB0 ; -
         DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
         DB      QRET
 
 ; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
-XXING:  DB      CALC,QNA        ; -
+XXING:  DB      QNA        ; -
         DB      LA2,LO2,QADD,SA2 ; -
         DB      QXCH,QCA        ; -             b = N
         DB      LA2,LO1,QADD,SA2,QEND ; -

@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
 ; Offers: STOL SFIT FITEND
 ; Uses:   calc consts cut float geom parser start value
-; Room:   587 bytes
+; Room:   608 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -186,7 +186,8 @@ TRY1:   DB      QEND
         CALL    MIRR1
         DB      CALC,ST2,ST3    ; -             t2 t3 = tangent at the joint
         DB      LMX,L1X,QADD,LT2,QMUL ; m
-        DB      LMY,L1Y,QADD,LT3,QMUL,QADD,SBX,QEND ; - bx = how far the joint lies along it
+        DB      LMY,L1Y,QADD,LT3,QMUL,QADD,SBX ; - bx = how far the joint lies along it
+        DB      LTO,QSQ,SBY,QEND ; -            by = d*d
         LXI     D,HELD
 TRY2:   LXI     H,MT0
         CALL    CPYPL           ; t0 t1 = n
@@ -201,11 +202,11 @@ TRY2:   LXI     H,MT0
 TRY3:   CALL    ARCW
         DB      CALC,QCRS,QSWP,QDIV ; k             half the curvature
         DB      LT0,LT4,LT1,LT5,QWAY ; k q*q    b = q: to n from the arc's node
-        DB      LTO,QSQ,QSUB,QMUL ; k(q*q-d*d)
-        DB      QCRS,QSUB,QABS,LTO,QSWP,QSUB ; d-|k(q*q-d*d)-t*q|
-        DB      QJN             ; -
-        DB      TRY4-$
-        DB      QDOT,LO1,QSIG,QJN ; -           past the node, the wrong way
+        DB      LBY,QSUB,QSWP,QDUP,ST0,QMUL ; k(q*q-d*d)  t0 = k
+        DB      QCRS,QSUB,QDUP,ST1 ; g          t1 = g = k(q*q-d*d)-t*q
+        DB      QABS,LTO,QSWP,QSUB,QJN ; -      d-|g|
+        DB      TRY6-$
+TRY5:   DB      QDOT,LO1,QSIG,QJN ; -           past the node, the wrong way
         DB      TRY4-$
         DB      QEND
         POP     D
@@ -213,6 +214,13 @@ TRY3:   CALL    ARCW
         CMP     E
         JNZ     TRY2
         RET
+; |g| > d: more than d off; but nothing lies too far inside an arc whose radius is below d
+TRY6:   DB      LT0,LBY,QMUL,QDBL ; 2kd*d
+        DB      LT1,QNEG,QSIG,LT1,QABS,QSUB ; +-2kd*d-|g|  + inside
+        DB      QJN             ; -
+        DB      TRY4-$
+        DB      QJMP
+        DB      TRY5-$
 TRY4:   DB      QEND
         POP     D
         INR     A

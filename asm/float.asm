@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FITOF FTOI16 FWHOLE FFLR FSQR FTG FCOS FSIN FATG
 ; Uses:   calc consts start
-; Room:   1103 bytes
+; Room:   1095 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -731,19 +731,16 @@ FSQR4:  MOV     M,A
         PUSH    H
         JMP     FDIV0           ; FDIV finds it and the others
 
-; Functions of angles, in degrees.  FUN puts a copy of x on the calculator's stack
-; and has the result fetched from there.
+; Functions of angles, in degrees: x is on top of the calculator's stack, the result takes its place.
 
 ; FTG - tangent, sine by cosine
 ; In:  HL -> x   Out: x; ERR 05 for odd multiples of 90   Clobbers all
-FTG:    CALL    FUN
-        DB      QDUP,QSIN,QSWP,QCOS,QDIV ; tan x
+FTG:    DB      CALC,QDUP,QSIN,QSWP,QCOS,QDIV ; tan x
         DB      QRET
 
 ; FCOS - cosine
 ; In:  HL -> x   Out: x; ERR 05 as FSIN   Clobbers all
-FCOS:   CALL    FUN
-        DB      QABS,Q90,QSWP,QSUB      ; 90-|x|
+FCOS:   DB      CALC,QABS,Q90,QSWP,QSUB      ; 90-|x|
         DB      QSIN,QRET               ; cos x
 
 ; FSIN - sine
@@ -752,8 +749,7 @@ FCOS:   CALL    FUN
 FSIN:   MOV     A,M
         CPI     0A2H
         JNC     FOVF
-        CALL    FUN
-        DB      QDUP,QI180,QMUL         ; x x/180
+        DB      CALC,QDUP,QI180,QMUL    ; x x/180
         DB      QHALF,QADD,QFLR         ; x k           k half turns
         DB      Q90,QMUL,QDBL,QSUB      ; r             -90...90
         DB      QI64,QMUL,QEND          ; r/64
@@ -848,8 +844,7 @@ CATG:   DB      07DH,0D6H,088H,0F9H,06FH        ; -0.1047534453
 
 ; FATG - arc tangent
 ; In:  HL -> x   Out: x, between -90 and 90   Clobbers all
-FATG:   CALL    FUN
-        DB      Q90,QOVR,QABS,QEND      ; x 90 s        s = |x|
+FATG:   DB      CALC,Q90,QOVR,QABS,QEND ; x 90 s        s = |x|
         MOV     A,M                     ; (QABS leaves HL -> s)
         CPI     82H
         JNC     FATG2           ; from 2 up

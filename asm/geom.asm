@@ -2,7 +2,7 @@
 ; Offers: RSTAR BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
 ;         XALNG XROTV XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   562 bytes
+; Room:   548 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -165,7 +165,7 @@ GDIV:   DB      QVEC,LB0,ST3            ; x y
         DB      XUNIT2-$
 
 ; QUNIT: a0 a1 = unit vector along a vector, t3 = its length; ERR 06 when that is nearly 0
-XUNIT:  DB      CALC,QOVR,QOVR,QHYP     ; x y d
+XUNIT:  DB      QOVR,QOVR,QHYP     ; x y d
 ; (for GSXS too)
 XUNIT1: DB      QDUP,ST3,QABS           ; x y |d|
         DB      QNEAR,QSUB,QE6N         ; x y
@@ -269,28 +269,28 @@ GBELT:  DB      QVEC                    ; x y
         DB      SB1,SB0                 ; -
         DB      QDOT,LA2,QADD,SA2,QRET  ; -
 
-; Operations of the calculator that geometry adds (entries in CALC's table)
+; Operations of the calculator that geometry adds: byte-code but for QFAR (OPTAB, ops.asm)
 
 ; QDOT a0*b0+a1*b1 and QCRS a0*b1-a1*b0
-XDOT:   DB      CALC,LA0,LB0,QMUL       ; a0*b0
+XDOT:   DB      LA0,LB0,QMUL       ; a0*b0
         DB      LA1,LB1,QMUL,QADD,QRET  ; dot
-XCRS:   DB      CALC,LA0,LB1,QMUL       ; a0*b1
+XCRS:   DB      LA0,LB1,QMUL       ; a0*b1
         DB      LA1,LB0,QMUL,QSUB,QRET  ; cross
 ; QVEC: the vector a
-XVEC:   DB      CALC,LA0,LA1,QRET       ; x y
+XVEC:   DB      LA0,LA1,QRET       ; x y
 ; QDIF: from the point a to the point b
-XDIF:   DB      CALC,LB0,LA0,QSUB       ; dx
+XDIF:   DB      LB0,LA0,QSUB       ; dx
         DB      LB1,LA1,QSUB,QRET       ; dx dy
 ; QCENT: QUNIT from centre to centre, then r of a less r of b; ERR 06 when they are concentric (within TL)
-XCENT:  DB      CALC,QUNIT,LT3,LTL,QSUB,QE6N ; -
+XCENT:  DB      QUNIT,LT3,LTL,QSUB,QE6N ; -
         DB      LA2,LB2,QSUB,QRET       ; e
 ; QWAY: x2 x1 y2 y1 -> w*w; b = w: from (x1,y1) to (x2,y2)
-XWAY:   DB      CALC,QSUB,SB1,QSUB,SB0  ; -
-        DB      LB0,LB1,QEND            ; wx wy
+XWAY:   DB      QSUB,SB1,QSUB,SB0  ; -
+        DB      LB0,LB1                 ; wx wy
 ; (fall into XSS)
 ; QSS: length of a vector, squared.  QHYP: length of a vector
-XSS:    DB      CALC,QSQ,QSWP,QSQ,QADD,QRET ; x^2+y^2
-XHYP:   DB      CALC,QSS,QSQRT,QRET     ; length
+XSS:    DB      QSQ,QSWP,QSQ,QADD,QRET ; x^2+y^2
+XHYP:   DB      QSS,QSQRT,QRET     ; length
 ; QFAR: is a vector longer than 1 um?  (no square root)
 XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         ADI     80H-78H
@@ -302,12 +302,12 @@ XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         DB      CALC,QSS,QMU,QSQ,QSUB,QRET ; -1um^2
 XFAR1:  DB      CALC,QDRP,QABS,QRET     ; |x|
 ; QALNG: a0 a1 moved by -k times b0 b1, k from the stack
-XALNG:  DB      CALC,LA0,QOVR,LB0,QMUL  ; k a0 k*b0
+XALNG:  DB      LA0,QOVR,LB0,QMUL  ; k a0 k*b0
         DB      QSUB,SA0                ; k
         DB      LA1,QSWP,LB1,QMUL       ; a1 k*b1
         DB      QSUB,SA1,QRET           ; -
 ; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2
-XROTV:  DB      CALC,LB1,LB2            ; x y
+XROTV:  DB      LB1,LB2            ; x y
         DB      LB0,QCOS,SB1            ; x y           b = sine, cosine:
         DB      LB0,QSIN,SB0            ; x y
         DB      QDOT,QCRS,SA0,SA1       ; x y           cross is x', dot is y'
@@ -316,7 +316,7 @@ XROTV:  DB      CALC,LB1,LB2            ; x y
 ; t3 (the sign does not matter): the other leg of a right triangle.  They miss by g:
 ; ERR 06 when by more than 1 um; when they cross by no more than TL (1 um as a rule)
 ; they touch: 0, and t2 = t3 with its own sign
-XLEG:   DB      CALC,QMU,QOVR,QSUB,QE6N ; g
+XLEG:   DB      QMU,QOVR,QSUB,QE6N ; g
         DB      LTL,QADD                ; g+tl
         DB      QJN             ; -
         DB      XLEG1-$
@@ -326,5 +326,5 @@ XLEG1:  DB      LT3,LT2,QSUB            ; r-e
         DB      QMUL,QSQRT,QRET         ; h
 
 ; QE6D: takes two numbers, ERR 06 when they are more than 1 um apart
-XE6D:   DB      CALC,QSUB,QABS,QMU,QSWP,QSUB ; room
+XE6D:   DB      QSUB,QABS,QMU,QSWP,QSUB ; room
         DB      QE6N,QRET               ; -

@@ -26,7 +26,7 @@ class Image:
     def files(self) -> list[str]:
         """All source files in the order in which they stand in the ROM; the first ones only name things."""
         return [
-            self.map, "equ", "start", *self.ports, "io", self.punch, "calc", "ops", "consts", "float",
+            self.map, "equ", "start", "ops", *self.ports, "io", self.punch, "calc", "consts", "float",
             "decimal", "value", "geom", "parser", *self.post, "cut", "repeat", "fit", "lexer", "program", *self.more,
             "monitor", self.start, "words",
         ]  # fmt: skip

@@ -1,7 +1,7 @@
 ; io_8251.asm - ports of the board: two Intel 8251
 ; Offers: TTYDT TTYST PUNDT PUNST TXRDY RXRDY BDINIT
 ; Uses:   reset
-; Room:   24 bytes
+; Room:   23 bytes
 
 TTYDT   EQU 10H         ; teletype: data
 TTYST   EQU 11H         ; teletype: status and control

@@ -1,7 +1,7 @@
 ; io_tty.asm - punch and reader are the teletype's own, switched by DC1 to DC4
 ; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDOFF
 ; Uses:   io start
-; Room:   46 bytes
+; Room:   43 bytes
 
 ; BDREAD - a character from the reader: what the keyboard has sent
 ; In:  HL -> KEYB   Out: A = it, 0 when there is none   Clobbers nothing else

@@ -2,7 +2,7 @@
 ; Offers: ERR READY CHKED SFREE FREE SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST SREAD
 ;         SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
 ; Uses:   calc cut decimal float io io_punch io_tty lexer parser program reset start value
-; Room:   729 bytes
+; Room:   735 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
 ;! COLS == OUTSEL+1 and LASTC == COLS+1 -- PUTC1 walks back from LASTC
@@ -118,8 +118,14 @@ STMT:   CALL    CALINI
         CPI     TFROM
         JC      ASSIGN
         DB      NEXT
-        LXI     H,STTAB-2*TFROM+256 ; (JTAB takes 2*A in a byte)
-        JMP     JTAB
+        ADD     A               ; (in a byte)
+        LXI     H,STTAB-2*TFROM+256
+        CALL    ADDA
+        MOV     E,M
+        INX     H
+        MOV     D,M
+        XCHG
+        PCHL
 
 ; CHKED - the line is understood: stores it or carries it out
 ; In:  at STKTOP-2: -> behind its tokens; the stack holds little more

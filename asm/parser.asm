@@ -1,8 +1,8 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL JTAB OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF PRVAL MORE EVINT EVPNT EVNUM EVKIND
+; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF PRVAL MORE EVINT EVPNT EVNUM EVKIND
 ;         ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   587 bytes
+; Room:   586 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -20,7 +20,7 @@
 
 STKGAP  EQU BDSTK+64    ; stack bytes that the deepest operation may need
 
-;! TATG-TSQR == QATG-QSQRT and TABS == TATG+1 and QABS == QATG+1 -- FNTAB: functions stand as in OPTAB
+;! TINTF-TSQR == QINT-QSQRT -- OPFN: functions stand as in OPTAB (SQR SIN COS TG ATG ABS INT)
 ;! TK2 == TK1+1 and TK3 == TK1+2 and TK1 == TINTF+1 -- OPFN tells K1 K2 K3 from the others
 ;! CONTAB/100H == (CONTAB+10)/100H -- FIND changes the low byte alone for O and X
 ;! KPNT == KNUM+1 and KCIR == KPNT+1 and KLIN == KCIR+1 and KTURN == KLIN+1 -- SETK, KINDOF and BINOP count kinds
@@ -101,24 +101,13 @@ OPFN:   PUSH    PSW
         JNC     OPK
         XRA     A
         CALL    KINDIS          ; of a number
-        LXI     H,FNTAB-2*TSQR+256 ; (JTAB takes 2*A in a byte)
-        MOV     A,B
-; (fall into JTAB)
-
-; JTAB - jumps to entry A of a table of addresses
-; In:  A = index, 2*A taken as a byte, HL -> table   Out: the entry runs with HL -> a0
-; Clobbers A, BC
-JTAB:   ADD     A
-        CALL    ADDA
-        MOV     C,M
-        INX     H
-        MOV     B,M
         PUSH    B
-        LXI     H,MA
-        RET
-
-; SQR SIN COS TG ATG ABS INT: the calculator's operations, in order
-FNTAB   EQU OPTAB+2*(QSQRT-1)
+        DB      CALC,LA0,QEND   ; a
+        POP     PSW
+        SUI     TSQR-QSQRT      ; the number of its operation
+        LXI     B,OPFN1
+        JMP     CALC3
+OPFN1:  DB      SA0,QRET        ; -
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
 OPK:    MOV     B,A
@@ -388,12 +377,12 @@ NOTURN: LDA     VKIND
         RNZ
         DB      ERROR,EKIND
 
-; FINT - INT: greatest whole number not above, nearly whole ones taken as whole
-; In:  a0   Out: a0   Clobbers all
+; FINT - INT (QINT): greatest whole number not above, nearly whole ones taken as whole
+; In:  x = a0   Out: on the calculator's stack   Clobbers all
 FINT:   CALL    NRINT
-        LXI     H,MA
-        JNZ     FFLR
-        DB      CALC,LB0,SA0,QRET ; -
+        JZ      FINT1
+        DB      CALC,QFLR,QRET  ; whole
+FINT1:  DB      CALC,QDRP,LB0,QRET ; whole
 
 ; NRINT - nearest whole number
 ; In:  a0   Out: b0 = it, Z set when a0 is nearly equal to it   Clobbers all

@@ -24,8 +24,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ASM = Path(__file__).resolve().parent
-#: Belong to everybody: names, and the words with their routines (made by the build: words.py).
-COMMON = ("equ", "map_rom", "words")
+#: Belong to everybody: names, the operations of the calculator and the words with their routines (words.py).
+COMMON = ("equ", "map_rom", "ops", "words")
 #: Names that a file calls upwards, each at one place that says so. Who is called there depends on the image, or is
 #: somebody who could not be below.
 HOOKS = {
@@ -48,7 +48,7 @@ DEFINITION = re.compile(r"^(\w+)(?::|\s+EQU\b)")
 STATEMENT = re.compile(r"^(?:\w+:)?\s*(?:\w+\s+EQU|\w+)\s+(.*)")
 WORD = re.compile(r"(?<![\w&])[A-Z][A-Z0-9]*\b")
 TEXT = re.compile(r'"[^"]*"')
-OPERATION = re.compile(r"^(Q\w+)\s+EQU\s+(?:(\w+)H|QOWN\+(\d+))\b")
+OPERATION = re.compile(r"^(Q\w+)\s+EQU\s+(\w+)H\b")
 TABLE = re.compile(r"(?:OPTAB:)?\s+DW\s+(.*)")
 #: A header's line, with those that go on with it, further in.
 OFFERS = re.compile(r"^; Offers:.*\n(?:;  +.*\n)*", re.M)
@@ -75,17 +75,14 @@ def operations(rooms: dict[str, Room]) -> dict[str, str]:
     """Routine by operation of the calculator, from the numbers of the one and the order of OPTAB."""
     numbers: dict[str, int] = {}
     routines: list[str] = []
-    in_table = False
     for room in rooms.values():
+        in_table = False
         for line in room.lines:
             if found := OPERATION.match(line):
-                numbers[found[1]] = int(found[2], 16) if found[2] else numbers["QOWN"] + int(found[3])
-            in_table |= line.startswith("OPTAB:")
+                numbers[found[1]] = int(found[2], 16)
+            in_table = in_table or line.startswith("OPTAB:")
             if in_table and (table := TABLE.match(code(line))):
                 routines += [name.strip() for name in table[1].split(",")]
-        if in_table and room.name != "calc":
-            break
-    numbers.pop("QOWN", None)
     return {name: routines[n - 1] for name, n in numbers.items() if 1 <= n <= len(routines)}
 
 

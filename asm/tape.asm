@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: MOVE PUTBLK PUTB2 XRND XVK QUAD SETZG
 ; Uses:   calc consts float io io_punch io_tty lexer start
-; Room:   222 bytes
+; Room:   220 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -83,14 +83,14 @@ PUTB4:  DB      QEND
 ; Operations of the calculator that the tape adds
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
-XRND:   DB      CALC,Q1000,QMUL         ; um
+XRND:   DB      Q1000,QMUL         ; um
         DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
         DB      QFLR,Q8DIG,QOVR,QSUB    ; um |whole| room
         DB      QJN
         DB      PUTB4-$
         DB      QSWP,QSIG,QRET          ; whole
 ; QVK: V = K in whole um; A = K, since the wire goes there (by no fillet, for all that is known here)
-XVK:    DB      CALC,Q0,SSG     ; -
+XVK:    DB      Q0,SSG     ; -
         DB      LKX,QDUP,SAX,QRND,SVX   ; -
         DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -
 

@@ -21,6 +21,10 @@ ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
 
 #: Where the tests keep operands and stack: free RAM, away from the calculator's cells.
 X, Y, STACK = 0x3000, 0x3008, 0x3F00
+#: Likewise a few instructions of their own.
+CODE = 0x3E80
+#: Cycles of a CALL.
+CALL = 17
 ERROR = 0x0008
 ESYN, ERANGE = 1, 5
 HIDDEN = np.uint64(1 << 31)
@@ -235,6 +239,29 @@ class Firmware:
         self.machine.call(self.symbols["CALINI"])
         batch = self.batch(name, x.bytes(), X, 5, hl=X)
         assert batch.failures or self.machine.peek16(self.symbols["FSP"]) == self.symbols["FSTK"]
+        return results(batch)
+
+    def function(self, name: str, x: Floats) -> tuple[NDArray[np.uint8], Batch]:
+        """The same for an operation that takes its number from the calculator's stack; its own cycles alone."""
+        names = self.symbols
+
+        def calls(routine: bytes) -> bytes:
+            """CALL CALINI; LXI D,X; CALL OOVR; LXI H,FSTK; the routine; LXI D,X; JMP CALPOP."""
+            words = [names["CALINI"], X, names["OOVR"], names["FSTK"], X, names["CALPOP"]]
+            parts = [word.to_bytes(2, "little") for word in words]
+            return b"".join([b"\xcd", parts[0], b"\x11", parts[1], b"\xcd", parts[2], b"\x21", parts[3], routine,
+                             b"\x11", parts[4], b"\xc3", parts[5]])  # fmt: skip
+
+        def run(routine: bytes, rows: NDArray[np.uint8]) -> Batch:
+            self.machine.poke(CODE, calls(routine))
+            return self.machine.batch(
+                CODE, len(rows), np.ascontiguousarray(rows).tobytes(), X, X, 5, stops=[ERROR], sp=STACK
+            )
+
+        around = run(b"", x.bytes()[:1]).cycles[0]
+        batch = run(b"\xcd" + names[name].to_bytes(2, "little"), x.bytes())
+        assert batch.failures or self.machine.peek16(names["FSP"]) == names["FSTK"]
+        batch.cycles[:] -= around + CALL
         return results(batch)
 
 

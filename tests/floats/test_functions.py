@@ -59,7 +59,7 @@ def arguments(name: str) -> list[Fraction]:
 def test_function(firmware: Firmware, record_property: Report, name: str) -> None:
     """Worst relative error below 2^-30; what is not near a zero of the function is held to that alone."""
     inputs = rows(arguments(name))
-    got, batch = firmware.unary(name, from_rows(inputs))
+    got, batch = firmware.function(name, from_rows(inputs))
     assert not batch.failures
     worst = 0.0
     for row, answer in zip(inputs, got, strict=True):
@@ -78,7 +78,7 @@ def test_function(firmware: Firmware, record_property: Report, name: str) -> Non
 def test_exact(firmware: Firmware, name: str) -> None:
     """Where the true value is 0, 1/2, 1 or 45 and has an exact argument, so is the answer."""
     table = EXACT[name]
-    got, _ = firmware.unary(name, from_rows(rows([Fraction(number) for number in table])))
+    got, _ = firmware.function(name, from_rows(rows([Fraction(number) for number in table])))
     assert {n: value(row) for n, row in zip(table, got, strict=True)} == table
 
 
@@ -86,9 +86,9 @@ def test_no_tangent(firmware: Firmware) -> None:
     """TG of odd multiples of 90 is an error, of their neighbours it is not."""
     angles = [Fraction(90 + 180 * k) for k in range(-4, 5)]
     for angle in angles:
-        got, _ = firmware.unary("FTG", from_rows(rows([angle])))
+        got, _ = firmware.function("FTG", from_rows(rows([angle])))
         assert (got == 255).all()
-    got, _ = firmware.unary("FTG", from_rows(rows([angle + Fraction(1, 10**5) for angle in angles])))
+    got, _ = firmware.function("FTG", from_rows(rows([angle + Fraction(1, 10**5) for angle in angles])))
     assert all(value(row) < -(10**6) for row in got)
 
 
@@ -97,17 +97,17 @@ def test_far_away(firmware: Firmware) -> None:
     for power in (30, 33, 34):
         number = Fraction(2) ** power - 1000 * (power < 34)
         for name in ("FSIN", "FCOS"):
-            got, _ = firmware.unary(name, from_rows(rows([number])))
+            got, _ = firmware.function(name, from_rows(rows([number])))
             if power == 34:
                 assert (got == 255).all()
             else:
                 true = float(TRUE[name](mp.mpf(int(number))))
                 assert abs(float(value(got[0])) / true - 1) <= BOUND
-    got, _ = firmware.unary("FATG", from_rows(rows([Fraction(10) ** 38, -Fraction(10) ** 38])))
+    got, _ = firmware.function("FATG", from_rows(rows([Fraction(10) ** 38, -Fraction(10) ** 38])))
     assert [value(row) for row in got] == [90, -90]
     tiny = Fraction(1, 10**30)
     for name in ("FSIN", "FTG"):
-        got, _ = firmware.unary(name, from_rows(rows([tiny, -tiny])))
+        got, _ = firmware.function(name, from_rows(rows([tiny, -tiny])))
         up, down = map(value, got)
         assert up == -down
         assert abs(float(up) * 180 / np.pi / 1e-30 - 1) < 1e-8

@@ -426,6 +426,18 @@ def beside_a_circle(rng: Random) -> Statements:
     return lines
 
 
+def within_the_circle(rng: Random) -> Statements:
+    """TOL above the arcs' radii: few nodes, close together, some with tangents; small whole numbers too."""
+    x, y = somewhere(rng)
+    digits = rng.choice([0, 1, 4])
+    lines = [tol(rng, 1, 9)]
+    for n in range(rng.randint(3, 9)):
+        at = (round(x + 3 * n + rng.uniform(-4, 4), digits), round(y + rng.uniform(-5, 5), digits))
+        way = f",{rng.randint(-180, 180)}" if rng.random() < 0.4 else ""
+        lines.append(f"FIT {point(*at)}{way}")
+    return lines
+
+
 #: The families of TOL.
 TOL_FAMILIES: list[Family] = [dense, dense_loop, on_a_circle, on_a_line, rounds, coarse, two_tols, odd_nodes]
-TOL_FAMILIES += [shaken, beside_a_circle]
+TOL_FAMILIES += [shaken, beside_a_circle, within_the_circle]

@@ -1,7 +1,7 @@
 """The committed images: built anew they are the same, and they hold nothing but 8080 code.
 
 The opcode table and the walk through the image are the test's own: from the restarts, along every jump and
-call, over the data that stands behind RST 1, RST 4, RST 5 and calls of FUN (the calculator's byte-code) and of PUTSI.
+call, over the data that stands behind RST 1, RST 4, RST 5 (the calculator's byte-code) and calls of PUTSI.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ class Walk:
                 waiting.append(target)
             if name == "RST 4":
                 waiting.append(at + 2)
-            elif name == "RST 5" or (name == "CALL" and target == self.names["FUN"]):
+            elif name == "RST 5":
                 waiting += self.calculator(at + length)
             elif name == "CALL" and target == self.names["PUTSI"]:
                 waiting.append(1 + next(n for n in range(at + 3, ROM_SIZE) if self.image[n] & 0x80))
@@ -239,16 +239,21 @@ def walked(name: str, planted: dict[int, bytes] | None = None) -> Walk:
     for at, data in (planted or {}).items():
         image[at : at + len(data)] = data
     walk = Walk(bytes(image), labels(name))
-    walk.follow(starting(name))
+    walk.follow(starting(name, walk))
     return walk
 
 
-def starting(name: str) -> list[int]:
-    """Where code begins that no other leads to: the restarts and what stands in tables."""
+def starting(name: str, walk: Walk) -> list[int]:
+    """Where code begins that no other leads to: the restarts and what stands in tables; of the calculator's operations
+    that are byte-code, what stands behind it."""
     starts = list(range(0, 0x40, 8))
+    first = labels(name)["OPTAB"] + 2 * (labels(name)["OPBYTE"] - 1)
     for line in listed(name):
         if line.mnemonic == "DW":
-            starts += [int.from_bytes(line.data[n : n + 2], "little") for n in range(0, len(line.data), 2)]
+            for n in range(0, len(line.data), 2):
+                target = int.from_bytes(line.data[n : n + 2], "little")
+                bytecode = first <= line.at + n < labels(name)["OPEND"]
+                starts += walk.calculator(target) if bytecode else [target]
     return starts
 
 
@@ -286,7 +291,7 @@ def test_only_8080_code_is_reached(name: str) -> None:
     image = (ROMS / f"{name}.bin").read_bytes()
     lines = listed(name)
     walk = Walk(image, labels(name))
-    walk.follow(starting(name))
+    walk.follow(starting(name, walk))
     instructions = {line.at for line in lines if line.mnemonic not in ("DB", "DW", "DS")}
     # The walk is the listing's code, but for a DB that skips the one or two bytes behind it.
     strays = walk.code - instructions

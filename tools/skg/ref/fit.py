@@ -105,7 +105,11 @@ def excess(p: Point, t: Point, w: Point, node: Point, tolerance: Real) -> Real:
     """
     q = node - p
     k = t.cross(w) / w.dot(w)
-    return max(abs(k * (q.dot(q) - tolerance**2) - t.cross(q)) - tolerance, -q.dot(t))
+    off = k * (q.dot(q) - tolerance**2) - t.cross(q)
+    outside, inside = (off, -off) if k > 0 else (-off, off)
+    if 2 * abs(k) * tolerance > 1:  # within the circle nothing is farther from it than its radius
+        inside = outside
+    return max(max(outside, inside) - tolerance, -q.dot(t))
 
 
 def arc(p: Point, t: Point, q: Point) -> Circle | None:
