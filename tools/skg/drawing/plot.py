@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil, cos, degrees, hypot, pi, sin
+from math import cos, pi, sin
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Polygon
@@ -38,36 +40,52 @@ class Sheet:
     contour: tuple[Piece, ...] = ()
 
 
-def _arc(centre: XY, radius: float, first: float, last: float) -> Outline:
-    """An arc from angle `first` to `last` (radians, any sense) as Bézier curves of at most 22.5°: true to
-    one part in 10⁸."""
-    low, high = sorted((first, last))
-    unit = Outline.arc(degrees(low), degrees(high), n=max(1, ceil((high - low) / (pi / 8))))
-    if high - low >= 2 * pi - 1e-12:
-        unit = Outline.arc(degrees(low), degrees(low) + 360 - 1e-9, n=16)
-    vertices = unit.vertices * radius + centre
-    # Reversing the points of a chain of cubic curves reverses the chain; the codes are the same either way.
-    return Outline(vertices if last >= first else vertices[::-1], unit.codes)
+def _path(pieces: Sequence[Piece], scale: float = 1.0) -> Outline:
+    """One curve of lines and arcs that follow each other: the pen stays down between them. `scale` is a millimetre over
+    the pieces' unit. Arcs are Bézier curves of at most 22.5°: true to one part in 10⁸.
+    """
+    starts = np.array([piece.start for piece in pieces])
+    ends = np.array([piece.end for piece in pieces])
+    arcs = np.array([not piece.is_line for piece in pieces])
+    counts = np.ones(len(pieces), int)
+    if arcs.any():
+        drawn = [piece for piece in pieces if not piece.is_line]
+        sweeps = np.array([piece.sweep for piece in drawn])
+        curves = np.maximum(1, np.ceil(abs(sweeps) / (pi / 8) - 1e-9).astype(int))
+        counts[arcs] = 3 * curves
+    # Where each piece begins among all vertices, its start included.
+    first = np.concatenate([[0], np.cumsum(counts + 1)])
+    vertices = np.empty((first[-1], 2))
+    vertices[first[:-1]] = starts
+    vertices[first[1:] - 1] = ends
+    codes = np.full(first[-1], Outline.LINETO)
+    if arcs.any():
+        of = np.repeat(np.arange(len(drawn)), curves)
+        at = np.arange(len(of)) - np.repeat(np.cumsum(curves) - curves, curves)
+        centres = np.array([piece.centre for piece in drawn])
+        arms = starts[arcs] - centres
+        radii, angles, steps = np.hypot(*arms.T), np.arctan2(arms[:, 1], arms[:, 0]), sweeps / curves
+        # The control points of an arc as L. Maisonobe has them, "Drawing an elliptical arc".
+        reach = np.sin(steps) * (np.sqrt(4 + 3 * np.tan(steps / 2) ** 2) - 1) / 3
+        for ahead in (0, 1):
+            angle = angles[of] + (at + ahead) * steps[of]
+            way = np.column_stack([np.cos(angle), np.sin(angle)])
+            across = np.column_stack([-way[:, 1], way[:, 0]]) * (reach[of] * (1 - 2 * ahead))[:, None]
+            place = first[:-1][arcs][of] + 3 * at + 1
+            vertices[place + ahead] = centres[of] + radii[of, None] * (way + across)
+            if ahead:
+                vertices[place + 2] = centres[of] + radii[of, None] * way
+        codes[np.concatenate([place, place + 1, place + 2])] = Outline.CURVE4
+    vertices *= scale
+    apart = np.hypot(*(vertices[first[1:-1]] - vertices[first[1:-1] - 1]).T) >= 0.01
+    codes[0] = Outline.MOVETO
+    codes[first[1:-1][apart]] = Outline.MOVETO
+    return Outline(vertices, codes)
 
 
 def outline(piece: Piece, scale: float = 1.0) -> Outline:
     """A line or an arc, mm; `scale` is a millimetre over the piece's unit."""
-    if piece.is_line:
-        return Outline([(x * scale, y * scale) for x, y in (piece.start, piece.end)])
-    centre = piece.centre[0] * scale, piece.centre[1] * scale
-    return _arc(centre, piece.radius * scale, *piece.angles)
-
-
-def _join(curves: list[Outline]) -> Outline:
-    """One curve of many that follow each other: the pen stays down between them."""
-    joined = Outline.make_compound_path(*curves)
-    codes = joined.codes.copy()
-    end = None
-    for at in range(len(codes)):
-        if codes[at] == Outline.MOVETO and end is not None and hypot(*(joined.vertices[at] - end)) < 0.01:
-            codes[at] = Outline.LINETO
-        end = joined.vertices[at]
-    return Outline(joined.vertices, codes)
+    return _path([piece], scale)
 
 
 class Picture:
@@ -134,27 +152,27 @@ class Picture:
             if numbers:
                 self._numbers(route, colour)
         if sheet.contour:
-            curve = _join([outline(piece) for piece in sheet.contour])
+            curve = _path(sheet.contour)
             patch = PathPatch(curve, fill=False, edgecolor="#555555", linewidth=0.5, zorder=1.5)
             patch.set_gid(f"{name}-contour")
-            self.axes.add_patch(patch)
+            self.axes.add_artist(patch)
 
     def _route(self, route: PlacedRoute, colour: str, gid: str, wire: float) -> None:
-        curve = _join([outline(placed, 0.001) for placed in route.blocks])
+        curve = _path(route.blocks, 0.001)
         if wire and not route.is_move:
             kerf = PathPatch(curve, fill=False, edgecolor=colour, alpha=0.25, capstyle="round",
                              joinstyle="round", linewidth=wire * self.description["mm_to_points"], zorder=1)
             kerf.set_gid(f"{gid}-kerf")
-            self.axes.add_patch(kerf)
+            self.axes.add_artist(kerf)
         path = PathPatch(curve, fill=False, edgecolor=colour, linewidth=0.8, zorder=2,
                          linestyle=(0, (4, 2)) if route.is_move else "solid", joinstyle="round")
         path.set_gid(gid)
-        self.axes.add_patch(path)
+        self.axes.add_artist(path)
         x, y = (ordinate / 1000 for ordinate in route.start)
         if not route.is_move:
             hole = Circle((x, y), self.on_paper(1), fill=False, edgecolor=colour, linewidth=0.8, zorder=4)
             hole.set_gid(f"{gid}-start")
-            self.axes.add_patch(hole)
+            self.axes.add_artist(hole)
 
     def stop(self, point: XY, gid: str) -> None:
         """Mark a place where the controller stops."""
@@ -163,7 +181,7 @@ class Picture:
         corners = [(x - size, y - size), (x + size, y - size), (x + size, y + size), (x - size, y + size)]
         mark = Polygon(corners, fill=False, edgecolor="#333333", linewidth=0.7, zorder=4)
         mark.set_gid(gid)
-        self.axes.add_patch(mark)
+        self.axes.add_artist(mark)
 
     def _arrows(self, route: PlacedRoute, colour: str) -> None:
         """Arrow heads along the route, no nearer to each other than 25 mm on the paper, at least one."""
@@ -179,7 +197,7 @@ class Picture:
             way, size = placed.direction(0.5), self.on_paper(1.3)
             head = [(x + size * 1.4 * cos(way + turn), y + size * 1.4 * sin(way + turn))
                     for turn in (0, 2.5, -2.5)]
-            self.axes.add_patch(Polygon(head, facecolor=colour, edgecolor="none", zorder=5))
+            self.axes.add_artist(Polygon(head, facecolor=colour, edgecolor="none", zorder=5))
 
     def _numbers(self, route: PlacedRoute, colour: str) -> None:
         """Block numbers, on the left of travel."""

@@ -8,6 +8,7 @@ always see the same points.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
 
 #: No x, y or J has more digits.
@@ -71,7 +72,7 @@ class Block:
         """0 for a line, 1 for a counter-clockwise arc (NR), −1 for a clockwise one (SR)."""
         return {"L": 0, "N": 1, "S": -1}[self.code[0]]
 
-    @property
+    @cached_property
     def start(self) -> tuple[int, int]:
         """Where the block starts: a line at (0, 0), an arc relative to its centre."""
         if self.is_line:
@@ -108,7 +109,7 @@ class Block:
         square = self.x**2 + self.y**2 - 1
         return isqrt(square - 1) + 1 if square > 0 else 0
 
-    @property
+    @cached_property
     def is_full_circle(self) -> bool:
         """True for an arc that counts four radii."""
         return not self.is_line and self.j in (4 * self.radius, 4 * self.turn)
@@ -131,7 +132,7 @@ class Block:
             distance = 0 if shrinks else radius
             quadrant = next_quadrant(quadrant, self.sense)
 
-    @property
+    @cached_property
     def end(self) -> tuple[int, int]:
         """Where the block should end, relative to the same origin as `start`.
 
@@ -159,7 +160,7 @@ class Block:
         (xs, ys), (xe, ye) = self.start, self.end
         return xe - xs, ye - ys
 
-    @property
+    @cached_property
     def sweep(self) -> float:
         """An arc's signed sweep in radians, 0 for a line; a full circle is ±2π."""
         if self.is_line:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from math import atan2, pi
+from math import atan2, ceil, floor, pi
 
 from skg.piece import Piece
-from skg.plane import XY, minus
+from skg.plane import XY, minus, polar
 from skg.tape.block import Block, Tape
 from skg.tape.controller import run_block
 from skg.tape.moves import closed_moves
@@ -125,10 +125,21 @@ def lay(tape: Tape, start: XY,
 
 def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
     """Smallest and largest x and y (xmin, ymin, xmax, ymax) of the routes in µm, bulges of arcs included."""
-    points = [placed.at(part) for route in routes for placed in route.blocks
-              for part in ((0, 1) if placed.is_line else [k / 32 for k in range(33)])]
-    xs, ys = [x for x, _ in points] or [0], [y for _, y in points] or [0]
-    return min(xs), min(ys), max(xs), max(ys)
+    low = high = (0.0, 0.0)
+    for at, placed in enumerate(placed for route in routes for placed in route.blocks):
+        points = [placed.start, placed.end, *([] if placed.is_line else _bulges(placed))]
+        if at == 0:
+            low = high = placed.start
+        low = min(low[0], *(x for x, _ in points)), min(low[1], *(y for _, y in points))
+        high = max(high[0], *(x for x, _ in points)), max(high[1], *(y for _, y in points))
+    return *low, *high
+
+
+def _bulges(placed: Placed) -> Iterator[XY]:
+    """Where an arc has its extremes, but for its ends."""
+    first, last = sorted(placed.angles)
+    for quarter in range(ceil(first / (pi / 2)), floor(last / (pi / 2)) + 1):
+        yield polar(placed.centre, placed.radius, quarter * pi / 2)
 
 
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:

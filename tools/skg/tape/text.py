@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
@@ -12,6 +13,10 @@ from skg.tape.styles import read_any, to_style
 
 #: How the name of a file ends that holds a tape without drift.
 WITHOUT_DRIFT = ".nodrift.3b"
+
+
+_DIGITS = rf"(0|[1-9]\d{{0,{MAX_DIGITS - 1}}})"
+_BLOCK = re.compile(rf"B{_DIGITS}B{_DIGITS}B{_DIGITS}G([XY])({'|'.join(CODES)})", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -78,6 +83,10 @@ def parse_block(text: str, number: int = 0) -> Block:
 
 
 def _parse(text: str, number: int) -> Block:
+    if block := _BLOCK.fullmatch(text):
+        x, y, j, axis, code = block.groups()
+        return Block(int(x), int(y), int(j), axis, code, number)
+    # Something is wrong: where, and what was expected?
     scanner = _Scanner(text)
     values = []
     for name in ("x", "y", "J"):
