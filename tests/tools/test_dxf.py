@@ -7,7 +7,9 @@ import os
 import subprocess
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from functools import cache
+from io import StringIO
 from itertools import pairwise, product
 from math import atan2, cos, hypot, pi, radians, sin, tan
 from pathlib import Path
@@ -29,6 +31,7 @@ from skg.drawing.account import Content
 from skg.drawing.chain import chain, merged
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.dxf import draw
+from skg.drawing.dxf import write as write_drawing
 from skg.drawing.plan import plan
 from skg.drawing.source import lay_out
 from skg.drawing.wishes import Wishes
@@ -36,7 +39,7 @@ from skg.drawing.write import write
 from skg.errors import UserError
 from skg.plane import XY, distance, minus, polar
 from skg.ref import run as run_reference
-from skg.tape import Block
+from skg.tape import Block, Stop
 from skg.tape.joints import estimate
 from skg.tape.placed import place
 
@@ -324,6 +327,24 @@ def test_any_tape_draws(items: list[Block]) -> None:
             for placed in route.blocks:
                 points = [(x / 1000, y / 1000) for x, y in (placed.start, placed.at(0.5), placed.end)]
                 assert off(points, found).max() < 2 + 1e-6 * placed.block.length
+
+
+@given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0))), min_size=1, max_size=12), st.booleans())
+@settings(max_examples=30, deadline=None)
+def test_written_as_drawn(items: list[Block | Stop], polylines: bool) -> None:
+    """What is written piece by piece is the drawing that ezdxf makes entity by entity, and ezdxf finds it sound."""
+    tape = tapes.Tape("-", tuple(replace(item, number=at) if isinstance(item, Block) else item
+                                 for at, item in enumerate(items, 1)))
+    routes = place(tape, positions="programmed")
+    text = StringIO()
+    write_drawing(text, routes, [(0.0, 0.0), (1.5, -2.0)], polylines)
+    written, drawn = ezdxf.read(StringIO(text.getvalue())), draw(routes, [(0.0, 0.0), (1.5, -2.0)], polylines)
+    assert not written.audit().errors
+    ones, others = (
+        [(one.dxftype(), one.dxf.layer, list(one.get_points()) if one.dxftype() == "LWPOLYLINE" else None,
+          {name: value for name, value in one.dxfattribs().items() if name not in ("handle", "owner")})
+         for one in drawing.modelspace()] for drawing in (written, drawn))
+    assert ones == others and len(ones) >= 2
 
 
 @pytest.mark.parametrize("block", ["B1B0B1GXNR1", "B1B1B1GXSR1", "B2B1B3GYNR1", "B2B2B1GYSR3"])

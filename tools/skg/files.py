@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TextIO
 
 from skg.errors import UserError
 
@@ -24,6 +27,19 @@ def read_ascii(path: str) -> str:
         return data.decode("ascii")
     except UnicodeDecodeError as error:
         raise UserError(f"{path}: byte {error.start + 1} is not ASCII") from None
+
+
+@contextmanager
+def text_output(path: str) -> Iterator[TextIO]:
+    """A file to write ASCII text to, piece by piece."""
+    if path != "-":
+        with Path(path).open("w", encoding="ascii", newline="") as stream:
+            yield stream
+        return
+    if sys.stdout is None:
+        raise UserError("standard output: closed")
+    yield sys.stdout
+    sys.stdout.flush()
 
 
 def write_bytes(path: str, data: bytes) -> None:

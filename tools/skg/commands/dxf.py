@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
-
 import click
 
 from skg.commands.options import Coordinates, decided, positions_option, skg80_option
-from skg.files import write_bytes
+from skg.files import text_output
 from skg.plane import XY
 
 
@@ -29,11 +27,10 @@ def command(file: str, output: str, start: XY | None, polylines: bool, positions
     Layers: WIRE what is cut, LEAD the way from the start hole to the contour, MOVES positioning, START and
     STOPS points. FILE - is a tape on the standard input.
     """
-    from skg.drawing.dxf import draw
+    from skg.drawing.dxf import write
     from skg.drawing.source import lay_out, load
 
     made = load(file, skg80)
     routes, stops = lay_out(made, start or made.start, decided(made.tape, positions), joints)
-    text = io.StringIO()
-    draw(routes, stops, polylines).write(text)
-    write_bytes(output, text.getvalue().encode())
+    with text_output(output) as stream:
+        write(stream, routes, stops, polylines)

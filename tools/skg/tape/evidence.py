@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from math import floor, log
+from math import log, pi
 
-import numpy as np
-
+from skg.plane import dot
 from skg.tape.block import Block, Tape
-from skg.tape.roundings import closes, end_on_machine, gap_of, goes, likelihood
+from skg.tape.roundings import closes, end_on_machine, gap_of, goes, likelihood, whole_ends
 
 #: Log likelihood for a tape without drift where a route closes on the machine alone; against it, as programmed alone.
 _SURE = 10
@@ -51,16 +50,12 @@ def _evidence_of_circle(block: Block) -> float:
 
 def _evidence(block: Block) -> float:
     """Log likelihood of an arc on a tape without drift, against any other tape."""
-    start, end, across = np.array(block.start), end_on_machine(block), block.across
-    is_near = start @ end >= 0
-    if is_near and abs(block.sweep) > np.pi:
+    if dot(block.start, end_on_machine(block)) >= 0 and abs(block.sweep) > pi:
         # The centre was not moved.
         return 0.0
     density = 0.0
-    for whole in range(floor(end[across]) - 2, floor(end[across]) + 4):
-        place = end.copy()
-        place[across] = whole
-        if place @ place == block.x**2 + block.y**2:
+    for place in whole_ends(block):
+        if dot(place, place) == block.x**2 + block.y**2:
             # A drawing on whole micrometres: its arcs fit on any tape.
             return 0.0
         density += likelihood(block, place)

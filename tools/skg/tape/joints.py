@@ -8,12 +8,12 @@ each axis.
 
 from __future__ import annotations
 
-from itertools import accumulate, pairwise
-from math import cos, exp, floor, hypot, sin, sqrt
+from itertools import pairwise
+from math import cos, exp, hypot, sin, sqrt
 
 import numpy as np
 
-from skg.plane import XY
+from skg.plane import XY, distance, dot, minus
 from skg.tape.block import Block, Tape
 from skg.tape.placed import Placed, PlacedRoute, lay
 from skg.tape.roundings import (
@@ -26,6 +26,7 @@ from skg.tape.roundings import (
     goes,
     likelihood,
     move_of,
+    whole_ends,
 )
 
 #: Arcs of a larger sweep (radians) were drawn as arcs; those of fitted curves are shorter.
@@ -71,25 +72,28 @@ def _same_radii(radii: dict[int, float]) -> Radii:
     return found
 
 
-def _between(start: Vector, end: Vector, centre: Vector) -> Vector:
+def _between(start: XY, end: XY, centre: XY) -> XY:
     """The centre moved along the chord to where start and end are equally far from it."""
-    chord = end - start
-    square = chord @ chord
-    return centre + ((start + end) / 2 - centre) @ chord / square * chord if square else centre
+    dx, dy = minus(end, start)
+    square = dx * dx + dy * dy
+    if not square:
+        return centre
+    part = (((start[0] + end[0]) / 2 - centre[0]) * dx + ((start[1] + end[1]) / 2 - centre[1]) * dy) / square
+    return centre[0] + part * dx, centre[1] + part * dy
 
 
-def _placed(blocks: list[Block], joints: list[Vector], centres: list[Vector]) -> list[Placed]:
+def _placed(blocks: list[Block], joints: list[XY], centres: list[XY]) -> list[Placed]:
     """Blocks between their joints, arcs about the centres moved between them."""
     found = []
     for block, (start, end), centre in zip(blocks, pairwise(joints), centres, strict=True):
         if block.is_arc:
             centre = _between(start, end, centre)
-        found.append(Placed.between(block, _xy(start), _xy(end), _xy(centre)))
+        found.append(Placed.between(block, start, end, centre))
     return found
 
 
-def _xy(point: Vector) -> XY:
-    return float(point[0]), float(point[1])
+def _xys(points: Vector) -> list[XY]:
+    return [(x, y) for x, y in points.tolist()]
 
 
 # A tape with drift ----------------------------------------------------------------------------------------
@@ -100,33 +104,38 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
     gap, spread = gap_of(blocks)
     is_closed = len(blocks) > 1 and closes(gap, spread)
     misses = Misses(blocks, is_closed)
-    roundings, pulls = misses.none(), misses.pulls()
+    pulls = misses.pulls().tolist()
+    known = misses.none().tolist()
     for k, block in enumerate(blocks):
         if block.number not in radii:
             continue
         # A radius is a condition on δ and γ of its own: s·(δ₀ − γ) = the tape's radius − the true one.
-        radius = hypot(block.x, block.y)
-        first, joint, centre = np.array(block.start) / radius, misses.joints[k], misses.centres[k]
+        radius, joint, centre = hypot(block.x, block.y), misses.joints[k], misses.centres[k]
+        first = block.start[0] / radius, block.start[1] / radius
         half = (radius - radii[block.number][0]) / 2
-        roundings[joint] += half * first
-        roundings[centre] -= half * first
+        _shift(known[joint], known[centre], half, first)
         # What closes the route shall not disturb it.
         for pull in pulls:
-            part = (pull[joint] - pull[centre]) @ first / 2
-            pull[joint] -= part * first
-            pull[centre] += part * first
+            _shift(pull[joint], pull[centre], -dot(minus(pull[joint], pull[centre]), first) / 2, first)
+    roundings = np.array(known)
     if is_closed:
-        products = np.einsum("ikl,jkl->ij", pulls, pulls)
+        ways = np.array(pulls)
+        products = np.einsum("ikl,jkl->ij", ways, ways)
         roundings += np.einsum("i,ikl->kl", np.linalg.pinv(products, rcond=1e-9)
-                               @ (gap - misses.of(roundings).sum(axis=0)), pulls)
-    ends = misses.of(roundings)
+                               @ (gap - misses.of(roundings).sum(axis=0)), ways)
     # The rounded joints as far as the estimate goes, and from them the true ones.
-    rounded = list(accumulate((move_of(block) - end for block, end in zip(blocks, ends, strict=True)),
-                              initial=np.array(at, float)))
-    joints = [place - roundings[joint] for place, joint in zip(rounded, misses.joints, strict=True)]
-    centres = [place - block.start - roundings[centre]
-               for block, place, centre in zip(blocks, rounded, misses.centres, strict=False)]
-    return _placed(blocks, joints, centres), _xy(rounded[-1])
+    moves = np.array([move_of(block) for block in blocks]) - misses.of(roundings)
+    rounded = np.concatenate([[at], at + np.cumsum(moves, axis=0)])
+    joints = rounded - roundings[misses.joints]
+    centres = rounded[:-1] - [block.start for block in blocks] - roundings[misses.centres.start : misses.centres.stop]
+    return _placed(blocks, _xys(joints), _xys(centres)), _xys(rounded[-1:])[0]
+
+
+def _shift(one: list[float], other: list[float], by: float, way: XY) -> None:
+    """Move one rounding by so much along `way`, and the other one against it."""
+    for k in (0, 1):
+        one[k] += by * way[k]
+        other[k] -= by * way[k]
 
 
 # A tape without drift -------------------------------------------------------------------------------------
@@ -134,46 +143,46 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
 def _from_machine(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Placed], XY]:
     """Lay out a route whose blocks start where the controller stands: an arc meant to end at the rounded place that
     its centre was moved for, a line and a circle do end there."""
-    stands = list(accumulate((np.array(goes(block)) for block in blocks), initial=np.array(at)))
-    joints, centres = [np.array(at, float)], []
+    stands = [at]
+    for dx, dy in map(goes, blocks):
+        stands.append((stands[-1][0] + dx, stands[-1][1] + dy))
+    joints, centres = [at], []
     for block, (start, end) in zip(blocks, pairwise(stands), strict=True):
-        centre = np.array(start - block.start, float)
+        centre = minus(start, block.start)
         if block.is_arc:
-            end = centre + _meant(block, joints[-1] - centre, radii.get(block.number))
+            x, y = _meant(block, minus(joints[-1], centre), radii.get(block.number))
+            end = centre[0] + x, centre[1] + y
         elif block.number in radii and not block.is_line:
             # A circle among circles of its size: half of what its radius is off is due to the start, half to the
             # centre, see `_from_programmed`.
             radius = hypot(block.x, block.y)
             half = (radius - radii[block.number][0]) / 2 / radius
-            joints[-1] = end = start - half * np.array(block.start)
-            centre += half * np.array(block.start)
-        joints.append(np.array(end, float))
+            dx, dy = half * block.start[0], half * block.start[1]
+            joints[-1] = end = start[0] - dx, start[1] - dy
+            centre = centre[0] + dx, centre[1] + dy
+        joints.append(end)
         centres.append(centre)
-    return _placed(blocks, joints, centres), _xy(stands[-1])
+    return _placed(blocks, joints, centres), stands[-1]
 
 
-def _meant(block: Block, start: Vector, radius: tuple[float, int] | None) -> Vector:
+def _meant(block: Block, start: XY, radius: tuple[float, int] | None) -> XY:
     """The mean of the rounded ends that an arc may have been meant to have, about its moved centre.
 
     Each weighs as the likelihood that the centre was rounded so far along the chord and, where the arc's radius is
     known (with how many arcs have it), that it was rounded to what `start` (the joint, about the centre) and end
     make of it.
     """
-    end, across = end_on_machine(block), block.across
-    centre = np.zeros(2)
-    half = abs(block.sweep) / 2
+    across, half = block.across, abs(block.sweep) / 2
     total = mean = 0.0
-    for whole in range(floor(end[across]) - 2, floor(end[across]) + 4):
-        place = end.copy()
-        place[across] = whole
+    for place in whole_ends(block):
         weight = likelihood(block, place)
         if radius and weight:
             # The centre's two roundings count as cos half, the chord's two as half of sin half.
             variance = VARIANCE * (2 * cos(half) ** 2 + sin(half) ** 2 / 2 + 1 / radius[1])
-            off = hypot(*(start - _between(start, place, centre))) - radius[0]
-            weight *= exp(-off**2 / 2 / variance)
+            off = distance(start, _between(start, place, (0.0, 0.0))) - radius[0]
+            weight *= exp(-(off**2) / 2 / variance)
         total += weight
-        mean += weight * whole
-    if total > 1e-9:
-        end[across] = mean / total
-    return end
+        mean += weight * place[across]
+    if total <= 1e-9:
+        return end_on_machine(block)
+    return (mean / total, place[1]) if across == 0 else (place[0], mean / total)
