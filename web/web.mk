@@ -18,6 +18,13 @@ web: venv web/build/build.mjs
 web-serve: web
 	$(PYTHON) -m http.server --bind 127.0.0.1 --directory web/dist 8080
 
+# What the tests of the page want of Debian: who may install it gets it; without it these tests are skipped.
+WEB_TOOLS := clang-14 lld-14 chromium firefox-esr fonts-wqy-zenhei
+web-tools:
+	@dpkg -s $(WEB_TOOLS) >/dev/null 2>&1 || { [ "$$(id -u)" = 0 ] && apt-get update -q \
+		&& DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $(WEB_TOOLS); } \
+		|| echo "Not all of $(WEB_TOOLS) can be had: some tests of the page are skipped."
+
 web-wasm:
 	web/wasm/build.sh
 
@@ -25,4 +32,4 @@ web-wasm:
 test-web: web web/build/test/chromium.browser.mjs web/build/test/firefox.browser.mjs
 	node --test --test-reporter=spec web/build/test/*.browser.mjs
 
-.PHONY: web web-modules web-serve web-wasm test-web
+.PHONY: web web-modules web-tools web-serve web-wasm test-web

@@ -207,10 +207,13 @@ const STATES: Record<State, Word> = {
   busy: "busy", prompt: "prompt", input: "input", wait: "wait", tape: "waitTape", halt: "halt",
 };
 
+/** Ctrl-C gets it back to its prompt. */
+const isRunning = (): boolean => present !== "prompt" && present !== "halt";
+
 let isSaid: Word | undefined;
 function showState(): void {
   const word = STATES[present];
-  get("run").textContent = t(present === "busy" || present === "input" ? "stop" : "run");
+  get("run").textContent = t(isRunning() ? "stop" : "run");
   if (word === isSaid) return;
   isSaid = word;
   get("state").textContent = isAlive ? t(word) : "";
@@ -351,7 +354,7 @@ function on(id: string, action: () => void): void {
 }
 
 on("run", () => {
-  if (present === "busy" || present === "input") machine.press(CTRL_C);
+  if (isRunning()) machine.press(CTRL_C);
   else machine.type("RUN\r");
 });
 on("reset", () => machine.reset());

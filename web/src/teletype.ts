@@ -31,7 +31,9 @@ export class Teletype {
       else keys.type(text.replace(/\x1b\[20[01]~/g, "").replace(/\x1b(?:\[[0-9;]*[A-Za-z~]|O[A-Z])/g, ""));
     });
     // Tab leaves the teletype: the keyboard alone must get everywhere, and a tab means nothing to the machine.
-    this.#terminal.attachCustomKeyEventHandler((event) => event.key !== "Tab" && !(event.ctrlKey && event.key === "v"));
+    // Ctrl-V pastes, and ctrl-C copies where something is marked.
+    this.#terminal.attachCustomKeyEventHandler((event) => event.key !== "Tab" &&
+      !(event.ctrlKey && (event.key === "v" || (event.key === "c" && this.#terminal.hasSelection()))));
     new ResizeObserver(() => this.fit()).observe(box);
     this.fit();
   }

@@ -303,6 +303,8 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await page.waitForTimeout(200);
     assert.equal(await page.textContent("#walked"), text, "it stands still");
     assert.match(text ?? "", /x -?[\d.]+ y -?[\d.]+ mm · off the contour [\d.]+ µm/);
+    await page.locator("#lines [role=option]", { hasText: /^180 / }).hover();
+    await shot(page, "page"); // (docs/pictures/page.png)
     await page.focus("#scrub");
     await page.keyboard.press("End");
     assert.match(await page.textContent("#walked") ?? "", /^block 29 of 29 · x 45\.\d+ y -(19\.99|20\.00)/);
