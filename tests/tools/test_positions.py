@@ -67,6 +67,16 @@ def test_what_is_found_out_is_said(run: Run, belts: tuple[Path, Path], command: 
             assert run(command, path, *output, "--positions", positions).stderr == ""
 
 
+def test_check_goes_by_it(run: Run) -> None:
+    """A full circle counts four radii, or four times where the controller turns; unless told, either is right."""
+    for tape, right, expected in (("B100B15B404GXNR1", "programmed", 404), ("B100B15B408GXNR1", "machine", 408)):
+        for positions in ("auto", "programmed", "machine"):
+            result = run("check", "-", "--positions", positions, stdin=f"{tape}\r\nDD\r\n")
+            assert (result.exit_code == 0) == (positions in ("auto", right)), result.stdout
+            if result.exit_code:
+                assert f"J = {expected} is a full circle by the other count, expected" in result.stdout
+
+
 def test_name_says_it(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "ratchet.nodrift.3b"
     path.write_bytes((ROOT / "examples" / "ratchet.3b").read_bytes())

@@ -7,6 +7,7 @@ from dataclasses import asdict
 
 import click
 
+from skg.commands.options import positions_option
 from skg.drawing.source import tape_bytes
 from skg.errors import UserError
 from skg.tape.styles import read_any
@@ -20,7 +21,8 @@ MOST = 20
 @click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
 @click.option("--json", "as_json", is_flag=True, help="Write the findings as JSON, all of them.")
 @click.option("--all", "list_all", is_flag=True, help=f"List all findings, not the first {MOST} of a tape.")
-def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool) -> None:
+@positions_option
+def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: str) -> None:
     """Find everything on TAPE that a 3B controller would choke on.
 
     One line for each finding: file, block, column, what was expected. Exit code 1 when there is any.
@@ -30,7 +32,7 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool) -> None:
     found: list[tuple[str, Finding]] = []
     for name in tapes_:
         data = tape_bytes(name)
-        tape, findings = scan(data, name)
+        tape, findings = scan(data, name, positions)
         found += [(name, finding) for finding in findings]
         if as_json:
             continue

@@ -182,11 +182,15 @@ class Block:
         """Length of the programmed line or arc in micrometres."""
         return hypot(self.x, self.y) * (1 if self.is_line else abs(self.sweep))
 
-    def problems(self) -> list[str]:
-        """Return what a controller would choke on in this block, in words; empty when it is sound."""
+    def problems(self, positions: str = "auto") -> list[str]:
+        """Return what a controller would choke on in this block, in words; empty when it is sound.
+
+        `positions`: "programmed" on a tape with drift, "machine" on one without, which count J in their own way
+        (docs/drift.md); "auto": either is right.
+        """
         if self.x == 0 and self.y == 0:
             return ["x and y are both 0"]
-        return self._line_problems() if self.is_line else self._arc_problems()
+        return self._line_problems() if self.is_line else self._arc_problems(positions)
 
     def _beside(self, distance: int) -> int:
         """The other coordinate of a place on an arc's circle, to the nearest µm, without its sign."""
@@ -206,19 +210,24 @@ class Block:
             found.append(f"G{self.axis} counts the wrong axis, expected G{axis}")
         return found
 
-    def _arc_problems(self) -> list[str]:
+    def _arc_problems(self, positions: str) -> list[str]:
         found = []
         # The coordinate that shrinks in a quadrant cannot be 0 at the start: that is the next quadrant.
         axis = "X" if is_decreasing("X", self.quadrant, self.sense) else "Y"
         if (self.x if axis == "X" else self.y) == 0:
             found.append(f"{self.code} needs {axis.lower()} > 0: wrong quadrant for its x and y")
+        counts = {"programmed": [self.radius], "machine": [max(self.turn, 1)]}
+        radii = counts.get(positions, [self.radius, max(self.turn, 1)])
         if self.j == 0:
             found.append("J is 0")
         elif self.j > 4 * max(self.radius, self.turn) + MAX_OVERLAP:
             found.append(f"J = {self.j} is more than a full circle, {4 * self.radius}")
-        elif not self.is_full_circle:
+        elif self.is_full_circle:
+            if self.j not in [4 * radius for radius in radii]:
+                found.append(f"J = {self.j} is a full circle by the other count, expected {4 * radii[0]}")
+        else:
             # What a tape without drift counts differs by up to 4 (docs/drift.md): one of the two must fit.
-            ends = [self.count_end(radius)[0] for radius in (self.radius, max(self.turn, 1))]
+            ends = [self.count_end(radius)[0] for radius in radii]
             if all(distance > self._beside(distance) + 3 for distance in ends):
                 axis = "Y" if self.axis == "X" else "X"
                 found.append(f"J = {self.j} ends at {self.axis.lower()} = {ends[0]}, the larger coordinate "

@@ -100,11 +100,12 @@ def _parse(text: str, number: int) -> Block:
     return Block(*values, axis, code, number)
 
 
-def scan(data: bytes, name: str = "-") -> tuple[Tape, list[Finding]]:
+def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, list[Finding]]:
     """Read a whole tape and everything that is wrong with it.
 
     Blocks whose text cannot be read are left out of the tape; blocks that can be read but cannot be right
-    (see `Block.problems`) are in it. NULs before the first block and after `DD` are blank tape.
+    (see `Block.problems`, which goes by `positions`) are in it. NULs before the first block and after `DD` are blank
+    tape.
     """
     text = data.decode("latin-1").lstrip("\0")
     items: list[Block | Stop] = []
@@ -137,7 +138,7 @@ def scan(data: bytes, name: str = "-") -> tuple[Tape, list[Finding]]:
             findings.append(Finding(number, error.at + 1, str(error)))
             continue
         items.append(block)
-        findings += [Finding(number, 1, problem) for problem in block.problems()]
+        findings += [Finding(number, 1, problem) for problem in block.problems(positions)]
     if bare:
         findings.append(Finding(bare, 1, "expected CR LF at the line's end, found LF alone (the first)"))
     if not ended:
