@@ -6,6 +6,8 @@ import random
 from collections.abc import Callable
 from pathlib import Path
 
+from compare import compare
+
 from skg.ref import Result, real, run
 from skg.ref.interpreter import Interpreter
 from skg.ref.near import watching
@@ -64,3 +66,30 @@ def number(rng: random.Random, low: int, high: int) -> str:
     """A small whole number, now and then with decimals."""
     value = rng.randint(low, high)
     return str(value) if rng.random() < 0.6 else f"{value + rng.randint(1, 99) / 100:.2f}"
+
+
+def cut_small_numbers(
+    make: Callable[[], str], is_beside: Callable[[str], bool], count: int, translate: Translate
+) -> int:
+    """Texts of small whole numbers until `count` have not been refused; how many of these were cut.
+
+    A text is refused with a place, or cut as it is: by the ROM as by the reference. With the wire beside the contour
+    (`is_beside`) both may refuse it.
+    """
+    good = ran = 0
+    while good < count:
+        text = make()
+        message = fault(text, translate)
+        if message:
+            line, column = map(int, message.split(":")[:2])
+            assert 0 < column <= len((text + "\n").split("\n")[line - 1]) + 1, (text, message)
+            continue
+        good += 1
+        program = translate(text)
+        result = run(program)
+        allowed = (6, 7) if is_beside(text) else ()
+        assert result.error is None or result.error[0] in allowed, (text, program, result.paper)
+        verdict = compare(program)
+        assert not verdict.difference, (text, program, verdict)
+        ran += result.error is None and not verdict.aside
+    return ran
