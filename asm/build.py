@@ -46,6 +46,14 @@ RESERVED = {
     # fmt: on
 }
 
+#: The restarts and their routines.
+RESTARTS = {
+    "ERROR": "ERROR0", "PUTC": "PUTC0", "NEXT": "NEXT0", "EXPECT": "EXPEC0", "CALC": "CALC0", "PEEK": "PEEK0",
+    "CHKEND": "CHKEN0",
+}  # fmt: skip
+#: A line with one: label, its name, further operands, comment.
+RESTART = re.compile(rf"(\w+:)?\s+DB\s+({'|'.join(RESTARTS)})\b(?:,([^;]*\S))?\s*(;.*)?$")
+
 
 def fail(message: str) -> None:
     """Print one line and end with exit code 1."""
@@ -124,7 +132,31 @@ def sources(image: Image) -> dict[str, str]:
         made = words.source(image.words)
     except ValueError as fault:
         fail(str(fault))
-    return {file: made if file == "words" else (ASM / f"{file}.asm").read_text() for file in image.files()}
+    texts = {file: made if file == "words" else (ASM / f"{file}.asm").read_text() for file in image.files()}
+    return texts if image.restarts else {file: with_calls(file, text) for file, text in texts.items()}
+
+
+def with_calls(file: str, text: str) -> str:
+    """A source of an image whose page 0 is somebody else's: `DB ERROR,ESYN` becomes `CALL ERROR0` and `DB ESYN`.
+
+    The restarts' routines then stand one behind the other: the DS lines that fill the gaps between them are left out.
+    """
+    lines, skips = [], False
+    for count, line in enumerate(text.splitlines(), start=1):
+        if found := RESTART.match(line):
+            if skips:
+                fail(f"{file}.asm:{count}: skipped as one byte, but in some images a restart is a CALL")
+            label, name, operands, comment = found.groups("")
+            lines.append(f"{label:8}CALL    {RESTARTS[name]:16}{comment}")
+            if operands:
+                lines.append(f"        DB      {operands}")
+        elif not re.match(r"GAP\w+:\s+DS\b", line):
+            if re.match(rf"(?:\w+:)?\s+DB\b.*\b(?:{'|'.join(RESTARTS)})\b", re.sub(r'"[^"]*"|;.*', "", line)):
+                fail(f"{file}.asm:{count}: a restart stands first in its DB")
+            lines.append(line)
+        if not re.match(r"\s*(;|$)", line):
+            skips = bool(re.match(r"(?:\w+:)?\s+DB\s+SKIP\w+", line))
+    return "\n".join([*lines, ""])
 
 
 def assemble(texts: dict[str, str], work: Path) -> tuple[bytes, dict[str, int], str]:
@@ -240,18 +272,17 @@ def main() -> None:
     parser.add_argument("out", type=Path)
     args = parser.parse_args()
     image, symbols, listing, texts = build(args.image)
-    left = f"{len(image):5}   left {ROM_SIZE - len(image)} of {ROM_SIZE}"
+    forms = IMAGES[args.image].forms
+    left = f"   left {ROM_SIZE - len(image)} of {ROM_SIZE}" if ".com" not in forms else ""
     if args.image == STANDARD:
         for file, size in bytes_of(texts, symbols).items():
             print(f"  {file + '.asm':12} {size:5}")
-        print(f"  {'used':12} {left}")
-    else:
-        print(f"  {args.image:12} {left}")
-    if len(image) > ROM_SIZE:
+    print(f"  {'used' if args.image == STANDARD else args.image:12} {len(image):5}{left}")
+    if left and len(image) > ROM_SIZE:
         fail(f"{len(image) - ROM_SIZE} bytes too many")
-    padded = image.ljust(ROM_SIZE, b"\xff")
-    write(args.out.with_suffix(".bin"), padded)
-    write(args.out.with_suffix(".hex"), intel_hex(padded).encode())
+    padded = image.ljust(ROM_SIZE, b"\xff") if ".bin" in forms else image
+    for form in forms:
+        write(args.out.with_suffix(form), intel_hex(padded).encode() if form == ".hex" else padded)
     if args.listing:
         write(args.listing, listing.encode())
     if args.sym:

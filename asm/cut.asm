@@ -1,7 +1,8 @@
 ; cut.asm - the route: from items to corners, fillets and closing
 ; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL
 ;         ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL XNORM XTOK XNORMS XXING SBACK SBACK1
-; Uses:   arc_3b arc_nodrift calc consts fit float geom io_punch io_tty parser start tape value
+; Uses:   arc_3b arc_nodrift calc consts fit float geom io_disk io_punch io_tty parser start tape
+;         value
 ; Room:   1327 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the

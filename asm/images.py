@@ -1,27 +1,33 @@
 """Every image: which files it is made of. No source file has an IF: what differs is a file of its own.
 
-Two seams. The **board**: where things lie (`map_rom`), ports and their setting up (`io_6850`, `io_8251`), the teletype
-(`io_port`), punch and reader (`io_punch`, `io_tty`), what is done at reset and at the prompt (`reset`). The
-**post-processor**: what becomes of a line and an arc in whole micrometres (`tape`, and `arc_3b` or `arc_nodrift`).
-Words that not every image has are a set in words.txt.
+Three seams. The **board**: where things lie (`map_rom`), ports and their setting up (`io_6850`, `io_8251`), teletype
+(`io_port`), punch and reader (`io_punch`, `io_tty`), what is done at reset and at the prompt (`reset`). **CP/M** fills
+these instead: `map_cpm`, `io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole
+micrometres (`tape`, and `arc_3b` or `arc_nodrift`). Words that not every image has are a set in words.txt.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
 class Image:
-    """The files that fill the seams, and the sets of words (words.txt) besides the words of all."""
+    """The files that fill the seams, and the sets of words (words.txt) besides the words of all.
+
+    An image without `restarts` leaves them to whom page 0 belongs: the build writes CALLs. `forms` are the files that
+    it is written to: the padded ROM and its Intel hex (.bin, .hex), hex without the filling (.hex alone), or .com.
+    """
 
     map: str = "map_rom"
+    restarts: bool = True
     ports: tuple[str, ...] = ("io_6850", "io_port")
     punch: str = "io_punch"
     start: str = "reset"
     post: tuple[str, ...] = ("arc_3b", "tape")
     more: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
+    forms: tuple[str, ...] = (".bin", ".hex")
 
     def files(self) -> list[str]:
         """All source files in the order in which they stand in the ROM; the first ones only name things."""
@@ -31,6 +37,13 @@ class Image:
             "monitor", self.start, "words",
         ]  # fmt: skip
 
+    def for_cpm(self, tape: str) -> Image:
+        """The same firmware as a program of CP/M; `tape` says of what type a tape's file is."""
+        return replace(
+            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch="io_disk", start="cpm",
+            more=(*self.more, tape), words=(*self.words, "cpm"), forms=(".com",),
+        )  # fmt: skip
+
 
 #: The image that all others are variants of: it alone has a table of symbols, and its bytes are printed file by file.
 STANDARD = "skg"
@@ -39,4 +52,6 @@ IMAGES = {
     "skg-8251": Image(ports=("io_8251", "io_port")),
     "skg-tty": Image(punch="io_tty"),
     "skg-nodrift": Image(post=("arc_nodrift", "tape")),
+    "skg-ram": Image(forms=(".hex",)),
+    "skg.com": Image().for_cpm("type_3b"),
 }

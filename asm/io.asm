@@ -1,6 +1,6 @@
 ; io.asm - the teletype: what is printed, the keyboard
 ; Offers: PUTC1 PAPON BREAK ERTAPE CRLF PUTSI PUTS PUT2D
-; Uses:   io_port start
+; Uses:   io_cpm io_port start
 ; Room:   73 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.

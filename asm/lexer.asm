@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LISTLN PRNUM BLANK
-; Uses:   decimal io io_punch io_tty monitor start value
+; Uses:   decimal io io_disk io_punch io_tty monitor start value
 ; Room:   453 bytes
 ;
 ; The tokens are in equ.asm, the words and theirs in words.asm.  Words come before names; a character that begins

@@ -1,7 +1,7 @@
 ; start.asm - restarts, and what stands in the gaps between them
-; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK PUTC0 NEXT0 NEXT1 ERMEM ERSYN ADDA ERDATA
-;         CHKEN0 SREM CPHD
-; Uses:   calc io io_6850 io_8251 monitor
+; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK ERROR0 PUTC0 NEXT0 NEXT1 ERMEM EXPEC0 ERSYN
+;         ADDA PEEK0 ERDATA CHKEN0 SREM CPHD
+; Uses:   calc cpm io io_6850 io_8251 monitor
 ; Room:   71 bytes
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that

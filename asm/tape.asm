@@ -1,6 +1,6 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: MOVE PUTBLK PUTB2 XRND XVK QUAD SETZG
-; Uses:   calc consts float io io_punch io_tty lexer start
+; Uses:   calc consts float io io_disk io_punch io_tty lexer start
 ; Room:   220 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded

@@ -12,13 +12,17 @@ import pty
 import select
 import shutil
 import signal
+import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from romhelp import ROM, Board
+from romhelp import ROM, ROOT, Board
 from test_examples import EXAMPLES, stem
+
+sys.path.insert(0, str(ROOT / "tests" / "emu"))
+from asm8080 import assemble  # noqa: E402
 
 ALTAIR = shutil.which("altairz80")
 pytestmark = pytest.mark.skipif(ALTAIR is None, reason="SIMH is not installed and could not be (make altairz80)")
@@ -35,20 +39,88 @@ RAM_KIB = 56
 SCRIPT = """set cpu 8080
 set cpu noaltairrom
 set sio nosleep,nomap
-load {rom} 0
+load {rom} {start}
 {attach}
-go 0
+go {start}
+"""
+
+
+#: A monitor that loads Intel hex, at F000: from the reader, up to a record of another type than 00. When every sum is
+#: right it goes to 0, else it prints `!`.
+LOADER = """
+        ORG     0F000H
+        LXI     SP,0F400H
+RECORD: CALL    CHAR
+        CPI     ':'
+        JNZ     RECORD
+        MVI     C,0             ; sum
+        CALL    BYTE
+        MOV     B,A             ; count
+        CALL    BYTE
+        MOV     H,A
+        CALL    BYTE
+        MOV     L,A
+        CALL    BYTE
+        ORA     A
+        JNZ     LAST
+STORE:  CALL    BYTE
+        MOV     M,A
+        INX     H
+        DCR     B
+        JNZ     STORE
+        CALL    BYTE
+        MOV     A,C
+        ORA     A
+        JZ      RECORD
+WRONG:  MVI     A,'!'
+        OUT     11H
+        HLT
+LAST:   CALL    BYTE
+        MOV     A,C
+        ORA     A
+        JNZ     WRONG
+        JMP     0
+BYTE:   CALL    DIGIT
+        RLC
+        RLC
+        RLC
+        RLC
+        MOV     D,A
+        CALL    DIGIT
+        ORA     D
+        MOV     D,A
+        ADD     C
+        MOV     C,A
+        MOV     A,D
+        RET
+DIGIT:  CALL    CHAR
+        SUI     '0'
+        CPI     10
+        RC
+        SUI     7
+        RET
+CHAR:   IN      12H
+        ANI     1
+        JZ      CHAR
+        IN      13H
+        ANI     7FH
+        RET
 """
 
 
 class Altair:
-    """SIMH in a pseudo-terminal, with the ROM at its prompt."""
+    """SIMH in a pseudo-terminal, with the ROM at its prompt, or with a hex file that a monitor loads."""
 
-    def __init__(self, directory: Path, reader: Path | None = None) -> None:
+    def __init__(self, directory: Path, reader: Path | None = None, hex_file: Path | None = None) -> None:
         self.tape = directory / "punched.3b"
         script = directory / "altair.ini"
         attached = [f"attach ptp {self.tape}", *([f"attach ptr {reader}"] if reader else [])]
-        script.write_text(SCRIPT.format(rom=ROM, attach="\n".join(attached)))
+        image, start = ROM, "0"
+        if hex_file:
+            image, start = directory / "loader.bin", "f000"
+            image.write_bytes(assemble(LOADER)[0])
+            attached.append(f"attach ptr {hex_file}")
+        script.write_text(SCRIPT.format(rom=image, start=start, attach="\n".join(attached)))
         assert ALTAIR
         self.pid, self.line = pty.fork()
         if self.pid == 0:
@@ -101,9 +173,9 @@ class Altair:
 
 
 @contextlib.contextmanager
-def altair(directory: Path, reader: Path | None = None) -> Iterator[Altair]:
+def altair(directory: Path, reader: Path | None = None, hex_file: Path | None = None) -> Iterator[Altair]:
     """An Altair that is switched off at the end."""
-    machine = Altair(directory, reader)
+    machine = Altair(directory, reader, hex_file)
     try:
         yield machine
     finally:
@@ -155,3 +227,13 @@ def test_editing_and_errors(tmp_path: Path) -> None:
         theirs.until(b"\r\n", start)
         os.write(theirs.line, b"\x03")
         theirs.until(b"\r\nERR 10 LINE 10\r\n>", start)
+
+
+def test_in_ram(tmp_path: Path) -> None:
+    """RAM everywhere, nothing at 0: a monitor loads skg-ram.hex and starts it."""
+    part = next(part for part in EXAMPLES if part.stem == "xy-star")
+    with altair(tmp_path, hex_file=ROM.with_name("skg-ram.hex")) as theirs:
+        assert theirs.paper.split()[:2] == [b"SKG", str(int(theirs.type("FREE").split()[0])).encode()]
+        for line in [*part.read_text().splitlines(), "RUN"]:
+            theirs.type(line)
+        assert theirs.punched() == part.with_suffix(".3b").read_bytes()

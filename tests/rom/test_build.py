@@ -29,8 +29,11 @@ _spec.loader.exec_module(builder)
 ROMS = ROOT / "roms"
 ROM_SIZE = 8192
 #: Every image, and what of it is committed.
-ALL = (".bin", ".hex", ".sym")
-VARIANTS = {name: ALL if name == builder.STANDARD else ALL[:2] for name in builder.IMAGES}
+VARIANTS = {
+    name: (*image.forms, ".sym") if name == builder.STANDARD else image.forms for name, image in builder.IMAGES.items()
+}
+#: Those that are ROMs: of the same size, filled up.
+ROM_IMAGES = [name for name, forms in VARIANTS.items() if ".bin" in forms]
 
 REGISTERS = "BCDEHLMA"
 PAIRS = ["B", "D", "H", "SP"]
@@ -97,6 +100,7 @@ class Walk:
 
     image: bytes
     names: dict[str, int]
+    start: int = 0
     code: set[int] = field(default_factory=set)
     bytecode: set[int] = field(default_factory=set)
 
@@ -105,7 +109,7 @@ class Walk:
         waiting = list(starts)
         while waiting:
             at = waiting.pop()
-            if at in self.code or at >= ROM_SIZE:
+            if at in self.code or not self.start <= at < len(self.image):
                 continue
             self.code.add(at)
             opcode = self.image[at]
@@ -114,14 +118,21 @@ class Walk:
             target = int.from_bytes(self.image[at + 1 : at + 3], "little") if length == 3 else 0
             if name in ("JMP", "CALL") or (length == 3 and name[0] in "JC"):
                 waiting.append(target)
+            if name == "CALL" and target in self.restarts():
+                name, length = f"RST {self.restarts()[target]}", 3
             if name == "RST 4":
-                waiting.append(at + 2)
+                waiting.append(at + length + 1)
             elif name == "RST 5":
                 waiting += self.calculator(at + length)
             elif name == "CALL" and target == self.names["PUTSI"]:
-                waiting.append(1 + next(n for n in range(at + 3, ROM_SIZE) if self.image[n] & 0x80))
+                waiting.append(1 + next(n for n in range(at + 3, len(self.image)) if self.image[n] & 0x80))
             elif name not in ("JMP", "RET", "PCHL", "RST 1", "HLT"):
                 waiting.append(at + length)
+
+    def restarts(self) -> dict[int, int]:
+        """The restarts that an image calls which does not own page 0, by their addresses there."""
+        names = {"ERROR0": 1, "EXPEC0": 4, "CALC0": 5}
+        return {self.names[name]: number for name, number in names.items()} if self.start else {}
 
     def length(self, at: int) -> int:
         """Bytes of the instruction at an address."""
@@ -182,7 +193,16 @@ def built(name: str) -> dict[str, bytes]:
             capture_output=True, text=True,
         )
         assert done.returncode == 0, done.stdout + done.stderr
-        return {suffix: out.with_suffix(suffix).read_bytes() for suffix in (*ALL, ".lst")}
+        return {suffix: out.with_suffix(suffix).read_bytes() for suffix in (*VARIANTS[name], ".sym", ".lst")}
+
+
+def memory(name: str) -> bytes:
+    """The committed image as it lies in memory, from address 0."""
+    form = VARIANTS[name][0]
+    data = (ROMS / name).with_suffix(form).read_bytes()
+    if form == ".hex":
+        return b"".join(bytes.fromhex(row[9:-2]) for row in data.decode().split())
+    return bytes(labels(name)["ORIGIN"]) + data
 
 
 def listed(name: str) -> list[Line]:
@@ -208,7 +228,7 @@ def test_nothing_fetched_is_committed() -> None:
 
 def test_every_image_is_known() -> None:
     assert {path.name for path in ROMS.iterdir()} == {
-        f"{name}{suffix}" for name, suffixes in VARIANTS.items() for suffix in suffixes
+        Path(name).with_suffix(suffix).name for name, suffixes in VARIANTS.items() for suffix in suffixes
     }
 
 
@@ -219,7 +239,7 @@ def test_built_anew_it_is_the_same(name: str) -> None:
         assert built(name)[suffix] == committed.read_bytes(), f"{committed}: make rom"
 
 
-@pytest.mark.parametrize("name", VARIANTS)
+@pytest.mark.parametrize("name", ROM_IMAGES)
 def test_size_and_hex(name: str) -> None:
     image = (ROMS / f"{name}.bin").read_bytes()
     assert len(image) == ROM_SIZE
@@ -232,13 +252,22 @@ def test_size_and_hex(name: str) -> None:
     assert b"".join(record[4:-1] for record in records[:-1]) == image
 
 
+def test_the_ram_image_is_the_roms() -> None:
+    """The same code; what the ROM is filled up with is left out."""
+    rom = (ROMS / "skg.bin").read_bytes()
+    ram = memory("skg-ram")
+    assert ram == rom[: len(ram)]
+    assert set(rom[len(ram) :]) == {0xFF}
+    assert ram[-1] != 0xFF
+
+
 def walked(name: str, planted: dict[int, bytes] | None = None) -> Walk:
     """The walk through an image, into which bytes are planted at some addresses: from the restarts and tables on,
     and from what the listing says are instructions."""
-    image = bytearray((ROMS / f"{name}.bin").read_bytes())
+    image = bytearray(memory(name))
     for at, data in (planted or {}).items():
         image[at : at + len(data)] = data
-    walk = Walk(bytes(image), labels(name))
+    walk = Walk(bytes(image), labels(name), labels(name)["ORIGIN"])
     walk.follow(starting(name, walk))
     return walk
 
@@ -246,7 +275,8 @@ def walked(name: str, planted: dict[int, bytes] | None = None) -> Walk:
 def starting(name: str, walk: Walk) -> list[int]:
     """Where code begins that no other leads to: the restarts and what stands in tables; of the calculator's operations
     that are byte-code, what stands behind it."""
-    starts = list(range(0, 0x40, 8))
+    origin = labels(name)["ORIGIN"]
+    starts = [origin] if origin else list(range(0, 0x40, 8))
     first = labels(name)["OPTAB"] + 2 * (labels(name)["OPBYTE"] - 1)
     for line in listed(name):
         if line.mnemonic == "DW":
@@ -288,9 +318,9 @@ def test_a_walk_that_finds_nothing_has_failed() -> None:
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_only_8080_code_is_reached(name: str) -> None:
-    image = (ROMS / f"{name}.bin").read_bytes()
+    image = memory(name)
     lines = listed(name)
-    walk = Walk(image, labels(name))
+    walk = Walk(image, labels(name), labels(name)["ORIGIN"])
     walk.follow(starting(name, walk))
     instructions = {line.at for line in lines if line.mnemonic not in ("DB", "DW", "DS")}
     # The walk is the listing's code, but for a DB that skips the one or two bytes behind it.
@@ -306,7 +336,7 @@ def test_only_8080_code_is_reached(name: str) -> None:
 @pytest.mark.parametrize("name", VARIANTS)
 def test_every_instruction_is_the_8080s(name: str) -> None:
     """What the listing calls an instruction, the test's own table calls by the same name."""
-    image = (ROMS / f"{name}.bin").read_bytes()
+    image = memory(name)
     count = 0
     for line in listed(name):
         assert image[line.at : line.at + len(line.data)] == line.data
