@@ -71,16 +71,23 @@ class Drive(cpm80.DiskDrive):
 
 
 class Mixin:
-    """What both machines have besides."""
+    """What both machines have besides: interrupts, which use the stack of whoever runs."""
 
-    #: Bytes below the stack pointer that the BIOS takes for itself.
-    scribble = 0
+    interrupts = 0
+    _place, _bytes = -1, 0
 
-    def on_conout(self) -> None:
-        """Print, as a BIOS that is lavish with the caller's stack."""
-        for at in range(self.sp - self.scribble, self.sp):
-            self.memory[at] = 0xA5
-        super().on_conout()
+    def interrupted_at(self, place: int, stack: int) -> None:
+        """Whenever the processor comes to a place an interrupt takes so many bytes of the stack."""
+        self._place, self._bytes = place, stack
+        self.set_breakpoint(place)
+
+    def on_breakpoint(self) -> None:
+        """The interrupt; what the BIOS does."""
+        if self.pc == self._place:
+            self.interrupts += 1
+            for at in range(self.sp - self._bytes, self.sp):
+                self.memory[at] = 0xA5
+        super().on_breakpoint()
 
 
 class Machine8080(Mixin, cpm80.I8080CPMMachine):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import cpm80
 import pytest
 from cpmhelp import EXAMPLES, PROCESSORS, PROGRAM, ROOT, SMALL, Cpm, text
@@ -9,6 +11,11 @@ from cpmhelp import EXAMPLES, PROCESSORS, PROGRAM, ROOT, SMALL, Cpm, text
 import skg
 
 STAR = ROOT / "examples" / "xy-star.skg"
+sys.path.insert(0, str(ROOT / "asm"))
+import build  # noqa: E402
+
+#: Addresses by label, of SKG.COM.
+BUILT = build.build("skg.com")[1]
 LOOP = "10 PRINT 1\n20 GOTO 10\n"
 
 
@@ -34,15 +41,23 @@ def test_paper(processor: str) -> None:
     assert cpm.said("1 REM " + "x" * 121)[-1:] == board.type("1 REM " + "x" * 121)[-1:]
 
 
-@pytest.mark.parametrize("depth", [20, 24, 25, 26, 27, 40])
-def test_a_bios_may_use_the_stack(depth: int) -> None:
-    """Expressions nested as deeply as on the board, where each character printed costs 200 bytes of the stack."""
+def nested(depth: int) -> str:
+    """An expression with a left operand waiting at each depth."""
+    return f"PRINT {'1+(' * depth}2{')' * depth}"
+
+
+def test_others_may_use_the_stack() -> None:
+    """Expressions nest as deeply as on the board, where something takes 200 bytes of the stack at any time."""
     cpm, board = Cpm(), skg.Board((ROOT / "roms" / "skg.bin").read_bytes())
     cpm.skg()
-    cpm.machine.scribble = 200
     board.clear()
-    line = f"PRINT {'1+(' * depth}2{')' * depth}"
-    assert cpm.said(line) == board.type(line)
+    depth = max(n for n in range(1, 29) if cpm.said(nested(n)) == [str(n + 2)])
+    assert depth < 28
+    for n in (depth, depth + 1):
+        assert cpm.said(nested(n)) == board.type(nested(n))
+    cpm.machine.interrupted_at(BUILT["OPFLT"], 200)
+    assert cpm.said(f"{nested(depth)},3") == [f"{depth + 2} 3"]
+    assert cpm.machine.interrupts > depth
 
 
 def test_free_bytes() -> None:
@@ -348,6 +363,7 @@ def test_a_write_protected_file(lines: list[str]) -> None:
     cpm = prepared()
     image = cpm.drives[0].image
     image.data[image.data.index(b"OLD     SKG") + 8] |= 0x80
+    cpm.said("DIR")  # (else all of the disk is, since it has been changed)
     assert sum((written(cpm, line) for line in lines), []) in (["ERR 10"], ["ERR 10 LINE 10"])
     keeps(cpm, ["OLD.SKG", "SKG.COM"])
     assert cpm.read("OLD.SKG") == b"1 REM OLD\r\n"
