@@ -1,6 +1,7 @@
 /** The list of a tape's blocks, however long: only the rows in sight are in the page. */
 import type { Chooser } from "./choice.ts";
 import { chosenBlocks } from "./drawing.ts";
+import { onFrame } from "./frame.ts";
 import { nothing, type Layout } from "./placed.ts";
 import { blockText } from "./tape.ts";
 
@@ -11,7 +12,7 @@ export class BlockList {
   readonly #inner: HTMLElement;
   readonly #chooser: Chooser;
   #layout: Layout = nothing();
-  #asked = 0;
+  readonly #ask = onFrame(() => this.#draw());
   /** How a row says which line made its block, and that the controller stops after it. */
   describe: (line: number, stop: boolean) => string = () => "";
 
@@ -46,13 +47,6 @@ export class BlockList {
     this.#inner.style.height = `${this.#layout.blocks.length * ROW}px`;
     if (follow) this.#box.scrollTop = this.#inner.offsetHeight;
     this.#ask();
-  }
-
-  #ask(): void {
-    this.#asked ||= requestAnimationFrame(() => {
-      this.#asked = 0;
-      this.#draw();
-    });
   }
 
   #draw(): void {

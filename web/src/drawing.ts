@@ -1,7 +1,8 @@
 /** The part on a canvas, to scale: blocks as they come, leads, stops, start holes, direction, the wire's cut, what is chosen and
  * where the controller is. */
 import type { Choice, Chooser } from "./choice.ts";
-import { boxOf, directionAt, distanceFrom, isLine, lengthOf, nothing, placeAt, type Layout, type Placed } from "./placed.ts";
+import { onFrame } from "./frame.ts";
+import { boxOf, directionAt, distanceFrom, isLine, nothing, placeAt, type Layout, type Placed } from "./placed.ts";
 import type { XY } from "./tape.ts";
 import { View } from "./view.ts";
 
@@ -50,7 +51,7 @@ export class Drawing {
   #isHeld = false;
   #drawn = 0;
   #needsAll = true;
-  #asked = 0;
+  readonly #drawSoon = onFrame(() => this.draw());
   #pixels = 1;
   #size: XY = [300, 200];
   #since = ARROWS;
@@ -157,10 +158,7 @@ export class Drawing {
 
   #ask(all: boolean): void {
     this.#needsAll ||= all;
-    this.#asked ||= requestAnimationFrame(() => {
-      this.#asked = 0;
-      this.draw();
-    });
+    this.#drawSoon();
   }
 
   /** Draws what is new, or all when something else has changed. */
@@ -278,7 +276,7 @@ export class Drawing {
     const [cut, leads] = [new Path2D(), new Path2D()];
     for (let at = from; at < blocks.length; at++) {
       const placed = blocks[at] as Placed;
-      const length = lengthOf(placed) * this.view.scale;
+      const length = placed.length * this.view.scale;
       this.#since += length;
       if (this.#since < ARROWS || length < 14) continue;
       this.#since = 0;

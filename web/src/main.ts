@@ -10,7 +10,7 @@ import { isWord, preferred, speak, t, type Language, type Word } from "./languag
 import { LinkError, pack, readLink } from "./link.ts";
 import { Machine } from "./machine.ts";
 import { markPart, readParts, showParts, type Part } from "./parts.ts";
-import { layOut, lengthOf, Placer, type Layout } from "./placed.ts";
+import { layOut, Placer, type Layout } from "./placed.ts";
 import { ProgramView } from "./program.ts";
 import { PunchedTape } from "./punched.ts";
 import { fromBase64, Store, toBase64, type Everything, type Settings, type Theme } from "./store.ts";
@@ -71,6 +71,8 @@ let tape = "";
 let offsets: number[] = [];
 let isWhole = false;
 let partName = "part";
+/** A run is broken off for another program: what it still punches is not that program's. */
+let isLeaving = false;
 const program = new ProgramView(get("lines"), chooser, () => placer.layout);
 
 const layout = (): Layout => placer.layout;
@@ -92,7 +94,9 @@ function newTape(): void {
 function take(punched: readonly Punched[]): void {
   let again = false;
   for (const { text, line, x, y } of punched) {
+    if (isLeaving && text !== "RUN") continue;
     if (text === "RUN") {
+      isLeaving = false;
       if (items.length || isWhole) newTape();
       again = false;
       continue;
@@ -123,7 +127,7 @@ function grown(again: boolean): void {
 function showTape(): void {
   punchedTape.show(tape, tape.length);
   get("no-blocks").hidden = items.length > 0;
-  const length = layout().blocks.reduce((sum, placed) => sum + lengthOf(placed), 0) / 1000;
+  const length = layout().blocks.reduce((sum, placed) => sum + placed.length, 0) / 1000;
   get("sum").textContent = items.length ? `${t("summary", layout().blocks.length, length.toFixed(1))}` +
     (isWhole ? "" : ` · ${t("partial")}`) : "";
 }
@@ -181,6 +185,7 @@ const machine = new Machine({
   },
   state(state) {
     present = state;
+    if (state === "prompt") isLeaving = false;
     showState();
   },
   memory(ram, text, rom) {
@@ -241,6 +246,7 @@ function loadProgram(name: string, text: string, run: boolean): void {
   program.wrong = 0;
   partName = name.replace(/\.\w+$/, "") || "part";
   get("message").hidden = true;
+  isLeaving = present !== "prompt";
   newTape();
   if (there && !isKnown && !sameProgram(text, there)) {
     before = there;

@@ -14,6 +14,7 @@ export interface Placed {
   /** Angle of the start about the centre. */
   readonly first: number;
   readonly sweep: number;
+  readonly length: number;
   role: Role;
 }
 
@@ -42,7 +43,9 @@ export interface Layout {
  * them. */
 export function placeBlock(block: Block, start: XY, end: XY, number: number, line: number): Placed {
   const common = { block, number, line, start, end, role: "cut" as Role };
-  if (!block.sense) return { ...common, centre: start, radius: 0, first: 0, sweep: 0 };
+  if (!block.sense) {
+    return { ...common, centre: start, radius: 0, first: 0, sweep: 0, length: Math.hypot(end[0] - start[0], end[1] - start[1]) };
+  }
   const [x, y] = startOf(block);
   const centre: XY = [start[0] - x, start[1] - y];
   const first = Math.atan2(y, x);
@@ -52,13 +55,11 @@ export function placeBlock(block: Block, start: XY, end: XY, number: number, lin
     const off = last - first - sweep + Math.PI;
     sweep += off - Math.floor(off / (2 * Math.PI)) * 2 * Math.PI - Math.PI;
   }
-  return { ...common, centre, radius: Math.hypot(x, y), first, sweep };
+  const radius = Math.hypot(x, y);
+  return { ...common, centre, radius, first, sweep, length: radius * Math.abs(sweep) };
 }
 
 export const isLine = (p: Placed): boolean => p.radius === 0;
-
-export const lengthOf = (p: Placed): number =>
-  isLine(p) ? Math.hypot(p.end[0] - p.start[0], p.end[1] - p.start[1]) : p.radius * Math.abs(p.sweep);
 
 /** The place at `part` (0 to 1) of the block. */
 export function placeAt(p: Placed, part: number): XY {

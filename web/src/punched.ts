@@ -1,4 +1,5 @@
 /** The punched tape itself: eight tracks and the feed holes, running past under the reader or the punch. */
+import { onFrame } from "./frame.ts";
 
 const PITCH = 9;
 const TRACKS = 8;
@@ -9,7 +10,7 @@ export class PunchedTape {
   readonly #canvas: HTMLCanvasElement;
   #text = "";
   #at = 0;
-  #asked = 0;
+  readonly #ask = onFrame(() => this.#draw());
   colours = { paper: "#f3e9c6", hole: "#222", mark: "#c00" };
 
   constructor(canvas: HTMLCanvasElement) {
@@ -22,13 +23,6 @@ export class PunchedTape {
     this.#text = text;
     this.#at = at;
     this.#ask();
-  }
-
-  #ask(): void {
-    this.#asked ||= requestAnimationFrame(() => {
-      this.#asked = 0;
-      this.#draw();
-    });
   }
 
   #draw(): void {
@@ -63,6 +57,6 @@ export class PunchedTape {
     context.fill();
     context.strokeStyle = this.colours.mark;
     context.lineWidth = 1;
-    context.strokeRect((head + 0.0) * PITCH, 0.5, PITCH, height - 1);
+    context.strokeRect(head * PITCH, 0.5, PITCH, height - 1);
   }
 }

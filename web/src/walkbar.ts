@@ -115,9 +115,7 @@ export class WalkBar {
     const at = this.#walk.locate(this.#step)?.at ?? 0;
     // A block's steps along its length: the feed is in mm, and a diagonal has more steps.
     const steps = walked[at]?.steps ?? 1;
-    const placed = this.#layout.blocks[at];
-    const length = placed ? Math.max(1, placed.radius ? placed.radius * Math.abs(placed.sweep)
-      : Math.hypot(placed.end[0] - placed.start[0], placed.end[1] - placed.start[1])) : 1;
+    const length = Math.max(1, this.#layout.blocks[at]?.length ?? 1);
     const perSecond = ((FEED * 1000) / 60) * Number(this.#parts.pace.value) * (steps / length);
     this.#step = Math.min(this.#walk.steps, this.#step + (perSecond * Math.max(0, Math.min(100, now - this.#last))) / 1000);
     this.#last = now;

@@ -3,7 +3,7 @@ import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { dxfText } from "../src/dxf.ts";
 import { isoText } from "../src/iso.ts";
-import { boxOf, distanceFrom, layOut, lengthOf, placeAt } from "../src/placed.ts";
+import { boxOf, distanceFrom, layOut, placeAt } from "../src/placed.ts";
 import { svgText } from "../src/svg.ts";
 import { readBlock, readTape, TapeError, tapeText } from "../src/tape.ts";
 import { Walk } from "../src/walk.ts";
@@ -103,7 +103,7 @@ test("places, distances and boxes of a block", () => {
   const [quarter] = layOut(readTape("B1000B0B1000GXNR1DD").items, [1000, 0]).layout.blocks;
   assert.ok(quarter);
   assert.deepEqual(quarter.end, [0, 1000]);
-  assert.ok(Math.abs(lengthOf(quarter) - 500 * Math.PI) < 1e-6);
+  assert.ok(Math.abs(quarter.length - 500 * Math.PI) < 1e-6);
   const middle = placeAt(quarter, 0.5);
   assert.ok(Math.abs(Math.hypot(...middle) - 1000) < 1e-9);
   assert.ok(distanceFrom(quarter, middle) < 1e-9);
