@@ -38,6 +38,15 @@ def test_every_command_is_tried() -> None:
     assert set(there) - set(COMMANDS) == {"term"}  # its output is a terminal's, see test_term.py
 
 
+@pytest.mark.parametrize(
+    ("word", "answer"), [("form-dxf", "did you mean from-dxf?"), ("qqq", "'qqq' (see skg --help)")]
+)
+def test_mistyped_command(word: str, answer: str) -> None:
+    done = subprocess.run([SKG, word, "part.dxf"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert answer in done.stderr
+
+
 def start(words: list[str], closed: int) -> subprocess.Popen[bytes]:
     """Start a command one of whose streams (1, 2) is a pipe that nobody reads; the other one is kept."""
     reading, writing = os.pipe()

@@ -498,12 +498,18 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
 @pytest.mark.parametrize(("arguments", "message"), [
     (["dxf", "empty.skg"], "skg: empty.skg: expected a program, the file is empty"),
     (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
+    (["dxf", "two.skg"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
+    (["dxf", "two.skg", "--skg80", "reference"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
+    (["ref", "tape.skg"], "skg: tape.skg: a tape, expected a program"),
 ])
 def test_wrong_files(run_program: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str],
                      message: str) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "empty.skg").write_text("")
     (tmp_path / "tape.3b").write_bytes(b"DD\r\n")
+    (tmp_path / "tape.skg").write_text("B1000B0B1000GXL1\nDD\n")
+    program = ["REM 1. OUTLINE: 1 LINE", "CUT O,(5,0)", "REM 2. OPENING: 1 CIRCLE", "CUT (9,9),(0,0):1,(3,3)", "END"]
+    (tmp_path / "two.skg").write_text("".join(f"{at}0 {line}\n" for at, line in enumerate(program, 1)))
     result = run_program(*arguments)
     assert result.returncode == 2
     assert message in result.stderr.splitlines()[-1]

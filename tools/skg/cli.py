@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import suppress
+from difflib import get_close_matches
 from importlib import import_module
 from typing import NoReturn
 
@@ -17,7 +18,7 @@ COMMANDS = {
     "check": "Find everything on tapes that a controller would choke on.",
     "cut": "Cut a drawing: DXF or SVG to a checked tape.",
     "dxf": "Turn a tape or a program into a DXF drawing.",
-    "from-dxf": "Write the program that cuts a DXF drawing.",
+    "from-dxf": "Write the program that cuts a DXF or SVG drawing.",
     "gcode": "Turn a 3B tape into ISO G-code, or back.",
     "plot": "Draw tapes and programs to scale.",
     "quality": "Measure the curves of FIT against the true ones.",
@@ -43,6 +44,15 @@ class LazyGroup(click.Group):
         if cmd_name not in COMMANDS:
             return None
         return import_module(f"skg.commands.{cmd_name.replace('-', '_')}").command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find a subcommand; for a mistyped one the message has the nearest."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            near = get_close_matches(args[0], COMMANDS, 1, 0.5)
+            ctx.fail(f"no such command {args[0]!r}" + (f", did you mean {near[0]}?" if near else ""))
+        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the subcommands without importing them."""

@@ -44,7 +44,7 @@ from skg.plane import XY
 def command(file: str, output: str, layers: tuple[str, ...], list_layers: bool, offset: float, side: str,
             reverse: bool, starts: tuple[XY, ...], start_layer: str, lead: float, tolerance: float,
             fit_tolerance: float, units: str | None, opened: str | None, no_fillets: bool) -> None:
-    """Write the SKG program that cuts a DXF drawing.
+    """Write the SKG program that cuts a drawing, DXF or SVG.
 
     Lines, arcs, circles, polylines with bulges, ellipses and splines are chained into contours; openings are
     cut before the outline around them, each from a start hole of its own and entered in the middle of an

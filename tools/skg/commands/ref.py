@@ -45,12 +45,12 @@ def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool, 
     The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
-    from skg.drawing.source import program_text
+    from skg.drawing.source import checked_program, program_text
     from skg.ref import mill as milling
     from skg.ref import run
     from skg.rivals.languages import is_rival
 
-    program = program_text(part.name) if is_rival(part.name) else _text(part)
+    program = program_text(part.name) if is_rival(part.name) else checked_program(_text(part), part.name)
     inputs = _text(answers).splitlines() if answers else []
     if not (mill or grbl):
         result = run(program, inputs, drift=drift)

@@ -18,6 +18,8 @@ Heading = Callable[[float], float]
 _BEND = 1.2
 #: The part of a tolerance that the tried places take: between them the curve may be a little further away.
 _SPARE = 0.9
+#: The chords between samples are about this far from the curve, mm; a span has no more samples than the second.
+_NEAR, _MOST = 5e-5, 4096
 #: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm.
 _FLAT, _STRAIGHT = float(FLAT), float(STRAIGHT)
 
@@ -93,11 +95,29 @@ def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: flo
     nodes = tuple(CurveNode(at(t), heading(t)) for t in found)
     samples: list[XY] = []
     for (one, other), (low, high) in zip(pairwise(nodes), pairwise(found), strict=True):
-        # n chords of a span of length l that bends by θ are lθ/8n² away from it: 0.05 µm here.
-        bend = abs(turn(one.angle, other.angle)) + 0.01
-        pieces = ceil(sqrt(distance(one.point, other.point) * bend / 8 / 5e-5)) + 3
-        samples += [one.point, *(at(low + k / pieces * (high - low)) for k in range(1, pieces))]
+        samples += _samples(at, low, high, one, other)[:-1]
     return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=(*samples, nodes[-1].point))
+
+
+def _samples(at: At, low: float, high: float, one: CurveNode, other: CurveNode) -> list[XY]:
+    """Places along one span, both ends included: so many that the chords between them are near the curve."""
+    # n chords of a span of length l that bends by θ are lθ/8n² away from it, where it is run through evenly.
+    bend = abs(turn(one.angle, other.angle)) + 0.01
+    pieces = ceil(sqrt(distance(one.point, other.point) * bend / 8 / _NEAR) / 2) + 1
+    places = [at(low + k / pieces * (high - low)) for k in range(pieces + 1)]
+    while True:
+        between = [at(low + (k + 0.5) / pieces * (high - low)) for k in range(pieces)]
+        off = max(_off_chord(place, p, q) for place, (p, q) in zip(between, pairwise(places), strict=True))
+        places = [place for pair in zip(places, between, strict=False) for place in pair] + places[-1:]
+        pieces *= 2
+        if off <= 4 * _NEAR or pieces > _MOST:
+            return places
+
+
+def _off_chord(place: XY, p: XY, q: XY) -> float:
+    """Distance of a place from the line through p and q."""
+    length = distance(p, q)
+    return abs(cross(minus(q, p), minus(place, p))) / length if length > 0 else distance(place, p)
 
 
 def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Iterator[float]:

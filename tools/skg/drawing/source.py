@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 import tempfile
@@ -19,6 +20,9 @@ from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
 from skg.tape.placed import PlacedRoute, place, stop_places
 from skg.tape.positions import decide
+
+#: How a tape begins, and no program.
+_TAPE = re.compile(r"\s*(?:B\s*\d+\s*){3}G", re.I)
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,14 @@ def tape_bytes(name: str, skg80: str | None = None) -> bytes:
 
 def program_text(name: str) -> str:
     """Return the SKG program that is in a file, or that a rival's is translated to."""
-    return translated(name) if is_rival(name) else read_ascii(name)
+    return translated(name) if is_rival(name) else checked_program(read_ascii(name), name)
+
+
+def checked_program(text: str, name: str) -> str:
+    """Return what is in a file if it may be a program; a tape is a `UserError`."""
+    if _TAPE.match(text):
+        raise UserError(f"{name}: a tape, expected a program")
+    return text
 
 
 def _run(name: str, skg80: str | None, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
@@ -84,7 +95,7 @@ def _run_rom(name: str, text: str) -> bytes:
     except BoardStopped as stopped:
         raise UserError(f"{name}: {stopped}") from None
     if fed.error:
-        raise _failure(name, *fed.error)
+        raise _failure(name, text, *fed.error)
     return fed.tape
 
 
@@ -105,14 +116,26 @@ def _run_emulator(name: str, text: str, skg80: str) -> bytes:
         if error and error.number == MEMORY_FULL:
             raise too_large(name, text, 8)
         if error:
-            raise _failure(name, *error)
+            raise _failure(name, text, *error)
         raise UserError(f"{name}: {last[0] if last else f'{skg80} ended with {done.returncode}'}")
     return done.stdout
 
 
-def _failure(name: str, number: int, line: int | None) -> UserError:
+def _failure(name: str, text: str, number: int, line: int | None) -> UserError:
     where = f" LINE {line}" if line is not None else ""
-    return UserError(f"{name}: ERR {number:02d}{where}")
+    contour = _contour_at(text, line) if line is not None else ""
+    return UserError(f"{name}: ERR {number:02d}{where}" + (f", in contour {contour}" if contour else ""))
+
+
+def _contour_at(text: str, line: int) -> str:
+    """The contour that a line cuts, as the REM over it has it in a program that was made of a drawing; else nothing."""
+    found = ""
+    for number, statement in re.findall(r"^\s*(\d+)\s*(.*?)\s*$", text, re.M):
+        if int(number) > line:
+            break
+        title = re.match(r"REM (\d+\. .*)", statement)
+        found = title[1] if title else "" if statement == "END" else found
+    return found
 
 
 def _run_reference(name: str, text: str, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
@@ -125,7 +148,7 @@ def _run_reference(name: str, text: str, with_contour: bool) -> tuple[bytes, XY,
         raise UserError(f"{name}: expected a program, the file is empty")
     result = run(text)
     if result.error:
-        raise _failure(name, *result.error)
+        raise _failure(name, text, *result.error)
     start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
     return result.tape, start, nominal(result.path) if with_contour else ()
 
