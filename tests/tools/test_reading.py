@@ -187,6 +187,7 @@ def test_what_is_not_flat_or_not_known() -> None:
         "3DFACE 8 FACE 10 1 20 2 11 3 21 2 12 3 22 4 13 1 23 4",
         "CIRCLE 8 BAD 10 abc 20 5 40 2",
         "INSERT 8 LOST 2 NOWHERE 10 7 20 8",
+        "SPLINE 8 NAN 70 8 71 1 72 4 73 2 40 0 40 0 40 1 40 1 10 nan 20 0 10 5 20 5",
         "TEXT 8 NOTE 10 1 20 1 1 HELLO",
     )
     report = checked(data).report
@@ -197,6 +198,7 @@ def test_what_is_not_flat_or_not_known() -> None:
         ("3DFACE", "FACE", (1, 2)),
         ("CIRCLE", "BAD", (0, 0)),
         ("INSERT", "LOST", (7, 8)),
+        ("SPLINE", "NAN", (0, 0)),
     ]
     text = "\n".join(report.lines())
     assert "not cut: INSERT on layer LOST at (7, 8): its block NOWHERE is not in the file" in text
@@ -330,13 +332,29 @@ def test_junctions(lines: list[str], closed: int, rest: int) -> None:
         assert length(reading.contours) == pytest.approx(160)
 
 
+@pytest.mark.parametrize("radius", [40_000, 60_000, 5e7])
+def test_arcs_of_a_large_radius(radius: float) -> None:
+    """Larger ones than FIT's are cut in chords that stay near them; their centre would lie off the tape."""
+    half = 50 / radius
+    height = radius - radius * cos(half)
+    low, high = (270 + 180 / pi * side * half for side in (-1, 1))
+    data = raw(
+        f"ARC 8 0 10 0 20 {radius} 40 {radius} 50 {low} 51 {high}", line(50, height, 0, 30), line(0, 30, -50, height)
+    )
+    (contour,) = checked(data, tolerance=0.001).contours
+    assert contour.is_closed
+    curve = next(edge for edge in contour.edges if not edge.is_line)
+    assert bool(curve.nodes) == (radius > 50_000)
+    assert max(abs(hypot(x, y - radius) - radius) for x, y in curve.points()) < 1e-3
+
+
 def test_no_outline_is_refused() -> None:
     with pytest.raises(UserError, match=r"no closed outline: 3 entities meet .* as at \(0, 0\).*--open all"):
         checked(raw(*(line(0, 0, *end) for end in ((5, 0), (0, 5), (-5, -5)))))
 
 
 @given(st.integers(0, 10**9))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 def test_small_whole_numbers_thrown_together(seed: int) -> None:
     """Lines, arcs and circles between places of a small grid: touching, crossing, coincident, double, without length.
     Whatever is cut, no length is lost: what is cut is drawn, what is closed is closed, and what is left is told."""
@@ -365,10 +383,28 @@ def test_small_whole_numbers_thrown_together(seed: int) -> None:
 
 @pytest.mark.parametrize("place", [0, 1e3, 5e5, -4e6])
 def test_far_away(place: float) -> None:
-    """A map's coordinates."""
-    (contour,) = checked(raw(*square(place, place, 10), line(place, place, place, place))).contours
+    """A map's coordinates: the drawing is moved to where a tape has room, and that is said."""
+    data = raw(*square(place, place, 10), line(place, place, place, place), f"POINT 8 START 10 {place + 3} 20 {place}")
+    reading = checked(data)
+    (contour,) = reading.contours
     assert contour.is_closed
     assert contour.area == pytest.approx(100, rel=1e-6)
+    at = place if place < 50_000 and place >= 0 else 0
+    assert (reading.report.low, reading.starts) == (pytest.approx((at, at)), [pytest.approx((at + 3, at))])
+    assert any(note.startswith("moved by") for note in reading.report.notes) == (at != place)
+
+
+def test_many_that_touch() -> None:
+    """2,500 squares side by side: not each pair is told, and it takes no time."""
+    corners = [(x, y) for x in range(50) for y in range(50)]
+    data = raw(*(polygon((x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)) for x, y in corners))
+    began = time.process_time()
+    reading = checked(data)
+    assert time.process_time() - began < 4
+    assert len(reading.contours) == 2500
+    assert len(reading.report.overlaps) == 300
+    # each of 50 by 50 squares meets its neighbours at 2·50·49 sides and 2·49·49 corners
+    assert f"{2 * 50 * 49 + 2 * 49 * 49 - 300} more pairs of contours meet" in reading.report.notes
 
 
 def test_units() -> None:
@@ -479,7 +515,7 @@ def test_old_files() -> None:
 
 
 @given(st.data())
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=50, deadline=None)
 def test_damaged_files(data: st.DataObject) -> None:
     """Lines lost, doubled or garbled: a drawing, or one line that says what is wrong; never anything else."""
     drawing = DAMAGED.splitlines(keepends=True)

@@ -13,6 +13,11 @@ def minus(p: XY, q: XY) -> XY:
     return p[0] - q[0], p[1] - q[1]
 
 
+def shifted(p: XY, by: XY) -> XY:
+    """The place a way from p."""
+    return p[0] + by[0], p[1] + by[1]
+
+
 def dot(p: XY, q: XY) -> float:
     """Scalar product."""
     return p[0] * q[0] + p[1] * q[1]

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import pi
 
 from skg.piece import Piece
-from skg.plane import XY, cross, distance
+from skg.plane import XY, cross, distance, shifted
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,17 @@ class Edge(Piece):
         """The same edge, run through backwards."""
         nodes = tuple(CurveNode(node.point, node.angle + pi) for node in reversed(self.nodes))
         return Edge(self.end, self.start, self.centre, -self.sweep, nodes, self.samples[::-1], self.entity)
+
+    def shifted(self, by: XY) -> Edge:
+        """The same edge elsewhere."""
+        return replace(
+            self,
+            start=shifted(self.start, by),
+            end=shifted(self.end, by),
+            centre=self.centre and shifted(self.centre, by),
+            nodes=tuple(CurveNode(shifted(node.point, by), node.angle) for node in self.nodes),
+            samples=tuple(shifted(place, by) for place in self.samples),
+        )
 
     def at(self, part: float) -> XY:
         """The place at `part` of the length."""
@@ -88,6 +99,10 @@ class Contour:
     def reversed(self) -> Contour:
         """The same contour, run through backwards."""
         return replace(self, edges=tuple(edge.reversed() for edge in reversed(self.edges)))
+
+    def shifted(self, by: XY) -> Contour:
+        """The same contour elsewhere."""
+        return replace(self, edges=tuple(edge.shifted(by) for edge in self.edges))
 
     def holds(self, point: XY) -> bool:
         """Whether a point lies inside the closed contour (counts crossings of a ray to the right)."""

@@ -217,8 +217,6 @@ class _Collector:
 
     def add(self, edge: Edge) -> None:
         """Keep an edge unless it has no length."""
-        if not all(map(is_number, (*edge.start, *edge.end, *(edge.centre or (0.0,)), edge.sweep))):
-            raise NotFlat("a place of it is no number")
         if edge.length > 0:
             self.content.edges.append(replace(edge, entity=len(self.content.entities) - 1))
 
@@ -234,7 +232,10 @@ class _Collector:
 
     def points(self, points: Sequence[Vec3]) -> list[XY]:
         """Places of the present block in mm."""
-        return [(point.x * self.factor, point.y * self.factor) for point in self.in_drawing(points)]
+        found = [(point.x * self.factor, point.y * self.factor) for point in self.in_drawing(points)]
+        if not all(is_number(ordinate) for place in found for ordinate in place):
+            raise NotFlat("a place of it is no number")
+        return found
 
     def point(self, point: Vec3) -> XY:
         """One place in mm."""
@@ -287,6 +288,8 @@ def _sweep(first: float, last: float) -> float:
 
 def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:
     """The references that one with rows and columns stands for."""
+    if insert.mcount > _MOST:
+        raise ValueError(f"{insert.mcount:,} times the block")
     return insert.multi_insert() if insert.mcount > 1 else (insert,)
 
 

@@ -12,14 +12,14 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from math import inf
+from math import floor, inf
 
 from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, counted, listed, short, shown
 from skg.drawing.chain import chain, merged
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.wishes import OPEN, UNITS, Wishes
 from skg.errors import UserError
-from skg.plane import XY, distance
+from skg.plane import XY, distance, shifted
 
 __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
@@ -51,7 +51,7 @@ def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
     try:
         return _read(data, name, wishes)
     except UserError as error:
-        raise UserError(f"{name}: {str(error).removeprefix(f'{name}: ')}") from None
+        raise UserError(f"{name}: {error}") from None
 
 
 def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
@@ -74,6 +74,8 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     for what, at, place in found.meetings:
         if at < len(contours):
             report.overlaps.append(fates.overlap(what, contours[at].edges[0], place))
+    if found.unseen:
+        report.notes.append(f"{counted(found.unseen, 'more pair')} of contours meet")
     gone = set(found.repeated)
     hanging = {at for at in found.touched if at < len(contours)} - gone
     rest = [one for at, one in enumerate(rest, len(contours)) if at not in gone]
@@ -97,7 +99,13 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     contours = [replace(merged(one), layers=fates.layers(one)) for one in kept]
     _measure(contours, report)
     _check_size(report)
-    return Reading(contours, content.starts, report)
+    if max(map(abs, (*report.low, *report.high))) < FARTHEST:
+        return Reading(contours, content.starts, report)
+    # A map's coordinates: the ROM has no places that far.
+    by = -floor(report.low[0]), -floor(report.low[1])
+    report.notes.append(f"moved by {shown(by)} mm: the drawing lies too far from its origin for a tape")
+    report.low, report.high = shifted(report.low, by), shifted(report.high, by)
+    return Reading([one.shifted(by) for one in contours], [shifted(at, by) for at in content.starts], report)
 
 
 def layer_lines(data: bytes, name: str) -> list[str]:
@@ -218,7 +226,9 @@ def _first_gap(report: Account) -> str:
     """The narrowest gap."""
     nearest = min(report.open_ends, key=lambda end: end.gap)
     message = f"the first end at {shown(nearest.place)}"
-    return message + f", {short(nearest.gap)} mm from that at {shown(nearest.other)}" * (nearest.other is not None)
+    if nearest.other is None:
+        return message
+    return f"{message}, {short(nearest.gap)} mm from that at {shown(nearest.other)}"
 
 
 def _open_ends(contours: list[Contour], factor: float) -> list[OpenEnd]:

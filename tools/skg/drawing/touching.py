@@ -17,16 +17,20 @@ from skg.plane import XY
 _CHORD = 5e-4
 #: Contours that run along each other for more than this part of the shorter one overlap, else they touch.
 _ALONG = 0.03
+#: So many pairs of contours that meet are looked at.
+_MOST = 300
 
 
 @dataclass
 class Relations:
     """Contours by their numbers. `repeated`: those that are the same as an earlier one; `touched`: open ones that touch
-    or cross another one; `meetings`: what two closed ones do at a place, by the number of the later one."""
+    or cross another one; `meetings`: what two closed ones do at a place, by the number of the later one; `unseen`: how
+    many more pairs of closed ones meet."""
 
     repeated: list[int] = field(default_factory=list)
     touched: set[int] = field(default_factory=set)
     meetings: list[tuple[str, int, XY]] = field(default_factory=list)
+    unseen: int = 0
 
 
 def relations(contours: list[Contour], tolerance: float) -> Relations:
@@ -44,7 +48,9 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
         if at in gone or second in gone:
             continue
         found.touched |= {number for number in (at, second) if not is_closed[number]}
-        if is_closed[at] and is_closed[second]:
+        if is_closed[at] and is_closed[second] and len(found.meetings) >= _MOST:
+            found.unseen += 1
+        elif is_closed[at] and is_closed[second]:
             what, place = _meeting(lines[at], lines[second], tolerance)
             found.meetings.append((what, second, place))
     for at in np.flatnonzero(~shapely.is_simple(lines) & is_closed).tolist():
