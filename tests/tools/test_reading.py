@@ -486,7 +486,8 @@ def test_twenty_thousand_elements() -> None:
     data = raw(*lines, *square(-5, -5, 320))
     began = time.process_time()
     assert len(checked(data).contours) == 5001
-    assert time.process_time() - began < 5
+    # (it takes 3 s where nothing else runs)
+    assert time.process_time() - began < 7
 
 
 @pytest.mark.parametrize(

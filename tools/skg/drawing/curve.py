@@ -34,8 +34,7 @@ def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
     if below <= 1e-12 * sqrt(square):
         return None
     d = square / below
-    return tuple((p + d * a + q - d * b) / 2
-                 for p, a, q, b in zip(one.point, t, other.point, u, strict=True))
+    return tuple((p + d * a + q - d * b) / 2 for p, a, q, b in zip(one.point, t, other.point, u, strict=True))
 
 
 def _off_arc(point: XY, start: XY, angle: float, end: XY) -> tuple[float, float]:
