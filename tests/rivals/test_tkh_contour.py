@@ -298,6 +298,61 @@ def test_belts_of_tangents(part: int) -> None:
         assert not verdict.difference, (text, verdict)
 
 
+# Single rules --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("items", "begin", "blocks"),
+    [
+        ("КР1, ПРЧС", (5, 0), 1),
+        ("КР1, ПОЧС", (5, 0), 1),
+        ("ТЧ1, КР1, ПРЧС", (0, 5), 1),
+        ("ТЧ1, КР1, ПОЧС, ТЧ1", (0, 5), 1),
+        ("КР1, ПРЧС, ТЧ1", (5, 0), 2),
+    ],
+)
+@pytest.mark.parametrize("side", ["", "СПРАВА", "СЛЕВА"])
+def test_whole_circle(items: str, begin: XY, blocks: int, side: str) -> None:
+    """Once round, by its sense; entered at the named point, else where it is nearest."""
+    text = f"КР1 = 0, 0, 5; ТЧ1 = 0, 5; ИЗ 9, 0; КОНТУР {side}{', 0.5, ' if side else ''}{items}"
+    arcs = [s for s in cut(text).path if s.role == "cut"]
+    sense = 1 if "ПРЧС" in items else -1
+    beside = {"": 0, "СПРАВА": 0.5, "СЛЕВА": -0.5}[side] * sense
+    assert len(arcs) == blocks
+    assert abs(sum(float(s.sweep) for s in arcs) - 2 * pi) < 1e-9
+    for s in arcs:
+        assert abs(float(s.radius) - sense * (5 + beside)) < 1e-9
+    scale = (5 + beside) / 5
+    assert apart((float(arcs[0].start.x), float(arcs[0].start.y)), (begin[0] * scale, begin[1] * scale)) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("items", "wire", "wanted"),
+    [
+        # Of the disc the part over the line, both ways round.
+        ("ПР1, ХМ, КР1, ПРЧС, ХБ", "0, 9", [(0, 3), (4, 3), (-4, 3)]),
+        ("ПР1, ХБ, КР1, ПОЧС, ХМ", "0, 9", [(0, 3), (-4, 3), (4, 3)]),
+        # What is in either of two circles, what is in both.
+        ("КР1, ПРЧС, УБ, КР2, ПРЧС, УМ", "0, 9", [(0, 5), (3, -4), (3, 4)]),
+        ("КР2, ПРЧС, УМ, КР1, ПРЧС, УБ", "20, 0", [(11, 0), (3, 4), (3, -4)]),
+        ("КР2, ПРЧС, УБ, КР1, ПРЧС, УМ", "0, 0", [(1, 0), (3, -4), (3, 4)]),
+        # Entered where the item is not run; a point off the circle beside it.
+        ("КР2, ПРЧС, УБ, КР1, ПРЧС, УМ", "20, 0", None),
+        ("ТЧ2, ПР1, ХБ, КР1, ПОЧС", "0, 9", None),
+        ("ПР1, КР1, ПОЧС, ХМ, ТЧ2", "0, 9", None),
+    ],
+)
+def test_two_crossings(items: str, wire: str, wanted: list[XY] | None) -> None:
+    """The corner that m chooses, and where each contour begins."""
+    text = f"КР1 = 0, 0, 5; КР2 = 6, 0, 5; ПР1 = 0, 3, 1, 3; ТЧ2 = 4, 4\nИЗ {wire}\nКОНТУР {items}"
+    if wanted is None:
+        assert fault(text).startswith("3:")
+        return
+    found = [(float(s.start.x), float(s.start.y)) for s in cut(text).path if s.role == "cut"]
+    assert len(found) == len(wanted)
+    assert all(apart(p, q) < 1e-9 for p, q in zip(found, wanted, strict=True)), found
+
+
 # Small whole numbers: touching, coinciding, one in the other ---------------------------------------------------------
 
 
