@@ -174,6 +174,14 @@ def test_load_adds_lines_and_does_what_has_no_number(cpm: Cpm) -> None:
     assert cpm.said("PRINT A") == ["7"]
 
 
+def test_a_file_goes_on_with_another(cpm: Cpm) -> None:
+    """LOAD in a file: what stands behind it there is not read."""
+    for name, source in (("A", '10 REM A\nLOAD "B"\n20 REM A\n'), ("B", "30 REM B\nPRINT 7\n")):
+        cpm.write(f"{name}.SKG", text(source))
+    assert cpm.said('LOAD "A"') == ["7"]
+    assert cpm.said("LIST") == ["10 REM A", "30 REM B"]
+
+
 @pytest.mark.parametrize("ends", ["\n", "", "\r", "\r\n\x1a", "\x1arubbish"])
 def test_how_a_text_may_end(ends: str) -> None:
     """With or without a last line end and a ctrl-Z, in the middle of a record and at its end."""
