@@ -12,7 +12,7 @@ CPTAIL  EQU 0080H       ; length and text of the command line
 ;! ZBEND <= CPRAM and CPEND <= RAM -- program, these cells, the others
 ;! KEYQ & 0FFH == 0 -- KQPUT and KQGET are low bytes
 ;! KQGET == KQPUT+1 -- POLL takes both at once
-CPRAM   EQU 2700H
+CPRAM   EQU 2900H
 KEYQ    EQU CPRAM       ; keys typed ahead, 32 bytes
 RBUF    EQU CPRAM+32    ; record of the file that LOAD reads, 128 bytes
 WBUF    EQU CPRAM+160   ; record of the file that is written; entries of the directory
@@ -37,7 +37,7 @@ CPZEND  EQU CPZERO+8
 SCRIPT  EQU CPZEND      ; lines that the command line asks for: 127 bytes of it, and what stands around
 CPEND   EQU SCRIPT+168
 
-RAM     EQU 2A00H       ; RAM, from a page's start
+RAM     EQU 2C00H       ; RAM, from a page's start
 BDSTK   EQU 100H        ; bytes of the stack that what is called outside the firmware may take
 
         DS      0100H

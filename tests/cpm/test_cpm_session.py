@@ -406,6 +406,18 @@ def test_a_disk_that_fails(lines: list[str]) -> None:
     assert cpm.read("OLD.SKG") == b"10 CUT (0,0),(1,0)\r\n"
 
 
+def test_a_disk_that_cannot_be_read(cpm: Cpm) -> None:
+    """CP/M 3 says so with FF where the end of a file is 1: no part of a program goes for the whole."""
+    memory = cpm.machine.memory
+    bdos = int.from_bytes(memory[6:8], "little")
+    at = 0xCF06
+    stub = bytes([0x79, 0xFE, 20, 0xC2, *bdos.to_bytes(2, "little"), 0x3E, 0xFF, 0xC9])
+    memory[at : at + len(stub)] = stub  # MOV A,C  CPI 20  JNZ BDOS  MVI A,0FFH  RET
+    memory[6:8] = at.to_bytes(2, "little")
+    assert cpm.said('LOAD "STAR"')[-1] == "ERR 10"
+    assert cpm.said("LIST") == []
+
+
 @pytest.mark.parametrize("free", [0, 1])
 @pytest.mark.parametrize("what", ["save", "punch"])
 def test_a_full_disk(what: str, free: int) -> None:
