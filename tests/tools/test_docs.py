@@ -43,7 +43,7 @@ def examples() -> Iterator[re.Match[str]]:
 @pytest.mark.parametrize("example", examples(), ids=lambda match: match["command"])
 def test_example(example: re.Match[str], tmp_path: Path) -> None:
     # Pictures are drawn elsewhere, so that a test never changes the tree.
-    command = re.sub(r"-o docs/pictures/", f"-o {tmp_path}/", example["command"])
+    command = re.sub(r"(-o|--sheet) docs/pictures/", rf"\1 {tmp_path}/", example["command"])
     assert indented(printed(command)) == example["output"]
 
 

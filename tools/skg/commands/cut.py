@@ -6,12 +6,30 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import Coordinates
+from skg.commands.options import Coordinates, picture_format
 from skg.drawing.plan import LEAD, plan
 from skg.drawing.read import OPEN, UNITS, Wishes, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.plane import XY
+
+
+class Passes(click.ParamType):
+    """Numbers with commas between them, none below 0, such as 0.06,0.02,0."""
+
+    name = "MM,MM,..."
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """Return the numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            found = tuple(float(part) for part in str(value).split(","))
+        except ValueError:
+            found = ()
+        if not found or not all(0 <= more < 100 for more in found):
+            self.fail(f"{value!r}: expected lengths in mm with commas between them, such as 0.06,0.02,0", param, ctx)
+        return found
 
 
 @click.command(name="cut")
@@ -25,6 +43,7 @@ from skg.plane import XY
     help="Tape to write, - for the standard output.",
 )
 @click.option("--program", metavar="FILE", type=click.Path(), help="Also write the SKG program.")
+@click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
 @click.option("--wire", metavar="MM", type=click.FloatRange(0, min_open=True), help="Diameter of the wire.")
 @click.option("--gap", metavar="MM", default=0.0, type=click.FloatRange(0), help="Spark gap on each side of the wire.")
 @click.option(
@@ -66,6 +85,27 @@ from skg.plane import XY
     help="From a chosen start hole to the contour, where there is room.",
 )
 @click.option(
+    "--lead-shape",
+    default="perpendicular",
+    show_default=True,
+    type=click.Choice(("perpendicular", "arc")),
+    help="arc: a quarter of a circle about the start hole touches the contour.",
+)
+@click.option(
+    "--passes",
+    metavar="MM,MM,...",
+    type=Passes(),
+    help="Cut each contour so often, every second time backwards; what each pass leaves to the last offset, "
+    "such as 0.06,0.02,0.",
+)
+@click.option(
+    "--tab",
+    default=0.0,
+    metavar="MM",
+    type=click.FloatRange(0),
+    help="Length of the bridge that keeps a part cut from outside; the machine stops, the last cut takes it off.",
+)
+@click.option(
     "--tolerance",
     default=0.005,
     show_default=True,
@@ -94,6 +134,7 @@ def command(
     file: str,
     output: str,
     program: str | None,
+    sheet: str | None,
     wire: float | None,
     gap: float,
     offset: float | None,
@@ -105,6 +146,9 @@ def command(
     starts: tuple[XY, ...],
     start_layer: str,
     lead: float,
+    lead_shape: str,
+    passes: tuple[float, ...] | None,
+    tab: float,
     tolerance: float,
     rom: str,
     ram: int,
@@ -120,18 +164,34 @@ def command(
     from skg.cutting.job import Settings, make, report
 
     distance = _offset(wire, gap, offset)
+    form = picture_format(sheet, None) if sheet else ""
     wishes = Wishes(layers, start_layer, units, tolerance, open=opened or ("refuse" if distance else "cut"))
     reading = read(read_bytes(file), file, wishes)
     factor = reading.report.factor
     settings = Settings("no-drift" if rom == "nodrift" else rom, ram, feed)
     try:
-        routes = plan(reading.contours, list(starts) or reading.starts, distance, side, reverse, lead)
+        routes = plan(
+            reading.contours,
+            list(starts) or reading.starts,
+            distance,
+            side,
+            reverse,
+            lead,
+            passes=passes or (0.0,),
+            tab=tab,
+            arc=lead_shape == "arc",
+        )
         job = make(routes, "standard input" if file == "-" else Path(file).name, factor, settings)
     except UserError as error:
         raise UserError(f"{file}: {error}") from None
     write_bytes(output, job.data)
     if program:
         write_bytes(program, job.program.encode("ascii"))
+    if sheet:
+        from skg.cutting.sheet import Facts, write_sheet
+
+        names = (Path(path).name if path != "-" else "-" for path in (file, output))
+        write_sheet(job, Facts(*names, wire, gap, reading.report.units), sheet, form)
     if not quiet:
         for line in [*reading.report.lines(), *report(job, factor)]:
             click.echo(line, err=True)

@@ -3,16 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import click
 
+from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Tape
 from skg.tape.positions import POSITIONS, decide
+
+#: Formats of pictures, by the ending of a file's name.
+FORMATS = ("svg", "png", "pdf")
 
 positions_option = click.option(
     "--positions", type=click.Choice(POSITIONS), default="auto", show_default=True,
     help="Start each block where the block before should have ended (programmed), or where the controller "
          "really stands then (machine: tapes without drift); auto: as the tape says, else found out, and said.")
+
+
+def picture_format(output: str, form: str | None, also: str = "") -> str:
+    """The format of a picture: as said, else by the file's name; the standard output is SVG.
+
+    `also`: what else may tell it.
+    """
+    found = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
+    if found not in FORMATS:
+        raise UserError(f"{output}: expected a name that ends in .svg, .png or .pdf{also}")
+    return found
 
 
 def decided(tape: Tape, positions: str) -> str:

@@ -6,21 +6,11 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import Coordinates, decided, positions_option, skg80_option
+from skg.commands.options import FORMATS, Coordinates, decided, picture_format, positions_option, skg80_option
 from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import micrometres
 from skg.tape.placed import place, stop_places
-
-FORMATS = ("svg", "png", "pdf")
-
-
-def _form(output: str, form: str | None) -> str:
-    """The picture's format: as said, else by the file's name; the standard output is SVG."""
-    found = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
-    if found not in FORMATS:
-        raise UserError(f"{output}: expected a name that ends in .svg, .png or .pdf, or --format")
-    return found
 
 
 @click.command(name="plot")
@@ -50,7 +40,7 @@ def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool,
     from skg.drawing.plot import COLOURS, Picture, Sheet
     from skg.drawing.source import load
 
-    picture_format = _form(output, form)
+    form = picture_format(output, form, ", or --format")
     sheets = []
     stops: list[list[XY]] = []
     for at, name in enumerate(files):
@@ -69,4 +59,4 @@ def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool,
             picture.stop(point, f"tape-{at + 1}-stop-{number}")
     if len(sheets) > 1:
         picture.legend([sheet.name for sheet in sheets])
-    picture.save(output, picture_format)
+    picture.save(output, form)

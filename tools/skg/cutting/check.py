@@ -9,7 +9,7 @@ Nothing here is computed as the ROM does it, there are no corners and no crossin
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, sin
@@ -18,7 +18,7 @@ import numpy as np
 
 from skg.cutting.near import Floats, Pieces, Whole
 from skg.drawing.contour import Edge
-from skg.drawing.plan import Lead, PlannedContour
+from skg.drawing.plan import Lead, PlannedContour, split_at_end
 from skg.errors import UserError
 from skg.piece import Piece
 from skg.plane import XY
@@ -113,13 +113,13 @@ def _placed(blocks: list[Block], moves: list[XY], at: XY) -> tuple[tuple[Placed,
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
     """Follow a tape and compare it with the routes that it should cut."""
     cuts = follow(tape, routes, is_without_drift)
-    drawn = Pieces((piece, at) for at, route in enumerate(routes) for piece in _drawn(route))
+    contours = Pieces((piece, at) for at, route in enumerate(routes) for piece in drawn(route))
     wire = Pieces((_millimetres(piece), cut.route) for cut in cuts for piece in cut.pieces)
     steps = np.array([off for cut in cuts for off in cut.off_curve], float) / 1000
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
-    faults, crossings, worst = _beside(wire, steps, drawn, routes, offsets, widest)
-    more, far = _reached(wire, drawn, offsets, widest)
+    faults, crossings, worst = _beside(wire, steps, contours, routes, offsets, widest)
+    more, far = _reached(wire, contours, _in_tabs(routes), offsets, widest)
     return Checked(cuts, max(worst, far), faults + more, crossings)
 
 
@@ -129,9 +129,17 @@ def _offsets(routes: list[PlannedContour]) -> Floats:
     return np.array([(*route.passes, *(most - len(route.passes)) * route.passes[-1:]) for route in routes], float)
 
 
-def _drawn(route: PlannedContour) -> Iterator[Piece]:
+def drawn(route: PlannedContour) -> Iterator[Piece]:
     """A contour as lines and arcs, in its direction."""
-    for edge in route.chain():
+    if route.tab:
+        for edges in split_at_end(route.chain(), route.tab):
+            yield from _as_pieces(edges)
+    else:
+        yield from _as_pieces(route.chain())
+
+
+def _as_pieces(edges: Iterable[Edge]) -> Iterator[Piece]:
+    for edge in edges:
         if not edge.nodes:
             yield edge
             continue
@@ -180,13 +188,13 @@ def _spacing(pieces: Pieces, widest: float) -> float:
 
 
 def _beside(
-    wire: Pieces, steps: Floats, drawn: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
+    wire: Pieces, steps: Floats, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
 ) -> tuple[list[Misfit], list[Crossing], float]:
     """Whether every place of the wire lies as far beside its contour as it should."""
     which, part = wire.samples(_spacing(wire, widest), 2)
     places, owners, step = wire.at(which, part), wire.owner[which], steps[which]
     wanted = np.abs(offsets)[owners]
-    near = drawn.nearest(places, owners, widest + 2 * LIMIT)
+    near = contours.nearest(places, owners, widest + 2 * LIMIT)
     off = np.abs(near.own[:, None] - wanted).min(1)
     into = near.own < wanted.min(1) - LIMIT
     is_open = np.array([not route.contour.is_closed for route in routes])
@@ -196,7 +204,9 @@ def _beside(
     doubtful = np.flatnonzero((off > _USUAL) & ~into)
     off[doubtful] = np.minimum(off[doubtful], _off_leads(places[doubtful], owners[doubtful], routes))
     doubtful = doubtful[off[doubtful] > _USUAL]
-    off[doubtful] = np.minimum(off[doubtful], _off_corners(places[doubtful], owners[doubtful], drawn, wanted[doubtful]))
+    off[doubtful] = np.minimum(
+        off[doubtful], _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful])
+    )
     total = off + step
     faults = [
         Misfit(int(owners[at]), _xy(places[at]), float(abs(wanted[at].min() - near.own[at])), bool(into[at]))
@@ -204,7 +214,7 @@ def _beside(
     ]
     deep = wanted.min(1) - near.other
     crossings = [
-        Crossing(int(owners[at]), int(drawn.owner[near.other_at[at]]), _xy(places[at]), float(deep[at]))
+        Crossing(int(owners[at]), int(contours.owner[near.other_at[at]]), _xy(places[at]), float(deep[at]))
         for at in _first_of_each(owners, deep > LIMIT)
     ]
     good = ~into & np.isfinite(total)
@@ -228,20 +238,20 @@ def _off_leads(places: Floats, owners: Whole, routes: list[PlannedContour]) -> F
     return leads.nearest(places, owners, 2 * LIMIT).own
 
 
-def _off_corners(places: Floats, owners: Whole, drawn: Pieces, wanted: Floats) -> Floats:
+def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats) -> Floats:
     """How far places outside of sharp corners are from where they should be: beside a line or circle there."""
     off = np.full(len(places), np.inf)
     reach = max(float(wanted.max(initial=0.0)), LIMIT)
     left = np.arange(len(places))
     for _ in range(4):
         reach *= 6
-        near = drawn.nearest(places[left], owners[left], reach)
+        near = contours.nearest(places[left], owners[left], reach)
         found = near.own_at >= 0
-        first = np.searchsorted(drawn.owner, owners[left][found])
-        count = np.searchsorted(drawn.owner, owners[left][found], "right") - first
+        first = np.searchsorted(contours.owner, owners[left][found])
+        count = np.searchsorted(contours.owner, owners[left][found], "right") - first
         for beside in (-1, 0, 1):
             other = first + (near.own_at[found] - first + beside) % count
-            carrier = drawn.from_carrier(places[left][found], other)
+            carrier = contours.from_carrier(places[left][found], other)
             at = left[found]
             off[at] = np.minimum(off[at], np.abs(carrier[:, None] - wanted[at]).min(1))
         left = left[~found]
@@ -250,19 +260,33 @@ def _off_corners(places: Floats, owners: Whole, drawn: Pieces, wanted: Floats) -
     return off
 
 
-def _reached(wire: Pieces, drawn: Pieces, offsets: Floats, widest: float) -> tuple[list[Misfit], float]:
+def _in_tabs(routes: list[PlannedContour]) -> np.ndarray:
+    """Which of the pieces of the contours are cut in the last pass alone."""
+    found = []
+    for route in routes:
+        count = sum(1 for _ in drawn(route))
+        tab = sum(1 for _ in _as_pieces(split_at_end(route.chain(), route.tab)[1])) if route.tab else 0
+        found.append(np.arange(count) >= count - tab)
+    return np.concatenate(found)
+
+
+def _reached(
+    wire: Pieces, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
+) -> tuple[list[Misfit], float]:
     """Whether the wire has been beside every place of the contours that it can reach."""
-    which, part = drawn.samples(_spacing(drawn, widest), 2)
-    owners = drawn.owner[which]
-    on, square = drawn.at(which, part), drawn.normal(which, part)
+    which, part = contours.samples(_spacing(contours, widest), 2)
+    owners = contours.owner[which]
+    on, square = contours.at(which, part), contours.normal(which, part)
     faults: list[Misfit] = []
     worst = 0.0
-    for r in offsets.T:
+    for number, r in enumerate(offsets.T):
         aside = r[owners]
         places = on + aside[:, None] * square
         free = np.ones(len(places), bool)
         if widest:
-            free = drawn.nearest(places, owners, widest).own > np.abs(aside) - LIMIT / 10
+            free = contours.nearest(places, owners, widest).own > np.abs(aside) - LIMIT / 10
+        if number + 1 < offsets.shape[1]:
+            free &= ~in_tabs[which]
         off = wire.nearest(places[free], owners[free], 2 * LIMIT).own
         for at in _first_of_each(owners[free], off > LIMIT):
             faults.append(Misfit(int(owners[free][at]), _xy(places[free][at]), float(off[at]), False))

@@ -204,7 +204,7 @@ def _offsets(routes: list[PlannedContour]) -> list[str]:
         outer = [at for at in free if not routes[at - 1].is_opening]
         if outer:
             lines.append(
-                f"take care: {counted(len(outer), 'part')} come free after the first pass "
+                f"take care: {counted(len(outer), 'part')} free after the first pass "
                 f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
             )
     return lines
@@ -220,5 +220,8 @@ def _how(job: Job) -> str:
 
 
 def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> str:
-    closed = [cut for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tab]
-    return f"; {counted(len(closed), 'closed contour')} end where they begin" if closed else ""
+    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tab}
+    if not closed:
+        return ""
+    end = "ends where it begins" if len(closed) == 1 else "end where they begin"
+    return f"; {counted(len(closed), 'closed contour')} {end}"

@@ -20,6 +20,8 @@ LEAD = 3.0
 _TRIED = 8
 #: A start hole has room enough when nothing is nearer than this part of the lead.
 _ENOUGH = 0.5
+#: A lead that is an arc is no smaller, mm; chords of a contour lie inside of it by the rest of this, of the radius.
+_LEAST_ARC, _ROUND = 0.05, 0.998
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
 #: entry for a lead that is an arc.
 _SQUARE = 1e-6
@@ -325,7 +327,7 @@ class _Planner:
                 part = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
                 start = edge.centre
             else:
-                start, _ = self._hole(edge, part, is_outside == is_ccw, reach)
+                start = self._hole(edge, part, is_outside == is_ccw, reach)
             one = replace(made, contour=contour, start=start, part=part)
             one = self._with_tab_hole(one, is_outside == is_ccw)
             one = replace(one, room=self._room(one))
@@ -354,22 +356,27 @@ class _Planner:
             raise self._too_short(contour)
         return contour, min(0.95, max(part, aside + 0.05))
 
-    def _hole(self, edge: Edge, part: float, is_right: bool, reach: float, at_end: bool = False) -> tuple[XY, float]:
+    def _hole(self, edge: Edge, part: float, is_right: bool, reach: float, at_end: bool = False) -> XY:
         """A start hole square to the entry, on the wire's side: `reach` away, or in the middle of the room there is."""
         entry = edge.at(part)
         way = edge.direction(1.0 if at_end else part)
         square = way - pi / 2 if is_right else way + pi / 2
         # An arc's own chords lie up to 0.1 % of its radius inside of it.
         least = 1e-3 * (1 + edge.radius) if edge.centre is not None else 1e-3
-        room = self.field.way(entry, square, 2 * reach + least, least)
-        return polar(entry, min(reach, room / 2), square), room
+        reach = min(reach, self.field.way(entry, square, 2 * reach + least, least) / 2)
+        hole = polar(entry, reach, square)
+        while self.method.is_arc and reach > _LEAST_ARC and self.field.distance(hole, reach) < _ROUND * reach:
+            # (the quarters of the circle to the contour and from it must be free)
+            reach *= 0.8
+            hole = polar(entry, reach, square)
+        return hole
 
     def _with_tab_hole(self, made: PlannedContour, is_right: bool) -> PlannedContour:
         if not made.tab:
             return made
         main, _ = split_at_end(made.chain(), made.tab)
         reach = distance(made.start, made.entry)
-        hole, _ = self._hole(main[-1], 1.0, is_right, reach, True)
+        hole = self._hole(main[-1], 1.0, is_right, reach, True)
         return replace(made, tab_hole=hole)
 
     def _room(self, made: PlannedContour) -> float:

@@ -1,0 +1,353 @@
+"""The setup sheet: what the shop needs beside the machine, on one page."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from datetime import date
+from math import ceil, cos, pi, sin
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib import path as paths
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, PathPatch, Polygon
+from matplotlib.transforms import Affine2D
+
+from skg.cutting.check import drawn
+from skg.cutting.job import Job, kind
+from skg.drawing.account import short, shown
+from skg.drawing.plot import outline
+from skg.files import write_bytes
+from skg.piece import Piece
+from skg.plane import XY, distance, polar
+from skg.tape.simulation import duration
+
+#: The page lies on its side: A4, and A3 where A4 has no room for the table; mm.
+_A4, _A3 = (297.0, 210.0), (420.0, 297.0)
+_INCH = 25.4
+_MARGIN, _HEAD = 10.0, 26.0
+#: A row of the table, a column of it; room around the part for dimensions.
+_ROW, _COLUMN, _AROUND = 2.9, 46.0, 14.0
+#: The largest mark of a start hole (its radius), the largest arrow; all mm on the paper.
+_HOLE, _ARROW = 1.1, 1.8
+#: Of these scales the largest at which the part fits is taken.
+_SCALES = (
+    *(float(m * p) for p in (100, 10, 1) for m in (5, 4, 3, 2, 1)),
+    *(1 / (m * p) for p in (1, 10, 100, 1000) for m in (2, 2.5, 3, 4, 5, 10)),
+)
+#: So many numbers are looked for room on the drawing, all stand in the table.
+_MOST_NUMBERS = 1000
+#: Numbers are looked for room on a grid of this, mm, no further from their holes than the second.
+_GRID, _FAR = 0.4, 14.0
+_FONT = 6.0
+#: A point of a font in mm; how wide a character is, in font sizes.
+_POINT, _WIDE = _INCH / 72, 0.62
+_INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the sheet says besides: the drawing's name, the tape's, wire and gap (mm, None: not told), the units."""
+
+    drawing: str
+    tape: str
+    wire: float | None
+    gap: float
+    units: str
+
+
+class _Taken:
+    """Which places of the page are taken, on a grid."""
+
+    def __init__(self, size: XY) -> None:
+        self.cells = np.zeros((int(size[0] / _GRID) + 2, int(size[1] / _GRID) + 2), bool)
+
+    def along(self, places: np.ndarray) -> None:
+        """Take what a line passes; places no further apart than the grid."""
+        at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
+        self.cells[at[:, 0], at[:, 1]] = True
+
+    def _box(self, low: XY, high: XY) -> tuple[slice, slice]:
+        return tuple(slice(max(0, int(a / _GRID)), max(0, int(b / _GRID) + 1)) for a, b in zip(low, high, strict=True))
+
+    def is_free(self, low: XY, high: XY) -> bool:
+        """Whether nothing is in a box."""
+        return not self.cells[self._box(low, high)].any()
+
+    def take(self, low: XY, high: XY) -> None:
+        """Take a box."""
+        self.cells[self._box(low, high)] = True
+
+
+class SetupSheet:
+    """A page with a job on it."""
+
+    def __init__(self, job: Job, facts: Facts) -> None:
+        self.job, self.facts = job, facts
+        rows = len(job.routes)
+        per_column = [int((page[1] - 2 * _MARGIN - _HEAD - 8) / _ROW) for page in (_A4, _A3)]
+        self.page = _A4 if rows <= 2 * per_column[0] else _A3
+        self.per_column = per_column[self.page == _A3]
+        most = int((self.page[0] / 2) / _COLUMN)
+        self.columns = max(1, min(most, ceil(rows / self.per_column)))
+        self.figure = Figure(figsize=(self.page[0] / _INCH, self.page[1] / _INCH))
+        self.axes = self.figure.add_axes((0, 0, 1, 1))
+        self.axes.set_xlim(0, self.page[0])
+        self.axes.set_ylim(0, self.page[1])
+        self.axes.axis("off")
+        self.taken = _Taken(self.page)
+        self._place()
+
+    def draw(self) -> None:
+        """Draw everything."""
+        self._part()
+        self._wire()
+        self._dimensions()
+        left_out = self._holes()
+        self._table()
+        self._title(left_out)
+
+    def _place(self) -> None:
+        """Where the part lies on the page, and its scale."""
+        outlines = [outline(piece) for route in self.job.routes for piece in drawn(route)]
+        self.curve = paths.Path.make_compound_path(*outlines)
+        points = np.array([point for route in self.job.routes for piece in drawn(route) for point in _extremes(piece)])
+        # (a bound of -1e-17 is 0)
+        self.low, self.high = (tuple(np.round(bound, 6) + 0.0) for bound in (points.min(0), points.max(0)))
+        holes = np.array([route.start for route in self.job.routes] + [self.low, self.high])
+        low, high = holes.min(0), holes.max(0)
+        room = (
+            self.page[0] - 2 * _MARGIN - self.columns * _COLUMN - 2 * _AROUND,
+            self.page[1] - 2 * _MARGIN - _HEAD - 2 * _AROUND,
+        )
+        size = [max(b - a, 1e-3) for a, b in zip(low, high, strict=True)]
+        fits = min(space / side for space, side in zip(room, size, strict=True))
+        self.scale = next((one for one in _SCALES if one <= fits), fits)
+        middle = _MARGIN + _AROUND + room[0] / 2, _MARGIN + _HEAD + _AROUND + room[1] / 2
+        self.shift = tuple(m - self.scale * (a + b) / 2 for m, a, b in zip(middle, low, high, strict=True))
+
+    def on_paper(self, place: XY) -> XY:
+        """A place of the part on the page, mm."""
+        return place[0] * self.scale + self.shift[0], place[1] * self.scale + self.shift[1]
+
+    def _patch(self, curve: paths.Path, unit: float, **look: object) -> None:
+        to_page = Affine2D().scale(unit * self.scale).translate(*self.shift)
+        # (add_patch would look for the bounds of every curve)
+        self.axes.add_artist(PathPatch(curve, fill=False, transform=to_page + self.axes.transData, **look))
+
+    def _part(self) -> None:
+        self._patch(self.curve, 1.0, edgecolor=_INK, linewidth=0.7, zorder=3, gid="part")
+        for route in self.job.routes:
+            for edge in route.contour.edges:
+                points = np.array([self.on_paper(point) for point in edge.points()])
+                self._take_line(points)
+
+    def _take_line(self, points: np.ndarray) -> None:
+        way = points[1:] - points[:-1]
+        count = (np.hypot(*way.T) / _GRID * 1.5).astype(int) + 2
+        which = np.repeat(np.arange(len(way)), count)
+        part = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
+        self.taken.along(points[which] + part[:, None] * way[which])
+
+    def _wire(self) -> None:
+        """The wire's path, the moves between start holes, an arrow on each contour."""
+        curves = [outline(piece) for cut in self.job.checked.cuts for piece in cut.pieces]
+        if curves:
+            self._patch(
+                paths.Path.make_compound_path(*curves), 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire"
+            )
+        for cut in self.job.checked.cuts:
+            # (what lies beside the contours: leads)
+            for piece in (*cut.pieces[:1], *cut.pieces[-1:]):
+                ends = [self.on_paper((x / 1000, y / 1000)) for x, y in (piece.start, piece.end)]
+                self._take_line(np.array(ends))
+        holes = [self.on_paper(route.start) for route in self.job.routes]
+        for p, q in zip(holes, holes[1:], strict=False):
+            self.axes.plot(*zip(p, q, strict=True), color=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1)
+        for route in self.job.routes:
+            edges = route.chain()
+            edge = max(edges[: max(1, len(edges))], key=lambda edge: edge.length)
+            size = min(_ARROW, edge.length * self.scale / 4)
+            if size > 0.3:
+                self._arrow(edge.at(0.5), edge.direction(0.5) if not edge.nodes else _way(edge.samples), size)
+
+    def _arrow(self, place: XY, way: float, size: float) -> None:
+        """An arrow beside a contour shows the way and covers nothing: it is open and thin."""
+        x, y = self.on_paper(place)
+        head = [(x - size * cos(way + turn), y - size * sin(way + turn)) for turn in (0.4, -0.4)]
+        points = [head[0], (x, y), head[1]]
+        self.axes.plot(*zip(*points, strict=True), color=_WIRE, linewidth=0.7, zorder=4, gid="arrow")
+
+    def _dimensions(self) -> None:
+        """Width and height of the part, and where its lower left corner lies on the drawing."""
+        (left, bottom), (right, top) = self.on_paper(self.low), self.on_paper(self.high)
+        holes = [self.on_paper(route.start) for route in self.job.routes]
+        under = min(bottom, *(y for _, y in holes)) - 6
+        beside = min(left, *(x for x, _ in holes)) - 6
+        width, height = self.high[0] - self.low[0], self.high[1] - self.low[1]
+        self._dimension((left, under), (right, under), (left, bottom), (right, bottom), f"{short(width)}")
+        self._dimension((beside, bottom), (beside, top), (left, bottom), (left, top), f"{short(height)}")
+        self._text((left, under - 5.2), f"lower left corner at {shown(self.low)}", 5, _GREY)
+
+    def _dimension(self, one: XY, other: XY, from_one: XY, from_other: XY, text: str) -> None:
+        for p, q in ((one, other), (one, from_one), (other, from_other)):
+            self.axes.plot(*zip(p, q, strict=True), color=_GREY, linewidth=0.35, zorder=1)
+        length, is_flat = distance(one, other), one[1] == other[1]
+        size = min(1.6, length / 3)
+        for tip, way in ((one, 0.0), (other, pi)):
+            way += 0 if is_flat else pi / 2
+            sides = [(tip[0] + size * cos(way + turn), tip[1] + size * sin(way + turn)) for turn in (0.25, -0.25)]
+            self.axes.add_patch(Polygon([tip, *sides], facecolor=_GREY, edgecolor="none"))
+        middle = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+        place = (middle[0], middle[1] - 2.4) if is_flat else (middle[0] - 2, middle[1])
+        self._text(place, text, 7, _INK, ha="center", va="center", rotation=0 if is_flat else 90)
+
+    def _text(self, place: XY, text: str, size: float, colour: str, **how: object) -> None:
+        self.axes.text(*place, text, fontsize=size, color=colour, **how)
+
+    def _holes(self) -> int:
+        """Mark and number the start holes; returns how many numbers found no room."""
+        places = np.array([self.on_paper(route.start) for route in self.job.routes])
+        radii = [self._radius(at, places) for at in range(len(places))]
+        for (x, y), radius in zip(places, radii, strict=True):
+            self.axes.add_patch(
+                Circle((x, y), radius, fill=False, edgecolor=_MARK, linewidth=min(0.7, radius), zorder=5, gid="hole")
+            )
+            self.taken.take((x - radius, y - radius), (x + radius, y + radius))
+        left_out = 0
+        for at, ((x, y), radius) in enumerate(zip(places, radii, strict=True)):
+            left_out += at >= _MOST_NUMBERS or not self._number(str(at + 1), (float(x), float(y)), radius)
+        return left_out
+
+    def _radius(self, at: int, places: np.ndarray) -> float:
+        """A mark covers neither its contour nor the next mark."""
+        route = self.job.routes[at]
+        radius = min(
+            _HOLE, 0.5 * route.room * self.scale, 0.5 * distance(route.start, route.entry) * self.scale or _HOLE
+        )
+        if len(places) > 1:
+            apart = np.hypot(*(places - places[at]).T)
+            apart[at] = np.inf
+            radius = min(radius, 0.4 * float(apart.min()) or radius)
+        return max(radius, 0.1)
+
+    def _number(self, text: str, hole: XY, radius: float) -> bool:
+        """Write a number where there is room near its hole, with a line to it from further away."""
+        for size in (_FONT, 4.5):
+            wide, high = (len(text) * _WIDE * 1.1 + 0.2) * size * _POINT / 2, 0.65 * size * _POINT
+            for ring in np.arange(radius + 0.5, _FAR, 0.8):
+                for turn in range(12):
+                    way = pi / 4 + turn * pi / 6
+                    x = hole[0] + (ring + wide) * cos(way)
+                    y = hole[1] + (ring + high) * sin(way)
+                    low, top = (x - wide, y - high), (x + wide, y + high)
+                    if not self.taken.is_free(low, top):
+                        continue
+                    if ring > radius + 2.2:
+                        end = hole[0] + radius * cos(way), hole[1] + radius * sin(way)
+                        begin = hole[0] + ring * cos(way), hole[1] + ring * sin(way)
+                        self.axes.plot(*zip(end, begin, strict=True), color=_MARK, linewidth=0.25, zorder=4)
+                    self.taken.take(low, top)
+                    self._text((x, y), text, size, _MARK, ha="center", va="center", gid="number", zorder=6)
+                    return True
+        return False
+
+    def _table(self) -> None:
+        """Number, place, kind and length of each start hole."""
+        routes = self.job.routes
+        lengths = np.zeros(len(routes))
+        for cut in self.job.checked.cuts:
+            lengths[cut.route] += cut.length
+        shown = min(len(routes), self.columns * self.per_column)
+        top = self.page[1] - _MARGIN - 2
+        right = self.page[0] - _MARGIN
+        for at in range(shown):
+            column, row = divmod(at, self.per_column)
+            x = right - (self.columns - column) * _COLUMN
+            if row == 0:
+                self._row(x, top, ("no.", "x", "y", "contour", "mm cut"), _GREY)
+            route = routes[at]
+            cells = (str(at + 1), f"{route.start[0]:.3f}", f"{route.start[1]:.3f}", kind(route).split()[0])
+            self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[at]:.1f}"), _INK)
+        if shown < len(routes):
+            self._text((right, _MARGIN + _HEAD + 1), f"and {len(routes) - shown} more", 5, _INK, ha="right")
+
+    def _row(self, x: float, y: float, cells: Iterable[str], colour: str) -> None:
+        for cell, end in zip(cells, (6.0, 17.5, 29.0, 30.0, 45.0), strict=True):
+            self._text((x + end, y), cell, 4.8, colour, ha="left" if end == 30.0 else "right", va="center")
+
+    def _title(self, left_out: int) -> None:
+        """The block of facts at the foot of the page."""
+        job, facts, page = self.job, self.facts, self.page
+        for y in (_MARGIN, _MARGIN + _HEAD - 2):
+            self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
+        offsets = next((route.passes for route in job.routes if any(route.passes)), ())
+        beside = ", ".join(short(abs(r)) for r in offsets) or "0, the wire's middle on the contour"
+        wire = "not told" if facts.wire is None else f"{short(facts.wire)} mm, gap {short(facts.gap)} mm"
+        tabs = {route.tab for route in job.routes if route.tab}
+        ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
+        columns = (
+            (("drawing", facts.drawing), ("tape", facts.tape), ("date", date.today().isoformat()), ("scale", ratio)),
+            (
+                ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
+                ("read in", facts.units),
+                ("contours", f"{len(job.routes)}, {len(job.routes)} start holes"),
+                ("stops", f"{len(job.tape.stops)}; {len(job.tape.blocks)} blocks"),
+            ),
+            (
+                ("wire", wire),
+                ("offset", f"{beside} mm"),
+                ("passes", f"{max(1, len(offsets))}, {'each from the other end' if len(offsets) > 1 else 'one way'}"),
+                ("tab", f"{short(max(tabs))} mm, the machine stops before it" if tabs else "none"),
+            ),
+            (
+                ("cut length", f"{job.cut_length:.1f} mm"),
+                ("time", f"{duration(job.seconds)} at {job.settings.feed:g} mm/min"),
+                ("ROM", job.settings.rom),
+                ("numbers", f"{left_out} without room, see the table" if left_out else "order of cutting"),
+            ),
+        )
+        wide = (page[0] - 2 * _MARGIN) / len(columns)
+        for column, facts_ in enumerate(columns):
+            for row, (name, value) in enumerate(facts_):
+                x, y = _MARGIN + column * wide + 1, _MARGIN + _HEAD - 6 - row * 5
+                self._text((x, y), name, 5.5, _GREY, va="center")
+                self._text((x + 14, y), _cut_to(value, wide - 16, 6.5), 6.5, _INK, va="center")
+
+    def save(self, output: str, form: str) -> None:
+        """Write the page as "pdf", "svg" or "png"."""
+        picture = io.BytesIO()
+        with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "skg", "path.simplify": False}):
+            self.figure.savefig(picture, format=form, dpi=200, facecolor="white")
+        write_bytes(output, picture.getvalue())
+
+
+def _extremes(piece: Piece) -> Iterator[XY]:
+    """The ends of a piece, and where an arc is farthest left, right, up or down."""
+    yield from (piece.start, piece.end)
+    if piece.centre is not None:
+        low, high = sorted(piece.angles)
+        for quarter in range(ceil(low / (pi / 2)), int(high // (pi / 2)) + 1):
+            yield polar(piece.centre, piece.radius, quarter * pi / 2)
+
+
+def _way(samples: tuple[XY, ...]) -> float:
+    """The direction in the middle of a curve."""
+    at = min(len(samples) - 2, int(0.5 * (len(samples) - 1)))
+    (x, y), (u, v) = samples[at], samples[at + 1]
+    return float(np.arctan2(v - y, u - x))
+
+
+def _cut_to(text: str, width: float, size: float) -> str:
+    """A text that is no wider than `width` mm."""
+    most = int(width / (_WIDE * 0.95 * size * _POINT))
+    return text if len(text) <= most else text[: most - 1] + "…"
+
+
+def write_sheet(job: Job, facts: Facts, output: str, form: str) -> None:
+    """Write the setup sheet of a job; `form` is "pdf", "svg" or "png"."""
+    sheet = SetupSheet(job, facts)
+    sheet.draw()
+    sheet.save(output, form)
