@@ -15,11 +15,13 @@ TAPE, PART = "examples/fit-gear.3b", "examples/fit-gear.skg"
 #: A run of every command that writes to its standard output.
 COMMANDS = {
     "help": ["--help"],
+    "cam": ["cam", "--base", "20", "--lift", "8"],
     "check": ["check", *[TAPE] * 50],
     "cut": ["cut", "docs/pictures/bracket.dxf"],
     "dxf": ["dxf", TAPE],
     "from-dxf": ["from-dxf", "docs/pictures/bracket.dxf"],
     "gcode": ["gcode", TAPE],
+    "gear": ["gear", "--module", "2", "--teeth", "9"],
     "plot": ["plot", TAPE, "-o", "-"],
     "quality": ["quality", PART],
     "ref": ["ref", PART],

@@ -15,10 +15,12 @@ from skg.errors import UserError
 
 #: Subcommand -> what it does, as `skg --help` lists it. Its click command is `command` in the module of its name.
 COMMANDS = {
+    "cam": "Write the program that cuts a disc cam.",
     "check": "Find everything on tapes that a controller would choke on.",
     "cut": "Cut a drawing: DXF or SVG to a checked tape.",
     "dxf": "Turn a tape or a program into a DXF drawing.",
     "from-dxf": "Write the program that cuts a DXF or SVG drawing.",
+    "gear": "Write the program that cuts an involute gear.",
     "gcode": "Turn a 3B tape into ISO G-code, or back.",
     "plot": "Draw tapes and programs to scale.",
     "quality": "Measure the curves of FIT against the true ones.",

@@ -1,0 +1,140 @@
+"""`skg gear` and `skg cam`: the wire's path against the exact curves, which are worked out here in another way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import acos, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tan
+from pathlib import Path
+
+import pytest
+from conftest import Run
+
+from skg import tape as tapes
+from skg.errors import UserError
+from skg.plane import XY
+from skg.tape.block import Block
+from skg.tape.controller import run_block
+
+#: What a fitted curve's tape may be off the exact one, mm: its blocks' ends, their centres, and FIT.
+LIMIT = 0.002
+
+
+def wire(tape: Path, program: str) -> Iterator[XY]:
+    """Places along the blocks of a tape without drift, mm; not of the ways from and to the start holes."""
+    x, y = program.split("FROM (")[1].split(")")[0].split(",")
+    at = float(x) * 1000, float(y) * 1000
+    for blocks in tapes.read(str(tape)).stretches():
+        for number, block in enumerate(blocks):
+            if 0 < number < len(blocks) - 1:
+                yield from places_of(block, at)
+            dx, dy = run_block(block).move
+            at = at[0] + dx, at[1] + dy
+
+
+def places_of(block: Block, at: XY) -> Iterator[XY]:
+    """Places along a block that starts at a place (µm), mm."""
+    (dx, dy), start, count = run_block(block).move, block.start, 8 + int(block.length / 200)
+    for k in range(count + 1):
+        if block.is_line:
+            yield (at[0] + dx * k / count) / 1000, (at[1] + dy * k / count) / 1000
+        else:
+            turn = block.sweep * k / count
+            u = start[0] * cos(turn) - start[1] * sin(turn) + at[0] - start[0]
+            v = start[0] * sin(turn) + start[1] * cos(turn) + at[1] - start[1]
+            yield u / 1000, v / 1000
+
+
+@pytest.mark.parametrize(
+    ("module", "teeth", "angle", "shift"), [(2, 20, 20, 0), (1, 45, 20, 0), (3, 9, 20, 0.5), (0.5, 30, 14.5, -0.1)]
+)
+def test_gear(run: Run, tmp_path: Path, module: float, teeth: int, angle: float, shift: float) -> None:
+    """Every place of the wire on the flanks is on the involute that the tooth's thickness at the pitch circle gives."""
+    words = ["--module", module, "--teeth", teeth, "--pressure-angle", angle, "--shift", shift]
+    result = run("gear", *words, "--tape", tmp_path / "gear.3b")
+    assert result.exit_code == 0
+    r, alpha = module * teeth / 2, radians(angle)
+    base, tip, root = r * cos(alpha), r + module * (1 + shift), r - module * (1.25 - shift)
+    # Half of a tooth at the base circle, from its thickness at the pitch circle: pi m / 2 + 2 x m tan a.
+    half = (pi * module / 2 + 2 * shift * module * tan(alpha)) / (2 * r) + tan(alpha) - alpha
+    flanks, seen, worst = 0, set(), 0.0
+    for x, y in list(wire(tmp_path / "gear.3b", result.stdout)):
+        radius, turned = hypot(x, y), atan2(y, x) % (2 * pi / teeth)
+        assert root - LIMIT < radius < tip + LIMIT
+        beside = min(turned, 2 * pi / teeth - turned)
+        if max(base, root + 0.25 * module) < radius < tip - 0.01 * module:
+            roll = sqrt((radius / base) ** 2 - 1)
+            exact = half - (roll - acos(base / radius))
+            worst = max(worst, base * abs(beside - exact))
+            flanks += 1
+            seen.add(int(atan2(y, x) % (2 * pi) / (2 * pi / teeth)))
+    assert flanks > 8 * teeth and len(seen) == teeth
+    assert 0 < worst < LIMIT
+
+
+def test_gear_with_a_keyway(run: Run, tmp_path: Path) -> None:
+    """The bore and its keyway are cut first, inside by R; the outline outside."""
+    words = ["--module", 2, "--teeth", 20, "--bore", 12, "--keyway", 4, 13.8, "--offset", 0.1]
+    result = run("gear", *words, "--tape", tmp_path / "gear.3b", "-o", tmp_path / "gear.skg")
+    assert "1 opening, 1 outline" in result.stderr
+    bore, outline = result_places(tmp_path)
+    assert max(y for _, y in bore) == pytest.approx(13.8 - 6 - 0.1, abs=LIMIT)
+    assert max(x for x, _ in bore) == pytest.approx(5.9, abs=LIMIT)
+    assert max(hypot(x, y) for x, y in outline) == pytest.approx(22.1, abs=LIMIT)
+
+
+def result_places(folder: Path) -> tuple[list[XY], list[XY]]:
+    """The places of the wire in the bore, and around the teeth."""
+    places = list(wire(folder / "gear.3b", (folder / "gear.skg").read_text()))
+    return [p for p in places if hypot(*p) < 10], [p for p in places if hypot(*p) > 16]
+
+
+@pytest.mark.parametrize("law", ["harmonic", "cycloidal", "polynomial"])
+@pytest.mark.parametrize("roller", [0, 10])
+def test_cam(run: Run, tmp_path: Path, law: str, roller: float) -> None:
+    """A roller on every place of the profile never dips below the law's lift, and everywhere comes down to it."""
+    base, lift, rise, dwell, fall = 25.0, 6.0, 110.0, 40.0, 90.0
+    words = ["--base", base, "--lift", lift, "--rise", rise, "--dwell", dwell, "--fall", fall, "--law", law]
+    result = run("cam", *words, "--roller", roller, "--tape", tmp_path / "cam.3b")
+    places = list(wire(tmp_path / "cam.3b", result.stdout))
+    shapes = {
+        "harmonic": lambda t: (1 - cos(pi * t)) / 2,
+        "cycloidal": lambda t: t - sin(2 * pi * t) / (2 * pi),
+        "polynomial": lambda t: 10 * t**3 - 15 * t**4 + 6 * t**5,
+    }
+
+    def lifted(turn: float) -> float:
+        if turn <= rise:
+            return lift * shapes[law](turn / rise)
+        if turn <= rise + dwell:
+            return lift
+        back = (rise + dwell + fall - turn) / fall
+        return lift * shapes[law](back) if back > 0 else 0.0
+
+    if not roller:
+        off = [abs(hypot(x, y) - base - lifted(degrees(atan2(y, x)) % 360)) for x, y in places]
+        assert max(off) < LIMIT
+        return
+    for turn in range(3, 360, 12):
+        # The roller comes down along its line until it touches a place of the profile.
+        way, most = radians(turn), 0.0
+        for x, y in places:
+            along, aside = x * cos(way) + y * sin(way), y * cos(way) - x * sin(way)
+            if abs(aside) < roller / 2 and along > 0:
+                most = max(most, along + sqrt(roller**2 / 4 - aside**2))
+        assert most == pytest.approx(base + roller / 2 + lifted(turn), abs=0.006)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["gear", "--module", 2, "--teeth", 8, "--shift", 1], "come to a point"),
+        (["gear", "--module", 2, "--teeth", 20, "--bore", 40], "the bore reaches 20 mm"),
+        (["gear", "--module", 2, "--teeth", 20, "--fillet", 1], "does not fit"),
+        (["gear", "--module", 1, "--teeth", 20, "--offset", 1.2], "offset"),
+        (["cam", "--base", 4, "--lift", 12, "--rise", 40, "--roller", 20, "--law", "harmonic"], "more tightly"),
+        (["cam", "--base", 5, "--lift", 2, "--rise", 300], "more than a turn"),
+    ],
+)
+def test_what_cannot_be_cut(run: Run, words: list[object], message: str) -> None:
+    with pytest.raises(UserError, match=message):
+        run(*words)

@@ -1,0 +1,50 @@
+"""`skg gear` and `skg cam`: what both do with the contours that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import click
+
+from skg.drawing.contour import Contour
+from skg.errors import UserError
+from skg.files import write_bytes
+
+
+def shape_options(function: Callable) -> Callable:
+    """Give a command the options of `write_shape`."""
+    for option in (
+        click.option("--tape", metavar="FILE", type=click.Path(), help="Also write the tape, by the no-drift ROM."),
+        click.option("--tab", default=0.0, metavar="MM", type=click.FloatRange(0), help="A bridge, as in `skg cut`."),
+        click.option(
+            "--offset", default=0.0, metavar="MM", type=click.FloatRange(0), help="R: half the wire and its spark gap."
+        ),
+        click.option(
+            "-o",
+            "--output",
+            default="-",
+            show_default=True,
+            type=click.Path(allow_dash=True),
+            help="Program to write, - for the standard output.",
+        ),
+    ):
+        function = option(function)
+    return function
+
+
+def write_shape(
+    name: str, contours: Callable[[], list[Contour]], output: str, offset: float, tab: float, tape: str | None
+) -> None:
+    """Write the program that cuts contours; it is run and its tape compared with the exact curves before."""
+    from skg.cutting.job import Settings, make, report
+    from skg.drawing.plan import plan
+
+    try:
+        job = make(plan(contours(), [], offset, "auto", tab=tab), name, 1.0, Settings())
+    except UserError as error:
+        raise UserError(f"{name}: {error}") from None
+    write_bytes(output, job.program.encode("ascii"))
+    if tape:
+        write_bytes(tape, job.data)
+    for line in report(job, 1.0):
+        click.echo(line, err=True)

@@ -1,0 +1,188 @@
+"""Involute gears as contours."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import acos, asin, atan2, cos, hypot, pi, radians, sin, sqrt, tan
+
+from skg.drawing.contour import Contour, Edge
+from skg.drawing.curve import curve_edge
+from skg.errors import UserError
+from skg.plane import XY, polar
+
+#: What FIT may be off the involute between its nodes, mm.
+TOLERANCE = 0.0002
+
+
+def involute(angle: float) -> float:
+    """tan a - a: how far an involute has turned where its pressure angle is `angle` (radians)."""
+    return tan(angle) - angle
+
+
+@dataclass(frozen=True)
+class Gear:
+    """A spur gear (ISO 21771): module and lengths in mm, angles in degrees.
+
+    `shift`: profile shift, `clearance` and `fillet` (of the root, 0: none), all in modules. `bore`: diameter of the
+    hole, 0: none; `key_width`, and `key_depth` from the bore's far side to the keyway's bottom, as tables have it.
+    """
+
+    module: float
+    teeth: int
+    pressure_angle: float = 20.0
+    shift: float = 0.0
+    clearance: float = 0.25
+    fillet: float = 0.2
+    bore: float = 0.0
+    key_width: float = 0.0
+    key_depth: float = 0.0
+
+    @property
+    def pitch_radius(self) -> float:
+        """Half the pitch circle's diameter."""
+        return self.module * self.teeth / 2
+
+    @property
+    def base_radius(self) -> float:
+        """The circle that the flanks unwind from."""
+        return self.pitch_radius * cos(radians(self.pressure_angle))
+
+    @property
+    def tip_radius(self) -> float:
+        """Half the outer diameter."""
+        return self.pitch_radius + self.module * (1 + self.shift)
+
+    @property
+    def root_radius(self) -> float:
+        """Half the diameter between the teeth."""
+        return self.pitch_radius - self.module * (1 + self.clearance - self.shift)
+
+    def half_angle(self, radius: float) -> float:
+        """Half of a tooth as an angle at the centre, radians, on a circle of at least the base radius."""
+        angle = radians(self.pressure_angle)
+        at_pitch = pi / (2 * self.teeth) + 2 * self.shift * tan(angle) / self.teeth
+        return at_pitch + involute(angle) - involute(acos(min(1.0, self.base_radius / radius)))
+
+    def contours(self) -> list[Contour]:
+        """The outline, counter-clockwise, and the bore. A gear that cannot be is a `UserError`."""
+        self._refuse()
+        return [self._outline(), *([self._bore()] if self.bore else [])]
+
+    def _refuse(self) -> None:
+        if self.root_radius <= 0:
+            raise UserError(f"{self.teeth} teeth leave no room inside the root circle: more teeth, or a larger --shift")
+        if self.half_angle(self.tip_radius) <= 0:
+            raise UserError("the teeth come to a point below their tips: a smaller --shift or --pressure-angle")
+        if self.half_angle(max(self.root_radius, self.base_radius)) >= pi / self.teeth:
+            raise UserError("there is no gap left between the teeth at their roots: another --shift")
+        reach = max(self.bore / 2, self.key_depth - self.bore / 2)
+        if self.bore and reach >= self.root_radius:
+            raise UserError(f"the bore reaches {reach:g} mm from the centre, the root circle has {self.root_radius:g}")
+        if self.key_width and not (self.key_width < self.bore < self.key_depth):
+            raise UserError("a keyway is narrower than the bore, and its depth from the far side is more than the bore")
+
+    def _root(self) -> tuple[float, float, XY]:
+        """Where the root fillet touches: its angle beside the tooth's middle on the root circle, its radius on the
+        flank, and (radius, angle) of its centre. Without a fillet all are where flank and root circle meet."""
+        rf, rb, f = self.root_radius, self.base_radius, self.fillet * self.module
+        low = self.half_angle(max(rf, rb))
+        if not f:
+            return low, max(rf, 0.0), (0.0, 0.0)
+        centre = rf + f
+        roll = sqrt(max(0.0, centre**2 - rb**2)) - f
+        if centre > rb and roll > 0:
+            # A curve beside an involute is the same involute, turned; along the normal the roll differs by f.
+            angle, touch = self.half_angle(centre) + f / rb, hypot(rb, roll)
+        else:
+            angle, touch = low + asin(f / centre), sqrt(centre**2 - f**2)
+        if angle >= pi / self.teeth or touch > self.tip_radius or (roll <= 0 and touch > max(rb, rf)):
+            raise UserError(f"a root fillet of {f:g} mm does not fit between the teeth: a smaller --fillet")
+        return angle, touch, (centre, angle)
+
+    def _outline(self) -> Contour:
+        rf, rb, ra = self.root_radius, self.base_radius, self.tip_radius
+        angle, touch, (centre, beside) = self._root()
+        first = max(rb, touch)
+        flank = _flank(self, first, ra)
+        tip = self.half_angle(ra)
+        half: list[Edge] = []
+        if centre:
+            middle = polar((0, 0), centre, -beside)
+            end = polar((0, 0), touch, -self.half_angle(max(touch, rb)))
+            half.append(_arc(polar((0, 0), rf, -angle), end, middle, -1))
+        if touch < rb - 1e-9:
+            half.append(Edge(polar((0, 0), touch, -self.half_angle(rb)), polar((0, 0), rb, -self.half_angle(rb))))
+        half.append(flank)
+        other = [_mirrored(edge).reversed() for edge in reversed(half)]
+        pitch = 2 * pi / self.teeth
+        edges: list[Edge] = []
+        for tooth in range(self.teeth):
+            turned = tooth * pitch
+            top = Edge(polar((0, 0), ra, -tip), polar((0, 0), ra, tip), (0.0, 0.0), 2 * tip)
+            gap = pitch - 2 * angle
+            root = Edge(polar((0, 0), rf, angle), polar((0, 0), rf, pitch - angle), (0.0, 0.0), gap)
+            edges += [_turned(edge, turned) for edge in (*half, top, *other, *([root] if gap > 1e-9 else []))]
+        return Contour(tuple(edges), True)
+
+    def _bore(self) -> Contour:
+        radius = self.bore / 2
+        if not self.key_width:
+            return Contour((Edge((radius, 0.0), (radius, 0.0), (0.0, 0.0), -2 * pi),), True)
+        half, top = self.key_width / 2, self.key_depth - radius
+        foot = sqrt(radius**2 - half**2)
+        beside = 2 * asin(half / radius)
+        corners = [(-half, foot), (-half, top), (half, top), (half, foot)]
+        lines = [Edge(p, q) for p, q in zip(corners, corners[1:], strict=False)]
+        return Contour((*lines, Edge(corners[-1], corners[0], (0.0, 0.0), beside - 2 * pi)), True)
+
+
+def _flank(gear: Gear, low: float, high: float) -> Edge:
+    """The flank on the right of a tooth that points along X, outwards, by its roll angle."""
+    rb = gear.base_radius
+    begin = gear.half_angle(rb)
+
+    def turned(roll: float) -> float:
+        return roll - atan2(roll, 1) - begin
+
+    def place(roll: float) -> XY:
+        return polar((0, 0), rb * hypot(1, roll), turned(roll))
+
+    def heading(roll: float) -> float:
+        # (an involute stands square to its string)
+        return turned(roll) + atan2(roll, 1)
+
+    first, last = (sqrt(max(0.0, (radius / rb) ** 2 - 1)) for radius in (low, high))
+    return curve_edge(place, heading, [first, last], TOLERANCE)
+
+
+def _arc(start: XY, end: XY, centre: XY, sense: int) -> Edge:
+    """The arc about a centre from one place to another, the short way if `sense` says so."""
+    sweep = atan2(end[1] - centre[1], end[0] - centre[0]) - atan2(start[1] - centre[1], start[0] - centre[0])
+    return Edge(start, end, centre, sense * ((sense * sweep) % (2 * pi)))
+
+
+def _moved(edge: Edge, move: Callable[[XY], XY], turn: Callable[[float], float], sense: int) -> Edge:
+    nodes = tuple(replace(node, point=move(node.point), angle=turn(node.angle)) for node in edge.nodes)
+    samples = tuple(map(move, edge.samples))
+    centre = edge.centre and move(edge.centre)
+    return replace(
+        edge,
+        start=move(edge.start),
+        end=move(edge.end),
+        centre=centre,
+        sweep=sense * edge.sweep,
+        nodes=nodes,
+        samples=samples,
+    )
+
+
+def _mirrored(edge: Edge) -> Edge:
+    """An edge mirrored by the X axis."""
+    return _moved(edge, lambda p: (p[0], -p[1]), lambda angle: -angle, -1)
+
+
+def _turned(edge: Edge, by: float) -> Edge:
+    """An edge turned about the origin."""
+    c, s = cos(by), sin(by)
+    return _moved(edge, lambda p: (c * p[0] - s * p[1], s * p[0] + c * p[1]), lambda angle: angle + by, 1)
