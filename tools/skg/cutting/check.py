@@ -26,7 +26,7 @@ from skg.tape.block import Block, Tape, micrometres
 from skg.tape.controller import run_block
 from skg.tape.placed import Placed, closed_moves
 
-#: The controller may be this far from where the drawing has the wire, mm.
+#: A block may be this far from where the drawing has the wire, mm; the controller's steps go up to 1 µm beside it.
 LIMIT = 0.003
 #: Rounding takes a block's end up to this far, mm: where it is further off there may be a reason.
 _USUAL = 0.0008
@@ -210,7 +210,7 @@ def _beside(
     total = off + step
     faults = [
         Misfit(int(owners[at]), _xy(places[at]), float(abs(wanted[at].min() - near.own[at])), bool(into[at]))
-        for at in _first_of_each(owners, (total > LIMIT) | into)
+        for at in _first_of_each(owners, (off > LIMIT) | into)
     ]
     deep = wanted.min(1) - near.other
     crossings = [
