@@ -444,6 +444,12 @@ def test_splines_with_odd_knots() -> None:
     (contour,) = checked(raw(spline(controls, knots))).contours
     assert contour.is_closed
     assert sum(len(edge.nodes) for edge in contour.edges) < 200
+    # Two knots next to each other, as a file rounds them, with much of the curve between them.
+    controls = [(0, 0), (10, 0), (20, 5), (30, 20), (30, 40), (10, 60)]
+    narrow = [0, 0, 0, 0, 0.5, 0.5 + 1e-9, 1, 1, 1, 1]
+    (curve,) = checked(raw(spline(controls, narrow))).contours[0].edges
+    assert max(distance(p, q) for p, q in pairwise(curve.samples)) < 3
+    assert len(curve.nodes) < 40
     # Controls that coincide: the direction there is that of the places beside it.
     controls = [(0, 0), (0, 0), (10, 0), (10, 0), (20, 10)]
     knots = [0, 0, 0, 0, 0.5, 1, 1, 1, 1]

@@ -94,15 +94,18 @@ def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: flo
     nodes = tuple(CurveNode(at(t), heading(t)) for t in found)
     samples: list[XY] = []
     for (one, other), (low, high) in zip(pairwise(nodes), pairwise(found), strict=True):
-        samples += _samples(at, low, high, one, other)[:-1]
+        bend = abs(turn(one.angle, other.angle)) + 0.01
+        inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
+        for begin, end in pairwise(inner):
+            samples += _samples(at, begin, end, bend)[:-1]
     return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=(*samples, nodes[-1].point))
 
 
-def _samples(at: At, low: float, high: float, one: CurveNode, other: CurveNode) -> list[XY]:
-    """Places along one span, both ends included: so many that the chords between them are near the curve."""
+def _samples(at: At, low: float, high: float, bend: float) -> list[XY]:
+    """Places along a span that bends by an angle, or a part of it without a break in it, both ends included: so many
+    that the chords between them are near the curve."""
     # n chords of a span of length l that bends by θ are lθ/8n² away from it, where it is run through evenly.
-    bend = abs(turn(one.angle, other.angle)) + 0.01
-    pieces = ceil(sqrt(distance(one.point, other.point) * bend / 8 / _NEAR) / 2) + 1
+    pieces = ceil(sqrt(distance(at(low), at(high)) * bend / 8 / _NEAR) / 2) + 1
     places = [at(low + k / pieces * (high - low)) for k in range(pieces + 1)]
     while True:
         between = [at(low + (k + 0.5) / pieces * (high - low)) for k in range(pieces)]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
-from math import atan2, cos, hypot, isfinite, pi, sin
+from math import atan2, copysign, cos, hypot, isfinite, pi, sin
 
 from ezdxf.math import BSpline
 
@@ -17,6 +18,8 @@ from skg.plane import XY, cross, distance, dot, minus, polar, turn
 _SAME = 1e-6
 #: A larger arc is cut as FIT does it, in chords: its centre would lie off the tape (100 m), mm.
 _LARGEST = 50_000.0
+#: A part of a spline's parameters so small that it needs a look.
+_NARROW = 1e-6
 #: A spline's direction jumps by more than this (radians) at a corner.
 _CORNER = 1e-4
 
@@ -76,25 +79,41 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
             way = evaluator.point(min(high, t + 1e4 * aside)) - evaluator.point(max(low, t - 1e4 * aside))
         return atan2(way.y, way.x)
 
+    # Between knots a spline is smooth; at a knot it may have a corner, where it is cut in two.
     stations = [low]
     for knot in sorted(knots):
-        if stations[-1] + 10 * aside < knot < high - 10 * aside:
+        if stations[-1] < knot <= high and knot - stations[-1] > 1e-13 * (high - low):
             stations.append(knot)
-    # Between knots a spline is smooth; at a knot it may have a corner.
-    pieces: list[list[float]] = [[low]]
-    for knot in stations[1:]:
-        pieces[-1].append(knot)
-        if abs(turn(heading(knot - aside), heading(knot + aside))) > _CORNER:
-            pieces.append([knot])
-    pieces[-1].append(high)
-    for breaks in pieces:
+    stations[-1] = high
+    ways = stations
+    if min(other - one for one, other in pairwise(stations)) < _NARROW * (high - low):
+        # Rounded knots lie next to each other, maybe with much of the curve between them: it is run through by length.
+        ways = [0.0]
+        for one, other in pairwise(stations):
+            places = [at(one + k / 8 * (other - one)) for k in range(9)]
+            ways.append(ways[-1] + max(_SAME, sum(distance(p, q) for p, q in pairwise(places))))
+
+    def parameter(way: float) -> float:
+        k = min(max(bisect_right(ways, way) - 1, 0), len(stations) - 2)
+        return stations[k] + (way - ways[k]) / (ways[k + 1] - ways[k]) * (stations[k + 1] - stations[k])
+
+    def beside(k: int, other: int) -> float:
+        """Just before or just behind a station, towards another one."""
+        gap = stations[other] - stations[k]
+        return stations[k] + copysign(max(1e-6 * abs(gap), 1e-15 * max(abs(low), abs(high))), gap)
+
+    corners = [0]
+    for k in range(1, len(stations) - 1):
+        if abs(turn(heading(beside(k, k - 1)), heading(beside(k, k + 1)))) > _CORNER:
+            corners.append(k)
+    for first, last in pairwise([*corners, len(stations) - 1]):
         # At a corner the tangent is that of this piece, not of its neighbour.
-        inside = breaks[0] + aside * (breaks[0] > low), breaks[-1] - aside * (breaks[-1] < high)
+        inside = beside(first, first + 1) if first else low, beside(last, last - 1) if stations[last] < high else high
 
-        def inner(t: float, inside: tuple[float, float] = inside) -> float:
-            return heading(min(max(t, inside[0]), inside[1]))
+        def inner(way: float, inside: tuple[float, float] = inside) -> float:
+            return heading(min(max(parameter(way), inside[0]), inside[1]))
 
-        yield simplest(curve_edge(at, inner, breaks, tolerance))
+        yield simplest(curve_edge(lambda way: at(parameter(way)), inner, ways[first : last + 1], tolerance))
 
 
 def simplest(edge: Edge) -> Edge:
