@@ -12,7 +12,7 @@ from math import atan2, copysign, pi
 from skg.plane import XY, distance, dot, minus, polar
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Piece:
     """A line, or an arc with a `centre` and a signed `sweep` in radians: positive counter-clockwise, ±2π for a circle.
 
@@ -54,8 +54,10 @@ class Piece:
     def at(self, part: float) -> XY:
         """The place at `part` of the length."""
         if self.centre is None:
-            return (self.start[0] + part * (self.end[0] - self.start[0]),
-                    self.start[1] + part * (self.end[1] - self.start[1]))
+            return (
+                self.start[0] + part * (self.end[0] - self.start[0]),
+                self.start[1] + part * (self.end[1] - self.start[1]),
+            )
         return polar(self.centre, self.radius, self.angles[0] + part * self.sweep)
 
     def direction(self, part: float = 0.0) -> float:

@@ -8,7 +8,6 @@ always see the same points.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
 
 #: No x, y or J has more digits.
@@ -39,7 +38,7 @@ def next_quadrant(quadrant: int, sense: int) -> int:
     return (quadrant - 1 + sense) % 4 + 1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Block:
     """One block as it stands on the tape.
 
@@ -72,7 +71,7 @@ class Block:
         """0 for a line, 1 for a counter-clockwise arc (NR), −1 for a clockwise one (SR)."""
         return {"L": 0, "N": 1, "S": -1}[self.code[0]]
 
-    @cached_property
+    @property
     def start(self) -> tuple[int, int]:
         """Where the block starts: a line at (0, 0), an arc relative to its centre."""
         if self.is_line:
@@ -109,7 +108,7 @@ class Block:
         square = self.x**2 + self.y**2 - 1
         return isqrt(square - 1) + 1 if square > 0 else 0
 
-    @cached_property
+    @property
     def is_full_circle(self) -> bool:
         """True for an arc that counts four radii."""
         return not self.is_line and self.j in (4 * self.radius, 4 * self.turn)
@@ -132,7 +131,7 @@ class Block:
             distance = 0 if shrinks else radius
             quadrant = next_quadrant(quadrant, self.sense)
 
-    @cached_property
+    @property
     def end(self) -> tuple[int, int]:
         """Where the block should end, relative to the same origin as `start`.
 
@@ -160,7 +159,7 @@ class Block:
         (xs, ys), (xe, ye) = self.start, self.end
         return xe - xs, ye - ys
 
-    @cached_property
+    @property
     def sweep(self) -> float:
         """An arc's signed sweep in radians, 0 for a line; a full circle is ±2π."""
         if self.is_line:
@@ -230,8 +229,10 @@ class Block:
             ends = [self.count_end(radius)[0] for radius in radii]
             if all(distance > self._beside(distance) + 3 for distance in ends):
                 axis = "Y" if self.axis == "X" else "X"
-                found.append(f"J = {self.j} ends at {self.axis.lower()} = {ends[0]}, the larger coordinate "
-                             f"of the end: expected G{axis}")
+                found.append(
+                    f"J = {self.j} ends at {self.axis.lower()} = {ends[0]}, the larger coordinate "
+                    f"of the end: expected G{axis}"
+                )
         return found
 
 
@@ -289,8 +290,7 @@ class Tape:
         is_straight = [not blocks or (len(blocks) == 1 and blocks[0].is_line) for blocks in stretches]
         if all(is_straight[1:-1:2]):
             return [at % 2 == 1 and at < len(stretches) - 1 for at in range(len(stretches))]
-        return [bool(blocks) and is_straight[at] and 0 < at < len(stretches) - 1
-                for at, blocks in enumerate(stretches)]
+        return [bool(blocks) and is_straight[at] and 0 < at < len(stretches) - 1 for at, blocks in enumerate(stretches)]
 
 
 def micrometres(length: float) -> int:

@@ -17,7 +17,7 @@ from skg.tape.positions import decide
 WAY_IN, CUT, WAY_BACK = "way in", "cut", "way back"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Placed(Piece):
     """A block in its place: the line or arc that it is, absolute, in µm."""
 
@@ -82,8 +82,12 @@ class PlacedRoute:
             arcs += not placed.is_line
             ex, ey = placed.block.move
             # Each arc between them may have ended beside its place; two lines alone enclose nothing.
-            if (placed.is_line and at > first + 1 and max(abs(dx + ex), abs(dy + ey)) <= 1
-                    and _apart(placed.start, lead.end) <= 2 * (arcs + 1)):
+            if (
+                placed.is_line
+                and at > first + 1
+                and max(abs(dx + ex), abs(dy + ey)) <= 1
+                and _apart(placed.start, lead.end) <= 2 * (arcs + 1)
+            ):
                 return at
         return None
 
@@ -108,8 +112,7 @@ def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") 
     return lay(tape, start, end_to_end)
 
 
-def lay(tape: Tape, start: XY,
-        place_blocks: Callable[[list[Block], XY], tuple[list[Placed], XY]]) -> list[PlacedRoute]:
+def lay(tape: Tape, start: XY, place_blocks: Callable[[list[Block], XY], tuple[list[Placed], XY]]) -> list[PlacedRoute]:
     """Lay a tape's routes out one after the other, from `start` (µm).
 
     `place_blocks` is given the blocks between two stops, at least one, and where the first of them starts; it returns
@@ -144,5 +147,6 @@ def _bulges(placed: Placed) -> Iterator[XY]:
 
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:
     """Where the controller stops, µm, each place once; `home` is where the tape begins."""
-    ends = {placed.block.number: placed.end for route in routes for placed in route.blocks}
+    after = {stop.after for stop in tape.stops}
+    ends = {one.block.number: one.end for route in routes for one in route.blocks if one.block.number in after}
     return list(dict.fromkeys(ends.get(stop.after, home) for stop in tape.stops))
