@@ -33,7 +33,8 @@ LINK = re.compile(r"\]\((?P<target>[^)\s]+)\)")
 NUMBERS = r"(?P<numbers>\d+(?:\.\d+)*(?:(?:, | and | to )\d+(?:\.\d+)*)*)"
 PAGE = re.compile(
     r"(?P<file>[\w./-]*\w\.md)`?(?:\]\([^)\s]+\))?"
-    rf"(?:, sections? (?:{NUMBERS}|(?P<titles>\"[^\"]+\"(?: and \"[^\"]+\")*)))?")
+    rf"(?:, sections? (?:{NUMBERS}|(?P<titles>\"[^\"]+\"(?: and \"[^\"]+\")*)))?"
+)
 #: A section or table that stands behind no page.
 ALONE = re.compile(r"\b(?:sections?|tables?|chapters?|§) ?(?P<number>\d+(?:\.\d+)*)")
 #: What may not follow a page's name: other ways to write a section.
@@ -99,7 +100,7 @@ class Pages:
         text = ""
         last = 0
         for wrap in WRAP.finditer(raw):
-            text += raw[last:wrap.start()] + " "
+            text += raw[last : wrap.start()] + " "
             starts += [*range(last, wrap.start()), wrap.start()]
             last = wrap.end()
         text += raw[last:]
@@ -131,12 +132,12 @@ class Pages:
                 missing = [title for title in re.findall(r'"([^"]+)"', page["titles"]) if title not in known]
                 wrong = f"no such heading: {', '.join(missing)}" if missing else None
             elif badly := BADLY.match(text, page.end("file")):
-                wrong = f"a section is cited as `, section 1.2` or `, section \"Title\"`, not `{badly[0]}`"
+                wrong = f'a section is cited as `, section 1.2` or `, section "Title"`, not `{badly[0]}`'
             cite(page.start(), page[0], wrong)
         for alone in ALONE.finditer(text):
             if any(start <= alone.start() < end for start, end in behind):
                 continue
-            if FOREIGN.search(text[max(alone.start() - 12, 0):alone.start("number")]):
+            if FOREIGN.search(text[max(alone.start() - 12, 0) : alone.start("number")]):
                 continue
             own = citing if citing.suffix == ".md" else None
             wrong = self._sections(own, [alone["number"]]) if own else "a section of which page?"
@@ -170,8 +171,9 @@ def _normal(path: Path) -> list[str]:
 
 def project_files() -> list[Path]:
     """What git keeps, or would keep, and may cite."""
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"],
-                            cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    listed = subprocess.run(
+        ["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
     files = [Path(name) for name in listed.split("\0") if name and (ROOT / name).exists()]
     return [file for file in files if (file.suffix in SUFFIXES or file.name in NAMES) and file not in LEFT_OUT]
 
@@ -214,7 +216,8 @@ BAD = {
 def tree(tmp_path: Path) -> Path:
     (tmp_path / "docs").mkdir()
     (tmp_path / "docs" / "spec.md").write_text(
-        "# Spec\n## 1. Whole\n### 2.1 A part\n```\n# 9. no heading\n```\n## Odd words: and more\n")
+        "# Spec\n## 1. Whole\n### 2.1 A part\n```\n# 9. no heading\n```\n## Odd words: and more\n"
+    )
     return tmp_path
 
 

@@ -73,7 +73,6 @@ def test_every_picture_is_used() -> None:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(TABLE.sub(
-        lambda match: f"<!-- skg {match['command']} -->\n\n{table(match)}", PAGE.read_text()))
+    PAGE.write_text(TABLE.sub(lambda match: f"<!-- skg {match['command']} -->\n\n{table(match)}", PAGE.read_text()))
     for each in PARTS:
         draw(each, PICTURES)

@@ -38,8 +38,7 @@ SKG80 = ROOT / "build" / "skg80"
 
 FENCE = re.compile(r"^```(?P<kind>skg|paper|tape|prompt|board|saved)(?P<rest>.*)\n(?P<body>(?:(?!```).*\n)*)```$", re.M)
 #: A row of the table of operations: form, result, meaning, example, what PRINT says, source.
-OPERATION = re.compile(
-    r"^\| `(?P<form>[^`]+)` \| \S+ \| [^|]+ \| `(?P<example>[^`]+)` \| `(?P<result>[^`]*)` \|", re.M)
+OPERATION = re.compile(r"^\| `(?P<form>[^`]+)` \| \S+ \| [^|]+ \| `(?P<example>[^`]+)` \| `(?P<result>[^`]*)` \|", re.M)
 #: A row of the table of errors: number, meaning, statements that end in it.
 ERROR = re.compile(r"^\| (?P<number>\d\d) \| [^|]+ \| (?P<example>`[^|]+`) \|", re.M)
 #: A block as the teletype lists it.
@@ -179,12 +178,17 @@ def test_every_picture_is_used() -> None:
 
 # The same on the firmware
 
+
 def on_the_board(source: str, answers: list[str], folder: Path) -> tuple[str, str]:
     """Paper (without the listing of blocks) and tape of a program on the firmware."""
     (folder / "part.skg").write_text(source)
     (folder / "answers").write_text("".join(f"{answer}\n" for answer in answers))
-    done = subprocess.run([SKG80, "--rom", ROM, "--input", folder / "answers", folder / "part.skg"],
-                          capture_output=True, timeout=60, check=False)
+    done = subprocess.run(
+        [SKG80, "--rom", ROM, "--input", folder / "answers", folder / "part.skg"],
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
     said = done.stderr.decode().replace("\r", "").partition(">RUN\n")[2]
     lines = [line for line in said.splitlines() if line not in (">", "D", "DD") and not BLOCK.match(line)]
     return "".join(f"{line}\n" for line in lines), done.stdout.decode().replace("\r\n", "\n")
@@ -233,13 +237,18 @@ def said_by_the_board(session: str, reader: str = "", punched: list[str] | None 
     with tempfile.TemporaryDirectory() as scratch:
         tape, punch = Path(scratch) / "tape", Path(scratch) / "punch"
         tape.write_bytes(reader.replace("\n", "\r\n").encode() + b"\x1a")
-        done = subprocess.run([SKG80, "--rom", ROM, "--tape", tape, "--punch", punch], input=typed.encode(),
-                              capture_output=True, timeout=60, check=False)
+        done = subprocess.run(
+            [SKG80, "--rom", ROM, "--tape", tape, "--punch", punch],
+            input=typed.encode(),
+            capture_output=True,
+            timeout=60,
+            check=False,
+        )
         if punched is not None:
             lines = punch.read_text().rstrip("\x1a").splitlines()
             punched.append("".join(f"{line}\n" for line in lines if line and not re.match("[BD]", line)))
     paper = done.stdout.decode().replace("\r", "").replace("\x1a", "")
-    return paper[paper.index(">"):].removesuffix(">")
+    return paper[paper.index(">") :].removesuffix(">")
 
 
 def boards() -> Iterator[tuple[re.Match[str], str, str]]:
@@ -282,6 +291,7 @@ def test_first_light() -> None:
 
 # The firmware's page
 
+
 def byte_table() -> list[tuple[str, int]]:
     """Files and bytes of docs/firmware.md."""
     body = FIRMWARE.read_text().split("```bytes\n")[1].split("```")[0]
@@ -307,6 +317,7 @@ def test_memory_map() -> None:
 
 # Writing the pages anew
 
+
 def rewritten(page: str) -> str:
     """The page with every result in its place."""
     last: Result | None = None
@@ -320,7 +331,7 @@ def rewritten(page: str) -> str:
             for n, line in enumerate(typed, 1):
                 said = run("\n".join(each[1:] for each in typed[:n])).paper.splitlines()
                 before = run("\n".join(each[1:] for each in typed[: n - 1])).paper.splitlines()
-                body += "".join(f"{each}\n" for each in [line, *said[len(before):]])
+                body += "".join(f"{each}\n" for each in [line, *said[len(before) :]])
             return f"```prompt\n{body}```"
         if kind in ("board", "saved"):
             return match[0]
@@ -353,16 +364,20 @@ def rewritten(page: str) -> str:
 if __name__ == "__main__":
     PAGE.write_text(rewritten(PAGE.read_text()))
     if ROM.exists() and SKG80.exists():
-        README.write_text(FENCE.sub(
-            lambda fence: f"```prompt\n{said_by_the_board(fence['body'])}```", README.read_text()))
+        README.write_text(
+            FENCE.sub(lambda fence: f"```prompt\n{said_by_the_board(fence['body'])}```", README.read_text())
+        )
     with tempfile.TemporaryDirectory() as scratch:
-        built = subprocess.run([sys.executable, ROOT / "asm" / "build.py", Path(scratch) / "table"],
-                               capture_output=True, text=True, check=False)
+        built = subprocess.run(
+            [sys.executable, ROOT / "asm" / "build.py", Path(scratch) / "table"],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
     if built.returncode:
         print(f"{FIRMWARE}: bytes not written anew: {built.stderr.strip()}", file=sys.stderr)
     else:
-        FIRMWARE.write_text(
-            re.sub(r"```bytes\n[^`]*```", f"```bytes\n{built.stdout}```", FIRMWARE.read_text()))
+        FIRMWARE.write_text(re.sub(r"```bytes\n[^`]*```", f"```bytes\n{built.stdout}```", FIRMWARE.read_text()))
     for number in rows(ERROR):
         if error_of(number["example"]) != int(number["number"]):
             sys.exit(f"{PAGE}: example of error {number['number']} ends in {error_of(number['example'])}")

@@ -34,7 +34,11 @@ class Screen:
         self.master, self.line = os.openpty()
         self.before = termios.tcgetattr(self.line)
         self.process = subprocess.Popen(
-            [ROOT / program, *arguments], stdin=self.line, stdout=self.line, stderr=self.line, start_new_session=True,
+            [ROOT / program, *arguments],
+            stdin=self.line,
+            stdout=self.line,
+            stderr=self.line,
+            start_new_session=True,
             preexec_fn=default_signals,
         )
         self.seen = b""
@@ -59,6 +63,12 @@ class Screen:
     def keys(self, text: bytes) -> None:
         """Type."""
         os.write(self.master, text)
+
+    def enter(self, *lines: bytes) -> None:
+        """Type lines, each when the prompt has come."""
+        for line in lines:
+            self.keys(line + b"\r")
+            self.expect(b">")
 
     def is_raw(self) -> bool:
         """Neither echo nor line editing nor signals from keys."""
@@ -162,9 +172,7 @@ def push_reset(screen: Screen, how: str) -> None:
 @pytest.mark.parametrize("how", ["key", "signal"])
 def test_reset_at_the_prompt_keeps_program_and_variables(screen: Screen, how: str) -> None:
     """The board signs on anew; half a line is forgotten."""
-    for line in (b"10 PRINT A\r", b"A=7\r", b"P5=(1,2)\r"):
-        screen.keys(line)
-        screen.expect(b">")
+    screen.enter(b"10 PRINT A", b"A=7", b"P5=(1,2)")
     screen.keys(b"20 PRI")
     screen.expect(b"20 PRI")
     push_reset(screen, how)
@@ -177,11 +185,7 @@ def test_reset_at_the_prompt_keeps_program_and_variables(screen: Screen, how: st
 @pytest.mark.parametrize("how", ["key", "signal"])
 def test_reset_in_a_run_keeps_the_program(screen: Screen, how: str) -> None:
     """The run's variables are lost; what was typed ahead is dropped; held output is let go."""
-    for line in (b"10 A=A0+1\r", b"20 PRINT 8\r", b"30 GOTO 10\r"):
-        screen.keys(line)
-        screen.expect(b">")
-    screen.keys(b"1 A0=5\r")
-    screen.expect(b">")
+    screen.enter(b"10 A=A0+1", b"20 PRINT 8", b"30 GOTO 10", b"1 A0=5")
     screen.keys(b"RUN\rLOST\r")
     screen.expect(b"\n8\r\n")
     if how == "key":

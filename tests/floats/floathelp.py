@@ -117,9 +117,7 @@ def product(x: Floats, y: Floats) -> NDArray[np.uint8]:
     wide = x.mantissa * y.mantissa
     top = wide >> np.uint64(63) == 1
     kept = np.where(top, wide >> np.uint64(31), wide >> np.uint64(30))  # 33 bits, the last decides
-    rows = packed(
-        x.sign ^ y.sign, x.exponent + y.exponent - 129 + top, (kept + np.uint64(1)) >> np.uint64(1)
-    )
+    rows = packed(x.sign ^ y.sign, x.exponent + y.exponent - 129 + top, (kept + np.uint64(1)) >> np.uint64(1))
     rows[(x.exponent == 0) | (y.exponent == 0)] = 0
     return rows
 
@@ -202,9 +200,7 @@ def pairs(random: np.random.Generator, n: int) -> tuple[Floats, Floats]:
     step = random.integers(-2, 3, n) * (kind > 0)
     mantissa = np.clip(x.mantissa.astype(np.int64) + step, 1 << 31, (1 << 32) - 1).astype(np.uint64)
     exponent = np.clip(x.exponent + random.integers(-2, 3, n) * (kind > 1), 0, 255)
-    return x, Floats(
-        y.sign, np.where(near, exponent, y.exponent), np.where(near, mantissa, y.mantissa)
-    )
+    return x, Floats(y.sign, np.where(near, exponent, y.exponent), np.where(near, mantissa, y.mantissa))
 
 
 class Firmware:

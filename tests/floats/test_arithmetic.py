@@ -116,9 +116,7 @@ def test_square_root(firmware: Firmware, record_property: Report) -> None:
     worst = max([0.5, *root_error(x.take(bad), roots.take(bad))])
     assert worst <= 0.51
     cycles = batch.cycles[fine].mean()
-    record_property(
-        "floats", f"FSQR {len(fine)} operands, worst {worst:.6f} ulp, {cycles:.0f} cycles"
-    )
+    record_property("floats", f"FSQR {len(fine)} operands, worst {worst:.6f} ulp, {cycles:.0f} cycles")
     n = np.arange(1, 3000, dtype=np.uint64)
     squares = from_rows(np.array([list(nearest(Fraction(int(k) ** 2))) for k in n], np.uint8))
     got, _ = firmware.unary("FSQR", squares)

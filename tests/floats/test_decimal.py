@@ -74,8 +74,11 @@ def test_out(printer: Printer, record_property: Report, digits: int) -> None:
     random = np.random.default_rng(8)
     rows = [
         operands(random, 3000).bytes(),
-        *(np.frombuffer(nearest(Fraction(int(n), 2**k)), np.uint8)[None] for k in range(30)
-          for n in random.integers(1, 2**31, 40)),
+        *(
+            np.frombuffer(nearest(Fraction(int(n), 2**k)), np.uint8)[None]
+            for k in range(30)
+            for n in random.integers(1, 2**31, 40)
+        ),
     ]
     rows = np.concatenate(rows)
     text, batch = printer.printed(rows, digits)
@@ -133,7 +136,7 @@ def test_out_whole(printer: Printer, record_property: Report) -> None:
         ("99999999.5", "1E8"), ("12345678.5", "12345679"), ("0.125", "0.125"), ("1e38", "1E38"),
         ("1e-38", "1E-38"), ("0.999999999", "1"), ("1000", "1000"), ("1234.5", "1234.5"),
     ],
-)
+)  # fmt: skip
 def test_form(printer: Printer, number: str, text: str) -> None:
     """The forms of language.md, with 8 digits."""
     row = np.frombuffer(nearest(Fraction(number)), np.uint8)[None]
@@ -188,8 +191,12 @@ def test_in_nasty(printer: Printer, record_property: Report) -> None:
     """Numbers of 9 digits next to powers of ten and of two, where floats lie widest apart, up to both ends."""
     texts = []
     for power in range(-EXACT, EXACT + 1):
-        texts += [f"{whole}E{power}" for end in (10**8, 10**9 - 1) for whole in range(end - 60, end + 60)
-                  if 10**7 < whole < 10**9]
+        texts += [
+            f"{whole}E{power}"
+            for end in (10**8, 10**9 - 1)
+            for whole in range(end - 60, end + 60)
+            if 10**7 < whole < 10**9
+        ]
     for power in range(-16, 74):
         size = Fraction(2) ** power
         unit = 9 - places(size)
@@ -224,7 +231,7 @@ def test_out_and_in(printer: Printer) -> None:
         ("1" + "0" * 60 + "E-60", "1", ""), ("1E-39", "0", ""), ("1E-99", "0", ""), ("0E99", "0", ""),
         ("3END", "3", "END"), ("3E", "3", "E"), ("3EX", "3", "EX"),
     ],
-)
+)  # fmt: skip
 def test_text(printer: Printer, text: str, number: str, left: str) -> None:
     """What belongs to a number and what does not; what comes after 2^31 only counts for the power."""
     floats, rest, _ = printer.read([text])

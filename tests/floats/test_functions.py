@@ -103,7 +103,7 @@ def test_far_away(firmware: Firmware) -> None:
             else:
                 true = float(TRUE[name](mp.mpf(int(number))))
                 assert abs(float(value(got[0])) / true - 1) <= BOUND
-    got, _ = firmware.function("FATG", from_rows(rows([Fraction(10) ** 38, -Fraction(10) ** 38])))
+    got, _ = firmware.function("FATG", from_rows(rows([Fraction(10) ** 38, -(Fraction(10) ** 38)])))
     assert [value(row) for row in got] == [90, -90]
     tiny = Fraction(1, 10**30)
     for name in ("FSIN", "FTG"):

@@ -56,11 +56,14 @@ def test_syntax_error_runs_nothing(part: Path) -> None:
     assert done.stderr == b"20 CUT (1,,2)\n          ^\nERR 01 LINE 20\n"
 
 
-@pytest.mark.parametrize(("arguments", "wrong"), [
-    ([], "Missing argument 'PART'"),
-    (["no-such.skg"], "Invalid value for 'PART': 'no-such.skg': No such file or directory"),
-    (["--wrong"], "No such option: --wrong"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "wrong"),
+    [
+        ([], "Missing argument 'PART'"),
+        (["no-such.skg"], "Invalid value for 'PART': 'no-such.skg': No such file or directory"),
+        (["--wrong"], "No such option: --wrong"),
+    ],
+)
 def test_wrong_usage(arguments: list[str], wrong: str) -> None:
     done = skg(*arguments)
     assert (done.returncode, done.stderr.decode()) == (2, f"skg: {wrong} (see skg ref --help)\n")

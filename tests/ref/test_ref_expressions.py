@@ -289,9 +289,7 @@ def test_error_1_stops_loading_and_marks_the_place() -> None:
 coordinate = st.decimals(-200, 200, places=3).map(lambda d: real.Real(str(d)))
 angle = st.decimals(-360, 360, places=2).map(lambda d: real.Real(str(d)))
 points = st.builds(Point, coordinate, coordinate)
-radii = st.decimals(1, 100, places=3).flatmap(
-    lambda d: st.sampled_from([real.Real(str(d)), -real.Real(str(d))])
-)
+radii = st.decimals(1, 100, places=3).flatmap(lambda d: st.sampled_from([real.Real(str(d)), -real.Real(str(d))]))
 circles = st.builds(lambda p, r: Circle(p.x, p.y, r), points, radii)
 lines = st.builds(lambda d, a: operate(operate(X_AXIS, ":", d), "#", a), coordinate, angle)
 

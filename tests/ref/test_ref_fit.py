@@ -142,9 +142,7 @@ def test_first_and_last_node_join_as_points() -> None:
 
 def test_one_node_is_a_point_and_a_repeated_node_is_one() -> None:
     assert blocks("CUT O", "FIT (5,0)", "CUT (5,5)") == blocks("CUT O,(5,0),(5,5)")
-    assert blocks("FIT O", "FIT (5,1)", "FIT (5.0005,1)", "FIT (9,0)") == blocks(
-        "FIT O", "FIT (5,1)", "FIT (9,0)"
-    )
+    assert blocks("FIT O", "FIT (5,1)", "FIT (5.0005,1)", "FIT (9,0)") == blocks("FIT O", "FIT (5,1)", "FIT (9,0)")
 
 
 @pytest.mark.parametrize(

@@ -401,9 +401,7 @@ def test_rep() -> None:
     assert blocks(*start, "CUT X:10", "REP 4,90", "BACK") == blocks(*start, *sides, "BACK")
     rounded = [f"CUT X:10#{90 * n},2" for n in range(4)]
     assert blocks(*start, "CUT X:10,2", "REP 4,90", "BACK") == blocks(*start, *rounded, "BACK")
-    assert blocks(*start, "CUT X:10", "REP 1,90", "REP 2,90", "REP 2,180", "BACK") == blocks(
-        *start, *sides, "BACK"
-    )
+    assert blocks(*start, "CUT X:10", "REP 1,90", "REP 2,90", "REP 2,180", "BACK") == blocks(*start, *sides, "BACK")
     for count, code in (("0", 5), ("-1", 5), ("1.5", 5), ("X", 4)):
         assert cut("CUT X", f"REP {count},90").error == (code, 20)
     assert cut("REP 2,90").error == (6, 10)
@@ -504,10 +502,7 @@ def test_read_data_restore() -> None:
 
 
 def test_gosub_goes_eight_deep() -> None:
-    nested = (
-        "10 I=0\n20 GOSUB 50\n30 PRINT I\n40 END\n"
-        "50 I=I+1\n60 IF I<{} GOTO 70\n65 RETURN\n70 GOSUB 50\n80 RETURN"
-    )
+    nested = "10 I=0\n20 GOSUB 50\n30 PRINT I\n40 END\n50 I=I+1\n60 IF I<{} GOTO 70\n65 RETURN\n70 GOSUB 50\n80 RETURN"
     assert run(nested.format(8)).paper == "8\n"
     assert run(nested.format(9)).paper == "ERR 02 LINE 70\n"
 

@@ -112,13 +112,9 @@ def test_two_curves_with_their_own_tolerances() -> None:
     """A corner between them, at a node that both have."""
     first = ["FIT O,90", "FIT (2,8.1)", "FIT (5,13)", "FIT (9,17)", "FIT (14,19),0"]
     second = ["FIT (14,19),30", "FIT (19,20.5)", "FIT (23,20)", "FIT (26,18)", "FIT (28,14),-90"]
-    counts = {
-        (a, b): len(arcs(f"TOL {a}", *first, f"TOL {b}", *second)) for a in ("0", "1") for b in ("0", "1")
-    }
+    counts = {(a, b): len(arcs(f"TOL {a}", *first, f"TOL {b}", *second)) for a in ("0", "1") for b in ("0", "1")}
     assert counts == {("0", "0"): 16, ("0", "1"): 10, ("1", "0"): 12, ("1", "1"): 6}
-    assert arcs("TOL 1", *first, "TOL 0", *second) == [
-        *arcs("TOL 1", *first), *arcs("FROM (14,19)", *second)
-    ]
+    assert arcs("TOL 1", *first, "TOL 0", *second) == [*arcs("TOL 1", *first), *arcs("FROM (14,19)", *second)]
 
 
 def test_tol_stands_where_nothing_is_fitted() -> None:
@@ -139,11 +135,15 @@ def test_scale_does_not_end_a_curve_but_tol_does() -> None:
 def test_nodes_of_one_circle_go_under_one_arc() -> None:
     """A quarter about (10,0), from O; the joint falls on the middle one of five nodes."""
     nodes = ["FIT O,90", *(f"FIT (10-10*COS {a},10*SIN {a})" for a in (20, 45, 70)), "FIT (10,10),0"]
-    assert blocks("TOL 0.001", *nodes) == blocks(nodes[0], nodes[-1]) == [
-        "B10000B0B2929GXSR2",
-        "B7071B7071B7071GXSR2",
-        "DD",
-    ]
+    assert (
+        blocks("TOL 0.001", *nodes)
+        == blocks(nodes[0], nodes[-1])
+        == [
+            "B10000B0B2929GXSR2",
+            "B7071B7071B7071GXSR2",
+            "DD",
+        ]
+    )
 
 
 def test_half_round_is_too_much_for_one_span() -> None:

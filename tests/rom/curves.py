@@ -127,9 +127,7 @@ def plate(rng: Random) -> Statements:
     lines = offset(rng)
     corners = [point(right, low), point(left, low)]
     middle = point((left + right) / 2, low)
-    before, after = (
-        rng.choice(["", "", f",{rng.uniform(0.2, 1.5):.2f}"]) for _ in range(2)
-    )
+    before, after = (rng.choice(["", "", f",{rng.uniform(0.2, 1.5):.2f}"]) for _ in range(2))
     upper = fitted(rng, nodes, ends=0.3)
     if rng.random() < 0.5:  # counter-clockwise: the curve runs back to the left
         backwards = [(place, way + 180) for place, way in reversed(nodes)]
@@ -214,9 +212,7 @@ def mirrored(rng: Random) -> Statements:
     x, y = somewhere(rng)
     width = rng.uniform(8, 25)
     count = rng.randint(2, 5)
-    nodes = [
-        (x + width * (1 + 0.3 * math.sin(2.5 * n / count + 0.2)), y + 30 * n / count) for n in range(count + 1)
-    ]
+    nodes = [(x + width * (1 + 0.3 * math.sin(2.5 * n / count + 0.2)), y + 30 * n / count) for n in range(count + 1)]
     lines = [*offset(rng), f"CUT {point(x, y)}", f"CUT {point(*nodes[0])}{rng.choice(['', '', ',0.6'])}"]
     lines += [fit(rng, node) for node in nodes]
     if rng.random() < 0.6:  # the curve's own end may lie on the mirror

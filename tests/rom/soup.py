@@ -72,7 +72,7 @@ ROWS = {
         "{S}:{D}", "{S}:{P}", "{S}:{C}", "{P}:{P}", "{P}:{P}", "{P}:{P}", "{C}:{C}", "{C}:{P}", "{P}:{C}", "{S}#{D}",
         "{S}#({D}:{P})", "{P}#{P}", "{S}/{S}", "-{S}",
     ],
-}
+}  # fmt: skip
 
 WRONG_ANSWERS = [
     "", "1/0", "Z", "P77", "(1,2,3)", "SQR -1", "1+", '"A"', "10 END", "X*X", "A[1.5]", "=", "3", "(1,2)", "X", "O:5",
@@ -196,7 +196,7 @@ class _Cook:
                     (5, 0), (0, 5), (-5, 0), (0, -5), (10, 0), (0, 10), (-10, 0), (3, 4), (-4, 3), (6, -8), (1, 1),
                     (2, 4), (-6, 2), (0, 0),
                 ]  # fmt: skip
-            )
+            )  # fmt: skip
             if rng.random() < 0.35:
                 match rng.randrange(4):
                     case 0:
@@ -346,7 +346,7 @@ class _Cook:
                 ["BACK"], ["BACK"], ["BACK"], [], ["END"], ["BACK", "RECUT"], [f"FROM {self.leaf('P')}"],
                 ["BACK", self.offset(), "RECUT"],
             ]  # fmt: skip
-        )
+        )  # fmt: skip
         return lines
 
     def anything(self) -> list[str]:

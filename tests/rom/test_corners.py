@@ -38,42 +38,54 @@ CASES = {
     # It takes away the beginning of the element behind it: here as far as that goes, and further.
     "closing fillet at the entry of a circle": Case(
         "FROM (10,0) | CUT O:5;X,Y:20,(20,10),(5,0),1 | BACK",
-        "B5000B0B5000GXL3 B15000B0B15000GXL1 B0B10000B10000GYL2 B13692B9128B13692GXL3 B555B832B884GYSR4 D", 6),
+        "B5000B0B5000GXL3 B15000B0B15000GXL1 B0B10000B10000GYL2 B13692B9128B13692GXL3 B555B832B884GYSR4 D",
+        6,
+    ),
     "fillet longer than the arc behind it": Case(
-        "CUT (20,-4),(3,-4),1,O:5,(4,-3),(20,-3)",
-        "B20000B4000B20000GXL4 B14804B0B14804GXL3 B0B1000B1500GYSR3 D", 6),
+        "CUT (20,-4),(3,-4),1,O:5,(4,-3),(20,-3)", "B20000B4000B20000GXL4 B14804B0B14804GXL3 B0B1000B1500GYSR3 D", 6
+    ),
     # The micrometre behind the entry is one of the wire's path.
     "passed the entry by 1.2 um, wire outside": Case(
         "R=.5 | C=O:1 | FROM (20,0) | CUT C;Y,X:-20,-Y:-30,-X:.0012-R;C | BACK",
         "B18500B0B18500GXL3 B1500B0B1000GXNR1 B0B18086B18086GYL2 B29000B0B29000GXL1"
-        " B0B19499B19499GYL4 B28000B0B28000GXL3 D", 6),
+        " B0B19499B19499GYL4 B28000B0B28000GXL3 D",
+        6,
+    ),
     "fillet behind the entry, wire outside": Case(
         "R=.5 | C=O:1 | FROM (9,0) | CUT (1,0),C,(0.8660254038,0.5),2.7432,(3.3660254038,4.830127019)",
-        "B7500B0B7500GXL3 D", 6),
+        "B7500B0B7500GXL3 D",
+        6,
+    ),
     # Curves that nearly touch at a point.
     "fillet of a right turn of 0.008 rad": Case(
         "C=O:-10 | FROM (-20,5) | CUT (-10,0),C,(0,10),1,(10,9.92)",
-        "B10000B5000B10000GXL4 B10000B0B9996GXSR2 B0B1000B8GXSR1 B9996B80B9996GXL4 DD"),
+        "B10000B5000B10000GXL4 B10000B0B9996GXSR2 B0B1000B8GXSR1 B9996B80B9996GXL4 DD",
+    ),
     "fillet of a left turn of 0.008 rad": Case(
         "C=O:-10 | FROM (-20,5) | CUT (-10,0),C,(0,10),1,(10,10.08)",
-        "B10000B5000B10000GXL4 B10000B0B9996GXSR2 B0B1000B8GXNR4 B9996B80B9996GXL1 DD"),
+        "B10000B5000B10000GXL4 B10000B0B9996GXSR2 B0B1000B8GXNR4 B9996B80B9996GXL1 DD",
+    ),
     "circles half a um from concentric": Case(
         "R=.02 | P=(.5,0) | C1=O:.5 | FROM (1,-1) | CUT (0,-.5),C1,P,C1#(.06:P),(0,.5)#(.06:P)",
-        "B1000B480B1000GXL2 B0B520B520GYNR4 B520B1B521GXNR1 DD"),
+        "B1000B480B1000GXL2 B0B520B520GYNR4 B520B1B521GXNR1 DD",
+    ),
     # The line cuts 0.3 um off the circle: half its chord is the root of 10^2 - 9.9997^2, 0.0775 mm.
     "crossing by 0.3 um": Case(
-        "FROM (9.9997,-5) | CUT Y:9.9997,O:10,(0,10)", "B0B5077B5077GYL2 B10000B77B10000GXNR1 DD"),
+        "FROM (9.9997,-5) | CUT Y:9.9997,O:10,(0,10)", "B0B5077B5077GYL2 B10000B77B10000GXNR1 DD"
+    ),
     # ... and not quite 0.01 um here: that is a tangent, whose point is on the circle.
     "crossing by 0.009 um": Case(
-        "FROM (9.999991,-5) | CUT Y:9.999991,O:10,(0,10)", "B0B5000B5000GYL2 B10000B0B10000GXNR1 DD"),
+        "FROM (9.999991,-5) | CUT Y:9.999991,O:10,(0,10)", "B0B5000B5000GYL2 B10000B0B10000GXNR1 DD"
+    ),
     "SYM of one point": Case(
-        "CUT (3,4) | SYM X | BACK",
-        "B3000B4000B4000GYL1 B0B8000B8000GYL4 B0B8000B8000GYL2 B3000B4000B4000GYL3 DD"),
+        "CUT (3,4) | SYM X | BACK", "B3000B4000B4000GYL1 B0B8000B8000GYL4 B0B8000B8000GYL2 B3000B4000B4000GYL3 DD"
+    ),
     # The `;` before a fillet that waits makes BACK's corner a right turn: at (0,-10), not at (0,10).
     "right turn of BACK": Case(
         "FROM (20,0) | CUT Y,X:-12,-Y:-8;O:-10;1 | BACK",
         "B20000B0B20000GXL3 B0B12000B12000GYL2 B8000B0B8000GXL1 B0B18000B18000GYL4 B8000B6000B6889GXSR4"
-        " B111B994B1006GYSR4 B0B8944B8944GYL2 B20000B0B20000GXL1 DD"),
+        " B111B994B1006GYSR4 B0B8944B8944GYL2 B20000B0B20000GXL1 DD",
+    ),
     "SCALE 0 with a route open": Case("CUT X | SCALE 0", "D", 5),
     "SCALE 2 with a route open": Case("CUT X | SCALE 2", "D", 6),
     "fillet between a line and a point written out": Case("CUT X,5,(20,0),Y:20", "", 1),

@@ -230,25 +230,6 @@ def test_run_of_an_unknown_line(board: Board) -> None:
 
 
 #: Statements with a number or a subscript that is none, and where which mistake is marked.
-BAD_NUMBERS = {
-    "PRINT .": (6, 1), "PRINT 1E99": (6, 5), "PRINT 5,(,1E99": (9, 1), "PRINT 5,(1E99,": (9, 5),
-    "A=P1000+": (2, 5), "P1000=(1,2)": (0, 5), "1E99 A=1": (0, 5), "A[1E99]=3": (2, 5), "GOTO .": (5, 1),
-    "PRINT 1E38,1.8E38": (11, 5), "PRINT 1E5000": (6, 5), 'PRINT "1E99",.,': (13, 1), "CUT X,,1E99": (6, 1),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("statement", BAD_NUMBERS)
-def test_a_bad_number_is_marked_in_its_turn(statement: str) -> None:
-    """What is wrong in front of it comes first; the machine is none the worse."""
-    place, number = BAD_NUMBERS[statement]
-    board = Board()
-    board.type("10 REM STAYS")
-    for _ in range(2):
-        assert board.type(statement) == [statement, f"{' ' * place}^", f"ERR {number:02}"]
-    assert board.listing() == ["10 REM STAYS"]
-    assert board.type("PRINT 1/3") == ["0.33333333"]
-
-
 @pytest.mark.parametrize("zeros", [0, 1, 36, 60, 98])
 def test_exponents_without_end(zeros: int) -> None:
     """A constant's value decides, not its exponent: what is too small is 0."""

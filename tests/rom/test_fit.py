@@ -164,7 +164,15 @@ def test_curves_with_tol(share: int, record_property: Record) -> None:
 
 #: Statements of one program each, for what random ones seldom meet; `>` is typed without a number.
 TOL_ALONE = [
-    "TOL", "TOL 1,2", "TOL ;1", "TOL -1", "TOL -1E-9", "TOL SQR -1", "TOL X", "TOL (1,2)", "TOL D7",
+    "TOL",
+    "TOL 1,2",
+    "TOL ;1",
+    "TOL -1",
+    "TOL -1E-9",
+    "TOL SQR -1",
+    "TOL X",
+    "TOL (1,2)",
+    "TOL D7",
     "T O L.5/A=1/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)",
     "> TOL 1/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)",  # RUN forgets it
     "TOL 1/TOL 0/FIT O/FIT (9,2)/FIT (20,0)/FIT (30,2)",

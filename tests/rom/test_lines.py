@@ -49,6 +49,14 @@ MARKED = {
     "10 GOTO 1E99": ("        ^", 5),
     "10 GOTO 70000": ("            ^", 1),
     "READ 1E99": ("     ^", 5),
+    "PRINT 5,(1E99,": ("         ^", 5),
+    "A=P1000+": ("  ^", 5),
+    "1E99 A=1": ("^", 5),
+    "A[1E99]=3": ("  ^", 5),
+    "GOTO .": ("     ^", 1),
+    "PRINT 1E38,1.8E38": ("           ^", 5),
+    "PRINT 1E5000": ("      ^", 5),
+    'PRINT "1E99",.,': ("             ^", 1),
 }
 
 
@@ -63,6 +71,9 @@ def test_the_first_wrong_place_is_marked(line: str) -> None:
     assert paper[1] == mark
     assert board.load(f"10 END\n{line}\n20 END\n") == paper
     assert board.listing() == ["10 END"]
+    # The machine is none the worse.
+    assert board.type(line) == paper
+    assert board.type("PRINT 1/3") == ["0.33333333"]
 
 
 WHOLE = {

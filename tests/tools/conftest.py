@@ -18,8 +18,10 @@ ROOT = Path(__file__).parents[2]
 Run = Callable[..., Result]
 
 #: The CAD package's tape of tape-3b.md, and the ISO code that it gave for the same path.
-CAD_TAPE = (b"B9900B0B9900GXL3\r\nB0B70100B70100GYL2\r\nB55000B0B55000GXL3\r\n"
-            b"B50100B100B100000GYNR1\r\nB54900B0B54900GXL3\r\nDD\r\n")
+CAD_TAPE = (
+    b"B9900B0B9900GXL3\r\nB0B70100B70100GYL2\r\nB55000B0B55000GXL3\r\n"
+    b"B50100B100B100000GYNR1\r\nB54900B0B54900GXL3\r\nDD\r\n"
+)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -48,8 +50,7 @@ def run_program() -> Callable[..., subprocess.CompletedProcess[str]]:
 
     def call(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[str]:
         program = Path(sys.executable).with_name("skg")
-        return subprocess.run([program, *map(str, arguments)], input=stdin, capture_output=True, text=True,
-                              timeout=60)
+        return subprocess.run([program, *map(str, arguments)], input=stdin, capture_output=True, text=True, timeout=60)
 
     return call
 

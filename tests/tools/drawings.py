@@ -24,17 +24,21 @@ def rounded(space: Modelspace, corners: list[tuple[float, float, float]]) -> Non
         one, other = (atan2(q - y, p - x) for p, q, _ in (before, after))
         bend = (other - one) % (2 * pi) - pi
         reach = r * tan(abs(bend) / 2)
-        points += [(x + reach * cos(one), y + reach * sin(one), tan(bend / 4)),
-                   (x + reach * cos(other), y + reach * sin(other), 0)][not r:]
+        points += [
+            (x + reach * cos(one), y + reach * sin(one), tan(bend / 4)),
+            (x + reach * cos(other), y + reach * sin(other), 0),
+        ][not r :]
     space.add_lwpolyline(points, format="xyb", close=True)
 
 
-def bent_slot(space: Modelspace, centre: tuple[float, float], radius: float, width: float, first: float,
-              last: float) -> None:
+def bent_slot(
+    space: Modelspace, centre: tuple[float, float], radius: float, width: float, first: float, last: float
+) -> None:
     """A slot around a centre: two arcs, from angle to angle (degrees), and two round ends."""
     half = width / 2
-    ends = [(centre[0] + radius * cos(radians(angle)), centre[1] + radius * sin(radians(angle)))
-            for angle in (first, last)]
+    ends = [
+        (centre[0] + radius * cos(radians(angle)), centre[1] + radius * sin(radians(angle))) for angle in (first, last)
+    ]
     space.add_arc(centre, radius + half, first, last)
     space.add_arc(centre, radius - half, first, last)
     space.add_arc(ends[0], half, first + 180, first)
@@ -47,7 +51,7 @@ def die_plate() -> Drawing:
     width, height, r = 80, 50, 6
     space.add_lwpolyline([(r, 0, 0), (width - r, 0, QUARTER), (width, r, 0), (width, height - r, QUARTER),
                           (width - r, height, 0), (r, height, QUARTER), (0, height - r, 0), (0, r, QUARTER)],
-                         format="xyb", close=True)
+                         format="xyb", close=True)  # fmt: skip
     for x, y in ((10, 10), (70, 10), (70, 40), (10, 40)):
         space.add_circle((x, y), 3.25)
     space.add_line((30, 20), (50, 20))
@@ -86,8 +90,10 @@ def ratchet() -> Drawing:
         # The back is an arc of radius `back` from the root to the next tip, bulging outwards.
         chord = hypot(following[0] - root[0], following[1] - root[1])
         away = sqrt(back**2 - chord**2 / 4) / chord
-        centre = ((root[0] + following[0]) / 2 - away * (following[1] - root[1]),
-                  (root[1] + following[1]) / 2 + away * (following[0] - root[0]))
+        centre = (
+            (root[0] + following[0]) / 2 - away * (following[1] - root[1]),
+            (root[1] + following[1]) / 2 + away * (following[0] - root[0]),
+        )
         first, last = (degrees(atan2(y - centre[1], x - centre[0])) for x, y in (root, following))
         space.add_arc(centre, back, first, last)
     half, bore, key = 2.5, 8.0, 10.3
@@ -119,7 +125,8 @@ def punch_with_spline() -> Drawing:
     space.add_line((0, 0), (60, 0))
     space.add_line((60, 0), (60, 20))
     space.add_spline().apply_construction_tool(
-        ezdxf.math.BSpline([(60, 20), (52, 38), (44, 8), (36, 40), (24, 30)], order=4))
+        ezdxf.math.BSpline([(60, 20), (52, 38), (44, 8), (36, 40), (24, 30)], order=4)
+    )
     space.add_line((24, 30), (20, 30))
     space.add_ellipse((10, 30), (10, 0), 0.55, 0, pi)
     space.add_line((0, 30), (0, 10))
@@ -134,8 +141,9 @@ def mirrored_blocks() -> Drawing:
     """A bracket inserted plainly and mirrored and turned; an arc of a mirrored plane; a line drawn twice."""
     drawing, space = new()
     bracket = drawing.blocks.new("BRACKET")
-    bracket.add_lwpolyline([(0, 0, 0), (20, 0, 0), (20, 6, -0.3), (12, 14, 0), (12, 25, 1), (0, 25, 0)],
-                           format="xyb", close=True)
+    bracket.add_lwpolyline(
+        [(0, 0, 0), (20, 0, 0), (20, 6, -0.3), (12, 14, 0), (12, 25, 1), (0, 25, 0)], format="xyb", close=True
+    )
     bracket.add_circle((6, 25), 2.5)
     space.add_blockref("BRACKET", (0, 0))
     space.add_blockref("BRACKET", (60, 10), {"xscale": -1, "rotation": 17})
@@ -159,11 +167,12 @@ def bracket() -> Drawing:
     """The drawing of docs/tools.md: a bracket with rounded corners, a bore, a slot and an ellipse."""
     drawing, space = new()
     outline = [(4, 0, 0), (66, 0, QUARTER), (70, 4, 0), (70, 20, 0), (40, 30, 0), (4, 30, QUARTER),
-               (0, 26, 0), (0, 4, QUARTER)]
+               (0, 26, 0), (0, 4, QUARTER)]  # fmt: skip
     space.add_lwpolyline(outline, format="xyb", close=True, dxfattribs={"layer": "PART"})
     space.add_circle((12, 15), 6, {"layer": "PART"})
-    space.add_lwpolyline([(26, 11, 0), (36, 11, 1), (36, 19, 0), (26, 19, 1)], format="xyb", close=True,
-                         dxfattribs={"layer": "PART"})
+    space.add_lwpolyline(
+        [(26, 11, 0), (36, 11, 1), (36, 19, 0), (26, 19, 1)], format="xyb", close=True, dxfattribs={"layer": "PART"}
+    )
     space.add_ellipse((55, 11), (6, 0), 0.5, dxfattribs={"layer": "PART"})
     space.add_text("BRACKET", dxfattribs={"layer": "NOTES"})
     return drawing
@@ -195,7 +204,7 @@ def gasket() -> Drawing:
     drawing, space = new()
     for radius, flat, r in ((46.0, 31.5, 9.5), (32.3, 17.8, 4.25)):
         # The flat side is a line x = -flat, its corners are rounded into the circle.
-        height = sqrt((radius - r)**2 - (flat - r)**2)
+        height = sqrt((radius - r) ** 2 - (flat - r) ** 2)
         angle = degrees(atan2(height, r - flat))
         space.add_line((-flat, height), (-flat, -height))
         space.add_arc((0, 0), radius, -angle, angle)
@@ -226,8 +235,7 @@ def cam_plate() -> Drawing:
             angles.reverse()
         space.add_arc(centre, abs(blend), *angles)
         outwards = 180 if blend > 0 else 0
-        touching.append(tuple(degrees(atan2(centre[1] - v, centre[0] - u)) + outwards
-                              for u, v in ((x, y), (p, q))))
+        touching.append(tuple(degrees(atan2(centre[1] - v, centre[0] - u)) + outwards for u, v in ((x, y), (p, q))))
     for at, (x, y, r) in enumerate(eyes):
         space.add_arc((x, y), r, touching[at - 1][1], touching[at][0])
         space.add_circle((x, y), r - 4.6)
@@ -240,21 +248,25 @@ def turbine_blade() -> Drawing:
     """A blade's section: a spline on each side, tangent to the small arcs at its edges, and a cooling slot."""
     drawing, space = new()
     nose, tail = ((1.2, 0.3), 1.2), ((50.0, 2.0), 0.4)
-    sides = ((110, 65, -1, [(7.5, 8.6), (17, 13.1), (29, 12.9), (41, 8.2)]),
-             (-60, -118, 1, [(9, 3.3), (18, 5.6), (29, 5.9), (40, 4.2)]))
+    sides = (
+        (110, 65, -1, [(7.5, 8.6), (17, 13.1), (29, 12.9), (41, 8.2)]),
+        (-60, -118, 1, [(9, 3.3), (18, 5.6), (29, 5.9), (40, 4.2)]),
+    )
     for first, last, sense, through in sides:
         ends, tangents = [], []
         for ((x, y), r), angle in ((nose, radians(first)), (tail, radians(last))):
             ends.append((x + r * cos(angle), y + r * sin(angle)))
             tangents.append((-sense * sin(angle), sense * cos(angle)))
         space.add_spline().apply_construction_tool(
-            ezdxf.math.fit_points_to_cad_cv([ends[0], *through, ends[1]], tangents))
+            ezdxf.math.fit_points_to_cad_cv([ends[0], *through, ends[1]], tangents)
+        )
     space.add_arc(*nose, 110, -60)
     space.add_arc(*tail, -118, 65)
-    space.add_lwpolyline([(17.3, 8.15, 0), (27.9, 8.4, 0.83), (27.9, 10.35, 0), (17.3, 9.95, 1.11)],
-                         format="xyb", close=True)
+    space.add_lwpolyline(
+        [(17.3, 8.15, 0), (27.9, 8.4, 0.83), (27.9, 10.35, 0), (17.3, 9.95, 1.11)], format="xyb", close=True
+    )
     return drawing
 
 
 ALL = (die_plate, connecting_rod, ratchet, cam, punch_with_spline, mirrored_blocks, in_inches, bracket,
-       gear_wheel, gasket, cam_plate, turbine_blade)
+       gear_wheel, gasket, cam_plate, turbine_blade)  # fmt: skip

@@ -69,10 +69,17 @@ def least_farthest(circle: Curve, reach: float, spread: int) -> tuple[float, Gri
     """
     (xc, yc), (xs, ys) = circle.centre, circle.start
     radius, first = hypot(xs - xc, ys - yc), atan2(ys - yc, xs - xc)
-    around = [(x, y) for x in range(floor(xc) - spread, floor(xc) + spread + 2)
-              for y in range(floor(yc) - spread, floor(yc) + spread + 2)]
-    starts = [(x, y) for x in range(ceil(xs - reach), floor(xs + reach) + 1)
-              for y in range(ceil(ys - reach), floor(ys + reach) + 1) if hypot(x - xs, y - ys) <= reach]
+    around = [
+        (x, y)
+        for x in range(floor(xc) - spread, floor(xc) + spread + 2)
+        for y in range(floor(yc) - spread, floor(yc) + spread + 2)
+    ]
+    starts = [
+        (x, y)
+        for x in range(ceil(xs - reach), floor(xs + reach) + 1)
+        for y in range(ceil(ys - reach), floor(ys + reach) + 1)
+        if hypot(x - xs, y - ys) <= reach
+    ]
     best = (np.inf, (0, 0), (0, 0))
     for centre in around:
         for start in starts:
@@ -93,8 +100,11 @@ def least_farthest(circle: Curve, reach: float, spread: int) -> tuple[float, Gri
 
 def test_no_block_can_keep_within_a_micrometre() -> None:
     """A hole of examples/gosub-holes.skg: its centre lies 0.365 µm off the grid, and 1.365 µm is the best."""
-    hole = next(step for step in steps(ROOT / "examples" / "gosub-holes.skg", drift=False)
-                if step.curve.sweep > 6 and abs(step.curve.centre[1] % 1 - 0.635) < 0.001)
+    hole = next(
+        step
+        for step in steps(ROOT / "examples" / "gosub-holes.skg", drift=False)
+        if step.curve.sweep > 6 and abs(step.curve.centre[1] % 1 - 0.635) < 0.001
+    )
     best, centre, start = least_farthest(hole.curve, reach=1.5, spread=2)
     assert best == pytest.approx(1.3648, abs=1e-4)
     # It is what the tape does: the nearest centre.
@@ -113,8 +123,10 @@ def arcs(draw: st.DrawFn) -> tuple[Grid, Grid, bool, float]:
     clockwise = draw(st.booleans())
     last = first - sweep if clockwise else first + sweep
     slack = st.floats(-1, 1)
-    (xs, ys), (xe, ye) = ((round(radius * cos(turn) + off * draw(slack)), round(radius * sin(turn) + off * draw(slack)))
-                          for turn, off in ((first, 1.1), (last, 0)))
+    (xs, ys), (xe, ye) = (
+        (round(radius * cos(turn) + off * draw(slack)), round(radius * sin(turn) + off * draw(slack)))
+        for turn, off in ((first, 1.1), (last, 0))
+    )
     return (xs, ys), (xe, ye), clockwise, sweep
 
 

@@ -28,7 +28,7 @@ GOLDEN = {
     "two.svg": [str(PLATE), str(PLATE), "--start", "30,-30", "--start", "35,-25", "--scale", "1",
                 "--positions", "machine", "--title", "Two plates"],
     "offset.svg": [str(PLATE_SKG), "--show-offset", "--skg80", "reference", "--positions", "programmed"],
-}
+}  # fmt: skip
 SVG = "{http://www.w3.org/2000/svg}"
 _NUMBERS = re.compile(r"([MLCz])|(-?\d+\.?\d*(?:e-?\d+)?)")
 
@@ -44,8 +44,12 @@ def sampled(svg: bytes) -> dict[str, list[tuple[float, float]]]:
             continue
         points = []
         for x, y in flattened(group.find(f"{SVG}path").get("d")):
-            points.append((page["left"] + x / page["mm_to_points"],
-                           page["bottom"] + (page["height_points"] - y) / page["mm_to_points"]))
+            points.append(
+                (
+                    page["left"] + x / page["mm_to_points"],
+                    page["bottom"] + (page["height_points"] - y) / page["mm_to_points"],
+                )
+            )
         found[group.get("id")] = points
     return found
 
@@ -68,15 +72,16 @@ def flattened(d: str) -> list[tuple[float, float]]:
             continue
         step = 1 if letter == "L" else 3
         for first in range(0, len(pairs), step):
-            corners = [points[-1], *pairs[first:first + step]]
+            corners = [points[-1], *pairs[first : first + step]]
             points += [bezier(corners, k / 8) for k in range(1, 9)]
     return points
 
 
 def bezier(corners: list[tuple[float, float]], t: float) -> tuple[float, float]:
     while len(corners) > 1:
-        corners = [((1 - t) * a + t * c, (1 - t) * b + t * d)
-                   for (a, b), (c, d) in zip(corners, corners[1:], strict=False)]
+        corners = [
+            ((1 - t) * a + t * c, (1 - t) * b + t * d) for (a, b), (c, d) in zip(corners, corners[1:], strict=False)
+        ]
     return corners[0]
 
 
@@ -167,15 +172,18 @@ def nearest_offset(points: list[tuple[float, float]], x: float, y: float) -> tup
     return best
 
 
-@pytest.mark.parametrize(("arguments", "message"), [
-    (["nothing.3b", "-o", "x.svg"], "nothing.3b: No such file or directory"),
-    ([PLATE, "-o", "x.bmp"], "x.bmp: expected a name that ends in .svg, .png or .pdf, or --format"),
-    ([PLATE, "-o", "x.svg", "--show-offset"], "a tape has no nominal contour, expected a .skg program"),
-    ([PLATE, "-o", "/nowhere/x.svg"], "/nowhere/x.svg: No such file or directory"),
-    ([PLATE, "-o", "x.svg", "--scale", "1000"], "the picture would be"),
-    (["-", "-o", "x.svg"], "-: nothing to draw, the tape has no blocks"),
-    ([PLATE_SKG, "-o", "x.svg", "--skg80", "/nowhere"], "/nowhere: no such file"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["nothing.3b", "-o", "x.svg"], "nothing.3b: No such file or directory"),
+        ([PLATE, "-o", "x.bmp"], "x.bmp: expected a name that ends in .svg, .png or .pdf, or --format"),
+        ([PLATE, "-o", "x.svg", "--show-offset"], "a tape has no nominal contour, expected a .skg program"),
+        ([PLATE, "-o", "/nowhere/x.svg"], "/nowhere/x.svg: No such file or directory"),
+        ([PLATE, "-o", "x.svg", "--scale", "1000"], "the picture would be"),
+        (["-", "-o", "x.svg"], "-: nothing to draw, the tape has no blocks"),
+        ([PLATE_SKG, "-o", "x.svg", "--skg80", "/nowhere"], "/nowhere: no such file"),
+    ],
+)
 def test_bad_wishes(run_program: Run, arguments: list, message: str) -> None:
     stdin = "DD\r\n" if arguments[0] == "-" else ""
     result = run_program("plot", *arguments, stdin=stdin)

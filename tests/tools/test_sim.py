@@ -24,9 +24,9 @@ from skg.tape.simulation import simulate
 
 # Step towards the inside (F >= 0) and onwards (F < 0), written out for each sense and quadrant.
 INSIDE = {(1, 1): (-1, 0), (1, 2): (0, -1), (1, 3): (1, 0), (1, 4): (0, 1),
-          (-1, 1): (0, -1), (-1, 2): (1, 0), (-1, 3): (0, 1), (-1, 4): (-1, 0)}
+          (-1, 1): (0, -1), (-1, 2): (1, 0), (-1, 3): (0, 1), (-1, 4): (-1, 0)}  # fmt: skip
 ONWARDS = {(1, 1): (0, 1), (1, 2): (-1, 0), (1, 3): (0, -1), (1, 4): (1, 0),
-           (-1, 1): (1, 0), (-1, 2): (0, 1), (-1, 3): (-1, 0), (-1, 4): (0, -1)}
+           (-1, 1): (1, 0), (-1, 2): (0, 1), (-1, 3): (-1, 0), (-1, 4): (0, -1)}  # fmt: skip
 LINE = {1: ((1, 0), (0, 1)), 2: ((0, 1), (-1, 0)), 3: ((-1, 0), (0, -1)), 4: ((0, -1), (1, 0))}
 
 
@@ -239,8 +239,9 @@ def test_progress_on_a_terminal_only(run_program: Run, tmp_path: Path) -> None:
     tape.write_bytes(tapes.to_bytes([line_block(99_999_999, 99_999_998)] * 3))
     assert run_program("sim", tape).stderr == ""
     outer, inner = pty.openpty()
-    process = subprocess.Popen([Path(sys.executable).with_name("skg"), "sim", tape], stderr=inner,
-                               stdout=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        [Path(sys.executable).with_name("skg"), "sim", tape], stderr=inner, stdout=subprocess.DEVNULL
+    )
     assert process.wait(timeout=60) == 0
     assert b"step/s" in os.read(outer, 10_000)
     for descriptor in (inner, outer):

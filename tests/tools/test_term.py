@@ -112,8 +112,7 @@ def machine(tmp_path: Path) -> Iterator[Machine]:
 
 
 def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True,
-                          timeout=30)
+    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True, timeout=30)
 
 
 def test_sends_and_records(machine: Machine, tmp_path: Path) -> None:
@@ -166,8 +165,12 @@ def test_punch_on_a_port_of_its_own(machine: Machine, tmp_path: Path) -> None:
 def test_survives_the_port_going_away(machine: Machine, tmp_path: Path) -> None:
     part = tmp_path / "part.skg"
     part.write_text("".join(f"{number} REM LINE\n" for number in range(10, 100)))
-    process = subprocess.Popen([SKG, "term", machine.link, "--send", part, "--batch", "--quiet", "1"],
-                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [SKG, "term", machine.link, "--send", part, "--batch", "--quiet", "1"],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
     while len(machine.lines) < 20:
         time.sleep(0.005)
     machine.unplug()
@@ -185,8 +188,12 @@ def test_survives_the_port_going_away(machine: Machine, tmp_path: Path) -> None:
 
 
 def test_gives_up(machine: Machine) -> None:
-    process = subprocess.Popen([SKG, "term", machine.link, "--patience", "0.6", "--batch", "--quiet", "20"],
-                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [SKG, "term", machine.link, "--patience", "0.6", "--batch", "--quiet", "20"],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
     time.sleep(1)
     machine.unplug()
     errors = process.communicate(timeout=20)[1].decode()
@@ -215,8 +222,9 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
     part = tmp_path / "part.skg"
     part.write_text(PROGRAM * 400)
     outer, inner = pty.openpty()
-    process = subprocess.Popen([SKG, "term", machine.link, "--send", part], stdin=inner,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        [SKG, "term", machine.link, "--send", part], stdin=inner, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+    )
     while not machine.lines:
         time.sleep(0.01)
     os.write(outer, b"\x03")
@@ -226,11 +234,14 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
         os.close(descriptor)
 
 
-@pytest.mark.parametrize(("arguments", "message"), [
-    (["/nowhere"], "skg: /nowhere: no such file or directory\n"),
-    (["nonsense://x"], "skg: nonsense://x: invalid URL"),
-    (["/dev/null", "--send", "/nowhere.skg"], "skg: /nowhere.skg: No such file or directory\n"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["/nowhere"], "skg: /nowhere: no such file or directory\n"),
+        (["nonsense://x"], "skg: nonsense://x: invalid URL"),
+        (["/dev/null", "--send", "/nowhere.skg"], "skg: /nowhere.skg: No such file or directory\n"),
+    ],
+)
 def test_bad_ports(arguments: list[str], message: str) -> None:
     result = term(*arguments)
     assert result.returncode == 2

@@ -64,9 +64,7 @@ def emulator(directory: Path, rom: str = "skg", *options: str) -> Iterator[Emula
 
 
 def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run(
-        [SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True, timeout=60
-    )
+    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True, timeout=60)
 
 
 @pytest.mark.parametrize("name", PARTS)
@@ -119,9 +117,7 @@ def test_the_machine_goes_away_and_comes_back(tmp_path: Path) -> None:
     long.write_text("".join(f"{number} REM LINE\n" for number in range(1, 400)))
     with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
         command = [SKG, "term", machine.link, "--send", long, "--batch", "--quiet", "2"]
-        sender = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE
-        )
+        sender = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         assert sender.stdout
         seen = b""
         while b">50 REM" not in seen:

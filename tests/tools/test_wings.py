@@ -76,8 +76,13 @@ def test_every_folder_is_a_wing() -> None:
 
 
 def test_wings_lean_on_those_below() -> None:
-    wrong = [f"{module} imports {name}" for module, names in GRAPH.items() if module not in DOORS
-             for name in names if name in DOORS or wing(name) not in ALLOWED[wing(module)] | {wing(module)}]
+    wrong = [
+        f"{module} imports {name}"
+        for module, names in GRAPH.items()
+        if module not in DOORS
+        for name in names
+        if name in DOORS or wing(name) not in ALLOWED[wing(module)] | {wing(module)}
+    ]
     assert not wrong
 
 
@@ -96,8 +101,9 @@ def test_modules_are_without_circles() -> None:
 def test_commands_alone_know_the_command_line() -> None:
     """Click is imported by commands alone, and nothing imports a command."""
     for module, tree in MODULES.items():
-        roots = {alias.name.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.Import)
-                 for alias in node.names}
+        roots = {
+            alias.name.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names
+        }
         roots |= {node.module.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
         assert "click" not in roots or module == "skg.cli" or wing(module) == "commands", module
 
@@ -110,8 +116,10 @@ def type_names(tree: ast.Module) -> Iterator[str]:
         elif isinstance(node, ast.ImportFrom):
             yield from (alias.asname for alias in node.names if alias.asname and alias.name[0].isupper())
         elif isinstance(node, ast.Assign) and (
-                isinstance(node.value, ast.Subscript)
-                or isinstance(node.value, ast.BinOp) and isinstance(node.value.op, ast.BitOr)):
+            isinstance(node.value, ast.Subscript)
+            or isinstance(node.value, ast.BinOp)
+            and isinstance(node.value.op, ast.BitOr)
+        ):
             yield from (target.id for target in node.targets if isinstance(target, ast.Name) and target.id[0].isupper())
 
 

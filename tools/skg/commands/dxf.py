@@ -12,16 +12,22 @@ from skg.plane import XY
 @click.command(name="dxf")
 @click.argument("file", type=click.Path(allow_dash=True))
 @click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True),
-              help="Drawing to write, - for the standard output.")
+              help="Drawing to write, - for the standard output.")  # fmt: skip
 @click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM, else 0,0.")
 @click.option("--polylines", is_flag=True, help="One LWPOLYLINE with bulges for each contour.")
 @positions_option
-@click.option("--joints", type=click.Choice(("drawn", "tape")), default="drawn", show_default=True,
-              help="Where blocks meet. drawn: where the corners most likely were before the tape's rounding, to a "
-                   "fraction of a µm; tape: at the whole µm that the blocks or the controller end at.")
+@click.option(
+    "--joints",
+    type=click.Choice(("drawn", "tape")),
+    default="drawn",
+    show_default=True,
+    help="Where blocks meet. drawn: where the corners most likely were before the tape's rounding, to a "
+    "fraction of a µm; tape: at the whole µm that the blocks or the controller end at.",
+)
 @skg80_option
-def command(file: str, output: str, start: XY | None, polylines: bool, positions: str,
-            joints: str, skg80: str | None) -> None:
+def command(
+    file: str, output: str, start: XY | None, polylines: bool, positions: str, joints: str, skg80: str | None
+) -> None:
     """Turn a tape (.3b) or a program (.skg, .xy, .tkh) into a DXF drawing of the wire's path.
 
     Layers: WIRE what is cut, LEAD the way from the start hole to the contour, MOVES positioning, START and

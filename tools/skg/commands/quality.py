@@ -51,10 +51,7 @@ def quality_table(found: list[Quality]) -> str:
 def saving_table(found: list[Saving]) -> str:
     """One row for each set of nodes."""
     heading = ["part", "nodes", "blocks", "with TOL", "fewest", "ratio"]
-    rows = [
-        [s.part, *map(str, (s.nodes, s.blocks, s.joined, s.fewest)), f"{s.ratio:.2f}"]
-        for s in found
-    ]
+    rows = [[s.part, *map(str, (s.nodes, s.blocks, s.joined, s.fewest)), f"{s.ratio:.2f}"] for s in found]
     return table(heading, rows, words=1)
 
 
@@ -62,8 +59,12 @@ def saving_table(found: list[Saving]) -> str:
 @click.argument(
     "parts", metavar="PART...", nargs=-1, required=True, type=click.Path(exists=True, dir_okay=False, path_type=Path)
 )
-@click.option("--tol", metavar="MM", type=click.FloatRange(min=0, min_open=True),
-              help="Instead, join nodes within so many mm and compare the blocks with the fewest possible.")
+@click.option(
+    "--tol",
+    metavar="MM",
+    type=click.FloatRange(min=0, min_open=True),
+    help="Instead, join nodes within so many mm and compare the blocks with the fewest possible.",
+)
 def command(parts: tuple[Path, ...], tol: float | None) -> None:
     """Measure the curves that the FIT statements of PART (SKG programs) make, by the reference.
 

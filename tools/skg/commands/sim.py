@@ -20,8 +20,10 @@ def _text(report: Report, blocks: bool) -> str:
         lines.append(head)
         for one in report.each:
             miss = one.really[0] - one.should[0], one.really[1] - one.should[1]
-            lines.append(f"{one.number:>5}  {one.block:<40} {_xy(one.should):>20} {_xy(one.really):>20} "
-                         f"{_xy(miss) if miss != (0, 0) else '-':>8} {one.off_curve:>6.3f}")
+            lines.append(
+                f"{one.number:>5}  {one.block:<40} {_xy(one.should):>20} {_xy(one.really):>20} "
+                f"{_xy(miss) if miss != (0, 0) else '-':>8} {one.off_curve:>6.3f}"
+            )
     stops = f", {report.stops} stops" if report.stops else ""
     as_programmed = f" (as programmed: {closing(report.programmed_gap)})"
     lines += [
@@ -35,9 +37,11 @@ def _text(report: Report, blocks: bool) -> str:
         f"{report.off_path:.3f} µm with the drift before it",
     ]
     if len(report.routes) > 1:
-        lines += [f"  blocks {route.first}-{route.last}: "
-                  + (f"moves by {_xy(route.gap)} µm" if route.is_move else closing(route.gap))
-                  for route in report.routes]
+        lines += [
+            f"  blocks {route.first}-{route.last}: "
+            + (f"moves by {_xy(route.gap)} µm" if route.is_move else closing(route.gap))
+            for route in report.routes
+        ]
     return "\n".join(lines)
 
 
@@ -56,15 +60,22 @@ def _xy(point: XY) -> str:
 
 @click.command(name="sim")
 @click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
-@click.option("--feed", default=5.0, show_default=True, type=click.FloatRange(0, min_open=True),
-              help="Feed in mm/min, for the time.")
+@click.option(
+    "--feed",
+    default=5.0,
+    show_default=True,
+    type=click.FloatRange(0, min_open=True),
+    help="Feed in mm/min, for the time.",
+)
 @positions_option
 @click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
-@click.option("--json", "as_json", is_flag=True,
-              help="Write the figures as JSON (µm, seconds), one list for all tapes.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Write the figures as JSON (µm, seconds), one list for all tapes."
+)
 @click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
-def command(tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, as_json: bool,
-            strict_close: bool) -> None:
+def command(
+    tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, as_json: bool, strict_close: bool
+) -> None:
     """Follow TAPE step by step as a 3B controller does.
 
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,

@@ -14,25 +14,54 @@ from skg.files import read_bytes
 
 @click.command(name="term")
 @click.argument("port")
-@click.option("--send", "file", metavar="FILE", type=click.Path(allow_dash=True),
-              help="Type this file first, line by line; - for the standard input.")
+@click.option(
+    "--send",
+    "file",
+    metavar="FILE",
+    type=click.Path(allow_dash=True),
+    help="Type this file first, line by line; - for the standard input.",
+)
 @click.option("--run", is_flag=True, help="Type RUN after the file.")
 @click.option("--record", metavar="FILE", type=click.Path(), help="Write what is punched to this file.")
 @click.option("--punch-port", metavar="PORT", help="Where the punch is connected, if not to PORT itself.")
 @click.option("--baud", default=9600, show_default=True, type=click.IntRange(50), help="Speed of both ports.")
-@click.option("--pace", type=click.Choice(("prompt", "none")), default="prompt", show_default=True,
-              help="After each line that is sent wait for the prompt, or for nothing but XOFF.")
-@click.option("--delay", default=0.0, metavar="SECONDS", type=click.FloatRange(0),
-              help="Also wait this long after each line.")
-@click.option("--batch", is_flag=True,
-              help="Leave when the file was sent and the tape's DD was punched, or when nothing has come for "
-                   "--quiet seconds.")
+@click.option(
+    "--pace",
+    type=click.Choice(("prompt", "none")),
+    default="prompt",
+    show_default=True,
+    help="After each line that is sent wait for the prompt, or for nothing but XOFF.",
+)
+@click.option(
+    "--delay", default=0.0, metavar="SECONDS", type=click.FloatRange(0), help="Also wait this long after each line."
+)
+@click.option(
+    "--batch",
+    is_flag=True,
+    help="Leave when the file was sent and the tape's DD was punched, or when nothing has come for --quiet seconds.",
+)
 @click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS",
-              type=click.FloatRange(0, min_open=True), help="How long --batch waits for more.")
-@click.option("--patience", default=0.0, metavar="SECONDS", type=click.FloatRange(0),
-              help="Give up a port that stays away this long. Default: never.")
-def command(port: str, file: str | None, run: bool, record: str | None, punch_port: str | None, baud: int,
-            pace: str, delay: float, batch: bool, quiet: float, patience: float) -> None:
+              type=click.FloatRange(0, min_open=True), help="How long --batch waits for more.")  # fmt: skip
+@click.option(
+    "--patience",
+    default=0.0,
+    metavar="SECONDS",
+    type=click.FloatRange(0),
+    help="Give up a port that stays away this long. Default: never.",
+)
+def command(
+    port: str,
+    file: str | None,
+    run: bool,
+    record: str | None,
+    punch_port: str | None,
+    baud: int,
+    pace: str,
+    delay: float,
+    batch: bool,
+    quiet: float,
+    patience: float,
+) -> None:
     """Be the teletype of the board on PORT (a device, or any address that pyserial knows).
 
     Keys go to the board as they are typed; ctrl-] leaves. What it punches, between DC2 and DC4 or on a port

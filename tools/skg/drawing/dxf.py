@@ -160,8 +160,10 @@ def write(stream: TextIO, routes: list[PlacedRoute], stops: list[XY], polylines:
 def _pattern(entity: _Entity, owner: str, version: str) -> str:
     """The text of an entity like this one, with places for its handle and its numbers."""
     numbers = count(1_000_001)
-    marked = {name: (next(numbers), next(numbers)) if isinstance(value, tuple) else next(numbers)
-              for name, value in entity.attributes.items()}
+    marked = {
+        name: (next(numbers), next(numbers)) if isinstance(value, tuple) else next(numbers)
+        for name, value in entity.attributes.items()
+    }
     text = StringIO()
     sample = factory.new(entity.kind, {"layer": entity.layer, "handle": "HANDLE", "owner": owner, **marked})
     sample.export_dxf(TagWriter(text, dxfversion=version))

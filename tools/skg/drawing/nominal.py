@@ -74,8 +74,11 @@ def _corner(one: Segment, other: Segment) -> XY:
     wire = _xy(one.end)
     # A crossing much further away than the offsets explain belongs to another place of the same curves.
     reach = 50 * max(abs(float(one.offset)), abs(float(other.offset))) + 0.01
-    crossings = [point for point in _crossings(one.nominal, other.nominal)
-                 if hypot(point[0] - wire[0], point[1] - wire[1]) <= reach]
+    crossings = [
+        point
+        for point in _crossings(one.nominal, other.nominal)
+        if hypot(point[0] - wire[0], point[1] - wire[1]) <= reach
+    ]
     if not crossings:
         return _foot(one, one.end)
     return min(crossings, key=lambda point: hypot(point[0] - wire[0], point[1] - wire[1]))

@@ -76,8 +76,9 @@ class Port:
     than `patience` seconds (0: for ever) is a `UserError`.
     """
 
-    def __init__(self, name: str, baud: int, say: Callable[[str], None], on_back: Callable[[], None],
-                 patience: float) -> None:
+    def __init__(
+        self, name: str, baud: int, say: Callable[[str], None], on_back: Callable[[], None], patience: float
+    ) -> None:
         self.name = name
         self.say = say
         self.on_back = on_back
@@ -129,7 +130,7 @@ class Port:
             while not self.closing:
                 current = self.serial
                 try:
-                    current.write(data[at:at + 1])
+                    current.write(data[at : at + 1])
                     current.flush()
                     break
                 except serial.SerialTimeoutException:
@@ -259,8 +260,14 @@ def send(port: Port, teletype: Teletype, data: bytes, pace: str, delay: float) -
     between two lines. Raises `BrokenOff` when the operator types ctrl-] or ctrl-C.
     """
     lines = data.replace(b"\r\n", b"\r").replace(b"\n", b"\r").splitlines(keepends=True)
-    with tqdm(total=sum(map(len, lines)), unit="B", unit_scale=True, desc="sending", leave=False,
-              disable=not teletype.show_bars) as bar:
+    with tqdm(
+        total=sum(map(len, lines)),
+        unit="B",
+        unit_scale=True,
+        desc="sending",
+        leave=False,
+        disable=not teletype.show_bars,
+    ) as bar:
         for line in lines:
             for at in range(len(line)):
                 teletype.check()
@@ -268,7 +275,7 @@ def send(port: Port, teletype: Teletype, data: bytes, pace: str, delay: float) -
                     teletype.check()
                 if line[at:] == b"\r":
                     teletype.line.clear()
-                port.write(line[at:at + 1])
+                port.write(line[at : at + 1])
                 bar.update(1)
             if pace == "prompt":
                 teletype.wait(lambda: teletype.at_prompt, _PROMPT)
@@ -301,7 +308,7 @@ def converse(port: Port, teletype: Teletype) -> None:
             raise teletype.failure
         typed = teletype.keys()
         if ESCAPE in typed:
-            port.write(typed[:typed.index(ESCAPE)])
+            port.write(typed[: typed.index(ESCAPE)])
             return
         if typed:
             port.write(typed)

@@ -120,9 +120,7 @@ def ellipse(a: float, b: float, step: float) -> TrueCurve:
 def trochoid(name: str, fixed: float, rolling: float, last: float, step: float) -> TrueCurve:
     """Epicycloid (rolling > 0, outside) or hypocycloid (rolling < 0, inside) of a circle on a fixed one."""
     distance = fixed + rolling
-    return TrueCurve(
-        name, lambda a: distance * cis(a) - rolling * cis(a * (fixed / rolling + 1)), steps(0, last, step)
-    )
+    return TrueCurve(name, lambda a: distance * cis(a) - rolling * cis(a * (fixed / rolling + 1)), steps(0, last, step))
 
 
 def involute() -> TrueCurve:
@@ -148,9 +146,7 @@ TRUE_CURVES = {
         "parabola", lambda x: x + 1j * x * x / 60, steps(40, -40, -5), lambda x: -unit(1 + 1j * x / 30)
     ),
     "fit-spiral": TrueCurve("Archimedean spiral", lambda a: (20 + a / 30) * cis(a), steps(0, 360, 12)),
-    "fit-cycloid": TrueCurve(
-        "cycloid", lambda a: 8 * (np.radians(a) + 1j - 1j * cis(-a)), steps(360, 0, -20)
-    ),
+    "fit-cycloid": TrueCurve("cycloid", lambda a: 8 * (np.radians(a) + 1j - 1j * cis(-a)), steps(360, 0, -20)),
     "fit-epicycloid": trochoid("epicycloid", 21, 4.2, 72, 4),
     "fit-hypocycloid": trochoid("hypocycloid", 30, -7.5, 90, 6),
     "fit-gear": involute(),

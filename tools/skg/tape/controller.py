@@ -35,7 +35,7 @@ class _State(ctypes.Structure):
 
     _fields_ = [(name, ctypes.c_int64) for name in (
         "sense", "quadrant", "x", "y", "j", "axis", "drift_x", "drift_y", "started", "px", "py", "f",
-        "counted", "steps", "f_max", "f_min", "d_max", "d_min")]
+        "counted", "steps", "f_max", "f_min", "d_max", "d_min")]  # fmt: skip
 
 
 @cache
@@ -64,7 +64,7 @@ class Outcome:
 
 def _state(block: Block, drift: tuple[int, int]) -> _State:
     return _State(sense=block.sense, quadrant=block.quadrant, x=block.x, y=block.y, j=block.j,
-                  axis=int(block.axis == "Y"), drift_x=drift[0], drift_y=drift[1])
+                  axis=int(block.axis == "Y"), drift_x=drift[0], drift_y=drift[1])  # fmt: skip
 
 
 def _stalled(block: Block) -> UserError:
@@ -80,8 +80,9 @@ def _distance(block: Block, highest: int, lowest: int) -> float:
     return max(sqrt(square + highest) - radius, radius - sqrt(max(0, square + lowest)))
 
 
-def run_block(block: Block, drift: tuple[int, int] = (0, 0),
-              progress: Callable[[int], object] = lambda steps: None) -> Outcome:
+def run_block(
+    block: Block, drift: tuple[int, int] = (0, 0), progress: Callable[[int], object] = lambda steps: None
+) -> Outcome:
     """Follow one block; `drift` is where the controller stands minus where the block should start, µm.
 
     `progress` is called with the number of steps taken since its last call. A block whose J is never reached
@@ -95,8 +96,12 @@ def run_block(block: Block, drift: tuple[int, int] = (0, 0),
         raise _stalled(block)
     progress(state.steps - before)
     start = block.start
-    return Outcome((state.px - start[0], state.py - start[1]), state.steps,
-                   _distance(block, state.f_max, state.f_min), _distance(block, state.d_max, state.d_min))
+    return Outcome(
+        (state.px - start[0], state.py - start[1]),
+        state.steps,
+        _distance(block, state.f_max, state.f_min),
+        _distance(block, state.d_max, state.d_min),
+    )
 
 
 def trace_array(block: Block) -> ctypes.Array:

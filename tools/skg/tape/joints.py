@@ -45,12 +45,14 @@ def estimate(tape: Tape, start: tuple[int, int], without_drift: bool) -> list[Pl
         radii = _same_radii({block.number: hypot(block.x, block.y) for block in tape.blocks if _is_drawn(block)})
         return lay(tape, start, lambda blocks, at: _from_programmed(blocks, at, radii))
     first = lay(tape, start, lambda blocks, at: _from_machine(blocks, at, {}))
-    radii = _same_radii({placed.block.number: placed.radius for route in first for placed in route.blocks
-                         if _is_drawn(placed.block)})
+    radii = _same_radii(
+        {placed.block.number: placed.radius for route in first for placed in route.blocks if _is_drawn(placed.block)}
+    )
     return lay(tape, start, lambda blocks, at: _from_machine(blocks, at, radii))
 
 
 # Arcs -----------------------------------------------------------------------------------------------------
+
 
 def _is_drawn(block: Block) -> bool:
     """A circle, or an arc that is too long to be part of a fitted curve."""
@@ -62,8 +64,11 @@ def _same_radii(radii: dict[int, float]) -> Radii:
     found: Radii = {}
     group: list[int] = []
     for number in [*sorted(radii, key=radii.__getitem__), None]:
-        if group and (number is None or radii[number] - radii[group[-1]] > _SAME_RADIUS
-                      or radii[number] - radii[group[0]] > _RADIUS_SPREAD):
+        if group and (
+            number is None
+            or radii[number] - radii[group[-1]] > _SAME_RADIUS
+            or radii[number] - radii[group[0]] > _RADIUS_SPREAD
+        ):
             if len(group) > 1:
                 mean = sum(radii[one] for one in group) / len(group)
                 found |= dict.fromkeys(group, (mean, len(group)))
@@ -98,6 +103,7 @@ def _xys(points: Vector) -> list[XY]:
 
 # A tape with drift ----------------------------------------------------------------------------------------
 
+
 def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Placed], XY]:
     """Lay out a route whose blocks start at the rounded ends: the roundings are those with the least sum of squares
     by which arcs of one radius have it and a closed route closes."""
@@ -121,8 +127,9 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
     if is_closed:
         ways = np.array(pulls)
         products = np.einsum("ikl,jkl->ij", ways, ways)
-        roundings += np.einsum("i,ikl->kl", np.linalg.pinv(products, rcond=1e-9)
-                               @ (gap - misses.of(roundings).sum(axis=0)), ways)
+        roundings += np.einsum(
+            "i,ikl->kl", np.linalg.pinv(products, rcond=1e-9) @ (gap - misses.of(roundings).sum(axis=0)), ways
+        )
     # The rounded joints as far as the estimate goes, and from them the true ones.
     moves = np.array([move_of(block) for block in blocks]) - misses.of(roundings)
     rounded = np.concatenate([[at], at + np.cumsum(moves, axis=0)])
@@ -139,6 +146,7 @@ def _shift(one: list[float], other: list[float], by: float, way: XY) -> None:
 
 
 # A tape without drift -------------------------------------------------------------------------------------
+
 
 def _from_machine(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Placed], XY]:
     """Lay out a route whose blocks start where the controller stands: an arc meant to end at the rounded place that

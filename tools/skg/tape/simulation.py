@@ -79,8 +79,9 @@ def expected_steps(block: Block) -> int:
     return block.x + block.y if block.is_line else 2 * block.j
 
 
-def _follow(blocks: list[Block], moves: list[XY] | None, drift: XY,
-            progress: Callable[[int], object] = lambda steps: None) -> Iterator[tuple[Block, XY, Outcome]]:
+def _follow(
+    blocks: list[Block], moves: list[XY] | None, drift: XY, progress: Callable[[int], object] = lambda steps: None
+) -> Iterator[tuple[Block, XY, Outcome]]:
     """Run blocks that should make these moves, or (None) are right where they end; `drift` is how far the controller
     is off before them, µm. Gives each block's move as it should be, and what came of it."""
     for at, block in enumerate(blocks):
@@ -107,14 +108,15 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     off_curve = off_path = 0.0
     largest_drift = 0
     bar = tqdm(total=total, unit="step", unit_scale=True, delay=0.5, leave=False,
-               disable=None if progress and total > _LONG else True)
+               disable=None if progress and total > _LONG else True)  # fmt: skip
 
     def close_route(last: int, is_move: bool) -> None:
         nonlocal at_stop
         (x, y), (xp, yp), first = at_stop
         if last >= first:
-            routes.append(RouteReport(first, last, (real[0] - x, real[1] - y),
-                                      (programmed[0] - xp, programmed[1] - yp), is_move))
+            routes.append(
+                RouteReport(first, last, (real[0] - x, real[1] - y), (programmed[0] - xp, programmed[1] - yp), is_move)
+            )
         at_stop = real, programmed, last + 1
 
     with bar:
@@ -122,8 +124,9 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
             moves = closed_moves(blocks) if positions == "programmed" else None
             drift = real[0] - programmed[0], real[1] - programmed[1]
             for block, should, outcome in _follow(blocks, moves, drift, bar.update):
-                each.append(BlockReport(block.number, str(block), should, outcome.move, outcome.steps,
-                                        outcome.off_curve))
+                each.append(
+                    BlockReport(block.number, str(block), should, outcome.move, outcome.steps, outcome.off_curve)
+                )
                 real = real[0] + outcome.move[0], real[1] + outcome.move[1]
                 programmed = programmed[0] + should[0], programmed[1] + should[1]
                 off_curve = max(off_curve, outcome.off_curve)
@@ -140,7 +143,7 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
         programmed_gap=max((route.programmed_gap for route in cut), key=_size), end=real,
         off_curve=off_curve, off_path=off_path,
         misses=sum(miss > 0 for miss in missed), largest_miss=max(missed, default=0),
-        largest_drift=largest_drift, routes=tuple(routes), each=tuple(each))
+        largest_drift=largest_drift, routes=tuple(routes), each=tuple(each))  # fmt: skip
 
 
 def _size(gap: tuple[int, int]) -> int:

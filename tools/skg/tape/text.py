@@ -56,9 +56,9 @@ class _Scanner:
     def number(self, name: str) -> int:
         """Take a whole number of 1 to 8 digits without leading zeros."""
         first = self.at
-        while self.text[self.at:self.at + 1] in tuple("0123456789"):
+        while self.text[self.at : self.at + 1] in tuple("0123456789"):
             self.at += 1
-        digits = self.text[first:self.at]
+        digits = self.text[first : self.at]
         if not digits:
             raise _Unexpected(first, f"expected digits of {name}, found {self.found()}")
         if len(digits) > MAX_DIGITS:
