@@ -1,6 +1,6 @@
 ; arc_nodrift.asm - arcs as 3B blocks, each from where the controller stands (docs/drift.md)
 ; Offers: ARC
-; Uses:   calc consts float geom start tape
+; Uses:   calc consts float geom grid start tape
 ; Room:   254 bytes
 ;
 ; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there

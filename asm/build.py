@@ -191,12 +191,14 @@ def assemble(texts: dict[str, str], work: Path) -> tuple[bytes, dict[str, int], 
 
 
 def check_words(texts: dict[str, str]) -> None:
-    """Fail where a source file defines a reserved word, or has an RST: what stands behind it differs."""
-    names = 0
+    """Fail where a source defines a reserved word or a name twice, or has an RST: what stands behind it differs."""
+    names: dict[str, str] = {}
     for file, text in texts.items():
         for count, line in enumerate(text.splitlines(), start=1):
             if found := re.match(r"(\w+)(?::|\s+EQU\b)", line):
-                names += 1
+                place = f"{file}.asm:{count}"
+                if (before := names.setdefault(found[1].upper(), place)) != place:
+                    fail(f"{place}: {found[1]} is defined in {before}, too, which asm80 takes without a word")
                 if found[1].upper() in RESERVED:
                     fail(f"{file}.asm:{count}: {found[1]} is a word that an assembler has for itself")
             if re.match(r"(?:\w+:)?\s+RST\b", line):

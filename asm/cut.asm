@@ -1,9 +1,8 @@
 ; cut.asm - the route: from items to corners, fillets and closing
-; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR CPYEL CPYPL
-;         ENDRT SFROM PUNDS ROUTER XSENS XJC XONEL XNORM XTOK XNORMS XXING SBACK SBACK1
-; Uses:   arc_3b arc_nodrift calc consts fit float geom io_disk io_punch io_tty parser start tape
-;         value
-; Room:   1327 bytes
+; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR SCALED CPYEL
+;         CPYPL ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XXING SBACK SBACK1
+; Uses:   arc_3b arc_iso arc_nodrift calc consts fit float geom grid iso parser start tape value
+; Room:   1274 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -31,18 +30,16 @@ FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up t
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
-RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN (tolerance, H, W and these two lie together)
 
 ;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET clear two cells at once
 ;! RBFULL == CLOSED+1 and FITSM == FITN+1 -- RBNEW and FITEND clear two cells at once
-;! RMOVED == MTO+25 and BLKNO == RMOVED+1 -- RUNINI clears from the tolerance to the block's number
 ;! MKX+PLCSIZ <= MREG+320 and RKEPT+ELSIZE <= FWORK -- copies stay in their rooms
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
 RUNINI: DB      CALC,Q1,SSC,QEND ; -
-        LXI     H,MTO           ; tolerance, H, W, RMOVED, BLKNO
-        MVI     B,28
+        LXI     H,RUNCEL        ; (tape.asm)
+        MVI     B,RUNLEN
         CALL    RTDON1
 ; (fall into RTNEW)
 
@@ -456,7 +453,7 @@ FIRST:  CALL    OFFCHK
         CALL    NTOC
         LXI     H,MFIRST
         CALL    NCOPY
-        LXI     H,FIRST1
+        LXI     H,ENTER         ; (tape.asm) goes on when K is known
         PUSH    H
         LDA     RFSTP           ; set when a point was written before
         ORA     A
@@ -616,29 +613,7 @@ SFROM:  CALL    EVPNT
         DB      CALC,QVEC,QEND  ; x y           kept while the route ends
         CALL    ENDRT
         DB      CALC,SHY,SHX,QEND ; -
-        LXI     H,RMOVED
-        MOV     A,M
-        ORA     A
-        JNZ     SFROM1
-        INR     M
-        DB      CALC,LHX,QRND,SWX,LHY,QRND,SWY ; -
-        DB      QRET
-SFROM1: CALL    STOP
-        CALL    HOME
-; (fall into STOP)
-
-; STOP - punches D: the controller stops
-STOP:   MVI     B,1
-; (fall into PUNDS)
-
-; PUNDS - punches B times D, and the end of the line
-; In:  B   Clobbers A, B
-PUNDS:  CALL    PUNON
-PUNDS1: MVI     A,CLTD
-        DB      PUTC
-        DCR     B
-        JNZ     PUNDS1
-        JMP     PUTB2
+        JMP     REPOS
 
 ; ROUTER - after an error: D when a route was open, which is forgotten
 ROUTER: LDA     RITEMS
@@ -682,8 +657,6 @@ XNORM1: DB      QDIF            ; dx dy
         DB      LA2,QSIG,QSWP   ; +-dy dx
         DB      LA2,QSIG,QSWP   ; +-dx +-dy
         DB      QUNIT,QRET      ; -
-; QTOK: K = b = a point
-XTOK:   DB      QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -
 ; QNORMS: a0 a1, b0 b1 = right normals of C and N at K = b; negative when they differ by less than
 ; 0.001 rad
 XNORMS: DB      QNA,QNORM,QVEC ; x y
@@ -704,10 +677,6 @@ XXING:  DB      QNA        ; -
         MVI     C,RSTAR
         JMP     BINOPK
 
-; FIRST goes on when it has K: the wire goes there
-FIRST1: DB      CALC,LKX,SGX,LKY,SGY,QJMP ; -        G = K
-        DB      ADVAN1-$
-
 ; SBACK - statement: BACK
 SBACK:  DB      CHKEND
         CALL    FITEND
@@ -715,12 +684,7 @@ SBACK:  DB      CHKEND
 SBACK1: CALL    CLOSE
         LXI     H,CLOSED
         INR     M
-; (fall into HOME)
-
-; HOME - straight to the start hole
-; Clobbers all
-HOME:   DB      CALC,LHX,LHY,QTOK,QJMP ; -           K = H
-        DB      ADVAN1-$
+        JMP     HOME
 
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K, W; RELEMS = 0: C is closed, no travel means the whole circle
@@ -731,7 +695,7 @@ ADVANC: DB      CALC,LKX,LAX,QSUB,SB0 ; -
         DB      ADVAN2-$
         DB      QCRS            ; forward
         DB      QMU,QADD,QE6N   ; -
-ADVAN1: DB      QVK,QEND        ; -             A = K (for FIRST1 and HOME too)
+        DB      QEND            ; -
         JMP     MOVE
 ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -

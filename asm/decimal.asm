@@ -1,5 +1,5 @@
 ; decimal.asm - numbers as decimal digits: read, printed
-; Offers: DECOUT PRDEC DECIN LEXDEC DIGIT LEXCH
+; Offers: DECOUT DECOU1 PRDEC DECIN LEXDEC DIGIT LEXCH
 ; Uses:   calc consts float start
 ; Room:   451 bytes
 ;
@@ -126,7 +126,8 @@ DECO4:  XCHG
         MOV     D,B
         MOV     E,C
         POP     B
-; PRDEC comes in here with D E H L = the number, not 0, C = 0
+; DECOU1 - prints a whole number times a power of ten
+; In:  D E H L = number, not 0, C = power of ten (PRDEC: 0, PRMM of iso.asm: -3)   Clobbers all
 DECOU1: XRA     A
         STC                     ; CY: behind the last digit
         PUSH    PSW

@@ -49,6 +49,10 @@ CLTN    EQU 4EH
 CLTR    EQU 52H
 CLTS    EQU 53H
 CLTY    EQU 59H
+CLTF    EQU 46H
+CLTM    EQU 4DH
+CLTP    EQU 50H
+CLTT    EQU 54H
 
 CPRMPT  EQU     3EH             ; >
 CMARK   EQU     5EH             ; ^
@@ -323,4 +327,5 @@ VKIND   EQU CWORK       ; kind of the value in a0 a1 a2; CHKRET writes the cell 
 CLOSED  EQU PROG-2      ; not 0 = RECUT may come: the buffer holds a route that is cut
 RBFULL  EQU PROG-1      ; not 0 = the route has outgrown its buffer
 RBEND   EQU CWORK+43    ; end of the route buffer, which begins behind PEND
+RMOVED  EQU MHX+20      ; not 0 = wire positioned or moved since RUN
 BLKNO   EQU MHX+21      ; number of the last block, four decimal digits

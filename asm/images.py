@@ -24,7 +24,7 @@ class Image:
     ports: tuple[str, ...] = ("io_6850", "io_port")
     punch: str = "io_punch"
     start: str = "reset"
-    post: tuple[str, ...] = ("arc_3b", "tape")
+    post: tuple[str, ...] = ("grid", "arc_3b", "tape")
     more: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
     forms: tuple[str, ...] = (".bin", ".hex")
@@ -51,7 +51,8 @@ IMAGES = {
     STANDARD: Image(),
     "skg-8251": Image(ports=("io_8251", "io_port")),
     "skg-tty": Image(punch="io_tty"),
-    "skg-nodrift": Image(post=("arc_nodrift", "tape")),
+    "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
+    "skg-mill": Image(post=("io_send", "grid", "arc_iso", "iso"), more=("mill",), words=("mill",)),
     "skg-ram": Image(forms=(".hex",)),
     "skg.com": Image().for_cpm("type_3b"),
 }

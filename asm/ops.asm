@@ -1,6 +1,6 @@
 ; ops.asm - the operations of the calculator: their numbers, and their routines
 ; Offers: names for all
-; Uses:   calc cut float geom parser tape value
+; Uses:   calc cut float geom grid parser value
 ; Room:   104 bytes
 ;
 ; Behind each number: what is on the float stack before and after, the top last; other effects.

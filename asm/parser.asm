@@ -1,6 +1,6 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF PRVAL MORE EVINT EVPNT EVNUM EVKIND
-;         ERKIND NOTURN FINT CMPNE
+; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
+;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
 ; Room:   586 bytes
 ;

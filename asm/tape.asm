@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
-; Offers: MOVE PUTBLK PUTB2 XRND XVK QUAD SETZG
-; Uses:   calc consts float io io_disk io_punch io_tty lexer start
-; Room:   220 bytes
+; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK QUAD SETZG
+; Uses:   calc consts float grid io io_disk io_punch io_tty lexer start
+; Room:   242 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -12,9 +12,52 @@ TZNUM   EQU CWORK+20    ; its digit
 
 ;! TZLET == TGAX+1 -- PUTBLK takes two letters at once
 
+RUNCEL  EQU MTO         ; what a run begins with cleared: tolerance, H, W, RMOVED, BLKNO
+RUNLEN  EQU 28
+
+;! RMOVED == MTO+25 and BLKNO == RMOVED+1 -- RUNINI clears from the tolerance to the block's number
+
+; REPOS - FROM: the first one is silent, another one a move between two stops
+; In:  H   Out: W = H   Clobbers all
+REPOS:  LXI     H,RMOVED
+        MOV     A,M
+        ORA     A
+        JNZ     REPOS1
+        INR     M
+        DB      CALC,LHX,QRND,SWX,LHY,QRND,SWY ; -
+REPOS2: DB      QRET            ; (for PUTBLK too)
+REPOS1: CALL    STOP
+        CALL    HOME
+; (fall into STOP)
+
+; STOP - punches D: the controller stops
+STOP:   MVI     B,1
+; (fall into PUNDS)
+
+; PUNDS - punches B times D, and the end of the line
+; In:  B   Clobbers A, B
+PUNDS:  CALL    PUNON
+PUNDS1: MVI     A,CLTD
+        DB      PUTC
+        DCR     B
+        JNZ     PUNDS1
+        JMP     PUTB2
+
+; ENTER - the wire goes to the route's beginning
+; In:  K, W   Out: G = A = K, W = V   Clobbers all
+ENTER:  DB      CALC,LKX,SGX,LKY,SGY,QJMP ; -
+        DB      MOVE1-$
+
+; HOME - straight to the start hole
+; In:  H, W   Out: A = K = H, W = V   Clobbers all
+HOME:   DB      CALC,LHX,LHY,QTOK,QEND ; -
+; (fall into MOVE)
+
 ; MOVE - a straight move of the wire
-; In:  W, V   Out: W = V   Clobbers all
-MOVE:   DB      CALC,LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
+; In:  K, W   Out: A = K, W = V   Clobbers all
+MOVE:   DB      CALC
+MOVE1:  DB      QVK             ; -
+        DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
         DB      LVY,LWY,QSUB,QDUP,SA1,QABS,SBY ; -
         DB      LBX,LBY,QMAX,SBJ ; -
         DB      QHALF,LA0,QSIG,LA1,QSIG ; 1/2   x = y: along Y in quadrants 1 and 3
@@ -32,7 +75,7 @@ PUTBLK: DB      CALC,LVX,SWX,LVY,SWY ; -
         DB      QSUB,QJN        ; -
         DB      PUTB4-$
         DB      LBJ,QJZ         ; -
-        DB      PUTB3-$
+        DB      REPOS2-$        ; none
         DB      QEND
         LXI     H,BLKNO
         MOV     A,M             ; decimal, low two digits first
@@ -76,23 +119,8 @@ PUTB1:  MVI     A,CLTB
         DB      PUTC
 PUTB2:  CALL    CRLF            ; (PUNDS ends here too)
         JMP     PUNOFF
-PUTB3:  DB      QRET
 PUTB4:  DB      QEND
         DB      ERROR,ETAPE
-
-; Operations of the calculator that the tape adds
-
-; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
-XRND:   DB      Q1000,QMUL         ; um
-        DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
-        DB      QFLR,Q8DIG,QOVR,QSUB    ; um |whole| room
-        DB      QJN
-        DB      PUTB4-$
-        DB      QSWP,QSIG,QRET          ; whole
-; QVK: V = K in whole um; A = K, since the wire goes there (by no fillet, for all that is known here)
-XVK:    DB      Q0,SSG     ; -
-        DB      LKX,QDUP,SAX,QRND,SVX   ; -
-        DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -
 
 ; QUAD - quadrant of the vector a, each with its first axis (counter-clockwise)
 ; Out: C = its digit   Clobbers A, HL

@@ -26,7 +26,7 @@ SHARES = range(8)
 BYTES_A_SHARE = 1_250_000
 SANITIZED_A_SHARE = 125_000
 BYTES_A_BOARD = 500_000
-BOARDS = {"skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"], "skg-nodrift": []}
+BOARDS = {"skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"], "skg-nodrift": [], "skg-mill": []}
 
 
 def fuzz(program: str, seed: int, count: int, *options: str | Path) -> subprocess.CompletedProcess[str]:

@@ -13,15 +13,27 @@ HEADING = "part                 blocks       cycles  per block  seconds    RAM s
 
 
 def main() -> None:
-    """Every example on a board of its own: RUN's cycles, not LOAD's; RAM: bytes of program and variables."""
+    """The standard image; the one that mills; fitted curves."""
+    table("skg", b"B", 3)
+    print("\nskg-mill, with F and Z in front:")
+    table("skg-mill", b"N", 1, "1 F 250,80\n2 Z -2.5,4\n")
+    print()
+    bench_fit.main()
+
+
+def table(kind: str, mark: bytes, marks: int, head: str = "") -> None:
+    """Every example on a board of its own: RUN's cycles, not LOAD's; RAM: bytes of program and variables.
+
+    A block of the tape has so many marks.
+    """
     print(HEADING)
     blocks_run = cycles_run = 0
     worst, stack = (0.0, ""), 0xFFFF
     for part in (part for part in EXAMPLES if part not in bench_fit.FIT_EXAMPLES):
-        board = Board()
+        board = Board(kind=kind)
         machine = board.machine
         free = int(board.type("FREE")[0])
-        if loaded := fault(board.load(part.read_text())):
+        if loaded := fault(board.load(head + part.read_text())):
             print(f"{part.stem:20} ERR {loaded[0]:02d} LINE {loaded[1]}")
             continue
         machine.watch()
@@ -31,7 +43,7 @@ def main() -> None:
         if error := fault(paper):
             print(f"{part.stem:20} ERR {error[0]:02d} LINE {error[1]}")
             continue
-        blocks = machine.punch.count(b"B") // 3
+        blocks = machine.punch.count(mark) // marks
         low = machine.lowest_sp or machine.ram_end
         print(
             f"{part.stem:20} {blocks:6} {cycles:12,} {cycles / blocks:10,.0f} {cycles / 2e6:8.1f}"
@@ -43,8 +55,6 @@ def main() -> None:
         f"mean {cycles_run / blocks_run:,.0f} cycles a block of {blocks_run} (limit 400,000), "
         f"most {worst[0]:,.0f} ({worst[1]}), stack down to {stack:X}"
     )
-    print()
-    bench_fit.main()
 
 
 if __name__ == "__main__":

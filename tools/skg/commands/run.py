@@ -31,7 +31,7 @@ def _answers(name: str | None) -> Iterator[str]:
     default="standard",
     show_default=True,
     metavar="NAME|FILE",
-    help="The ROM: standard, no-drift, 8251, tty, or an image of your own, .bin or Intel .hex.",
+    help="The ROM: standard, no-drift, mill, 8251, tty, or an image of your own, .bin or Intel .hex.",
 )
 @click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
 @click.option(

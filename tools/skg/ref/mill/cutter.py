@@ -45,11 +45,11 @@ class MillCutter(Cutter):
         super().back()
         self.tape.up()
 
-    def _end_route(self) -> None:
-        was_open = self.route is not None
-        super()._end_route()
-        if was_open:
-            self.tape.up()
+    def end(self) -> None:
+        """END."""
+        self._end_route()
+        self.tape.up()
+        self.tape.end()
 
     def drill(self, p: Point) -> None:
         """A point of HOLE."""

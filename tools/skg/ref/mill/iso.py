@@ -124,6 +124,8 @@ class IsoPunch(Punch):
         """An arc of a true sweep in radians, as a control will understand it (milling.md, section "Arcs")."""
         last, middle = grid(end), grid(centre)
         to_centre = middle[0] - self.at[0], middle[1] - self.at[1]
+        for length in to_centre:
+            millimetres(length)
         if last == self.at:
             near.note("sweep", sweep - real.mp.pi, 1e-6)
             if sweep > real.mp.pi and to_centre != (0, 0):
