@@ -1,6 +1,6 @@
 ; cpm.asm - the program of CP/M: start, command line, files, the way back
 ; Offers: BDINIT BDRDY SBYE SPUNCH SSAVE SDIR
-; Uses:   calc io io_cpm io_disk monitor start type_3b
+; Uses:   calc io io_cpm io_disk monitor start type_3b type_nc
 ; Room:   670 bytes
 ;
 ; The jump at 0 leads to REBOOT while the program runs: there the BDOS goes after an error on a disk,

@@ -47,12 +47,14 @@ class Image:
 
 #: The image that all others are variants of: it alone has a table of symbols, and its bytes are printed file by file.
 STANDARD = "skg"
+MILL = Image(post=("io_send", "grid", "arc_iso", "iso"), more=("mill",), words=("mill",))
 IMAGES = {
     STANDARD: Image(),
     "skg-8251": Image(ports=("io_8251", "io_port")),
     "skg-tty": Image(punch="io_tty"),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
-    "skg-mill": Image(post=("io_send", "grid", "arc_iso", "iso"), more=("mill",), words=("mill",)),
+    "skg-mill": MILL,
     "skg-ram": Image(forms=(".hex",)),
     "skg.com": Image().for_cpm("type_3b"),
+    "skgmill.com": MILL.for_cpm("type_nc"),
 }

@@ -102,10 +102,10 @@ PROCESSORS = {"8080": Machine8080, "Z80": MachineZ80}
 
 
 @functools.cache
-def _formatted(form: cpm80.DiskFormat) -> bytes:
+def _formatted(form: cpm80.DiskFormat, program: Path) -> bytes:
     """A disk with SKG.COM alone."""
     image = cpm80.DiskImage(form)
-    cpm80.FileSystem(image).write("SKG.COM", PROGRAM.read_bytes())
+    cpm80.FileSystem(image).write("SKG.COM", program.read_bytes())
     return bytes(image.data)
 
 
@@ -118,10 +118,14 @@ class Cpm:
     """A machine with two drives at CP/M's prompt; A: has SKG.COM and the given files, B: is empty."""
 
     def __init__(
-        self, processor: str = "8080", files: dict[str, bytes] | None = None, form: cpm80.DiskFormat | None = None
+        self,
+        processor: str = "8080",
+        files: dict[str, bytes] | None = None,
+        form: cpm80.DiskFormat | None = None,
+        program: Path = PROGRAM,
     ) -> None:
         form = form or cpm80.DISK_FORMATS["default"]
-        self.drives = [Drive(cpm80.DiskImage(form, data=_formatted(form))), Drive(cpm80.DiskImage(form))]
+        self.drives = [Drive(cpm80.DiskImage(form, data=_formatted(form, program))), Drive(cpm80.DiskImage(form))]
         self.console = Console()
         for name, data in (files or {}).items():
             self.write(name, data)
