@@ -23,6 +23,7 @@ include asm/asm.mk
 include tools/tools.mk
 include tests/fuzz/fuzz.mk
 include tests/rom/soup.mk
+include tests/mill/mill.mk
 include web/web.mk
 -include tests/floats/floats.mk
 
