@@ -1,7 +1,10 @@
-"""G-code from tapes and back."""
+"""G-code from tapes and back, and what is read of other people's."""
 
 from __future__ import annotations
 
+import json
+from itertools import groupby
+from math import hypot, pi
 from pathlib import Path
 
 import pytest
@@ -11,8 +14,13 @@ from hypothesis import strategies as st
 from test_tape import blocks
 
 from skg import tape as tapes
+from skg.ref import mill
 from skg.tape import Block, Stop, Tape, gcode
+from skg.tape.placed import PlacedRoute, place
 
+ROOT = Path(__file__).parents[2]
+
+#: What a CAD package gave for the path of its 3B tape.
 CAD_GCODE = """\
 G91 G92 X115000 Y-10000
 G01 X-9900 Y0
@@ -22,22 +30,98 @@ G03 X-100200 Y0 I-50100 J-100
 G01 X-54900 Y0
 M02
 """
+OURS = """\
+N1G17G21G90G94
+N2G0X115Y-10
+N3G1X105.1Y-10F60
+N4G1X105.1Y60.1
+N5G1X50.1Y60.1
+N6G3X-50.1Y60.1I-50.1J-0.1
+N7G1X-105Y60.1
+N8M30
+"""
+
+
+def back(text: str) -> bytes:
+    return tapes.to_bytes(gcode.read(text).tape().items)
 
 
 def test_cad_pair(run: Run, cad_tape: Path, tmp_path: Path) -> None:
-    assert run("gcode", cad_tape, "--start", "115000,-10000").output == CAD_GCODE
-    back = tmp_path / "back.3b"
-    assert run("gcode", "--back", "-", "-o", back, stdin=CAD_GCODE).exit_code == 0
-    assert back.read_bytes() == CAD_TAPE
+    made = run("gcode", cad_tape, "--start", "115,-10", "--feed", "60", "--positions", "programmed")
+    assert made.stdout_bytes.decode() == OURS.replace("\n", "\r\n")
+    assert made.stderr == ""
+    for text in (CAD_GCODE, OURS):
+        tape = tmp_path / "back.3b"
+        assert run("gcode", "--back", "-", "-o", tape, stdin=text).exit_code == 0
+        assert tape.read_bytes() == CAD_TAPE
 
 
-@given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0)))), st.booleans(),
-       st.tuples(*[st.integers(-10**6, 10**6)] * 2))
+def test_a_feed_that_was_not_given_is_said(run: Run, cad_tape: Path) -> None:
+    made = run("gcode", cad_tape, "--positions", "programmed")
+    assert made.stderr == "skg: F100 mm/min, no --feed was given\n"
+    assert "N3G1X-9.9Y0F100\r\n" in made.stdout_bytes.decode()
+
+
+def test_program_begins_at_its_from_point(run: Run) -> None:
+    made = run("gcode", ROOT / "examples" / "plate-fillets.skg", "--feed", "60").output
+    milled = mill.run("1 F 60\n" + (ROOT / "examples" / "plate-fillets.skg").read_text()).tape.decode().split()
+    wire = [line for line in made.split() if "M0" not in line]
+    assert [line.partition("G")[2] for line in wire] == [line.partition("G")[2] for line in milled]
+
+
+def test_heights(run: Run, tmp_path: Path) -> None:
+    tape = tmp_path / "part.3b"
+    tape.write_bytes(b"B1000B0B1000GXL1\r\nD\r\nB0B2000B2000GYL2\r\nD\r\nB1000B0B1000GXL1\r\nB0B5B5GYL2\r\nD\r\n"
+                     b"B0B2000B2000GYL2\r\nB1000B0B1000GXL1\r\nDD\r\n")  # fmt: skip
+    made = run("gcode", tape, "--feed", "60,20", "--z", "-1.5,3").output.split()
+    assert [line.partition("G")[2] for line in made[1:]] == [
+        "0Z3", "0X0Y0", "1Z-1.5F20", "1X1Y0F60", "0Z3", "0X1Y2", "1Z-1.5F20", "1X2Y2F60", "1X2Y2.005", "",
+        "1X2Y4.005", "1X3Y4.005", "0Z3", "",
+    ]  # fmt: skip
+
+
+def is_changed(block: Block) -> bool:
+    """An arc that goes out as a line, or as a circle and a line (milling.md, section "Arcs")."""
+    dx, dy = block.move
+    flat = block.is_arc and abs(block.sweep) <= pi and (dx * dx + dy * dy) ** 2 <= 4 * (block.x**2 + block.y**2)
+    return flat or (block.is_arc and abs(block.sweep) > 2 * pi - 1e-6)
+
+
+def vertices(routes: list[PlacedRoute]) -> list[list[tuple[float, float]]]:
+    """The places that each route goes through, each once in a row; routes of one place are left out."""
+    through = [[route.start, *(placed.end for placed in route.blocks)] for route in routes]
+    return [once for route in through if len(once := [one for one, _ in groupby(route)]) > 1]
+
+
+def laid(tape: Tape) -> list[PlacedRoute]:
+    return place(tape, (0, 0), "programmed")
+
+
+@given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0)))), st.booleans())
 @settings(deadline=None)
-def test_round_trip(items: list[Block | Stop], millimetres: bool, start: tuple[int, int]) -> None:
+def test_round_trip(items: list[Block | Stop], mills: bool) -> None:
     tape = tapes.parse(tapes.to_bytes(items))
-    text = gcode.write(tape, start, millimetres)
-    assert tapes.to_bytes(gcode.read(text).items) == tapes.to_bytes(items)
+    text = gcode.write(tape, heights=(-1000, 5000) if mills else None, positions="programmed")
+    program, findings = gcode.scan(text)
+    assert findings == []
+    again = program.tape()
+    if mills:
+        cuts = [[route for route in routes if not route.is_move] for routes in (program.routes(), laid(tape))]
+        assert vertices(cuts[0]) == vertices(cuts[1])
+        return
+    if not any(map(is_changed, tape.blocks)):
+        assert tapes.to_bytes(again.items) == tapes.to_bytes(items)
+    assert len(again.stops) == len(tape.stops)
+    assert vertices(laid(again)) == vertices(laid(tape))
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.3b"))[::6], ids=lambda path: path.stem)
+def test_examples_there_and_back(path: Path, run: Run, tmp_path: Path) -> None:
+    tape = tapes.read(str(path))
+    iso = tmp_path / "part.nc"
+    assert run("gcode", path, "--feed", "60", "--positions", "programmed", "-o", iso).exit_code == 0
+    assert run("check", iso).output == f"{iso}: {len(iso.read_text().splitlines())} lines, nothing wrong\n"
+    assert vertices(laid(gcode.read(iso.read_text()).tape())) == vertices(laid(tape))
 
 
 def test_absolute_and_modal() -> None:
@@ -50,24 +134,56 @@ def test_absolute_and_modal() -> None:
     X14.0005 I-1.
     M30
     """
-    assert tapes.to_bytes(gcode.read(text).items).decode().split() == [
-        "B2001B0B2001GXL1", "B0B5000B5000GYL2", "B1000B0B2000GYSR2", "D", "B1000B0B4000GYSR4", "DD"]
+    assert back(text).decode().split() == [
+        "B2001B0B2001GXL1", "B0B5000B5000GYL2", "B1000B0B2000GYSR2", "D", "B1000B0B4000GYSR4", "DD"]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "wanted"), [
+    # Units: G21 makes whole numbers millimetres, G20 inches; without them the point decides.
+    ("G21 G90\nG1 X10 F5\nM2", "B10000B0B10000GXL1 DD"),
+    ("G20 G90\nG1 X1 F5\nM2", "B25400B0B25400GXL1 DD"),
+    ("G90\nG1 X10 F5\nM2", "B10B0B10GXL1 DD"),
+    ("G90\nG1 X10. F5\nM2", "B10000B0B10000GXL1 DD"),
+    # Rapids: the first one is where it begins; the others move between two stops, one after another together.
+    ("G21 G90\nG0 Z5\nX5 Y5\nG1 X6 F5\nG0 X7\nG0 X8 Y6\nG1 X9\nM2",
+     "B1000B0B1000GXL1 D B2000B1000B2000GXL1 D B1000B0B1000GXL1 DD"),
+    ("G21 G90\nG1 X6 F5\nM0\nG0 X7\nM0\nG1 X9\nM2", "B6000B0B6000GXL1 D B1000B0B1000GXL1 D B2000B0B2000GXL1 DD"),
+    ("G21 G90\nG1 X6 F5\nG0 X7\nG0 X6\nG1 X9\nM2", "B6000B0B6000GXL1 D D B3000B0B3000GXL1 DD"),
+    # Holes have no blocks; heights no path.
+    ("G21 G90\nG0 X1 Y1 Z5\nG1 Z-1 F5\nG0 Z5\nX2\nG1 Z-1\nX3\nG0 Z5\nM2", "D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD"),
+    # What says nothing of the path.
+    ("(part 7)\nO1000\nG21 G90 G54 G64 P0.01\nT2 M6\nS1200 M3\nG43 H2\nG4 P1\nG1 X10 F5\nM9\nM2",
+     "B10000B0B10000GXL1 DD"),
+])  # fmt: skip
+def test_what_is_read(text: str, wanted: str) -> None:
+    assert back(text).decode().split() == wanted.split()
+
+
+def test_holes_and_stops() -> None:
+    program = gcode.read("G21 G90 G0 Z5\nX1 Y1\nG1 Z-1 F5\nG0 Z5\nX2\nG1 Z-1\nG1 X3\nG0 Z5\nX4\nG1 Z-1\nG0 Z5\nM0\nM2")
+    assert program.holes == [(1000, 1000), (4000, 1000)]
+    assert program.stop_places == [(4000, 1000)]
+    assert program.home == (1000, 1000)
+    assert [(route.is_move, len(route.blocks)) for route in program.routes()] == [(True, 1), (False, 1), (True, 1)]
 
 
 @pytest.mark.parametrize(("text", "message"), [
     ("G91\nG01 X5 Y?\nM02", "-: line 2, column 8: expected a word such as G01 or X-9900, found 'Y'"),
     ("G05\nM02", "-: line 1, column 1: G5 is not known"),
+    ("G18\nM02", "-: line 1, column 1: G18 is not known"),
+    ("G54\nG55\nM02", "-: line 2, column 1: G55 after G54: how far apart the two are is not known"),
     ("G1 X1 X2\nM02", "-: line 1, column 7: X stands here twice"),
-    ("G1 X1 Z2\nM02", "-: line 1, column 7: Z is not known here"),
-    ("M6", "-: line 1, column 1: M6 is not known"),
+    ("G1 X1 A2\nM02", "-: line 1, column 7: A is not known here"),
+    ("M98 P5", "-: line 1, column 1: M98: a sub-program is not known here"),
     ("G1 X5", "-: line 2, column 1: expected M02"),
     ("M02\nG1", "-: line 2, column 1: expected nothing after M02"),
     ("G91\nG3 X5 Y5\nM02", "-: line 2, column 4: an arc needs its centre"),
-    ("G91\nG3 X5 Y5 I100\nM02", "-: line 2, column 4: the arc's end is 5 µm off the circle"),
+    ("G91\nG3 X5 Y60 I100\nM02", "-: line 2, column 4: the arc's end is 12 µm off the circle"),
+    ("G91\nG3 X5 Y5 I100\nM02", "-: block 1: the arc's end is 5 µm off its circle"),
     ("G91\nG1 X5 Y5 I100\nM02", "-: line 2, column 4: I and J belong to G02 and G03"),
     ("G91 G1 X123456789\nM02", "line 1: B123456789B0B123456789GXL1 has a number of more than 8 digits"),
     ("G1 Xµ", "-: byte 5 is not ASCII"),
-])
+])  # fmt: skip
 def test_bad_programs(run_program: Run, text: str, message: str) -> None:
     result = run_program("gcode", "--back", stdin=text)
     assert result.returncode == 2
@@ -75,10 +191,72 @@ def test_bad_programs(run_program: Run, text: str, message: str) -> None:
     assert result.stderr.count("\n") == 1
 
 
-@given(st.text(alphabet="GXYIJMN0123 .-\n()%", max_size=60))
+@pytest.mark.parametrize(("options", "message"), [
+    (["--feed", "0"], "skg: --feed 0: expected 0.001 mm/min or more"),
+    (["--feed", "x"], "skg: Invalid value for '--feed': 'x': expected a number, or two"),
+    (["--feed", "1", "--z", "1,0"], "skg: --z: the travel height 0 lies below the cutting height 1"),
+    (["--z", "1,2,3"], "skg: Invalid value for '--z': '1,2,3': expected a number, or two"),
+])  # fmt: skip
+def test_bad_options(run_program: Run, cad_tape: Path, options: list[str], message: str) -> None:
+    result = run_program("gcode", cad_tape, "--positions", "programmed", *options)
+    assert (result.returncode, result.stdout) == (2, "")
+    assert result.stderr.startswith(message)
+
+
+@pytest.mark.parametrize(("text", "findings"), [
+    (OURS, []),
+    (OURS.replace("F60", ""), ["line 3, column 5: cuts, and there has been no F"]),
+    (OURS.replace("F60", "F0"), ["line 3, column 15: a feed of 0", "line 3, column 5: cuts, and there has been no F"]),
+    (OURS.replace("G21", ""), [
+        "line 2, column 5: no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm"]),
+    (f"%\n{OURS}%\n", ["line 1, column 1: GRBL does not know %", "line 10, column 1: GRBL does not know %"]),
+    (OURS.replace("N8", f"(x{'x' * 70})"), ["line 8, column 71: a line of 76 characters, GRBL takes 70"]),
+    (OURS.replace("N8M30\n", ""), ["line 8, column 1: expected M02 or M30, found the end of the program"]),
+    ("G21G90\nG1X9000Y0F5\nG3X9000Y0.001I-9000J0\nM2",
+     ["line 3, column 3: an arc so flat that LinuxCNC and GRBL take it for a full circle"]),
+    ("G21G90\nG1X?F5\nG7\nM2", ["line 2, column 3: expected a word such as G01 or X-9900, found 'X'",
+                                "line 3, column 1: G7 is not known, expected G00…G03, G17, G20, G21, G40, G90, G91, "
+                                "G92 or one that does not move"]),
+])  # fmt: skip
+def test_check(run: Run, tmp_path: Path, text: str, findings: list[str]) -> None:
+    tape = tmp_path / "part.ngc"
+    tape.write_text(text)
+    result = run("check", tape)
+    assert result.exit_code == (1 if findings else 0)
+    wanted = [f"{tape}: {finding}" for finding in findings] or [
+        f"{tape}: {len(text.splitlines())} lines, nothing wrong"
+    ]
+    assert result.output.splitlines() == wanted
+    as_json = json.loads(run("check", "--json", tape).output)
+    assert [f"line {one['line']}, column {one['column']}: {one['message']}" for one in as_json] == findings
+
+
+def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
+    """A milling tape in the other tools: the picture has its holes, the simulator and the drawing its path."""
+    tape, picture, drawing = (tmp_path / name for name in ("part.nc", "part.svg", "part.dxf"))
+    program = "10 F 60\n20 Z -1\n30 HOLE (1,1),(9,9)\n40 FROM (20,5)\n50 CUT (5,5):8\n60 BACK\n70 M 0\n"
+    tape.write_bytes(mill.run(program).tape)
+    assert run("plot", tape, "-o", picture).exit_code == 0
+    svg = picture.read_text()
+    assert [svg.count(f'id="tape-1-{name}-{n}"') for name in ("hole", "stop") for n in (1, 2)] == [1, 1, 1, 0]
+    assert svg.count('-start"') == 1
+    report = json.loads(run("sim", "--json", "--blocks", tape).output)[0]
+    assert (report["blocks"], report["stops"]) == (4, 3)
+    assert run("dxf", tape, "-o", drawing).exit_code == 0
+    circles = [line for line in drawing.read_text().splitlines() if line == "CIRCLE"]
+    assert len(circles) == 1
+    with pytest.raises(gcode.UserError, match="a tape has no nominal contour"):
+        run("plot", tape, "-o", picture, "--show-offset")
+
+
+@given(st.text(alphabet="GXYZIJMNF0123 .-\n()%", max_size=60))
 def test_any_text(text: str) -> None:
+    program, findings = gcode.scan(text + "\nM02")
+    for placed in program.items:
+        if hasattr(placed, "end"):
+            assert hypot(*placed.end) < float("inf")
     try:
-        items = gcode.read(text + "\nM02").items
+        assert isinstance(gcode.read(text + "\nM02").tape().blocks, list)
     except gcode.UserError:
         return
-    assert isinstance(Tape("-", items).blocks, list)
+    assert all(not finding.is_fatal for finding in findings)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import click
@@ -10,6 +11,9 @@ import click
 from skg.commands.options import positions_option
 from skg.drawing.source import tape_bytes
 from skg.errors import UserError
+from skg.files import read_ascii
+from skg.tape import gcode
+from skg.tape.block import Tape
 from skg.tape.styles import read_any
 from skg.tape.text import Finding, scan
 
@@ -23,40 +27,55 @@ MOST = 20
 @click.option("--all", "list_all", is_flag=True, help=f"List all findings, not the first {MOST} of a tape.")
 @positions_option
 def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: str) -> None:
-    """Find everything on TAPE that a 3B controller would choke on.
+    """Find everything on TAPE that a controller would choke on: 3B, or G-code (.nc, .ngc, .gcode, .tap, .iso).
 
-    One line for each finding: file, block, column, what was expected. Exit code 1 when there is any.
+    One line for each finding: file, block (of G-code: line), column, what was expected. Exit code 1 when there is any.
     A program (.skg, .xy, .tkh) is run first.
     TAPE - is the standard input.
     """
-    found: list[tuple[str, Finding]] = []
+    found: list[tuple[str, Finding | gcode.GcodeFinding]] = []
     for name in tapes_:
-        data = tape_bytes(name)
-        tape, findings = scan(data, name, positions)
+        if gcode.is_gcode(name):
+            text = read_ascii(name)
+            findings = gcode.scan(text, name)[1]
+            if not as_json:
+                _list(name, findings, f"{len(text.splitlines())} lines", list_all)
+        else:
+            data = tape_bytes(name)
+            tape, findings = scan(data, name, positions)
+            if not as_json:
+                _list_3b(name, data, tape, findings, list_all)
         found += [(name, finding) for finding in findings]
-        if as_json:
-            continue
-        if not findings:
-            click.echo(f"{name}: {len(tape.blocks)} blocks, nothing wrong")
-            continue
+    if as_json:
+        click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in found]))
+    if found:
+        raise SystemExit(1)
+
+
+def _list(name: str, findings: Sequence[Finding | gcode.GcodeFinding], size: str, list_all: bool) -> None:
+    """Write the findings of a tape, or that there is none."""
+    if not findings:
+        click.echo(f"{name}: {size}, nothing wrong")
+    listed = findings if list_all else findings[:MOST]
+    for finding in listed:
+        click.echo(f"{name}: {finding}")
+    if len(findings) > len(listed):
+        click.echo(f"{name}: {len(findings) - len(listed)} more (--all lists them)")
+
+
+def _list_3b(name: str, data: bytes, tape: Tape, findings: list[Finding], list_all: bool) -> None:
+    """The same of a 3B tape, and how it is read when it is written in another style."""
+    notes: Sequence[str] = ()
+    if findings:
         try:
             notes = read_any(data, name).notes
         except UserError as error:
             if not tape.blocks and len(findings) > MOST and not list_all:
                 # No tape at all: every line is a finding.
                 click.echo(str(error))
-                continue
-            notes = ()
-        listed = findings if list_all else findings[:MOST]
-        for finding in listed:
-            click.echo(f"{name}: {finding}")
-        if len(findings) > len(listed):
-            click.echo(f"{name}: {len(findings) - len(listed)} more (--all lists them)")
-        for note in notes:
-            click.echo(
-                f"skg: {name}: {note}; the other commands read it so, and `skg tape` writes it as the punch", err=True
-            )
-    if as_json:
-        click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in found]))
-    if found:
-        raise SystemExit(1)
+                return
+    _list(name, findings, f"{len(tape.blocks)} blocks", list_all)
+    for note in notes:
+        click.echo(
+            f"skg: {name}: {note}; the other commands read it so, and `skg tape` writes it as the punch", err=True
+        )

@@ -4,28 +4,96 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import Coordinates
+from skg.commands.options import Coordinates, decided, output_option, positions_option
 from skg.drawing.source import load
+from skg.errors import UserError
 from skg.files import read_ascii, write_bytes
+from skg.plane import XY
 from skg.tape import gcode
+from skg.tape.block import micrometres
 from skg.tape.text import to_bytes
+
+#: mm/min, where nothing else is said.
+FEED = 100.0
+
+
+class OneOrTwo(click.ParamType):
+    """A number, or two with a comma between them."""
+
+    name = "D[,D1]"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple:
+        """Return one or two numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            numbers = tuple(float(part) for part in str(value).split(","))
+        except ValueError:
+            numbers = ()
+        if len(numbers) not in (1, 2) or not all(abs(number) < 1e8 for number in numbers):
+            self.fail(f"{value!r}: expected a number, or two with a comma between them", param, ctx)
+        return numbers
+
+
+def _feeds(feed: tuple[float, ...] | None) -> tuple[float, float]:
+    if feed is None:
+        click.echo(f"skg: F{FEED:g} mm/min, no --feed was given", err=True)
+        return FEED, FEED
+    if min(feed) < 0.001:
+        raise UserError(f"--feed {min(feed):g}: expected 0.001 mm/min or more")
+    return feed[0], feed[-1]
+
+
+def _heights(heights: tuple[float, ...] | None) -> tuple[int, int] | None:
+    if heights is None:
+        return None
+    low, high = micrometres(heights[0]), micrometres(heights[1] if len(heights) == 2 else 5.0)
+    if high < low:
+        raise UserError(f"--z: the travel height {high / 1000:g} lies below the cutting height {low / 1000:g}")
+    return low, high
 
 
 @click.command(name="gcode")
 @click.argument("source", metavar="FILE", default="-", type=click.Path(allow_dash=True))
-@click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True),
-              help="File to write, - for the standard output.")
-@click.option("--back", is_flag=True, help="FILE is G-code: write a 3B tape.")
-@click.option("--start", default="0,0", type=Coordinates(int), help="Position to set with G92, µm.")
-@click.option("--mm", is_flag=True, help="Write millimetres with a decimal point instead of micrometres.")
-def command(source: str, output: str, back: bool, start: tuple[int, int], mm: bool) -> None:
-    """Turn a 3B tape into ISO G-code, or with --back G-code into a 3B tape.
+@output_option("File to write, - for the standard output.")
+@click.option("--back", is_flag=True, help="FILE is G-code, whatever its name: write a 3B tape.")
+@click.option("--start", type=Coordinates(), help="Where the wire begins, mm. Default: FROM of a program, else 0,0.")
+@click.option(
+    "--feed", type=OneOrTwo(), help="Feed in mm/min, and downwards if that is another one.  [default: 100, and said]"
+)
+@click.option(
+    "--z",
+    "heights",
+    type=OneOrTwo(),
+    help="Cutting height and travel height (left out: 5), mm: re-positionings go up and down instead of stopping.",
+)
+@positions_option
+def command(
+    source: str,
+    output: str,
+    back: bool,
+    start: XY | None,
+    feed: tuple[float, ...] | None,
+    heights: tuple[float, ...] | None,
+    positions: str,
+) -> None:
+    """Turn a 3B tape into G-code that LinuxCNC and GRBL take as it is, or with --back G-code into a 3B tape.
 
-    Written are G91, G92, G01, G02 and G03 with I and J, M00 for a stop and M02 at the end. Read are also G90,
-    G00, G17, G21, G40, N and F words and comments; a number with a decimal point is millimetres, one without
-    micrometres. A program (.skg, .xy, .tkh) is run first. FILE - (or none) is the standard input.
+    Written is the dialect of the milling ROM: G17 G21 G90 G94, G0 to G3 with I and J, M0 for a stop, M30; `skg plot`
+    and `skg check` read it. Read are also G20, G91, G92 and more, comments, and other people's words that do not move;
+    without G20 and G21 a number with a decimal point is millimetres, one without micrometres. A program (.skg, .xy, .tkh)
+    is run first. FILE - (or none) is the standard input.
     """
     if back:
-        write_bytes(output, to_bytes(gcode.read(read_ascii(source), source).items))
-    else:
-        write_bytes(output, gcode.write(load(source).tape, start, mm).encode())
+        write_bytes(output, to_bytes(gcode.read(read_ascii(source), source).tape().items))
+        return
+    made = load(source)
+    x, y = start or made.start
+    text = gcode.write(
+        made.tape,
+        (micrometres(x), micrometres(y)),
+        _feeds(feed),
+        _heights(heights),
+        decided(made.tape, positions),
+    )
+    write_bytes(output, text.encode())

@@ -10,6 +10,7 @@ from skg.commands.options import FORMATS, Coordinates, decided, picture_format, 
 from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import micrometres
+from skg.tape.gcode import is_gcode
 from skg.tape.placed import place, stop_places
 
 
@@ -32,18 +33,23 @@ from skg.tape.placed import place, stop_places
 def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool, wire: float, no_arrows: bool,
             show_offset: bool, start: tuple[XY, ...], scale: float | None, title: str,
             positions: str, skg80: str | None) -> None:
-    """Draw tapes (.3b) and programs (.skg, .xy, .tkh), several in one picture.
+    """Draw tapes (.3b, G-code as .nc or .ngc) and programs (.skg, .xy, .tkh), several in one picture.
 
-    Start holes are circles, stops squares, positioning moves dashed. A program is run first, by the ROM
-    or by what --skg80 names. FILE - is a tape on the standard input.
+    Start holes are circles, drilled holes crosses in them, stops squares, positioning moves dashed.
+    A program is run first, by the ROM or by what --skg80 names. FILE - is a tape on the standard input.
     """
     from skg.drawing.plot import COLOURS, Picture, Sheet
-    from skg.drawing.source import load
+    from skg.drawing.source import gcode, load
 
     form = picture_format(output, form, ", or --format")
     sheets = []
     stops: list[list[XY]] = []
     for at, name in enumerate(files):
+        if is_gcode(name) and not show_offset:
+            program = gcode(name)
+            sheets.append(Sheet(Path(name).name, program.routes(), holes=tuple(program.holes)))
+            stops.append(program.stop_places)
+            continue
         made = load(name, skg80, show_offset)
         x, y = start[at] if at < len(start) else made.start
         home = micrometres(x), micrometres(y)

@@ -33,11 +33,12 @@ _INCH = 25.4
 
 @dataclass(frozen=True)
 class Sheet:
-    """One tape to draw: its name, its routes, and the contour that it was made from (mm), if known."""
+    """One tape to draw: its name, its routes, its contour (mm), if known, and its drilled holes (µm)."""
 
     name: str
     routes: list[PlacedRoute]
     contour: tuple[Piece, ...] = ()
+    holes: tuple[XY, ...] = ()
 
 
 def _path(pieces: Sequence[Piece], scale: float = 1.0) -> Outline:
@@ -151,6 +152,8 @@ class Picture:
                 self._arrows(route, colour)
             if numbers:
                 self._numbers(route, colour)
+        for at, place in enumerate(sheet.holes, 1):
+            self._hole(place, colour, f"{name}-hole-{at}")
         if sheet.contour:
             curve = _path(sheet.contour)
             patch = PathPatch(curve, fill=False, edgecolor="#555555", linewidth=0.5, zorder=1.5)
@@ -173,6 +176,20 @@ class Picture:
             hole = Circle((x, y), self.on_paper(1), fill=False, edgecolor=colour, linewidth=0.8, zorder=4)
             hole.set_gid(f"{gid}-start")
             self.axes.add_artist(hole)
+
+    def _hole(self, point: XY, colour: str, gid: str) -> None:
+        """A drilled hole: a circle, and a cross in it."""
+        x, y = point[0] / 1000, point[1] / 1000
+        size, circle = self.on_paper(1.8), Outline.circle((x, y), self.on_paper(1.2))
+        cross = Outline(
+            [(x - size, y), (x + size, y), (x, y - size), (x, y + size)],
+            [Outline.MOVETO, Outline.LINETO] * 2,
+        )
+        mark = PathPatch(
+            Outline.make_compound_path(circle, cross), fill=False, edgecolor=colour, linewidth=0.8, zorder=4
+        )
+        mark.set_gid(gid)
+        self.axes.add_patch(mark)
 
     def stop(self, point: XY, gid: str) -> None:
         """Mark a place where the controller stops."""

@@ -1,4 +1,4 @@
-"""Where a tape comes from: a .3b file, or a program (.skg, or a rival's) that is run first."""
+"""Where a tape comes from: a .3b file, G-code (.nc, .ngc …), or a program (.skg, or a rival's) that is run first."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from skg.plane import XY
 from skg.rivals.languages import is_program, is_rival, translated
 from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
+from skg.tape.gcode import Program, is_gcode
+from skg.tape.gcode import read as read_gcode
 from skg.tape.placed import PlacedRoute, place, stop_places
 from skg.tape.positions import decide
 
@@ -43,6 +45,9 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
     if not is_program(name):
         if with_contour:
             raise UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
+        if is_gcode(name):
+            program = gcode(name)
+            return Made(program.tape(), (program.home[0] / 1000, program.home[1] / 1000))
         tape = tapes.read(name)
         return Made(tape, tape.start or (0.0, 0.0))
     # The reference is needed in any case: only it knows where on the drawing the wire is.
@@ -52,6 +57,11 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
         # The standard ROM or the reference as it is.
         tape = replace(tape, drift=True)
     return Made(tape, start, contour)
+
+
+def gcode(name: str) -> Program:
+    """Return the G-code in a file, told by its name's end; what is odd about it but can be read is no matter here."""
+    return read_gcode(read_ascii(name), name)
 
 
 def tape_bytes(name: str, skg80: str | None = None) -> bytes:

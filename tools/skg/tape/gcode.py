@@ -1,52 +1,287 @@
-"""3B tapes to ISO G-code and back.
+"""ISO G-code: one writer and one reader.
 
-The dialect is the one that a CAD package gives beside its 3B tapes: whole micrometres, relative moves, I and
-J from the start to the centre. A number with a decimal point is read as millimetres, as controllers do.
+Written is the dialect of the milling ROM (milling.md, section "The tape"), which LinuxCNC and GRBL take as it is.
+Read are that and what CAD packages write: absolute or relative places, numbers in millimetres or inches as G21 and G20
+say; without them a number with a decimal point is millimetres and a whole one micrometres, as a CAD package has it
+beside its 3B tapes.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from decimal import ROUND_HALF_UP, Decimal
-from math import hypot
+from math import hypot, pi
 
 from skg.errors import UserError
 from skg.tape.block import Block, Stop, Tape, arc_block, line_block
-from skg.tape.placed import closed_moves
+from skg.tape.placed import Placed, PlacedRoute, place
 
-#: An arc's end may lie this far off the circle through its start, µm: each of the two is rounded, and so is
-#: the centre.
-_OFF_CIRCLE = 2
-_WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
-_SPACE = re.compile(r"(?:\s|\([^()]*\))*")
+Spot = tuple[int, int]
+
+#: How a file's name ends that holds G-code.
+ENDINGS = (".nc", ".ngc", ".gcode", ".tap", ".iso")
+#: What stands in front of everything: plane XY, millimetres, absolute places, feed in mm/min.
+PREAMBLE = "G17G21G90G94"
+LAST_NUMBER = 9999
+#: GRBL takes no line that is longer.
+LONGEST = 70
+#: An arc's end may lie so far off the circle through its start, µm: for a 3B block (each of the two is rounded, and so
+#: is the centre), and for a control, which also lets pass a thousandth of the radius, up to half a millimetre.
+OFF_BLOCK, OFF_CONTROL, OFF_MOST = 2, 5, 500
+#: Controls take an arc of less than so many radians for a full circle.
+LEAST_SWEEP = 1e-6
 
 
-def write(tape: Tape, start: tuple[int, int] = (0, 0), millimetres: bool = False) -> str:
-    """Return the G-code of a tape, one line each block; `start` is the G92 position in µm."""
+def is_gcode(name: str) -> bool:
+    """Whether a file holds G-code, by its name."""
+    return name.lower().endswith(ENDINGS)
 
-    def number(micrometres: int) -> str:
-        return str(Decimal(micrometres).scaleb(-3)) if millimetres else str(micrometres)
 
-    def pair(first: str, second: str, values: tuple[int, int]) -> str:
-        return f"{first}{number(values[0])} {second}{number(values[1])}"
+# Writing ------------------------------------------------------------------------------------------------------------
 
-    lines = [f"G91 G92 {pair('X', 'Y', start)}"]
-    if millimetres:
-        lines.insert(0, "G21")
-    moves = (move for blocks in tape.stretches() for move in closed_moves(blocks))
-    for item in tape.items:
+
+class _Writer:
+    """Blocks in the order of writing; keeps the place and height of the tool in whole µm, and the last F."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.at: Spot | None = None
+        self.height: int | None = None
+        self.feed = ""
+        self.block(PREAMBLE)
+
+    def block(self, words: str) -> None:
+        self.lines.append(f"N{len(self.lines) % LAST_NUMBER + 1}{words}")
+
+    def rapid(self, end: Spot) -> None:
+        if end != self.at:
+            self.block(f"G0{_pair('XY', end)}")
+            self.at = end
+
+    def to_height(self, g: int, height: int, feed: str = "") -> None:
+        if height != self.height:
+            self.block(f"G{g}Z{_millimetres(height)}{self._fed(feed)}")
+            self.height = height
+
+    def line(self, end: Spot, feed: str) -> None:
+        if end != self.at:
+            self.block(f"G1{_pair('XY', end)}{self._fed(feed)}")
+            self.at = end
+
+    def arc(self, end: Spot, centre: Spot, sense: int, feed: str) -> None:
+        to_centre = centre[0] - self.at[0], centre[1] - self.at[1]
+        self.block(f"G{3 if sense > 0 else 2}{_pair('XY', end)}{_pair('IJ', to_centre)}{self._fed(feed)}")
+        self.at = end
+
+    def _fed(self, feed: str) -> str:
+        if not feed or feed == self.feed:
+            return ""
+        self.feed = feed
+        return f"F{feed}"
+
+
+def _millimetres(micrometres: int) -> str:
+    return f"{Decimal(micrometres).scaleb(-3):f}".rstrip("0").rstrip(".") if micrometres else "0"
+
+
+def _pair(letters: str, values: Spot) -> str:
+    return "".join(f"{letter}{_millimetres(value)}" for letter, value in zip(letters, values, strict=True))
+
+
+def decimal(value: float) -> str:
+    """A feed as the tape has it: at most 8 significant digits, no exponent."""
+    return f"{Decimal(f'{value:.8g}'):f}"
+
+
+def write(
+    tape: Tape,
+    start: Spot = (0, 0),
+    feeds: tuple[float, float] = (100.0, 100.0),
+    heights: Spot | None = None,
+    positions: str = "auto",
+) -> str:
+    """Return the G-code of a 3B tape whose wire begins at `start` (µm), lines ended by CR LF.
+
+    `feeds` are mm/min in the plane and downwards. With `heights`, cutting and travel height in µm, a re-positioning
+    between two stops is an up, a rapid and a down; without them the stops are M0. `positions` is one of
+    `skg.tape.positions.POSITIONS`.
+    """
+    plane, down = map(decimal, feeds)
+    writer = _Writer()
+    routes = iter(place(tape, start, positions))
+    stretches, moves = tape.stretches(), tape.positioning()
+    if heights:
+        writer.to_height(0, heights[1])
+    writer.rapid(start)
+    for at, (blocks, is_move) in enumerate(zip(stretches, moves, strict=True)):
+        if at and not (heights and (is_move or moves[at - 1])):
+            writer.block("M0")
+        for placed in next(routes).blocks if blocks else ():
+            if is_move:
+                if heights:
+                    writer.to_height(0, heights[1])
+                writer.rapid(_grid(placed.end))
+                continue
+            if heights:
+                writer.to_height(1, heights[0], down)
+            _cut(writer, placed, plane)
+    if heights:
+        writer.to_height(0, heights[1])
+    writer.block("M30")
+    return "".join(f"{line}\r\n" for line in writer.lines)
+
+
+def _cut(writer: _Writer, placed: Placed, feed: str) -> None:
+    """A block that cuts; an arc so flat that a control might take it for a full circle as a line (milling.md)."""
+    end, turns = _grid(placed.end), abs(placed.sweep)
+    if not placed.is_line and turns > 2 * pi - 1e-9:
+        # Round once, and the few µm by which a block goes on.
+        writer.arc(writer.at, _grid(placed.centre), placed.block.sense, feed)
+        writer.line(end, feed)
+        return
+    (dx, dy), (x, y) = _minus(end, writer.at), placed.block.start
+    is_flat = turns <= pi and (dx * dx + dy * dy) ** 2 <= 4 * (x * x + y * y)
+    if placed.is_line or is_flat:
+        writer.line(end, feed)
+    else:
+        writer.arc(end, _grid(placed.centre), placed.block.sense, feed)
+
+
+def _grid(place: tuple[float, float]) -> Spot:
+    return round(place[0]), round(place[1])
+
+
+# Reading ------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class GcodeFinding:
+    """Something wrong in G-code: line and column, from 1, and what. `is_fatal`: it cannot be read further."""
+
+    line: int
+    column: int
+    message: str
+    is_fatal: bool = field(default=True, repr=False)
+
+    def __str__(self) -> str:
+        return f"line {self.line}, column {self.column}: {self.message}"
+
+
+@dataclass(frozen=True)
+class Drilled:
+    """A hole: down and up again at a place, µm."""
+
+    place: Spot
+
+
+@dataclass(frozen=True)
+class Rapid:
+    """A rapid move in the plane."""
+
+    placed: Placed
+
+
+@dataclass(frozen=True)
+class Program:
+    """What G-code does in the plane, in order: cuts, rapids, holes, stops; `home` (µm) is where it begins."""
+
+    name: str
+    items: tuple[Placed | Rapid | Drilled | Stop, ...]
+    home: Spot = (0, 0)
+
+    @property
+    def holes(self) -> list[Spot]:
+        """Where it drills, each place once."""
+        return list(dict.fromkeys(item.place for item in self.items if isinstance(item, Drilled)))
+
+    @property
+    def stop_places(self) -> list[Spot]:
+        """Where it stops, each place once."""
+        at, found = self.home, []
+        for item in self.items:
+            if isinstance(item, Stop):
+                found.append(at)
+            else:
+                at = item.place if isinstance(item, Drilled) else _grid(_placed(item).end)
+        return list(dict.fromkeys(found))
+
+    def routes(self) -> list[PlacedRoute]:
+        """What is cut and how it is moved between, as `skg.tape.placed.place` has it."""
+        found: list[tuple[bool, list[Placed]]] = []
+        for item in self.items:
+            if isinstance(item, Stop | Drilled):
+                found.append((False, []))
+                continue
+            is_move = isinstance(item, Rapid)
+            if not found or found[-1][0] != is_move:
+                found.append((is_move, []))
+            found[-1][1].append(_placed(item))
+        return [PlacedRoute(tuple(blocks), is_move) for is_move, blocks in found if blocks]
+
+    def tape(self) -> Tape:
+        """The 3B tape of the same path: a rapid is a move between two stops; holes have no blocks.
+
+        An arc whose end is farther off its circle than a block can be is a `UserError`.
+        """
+        items: list[Block | Stop] = []
+        at, moved_from = self.home, None
+        for item in self.items:
+            if isinstance(item, Drilled):
+                continue
+            if isinstance(item, Rapid):
+                if moved_from is None:
+                    moved_from = at
+                    if not items or isinstance(items[-1], Block):
+                        items.append(Stop(len(items)))
+                at = _grid(item.placed.end)
+                continue
+            if moved_from is not None:
+                items += _between(moved_from, at)
+                if not isinstance(item, Stop):
+                    items.append(Stop(len(items)))
+                moved_from = None
+            if isinstance(item, Stop):
+                items.append(item)
+                continue
+            off = 0 if item.is_line else abs(hypot(*_minus(item.end, item.centre)) - item.radius)
+            if off > OFF_BLOCK:
+                raise UserError(f"{self.name}: block {item.block.number}: the arc's end is {off:.0f} µm off its circle")
+            items.append(item.block)
+            at = _grid(item.end)
+        if moved_from is not None:
+            items += _between(moved_from, at)
+        return Tape(self.name, tuple(_counted(items)), drift=True)
+
+
+def _between(start: Spot, end: Spot) -> list[Block]:
+    return [] if start == end else [line_block(*_minus(end, start))]
+
+
+def _minus(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
+    return one[0] - other[0], one[1] - other[1]
+
+
+def _placed(item: Placed | Rapid) -> Placed:
+    return item.placed if isinstance(item, Rapid) else item
+
+
+def _counted(items: Iterable[Block | Stop]) -> Iterator[Block | Stop]:
+    """Blocks and stops with the numbers that they have on a tape."""
+    number = 0
+    for item in items:
         if isinstance(item, Stop):
-            lines.append("M00")
-            continue
-        move = pair("X", "Y", next(moves))
-        if item.is_line:
-            lines.append(f"G01 {move}")
+            yield Stop(number)
         else:
-            centre = -item.start[0], -item.start[1]
-            lines.append(f"{'G03' if item.sense > 0 else 'G02'} {move} {pair('I', 'J', centre)}")
-    return "\n".join([*lines, "M02"]) + "\n"
+            number += 1
+            yield Block(item.x, item.y, item.j, item.axis, item.code, number)
+
+
+class _Misread(Exception):
+    def __init__(self, column: int, message: str) -> None:
+        super().__init__(message)
+        self.column = column
 
 
 @dataclass(frozen=True)
@@ -56,25 +291,44 @@ class _Word:
     is_decimal: bool
     column: int
 
-    @property
-    def micrometres(self) -> Decimal:
-        return self.number * 1000 if self.is_decimal else self.number
+
+_WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
+_SPACE = re.compile(r"(?:\s|\([^()]*\))*")
+#: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
+#: modes, work offsets (one of them, see there); sub-programs are no part of a path.
+_SILENT = "FSTPHDL"
+_MODES = {
+    Decimal(n) for n in ("4", "8", "9", "17", "40", "43", "49", "50", "61", "64", "69", "80", "91.1", "94", "97", "98")
+}
+_OFFSETS = {Decimal(n) for n in range(54, 60)}
+_CALLS = {96, 97, 98, 99}
+_KNOWN = "G00…G03, G17, G20, G21, G40, G90, G91, G92 or one that does not move"
+#: µm in a number of each unit; None: by the decimal point.
+_INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
 
 
 class _Reader:
-    """State of a G-code program that is being read; positions in µm."""
+    """State of a program that is being read; places in µm, `height` in the program's own unit."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self) -> None:
         self.line = 0
         self.at = Decimal(0), Decimal(0)
+        self.height: Decimal | None = None
+        self.dipped: Spot | None = None
         self.motion = 0
         self.absolute = False
+        self.unit: Decimal | None = None
+        self.offset: Decimal | None = None
         self.ended = False
         self.blocks = 0
+        self.begun = False
+        self.home: Spot = (0, 0)
+        self.fed = self.warned_unit = False
+        self.findings: list[GcodeFinding] = []
 
-    def error(self, column: int, message: str) -> UserError:
-        return UserError(f"{self.name}: line {self.line}, column {column}: {message}")
+    def warn(self, column: int, message: str) -> None:
+        """What can be read, and yet stops a control."""
+        self.findings.append(GcodeFinding(self.line, column, message, is_fatal=False))
 
     def words(self, text: str) -> Iterator[_Word]:
         """Split a line into words; comments in parentheses and after `;` are nothing."""
@@ -83,35 +337,49 @@ class _Reader:
         while at < len(text):
             match = _WORD.match(text, at)
             if not match:
-                raise self.error(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
+                raise _Misread(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
             yield _Word(match[1], Decimal(match[2]), "." in match[2], at + 1)
             at = _SPACE.match(text, match.end()).end()
 
-    def read(self, line: str) -> Iterator[Block | Stop]:
+    def take(self, line: str) -> Iterator[Placed | Rapid | Drilled | Stop]:
         """Carry out one line."""
         self.line += 1
-        if line.strip() in ("%", ""):
+        text = line.strip()
+        if len(text) > LONGEST:
+            self.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
+        if text == "%" or re.fullmatch(r"[Oo]\d+", text):
+            self.warn(1, f"GRBL does not know {text[0]}")
+            return
+        if not text:
             return
         values: dict[str, _Word] = {}
         is_origin, stop = False, False
         for word in self.words(line):
             if self.ended:
-                raise self.error(word.column, "expected nothing after M02")
+                raise _Misread(word.column, "expected nothing after M02")
             if word.letter == "G":
                 is_origin |= self.preparatory(word)
             elif word.letter == "M":
                 stop |= self.miscellaneous(word)
-            elif word.letter in "XYIJ":
+            elif word.letter in "XYZIJF":
                 if word.letter in values:
-                    raise self.error(word.column, f"{word.letter} stands here twice")
+                    raise _Misread(word.column, f"{word.letter} stands here twice")
                 values[word.letter] = word
-            elif word.letter not in "NF":
-                raise self.error(word.column, f"{word.letter} is not known here, expected G, M, X, Y, I or J")
+            elif word.letter not in "N" + _SILENT:
+                raise _Misread(word.column, f"{word.letter} is not known here, expected G, M, X, Y, Z, I or J")
+        feed = values.pop("F", None)
+        if feed:
+            self.fed = feed.number > 0
+            if not self.fed:
+                self.warn(feed.column, "a feed of 0")
         if is_origin:
             self.at = tuple(self.value(values, letter, Decimal(0)) for letter in "XY")
+            if not self.begun:
+                self.home = _rounded(self.at)
         elif values:
             yield from self.move(values)
         if stop:
+            self.begun = True
             yield Stop(self.blocks)
 
     def preparatory(self, word: _Word) -> bool:
@@ -123,62 +391,136 @@ class _Reader:
                 self.absolute = word.number == 90
             case 92:
                 return True
-            case 17 | 21 | 40:
+            case 20 | 21:
+                self.unit = _INCH if word.number == 20 else _MILLIMETRE
+            case n if n in _OFFSETS:
+                if self.offset not in (None, n):
+                    raise _Misread(
+                        word.column, f"G{n:f} after G{self.offset:f}: how far apart the two are is not known"
+                    )
+                self.offset = n
+            case n if n in _MODES:
                 pass
-            case _:
-                raise self.error(word.column, f"G{word.number:f} is not known, expected "
-                                              "G00…G03, G17, G21, G40, G90, G91 or G92")
+            case n:
+                raise _Misread(word.column, f"G{n:f} is not known, expected {_KNOWN}")
         return False
 
     def miscellaneous(self, word: _Word) -> bool:
         """Carry out an M word; True for a stop."""
         if word.number in (2, 30):
             self.ended = True
-        elif word.number not in (0, 1):
-            raise self.error(word.column, f"M{word.number:f} is not known, expected M00 or M02")
+        elif word.number in _CALLS:
+            raise _Misread(word.column, f"M{word.number:f}: a sub-program is not known here")
         return word.number in (0, 1)
 
-    @staticmethod
-    def value(values: dict[str, _Word], letter: str, default: Decimal) -> Decimal:
-        return values[letter].micrometres if letter in values else default
+    def value(self, values: dict[str, _Word], letter: str, default: Decimal) -> Decimal:
+        """A word's number in µm."""
+        word = values.get(letter)
+        if word is None:
+            return default
+        if self.unit is None and not self.warned_unit:
+            self.warned_unit = True
+            self.warn(word.column, "no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm")
+        unit = self.unit or (_MILLIMETRE if word.is_decimal else Decimal(1))
+        return word.number * unit
 
-    def move(self, values: dict[str, _Word]) -> Iterator[Block]:
-        """Make the block of a move."""
+    def goal(self, values: dict[str, _Word], letter: str, here: Decimal) -> Decimal:
+        """Where a coordinate goes to, µm."""
+        value = self.value(values, letter, here if self.absolute else Decimal(0))
+        return value if self.absolute else here + value
+
+    def move(self, values: dict[str, _Word]) -> Iterator[Placed | Rapid | Drilled]:
+        """What a block that moves does."""
         column = min(word.column for word in values.values())
-        goal = tuple(
-            self.value(values, letter, here if self.absolute else Decimal(0)) + (0 if self.absolute else here)
-            for letter, here in zip("XY", self.at, strict=True))
-        dx, dy = (_round(there) - _round(here) for there, here in zip(goal, self.at, strict=True))
-        self.at = goal
+        cuts = self.motion > 0
+        if cuts and not self.fed:
+            self.fed = True
+            self.warn(column, "cuts, and there has been no F")
+        start = _rounded(self.at)
+        if "Z" in values:
+            yield from self.to_height(self.goal(values, "Z", self.height or Decimal(0)), start, cuts)
+        if not values.keys() - {"Z"}:
+            return
+        goal = tuple(self.goal(values, letter, here) for letter, here in zip("XY", self.at, strict=True))
+        end = _rounded(goal)
         if self.motion < 2:
             if "I" in values or "J" in values:
-                raise self.error(column, "I and J belong to G02 and G03")
-            if (dx, dy) == (0, 0):
-                return
-            block = line_block(dx, dy)
-        else:
-            xs, ys = (-_round(self.value(values, letter, Decimal(0))) for letter in "IJ")
-            end = xs + dx, ys + dy
-            if (xs, ys) == (0, 0):
-                raise self.error(column, "an arc needs its centre, I and J")
-            off = abs(hypot(*end) - hypot(xs, ys))
-            if off > _OFF_CIRCLE:
-                raise self.error(column, f"the arc's end is {off:.0f} µm off the circle through its start")
-            block = arc_block((xs, ys), end, 1 if self.motion == 3 else -1)
-        self.blocks += 1
-        yield block
+                raise _Misread(column, "I and J belong to G02 and G03")
+            self.at = goal
+            if not cuts and not self.begun:
+                self.home = end
+            elif start != end:
+                yield from self.lay(line_block(*_minus(end, start)), start, end, cuts)
+            return
+        xs, ys = (-_rounded_one(self.value(values, letter, Decimal(0))) for letter in "IJ")
+        yield from self.arc(start, end, (xs, ys), column)
+        self.at = goal
+
+    def to_height(self, height: Decimal, place: Spot, cuts: bool) -> Iterator[Drilled]:
+        """Up or down: a hole is what is entered and left again."""
+        is_down = self.height is None or height < self.height
+        self.height = height
+        if is_down and cuts:
+            self.dipped = place
+        elif not is_down:
+            if self.dipped == place:
+                self.begun = True
+                yield Drilled(place)
+            self.dipped = None
+
+    def arc(self, start: Spot, end: Spot, from_centre: Spot, column: int) -> Iterator[Placed]:
+        xs, ys = from_centre
+        if (xs, ys) == (0, 0):
+            raise _Misread(column, "an arc needs its centre, I and J")
+        to_end = xs + end[0] - start[0], ys + end[1] - start[1]
+        radius = hypot(xs, ys)
+        off = abs(hypot(*to_end) - radius)
+        if off > min(max(OFF_CONTROL, radius / 1000), OFF_MOST):
+            raise _Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
+        sense = 1 if self.motion == 3 else -1
+        cross, dot = sense * (xs * to_end[1] - ys * to_end[0]), xs * to_end[0] + ys * to_end[1]
+        if start != end and dot > 0 and abs(cross) < LEAST_SWEEP * dot:
+            self.warn(column, "an arc so flat that LinuxCNC and GRBL take it for a full circle")
+        yield from self.lay(arc_block((xs, ys), to_end, sense), start, end, True)
+
+    def lay(self, block: Block, start: Spot, end: Spot, cuts: bool) -> Iterator[Placed | Rapid]:
+        """A block in its place."""
+        self.begun = True
+        self.dipped = None
+        if cuts:
+            self.blocks += 1
+        numbered = Block(block.x, block.y, block.j, block.axis, block.code, self.blocks)
+        placed = Placed.between(numbered, start, end)
+        yield placed if cuts else Rapid(placed)
 
 
-def _round(value: Decimal) -> int:
+def _rounded_one(value: Decimal) -> int:
     """Whole µm, halves away from zero."""
     return int(value.quantize(Decimal(1), ROUND_HALF_UP))
 
 
-def read(text: str, name: str = "-") -> Tape:
-    """Return the tape of a G-code program; what cannot be read is a `UserError` with line and column."""
-    reader = _Reader(name)
-    items = [item for line in text.splitlines() for item in reader.read(line)]
+def _rounded(place: tuple[Decimal, ...]) -> Spot:
+    return _rounded_one(place[0]), _rounded_one(place[1])
+
+
+def scan(text: str, name: str = "-") -> tuple[Program, list[GcodeFinding]]:
+    """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
+    reader = _Reader()
+    items: list[Placed | Rapid | Drilled | Stop] = []
+    for line in text.splitlines():
+        try:
+            items += reader.take(line)
+        except _Misread as error:
+            reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
     if not reader.ended:
-        reader.line += 1
-        raise reader.error(1, "expected M02, found the end of the program")
-    return Tape(name, tuple(items))
+        reader.findings.append(GcodeFinding(reader.line + 1, 1, "expected M02 or M30, found the end of the program"))
+    return Program(name, tuple(items), reader.home), reader.findings
+
+
+def read(text: str, name: str = "-") -> Program:
+    """Return a program; what cannot be read is a `UserError` with line and column."""
+    program, findings = scan(text, name)
+    for finding in findings:
+        if finding.is_fatal:
+            raise UserError(f"{name}: {finding}")
+    return program
