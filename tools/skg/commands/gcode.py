@@ -81,8 +81,8 @@ def command(
 
     Written is the dialect of the milling ROM: G17 G21 G90 G94, G0 to G3 with I and J, M0 for a stop, M30; `skg plot`
     and `skg check` read it. Read are also G20, G91, G92 and more, comments, and other people's words that do not move;
-    without G20 and G21 a number with a decimal point is millimetres, one without micrometres. A program (.skg, .xy, .tkh)
-    is run first. FILE - (or none) is the standard input.
+    without G20 and G21 a number with a decimal point is millimetres, one without micrometres.
+    A program (.skg, .xy, .tkh) is run first. FILE - (or none) is the standard input.
     """
     if back:
         write_bytes(output, to_bytes(gcode.read(read_ascii(source), source).tape().items))
