@@ -14,8 +14,8 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parent))
 
 from isohelp import moves
-from rs274help import needs_rs274, same
 from rs274help import moves as their_moves
+from rs274help import needs_rs274, same
 
 from skg.cli import cli
 from skg.ref import mill
