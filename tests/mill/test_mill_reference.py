@@ -84,6 +84,10 @@ def test_the_tape_of_the_specification() -> None:
     # An end that is the first element again; the tool stays there.
     (["F 9", "Z -1", "CUT O,(4,0),(0,4),O", "FROM O", "CUT O,(1,0)"],
      ["G0Z5", "G0X0Y0", "G1Z-1F9", "G1X4Y0", "G1X0Y4", "G1X0Y0", "G0Z5", "G1Z-1", "G1X1Y0", "G0Z5", "M30"]),
+    # END lifts the tool wherever it is: a Z behind the last route, or nothing but a Z.
+    (["F 9", "CUT O,(1,0),(0,1)", "BACK", "Z -1", "END"],
+     ["G0X0Y0", "G1X1Y0F9", "G1X0Y1", "G1X0Y0", "G0Z5", "M30"]),
+    (["Z -1"], ["G0Z5", "M30"]),
     # Nothing at all.
     ([], ["M30"]),
 ])  # fmt: skip
