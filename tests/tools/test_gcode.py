@@ -106,8 +106,10 @@ def test_round_trip(items: list[Block | Stop], mills: bool) -> None:
     assert findings == []
     again = program.tape()
     if mills:
-        cuts = [[route for route in routes if not route.is_move] for routes in (program.routes(), laid(tape))]
-        assert vertices(cuts[0]) == vertices(cuts[1])
+        # (a re-positioning of no length is none there: what lies before and behind it is one route)
+        cuts = [vertices([route for route in routes if not route.is_move]) for routes in (program.routes(), laid(tape))]
+        in_a_row = [[one for one, _ in groupby(place for route in routes for place in route)] for routes in cuts]
+        assert in_a_row[0] == in_a_row[1]
         return
     if not any(map(is_changed, tape.blocks)):
         assert tapes.to_bytes(again.items) == tapes.to_bytes(items)

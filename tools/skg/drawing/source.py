@@ -18,7 +18,7 @@ from skg.plane import XY
 from skg.rivals.languages import is_program, is_rival, translated
 from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
-from skg.tape.gcode import Program, is_gcode
+from skg.tape.gcode import GcodeProgram, is_gcode
 from skg.tape.gcode import read as read_gcode
 from skg.tape.placed import PlacedRoute, place, stop_places
 from skg.tape.positions import decide
@@ -59,7 +59,7 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
     return Made(tape, start, contour)
 
 
-def gcode(name: str) -> Program:
+def gcode(name: str) -> GcodeProgram:
     """Return the G-code in a file, told by its name's end; what is odd about it but can be read is no matter here."""
     return read_gcode(read_ascii(name), name)
 

@@ -42,7 +42,7 @@ def is_gcode(name: str) -> bool:
 # Writing ------------------------------------------------------------------------------------------------------------
 
 
-class _Writer:
+class _GcodeWriter:
     """Blocks in the order of writing; keeps the place and height of the tool in whole µm, and the last F."""
 
     def __init__(self) -> None:
@@ -109,7 +109,7 @@ def write(
     `skg.tape.positions.POSITIONS`.
     """
     plane, down = map(decimal, feeds)
-    writer = _Writer()
+    writer = _GcodeWriter()
     routes = iter(place(tape, start, positions))
     stretches, moves = tape.stretches(), tape.positioning()
     if heights:
@@ -133,7 +133,7 @@ def write(
     return "".join(f"{line}\r\n" for line in writer.lines)
 
 
-def _cut(writer: _Writer, placed: Placed, feed: str) -> None:
+def _cut(writer: _GcodeWriter, placed: Placed, feed: str) -> None:
     """A block that cuts; an arc so flat that a control might take it for a full circle as a line (milling.md)."""
     end, turns = _grid(placed.end), abs(placed.sweep)
     if not placed.is_line and turns > 2 * pi - 1e-9:
@@ -184,7 +184,7 @@ class Rapid:
 
 
 @dataclass(frozen=True)
-class Program:
+class GcodeProgram:
     """What G-code does in the plane, in order: cuts, rapids, holes, stops; `home` (µm) is where it begins."""
 
     name: str
@@ -503,7 +503,7 @@ def _rounded(place: tuple[Decimal, ...]) -> Spot:
     return _rounded_one(place[0]), _rounded_one(place[1])
 
 
-def scan(text: str, name: str = "-") -> tuple[Program, list[GcodeFinding]]:
+def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
     """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
     reader = _Reader()
     items: list[Placed | Rapid | Drilled | Stop] = []
@@ -514,10 +514,10 @@ def scan(text: str, name: str = "-") -> tuple[Program, list[GcodeFinding]]:
             reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
     if not reader.ended:
         reader.findings.append(GcodeFinding(reader.line + 1, 1, "expected M02 or M30, found the end of the program"))
-    return Program(name, tuple(items), reader.home), reader.findings
+    return GcodeProgram(name, tuple(items), reader.home), reader.findings
 
 
-def read(text: str, name: str = "-") -> Program:
+def read(text: str, name: str = "-") -> GcodeProgram:
     """Return a program; what cannot be read is a `UserError` with line and column."""
     program, findings = scan(text, name)
     for finding in findings:
