@@ -1,9 +1,16 @@
 ; mill.asm - the statements of milling: F, Z, M, G, HOLE (milling.md)
-; Offers: SFEED SHGHT SPREP SMISC SHOLE
-; Uses:   calc consts cut float grid io_send iso parser start value
-; Room:   310 bytes
+; Offers: SFREES SFEED SHGHT SPREP SMISC SHOLE
+; Uses:   calc consts cut float grid io_send iso monitor parser start value
+; Room:   320 bytes
 
 LASTW   EQU 99          ; greatest number of M, G and T
+
+; SFREES - FREE, which has to be read in front of F, as a statement; in a program it is none
+; Out: ERR 01 in a line with a number
+SFREES: LDA     TOKS
+        DCR     A               ; TFLT?
+        JZ      ERSYN
+        JMP     SFREE
 
 ; SFEED - statement: F feed; F feed, feed downwards
 SFEED:  CALL    FARG

@@ -45,7 +45,7 @@ def read(sets: Collection[str]) -> list[Word]:
         needs = 3 if fields[0] == KINDS[0] else 4
         if fields[0] not in KINDS or not needs <= len(fields) <= needs + 1:
             raise ValueError(f"{TABLE.name}:{count}: not a kind, a word, its token and its routine")
-        if len(fields) > needs and fields[needs] not in sets:
+        if len(fields) > needs and (fields[needs].removeprefix("-") in sets) == fields[needs].startswith("-"):
             continue
         words.append(Word(fields[0], fields[1], fields[2], fields[3] if needs == 4 else ""))
         if words[-2:] != sorted(words[-2:], key=lambda word: KINDS.index(word.kind)):

@@ -129,6 +129,15 @@ def test_lists_and_saves_what_was_typed() -> None:
     assert again.listing() == listed
 
 
+def test_the_language_has_its_other_words_still() -> None:
+    """FREE, FROM, FIT begin like F, GOTO and GOSUB like G; a command goes into no program."""
+    board = Mill()
+    assert int(board.type("FREE")[0]) > 1000
+    assert board.type("10 FREE")[-1] == board.type("FREE 1")[-1] == "ERR 01"
+    assert board.type("GOTO 7") == board.type("GOSUB 7") == ["ERR 02"]
+    assert board.listing() == []
+
+
 def test_direct_statements_go_on_from_each_other() -> None:
     """A tape of direct statements, an error in it, END, and a new one: all against the reference's own machine."""
     from skg.ref.mill.interpreter import MillInterpreter
