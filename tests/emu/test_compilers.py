@@ -20,7 +20,7 @@ TREE = [
     "tools/skg/native",
     "tests/emu/plain8080.h",
     "examples/xy-star.skg",
-    *(str(path.relative_to(ROOT)) for part in ("asm", "tools", "tests/*") for path in ROOT.glob(f"{part}/*.mk")),
+    *(str(path.relative_to(ROOT)) for part in ("asm", "tools", "web", "tests/*") for path in ROOT.glob(f"{part}/*.mk")),
 ]
 MINGW = "x86_64-w64-mingw32-gcc"
 LIBRARIES = {

@@ -69,7 +69,7 @@ def test_typing_at_other_boards(name: str, record_property: Record) -> None:
 PARSED = "3A CHKF B7 C2 CHKED"
 #: Faults to plant: where, what machine code, and what the fuzzer says of it.
 FAULTS = {
-    "jump into the program": ("SLIST", "C3 PROG", "fetched .*"),
+    "jump into the program": ("SLIST", "C3 PROG", "(fetched .*|no prompt)"),
     "jump into data": ("SREST", "C3 STTAB", "fetched where no instruction is"),
     "wild jump to 0000": ("SFROM", "C3 00 00", "came to 0000"),
     "halt": ("SGOSUB", "76", "HLT"),

@@ -205,8 +205,9 @@ def test_next_and_up(nothing: Path) -> None:
     image = ROM.read_bytes()
     # RESET begins with LXI SP and CALL CALINI.
     assert [OPCODES[image[start]], OPCODES[image[start + 3]]] == [("LXI SP", 3), ("CALL", 3)]
-    answers = debugged(nothing, "next", "next", "next", "break CALINI", "delete", "continue")
-    assert [re.match(r"\d+ \S+ (\S+)", text)[1] for text in answers[:3]] == ["RESET", "RESET+3", "RESET+6"]
+    at_reset = ["break RESET", "continue", "delete"]
+    answers = debugged(nothing, *at_reset, "next", "next", "break CALINI", "delete", "continue")
+    assert [re.match(r"\d+ \S+ (\S+)", answers[n])[1] for n in (1, 3, 4)] == ["RESET", "RESET+3", "RESET+6"]
     inside, back = debugged(nothing, "break CALINI", "continue", "up")[1:3]
     assert re.match(r"\d+ \S+ CALINI ", inside)
     assert re.match(r"\d+ \S+ RESET\+6 ", back)
@@ -228,7 +229,7 @@ def test_breakpoints_by_label_distance_and_address(nothing: Path) -> None:
         "break",
         "delete",
         "break",
-        "break ADVAN1",
+        "break MOVE1",
         "continue",
         "continue",
         "code 0",
@@ -239,7 +240,7 @@ def test_breakpoints_by_label_distance_and_address(nothing: Path) -> None:
     assert answers[5].strip().startswith(f"; {at + 1:04X} RUNINI+1"), "the operation behind RST 5"
     assert answers[7] == f"{at + 1:04X} RUNINI+1\n"
     assert answers[9] == ""
-    assert all(f"; {names['ADVAN1']:04X} ADVAN1 " in answer for answer in answers[11:13])
+    assert all(f"; {names['MOVE1']:04X} MOVE1 " in answer for answer in answers[11:13])
 
 
 def test_all_breakpoints_of_a_run_are_reached(traced: tuple[list[str], str]) -> None:
