@@ -11,12 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from grblhelp import GREETING, OK, ROMS, ROOT, SKG80, Answer, driven
-
-from skg.ref import mill
-
-GRBL = ROMS / "skg-grbl.bin"
-needs_grbl = pytest.mark.skipif(not GRBL.exists(), reason="there is no roms/skg-grbl.bin")
+from grblhelp import OK, ROOT, SKG80, driven
 
 PART = "10 F 300,60\n20 Z -1,3\n30 FROM (-5,0)\n40 CUT O,(10,0),(0,7)\n50 BACK\n60 HOLE (1,1),(2,2)\n"
 
@@ -126,102 +121,3 @@ def test_save_and_load_through_the_line() -> None:
         until(teletype, b">")
         os.write(teletype, b"RUN\r")
         assert b"56\r\n" in until(teletype, b">")
-
-
-# The handshake ----------------------------------------------------------------------------------------------------
-
-
-@needs_grbl
-@pytest.mark.parametrize("slow", [0.0, 0.05])
-def test_block_by_block(part: Path, slow: float) -> None:
-    wanted = mill.run(PART, line_end="\n").tape
-    with driven("skg-grbl", part, always, slow=slow) as (board, machine):
-        assert board.wait() == 0
-    assert machine.raw == wanted
-    assert machine.blocks == wanted.decode().splitlines()
-    assert machine.early == []
-
-
-def junk(block: str, number: int) -> bytes:
-    """Everything that a machine may say besides `ok`, and then that."""
-    kinds = [
-        b"[MSG:Caution: Unlocked]\r\n", b"\r\n\r\n", b"<Idle|MPos:0.000,0.000,0.000|FS:0,0>\r\n",
-        b"echo:busy: processing\r\n",
-        b"o\r\nk\r\n", b" ok\r\n", b"OK\r\n", b"Error\r\n", b"alarm\r\n", b"err\r\nALAR\r\n",
-        bytes(range(0x80, 0x100)) + b"\r\n", b"not ok\r\n", b"x" * 300 + b"\r\n", b"eok\r\nAok\r\n",
-    ]  # fmt: skip
-    return kinds[number % len(kinds)] + (b"ok\n" if number % 2 else b"ok: and more\r\n")
-
-
-@needs_grbl
-def test_junk_means_nothing(part: Path) -> None:
-    with driven("skg-grbl", part, junk) as (board, machine):
-        assert board.wait() == 0
-    assert machine.raw == mill.run(PART, line_end="\n").tape
-    assert machine.early == []
-
-
-@needs_grbl
-@pytest.mark.parametrize("said", [b"error:33", b"ALARM:1", b"error: Bad number format"])
-@pytest.mark.parametrize("at", [3, 6])
-def test_error_and_alarm(part: Path, said: bytes, at: int) -> None:
-    """The line is typed, the run ends with error 10; in mid-route (block 6) M0 goes out and is not waited for."""
-
-    def answer(_block: str, number: int) -> bytes | None:
-        return said + b"\r\n" if number == at else OK if number < at else None
-
-    with driven("skg-grbl", part, answer) as (board, machine):
-        assert board.wait() == 1
-        time.sleep(0.1)
-    printed = [line for line in board.printed() if line]
-    line = {3: 30, 6: 40}[at]
-    at_error = printed.index(said.decode())
-    assert printed[at_error + 1] in ([f"N{at + 1}M0"] if at == 6 else []) + [f"ERR 10 LINE {line}"]
-    assert f"ERR 10 LINE {line}" in printed
-    wanted = mill.run(PART, line_end="\n").tape.decode().splitlines()[:at]
-    assert machine.blocks == wanted + ([f"N{at + 1}M0"] if at == 6 else [])
-
-
-@needs_grbl
-def test_silence_waits(part: Path) -> None:
-    """However long: the next block does not come."""
-
-    def answer(_block: str, number: int) -> bytes | None:
-        return OK if number < 4 else None
-
-    with driven("skg-grbl", part, answer) as (board, machine):
-        time.sleep(1)
-        assert board.process.poll() is None
-        assert len(machine.blocks) == 4
-        machine.answer = always
-        machine.say(OK)
-        assert board.wait() == 0
-    assert machine.raw == mill.run(PART, line_end="\n").tape
-
-
-@needs_grbl
-def test_ctrl_c_ends_the_wait() -> None:
-    with terminal("--rom", GRBL) as (teletype, line):
-        until(teletype, b">")
-        for text in PART.splitlines():
-            os.write(teletype, text.encode() + b"\r")
-            until(teletype, b">")
-        os.write(teletype, b"RUN\r")
-        until(line, b"\n")
-        os.write(line, GREETING + OK)
-        until(line, b"\n")
-        os.write(teletype, b"\x03")
-        assert b"ERR 10 LINE 30\r\n" in until(teletype, b">")
-
-
-def refuse(_block: str, _number: int) -> bytes:
-    return b"error:9\r\n"
-
-
-@needs_grbl
-@pytest.mark.parametrize("answer", [refuse])
-def test_a_locked_machine(part: Path, answer: Answer) -> None:
-    """It refuses the first block; nothing else goes out."""
-    with driven("skg-grbl", part, answer) as (board, machine):
-        assert board.wait() == 1
-    assert machine.blocks == ["N1G17G21G90G94"]
