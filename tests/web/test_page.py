@@ -61,7 +61,7 @@ def golden(name: str) -> dict[str, object]:
     each = [{"steps": one.steps, "really": one.really, "gap": report.gap} for one in report.each]
     return {
         "tape": (ROOT / "examples" / f"{name}.3b").read_bytes().decode("ascii"),
-        "iso": gcode.write(tape),
+        "iso": gcode.write(tape, positions="programmed"),
         "ends": [placed.end for placed in blocks],
         "sweeps": [placed.sweep for placed in blocks],
         "roles": roles(routes),

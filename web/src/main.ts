@@ -332,7 +332,7 @@ function bringBack(saved: Everything): void {
 const SAVERS: Record<string, () => [string, string]> = {
   skg: () => [".skg", program.text],
   "3b": () => [".3b", isWhole ? tape : tapeText(items)],
-  iso: () => [".nc", isoText(items)],
+  iso: () => [".nc", isoText(layout())],
   svg: () => [".svg", svgText(layout(), settings.wire, partName)],
   dxf: () => [".dxf", dxfText(layout())],
   json: () => [".json", JSON.stringify(everything())],

@@ -421,7 +421,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await wholeTape(page);
     assert.match(await message(page) ?? "", /^foreign\.3b: 29 blocks, written in another form/);
     assert.equal(await saved(page, "3b"), readFileSync("examples/wrench.3b", "latin1"));
-    assert.match(await saved(page, "iso"), /^G91 G92 X0 Y0\nG01 X0 Y-8400\n/);
+    assert.match(await saved(page, "iso"), /^N1G17G21G90G94\r\nN2G0X-?[\d.]+Y-?[\d.]+\r\nN3G1X[^\r]*F100\r\n/);
     assert.match(await saved(page, "svg"), /<path id="wire"/);
     assert.match(await saved(page, "dxf"), /ARC/);
     assert.match(await saved(page, "skg"), /^10 REM A wrench/);

@@ -32,7 +32,7 @@ test("tapes are laid out, walked and written as by the tools in Python", () => {
     assert.deepEqual(layout.blocks.map(({ end }) => [...end]), golden.ends, name);
     layout.blocks.forEach(({ sweep }, at) => assert.ok(Math.abs(sweep - (golden.sweeps[at] as number)) < 1e-9, `${name} ${at}`));
     assert.deepEqual(layout.blocks.map(({ role }) => role), golden.roles, name);
-    assert.equal(isoText(items), golden.iso, name);
+    assert.equal(isoText(layout), golden.iso, name);
     writeFileSync(`${FOLDER}/${name}.dxf`, dxfText(layout));
     const walk = new Walk(MODULE);
     walk.begin(layout.blocks);
