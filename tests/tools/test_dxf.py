@@ -315,7 +315,10 @@ def test_sides(side: str) -> None:
 @given(st.lists(blocks(), min_size=1, max_size=8))
 @settings(max_examples=40, deadline=None)
 def test_any_tape_draws(items: list[Block]) -> None:
-    """Every block's ends and middle lie on the drawing that is made of it."""
+    """Every block's ends and middle lie on the drawing that is made of it.
+
+    Not of a circle so small that the whole micrometres of its ends decide where it lies: radius below 5 µm.
+    """
     tape = tapes.parse(tapes.to_bytes(items))
     layouts = [place(tape, positions="programmed"), estimate(tape, (0, 0), False)]
     with suppress(UserError):
@@ -325,6 +328,8 @@ def test_any_tape_draws(items: list[Block]) -> None:
         found = collect(draw(routes, [], polylines)).edges
         for route in routes:
             for placed in route.blocks:
+                if not placed.is_line and hypot(placed.block.x, placed.block.y) < 5:
+                    continue
                 points = [(x / 1000, y / 1000) for x, y in (placed.start, placed.at(0.5), placed.end)]
                 assert off(points, found).max() < 2 + 1e-6 * placed.block.length
 
