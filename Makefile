@@ -54,8 +54,7 @@ test: venv asm80 emu tools web-modules
 t: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q $(if $(findstring tests,$(T)),,tests) $(T)
 
-# Style. Not formatted: Python files on the list in tools/pyproject.toml (not yet), C files in .clang-format-ignore
-# (tables made by hand), assembly (in columns, by hand).
+# Style. Not formatted: C files in .clang-format-ignore (tables made by hand), assembly (in columns, by hand).
 RUFF      := --config tools/pyproject.toml tools asm tests
 C_SOURCES := $(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c))
 C_STYLED  := $(wildcard $(foreach folder,emu tests/emu tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]))

@@ -36,15 +36,15 @@ LEAST_FACTS = 25
 #: Words that an assembler has for itself, so that no label or equate may be called so: each keyword of z88dk's
 #: z80asm, release 2.4 and August 2026, of which `-m8080_strict` refuses the definition or a use (MB is one of the
 #: later only). The registers and PSW are asm80's words too.
+# fmt: off
 RESERVED = {
-    # fmt: off
     "A", "ABC", "ADE", "ADL", "AF", "AHL", "AIX", "AIY", "ASMPC", "ASP", "B", "BC", "BCDE", "C", "C_LINE", "D",
     "DE", "DEHL", "E", "EIR", "EQU", "F", "H", "HL", "HTR", "I", "IIR", "IP", "IX", "IXH", "IXL", "IY", "IYH",
     "IYL", "JK", "JKHL", "L", "LINE", "LXPC", "M", "MB", "PBC", "PDE", "PHL", "PIX", "PIY", "PP", "PSP", "PSW",
     "PW", "PX", "PY", "PZ", "R", "SP", "SU", "XBC", "XDE", "XHL", "XIX", "XIY", "XP", "XPC", "XSP", "YBC", "YDE",
     "YHL", "YIX", "YIY", "YP", "YSP", "ZBC", "ZDE", "ZHL", "ZIX", "ZIY", "ZP", "ZSP",
-    # fmt: on
 }
+# fmt: on
 
 #: The restarts and their routines.
 RESTARTS = {

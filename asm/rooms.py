@@ -189,8 +189,11 @@ def wrong_headers(rooms: dict[str, Room]) -> list[str]:
             elif said[0] != line:
                 have, want = set(said[0].split()), set(line.split())
                 lacks, too_much = " ".join(sorted(want - have)), " ".join(sorted(have - want))
-                wrong.append(f"{room.name}.asm: {word} lacks [{lacks}], has too much [{too_much}]"
-                             if lacks or too_much else f"{room.name}.asm: {word} is written in another way")
+                wrong.append(
+                    f"{room.name}.asm: {word} lacks [{lacks}], has too much [{too_much}]"
+                    if lacks or too_much
+                    else f"{room.name}.asm: {word} is written in another way"
+                )
         if room.name not in COMMON and not room_of(room):
             wrong.append(f"{room.name}.asm: no line Room: N bytes")
     return wrong

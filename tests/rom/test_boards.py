@@ -45,8 +45,9 @@ def test_typed_and_punched(kind: str, part: Path) -> None:
 
 
 @every_board
-@pytest.mark.parametrize("part", [part for part in EXAMPLES if part.stem in ("ratchet", "wrench", "xy-star")],
-                         ids=lambda part: part.stem)
+@pytest.mark.parametrize(
+    "part", [part for part in EXAMPLES if part.stem in ("ratchet", "wrench", "xy-star")], ids=lambda part: part.stem
+)
 def test_saved_and_loaded(kind: str, part: Path) -> None:
     """SAVE, NEW and LOAD of the punched tape give the same program, and it cuts the same."""
     board = Board(kind=kind)

@@ -188,9 +188,19 @@ def built(name: str) -> dict[str, bytes]:
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch) / name
         done = subprocess.run(
-            [sys.executable, ROOT / "asm" / "build.py", "--image", name, "--sym", out.with_suffix(".sym"), "--listing",
-             out.with_suffix(".lst"), out],
-            capture_output=True, text=True,
+            [
+                sys.executable,
+                ROOT / "asm" / "build.py",
+                "--image",
+                name,
+                "--sym",
+                out.with_suffix(".sym"),
+                "--listing",
+                out.with_suffix(".lst"),
+                out,
+            ],
+            capture_output=True,
+            text=True,
         )
         assert done.returncode == 0, done.stdout + done.stderr
         return {suffix: out.with_suffix(suffix).read_bytes() for suffix in (*VARIANTS[name], ".sym", ".lst")}
@@ -380,9 +390,7 @@ def refused(capsys: pytest.CaptureFixture[str], check: Callable[..., None], *arg
         ("        NOP", "no label found"),
     ],
 )
-def test_words_that_an_assembler_refuses(
-    line: str, why: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_words_that_an_assembler_refuses(line: str, why: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert why in refused(capsys, builder.check_words, {"some": f"{line}\n"})
 
 

@@ -69,16 +69,17 @@ TABLES = "OPTAB: DW OADD,XMIN\nQADD EQU 01H\nQMIN EQU 02H\n"
 TWO = {
     "equ": "; Offers: names for all\nCELL EQU 2000H\n",
     "one": "; Offers: STATE PLAY XMIN\n; Uses:   two\n; Room:   9 bytes\n"
-           "STATE EQU CELL+1\nPLAY: CALL WORK ; not OTHER\nXMIN: RET\nHERE: DB \"OTHER\"\n",
+    'STATE EQU CELL+1\nPLAY: CALL WORK ; not OTHER\nXMIN: RET\nHERE: DB "OTHER"\n',
     "two": "; Offers: WORK\n; Uses:   one\n; Room:   12 bytes\n"
-           "WORK: LDA STATE\n DB QMIN\n CALL PLAY\nOTHER: RET\n" + TABLES + "OADD: RET\n",
+    "WORK: LDA STATE\n DB QMIN\n CALL PLAY\nOTHER: RET\n" + TABLES + "OADD: RET\n",
 }
 
 
 def small(**changes: str) -> dict[str, rooms.Room]:
     """The two small sources, with some text instead of other."""
-    return rooms.read({name: text.replace(*changes[name].split("|")) if name in changes else text
-                       for name, text in TWO.items()})
+    return rooms.read(
+        {name: text.replace(*changes[name].split("|")) if name in changes else text for name, text in TWO.items()}
+    )
 
 
 def test_small_sources_are_right() -> None:
@@ -87,15 +88,18 @@ def test_small_sources_are_right() -> None:
     assert rooms.room_of(rooms.read(TWO)["two"]) == 12
 
 
-@pytest.mark.parametrize(("file", "change", "said"), [
-    ("one", "STATE PLAY|PLAY", "one.asm: Offers: lacks [STATE], has too much []"),
-    ("one", "STATE PLAY|PLAY STATE", "one.asm: Offers: is written in another way"),
-    ("one", "XMIN\n|XMIN GONE\n", "one.asm: Offers: lacks [], has too much [GONE]"),
-    ("one", "; Uses:   two|; Uses:   three", "one.asm: Uses: lacks [two], has too much [three]"),
-    ("one", "CALL WORK|CALL CELL", "one.asm: Uses: lacks [nothing], has too much [two]"),
-    ("one", "; Uses:   two\n|", "one.asm: 0 lines Uses:"),
-    ("two", "; Room:   12 bytes|; Room:   some", "two.asm: no line Room: N bytes"),
-])
+@pytest.mark.parametrize(
+    ("file", "change", "said"),
+    [
+        ("one", "STATE PLAY|PLAY", "one.asm: Offers: lacks [STATE], has too much []"),
+        ("one", "STATE PLAY|PLAY STATE", "one.asm: Offers: is written in another way"),
+        ("one", "XMIN\n|XMIN GONE\n", "one.asm: Offers: lacks [], has too much [GONE]"),
+        ("one", "; Uses:   two|; Uses:   three", "one.asm: Uses: lacks [two], has too much [three]"),
+        ("one", "CALL WORK|CALL CELL", "one.asm: Uses: lacks [nothing], has too much [two]"),
+        ("one", "; Uses:   two\n|", "one.asm: 0 lines Uses:"),
+        ("two", "; Room:   12 bytes|; Room:   some", "two.asm: no line Room: N bytes"),
+    ],
+)
 def test_what_is_wrong_is_said(file: str, change: str, said: str) -> None:
     assert said in rooms.wrong_headers(small(**{file: change}))
 

@@ -27,8 +27,15 @@ def printed(command: str) -> str:
     """What a command of the page prints, both streams."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     (ROOT / "build").mkdir(exist_ok=True)
-    done = subprocess.run(["bash", "-c", command], cwd=ROOT, env={**os.environ, "PATH": path}, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
+    done = subprocess.run(
+        ["bash", "-c", command],
+        cwd=ROOT,
+        env={**os.environ, "PATH": path},
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=60,
+    )
     return done.stdout
 
 
@@ -75,5 +82,6 @@ def test_python() -> None:
 if __name__ == "__main__":
     ezdxf.options.write_fixed_meta_data_for_testing = True  # no time and no new GUID: the same drawing, the same file
     drawings.bracket().saveas(BRACKET)
-    PAGE.write_text(EXAMPLE.sub(
-        lambda match: f"    $ {match['command']}\n{indented(printed(match['command']))}", PAGE.read_text()))
+    PAGE.write_text(
+        EXAMPLE.sub(lambda match: f"    $ {match['command']}\n{indented(printed(match['command']))}", PAGE.read_text())
+    )

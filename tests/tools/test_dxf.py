@@ -6,7 +6,6 @@ import io
 import os
 import subprocess
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from io import StringIO
@@ -21,7 +20,7 @@ import numpy as np
 import pytest
 from conftest import ROOT, Run
 from ezdxf.document import Drawing
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
 
@@ -40,6 +39,7 @@ from skg.errors import UserError
 from skg.plane import XY, distance, minus, polar
 from skg.ref import run as run_reference
 from skg.tape import Block, Stop
+from skg.tape.controller import run_block
 from skg.tape.joints import estimate
 from skg.tape.placed import place
 
@@ -84,8 +84,11 @@ def contours_of(edges: list[Edge]) -> list[Contour]:
 
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
     contours = contours_of(edges_of(make))
-    return write(plan(contours, content_of(make).starts, offset, str(wishes.get("side", "auto")),
-                      bool(wishes.get("reverse"))), make.__name__, bool(wishes.get("fillets", True)))
+    return write(
+        plan(contours, content_of(make).starts, offset, str(wishes.get("side", "auto")), bool(wishes.get("reverse"))),
+        make.__name__,
+        bool(wishes.get("fillets", True)),
+    )
 
 
 def points_along(edges: list[Edge]) -> Iterator[XY]:
@@ -99,8 +102,13 @@ def points_along(edges: list[Edge]) -> Iterator[XY]:
 def off(points: Iterable[XY], edges: list[Edge]) -> np.ndarray:
     """Distance of each point from the nearest edge, µm."""
     found = np.full(len(points := np.array(list(points))), np.inf)
-    chords = [(p, q) for edge in edges if edge.centre is None
-              for p, q in pairwise(edge.samples or (edge.start, edge.end)) if p != q]
+    chords = [
+        (p, q)
+        for edge in edges
+        if edge.centre is None
+        for p, q in pairwise(edge.samples or (edge.start, edge.end))
+        if p != q
+    ]
     for p, q in np.array(chords).reshape(-1, 2, 2):
         way, to = q - p, points - p
         part = np.clip(to @ way / (way @ way), 0, 1)
@@ -189,8 +197,7 @@ def test_round_trip(make: Callable[[], Drawing], polylines: bool, emulator: Path
 
 @pytest.mark.parametrize("polylines", [False, True])
 @pytest.mark.parametrize("make", drawings.ALL)
-def test_round_trip_without_drift(make: Callable[[], Drawing], polylines: bool, emulator: Path,
-                                  tmp_path: Path) -> None:
+def test_round_trip_without_drift(make: Callable[[], Drawing], polylines: bool, emulator: Path, tmp_path: Path) -> None:
     """The same on the tape of skg-nodrift; that it is one is found out."""
     made = by_rom(emulator, "skg-nodrift", program_of(make), tmp_path)
     for positions in ("machine", "auto"):
@@ -284,8 +291,10 @@ def test_any_contour_without_drift(contour: Callable[[Random], Drawing], limit: 
         made = by_reference(program_of(lambda drawn=drawing: drawn), False)
         found[seed] = apart(tape_edges(made, "machine"), collect(drawing).edges)
     worst = max(found, key=found.__getitem__)
-    print(f"{contour.__name__}: mean {np.mean([*found.values()]):.3f}, more than 1 µm "
-          f"{sum(far > 1 for far in found.values())} of {CONTOURS}, worst {found[worst]:.3f} µm with seed {worst}")
+    print(
+        f"{contour.__name__}: mean {np.mean([*found.values()]):.3f}, more than 1 µm "
+        f"{sum(far > 1 for far in found.values())} of {CONTOURS}, worst {found[worst]:.3f} µm with seed {worst}"
+    )
     assert found[worst] < limit
 
 
@@ -303,6 +312,7 @@ def test_offset(make: Callable[[], Drawing], wishes: dict) -> None:
 @pytest.mark.parametrize("side", ["inside", "outside", "left", "right"])
 def test_sides(side: str) -> None:
     """A single square: cut from inside it shrinks, from outside it grows."""
+
     def square() -> Drawing:
         drawing, space = drawings.new()
         space.add_lwpolyline([(0, 0), (10, 0), (10, 10), (0, 10)], close=True)
@@ -312,24 +322,37 @@ def test_sides(side: str) -> None:
     assert reach == pytest.approx(9.5 if side in ("inside", "left") else 10.5)
 
 
+def comes_back(block: Block) -> bool:
+    """Whether what the programmed ends call a full circle is one on the controller, to 2 µm.
+
+    J with the drift of a circle of a few µm may end it early or send it round again.
+    """
+    try:
+        return not block.is_full_circle or hypot(*run_block(block).move) <= 2
+    except UserError:
+        return False
+
+
+#: Circles of 10, 4, 4.5 and 1.4 µm radius: the third ends on the controller far from where it began.
+STOPS_EARLY = [
+    Block(x, y, j, axis, "NR1")
+    for x, y, j, axis in ((10, 0, 40, "Y"), (4, 0, 16, "Y"), (2, 4, 16, "X"), (1, 1, 4, "X"))
+]
+
+
 @given(st.lists(blocks(), min_size=1, max_size=8))
+@example(STOPS_EARLY)
 @settings(max_examples=40, deadline=None)
 def test_any_tape_draws(items: list[Block]) -> None:
-    """Every block's ends and middle lie on the drawing that is made of it.
-
-    Not of a circle so small that the whole micrometres of its ends decide where it lies: radius below 5 µm.
-    """
+    """Every block's ends and middle lie on the drawing that is made of it."""
     tape = tapes.parse(tapes.to_bytes(items))
     layouts = [place(tape, positions="programmed"), estimate(tape, (0, 0), False)]
-    with suppress(UserError):
-        # A circle of a few µm may never end on the controller.
+    if all(map(comes_back, items)):
         layouts.append(estimate(tape, (0, 0), True))
     for routes, polylines in product(layouts, (False, True)):
         found = collect(draw(routes, [], polylines)).edges
         for route in routes:
             for placed in route.blocks:
-                if not placed.is_line and hypot(placed.block.x, placed.block.y) < 5:
-                    continue
                 points = [(x / 1000, y / 1000) for x, y in (placed.start, placed.at(0.5), placed.end)]
                 assert off(points, found).max() < 2 + 1e-6 * placed.block.length
 
@@ -338,17 +361,26 @@ def test_any_tape_draws(items: list[Block]) -> None:
 @settings(max_examples=30, deadline=None)
 def test_written_as_drawn(items: list[Block | Stop], polylines: bool) -> None:
     """What is written piece by piece is the drawing that ezdxf makes entity by entity, and ezdxf finds it sound."""
-    tape = tapes.Tape("-", tuple(replace(item, number=at) if isinstance(item, Block) else item
-                                 for at, item in enumerate(items, 1)))
+    tape = tapes.Tape(
+        "-", tuple(replace(item, number=at) if isinstance(item, Block) else item for at, item in enumerate(items, 1))
+    )
     routes = place(tape, positions="programmed")
     text = StringIO()
     write_drawing(text, routes, [(0.0, 0.0), (1.5, -2.0)], polylines)
     written, drawn = ezdxf.read(StringIO(text.getvalue())), draw(routes, [(0.0, 0.0), (1.5, -2.0)], polylines)
     assert not written.audit().errors
     ones, others = (
-        [(one.dxftype(), one.dxf.layer, list(one.get_points()) if one.dxftype() == "LWPOLYLINE" else None,
-          {name: value for name, value in one.dxfattribs().items() if name not in ("handle", "owner")})
-         for one in drawing.modelspace()] for drawing in (written, drawn))
+        [
+            (
+                one.dxftype(),
+                one.dxf.layer,
+                list(one.get_points()) if one.dxftype() == "LWPOLYLINE" else None,
+                {name: value for name, value in one.dxfattribs().items() if name not in ("handle", "owner")},
+            )
+            for one in drawing.modelspace()
+        ]
+        for drawing in (written, drawn)
+    )
     assert ones == others and len(ones) >= 2
 
 
@@ -382,7 +414,8 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
     assert layers == {"WIRE", "LEAD", "MOVES", "START", "STOPS"}
     assert run("from-dxf", back, "--list-layers").stdout.startswith(
-        "LEAD: 6 LINE\nMOVES: 5 LINE\nSTART: 6 POINT\nSTOPS: 6 POINT\nWIRE: ")
+        "LEAD: 6 LINE\nMOVES: 5 LINE\nSTART: 6 POINT\nSTOPS: 6 POINT\nWIRE: "
+    )
     again = run("from-dxf", back, "--layer", "WIRE", "-o", "-", "--layer", "wire")
     assert again.exit_code == 0
     assert again.stdout.count("FROM") == 6
@@ -474,15 +507,19 @@ def tilted() -> Drawing:
     return drawing
 
 
-@pytest.mark.parametrize(("make", "arguments", "message"), [
-    (branching, [], "no closed outline: 3 entities meet at junctions or cross, as at (0, 0)"),
-    (empty, [], "no lines, arcs or curves to cut"),
-    (tilted, [], "leaves the drawing's plane, expected a flat drawing"),
-    (drawings.die_plate, ["--layer", "CUT"], "no layer CUT, the drawing has 0"),
-    (drawings.connecting_rod, ["--start", "0,0"] * 4, "4 start holes for 3 contours"),
-])
-def test_bad_drawings(run_program: Run, tmp_path: Path, make: Callable[[], Drawing], arguments: list[str],
-                      message: str) -> None:
+@pytest.mark.parametrize(
+    ("make", "arguments", "message"),
+    [
+        (branching, [], "no closed outline: 3 entities meet at junctions or cross, as at (0, 0)"),
+        (empty, [], "no lines, arcs or curves to cut"),
+        (tilted, [], "leaves the drawing's plane, expected a flat drawing"),
+        (drawings.die_plate, ["--layer", "CUT"], "no layer CUT, the drawing has 0"),
+        (drawings.connecting_rod, ["--start", "0,0"] * 4, "4 start holes for 3 contours"),
+    ],
+)
+def test_bad_drawings(
+    run_program: Run, tmp_path: Path, make: Callable[[], Drawing], arguments: list[str], message: str
+) -> None:
     drawing = tmp_path / "bad.dxf"
     make().saveas(drawing)
     result = run_program("from-dxf", drawing, *arguments)
@@ -500,15 +537,19 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
     assert result.stderr.startswith("skg: -: no lines" if "SECTION" in data else "skg: -: not a DXF drawing")
 
 
-@pytest.mark.parametrize(("arguments", "message"), [
-    (["dxf", "empty.skg"], "skg: empty.skg: expected a program, the file is empty"),
-    (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
-    (["dxf", "two.skg"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
-    (["dxf", "two.skg", "--skg80", "reference"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
-    (["ref", "tape.skg"], "skg: tape.skg: a tape, expected a program"),
-])
-def test_wrong_files(run_program: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str],
-                     message: str) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["dxf", "empty.skg"], "skg: empty.skg: expected a program, the file is empty"),
+        (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
+        (["dxf", "two.skg"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
+        (["dxf", "two.skg", "--skg80", "reference"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
+        (["ref", "tape.skg"], "skg: tape.skg: a tape, expected a program"),
+    ],
+)
+def test_wrong_files(
+    run_program: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], message: str
+) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "empty.skg").write_text("")
     (tmp_path / "tape.3b").write_bytes(b"DD\r\n")

@@ -15,9 +15,13 @@ from skg.tape.positions import POSITIONS, decide
 FORMATS = ("svg", "png", "pdf")
 
 positions_option = click.option(
-    "--positions", type=click.Choice(POSITIONS), default="auto", show_default=True,
+    "--positions",
+    type=click.Choice(POSITIONS),
+    default="auto",
+    show_default=True,
     help="Start each block where the block before should have ended (programmed), or where the controller "
-         "really stands then (machine: tapes without drift); auto: as the tape says, else found out, and said.")
+    "really stands then (machine: tapes without drift); auto: as the tape says, else found out, and said.",
+)
 
 
 def picture_format(output: str, form: str | None, also: str = "") -> str:
@@ -51,6 +55,7 @@ def output_option(text: str) -> Callable[[Callable], Callable]:
     """The option -o, FILE or - for the standard output; `text` is its help."""
     return click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True), help=text)
 
+
 #: No wire with its spark gap is wider than twice this, mm.
 MOST_OFFSET = 5.0
 
@@ -58,9 +63,11 @@ MOST_OFFSET = 5.0
 def skg80_option(function: Callable) -> Callable:
     """Give a command the option --skg80."""
     return click.option(
-        "--skg80", metavar="FILE",
+        "--skg80",
+        metavar="FILE",
         help="What runs programs: an emulator such as build/skg80, or `reference` for the reference "
-             "interpreter. Default: the board with the standard ROM, as in `skg run`.")(function)
+        "interpreter. Default: the board with the standard ROM, as in `skg run`.",
+    )(function)
 
 
 class Coordinates(click.ParamType):

@@ -16,23 +16,48 @@ from skg.tape.placed import place, stop_places
 
 @click.command(name="plot")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
-@click.option("-o", "--output", required=True, type=click.Path(allow_dash=True),
-              help="Picture to write, .svg, .png or .pdf; - for the standard output.")
+@click.option(
+    "-o",
+    "--output",
+    required=True,
+    type=click.Path(allow_dash=True),
+    help="Picture to write, .svg, .png or .pdf; - for the standard output.",
+)
 @click.option("--format", "form", type=click.Choice(FORMATS), help="Format, when the name does not tell it.")
 @click.option("--blocks", is_flag=True, help="Write every block's number beside it.")
-@click.option("--wire", default=0.0, metavar="MM", type=click.FloatRange(0),
-              help="Draw the cut of a wire of this diameter, to scale.")
+@click.option(
+    "--wire",
+    default=0.0,
+    metavar="MM",
+    type=click.FloatRange(0),
+    help="Draw the cut of a wire of this diameter, to scale.",
+)
 @click.option("--no-arrows", is_flag=True, help="No arrows in the direction of travel.")
 @click.option("--show-offset", is_flag=True, help="Also draw the nominal contour (of programs).")
-@click.option("--start", multiple=True, type=Coordinates(),
-              help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.")
+@click.option(
+    "--start",
+    multiple=True,
+    type=Coordinates(),
+    help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.",
+)
 @click.option("--scale", type=click.FloatRange(0, min_open=True), help="Drawing scale; default: what fits.")
 @click.option("--title", default="", help="A title above the drawing.")
 @positions_option
 @skg80_option
-def command(files: tuple[str, ...], output: str, form: str | None, blocks: bool, wire: float, no_arrows: bool,
-            show_offset: bool, start: tuple[XY, ...], scale: float | None, title: str,
-            positions: str, skg80: str | None) -> None:
+def command(
+    files: tuple[str, ...],
+    output: str,
+    form: str | None,
+    blocks: bool,
+    wire: float,
+    no_arrows: bool,
+    show_offset: bool,
+    start: tuple[XY, ...],
+    scale: float | None,
+    title: str,
+    positions: str,
+    skg80: str | None,
+) -> None:
     """Draw tapes (.3b, G-code as .nc or .ngc) and programs (.skg, .xy, .tkh), several in one picture.
 
     Start holes are circles, drilled holes crosses in them, stops squares, positioning moves dashed.

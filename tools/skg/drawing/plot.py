@@ -112,8 +112,12 @@ class Picture:
         bottom = self.low[1] - MARGIN / self.scale
         self.axes.set_xlim(left, left + paper[0] / self.scale)
         self.axes.set_ylim(bottom, bottom + paper[1] / self.scale)
-        self.description = {"mm_to_points": self.scale * 72 / _INCH, "left": left, "bottom": bottom,
-                            "height_points": paper[1] * 72 / _INCH}
+        self.description = {
+            "mm_to_points": self.scale * 72 / _INCH,
+            "left": left,
+            "bottom": bottom,
+            "height_points": paper[1] * 72 / _INCH,
+        }
         self.axes.axis("off")
         self._rulers(title)
 
@@ -127,22 +131,27 @@ class Picture:
         (left, bottom), (right, top) = self.low, self.high
         x, y = left - self.on_paper(4), bottom - self.on_paper(4)
         for low, high, is_x in ((left, right, True), (bottom, top, False)):
-            ticks = [tick for tick in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
-                     if low - 1e-9 <= tick <= high + 1e-9]
+            ticks = [
+                tick
+                for tick in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
+                if low - 1e-9 <= tick <= high + 1e-9
+            ]
             for tick in ticks:
                 dash = self.on_paper(1.5)
                 ends = ([tick, tick], [y, y - dash]) if is_x else ([x, x - dash], [tick, tick])
                 self.axes.plot(*ends, color="#666666", linewidth=0.5)
                 place_at = (tick, y - 2 * dash) if is_x else (x - 2 * dash, tick)
-                self.axes.text(*place_at, f"{tick:g}", ha="center" if is_x else "right",
-                               va="top" if is_x else "center", **grey)
+                self.axes.text(
+                    *place_at, f"{tick:g}", ha="center" if is_x else "right", va="top" if is_x else "center", **grey
+                )
             axis = ([low, high], [y, y]) if is_x else ([x, x], [low, high])
             self.axes.plot(*axis, color="#666666", linewidth=0.5)
         ratio = f"{self.scale:g}:1" if self.scale >= 1 else f"1:{1 / self.scale:g}"
         self.axes.text(right, y - self.on_paper(6), f"mm, scale {ratio}", ha="right", va="top", **grey)
         if title:
-            self.axes.text((left + right) / 2, top + self.on_paper(self.head - 4), title, ha="center",
-                           va="top", fontsize=9)
+            self.axes.text(
+                (left + right) / 2, top + self.on_paper(self.head - 4), title, ha="center", va="top", fontsize=9
+            )
 
     def draw(self, sheet: Sheet, colour: str, name: str, wire: float, arrows: bool, numbers: bool) -> None:
         """Draw one tape; `name` begins the ids of its parts in an SVG."""
@@ -163,12 +172,27 @@ class Picture:
     def _route(self, route: PlacedRoute, colour: str, gid: str, wire: float) -> None:
         curve = _path(route.blocks, 0.001)
         if wire and not route.is_move:
-            kerf = PathPatch(curve, fill=False, edgecolor=colour, alpha=0.25, capstyle="round",
-                             joinstyle="round", linewidth=wire * self.description["mm_to_points"], zorder=1)
+            kerf = PathPatch(
+                curve,
+                fill=False,
+                edgecolor=colour,
+                alpha=0.25,
+                capstyle="round",
+                joinstyle="round",
+                linewidth=wire * self.description["mm_to_points"],
+                zorder=1,
+            )
             kerf.set_gid(f"{gid}-kerf")
             self.axes.add_artist(kerf)
-        path = PathPatch(curve, fill=False, edgecolor=colour, linewidth=0.8, zorder=2,
-                         linestyle=(0, (4, 2)) if route.is_move else "solid", joinstyle="round")
+        path = PathPatch(
+            curve,
+            fill=False,
+            edgecolor=colour,
+            linewidth=0.8,
+            zorder=2,
+            linestyle=(0, (4, 2)) if route.is_move else "solid",
+            joinstyle="round",
+        )
         path.set_gid(gid)
         self.axes.add_artist(path)
         x, y = (ordinate / 1000 for ordinate in route.start)
@@ -212,8 +236,7 @@ class Picture:
             since = 0.0
             x, y = (ordinate / 1000 for ordinate in placed.at(0.5))
             way, size = placed.direction(0.5), self.on_paper(1.3)
-            head = [(x + size * 1.4 * cos(way + turn), y + size * 1.4 * sin(way + turn))
-                    for turn in (0, 2.5, -2.5)]
+            head = [(x + size * 1.4 * cos(way + turn), y + size * 1.4 * sin(way + turn)) for turn in (0, 2.5, -2.5)]
             self.axes.add_artist(Polygon(head, facecolor=colour, edgecolor="none", zorder=5))
 
     def _numbers(self, route: PlacedRoute, colour: str) -> None:
@@ -221,15 +244,23 @@ class Picture:
         for placed in route.blocks:
             x, y = (ordinate / 1000 for ordinate in placed.at(0.5))
             way, away = placed.direction(0.5) + pi / 2, self.on_paper(2.2)
-            self.axes.text(x + away * cos(way), y + away * sin(way), str(placed.block.number), fontsize=6,
-                           ha="center", va="center", color=colour)
+            self.axes.text(
+                x + away * cos(way),
+                y + away * sin(way),
+                str(placed.block.number),
+                fontsize=6,
+                ha="center",
+                va="center",
+                color=colour,
+            )
 
     def legend(self, names: list[str]) -> None:
         """Name the tapes at the top left, each in its colour."""
         top = self.high[1] + self.on_paper(self.head - 3)
         for at, name in enumerate(names):
-            self.axes.text(self.low[0], top - self.on_paper(3) * at, name, va="top", fontsize=6,
-                           color=COLOURS[at % len(COLOURS)])
+            self.axes.text(
+                self.low[0], top - self.on_paper(3) * at, name, va="top", fontsize=6, color=COLOURS[at % len(COLOURS)]
+            )
 
     def save(self, output: str, form: str) -> None:
         """Write the picture; the same drawing always gives the same bytes of SVG."""
