@@ -9,19 +9,9 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from toolhelp import CAD_TAPE, Run
 
 from skg.cli import cli
-
-ROOT = Path(__file__).parents[2]
-
-#: The fixture `run`: call it with the command line's arguments.
-Run = Callable[..., Result]
-
-#: The CAD package's tape of tape-3b.md, and the ISO code that it gave for the same path.
-CAD_TAPE = (
-    b"B9900B0B9900GXL3\r\nB0B70100B70100GYL2\r\nB55000B0B55000GXL3\r\n"
-    b"B50100B100B100000GYNR1\r\nB54900B0B54900GXL3\r\nDD\r\n"
-)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -8,8 +8,8 @@ from math import atan2, hypot, pi
 from pathlib import Path
 
 import numpy as np
-from conftest import ROOT
 from numpy.typing import NDArray
+from toolhelp import ROOT
 
 from skg.ref import run
 from skg.ref.cutter import Cutter

@@ -11,10 +11,10 @@ from pathlib import Path
 import ezdxf
 import pytest
 import shapely
-from conftest import Run
 from ezdxf.document import Drawing
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from shapely.geometry import LineString, Point, Polygon
+from toolhelp import Run
 
 from skg import tape as tapes
 from skg.machine.feeding import feed, is_stored, without_numbers

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT, Run
 from drifthelp import EXAMPLES, OPEN, Curve, farthest, stepped, steps
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from toolhelp import ROOT, Run
 
 from skg import tape as tapes
 from skg.ref import run as reference

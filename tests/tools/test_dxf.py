@@ -18,11 +18,11 @@ import drawings
 import ezdxf
 import numpy as np
 import pytest
-from conftest import ROOT, Run
 from ezdxf.document import Drawing
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
+from toolhelp import ROOT, Run
 
 from skg import tape as tapes
 from skg.drawing import dxf_file, entities, source

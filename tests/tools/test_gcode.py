@@ -8,10 +8,10 @@ from math import hypot, pi
 from pathlib import Path
 
 import pytest
-from conftest import CAD_TAPE, Run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
+from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.ref import mill

@@ -8,7 +8,7 @@ from random import Random
 
 import ezdxf
 import pytest
-from conftest import Run
+from toolhelp import Run
 
 from skg import tape as tapes
 from skg.ref import run as reference

@@ -13,7 +13,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from conftest import CAD_TAPE, Run
+from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.tape.placed import Placed, place

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Run
+from toolhelp import ROOT, Run
 
 from skg import tape as tapes
 from skg.ref import run as reference

@@ -11,11 +11,11 @@ from random import Random
 
 import ezdxf
 import pytest
-from conftest import Run
 from ezdxf import path as dxf_path
 from ezdxf.document import Drawing
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from toolhelp import Run
 
 from skg.drawing.contour import Contour
 from skg.drawing.read import Reading, Wishes, read

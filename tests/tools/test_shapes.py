@@ -7,7 +7,7 @@ from math import acos, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
 import pytest
-from conftest import Run
+from toolhelp import Run
 
 from skg import tape as tapes
 from skg.errors import UserError

@@ -12,9 +12,9 @@ from math import atan2, cos, degrees, hypot, pi, sin
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Run
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from toolhelp import ROOT, Run
 
 from skg import tape as tapes
 from skg.errors import UserError

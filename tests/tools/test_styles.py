@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conftest import CAD_TAPE, Run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
+from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.errors import UserError

@@ -8,9 +8,9 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from conftest import CAD_TAPE, Run
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.errors import UserError

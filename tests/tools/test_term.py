@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import CAD_TAPE
+from toolhelp import CAD_TAPE
 
 from skg.machine.teletype import DC2, DC4, XOFF, XON, Splitter
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -131,3 +131,20 @@ def test_one_name_one_meaning() -> None:
             found[name].append(module)
     assert {"Piece", "Placed", "XY", "Tape", "Punch", "Curve"} <= set(found)
     assert not {name: modules for name, modules in found.items() if len(modules) > 1}
+
+
+def test_test_helpers_have_names_of_their_own() -> None:
+    """What a test imports from beside it is found by its name alone, whatever folders run with it: no other folder may
+    have it, and every folder has a conftest."""
+    tests = sorted((ROOT.parent / "tests").rglob("*.py"))
+    names = Counter(path.stem for path in tests)
+    imported = {
+        name
+        for path in tests
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        for name in ([node.module] if isinstance(node, ast.ImportFrom) else [alias.name for alias in node.names])
+        if name in names
+    }
+    assert {"toolhelp", "romhelp"} <= imported
+    assert not [name for name in imported if names[name] > 1]
