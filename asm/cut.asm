@@ -241,7 +241,7 @@ ITPN2:  DB      CALC,LPX,SA0,LPY,SA1 ; -
         CALL    BELT            ; the line from P to J
         MVI     A,KLIN+80H      ; (bit 7: it passes its corners for certain)
         CALL    ITELM
-ITPN5:  DB      CALC
+ITPN5:  DB      CALC            ; (CLOSE comes in here)
 ITPN3:  DB      LJX,SPX,LJY,SPY ; -
         DB      QEND            ;               (leaves A = 0)
         INR     A
@@ -583,7 +583,7 @@ CLOSE8: CALL    ADVANC
 ; Clobbers B, HL
 RTDONE: LXI     H,HELDN
         MVI     B,FITSM+1-HELDN
-RTDON1: MVI     M,0
+RTDON1: MVI     M,0             ; (RUNINI comes in here with its HL and B)
         INX     H
         DCR     B
         JNZ     RTDON1

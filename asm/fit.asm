@@ -166,7 +166,7 @@ SPOUT3: LXI     D,MNODE2        ; (SPAN comes here when it holds it back)
         MVI     A,NODSIZ
         CALL    COPY
         MVI     A,1
-FITN1:  STA     FITN
+FITN1:  STA     FITN            ; (SFIT comes in here with A = nodes)
         RET
 
 ; TRY - may the span from node 1 to node 2 be held back?

@@ -123,7 +123,7 @@ FNRMC:  LDA     EXPO
         JNZ     FRND
         DB      ERROR,ERANGE
 
-FADD4:  CALL    FLOAD
+FADD4:  CALL    FLOAD           ; FADD: 0 to add to: the other number, packed
         MVI     L,0
         JMP     FNRME
 
@@ -489,7 +489,7 @@ FOVF:   DB      ERROR,ERANGE
 
 FEXP1:  POP     H               ; exponent out of range: drops the return to FMUL, FDIV
         JC      FOVF
-FZERO:  LXI     B,0
+FZERO:  LXI     B,0             ; (FMUL, FDIV and FNRM come in here)
         MOV     D,B
         MOV     E,B
         MOV     H,B
@@ -646,7 +646,7 @@ FFLR:   MOV     A,M
         ORA     E
         JNZ     FFLR1
         INX     B
-FFLR1:  MOV     A,E
+FFLR1:  MOV     A,E             ; (FITOF comes in here)
         STA     ODD
         LXI     H,0A000H
         JMP     FNRM

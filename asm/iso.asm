@@ -54,7 +54,7 @@ UP:     CALL    TAPE0
 ; Out: ERR 03 without a feed   Clobbers all
 DOWN:   LXI     D,RCUTZ
         MVI     A,1
-DOWN1:  STA     RGNUM
+DOWN1:  STA     RGNUM           ; (UP comes in here with A = 0)
         LDA     RSETZ
         ORA     A
         RZ

@@ -249,7 +249,7 @@ PRNUM:  PUSH    B
         DAD     D
         RET
 
-LIST1:  CPI     TSQR
+LIST1:  CPI     TSQR            ; (LISTOK goes on here: a word?)
         JC      LIST3
         MOV     B,A             ; a word
         CPI     TFROM
@@ -268,7 +268,7 @@ LIST2:  CALL    PRWORD
 BLANK:  MVI     A,CBLANK
         DB      PUTC
         RET
-LIST3:  CPI     TSUB
+LIST3:  CPI     TSUB            ; (a name with an index?)
         JNC     LIST4
         MOV     D,A
         RRC

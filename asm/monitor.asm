@@ -175,7 +175,7 @@ OPTLN:  DB      PEEK
 ; LNEND - takes a line number and demands the statement's end
 ; Out: DE = number   Clobbers all
 LNEND:  CALL    LINENO
-LNEND1: XCHG
+LNEND1: XCHG                    ; (OPTLN comes in here with HL = 0: no number)
         DB      CHKEND
         RET
 
@@ -266,7 +266,7 @@ SRUN:   CALL    OPTLN
         MOV     A,D
         ORA     E
         JNZ     GOLINE
-RUN1:   SHLD    NXTP
+RUN1:   SHLD    NXTP            ; (GOLINE, GOSUB and RETURN come in here with the line to go on at)
 ; (fall into RUNLP)
 
 ; RUNLP - runs the program from NXTP on; to READY when a direct line is done
@@ -282,7 +282,7 @@ RUNLP:  LHLD    NXTP
         XCHG
         SHLD    CURLIN
         CALL    BREAK
-DIRECT: LXI     SP,STKTOP
+DIRECT: LXI     SP,STKTOP       ; (CHKED comes in here with a line that has no number)
         LXI     H,0200H
         SHLD    CHKF            ; (nothing new to a line of the program)
         CALL    STMT
@@ -290,7 +290,7 @@ DIRECT: LXI     SP,STKTOP
 
 ; STEND - statement: END
 STEND:  DB      CHKEND
-END1:   CALL    ENDRT
+END1:   CALL    ENDRT           ; (RUNLP comes in here at the end of the program)
         MVI     B,2             ; DD
         CALL    PUNDS
         JMP     READY
@@ -327,7 +327,7 @@ SDAT1:  CALL    EVAL
 ; SREST - statement: RESTORE, RESTORE n
 SREST:  CALL    OPTLN
         CALL    FINDLN
-REST1:  DCX     H
+REST1:  DCX     H               ; (CLRPTR comes in here with the first line)
         DCX     H
         SHLD    DATP
         RET
@@ -440,7 +440,7 @@ SLIS3:  CALL    PLINE
 
 ; SNEW - command: NEW
 SNEW:   DB      CHKEND
-NEW1:   LXI     H,PROG
+NEW1:   LXI     H,PROG          ; (reset comes in here)
         SHLD    PEND
         MVI     M,0
 ; (fall into CLEAR)

@@ -55,12 +55,12 @@ OPENRT: SHLD    ROP
         LDA     RITEMS
         ORA     A
         JZ      ERGEO
-OPENR1: LDA     RBFULL
+OPENR1: LDA     RBFULL          ; (SRECUT comes in here: all items from PEND on)
         ORA     A
         JNZ     ERMEM
         LHLD    RBEND
         SHLD    RSTOP
-OPENR2: LHLD    PEND
+OPENR2: LHLD    PEND            ; (SREP comes in here: from PEND on)
         INX     H
         SHLD    RSRC
         RET

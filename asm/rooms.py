@@ -4,7 +4,8 @@
     asm/rooms.py                prints the graph, each file above those that it leans on, and what goes the other way
     asm/rooms.py FILE           what one file offers, and to whom; what it uses, and of whom
     asm/rooms.py --headers      writes the lines Offers: and Uses: of every header anew
-    asm/rooms.py --check        says which headers are not as they should be (tests/rom/test_rooms.py does)
+    asm/rooms.py --check        says which headers are not as they should be (tests/rom/test_rooms.py does), and which
+                                routines are entered in the middle without a comment there
 
 A name belongs to the file that defines it, as a label or by EQU. A file uses another one when it names something of
 it in an instruction, a DB, DW or EQU. An operation of the calculator (`QCRS`) belongs to the file of its routine
@@ -44,6 +45,11 @@ HOOKS = {
 ONE = ("calc", "float")
 
 DEFINITION = re.compile(r"^(\w+)(?::|\s+EQU\b)")
+LABEL = re.compile(r"^(\w+):")
+#: A jump, a call, or a jump of the byte-code.
+GOES = re.compile(r"\b(?:CALL|JMP|[JC](?:N?[ZC]|P|M)|DB)\s+(\w+)(?:$|-\$)")
+#: What says itself why it is gone to.
+ERROR = re.compile(r"\bDB\s+ERROR,")
 #: An instruction or directive, then its operands.
 STATEMENT = re.compile(r"^(?:\w+:)?\s*(?:\w+\s+EQU|\w+)\s+(.*)")
 WORD = re.compile(r"(?<![\w&])[A-Z][A-Z0-9]*\b")
@@ -199,6 +205,46 @@ def wrong_headers(rooms: dict[str, Room]) -> list[str]:
     return wrong
 
 
+def routines_of(room: Room) -> list[str]:
+    """The routine that each line of a file belongs to: the first label under a comment begins one."""
+    found = []
+    routine, before = room.name, ""
+    for line in room.lines:
+        if before.startswith(";") and (label := LABEL.match(line)):
+            routine = label[1]
+        found.append(routine)
+        before = line
+    return found
+
+
+def silent_entries(rooms: dict[str, Room]) -> list[str]:
+    """Places in the middle of a routine that another one goes to, and no comment says so: one line each.
+
+    The comment stands behind the label, right above it, or in the file under the label's name. Labels of the routine
+    that goes there have its name, or its beginning, and a number.
+    """
+    users: dict[str, set[str]] = defaultdict(set)
+    for room in rooms.values():
+        for line, routine in zip(map(code, room.lines), routines_of(room), strict=True):
+            if room.name not in COMMON and (there := GOES.search(line)):
+                users[there[1]].add(routine)
+    silent = []
+    for room in (room for room in rooms.values() if room.name not in COMMON):
+        remarks = OFFERS.sub("", "\n".join(line for line in room.lines if line.startswith(";")) + "\n")
+        named = set(WORD.findall(remarks))
+        above = ["", *room.lines]
+        for before, line, routine in zip(above, room.lines, routines_of(room), strict=False):
+            label = LABEL.match(line)
+            if not label or label[1] in named or ";" in before + line or ERROR.search(line):
+                continue
+            stem = label[1].rstrip("0123456789")
+            if others := sorted(
+                name for name in users[label[1]] - {routine} if not name.startswith(stem) and not stem.startswith(name)
+            ):
+                silent.append(f"{room.name}.asm: {label[1]} is entered by {' '.join(others)}, and no comment says so")
+    return silent
+
+
 def every() -> dict[str, dict[str, Room]]:
     """The rooms of each image, by its name."""
     from images import IMAGES
@@ -234,7 +280,9 @@ def main() -> None:
             path.write_text(text)
     elif sys.argv[1:] == ["--check"]:
         if wrong := wrong_headers(rooms):
-            sys.exit("\n".join([*wrong, "asm/rooms.py --headers writes Offers: and Uses: anew"]))
+            wrong.append("asm/rooms.py --headers writes Offers: and Uses: anew")
+        if wrong := wrong + silent_entries(rooms):
+            sys.exit("\n".join(wrong))
     elif len(sys.argv) > 1:
         room = rooms[sys.argv[1].removesuffix(".asm")]
         for other, names in offered(rooms, room).items():

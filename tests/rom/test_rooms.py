@@ -36,6 +36,11 @@ def test_no_idle_hook() -> None:
     assert rooms.idle_hooks(ALL) == []
 
 
+def test_no_silent_entry() -> None:
+    """Who goes to the middle of a routine is said there."""
+    assert rooms.silent_entries(ALL) == []
+
+
 @pytest.mark.parametrize("image", IMAGES)
 def test_room(image: str) -> None:
     """No file is longer than its header allows; where restarts are CALLs that counts for an image's own files."""
@@ -111,3 +116,22 @@ def test_a_knot_is_said() -> None:
     assert rooms.knots(rooms.leans(small(), hooks)) == [["equ"], ["two"], ["one"]]
     said = [line for line in rooms.idle_hooks(small()) if "READY" in line]
     assert said == ["READY is a hook that nobody calls"]
+
+
+@pytest.mark.parametrize(
+    ("middle", "said"),
+    [
+        ("PLAY2: RET\n", ["one.asm: PLAY2 is entered by OTHER, and no comment says so"]),
+        ("PLAY2: RET ; (OTHER comes in here)\n", []),
+        ("; (OTHER comes in here)\nPLAY2: RET\n", []),
+        ("PLAY2: DB ERROR,EWORD\n", []),
+        ("JMP PLAY3\nPLAY3: RET\nPLAY2: RET ; (for OTHER)\n", []),
+    ],
+)
+def test_an_entry_in_the_middle_is_said(middle: str, said: list[str]) -> None:
+    sources = {
+        "equ": "",
+        "one": f"; PLAY - plays\nPLAY: NOP\n{middle}",
+        "two": "; OTHER - another routine\nOTHER: JNZ PLAY2\n",
+    }
+    assert rooms.silent_entries(rooms.read(sources)) == said
