@@ -17,11 +17,14 @@ from shapely.geometry import LineString, Point, Polygon
 from toolhelp import Run
 
 from skg import tape as tapes
+from skg.errors import UserError
 from skg.machine.feeding import feed, is_stored, without_numbers
 from skg.plane import XY
 from skg.tape.block import Block
 from skg.tape.controller import run_block
 
+#: A drawing.
+BRACKET = Path(__file__).parents[2] / "docs/pictures/bracket.dxf"
 #: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
 LIMIT, CHORDS = 0.003, 0.0005
 
@@ -128,6 +131,29 @@ def _order(shape: Polygon, cuts: list[list[XY]]) -> int:
 
 
 @pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        (["cut", "--offset", 100], "--offset"),
+        (["cut", "--wire", 100], "--wire"),
+        (["cut", "--wire", 0.18, "--gap", 100], "--gap"),
+        (["cut", "--offset", 0.1, "--passes", "100,0"], "--passes"),
+        (["from-dxf", "--offset", 100], "--offset"),
+        (["gear", "--module", 2, "--teeth", 20, "--offset", 100], "--offset"),
+        (["cam", "--base", 20, "--lift", 8, "--offset", 100], "--offset"),
+    ],
+)
+def test_offsets_that_no_wire_has(run: Run, words: list[object], option: str) -> None:
+    drawing = [BRACKET] if words[0] in ("cut", "from-dxf") else []
+    done = run(*words, *drawing)
+    assert (done.exit_code, f"'{option}'" in done.stderr) == (2, True)
+
+
+def test_a_wire_and_a_gap_that_together_are_too_much(run: Run) -> None:
+    with pytest.raises(UserError, match="5.5 mm beside the contour, at most 5"):
+        run("cut", "--wire", 9, "--gap", 1, BRACKET)
+
+
+@pytest.mark.parametrize(
     ("offset", "words"),
     [
         (0.6, ["the wire", "mm into it", "no room"]),
@@ -171,8 +197,6 @@ def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: 
 
 
 def run_failing(run: Run, *words: object) -> str:
-    from skg.errors import UserError
-
     with pytest.raises(UserError) as failed:
         run(*words)
     return str(failed.value)
@@ -184,7 +208,6 @@ def test_wrong_tapes_are_found() -> None:
     from skg.cutting.job import Settings, make
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan
-    from skg.errors import UserError
 
     corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))

@@ -41,7 +41,7 @@ def command(
     law: str,
     roller: float,
     output: str,
-    offset: float,
+    offset: float | None,
     tab: float,
     tape: str | None,
 ) -> None:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import Coordinates, picture_format
-from skg.drawing.plan import LEAD, plan
-from skg.drawing.read import OPEN, UNITS, Wishes, read
+from skg.commands.options import MOST_OFFSET, drawing_options, offset_option, output_option, picture_format
+from skg.drawing.plan import plan
+from skg.drawing.read import Wishes, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.plane import XY
@@ -27,63 +27,28 @@ class Passes(click.ParamType):
             found = tuple(float(part) for part in str(value).split(","))
         except ValueError:
             found = ()
-        if not found or not all(0 <= more < 100 for more in found):
+        if not found or not all(0 <= more <= MOST_OFFSET for more in found):
             self.fail(f"{value!r}: expected lengths in mm with commas between them, such as 0.06,0.02,0", param, ctx)
         return found
 
 
 @click.command(name="cut")
 @click.argument("file", type=click.Path(allow_dash=True))
-@click.option(
-    "-o",
-    "--output",
-    default="-",
-    show_default=True,
-    type=click.Path(allow_dash=True),
-    help="Tape to write, - for the standard output.",
-)
+@output_option("Tape to write, - for the standard output.")
 @click.option("--program", metavar="FILE", type=click.Path(), help="Also write the SKG program.")
 @click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
-@click.option("--wire", metavar="MM", type=click.FloatRange(0, min_open=True), help="Diameter of the wire.")
-@click.option("--gap", metavar="MM", default=0.0, type=click.FloatRange(0), help="Spark gap on each side of the wire.")
 @click.option(
-    "--offset",
+    "--wire", metavar="MM", type=click.FloatRange(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire."
+)
+@click.option(
+    "--gap",
     metavar="MM",
-    type=click.FloatRange(0),
-    help="The wire's distance from the contour, instead of half of --wire and --gap. Default: 0.",
+    default=0.0,
+    type=click.FloatRange(0, MOST_OFFSET),
+    help="Spark gap on each side of the wire.",
 )
-@click.option(
-    "--side",
-    default="auto",
-    show_default=True,
-    type=click.Choice(("auto", "inside", "outside", "left", "right", "on")),
-    help="Where the wire runs. auto: around outlines, within the openings in them.",
-)
-@click.option("--reverse", is_flag=True, help="Cut in the other direction.")
-@click.option("--layer", "layers", multiple=True, help="Take only this layer; may be given again.")
-@click.option("--units", type=click.Choice(tuple(UNITS)), help="Units of the drawing. Default: as the file says.")
-@click.option(
-    "--open",
-    "opened",
-    type=click.Choice(OPEN),
-    help="What becomes of open contours. Default: cut without an offset, refuse with one.",
-)
-@click.option(
-    "--start",
-    "starts",
-    multiple=True,
-    type=Coordinates(),
-    help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
-)
-@click.option("--start-layer", default="START", show_default=True, help="Layer of the points for start holes.")
-@click.option(
-    "--lead",
-    default=LEAD,
-    show_default=True,
-    metavar="MM",
-    type=click.FloatRange(0, min_open=True),
-    help="From a chosen start hole to the contour, where there is room.",
-)
+@offset_option("The wire's distance from the contour, instead of half of --wire and --gap. Default: 0.")
+@drawing_options
 @click.option(
     "--lead-shape",
     default="perpendicular",
@@ -104,14 +69,6 @@ class Passes(click.ParamType):
     metavar="MM",
     type=click.FloatRange(0),
     help="Length of the bridge that keeps a part cut from outside; the machine stops, the last cut takes it off.",
-)
-@click.option(
-    "--tolerance",
-    default=0.005,
-    show_default=True,
-    metavar="MM",
-    type=click.FloatRange(0, min_open=True),
-    help="Ends no further apart than this are one corner.",
 )
 @click.option(
     "--rom",
@@ -203,4 +160,10 @@ def _offset(wire: float | None, gap: float, offset: float | None) -> float:
         raise UserError("--offset and --wire with --gap say the same thing: give one of them")
     if gap and wire is None:
         raise UserError("--gap goes with --wire")
-    return wire / 2 + gap if wire is not None else offset or 0.0
+    if wire is None:
+        return offset or 0.0
+    if wire / 2 + gap > MOST_OFFSET:
+        raise UserError(
+            f"--wire and --gap put the wire {wire / 2 + gap:g} mm beside the contour, at most {MOST_OFFSET:g}"
+        )
+    return wire / 2 + gap

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import Coordinates, decided, positions_option, skg80_option
+from skg.commands.options import Coordinates, decided, output_option, positions_option, skg80_option
 from skg.files import text_output
 from skg.plane import XY
 
 
 @click.command(name="dxf")
 @click.argument("file", type=click.Path(allow_dash=True))
-@click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True),
-              help="Drawing to write, - for the standard output.")  # fmt: skip
+@output_option("Drawing to write, - for the standard output.")
 @click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM, else 0,0.")
 @click.option("--polylines", is_flag=True, help="One LWPOLYLINE with bulges for each contour.")
 @positions_option

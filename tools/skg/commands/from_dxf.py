@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import MOST_OFFSET, Coordinates
-from skg.drawing.plan import LEAD, plan
-from skg.drawing.read import OPEN, UNITS, Wishes, layer_lines, read
+from skg.commands.options import drawing_options, offset_option, output_option
+from skg.drawing.plan import plan
+from skg.drawing.read import Wishes, layer_lines, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.plane import XY
@@ -16,55 +16,10 @@ from skg.plane import XY
 
 @click.command(name="from-dxf")
 @click.argument("file", type=click.Path(allow_dash=True))
-@click.option(
-    "-o",
-    "--output",
-    default="-",
-    show_default=True,
-    type=click.Path(allow_dash=True),
-    help="Program to write, - for the standard output.",
-)
-@click.option("--layer", "layers", multiple=True, help="Take only this layer; may be given again.")
+@output_option("Program to write, - for the standard output.")
 @click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and write nothing.")
-@click.option(
-    "--offset",
-    default=0.0,
-    metavar="MM",
-    type=click.FloatRange(0, MOST_OFFSET),
-    help="R: half the wire and its spark gap. Default: 0, the wire's middle runs on the contour.",
-)
-@click.option(
-    "--side",
-    default="auto",
-    show_default=True,
-    type=click.Choice(("auto", "inside", "outside", "left", "right", "on")),
-    help="Where the wire runs. auto: around outlines, within the openings in them.",
-)
-@click.option("--reverse", is_flag=True, help="Cut in the other direction (R changes its sign).")
-@click.option(
-    "--start",
-    "starts",
-    multiple=True,
-    type=Coordinates(),
-    help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
-)
-@click.option("--start-layer", default="START", show_default=True, help="Layer of the points for start holes.")
-@click.option(
-    "--lead",
-    default=LEAD,
-    show_default=True,
-    metavar="MM",
-    type=click.FloatRange(0, min_open=True),
-    help="Distance of a chosen start hole from the contour, where there is room.",
-)
-@click.option(
-    "--tolerance",
-    default=0.005,
-    show_default=True,
-    metavar="MM",
-    type=click.FloatRange(0, min_open=True),
-    help="Ends no further apart than this are one corner.",
-)
+@offset_option("R: half the wire and its spark gap. Default: 0, the wire's middle runs on the contour.")
+@drawing_options
 @click.option(
     "--fit-tolerance",
     default=0.0002,
@@ -73,20 +28,13 @@ from skg.plane import XY
     type=click.FloatRange(1e-5),
     help="How near FIT shall come to splines and ellipses.",
 )
-@click.option("--units", type=click.Choice(UNITS), help="Units of the drawing. Default: as the file says, else mm.")
-@click.option(
-    "--open",
-    "opened",
-    type=click.Choice(OPEN),
-    help="What becomes of open contours. Default: cut without --offset, refuse with it.",
-)
 @click.option("--no-fillets", is_flag=True, help="Write rounded corners as circles, not as fillet radii.")
 def command(
     file: str,
     output: str,
     layers: tuple[str, ...],
     list_layers: bool,
-    offset: float,
+    offset: float | None,
     side: str,
     reverse: bool,
     starts: tuple[XY, ...],
@@ -115,7 +63,7 @@ def command(
     for line in reading.report.lines():
         click.echo(f"skg: {file}: {line}", err=True)
     try:
-        routes = plan(reading.contours, list(starts) or reading.starts, offset, side, reverse, lead)
+        routes = plan(reading.contours, list(starts) or reading.starts, offset or 0.0, side, reverse, lead)
     except UserError as error:
         raise UserError(f"{file}: {error}") from None
     title = "standard input" if file == "-" else Path(file).name

@@ -57,7 +57,7 @@ def command(
     bore: float,
     keyway: tuple[float, float],
     output: str,
-    offset: float,
+    offset: float | None,
     tab: float,
     tape: str | None,
 ) -> None:

@@ -11,6 +11,8 @@ from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Tape
 from skg.tape.positions import POSITIONS, decide
 
+#: No wire with its spark gap is wider than twice this, mm.
+MOST_OFFSET = 5.0
 #: Formats of pictures, by the ending of a file's name.
 FORMATS = ("svg", "png", "pdf")
 
@@ -51,13 +53,66 @@ def say(tape: Tape, more: str = "") -> None:
         click.echo(f"skg: {tape.name}: {note}", err=True)
 
 
-def output_option(text: str) -> Callable[[Callable], Callable]:
+def output_option(text: str, required: bool = False) -> Callable[[Callable], Callable]:
     """The option -o, FILE or - for the standard output; `text` is its help."""
-    return click.option("-o", "--output", default="-", show_default=True, type=click.Path(allow_dash=True), help=text)
+    default = {"required": True} if required else {"default": "-", "show_default": True}
+    return click.option("-o", "--output", type=click.Path(allow_dash=True), help=text, **default)
 
 
-#: No wire with its spark gap is wider than twice this, mm.
-MOST_OFFSET = 5.0
+def offset_option(text: str) -> Callable[[Callable], Callable]:
+    """The option --offset, None when it is not given; `text` is its help."""
+    return click.option("--offset", metavar="MM", type=click.FloatRange(0, MOST_OFFSET), help=text)
+
+
+def drawing_options(function: Callable) -> Callable:
+    """Give a command the options for how a drawing is read, and how its contours are entered and run through."""
+    from skg.drawing.plan import LEAD, SIDES  # which loads numpy
+    from skg.drawing.wishes import OPEN, UNITS
+
+    for option in (
+        click.option("--layer", "layers", multiple=True, help="Take only this layer; may be given again."),
+        click.option("--units", type=click.Choice(tuple(UNITS)), help="Units of the drawing, instead of the file's."),
+        click.option(
+            "--tolerance",
+            default=0.005,
+            show_default=True,
+            metavar="MM",
+            type=click.FloatRange(0, min_open=True),
+            help="Ends no further apart than this are one corner.",
+        ),
+        click.option(
+            "--open",
+            "opened",
+            type=click.Choice(OPEN),
+            help="What becomes of open contours. Default: cut without an offset, refuse with one.",
+        ),
+        click.option(
+            "--side",
+            default="auto",
+            show_default=True,
+            type=click.Choice(SIDES),
+            help="Where the wire runs. auto: around outlines, within the openings in them.",
+        ),
+        click.option("--reverse", is_flag=True, help="Cut in the other direction."),
+        click.option(
+            "--start",
+            "starts",
+            multiple=True,
+            type=Coordinates(),
+            help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
+        ),
+        click.option("--start-layer", default="START", show_default=True, help="Layer of the points for start holes."),
+        click.option(
+            "--lead",
+            default=LEAD,
+            show_default=True,
+            metavar="MM",
+            type=click.FloatRange(0, min_open=True),
+            help="From a chosen start hole to the contour, where there is room.",
+        ),
+    )[::-1]:
+        function = option(function)
+    return function
 
 
 def skg80_option(function: Callable) -> Callable:

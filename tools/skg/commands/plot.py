@@ -6,7 +6,15 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import FORMATS, Coordinates, decided, picture_format, positions_option, skg80_option
+from skg.commands.options import (
+    FORMATS,
+    Coordinates,
+    decided,
+    output_option,
+    picture_format,
+    positions_option,
+    skg80_option,
+)
 from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import micrometres
@@ -16,13 +24,7 @@ from skg.tape.placed import place, stop_places
 
 @click.command(name="plot")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
-@click.option(
-    "-o",
-    "--output",
-    required=True,
-    type=click.Path(allow_dash=True),
-    help="Picture to write, .svg, .png or .pdf; - for the standard output.",
-)
+@output_option("Picture to write, .svg, .png or .pdf; - for the standard output.", required=True)
 @click.option("--format", "form", type=click.Choice(FORMATS), help="Format, when the name does not tell it.")
 @click.option("--blocks", is_flag=True, help="Write every block's number beside it.")
 @click.option(

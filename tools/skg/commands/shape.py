@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import click
 
+from skg.commands.options import offset_option, output_option
 from skg.drawing.contour import Contour
 from skg.errors import UserError
 from skg.files import write_bytes
@@ -16,31 +17,22 @@ def shape_options(function: Callable) -> Callable:
     for option in (
         click.option("--tape", metavar="FILE", type=click.Path(), help="Also write the tape, by the no-drift ROM."),
         click.option("--tab", default=0.0, metavar="MM", type=click.FloatRange(0), help="A bridge, as in `skg cut`."),
-        click.option(
-            "--offset", default=0.0, metavar="MM", type=click.FloatRange(0), help="R: half the wire and its spark gap."
-        ),
-        click.option(
-            "-o",
-            "--output",
-            default="-",
-            show_default=True,
-            type=click.Path(allow_dash=True),
-            help="Program to write, - for the standard output.",
-        ),
+        offset_option("R: half the wire and its spark gap. Default: 0, the wire's middle runs on the contour."),
+        output_option("Program to write, - for the standard output."),
     ):
         function = option(function)
     return function
 
 
 def write_shape(
-    name: str, contours: Callable[[], list[Contour]], output: str, offset: float, tab: float, tape: str | None
+    name: str, contours: Callable[[], list[Contour]], output: str, offset: float | None, tab: float, tape: str | None
 ) -> None:
     """Write the program that cuts contours; it is run and its tape compared with the exact curves before."""
     from skg.cutting.job import Settings, make, report
     from skg.drawing.plan import plan
 
     try:
-        job = make(plan(contours(), [], offset, "auto", tab=tab), name, 1.0, Settings())
+        job = make(plan(contours(), [], offset or 0.0, "auto", tab=tab), name, 1.0, Settings())
     except UserError as error:
         raise UserError(f"{name}: {error}") from None
     write_bytes(output, job.program.encode("ascii"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import say
+from skg.commands.options import output_option, say
 from skg.drawing.source import load
 from skg.files import write_bytes
 from skg.tape.styles import STYLES, to_style
@@ -12,14 +12,7 @@ from skg.tape.styles import STYLES, to_style
 
 @click.command(name="tape")
 @click.argument("file", default="-", type=click.Path(allow_dash=True))
-@click.option(
-    "-o",
-    "--output",
-    default="-",
-    show_default=True,
-    type=click.Path(allow_dash=True),
-    help="Tape to write, - for the standard output.",
-)
+@output_option("Tape to write, - for the standard output.")
 @click.option(
     "--style",
     type=click.Choice(list(STYLES)),

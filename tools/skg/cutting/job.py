@@ -133,7 +133,7 @@ def kind(route: PlannedContour) -> str:
     """What a contour is."""
     if not route.contour.is_closed:
         return "open contour"
-    return "opening" if route.depth % 2 else "outline"
+    return "opening" if route.is_opening else "outline"
 
 
 def _named(route: PlannedContour, number: int, factor: float) -> str:

@@ -49,11 +49,6 @@ class LayerSum:
     left: int = 0
     why: dict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
 
-    @property
-    def is_balanced(self) -> bool:
-        """Whether all that was read was cut or left."""
-        return self.read == self.cut + self.part + self.left
-
 
 @dataclass(frozen=True)
 class OpenEnd:

@@ -14,6 +14,8 @@ from skg.drawing.field import Field
 from skg.errors import UserError
 from skg.plane import XY, distance, minus, polar, turn
 
+#: Where the wire may run, see `plan`.
+SIDES = ("auto", "inside", "outside", "left", "right", "on")
 #: A start hole is this far from the contour where there is room, mm.
 LEAD = 3.0
 #: How many edges of a contour are tried for a start hole with room around it.

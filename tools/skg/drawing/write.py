@@ -356,7 +356,7 @@ def describe(route: PlannedContour) -> str:
     if not contour.is_closed:
         return f"OPEN: {parts}"
     way = "COUNTER-CLOCKWISE" if contour.area > 0 else "CLOCKWISE"
-    return f"{'OPENING' if route.depth % 2 else 'OUTLINE'}, {way}: {parts}"
+    return f"{'OPENING' if route.is_opening else 'OUTLINE'}, {way}: {parts}"
 
 
 def write(routes: list[PlannedContour], title: str, fillets: bool = True) -> str:
