@@ -1,5 +1,5 @@
 ; decimal.asm - numbers as decimal digits: read, printed
-; Offers: DECOUT DECOU1 PRDEC DECIN LEXDEC DIGIT LEXCH
+; Offers: DECOUT PRDEC DECIN LEXDEC DIGIT LEXCH
 ; Uses:   calc consts float start
 ; Room:   451 bytes
 ;
@@ -70,28 +70,29 @@ FDIG3:  DCR     B
         ORA     A
         RET
 
-; DECOUT - prints a number
-; In:  HL -> x, B = most significant digits (8 or 9)   Clobbers all, and t0
+; DECOUT - prints a number times a power of ten; other powers than 0 go with a whole x below 2^27 and B = 9
+; In:  HL -> x, B = most significant digits (8 or 9), E = power of ten   Clobbers all, and t0
 ; Cycles: whole numbers below 2^26 2,600 a digit, others 60,000 to 150,000
 DECOUT: CALL    FSGN
         MVI     A,CZERO
         JZ      PUTC0
         MVI     A,CMINUS
         CM      PUTC0
-        MVI     C,0
+        MOV     C,E
         PUSH    B
         XCHG
         LXI     H,MT0
         PUSH    H
         CALL    COPY5
         POP     H
-        MOV     A,M
-        CPI     9BH
-        JNC     DECO1
+        MOV     A,B
+        ADI     92H
+        CMP     M
+        JC      DECO1
         CALL    FWHOLE
         MOV     A,L
         ORA     A
-        JZ      DECO4           ; whole and below 2^26
+        JZ      DECO4           ; whole, of at most B digits (below 2^26 or 2^27)
 ; C = the power of ten of the first digit, from the exponent of two: right or one too large
 DECO1:  POP     B
         LDA     MT0
@@ -127,7 +128,7 @@ DECO4:  XCHG
         MOV     E,C
         POP     B
 ; DECOU1 - prints a whole number times a power of ten
-; In:  D E H L = number, not 0, C = power of ten (PRDEC: 0, PRMM of iso.asm: -3)   Clobbers all
+; In:  D E H L = number, not 0, C = power of ten   Clobbers all
 DECOU1: XRA     A
         STC                     ; CY: behind the last digit
         PUSH    PSW

@@ -1,8 +1,8 @@
 ; iso.asm - moves in whole micrometres, as blocks of ISO words (milling.md)
 ; Offers: RFEED RCUTZ RTRAVZ RSETZ RGNUM RUNCEL RUNLEN HOME UP DOWN REPOS ENTER MOVE GXY PUTNUM STOP
 ;         PUNDS BLOCK
-; Uses:   calc decimal float geom grid io io_send lexer parser start value
-; Room:   354 bytes
+; Uses:   calc consts decimal float geom grid io io_send lexer parser start value
+; Room:   325 bytes
 ;
 ; The tool stands at W in the plane and at the height WZ, the move goes to V (arcs: arc_iso.asm) or to
 ; the height VZ; all in whole um.  At the beginning of a tape W and WZ are a number that no place is, so
@@ -22,8 +22,8 @@ LASTNO  EQU 9999        ; the block behind which 1 comes
 ; Cells in the room that MWORK has left, and behind the registers
 RFEED   EQU MWORK+25    ; feed in the plane; 0: none yet
 RDOWN   EQU MWORK+30    ; feed downwards
-RCUTZ   EQU MWORK+35    ; cutting height
-RTRAVZ  EQU MWORK+40    ; travel height
+RCUTZ   EQU MWORK+35    ; cutting height, in whole um above 5 mm: a run begins with 0
+RTRAVZ  EQU MWORK+40    ; travel height, likewise
 RSETZ   EQU MWORK+45    ; not 0 = there has been a Z
 RGNUM   EQU MWORK+46    ; the block's G, 0 to 3
 
@@ -58,8 +58,9 @@ DOWN1:  STA     RGNUM           ; (UP comes in here with A = 0)
         LDA     RSETZ
         ORA     A
         RZ
-        CALL    OOVR            ; z
-        DB      CALC,QDUP,SVZ,LWZ,QSUB,QJZ ; -
+        CALL    OOVR            ; z             (above 5 mm)
+        DB      CALC,Q10,QHALF,QMUL,QRND,QADD ; z
+        DB      QDUP,SVZ,LWZ,QSUB,QJZ ; -
         DB      THERE-$
         DB      QEND
         CALL    GBLOCK
@@ -120,49 +121,31 @@ GWORDS: LDAX    D
         INX     D
         PUSH    D
         PUSH    B
-        PUSH    H
-        CALL    PRMM
-        POP     H
-        LXI     D,5
-        DAD     D
+        MVI     B,9
+        MVI     E,-3            ; um as mm
+        CALL    PRNUM1
         POP     B
         POP     D
         DCR     C
         JNZ     GWORDS
+        LXI     H,BLKOFF
+        PUSH    H               ; comes last
         LDA     RGNUM
         ORA     A
-        JZ      BLKOFF          ; a rapid has none
+        RZ                      ; a rapid has none
         MOV     E,B
         MVI     D,RFEED/256
         CALL    GETA            ; a0 = the feed
         LXI     D,RPUNF
         CALL    OOVR
         CALL    CMPNE
-        JZ      BLKOFF          ; the same
+        RZ                      ; the same
         LXI     H,RPUNF
         PUSH    H
         CALL    PUTA
         POP     H
         MVI     A,CLTF
-        CALL    PUTNUM
-        JMP     BLKOFF
-
-GLETS:  DB      "XYIJ"
-GLETZ:  DB      "Z"
-
-; PRMM - prints a whole number of um in mm
-; In:  HL -> it   Clobbers all
-PRMM:   CALL    FSGN
-        MVI     A,CZERO
-        JZ      PUTC0
-        MVI     A,CMINUS
-        CM      PUTC0
-        CALL    FWHOLE
-        XCHG
-        MOV     D,B
-        MOV     E,C
-        MVI     C,-3            ; (in thousandths)
-        JMP     DECOU1
+; (fall into PUTNUM)
 
 ; PUTNUM - a word that is no coordinate
 ; In:  A = letter, HL -> number   Out: HL -> behind it   Clobbers A, B, DE
@@ -170,15 +153,19 @@ PUTNUM: DB      PUTC
         MVI     B,8
         JMP     PRNUM
 
+
+GLETS:  DB      "XYIJ"
+GLETZ:  DB      "Z"
+
 ; GBLOCK - begins a block with G
 ; In:  RGNUM   Out: ERR 03 when it cuts without a feed   Clobbers all
 GBLOCK: LDA     RGNUM
-        ORA     A
-        JZ      GBLOC1
-        LDA     RFEED
-        ORA     A
+        SUI     1
+        SBB     A               ; not 0: a rapid
+        LXI     H,RFEED
+        ORA     M
         JZ      ERUNS
-GBLOC1: CALL    BLOCK
+        CALL    BLOCK
         MVI     A,CLTG
         DB      PUTC
         LDA     RGNUM
@@ -231,9 +218,10 @@ BLOCK:  CALL    TAPE0
         CALL    BLKOFF
 BLOCK1: LHLD    BLKNO
         LXI     D,-LASTNO
+        XCHG
         DAD     D
         JC      BLOCK2          ; (0)
-        LHLD    BLKNO
+        XCHG
 BLOCK2: INX     H
         SHLD    BLKNO
         CALL    BLKON

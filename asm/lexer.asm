@@ -1,7 +1,7 @@
 ; lexer.asm - a line: typed, made tokens of, listed
-; Offers: GETLIN LEX LISTLN PRNUM BLANK
+; Offers: GETLIN LEX LISTLN PRNUM PRNUM1 BLANK
 ; Uses:   decimal io io_disk io_punch io_tty monitor start value
-; Room:   453 bytes
+; Room:   455 bytes
 ;
 ; The tokens are in equ.asm, the words and theirs in words.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
@@ -240,7 +240,9 @@ LISTOK: MOV     A,M
 ; PRNUM - prints one of several floats
 ; In:  HL -> it, B = most significant digits (8 or 9)
 ; Out: HL -> behind it   Clobbers A, DE
-PRNUM:  PUSH    B
+PRNUM:  MVI     E,0
+; PRNUM1 - the same, times 10^E (as DECOUT has it)
+PRNUM1: PUSH    B
         PUSH    H
         CALL    DECOUT
         POP     H

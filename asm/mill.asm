@@ -1,7 +1,7 @@
 ; mill.asm - the statements of milling: F, Z, M, G, HOLE (milling.md)
 ; Offers: SFREES SFEED SHGHT SPREP SMISC SHOLE
 ; Uses:   calc consts cut float grid io_send iso monitor parser start value
-; Room:   320 bytes
+; Room:   282 bytes
 
 LASTW   EQU 99          ; greatest number of M, G and T
 
@@ -9,8 +9,8 @@ LASTW   EQU 99          ; greatest number of M, G and T
 ; Out: ERR 01 in a line with a number
 SFREES: LDA     TOKS
         DCR     A               ; TFLT?
-        JZ      ERSYN
-        JMP     SFREE
+        JNZ     SFREE
+        DB      ERROR,ESYN
 
 ; SFEED - statement: F feed; F feed, feed downwards
 SFEED:  CALL    FARG
@@ -27,39 +27,34 @@ SFEED1: DB      CHKEND
 ; PAIR - stores t0 and t1
 ; In:  HL -> to   Clobbers A, DE, HL
 PAIR:   LXI     D,MT0
-        MVI     A,10
-        JMP     COPY
+        JMP     CPYPL
 
 ; FARG - takes a feed, or another number of 0.001 to 99999999
 ; Out: the number on the float stack (not in check mode); ERR 04, ERR 05   Clobbers all
 FARG:   CALL    EVNUM
-        CALL    CHKRET
+        RNZ
         DB      CALC,LA0,QMU,QSUB ; a
         DB      Q8DIG,LA0,QSUB,QMUL,QSQRT,QDRP ; - (the root refuses what is negative)
         DB      LA0,QRET        ; x
 
 ; ZARG - takes a height
-; Out: in whole um on the float stack (not in check mode); ERR 04, ERR 10   Clobbers all
+; Out: in whole um above 5 mm on the float stack (not in check mode); ERR 04, ERR 10   Clobbers all
 ZARG:   CALL    EVNUM
-        CALL    CHKRET
-        DB      CALC,LA0,QRND,QRET ; z
+        RNZ
+        DB      CALC,LA0,QRND,Q10,QHALF,QMUL,QRND,QSUB,QRET ; z
 
 ; SHGHT - statement: Z cutting height; Z cutting height, travel height
 SHGHT:  LXI     D,RTRAVZ
         CALL    OOVR            ; t             as it was
-        LDA     RSETZ
-        ORA     A
-        JNZ     SHGHT1
-        DB      CALC,QDRP,Q1000,Q10,QMUL,QHALF,QMUL,QEND ; t   5 mm at first
-SHGHT1: CALL    ZARG            ; t z
+        CALL    ZARG            ; t z
         DB      PEEK
-        JZ      SHGHT2
+        JZ      SHGHT1
         DB      EXPECT,CCOMMA
         CALL    ZARG            ; t z t1
         DB      CALC,QSWP,QEND  ; t t1 z
-SHGHT2: DB      CHKEND
+SHGHT1: DB      CHKEND
         DB      CALC,ST0,ST1    ; ...
-        DB      LT1,LT0,QSUB,QSQRT,QDRP,QEND ; ... (the root refuses what is negative)
+        DB      LT1,LT0,QSUB,QSQRT,QEND ; ... (the root refuses what is negative)
         CALL    NOROUT
         LXI     H,RCUTZ
         CALL    PAIR
@@ -74,7 +69,7 @@ NOROUT: LDA     RITEMS
         DB      ERROR,EGEOM
 
 ; WHOLE - takes the number of an M, G or T
-; Out: the number on the float stack, L = it (in check mode any); ERR 04, ERR 05   Clobbers all
+; Out: Z, the number on the float stack, L = it (in check mode any); ERR 04, ERR 05   Clobbers all
 WHOLE:  CALL    EVINT
         LXI     D,-LASTW-1
         XCHG
@@ -86,60 +81,59 @@ WHOLE:  CALL    EVINT
         RET
 
 ; SPREP - statement: G n; G n, number.  SMISC - statement: M n; M n, number
-SPREP:  LXI     D,GTAB
-        JMP     WORD1
-SMISC:  LXI     D,MTAB
-WORD1:  PUSH    D
+SPREP:  MVI     E,GTAB & 255
+        DB      SKIP2           ; skips the MVI
+SMISC:  MVI     E,MTAB & 255
+        MVI     D,GTAB/256
+        PUSH    D
         CALL    WHOLE           ; n
         POP     D
-WORD2:  LDAX    D
+WORD1:  LDAX    D
         CMP     L
         JZ      ERRNG           ; the program's own
         INX     D
         ORA     A
-        JP      WORD2
+        JP      WORD1
         MOV     B,A             ; B = letter, with bit 7
-        LDAX    D               ; C = the other number's
-        CPI     CLTS
-        JNZ     WORD3
+        LDAX    D
+        MOV     C,A             ; C = the other number's
         MOV     A,L
-        SUI     6
-        MVI     A,CLTS
-        JNZ     WORD3
-        INR     A               ; M6: T
-WORD3:  MOV     C,A
+        ADI     CLTS-6
+        CMP     C
+        JNZ     WORD2
+        INR     C               ; M6: T (no G comes here with a P: it would be G3)
+WORD2:  DB      PEEK
+        JZ      WORD3
         PUSH    B
-        DB      PEEK
-        JZ      WORD4
         DB      EXPECT,CCOMMA
-        LXI     H,WORD5
-        PUSH    H
         MOV     A,C
         CPI     CLTT
-        JZ      WHOLE           ; n d
-        JMP     FARG            ; n d
-WORD4:  POP     B
-        MVI     C,0             ; there is none
+        CZ      WHOLE           ; n d           (leaves Z set)
+        CNZ     FARG            ; n d
+        DB      SKIP2           ; skips MOV and PUSH
+WORD3:  MOV     C,A             ; (0, from PEEK) there is none
         PUSH    B
-WORD5:  DB      CHKEND
+WORD4:  DB      CHKEND
         CALL    NOROUT
         CALL    BLOCK
         POP     B
-        MOV     A,B
         PUSH    B
-        CPI     CLTG+80H
-        LXI     H,FSTK
-        CZ      PUTNUM          ; G goes first
         MOV     A,C
-        ORA     A
+        CPI     CLTS
         LXI     H,FSTK+5
-        CNZ     PUTNUM
+        CNC     PUTNUM          ; S and T stand in front of M
         POP     B
         MOV     A,B
-        CPI     CLTM+80H
         LXI     H,FSTK
-        CZ      PUTNUM          ; M last
+        CALL    PUTNUM
+        MOV     A,C
+        CPI     CLTP
+        CZ      PUTNUM          ; P behind G
         JMP     BLKOFF
+
+;! PLCSIZ == 2*5 -- PAIR: a place is two floats, too
+;! GTAB/100H == MTAB/100H -- SPREP and SMISC differ in the low byte
+;! CLTT == CLTS+1 and CLTP == CLTS-3 -- M6 has a T; G3 is the program's own
 
 ; Numbers that are the program's own, then the letter with bit 7 set, then that of what may follow
 GTAB:   DB      0,1,2,3,17,18,19,20,21,40,41,42,90,91,93,95,CLTG+80H,CLTP
@@ -147,14 +141,13 @@ MTAB:   DB      2,30,CLTM+80H,CLTS
 
 ; SHOLE - statement: HOLE point, point ...
 SHOLE:  CALL    EVPNT
-        CALL    HOLE
+        CZ      HOLE
         CALL    MORE
         JMP     SHOLE
 
 ; HOLE - drills one
 ; In:  a point as value   Out: H = W = it; ERR 06, ERR 03   Clobbers all
-HOLE:   CALL    CHKRET
-        CALL    NOROUT
+HOLE:   CALL    NOROUT
         LDA     RSETZ
         ORA     A
         JZ      ERUNS

@@ -352,7 +352,7 @@ EVINT:  CALL    EVNUM
 ; EVPNT - value of an expression that must be a point
 ; EVNUM - of one that must be a number
 ; EVKIND - of one that must be of kind A
-; In, Out: as EVAL; ERR 04   Clobbers all
+; In, Out: as EVAL, Z set but in check mode; ERR 04   Clobbers all
 EVPNT:  MVI     A,KPNT
         DB      SKIP1           ; skips the XRA
 EVNUM:  XRA     A

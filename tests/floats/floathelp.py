@@ -276,12 +276,12 @@ class Printer(Firmware):
         self.machine.poke(self.CAPTURE, code)
         self.machine.poke(0x0010, bytes([0xC3, self.CAPTURE & 255, self.CAPTURE >> 8]))
 
-    def printed(self, rows: NDArray[np.uint8], digits: int) -> tuple[list[str], Batch]:
-        """What DECOUT prints of floats given as rows of bytes, and the calls."""
+    def printed(self, rows: NDArray[np.uint8], digits: int, power: int = 0) -> tuple[list[str], Batch]:
+        """What DECOUT prints of floats given as rows of bytes, times a power of ten, and the calls."""
         pointer = np.tile(np.array([self.TEXT & 255, self.TEXT >> 8], np.uint8), (len(rows), 1))
         room = np.zeros((len(rows), self.WIDTH), np.uint8)
         inputs = np.concatenate([pointer, rows, room], axis=1)
-        batch = self.batch("DECOUT", inputs, self.TEXT, self.WIDTH, hl=X + 2, bc=digits << 8)
+        batch = self.batch("DECOUT", inputs, self.TEXT, self.WIDTH, hl=X + 2, bc=digits << 8, de=power & 0xFF)
         assert not batch.failures
         starts = range(0, len(rows) * self.WIDTH, self.WIDTH)
         lines = (batch.outputs[start : start + self.WIDTH] for start in starts)

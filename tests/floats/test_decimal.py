@@ -128,6 +128,17 @@ def test_out_whole(printer: Printer, record_property: Report) -> None:
     record_property("floats", f"DECOUT {len(numbers)} whole numbers, below 2^26 {cycles.mean():.0f} cycles")
 
 
+def test_out_thousandths(printer: Printer) -> None:
+    """Whole micrometres as millimetres, as ISO blocks have them: exactly, up to 99,999.999, and quickly."""
+    random = np.random.default_rng(10)
+    numbers = [*range(1100), 99999999, 90000001, 10000000, 99999000, (1 << 26) - 1, 1 << 26, (1 << 26) + 1]
+    numbers += np.exp(random.uniform(0, np.log(99999999), 2000)).astype(int).tolist()
+    numbers += [-n for n in numbers]
+    text, batch = printer.printed(np.array([list(nearest(Fraction(n))) for n in numbers], np.uint8), 9, -3)
+    assert text == [form(Fraction(n, 1000), 9) for n in numbers]
+    assert batch.cycles.max() <= 30_000
+
+
 @pytest.mark.parametrize(
     ("number", "text"),
     [
