@@ -6,6 +6,7 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+import click
 import pytest
 
 import skg
@@ -81,11 +82,13 @@ def test_answers_and_output(run_program: Program, tmp_path: Path) -> None:
     ("rom", "options"),
     [
         ("no-drift", ["--rom", ROMS / "skg-nodrift.bin"]),
+        ("nodrift", ["--rom", ROMS / "skg-nodrift.bin"]),
+        ("skg-nodrift", ["--rom", ROMS / "skg-nodrift.bin"]),
         (ROMS / "skg.hex", ["--rom", ROMS / "skg.hex"]),
         ("8251", ["--rom", ROMS / "skg-8251.bin", "--board", "8251"]),
         ("tty", ["--rom", ROMS / "skg-tty.bin", "--punch-tty"]),
     ],
-    ids=["no-drift", "hex", "8251", "tty"],
+    ids=["no-drift", "nodrift", "skg-nodrift", "hex", "8251", "tty"],
 )
 def test_roms(run_program: Program, rom: str, options: list[str]) -> None:
     part = ROOT / "examples" / "skg06-belts.skg"
@@ -192,3 +195,13 @@ def test_board_shows_the_paper_as_it_is_printed() -> None:
 def test_board_takes_ascii_alone() -> None:
     with pytest.raises(skg.errors.UserError, match="'é' is not ASCII"):
         skg.Board().type("REM é")
+
+
+@pytest.mark.parametrize("spelling", ["no-drift", "nodrift", "NoDrift", "skg-nodrift"])
+def test_one_name_of_a_rom(spelling: str) -> None:
+    """`skg cut` has the same names; there it is one of two."""
+    from skg.commands.options import RomName
+
+    assert RomName(("no-drift", "standard")).convert(spelling, None, None) == "no-drift"
+    with pytest.raises(click.BadParameter):
+        RomName(("no-drift", "standard")).convert("tty", None, None)

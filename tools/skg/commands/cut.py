@@ -6,7 +6,14 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import MOST_OFFSET, drawing_options, offset_option, output_option, picture_format
+from skg.commands.options import (
+    MOST_OFFSET,
+    RomName,
+    drawing_options,
+    offset_option,
+    output_option,
+    picture_format,
+)
 from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, read
 from skg.errors import UserError
@@ -74,7 +81,7 @@ class Passes(click.ParamType):
     "--rom",
     default="no-drift",
     show_default=True,
-    type=click.Choice(("no-drift", "nodrift", "standard")),
+    type=RomName(("no-drift", "standard")),
     help="The ROM that makes the tape. On a standard tape the misses of the arcs add up.",
 )
 @click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
@@ -125,7 +132,7 @@ def command(
     wishes = Wishes(layers, start_layer, units, tolerance, open=opened or ("refuse" if distance else "cut"))
     reading = read(read_bytes(file), file, wishes)
     factor = reading.report.factor
-    settings = Settings("no-drift" if rom == "nodrift" else rom, ram, feed)
+    settings = Settings(rom, ram, feed)
     try:
         routes = plan(
             reading.contours,

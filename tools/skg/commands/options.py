@@ -125,6 +125,16 @@ def skg80_option(function: Callable) -> Callable:
     )(function)
 
 
+class RomName(click.Choice):
+    """The name of a ROM, however it is spelt."""
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the name as `ROMS` has it."""
+        from skg.machine.roms import known_rom
+
+        return super().convert(known_rom(str(value)) or value, param, ctx)
+
+
 class Coordinates(click.ParamType):
     """Two numbers with a comma between them, such as 115000,-10000."""
 

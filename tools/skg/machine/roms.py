@@ -30,14 +30,24 @@ ROMS = {
 }
 
 
+def known_rom(name: str) -> str | None:
+    """The key of `ROMS` that a name means: `nodrift` and an image's own name, `skg-nodrift`, will do for "no-drift"."""
+
+    def bare(word: str) -> str:
+        return word.lower().removeprefix("skg-").replace("-", "")
+
+    return next((key for key in ROMS if bare(key) == bare(name)), None)
+
+
 def find_rom(name: str) -> tuple[bytes, list[int], Rom]:
     """The image of one of `ROMS`, or of a file (.bin or .hex) for the standard board; the addresses left out.
 
     One that is missing or cannot be read is a `UserError`.
     """
-    rom = ROMS.get(name)
-    if rom is None:
+    key = known_rom(name)
+    if key is None:
         return *read_rom(name), Rom(name)
+    rom = ROMS[key]
     installed = Path(__file__).resolve().with_name("roms")
     path = (installed if installed.is_dir() else CHECKOUT / "roms") / rom.file
     return *read_rom(str(path)), rom
