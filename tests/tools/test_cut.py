@@ -246,9 +246,20 @@ def test_numbers_taken_off() -> None:
     """A stored program's lines as lines that are carried out; one that jumps cannot be taken so."""
     program = "20 CUT (0,0),(5,0),(5,5)\n10 FROM (0,-3)\n30 BACK\n40 END\n"
     plain = without_numbers(program)
-    assert plain == "FROM (0,-3)\nCUT (0,0),(5,0),(5,5)\nBACK\nEND\n"
-    assert feed(plain).tape == feed(program).tape
+    assert plain == ["FROM (0,-3)", "CUT (0,0),(5,0),(5,5)", "BACK", "END"]
+    assert feed("\n".join(plain)).tape == feed(program).tape
     assert without_numbers(program + "35 IF 1>2 GOTO 10\n") is None
+    assert without_numbers(program + "3 5 go to 10\n") is None
+    assert without_numbers(program + "PRINT 1\n") is None
+
+
+def test_numbers_taken_off_as_a_run_has_it() -> None:
+    """Lines that replace and delete others, blanks in numbers, an END in the middle, none at all, ctrl-Z."""
+    program = "10 PRINT 1\r20FROM(0,-3)\r\n2 0 FROM (1,-3)\n10\n3 0CUT O,(5,0),O\n35 END\n40 CUT (0,9)\n\x1a50 IF"
+    plain = without_numbers(program)
+    assert plain == ["FROM (1,-3)", "CUT O,(5,0),O", "END"]
+    assert feed("\n".join(plain)).tape == feed(program).tape != b""
+    assert without_numbers("10 PRINT 1\n") == ["PRINT 1", "END"]
 
 
 def start_of(program: Path, number: int = 0) -> XY:

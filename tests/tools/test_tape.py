@@ -10,7 +10,7 @@ from random import Random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from toolhelp import CAD_TAPE, Run
+from toolhelp import CAD_TAPE, ROOT, Run
 
 from skg import tape as tapes
 from skg.errors import UserError
@@ -117,6 +117,41 @@ def test_sound_tapes_pass(run: Run, cad_tape: Path) -> None:
     assert result.exit_code == 0
     assert result.output.splitlines() == [f"{cad_tape}: 5 blocks, nothing wrong"] * 2
     assert run("check", "-", stdin=b"\0\0\0" + CAD_TAPE + b"\0\0").exit_code == 0
+
+
+def filled(data: bytes) -> bytes:
+    """A file as CP/M has it: ctrl-Zs up to the end of the last record, one at least."""
+    return data.ljust((len(data) // 128 + 1) * 128, b"\x1a")
+
+
+def test_ctrl_zs_of_cpm_are_no_finding(run: Run) -> None:
+    """They are the file's end, and said as a note; what stands behind them is not."""
+    result = run("check", "-", stdin=filled(CAD_TAPE))
+    assert (result.exit_code, result.stdout) == (0, "-: 5 blocks, nothing wrong\n")
+    assert result.stderr == "skg: -: ends with ctrl-Zs, as a file of CP/M does; they are not on the tape\n"
+    assert run("check", "-", stdin=CAD_TAPE[:-4] + b"\x1a" * 30).exit_code == 1
+    result = run("check", "-", stdin=CAD_TAPE + b"\x1a\x1aB1")
+    assert "expected nothing after DD, found byte 1AH\n" in result.stdout
+
+
+@pytest.mark.parametrize("words", [
+    "sim cad-tape.3b", "tape cad-tape.3b", "gcode cad-tape.3b", "plot -o - cad-tape.3b",
+    "check mill/plate.nc", "sim mill/plate.nc", "gcode --back mill/rosette.nc", "run xy-star.skg", "ref xy-star.skg",
+    "sim xy-star.skg", "quality fit-gear.skg", "xy xy-gear.xy", "tekhtran tkh-maltese.tkh",
+    "run tkh-maltese.tkh", "check xy-gear.xy",
+])  # fmt: skip
+def test_every_reader_takes_files_of_cpm(run: Run, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    command = words.split()
+    own, other = (tmp_path / name / Path(command[-1]).name for name in ("own", "other"))
+    results = []
+    for path in (own, other):
+        path.parent.mkdir()
+        data = (ROOT / "examples" / command[-1]).read_bytes()
+        path.write_bytes(data if path == own else filled(data))
+        monkeypatch.chdir(path.parent)
+        results.append(run(*command[:-1], path.name))
+    assert results[0].exit_code == results[1].exit_code == 0
+    assert results[0].stdout == results[1].stdout != ""
 
 
 @given(st.binary(max_size=60))

@@ -20,9 +20,14 @@ def read_bytes(path: str) -> bytes:
     return sys.stdin.buffer.read()
 
 
+def without_filling(data: bytes) -> bytes:
+    """A file without the ctrl-Zs with which CP/M fills its last record up, and without blank tape at its end."""
+    return data.rstrip(b"\x1a\0")
+
+
 def read_ascii(path: str) -> str:
     """Return a file's text; anything but ASCII is a `UserError`."""
-    data = read_bytes(path)
+    data = without_filling(read_bytes(path))
     try:
         return data.decode("ascii")
     except UnicodeDecodeError as error:

@@ -11,7 +11,7 @@ import click
 from skg.commands.options import positions_option
 from skg.drawing.source import tape_bytes
 from skg.errors import UserError
-from skg.files import read_ascii
+from skg.files import read_ascii, without_filling
 from skg.tape import gcode
 from skg.tape.block import Tape
 from skg.tape.styles import read_any
@@ -75,6 +75,8 @@ def _list_3b(name: str, data: bytes, tape: Tape, findings: list[Finding], list_a
                 click.echo(str(error))
                 return
     _list(name, findings, f"{len(tape.blocks)} blocks", list_all)
+    if b"\x1a" in data[len(without_filling(data)) :]:
+        click.echo(f"skg: {name}: ends with ctrl-Zs, as a file of CP/M does; they are not on the tape", err=True)
     for note in notes:
         click.echo(
             f"skg: {name}: {note}; the other commands read it so, and `skg tape` writes it as the punch", err=True

@@ -14,10 +14,11 @@ MOST_CYCLES = 10**12
 #: RAM that a board may have, KiB.
 LEAST_RAM, MOST_RAM = 2, 56
 MEMORY_FULL = 9
-_NUMBERED = re.compile(r"\s*\d")
-_PLAIN = re.compile(r"\s*\d+\s*")
+#: A line's number: blanks mean nothing, inside it too.
+_NUMBERED = re.compile(r"[\0- ]*(\d[\0- \d]*)")
+_MEANS_NOTHING = re.compile(r"[\0- ]")
 #: Statements that need a stored program; and those that only one can read.
-_STORED = re.compile(r"\s*\d+\s*(GOTO|GOSUB|IF|RETURN|READ|DATA|RESTORE|INPUT)\b", re.IGNORECASE)
+_STORED = ("GOTO", "GOSUB", "IF", "RETURN", "READ", "DATA", "RESTORE", "INPUT")
 
 
 @dataclass(frozen=True)
@@ -29,19 +30,37 @@ class Fed:
     cycles: int
 
 
+def lines_of(program: str) -> list[str]:
+    """The lines of a program as LOAD takes them: CR or LF ends one, up to ctrl-Z; empty ones do not count."""
+    return [line for line in re.split(r"[\r\n]", program.partition("\x1a")[0]) if line.strip("\0 ")]
+
+
 def is_stored(program: str) -> bool:
     """Whether a program must be RUN: one without a line number that ends with END has done all when it is loaded."""
-    lines = [line for line in program.splitlines() if line.strip()]
-    return any(map(_NUMBERED.match, lines)) or lines[-1:] != ["END"]
+    lines = lines_of(program)
+    return any(map(_NUMBERED.match, lines)) or [_bare(line) for line in lines[-1:]] != ["END"]
 
 
-def without_numbers(program: str) -> str | None:
-    """A numbered program as lines that are carried out as they are loaded; None where it jumps, asks or has DATA."""
-    lines = program.splitlines()
-    if any(_STORED.match(line) or not _NUMBERED.match(line) for line in lines if line.strip()):
+def without_numbers(program: str) -> list[str] | None:
+    """A numbered program as lines that are carried out as they come; None where it jumps, asks or has DATA."""
+    stored: dict[int, str] = {}
+    for line in lines_of(program):
+        number = _NUMBERED.match(line)
+        if not number:
+            return None
+        # A later line with the same number takes the first one's place, one without a statement deletes it.
+        stored[int(_MEANS_NOTHING.sub("", number[1]))] = line[number.end() :]
+    statements = [stored[number] for number in sorted(stored) if _bare(stored[number])]
+    if any(_bare(statement).startswith(_STORED) for statement in statements):
         return None
-    ordered = sorted((line for line in lines if line.strip()), key=lambda line: int(line.split()[0]))
-    return "".join(f"{_PLAIN.sub('', line, count=1)}\n" for line in ordered)
+    # A run ends with the first END, or past the last line.
+    ends = [at for at, statement in enumerate(statements) if _bare(statement) == "END"]
+    return [*statements[: min(ends, default=len(statements))], "END"]
+
+
+def _bare(line: str) -> str:
+    """A line as the board reads it: without blanks and control characters, in capitals."""
+    return _MEANS_NOTHING.sub("", line).upper()
 
 
 def feed(program: str, rom: str | bytes = "standard", ram_kib: int = 8) -> Fed:

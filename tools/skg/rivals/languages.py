@@ -6,7 +6,7 @@ from importlib import import_module
 from pathlib import Path
 
 from skg.errors import UserError
-from skg.files import read_bytes
+from skg.files import read_bytes, without_filling
 
 #: A rival's ending -> the module that makes SKG of it, loaded when it is needed: its `translate` takes the text and
 #: the file's name.
@@ -29,7 +29,7 @@ def translated(name: str, ending: str | None = None) -> str:
     `ending` says which rival's, where the name does not.
     """
     rival = import_module(MODULES[ending or Path(name).suffix.lower()])
-    data = read_bytes(name)
+    data = without_filling(read_bytes(name))
     try:
         return rival.translate(data.decode("utf-8-sig"), Path(name).name)
     except UnicodeDecodeError as error:

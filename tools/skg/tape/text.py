@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from skg.errors import UserError
-from skg.files import read_bytes
+from skg.files import read_bytes, without_filling
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
 from skg.tape.styles import read_any, to_style
 
@@ -105,9 +105,9 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
 
     Blocks whose text cannot be read are left out of the tape; blocks that can be read but cannot be right
     (see `Block.problems`, which goes by `positions`) are in it. NULs before the first block and after `DD` are blank
-    tape.
+    tape, ctrl-Zs at the end CP/M's.
     """
-    text = data.decode("latin-1").lstrip("\0")
+    text = without_filling(data).decode("latin-1").lstrip("\0")
     items: list[Block | Stop] = []
     findings: list[Finding] = []
     number, ended, bare = 0, False, 0
