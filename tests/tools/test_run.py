@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -205,3 +206,14 @@ def test_one_name_of_a_rom(spelling: str) -> None:
     assert RomName(("no-drift", "standard")).convert(spelling, None, None) == "no-drift"
     with pytest.raises(click.BadParameter):
         RomName(("no-drift", "standard")).convert("tty", None, None)
+
+
+def test_meaning_of_errors() -> None:
+    """What the tools say of an error is how the table of language.md, section 6, begins."""
+    from skg.machine.board import ERRORS
+
+    table = (ROOT / "docs" / "spec" / "language.md").read_text().partition("## 6. Errors")[2]
+    rows = dict(re.findall(r"^\| (\d\d) \| (.*) \|$", table, re.M))
+    assert len(rows) == len(ERRORS) == 10
+    for number, meaning in ERRORS.items():
+        assert number == 10 or rows[f"{number:02d}"].startswith(meaning)

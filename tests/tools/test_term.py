@@ -36,6 +36,10 @@ class Machine:
         self.lines: list[str] = []
         self.hold_after = 0
         self.held: list[int] = []
+        #: A character that gets lost on the line, so often.
+        self.loses, self.losses = b"", 0
+        #: A line that is answered with this error.
+        self.refuses, self.answer_is = "", b"ERR 06\r\n"
         self.master = -1
         self.stopping = False
         self.plug()
@@ -72,14 +76,24 @@ class Machine:
                     self.answer(line, byte, master)
 
     def answer(self, line: bytearray, byte: int, master: int) -> None:
+        if byte == 0x15:
+            line.clear()
+            os.write(master, b"\r\n")
+            return
+        if self.losses and bytes([byte]) == self.loses:
+            self.losses -= 1
+            return
         if byte != 0x0D:
             line.append(byte)
             os.write(master, bytes([byte]))
             if len(self.received) == self.hold_after:
-                self.hold(master)
+                for late in self.hold(master):
+                    self.answer(line, late, master)
             return
         os.write(master, b"\r\n")
         self.lines.append(line.decode())
+        if self.lines[-1] == self.refuses:
+            os.write(master, self.answer_is)
         if line == b"RUN":
             codes = (bytes([DC2]), bytes([DC4])) if self.between_codes else (b"", b"")
             if self.between_codes:
@@ -87,7 +101,7 @@ class Machine:
         line.clear()
         os.write(master, b">")
 
-    def hold(self, master: int) -> None:
+    def hold(self, master: int) -> list[int]:
         """Send XOFF, see what still comes, and send XON."""
         os.write(master, bytes([XOFF]))
         time.sleep(0.3)
@@ -98,6 +112,7 @@ class Machine:
         time.sleep(0.3)
         assert not select.select([master], [], [], 0)[0], "nothing is sent while held"
         os.write(master, bytes([XON]))
+        return list(self.held)
 
     def stop(self) -> None:
         self.stopping = True
@@ -120,10 +135,10 @@ def test_sends_and_records(machine: Machine, tmp_path: Path) -> None:
     part.write_text(PROGRAM)
     result = term(machine.link, "--send", part, "--run", "--record", tape, "--batch")
     assert result.returncode == 0, result.stderr
-    assert machine.lines == [*PROGRAM.splitlines(), "RUN"]
+    assert machine.lines == ["NEW", *PROGRAM.splitlines(), "RUN"]
     assert tape.read_bytes() == CAD_TAPE
     assert b"B9900B0B9900GXL3" in result.stdout, "what is punched is on the paper too"
-    assert result.stdout.count(b">") == 4
+    assert result.stdout.count(b">") == 5
     assert result.stderr.decode().endswith(f"{len(CAD_TAPE)} bytes punched to {tape}\n")
 
 
@@ -147,6 +162,92 @@ def test_flow_control(machine: Machine, tmp_path: Path) -> None:
     # A pseudo-terminal has no line speed: what is written before XOFF is read is on its way already.
     assert len(machine.held) < 1000 < len(text) / 3
     assert bytes(machine.received).decode() == text.replace("\n", "\r")
+
+
+def test_xoff_between_prompts(machine: Machine, tmp_path: Path) -> None:
+    """XOFF in the middle of a line holds it; its echo is waited for all the same."""
+    part = tmp_path / "part.skg"
+    part.write_text(PROGRAM)
+    machine.hold_after = 20
+    assert term(machine.link, "--send", part, "--batch").returncode == 0
+    assert machine.lines == PROGRAM.splitlines()
+    assert 20 + len(machine.held) < len(PROGRAM)
+
+
+def test_a_character_that_got_lost(machine: Machine, tmp_path: Path) -> None:
+    """A line is not ended before its echo is what was typed: 10.5 shall never be cut as 105."""
+    part = tmp_path / "part.skg"
+    part.write_text("10 REM A\n20 CUT (10.5,0)\n30 END\n")
+    machine.loses, machine.losses = b".", 1
+    assert term(machine.link, "--send", part, "--batch").returncode == 0
+    assert machine.lines == part.read_text().splitlines()
+    machine.lines.clear()
+    machine.losses = 9
+    result = term(machine.link, "--send", part, "--batch")
+    assert (result.returncode, machine.lines) == (1, ["10 REM A"])
+    assert b"part.skg, line 2: comes back as '20 CUT (105,0)': the line to the board loses characters" in result.stderr
+
+
+@pytest.mark.parametrize("pace", ["prompt", "none"])
+def test_an_error_ends_what_is_sent(machine: Machine, pace: str, tmp_path: Path) -> None:
+    part = tmp_path / "part.skg"
+    part.write_text(PROGRAM * 100)
+    machine.refuses = "20 CUT P1,P2"
+    result = term(machine.link, "--send", part, "--batch", "--pace", pace, "--quiet", "0.5")
+    assert result.returncode == 1
+    assert b": ERR 06, geometry impossible" in result.stderr
+    if pace == "prompt":
+        assert machine.lines == ["10 REM A PART", "20 CUT P1,P2"]
+        assert b"part.skg, line 2: ERR 06" in result.stderr
+
+
+def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:
+    """In a terminal the operator goes on from there."""
+    part = tmp_path / "part.skg"
+    part.write_text(PROGRAM)
+    machine.refuses = "20 CUT P1,P2"
+    outer, inner = pty.openpty()
+    process = subprocess.Popen(
+        [SKG, "term", machine.link, "--send", part, "--run"], stdin=inner, stdout=inner, stderr=inner
+    )
+    read_until(outer, b"line 2: ERR 06, geometry impossible; nothing more was sent")
+    os.write(outer, b"PRINT 2\r")
+    read_until(outer, b"PRINT 2\r\n>")
+    os.write(outer, b"\x1d")
+    assert process.wait(timeout=10) == 0
+    assert machine.lines == ["NEW", *PROGRAM.splitlines()[:2], "PRINT 2"]
+    for descriptor in (inner, outer):
+        os.close(descriptor)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("10 REM A\n20 REM \u00c4\n", "part.skg: line 2: '20 REM \u00c4' is not plain ASCII"),
+        ("10 REM\n20 " + "X" * 124, "part.skg: line 2: 127 characters, the board takes 126"),
+    ],
+)
+def test_what_the_board_cannot_take(machine: Machine, text: str, message: str, tmp_path: Path) -> None:
+    """Nothing at all is sent of a file that has such a line."""
+    part = tmp_path / "part.skg"
+    part.write_text(text)
+    result = term(machine.link, "--send", part, "--batch")
+    assert (result.returncode, machine.lines) == (2, [])
+    assert message in result.stderr.decode()
+
+
+def test_nobody_there(tmp_path: Path) -> None:
+    """A port without a board behind it."""
+    part = tmp_path / "part.skg"
+    part.write_text(PROGRAM)
+    master, slave = pty.openpty()
+    tty.setraw(slave)
+    result = term(os.ttyname(slave), "--send", part, "--batch")
+    assert result.returncode == 1
+    assert b"the board does not answer: is it on" in result.stderr
+    assert os.read(master, 100) == b"\x15"
+    for descriptor in (master, slave):
+        os.close(descriptor)
 
 
 def test_punch_on_a_port_of_its_own(machine: Machine, tmp_path: Path) -> None:
@@ -201,19 +302,25 @@ def test_gives_up(machine: Machine) -> None:
     assert errors.splitlines()[-1] == f"skg: {machine.link}: no such file or directory, given up"
 
 
+def read_until(descriptor: int, wanted: bytes) -> bytes:
+    """What comes out of a terminal up to something."""
+    seen = b""
+    while wanted not in seen:
+        assert select.select([descriptor], [], [], 10)[0], seen
+        seen += os.read(descriptor, 1000)
+    return seen
+
+
 def test_in_a_terminal(machine: Machine) -> None:
     """Keys go out one by one, ctrl-] leaves, and the terminal is as it was."""
     outer, inner = pty.openpty()
     process = subprocess.Popen([SKG, "term", machine.link], stdin=inner, stdout=inner, stderr=inner)
     time.sleep(1)
     os.write(outer, b"PRINT 2\r")
-    deadline = time.monotonic() + 10
-    while machine.lines != ["PRINT 2"] and time.monotonic() < deadline:
-        time.sleep(0.02)
+    read_until(outer, b"PRINT 2\r\n>")
     os.write(outer, b"\x1d")
     assert process.wait(timeout=10) == 0
     assert machine.lines == ["PRINT 2"]
-    assert b"PRINT 2\r\n>" in os.read(outer, 1000)
     for descriptor in (inner, outer):
         os.close(descriptor)
 

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from skg.machine.feeding import feed
+
 ROOT = Path(__file__).resolve().parents[2]
 SKG = Path(sys.executable).with_name("skg")
 SKG80 = ROOT / "build" / "skg80"
@@ -92,22 +94,14 @@ def test_punched_by_the_machine(name: str, tmp_path: Path) -> None:
     assert len(listed) == len(part.read_text().splitlines())
 
 
-def test_at_a_real_lines_pace(tmp_path: Path) -> None:
-    """9600 baud, 2 MHz: what is typed is held back by the prompt, nothing is lost."""
-    part, tape = ROOT / "examples" / "xy-star.skg", tmp_path / "part.3b"
+@pytest.mark.parametrize("options", [[], ["--unnumbered"]], ids=["stored", "unnumbered"])
+def test_at_a_real_lines_pace(options: list[str], tmp_path: Path) -> None:
+    """9600 baud, 8 MHz: what is typed is held back by the prompt, nothing is lost."""
+    part, tape = ROOT / "examples" / "plate-fillets.skg", tmp_path / "part.3b"
     with emulator(tmp_path, "skg-tty", "--punch-tty", "--baud", "9600", "--mhz", "8") as machine:
-        done = term(machine.link, "--send", part, "--run", "--record", tape, "--batch", "--quiet", "10")
+        done = term(machine.link, "--send", part, "--run", "--record", tape, "--batch", *options)
     assert done.returncode == 0, done.stderr
     assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()
-
-
-def test_an_error_does_not_stop_the_sender(tmp_path: Path) -> None:
-    """A teletype alone has its reader stopped by DC3 after an error; the lines behind it go on from the prompt."""
-    part = tmp_path / "part.skg"
-    part.write_text("10 REM A\n20 XYZ=\n30 REM B\n")
-    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
-        paper = term(machine.link, "--send", part, "--batch", "--quiet", "1").stdout
-    assert b"ERR 01\r\n>30 REM B\r\n" in paper
 
 
 def test_the_machine_goes_away_and_comes_back(tmp_path: Path) -> None:
@@ -137,3 +131,141 @@ def test_the_machine_goes_away_and_comes_back(tmp_path: Path) -> None:
         done = term(machine.link, "--send", part, "--run", "--record", tape, "--batch")
     assert done.returncode == 0, done.stderr
     assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()
+
+
+def run_to_tape(machine: Emulator, part: Path, *options: object) -> tuple[subprocess.CompletedProcess[bytes], bytes]:
+    """`--send --run` in a batch: what it says, and the tape, from the terminal or from the machine's own punch."""
+    tape = machine.punch.with_name("part.3b")
+    own = "--punch-tty" not in machine.command
+    done = term(machine.link, "--send", part, "--run", "--batch", *([] if own else ["--record", tape]), *options)
+    return done, (machine.punch if own else tape).read_bytes()
+
+
+def zigzag(count: int, numbered: bool) -> str:
+    """A program of many CUTs, a line each."""
+    lines = ["FROM (0,-5)", *(f"CUT ({k}.25,{k * k % 17 - 0.5}),({k}.75,{k * k % 13})" for k in range(count)), "END"]
+    return "".join(f"{10 * at} {line}\n" if numbered else f"{line}\n" for at, line in enumerate(lines, 1))
+
+
+BOARDS = {"skg": [], "skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"]}
+
+
+@pytest.mark.parametrize("rom", BOARDS)
+def test_any_size_goes_through_any_board(rom: str, tmp_path: Path) -> None:
+    """A program that memory does not hold is sent again without its numbers, each line carried out as it comes."""
+    part = tmp_path / "part.skg"
+    part.write_text(zigzag(60, numbered=True))
+    with emulator(tmp_path, rom, *BOARDS[rom], "--ram", "2") as machine:
+        done, tape = run_to_tape(machine, part)
+    assert done.returncode == 0, done.stderr
+    assert b"does not fit in the board's memory (ERR 09): sent again without its line numbers" in done.stderr
+    assert tape == feed(part.read_text(), ram_kib=56).tape
+    assert tape.count(b"\n") > 100
+
+
+def test_as_many_lines_as_one_likes(tmp_path: Path) -> None:
+    """300 lines without numbers, blocks punched between them, on a teletype alone."""
+    part = tmp_path / "part.skg"
+    part.write_text(zigzag(300, numbered=False))
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        done, tape = run_to_tape(machine, part)
+    assert (done.returncode, done.stderr.count(b"skg term: ")) == (0, 1), done.stderr
+    assert tape == feed(part.read_text()).tape
+    assert b"RUN" not in done.stdout
+
+
+def test_what_was_on_the_board_is_not_in_the_tape(tmp_path: Path) -> None:
+    """Neither an old program's lines nor R, SCALE and a route that lines without numbers have left."""
+    first, second = tmp_path / "first.skg", ROOT / "examples" / "plate-fillets.skg"
+    first.write_text("5 FROM (99,99)\n15 PRINT 1/0\nR=0.3\nSCALE 2\nCUT (1,1),(2,2),(5,0)\n")
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        assert term(machine.link, "--send", first, "--batch").returncode == 0
+        for options in ([], ["--unnumbered"], []):
+            done, tape = run_to_tape(machine, second, *options)
+            assert (done.returncode, tape) == (0, second.with_suffix(".3b").read_bytes()), done.stderr
+
+
+def test_a_route_left_open_is_ended(tmp_path: Path) -> None:
+    """Lines without numbers and without an END: RUN would drop the route and its last block."""
+    part = tmp_path / "part.skg"
+    part.write_text("CUT O,(5,0),(5,5)\n")
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        done, tape = run_to_tape(machine, part)
+    assert (done.returncode, tape) == (0, b"B5000B0B5000GXL1\r\nB0B5000B5000GYL2\r\nDD\r\n")
+
+
+#: What goes wrong: a program, options, what is said, what is not sent any more.
+WRONG = {
+    "unnumbered": (
+        "FROM O\nCUT (1,0),(2,0)\n\nCUT (5,5):-A\nCUT (9,9)\nEND\n",
+        ["--run"],
+        "part.skg, line 4: ERR 03, name without a value; O, X or Y assigned; nothing more was sent",
+        b"(9,9)",
+    ),
+    "run": (
+        "10 CUT O,(5,0)\n20 A=1/0\n",
+        ["--run"],
+        "part.skg, at `RUN`: ERR 05 LINE 20, number out of range;",
+        b"END",
+    ),
+    "stored": ("10 REM A\n20 XYZ=\n30 REM B\n", [], "part.skg, line 2: ERR 01, statement or expr", b"30 REM B"),
+    "full": (zigzag(60, numbered=True), [], ": ERR 09, memory full: --run sends it without its line numbers", b">600"),
+    "full and jumps": (
+        zigzag(60, numbered=True) + "9999 IF 1>2 GOTO 10\n",
+        ["--run"],
+        ": ERR 09, memory full: it takes 4 KiB of RAM; nothing more",
+        b">600",
+    ),
+    "jumps": ("10 IF 1>2 GOTO 10\n", ["--run", "--unnumbered"], "part.skg: not without its line numbers", b"GOTO"),
+    "asks": ("10 INPUT A\n", ["--run"], "INPUT asks, and nobody answers", b"20"),
+}
+
+
+@pytest.mark.parametrize(("what", "rom"), [
+    (what, rom) for what in WRONG for rom in BOARDS if what in ("unnumbered", "run") or rom == "skg-tty"
+])  # fmt: skip
+def test_nothing_is_sent_behind_an_error(what: str, rom: str, tmp_path: Path) -> None:
+    text, options, message, unsent = WRONG[what]
+    part, tape = tmp_path / "part.skg", tmp_path / "part.3b"
+    part.write_text(text)
+    with emulator(tmp_path, rom, *BOARDS[rom], "--ram", "2") as machine:
+        done = term(machine.link, "--send", part, "--batch", "--record", tape, *options)
+    assert done.returncode == 1
+    said = [line for line in done.stderr.decode().splitlines() if message in line]
+    assert len(said) == 1, done.stderr
+    assert unsent not in done.stdout
+    if rom == "skg-tty" and tape.stat().st_size:
+        assert done.stderr.endswith(b"the tape is not complete\n")
+
+
+def test_answers_from_a_pipe(tmp_path: Path) -> None:
+    """What stands on the standard input is typed behind RUN: INPUT's answers, as they are asked for."""
+    part = tmp_path / "part.skg"
+    part.write_text("10 INPUT A,D\n20 CUT O,(A,D)\n")
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        done = term(machine.link, "--send", part, "--run", "--record", tmp_path / "part.3b", stdin="3\n4\n")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "part.3b").read_bytes() == b"B3000B4000B4000GYL1\r\nDD\r\n"
+
+
+def test_the_port_goes_away_while_a_tape_is_made(tmp_path: Path) -> None:
+    """A stored program is sent anew, whole, when the board may have lost it; lines that were carried out are not."""
+    part = tmp_path / "part.skg"
+    for numbered in (True, False):
+        part.write_text(zigzag(100, numbered))
+        with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+            command = [SKG, "term", machine.link, "--send", part, "--run", "--batch", "--record", tmp_path / "part.3b"]
+            sender = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            assert sender.stdout
+            seen = b""
+            while b"CUT (20.25" not in seen:
+                seen += sender.stdout.read1(4096)
+            machine.unplug()
+            machine.plug()
+            errors = sender.communicate(timeout=60)[1]
+        assert sender.returncode == (0 if numbered else 1), errors
+        if numbered:
+            assert b"sent again from its first line" in errors
+            assert (tmp_path / "part.3b").read_bytes() == feed(part.read_text()).tape
+        else:
+            assert b"the port went away" in errors and b"the tape is not complete" in errors

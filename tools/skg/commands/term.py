@@ -21,7 +21,17 @@ from skg.files import read_bytes
     type=click.Path(allow_dash=True),
     help="Type this file first, line by line; - for the standard input.",
 )
-@click.option("--run", is_flag=True, help="Type RUN after the file.")
+@click.option(
+    "--run",
+    is_flag=True,
+    help="Make the tape of the file: NEW, its lines, RUN. One that does not fit in the board's memory is sent again "
+    "without its line numbers, if it can be, and said. Without a file: RUN.",
+)
+@click.option(
+    "--unnumbered",
+    is_flag=True,
+    help="With --run: send a program without its line numbers at once, so that each line is carried out as it comes.",
+)
 @click.option("--record", metavar="FILE", type=click.Path(), help="Write what is punched to this file.")
 @click.option("--punch-port", metavar="PORT", help="Where the punch is connected, if not to PORT itself.")
 @click.option("--baud", default=9600, show_default=True, type=click.IntRange(50), help="Speed of both ports.")
@@ -30,7 +40,7 @@ from skg.files import read_bytes
     type=click.Choice(("prompt", "none")),
     default="prompt",
     show_default=True,
-    help="After each line that is sent wait for the prompt, or for nothing but XOFF.",
+    help="Look at the echo of each line and wait for the prompt behind it, or for nothing but XOFF.",
 )
 @click.option(
     "--delay", default=0.0, metavar="SECONDS", type=click.FloatRange(0), help="Also wait this long after each line."
@@ -38,10 +48,12 @@ from skg.files import read_bytes
 @click.option(
     "--batch",
     is_flag=True,
-    help="Leave when the file was sent and the tape's DD was punched, or when nothing has come for --quiet seconds.",
+    help="Leave when the board has answered the last line and the tape's DD was punched; nobody is at the keyboard.",
 )
-@click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS",
-              type=click.FloatRange(0, min_open=True), help="How long --batch waits for more.")  # fmt: skip
+@click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS", type=click.FloatRange(0, min_open=True),
+              help="How long --batch waits for more where no prompt tells it.")  # fmt: skip
+@click.option("--silence", default=120.0, show_default=True, metavar="SECONDS", type=click.FloatRange(0, min_open=True),
+              help="Give up a board that is silent this long and not back at its prompt.")  # fmt: skip
 @click.option(
     "--patience",
     default=0.0,
@@ -53,6 +65,7 @@ def command(
     port: str,
     file: str | None,
     run: bool,
+    unnumbered: bool,
     record: str | None,
     punch_port: str | None,
     baud: int,
@@ -60,6 +73,7 @@ def command(
     delay: float,
     batch: bool,
     quiet: float,
+    silence: float,
     patience: float,
 ) -> None:
     """Be the teletype of the board on PORT (a device, or any address that pyserial knows).
@@ -68,33 +82,52 @@ def command(
     of its own, goes to the file of --record. XOFF holds what is sent until XON. A port that goes away is
     opened again when it comes back. Without a terminal the standard input is typed instead, and the command
     leaves as with --batch.
-    """
-    from skg.machine.teletype import BrokenOff, Port, Teletype, converse, raw_keyboard, send
 
-    data = read_bytes(file) if file else b""
+    The first ERR ends what is sent: then the keyboard is yours, or the exit code is 1.
+    """
+    from skg.machine.sending import Line, Stopped, Typist, finish, lines_to_type, make_tape, send
+    from skg.machine.teletype import BrokenOff, Port, Teletype, converse, raw_keyboard
+
+    if unnumbered and not (file and run):
+        raise click.UsageError("--unnumbered goes with --send and --run")
+    is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
+    lines = lines_to_type(read_bytes(file), file) if file else []
+    keyed = (
+        [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), "standard input")
+    )
     with contextlib.ExitStack() as stack:
-        punched = stack.enter_context(Path(record).open("wb")) if record else None
-        teletype = Teletype(punched, show_bars=sys.stderr.isatty())
-        machine = Port(port, baud, teletype.say, teletype.splitter.may_send.set, patience)
-        stack.callback(machine.close)
+        teletype = Teletype(show_bars=sys.stderr.isatty())
+        machine = Port(port, baud, teletype.say, teletype.is_back, patience)
         readers = [(machine, False)]
         if punch_port:
-            readers.append((Port(punch_port, baud, teletype.say, bool, patience), True))
-            stack.callback(readers[1][0].close)
+            readers.append((Port(punch_port, baud, teletype.say, teletype.punch_is_back, patience), True))
+        if record:
+            teletype.record = stack.enter_context(Path(record).open("wb"))
         for reader in readers:
-            threading.Thread(target=teletype.listen, args=reader, daemon=True).start()
+            thread = threading.Thread(target=teletype.listen, args=reader, daemon=True)
+            stack.callback(thread.join, 2)
+            stack.callback(reader[0].close)
+            thread.start()
         teletype.keys = stack.enter_context(raw_keyboard())
+        typist = Typist(machine, teletype, silence, pace == "prompt", delay)
+        stopped = ""
         try:
-            send(machine, teletype, data, pace, delay)
-            if run:
-                send(machine, teletype, b"RUN\n", "none", 0.0)
-            if batch or not sys.stdin.isatty():
-                if not batch and file != "-":
-                    send(machine, teletype, read_bytes("-"), pace, delay)
-                teletype.wait(lambda: teletype.ended, quiet)
-                # Whatever stands on the paper after DD.
-                teletype.wait(bool, 0.2)
-            else:
+            try:
+                if run and file:
+                    make_tape(typist, lines, file, unnumbered, is_attended)
+                elif run:
+                    lines = [Line(0, "RUN")]
+                if lines and not (run and file):
+                    send(typist, lines, file or port)
+                if keyed:
+                    send(typist, keyed, "standard input")
+                if not is_attended:
+                    is_known = typist.paced and bool(lines or keyed) and not (record and (run or punch_port))
+                    finish(typist, 0.0 if is_known else quiet, bool(record and run))
+            except Stopped as reason:
+                stopped = str(reason)
+                teletype.say(f"{stopped}; nothing more was sent")
+            if is_attended:
                 converse(machine, teletype)
         except BrokenOff:
             teletype.say("broken off")
@@ -102,4 +135,7 @@ def command(
             raise SystemExit(1) from None
     if teletype.punched:
         where = f" to {record}" if record else ""
-        click.echo(f"skg term: {teletype.punched} bytes punched{where}", err=True)
+        cut_off = "" if teletype.ended or not run else ", the tape is not complete"
+        click.echo(f"skg term: {teletype.punched} bytes punched{where}{cut_off}", err=True)
+    if stopped and not is_attended:
+        raise SystemExit(1)

@@ -17,6 +17,21 @@ _CTRL_C = 3
 _ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
 
 
+#: What the errors mean (language.md, section 6).
+ERRORS = {
+    1: "statement or expression not understood",
+    2: "no such line; RETURN without GOSUB; too many GOSUBs",
+    3: "name without a value; O, X or Y assigned",
+    4: "these kinds cannot be combined, or do not fit the name",
+    5: "number out of range",
+    6: "geometry impossible",
+    7: "wire offset larger than an inner radius",
+    8: "out of DATA",
+    9: "memory full",
+    10: "tape: a block does not fit, the reader ran out in mid-line, or the operator broke in",
+}
+
+
 class ErrorLine(NamedTuple):
     """An `ERR` of the machine: its number (language.md, section 6) and its line, None outside a program."""
 

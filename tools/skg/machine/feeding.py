@@ -35,10 +35,20 @@ def lines_of(program: str) -> list[str]:
     return [line for line in re.split(r"[\r\n]", program.partition("\x1a")[0]) if line.strip("\0 ")]
 
 
+def is_numbered(line: str) -> bool:
+    """Whether a line begins with a number: the board stores it."""
+    return bool(_NUMBERED.match(line))
+
+
+def is_end(line: str) -> bool:
+    """Whether a line without a number is an END."""
+    return _bare(line) == "END"
+
+
 def is_stored(program: str) -> bool:
     """Whether a program must be RUN: one without a line number that ends with END has done all when it is loaded."""
     lines = lines_of(program)
-    return any(map(_NUMBERED.match, lines)) or [_bare(line) for line in lines[-1:]] != ["END"]
+    return any(map(is_numbered, lines)) or not any(map(is_end, lines[-1:]))
 
 
 def without_numbers(program: str) -> list[str] | None:
@@ -54,7 +64,7 @@ def without_numbers(program: str) -> list[str] | None:
     if any(_bare(statement).startswith(_STORED) for statement in statements):
         return None
     # A run ends with the first END, or past the last line.
-    ends = [at for at, statement in enumerate(statements) if _bare(statement) == "END"]
+    ends = [at for at, statement in enumerate(statements) if is_end(statement)]
     return [*statements[: min(ends, default=len(statements))], "END"]
 
 

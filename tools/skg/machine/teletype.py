@@ -1,9 +1,9 @@
 """A teletype in the terminal, for the board or the emulator's `--pty`.
 
 Three things happen at once: the keyboard goes to the port, the port's paper to the screen and its punch to a
-file, and a program that is being sent goes out line by line. One thread reads the port (and one a second
-port, for the punch); the main thread does everything else. XON and XOFF are taken from the stream of the port
-itself and obeyed here, whatever the driver underneath does about them.
+file, and a program that is being sent goes out line by line (`skg.machine.sending`). One thread reads the port (and
+one a second port, for the punch); the main thread does everything else. XON and XOFF are taken from the stream of the
+port itself and obeyed here, whatever the driver underneath does about them.
 """
 
 from __future__ import annotations
@@ -24,13 +24,12 @@ import serial
 from tqdm import tqdm
 
 from skg.errors import UserError
+from skg.machine.board import ErrorLine, find_error
 
 XON, XOFF, DC2, DC4, ESCAPE = 0x11, 0x13, 0x12, 0x14, 0x1D
 LF, PROMPT = 0x0A, 0x3E
 #: Seconds between two tries to open a port that went away.
 _RETRY = 0.5
-#: Seconds of silence after which a line is sent though no prompt has come.
-_PROMPT = 3.0
 #: What pyserial raises when a port cannot be opened, or is closed or gone in the middle of a call.
 _TROUBLE = (OSError, ValueError, TypeError, termios.error)
 
@@ -158,13 +157,22 @@ class BrokenOff(Exception):
 
 @dataclass
 class Teletype:
-    """The paper on the screen, the punch in a file, and what is known about the port's state."""
+    """The paper on the screen, the punch in a file, and what is known about the port's state.
 
-    record: BinaryIO | None
+    `line` is the paper's last line, `received` how many characters are on the paper, `error` the last ERR there,
+    `losses` how often the port went away, `gaps` how often that of the punch did.
+    """
+
+    record: BinaryIO | None = None
     keys: Callable[[], bytes] = bytes
     splitter: Splitter = field(default_factory=Splitter)
     last: float = field(default_factory=time.monotonic)
     line: bytearray = field(default_factory=bytearray)
+    received: int = 0
+    error: ErrorLine | None = None
+    losses: int = 0
+    gaps: int = 0
+    news: threading.Event = field(default_factory=threading.Event)
     punched: int = 0
     ended: bool = False
     failure: UserError | None = None
@@ -185,10 +193,13 @@ class Teletype:
             return
         self.last = time.monotonic()
         for byte in data:
-            if byte in b"\r\n":
+            if byte not in b"\r\n":
+                self.line.append(byte)
+            elif self.line:
+                self.error = find_error([self.line.decode()]) or self.error
                 self.line.clear()
-            else:
-                self.line.append(byte & 0x7F)
+        self.received += len(data)
+        self.news.set()
         with tqdm.external_write_mode(file=sys.stdout) if self.show_bars else contextlib.nullcontext():
             sys.stdout.buffer.write(data)
             sys.stdout.buffer.flush()
@@ -206,6 +217,7 @@ class Teletype:
             if self.punching is None:
                 self.punching = tqdm(unit="block", desc="punching", leave=False)
             self.punching.update(data.count(b"\n"))
+        self.news.set()
         self.tail = (self.tail + data)[-8:].replace(b"\r", b"")
         self.ended = self.ended or b"DD\n" in self.tail[-8:]
         if b"DD\n" in self.tail and self.punching is not None:
@@ -213,9 +225,24 @@ class Teletype:
             self.punching = None
 
     @property
-    def at_prompt(self) -> bool:
-        """Whether the paper's last line is the prompt and nothing else."""
-        return bytes(self.line) == b">"
+    def asks(self) -> bool:
+        """Whether INPUT waits for an answer."""
+        return bytes(self.line) == b"? "
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the board waits for a line: the paper's last line is the prompt, or INPUT's, and nothing else."""
+        return self.asks or bytes(self.line) == b">"
+
+    def is_back(self) -> None:
+        """The port went away and is there again."""
+        self.losses += 1
+        self.splitter.may_send.set()
+        self.news.set()
+
+    def punch_is_back(self) -> None:
+        """The same of a port of the punch's own."""
+        self.gaps += 1
 
     def check(self) -> None:
         """Raise what went wrong in a reading thread, or `BrokenOff` when the operator wants to stop."""
@@ -225,12 +252,14 @@ class Teletype:
         if ESCAPE in typed or 0x03 in typed:
             raise BrokenOff
 
-    def wait(self, until: Callable[[], bool], quiet: float) -> None:
-        """Wait until something is so, or until nothing has come in for `quiet` seconds."""
+    def wait(self, until: Callable[[], bool], quiet: float) -> bool:
+        """Wait until something is so, or until nothing has come in for `quiet` seconds; tells whether it is so."""
         since = time.monotonic()
-        while not until() and min(time.monotonic() - since, self.quiet_for()) <= quiet:
+        while not (is_so := until()) and min(time.monotonic() - since, self.quiet_for()) <= quiet:
             self.check()
-            time.sleep(0.01)
+            self.news.wait(0.1)
+            self.news.clear()
+        return is_so
 
     def quiet_for(self) -> float:
         """Seconds since anything came in."""
@@ -251,36 +280,6 @@ class Teletype:
             self.failure = error
         except OSError as error:
             self.failure = UserError(f"punch file: {error.strerror}")
-
-
-def send(port: Port, teletype: Teletype, data: bytes, pace: str, delay: float) -> None:
-    """Send a file; lines end with CR, as on a teletype.
-
-    `pace` "prompt" waits for the prompt after each line; with "none" only XOFF holds it. `delay`: seconds
-    between two lines. Raises `BrokenOff` when the operator types ctrl-] or ctrl-C.
-    """
-    lines = data.replace(b"\r\n", b"\r").replace(b"\n", b"\r").splitlines(keepends=True)
-    with tqdm(
-        total=sum(map(len, lines)),
-        unit="B",
-        unit_scale=True,
-        desc="sending",
-        leave=False,
-        disable=not teletype.show_bars,
-    ) as bar:
-        for line in lines:
-            for at in range(len(line)):
-                teletype.check()
-                while not teletype.splitter.may_send.wait(0.1):
-                    teletype.check()
-                if line[at:] == b"\r":
-                    teletype.line.clear()
-                port.write(line[at : at + 1])
-                bar.update(1)
-            if pace == "prompt":
-                teletype.wait(lambda: teletype.at_prompt, _PROMPT)
-            if delay:
-                time.sleep(delay)
 
 
 @contextlib.contextmanager

@@ -1,0 +1,291 @@
+"""How a program gets through a real board: typed at its teletype line by line, with an eye on the paper.
+
+A line is ended when its echo is what was typed, and the next one begins when the board is back at its prompt; the
+first ERR ends it all. What `skg.machine.feeding` does with the board in this process is done here with the one at the
+other end of a line.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from tqdm import tqdm
+
+from skg.errors import UserError
+from skg.machine.board import ERRORS, ErrorLine
+from skg.machine.feeding import MEMORY_FULL, is_end, is_numbered, least_ram, without_numbers
+from skg.machine.teletype import Port, Teletype
+
+#: Characters that the board takes in a line (language.md, section 3).
+LONGEST = 126
+_CTRL_C, _CTRL_U, _CTRL_Z, _CR = b"\x03", b"\x15", b"\x1a", b"\r"
+#: Seconds of silence after which an echo does not come any more; how often a line is typed that comes back wrong.
+_ECHO, _TRIES = 1.5, 3
+#: How often a program is stored again because the port went away.
+_LOSSES = 5
+
+
+class Line(NamedTuple):
+    """A line of a file, without the characters that mean nothing to the board, and its number in the file."""
+
+    number: int
+    text: str
+
+
+class Stopped(Exception):
+    """Nothing more is sent: why, in one line."""
+
+
+class _Refused(Exception):
+    """The board answered a line with ERR."""
+
+    def __init__(self, line: Line, error: ErrorLine) -> None:
+        super().__init__()
+        self.line, self.error = line, error
+
+
+def lines_to_type(data: bytes, name: str) -> list[Line]:
+    """The lines of a file up to ctrl-Z; one that the board could not take is a `UserError`."""
+    lines = []
+    for number, raw in enumerate(re.split(rb"\r\n|[\r\n]", data.partition(_CTRL_Z)[0]), 1):
+        if not raw.isascii():
+            raise UserError(f"{name}: line {number}: {raw.decode('utf-8', 'replace').strip()!r} is not plain ASCII")
+        # ctrl-U forgets what stands before it, other control characters mean nothing.
+        text = re.sub(r"[\x00-\x1f\x7f]", "", raw.rpartition(_CTRL_U)[2].decode())
+        if len(text) > LONGEST:
+            raise UserError(f"{name}: line {number}: {len(text)} characters, the board takes {LONGEST}")
+        if text.strip():
+            lines.append(Line(number, text))
+    return lines
+
+
+@dataclass
+class Typist:
+    """Types lines as a careful operator does. `silence`: seconds without a character after which the board will not
+    come back to its prompt. With `paced` false nothing but XOFF is waited for. `delay`: seconds after each line."""
+
+    port: Port
+    teletype: Teletype
+    silence: float
+    paced: bool = True
+    delay: float = 0.0
+
+    def begin(self) -> None:
+        """Forget what somebody has begun to type; a board that does not answer is `Stopped`."""
+        if self.paced:
+            self._forget_line()
+
+    def start(self, text: str) -> None:
+        """Type a line and end it. `Stopped`: there is no echo."""
+        data = text.encode("ascii")
+        if self.paced:
+            self._type_safely(data)
+            self.teletype.error = None
+        else:
+            self._put(data)
+        self.teletype.line.clear()
+        self._put(_CR)
+
+    def type(self, text: str) -> ErrorLine | None:
+        """The same, and wait for the prompt; the ERR that the line is answered with, or None. `Stopped`: no prompt."""
+        teletype = self.teletype
+        losses = teletype.losses
+        self.start(text)
+        if self.paced and not teletype.wait(lambda: teletype.is_waiting or teletype.losses > losses, self.silence):
+            raise Stopped(f"not back at its prompt, and silent for {self.silence:g} s")
+        if self.paced and teletype.losses > losses:
+            self._type_again(text)
+        if self.delay:
+            time.sleep(self.delay)
+        return teletype.error
+
+    def _type_again(self, text: str) -> None:
+        """The port went away when a line was ended: a stored line does not mind to be typed twice."""
+        if not is_numbered(text):
+            raise Stopped("the port went away while it was carried out")
+        self.begin()
+        self.type(text)
+
+    def _type_safely(self, data: bytes) -> None:
+        """Type a line's characters until the board has them all, as its echo says."""
+        teletype, tries = self.teletype, 0
+        while tries < _TRIES:
+            losses, expected = teletype.losses, bytes(teletype.line) + data
+
+            def is_whole(wanted: bytes = expected) -> bool:
+                return bytes(teletype.line) == wanted
+
+            self._put(data)
+            teletype.wait(lambda lost=losses: is_whole() or teletype.losses > lost, _ECHO)
+            if is_whole():
+                return
+            came = bytes(teletype.line)
+            tries += teletype.losses == losses
+            self._forget_line()
+        raise Stopped(f"comes back as {came.decode('ascii', 'replace')!r}: the line to the board loses characters")
+
+    def _forget_line(self) -> None:
+        """ctrl-U, and the new line that it is answered with."""
+        teletype = self.teletype
+        before = teletype.received
+        self._put(_CTRL_U)
+        if not teletype.wait(lambda: teletype.received > before and not teletype.line, _ECHO):
+            raise Stopped(
+                "the board does not answer: is it on, at its prompt (ctrl-C ends a program), and at this --baud? "
+                "(--pace none sends all the same)"
+            )
+
+    def _put(self, data: bytes) -> None:
+        """Send characters, unless XOFF holds them."""
+        for at in range(len(data)):
+            self.teletype.check()
+            while not self.teletype.splitter.may_send.wait(0.1):
+                self.teletype.check()
+            self.port.write(data[at : at + 1])
+
+
+def send(typist: Typist, lines: Iterable[Line], name: str) -> None:
+    """Type the lines of a file; the first that is answered with ERR is `Stopped`."""
+    try:
+        typist.begin()
+        _type_all(typist, list(lines), name)
+    except _Refused as refused:
+        more = ""
+        if refused.error.number == MEMORY_FULL and is_numbered(refused.line.text):
+            more = ": --run sends it without its line numbers where it does not fit"
+        raise Stopped(_refusal(refused, name, typist.paced) + more) from None
+
+
+def make_tape(typist: Typist, lines: list[Line], name: str, unnumbered: bool, is_attended: bool) -> None:
+    """Make the tape of a file: NEW, its lines, and RUN, or END, if there is anything left to do then.
+
+    `is_attended`: somebody has the keyboard and waits for RUN himself.
+
+    `unnumbered`: without its line numbers, each line carried out as it comes. So is one that does not fit in the
+    board's memory, if it can be, with a word. Anything that keeps the tape from being made is `Stopped`.
+    """
+    program = "\n".join(line.text for line in lines)
+    stored = any(is_numbered(line.text) for line in lines)
+    if stored and unnumbered:
+        lines, stored = _plain(program, name), False
+    if stored and typist.paced and not _store(typist, lines, name, program):
+        typist.teletype.say(
+            f"{name} does not fit in the board's memory (ERR 09): sent again without its line numbers, "
+            "each line is carried out as it comes"
+        )
+        lines, stored = _plain(program, name), False
+    try:
+        if not stored or not typist.paced:
+            _clear(typist)
+            _type_all(typist, lines, name)
+        if stored and is_attended:
+            typist.start("RUN")
+        elif stored:
+            _type_all(typist, [Line(0, "RUN")], name)
+        elif not any(is_end(line.text) for line in lines[-1:]):
+            _type_all(typist, [Line(0, "END")], name)
+    except _Refused as refused:
+        more = ""
+        if refused.error.number == MEMORY_FULL:
+            more = f": {_too_large(program)}"
+        raise Stopped(_refusal(refused, name, typist.paced) + more) from None
+
+
+def finish(typist: Typist, quiet: float, needs_tape: bool) -> None:
+    """Wait for what still comes, `quiet` seconds at most after the last character; `Stopped` if that is not all."""
+    teletype = typist.teletype
+    if teletype.asks:
+        typist.port.write(_CTRL_C)
+        raise Stopped("INPUT asks, and nobody answers: broken off with ctrl-C")
+    teletype.wait(lambda: teletype.ended, quiet)
+    if teletype.error:
+        raise Stopped(_meaning(teletype.error))
+    if needs_tape and not teletype.punched:
+        raise Stopped("nothing was punched on this port: has the punch one of its own, for --punch-port?")
+    if needs_tape and not teletype.ended:
+        raise Stopped("the tape's DD has not come")
+    if needs_tape and (teletype.gaps or teletype.losses and not typist.paced):
+        raise Stopped("a port went away in between: what was punched meanwhile is not on the tape")
+
+
+def _store(typist: Typist, lines: list[Line], name: str, program: str) -> bool:
+    """Store a program in the board; False when it does not fit and can be sent without its numbers."""
+    for _ in range(_LOSSES):
+        losses = typist.teletype.losses
+        try:
+            _clear(typist)
+            _type_all(typist, lines, name)
+        except _Refused as refused:
+            if refused.error.number != MEMORY_FULL:
+                raise Stopped(_refusal(refused, name)) from None
+            if without_numbers(program) is None:
+                raise Stopped(f"{_refusal(refused, name)}: {_too_large(program)}") from None
+            return False
+        if typist.teletype.losses == losses:
+            return True
+        typist.teletype.say("sent again from its first line: nobody knows what the board has kept")
+    raise Stopped("the port goes away again and again")
+
+
+def _clear(typist: Typist) -> None:
+    """NEW: what is on the board shall not be in the tape."""
+    typist.begin()
+    typist.type("NEW")
+    if typist.teletype.asks:
+        typist.port.write(_CTRL_C)
+        raise Stopped("the board was in a program that asks: broken off, try again")
+
+
+def _type_all(typist: Typist, lines: list[Line], name: str) -> None:
+    teletype = typist.teletype
+    with tqdm(
+        total=sum(len(line.text) for line in lines),
+        unit="B",
+        unit_scale=True,
+        desc="sending",
+        leave=False,
+        disable=not teletype.show_bars or len(lines) < 2,
+    ) as bar:
+        for line in lines:
+            losses = teletype.losses
+            try:
+                error = typist.type(line.text)
+            except Stopped as stopped:
+                raise Stopped(f"{_place(line, name)}: {stopped}") from None
+            if error:
+                raise _Refused(line, error)
+            if teletype.losses > losses and not is_numbered(line.text):
+                raise Stopped(f"{_place(line, name)}: the port went away: what came of it is not known")
+            bar.update(len(line.text))
+
+
+def _plain(program: str, name: str) -> list[Line]:
+    plain = without_numbers(program)
+    if plain is None:
+        raise Stopped(f"{name}: not without its line numbers: it jumps, asks or has DATA, or has lines without numbers")
+    # What they were in the file nobody needs: each is named by its text.
+    return [Line(0, text) for text in plain]
+
+
+def _place(line: Line, name: str) -> str:
+    return f"{name}, line {line.number}" if line.number else f"{name}, at `{line.text[:40]}`"
+
+
+def _refusal(refused: _Refused, name: str, paced: bool = True) -> str:
+    """What the board said, where, and what it means."""
+    where = _place(refused.line, name) if paced else f"{name}, at or before line {refused.line.number}"
+    return f"{where}: {_meaning(refused.error)}"
+
+
+def _meaning(error: ErrorLine) -> str:
+    where = f" LINE {error.line}" if error.line is not None else ""
+    return f"ERR {error.number:02d}{where}, {ERRORS.get(error.number, 'of a newer ROM')}"
+
+
+def _too_large(program: str) -> str:
+    least = least_ram(program)
+    return f"it takes {least} KiB of RAM" if least else "no memory is large enough"
