@@ -85,7 +85,7 @@ def command(
 
     The first ERR ends what is sent: then the keyboard is yours, or the exit code is 1.
     """
-    from skg.machine.sending import Line, Stopped, Typist, finish, lines_to_type, make_tape, send
+    from skg.machine.sending import Stopped, TypedLine, Typist, finish, lines_to_type, make_tape, send
     from skg.machine.teletype import BrokenOff, Port, Teletype, converse, raw_keyboard
 
     if unnumbered and not (file and run):
@@ -116,7 +116,7 @@ def command(
                 if run and file:
                     make_tape(typist, lines, file, unnumbered, is_attended)
                 elif run:
-                    lines = [Line(0, "RUN")]
+                    lines = [TypedLine(0, "RUN")]
                 if lines and not (run and file):
                     send(typist, lines, file or port)
                 if keyed:

@@ -29,7 +29,7 @@ _ECHO, _TRIES = 1.5, 3
 _LOSSES = 5
 
 
-class Line(NamedTuple):
+class TypedLine(NamedTuple):
     """A line of a file, without the characters that mean nothing to the board, and its number in the file."""
 
     number: int
@@ -43,12 +43,12 @@ class Stopped(Exception):
 class _Refused(Exception):
     """The board answered a line with ERR."""
 
-    def __init__(self, line: Line, error: ErrorLine) -> None:
+    def __init__(self, line: TypedLine, error: ErrorLine) -> None:
         super().__init__()
         self.line, self.error = line, error
 
 
-def lines_to_type(data: bytes, name: str) -> list[Line]:
+def lines_to_type(data: bytes, name: str) -> list[TypedLine]:
     """The lines of a file up to ctrl-Z; one that the board could not take is a `UserError`."""
     lines = []
     for number, raw in enumerate(re.split(rb"\r\n|[\r\n]", data.partition(_CTRL_Z)[0]), 1):
@@ -59,7 +59,7 @@ def lines_to_type(data: bytes, name: str) -> list[Line]:
         if len(text) > LONGEST:
             raise UserError(f"{name}: line {number}: {len(text)} characters, the board takes {LONGEST}")
         if text.strip():
-            lines.append(Line(number, text))
+            lines.append(TypedLine(number, text))
     return lines
 
 
@@ -148,7 +148,7 @@ class Typist:
             self.port.write(data[at : at + 1])
 
 
-def send(typist: Typist, lines: Iterable[Line], name: str) -> None:
+def send(typist: Typist, lines: Iterable[TypedLine], name: str) -> None:
     """Type the lines of a file; the first that is answered with ERR is `Stopped`."""
     try:
         typist.begin()
@@ -160,7 +160,7 @@ def send(typist: Typist, lines: Iterable[Line], name: str) -> None:
         raise Stopped(_refusal(refused, name, typist.paced) + more) from None
 
 
-def make_tape(typist: Typist, lines: list[Line], name: str, unnumbered: bool, is_attended: bool) -> None:
+def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: bool, is_attended: bool) -> None:
     """Make the tape of a file: NEW, its lines, and RUN, or END, if there is anything left to do then.
 
     `is_attended`: somebody has the keyboard and waits for RUN himself.
@@ -185,9 +185,9 @@ def make_tape(typist: Typist, lines: list[Line], name: str, unnumbered: bool, is
         if stored and is_attended:
             typist.start("RUN")
         elif stored:
-            _type_all(typist, [Line(0, "RUN")], name)
+            _type_all(typist, [TypedLine(0, "RUN")], name)
         elif not any(is_end(line.text) for line in lines[-1:]):
-            _type_all(typist, [Line(0, "END")], name)
+            _type_all(typist, [TypedLine(0, "END")], name)
     except _Refused as refused:
         more = ""
         if refused.error.number == MEMORY_FULL:
@@ -212,7 +212,7 @@ def finish(typist: Typist, quiet: float, needs_tape: bool) -> None:
         raise Stopped("a port went away in between: what was punched meanwhile is not on the tape")
 
 
-def _store(typist: Typist, lines: list[Line], name: str, program: str) -> bool:
+def _store(typist: Typist, lines: list[TypedLine], name: str, program: str) -> bool:
     """Store a program in the board; False when it does not fit and can be sent without its numbers."""
     for _ in range(_LOSSES):
         losses = typist.teletype.losses
@@ -240,7 +240,7 @@ def _clear(typist: Typist) -> None:
         raise Stopped("the board was in a program that asks: broken off, try again")
 
 
-def _type_all(typist: Typist, lines: list[Line], name: str) -> None:
+def _type_all(typist: Typist, lines: list[TypedLine], name: str) -> None:
     teletype = typist.teletype
     with tqdm(
         total=sum(len(line.text) for line in lines),
@@ -263,15 +263,15 @@ def _type_all(typist: Typist, lines: list[Line], name: str) -> None:
             bar.update(len(line.text))
 
 
-def _plain(program: str, name: str) -> list[Line]:
+def _plain(program: str, name: str) -> list[TypedLine]:
     plain = without_numbers(program)
     if plain is None:
         raise Stopped(f"{name}: not without its line numbers: it jumps, asks or has DATA, or has lines without numbers")
     # What they were in the file nobody needs: each is named by its text.
-    return [Line(0, text) for text in plain]
+    return [TypedLine(0, text) for text in plain]
 
 
-def _place(line: Line, name: str) -> str:
+def _place(line: TypedLine, name: str) -> str:
     return f"{name}, line {line.number}" if line.number else f"{name}, at `{line.text[:40]}`"
 
 
