@@ -1,7 +1,7 @@
 ; arc_iso.asm - arcs as ISO blocks (milling.md, section "Arcs")
 ; Offers: ARC
 ; Uses:   calc consts float geom grid iso start
-; Room:   80 bytes
+; Room:   79 bytes
 
 ; ARC - the tool goes along the circle C to K
 ; In:  C, K, W; on the float stack: negative when it is more than half a turn
@@ -30,8 +30,8 @@ ARC2:   DB      QDRP,QVEC,QSS,QDIF,QSS,QMUL,QJZ ; -
 ARC3:   DB      QEND
         LDA     MC2+1           ; bit 7: clockwise
         RLC
-        MVI     A,3
-        SBI     0
+        SBB     A
+        ADI     3
         STA     RGNUM
         MVI     C,4
         JMP     GXY

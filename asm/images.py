@@ -54,6 +54,7 @@ IMAGES = {
     "skg-tty": Image(punch="io_tty"),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
     "skg-mill": MILL,
+    "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:])),
     "skg-ram": Image(forms=(".hex",)),
     "skg.com": Image().for_cpm("type_3b"),
     "skgmill.com": MILL.for_cpm("type_nc"),

@@ -1,5 +1,5 @@
 ; io.asm - the teletype: what is printed, the keyboard
-; Offers: PUTC1 PAPON BREAK ERTAPE CRLF PUTSI PUTS PUT2D
+; Offers: PUTC1 PAPON BREAK ERTAPE CRLF PUTSI PUTS PUT2D PUT1D
 ; Uses:   io_cpm io_port start
 ; Room:   73 bytes
 ;
@@ -72,6 +72,7 @@ PUT2D:  PUSH    PSW
         RRC
         CALL    PUT1D
         POP     PSW
+; PUT1D - the lower one alone
 PUT1D:  ANI     0FH
         ORI     CZERO
         DB      PUTC

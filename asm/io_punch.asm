@@ -13,7 +13,7 @@ BDPUN:  IN      PUNST
         RET
 
 ; BDREAD - a character from the reader
-; In:  HL -> KEYB   Out: A = it, 0 when there is none   Clobbers nothing else
+; Out: A = it and Z clear; 0 and Z when there is none   Clobbers nothing else
 BDREAD: IN      PUNST
         ANI     RXRDY
         RZ

@@ -1,8 +1,8 @@
 ; iso.asm - moves in whole micrometres, as blocks of ISO words (milling.md)
 ; Offers: RFEED RCUTZ RTRAVZ RSETZ RGNUM RUNCEL RUNLEN HOME UP DOWN REPOS ENTER MOVE GXY PUTNUM STOP
 ;         PUNDS BLOCK
-; Uses:   calc consts decimal float geom grid io io_send lexer parser start value
-; Room:   325 bytes
+; Uses:   calc consts decimal float geom grid io io_ok io_send lexer parser start value
+; Room:   323 bytes
 ;
 ; The tool stands at W in the plane and at the height WZ, the move goes to V (arcs: arc_iso.asm) or to
 ; the height VZ; all in whole um.  At the beginning of a tape W and WZ are a number that no place is, so
@@ -169,9 +169,7 @@ GBLOCK: LDA     RGNUM
         MVI     A,CLTG
         DB      PUTC
         LDA     RGNUM
-        ADI     CZERO
-        DB      PUTC
-        RET
+        JMP     PUT1D
 
 ; STOP - after an error: M0
 STOP:   MVI     B,1
@@ -205,8 +203,7 @@ TAPE0:  LHLD    BLKNO
         MVI     A,NOWHER
         STA     MWX
         STA     MWZ
-        XRA     A
-        RET
+        RET                     ; (Z as it was)
 
 ; BLOCK - begins a block: its number; in front of a tape's first one what every tape begins with
 ; Clobbers all

@@ -55,6 +55,13 @@ class Machine:
         """Say something without having been asked."""
         os.write(self._line, words)
 
+    def heard(self, blocks: int, seconds: float = 10) -> None:
+        """Come back when so many blocks have come."""
+        last = time.monotonic() + seconds
+        while len(self.blocks) < blocks:
+            assert time.monotonic() < last, self.blocks
+            time.sleep(0.01)
+
     def _work(self) -> None:
         line = b""
         while not self._done.is_set():

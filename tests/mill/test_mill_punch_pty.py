@@ -11,7 +11,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from grblhelp import OK, ROOT, SKG80, driven
+from grblhelp import GREETING, OK, ROMS, ROOT, SKG80, driven
+
+from skg.ref import mill
 
 PART = "10 F 300,60\n20 Z -1,3\n30 FROM (-5,0)\n40 CUT O,(10,0),(0,7)\n50 BACK\n60 HOLE (1,1),(2,2)\n"
 
@@ -121,3 +123,63 @@ def test_save_and_load_through_the_line() -> None:
         until(teletype, b">")
         os.write(teletype, b"RUN\r")
         assert b"56\r\n" in until(teletype, b">")
+
+
+# The handshake, whose every case test_mill_handshake.py plays -----------------------------------------------------
+
+
+def test_block_by_block(part: Path) -> None:
+    wanted = mill.run(PART, line_end="\n").tape
+    with driven("skg-grbl", part, always, slow=0.02) as (board, machine):
+        assert board.wait() == 0
+    assert machine.raw == wanted
+    assert machine.blocks == wanted.decode().splitlines()
+    assert machine.early == []
+
+
+@pytest.mark.parametrize("said", ["error:33", "ALARM:1"])
+def test_error_and_alarm(part: Path, said: str) -> None:
+    """In mid-route; the board does not wait for what is said to its M0."""
+
+    def answer(_block: str, number: int) -> bytes | None:
+        return f"{said}\r\n".encode() if number == 6 else OK if number < 6 else None
+
+    with driven("skg-grbl", part, answer) as (board, machine):
+        assert board.wait() == 1
+        wanted = mill.run(PART, line_end="\n").tape.decode().splitlines()[:6] + ["N7M0"]
+        assert [line for line in board.printed() if line][-4:-1] == [said, "N7M0", "ERR 10 LINE 40"]
+        machine.heard(len(wanted))
+    assert machine.blocks == wanted
+
+
+def test_silence_waits(part: Path) -> None:
+    """However long: the next block does not come."""
+
+    def answer(_block: str, number: int) -> bytes | None:
+        return OK if number < 4 else None
+
+    with driven("skg-grbl", part, answer) as (board, machine):
+        machine.heard(4)
+        time.sleep(0.3)
+        assert board.process.poll() is None
+        assert len(machine.blocks) == 4
+        machine.answer = always
+        machine.say(OK)
+        assert board.wait() == 0
+    assert machine.raw == mill.run(PART, line_end="\n").tape
+
+
+def test_ctrl_c_ends_the_wait() -> None:
+    """What was said before the tape is no answer."""
+    with terminal("--rom", ROMS / "skg-grbl.bin") as (teletype, line):
+        until(teletype, b">")
+        for text in PART.splitlines():
+            os.write(teletype, text.encode() + b"\r")
+            until(teletype, b">")
+        os.write(line, GREETING + OK)
+        os.write(teletype, b"RUN\r")
+        assert until(line, b"\n") == b"N1G17G21G90G94\n"
+        os.write(line, OK)
+        assert until(line, b"\n") == b"N2G0Z3\n"
+        os.write(teletype, b"\x03")
+        assert b"ERR 10 LINE 30\r\n" in until(teletype, b">")
