@@ -7,7 +7,7 @@ reference has segments of its own, with 50 digits.)
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import atan2, copysign, pi
+from math import atan2, ceil, copysign, pi
 
 from skg.plane import XY, distance, dot, minus, polar
 
@@ -66,6 +66,15 @@ class Piece:
             x, y = minus(self.end, self.start)
             return atan2(y, x)
         return self.angles[0] + part * self.sweep + copysign(pi / 2, self.sweep)
+
+    def extremes(self) -> list[XY]:
+        """The ends, and where an arc is farthest left, right, up or down."""
+        found = [self.start, self.end]
+        if self.centre is not None:
+            low, high = sorted(self.angles)
+            quarters = range(ceil(low / (pi / 2)), int(high // (pi / 2)) + 1)
+            found += [polar(self.centre, self.radius, quarter * pi / 2) for quarter in quarters]
+        return found
 
     def nearest(self, place: XY) -> float:
         """The part of the piece that lies nearest to a place."""

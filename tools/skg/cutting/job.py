@@ -100,9 +100,8 @@ def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
         fed = feed(text, settings.rom, settings.ram_kib)
         if fed.error is None or fed.error.number != MEMORY_FULL:
             return text, True, fed
-    parts = [_text(part) for part in program.unnumbered()]
-    fed, _ = feed_lines(parts, settings.rom, settings.ram_kib)
-    return "".join(parts), False, fed
+    text = "".join(map(_text, program.unnumbered()))
+    return text, False, feed(text, settings.rom, settings.ram_kib)
 
 
 def _text(statements: list[Step]) -> str:
@@ -110,19 +109,18 @@ def _text(statements: list[Step]) -> str:
 
 
 def _located(program: Program, error: ErrorLine, factor: float, settings: Settings) -> str:
-    """An error of the ROM as a contour and its place: each route alone, statement by statement."""
+    """An error of the ROM as a contour and its place: route by route, then statement by statement."""
     _, *routes, _ = program.unnumbered()
-    for number, statements in enumerate(routes):
-        fed, _ = feed_lines([_text(statements)], settings.rom, settings.ram_kib)
-        if fed.error is None:
-            continue
-        _, done = feed_lines([_text([one]) for one in statements], settings.rom, settings.ram_kib)
-        places = [one.place for one in statements[: done + 1] if one.place] or [program.routes[number].entry]
-        what, then = _MEANING.get(fed.error.number, ("the board refuses it", "see language.md, section 6"))
-        where = _named(program.routes[number], number, factor)
-        return f"{where}, near {_in_file(places[-1], factor)}: ERR {fed.error.number:02d}, {what}: {then}"
-    what, then = _MEANING.get(error.number, ("the board refuses it", "see language.md, section 6"))
-    return f"ERR {error.number:02d}, {what}: {then}"
+    fed, at = feed_lines(map(_text, routes), settings.rom, settings.ram_kib)
+    found = fed.error or error
+    what, then = _MEANING.get(found.number, ("the board refuses it", "see language.md, section 6"))
+    message = f"ERR {found.number:02d}, {what}: {then}"
+    if fed.error is None:
+        return message
+    _, done = feed_lines([_text([one]) for one in routes[at]], settings.rom, settings.ram_kib)
+    route = program.routes[at]
+    places = [one.place for one in routes[at][: done + 1] if one.place] or [route.entry]
+    return f"{_named(route, at, factor)}, near {_in_file(places[-1], factor)}: {message}"
 
 
 def _in_file(place: XY, factor: float) -> str:

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
+from skg.drawing.field import Floats
 from skg.piece import Piece
 
-Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
-#: Pairs of a place and a piece that are looked at together.
-_BATCH = 2_000_000
-#: A path is laid out on no more cells than this.
-_MOST_CELLS = 100_000
+#: Pairs of a place and a piece that are looked at together, and so many places: more do not fit into a fast memory.
+_PAIRS = 50_000
+_PLACES = 20_000
+#: A path is laid out on about so many cells at most.
+_MOST_CELLS = 200_000
+_ALL = slice(None)
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,7 @@ class Pieces:
         self.is_arc = self.radius > 0
         way = self.end - self.start
         self.length = np.where(self.is_arc, self.radius * np.abs(self.sweep), np.hypot(way[:, 0], way[:, 1]))
+        self._grids: dict[float, _Grid] = {}
 
     def at(self, which: Whole, part: Floats) -> Floats:
         """The places at parts of the lengths of pieces."""
@@ -61,29 +65,37 @@ class Pieces:
         out = np.stack((np.cos(angle), np.sin(angle)), 1) * np.sign(self.sweep[which])[:, None]
         return np.where(self.is_arc[which, None], out, line)
 
-    def samples(self, spacing: Floats | float, least: int) -> tuple[Whole, Floats]:
-        """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces;
-        on an arc one for every 15 degrees besides."""
-        turns = np.ceil(np.abs(self.sweep) / (pi / 12)) * self.is_arc
-        count = np.maximum(np.maximum(np.ceil(self.length / spacing), turns), least).astype(np.int64)
+    def samples(self, spacing: float, least: int, some: slice = _ALL) -> tuple[Whole, Floats]:
+        """Pieces (all, or some that follow each other) and parts of them: both ends, and places no further apart than
+        `spacing`, at least `least` spaces; on an arc one for every 15 degrees besides."""
+        turns = np.ceil(np.abs(self.sweep[some]) / (pi / 12)) * self.is_arc[some]
+        count = np.maximum(np.maximum(np.ceil(self.length[some] / spacing), turns), least).astype(np.int64)
         which = np.repeat(np.arange(len(count)), count + 1)
         first = np.repeat(np.cumsum(count + 1) - count - 1, count + 1)
-        return which, (np.arange(len(which)) - first) / count[which]
+        return which + (some.start or 0), (np.arange(len(which)) - first) / count[which]
 
     def from_place(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from its piece."""
+        found = np.empty(len(places))
+        is_arc = self.is_arc[which]
+        for mask, measure in ((~is_arc, self._from_line), (is_arc, self._from_arc)):
+            found[mask] = measure(places[mask], which[mask])
+        return found
+
+    def _from_line(self, places: Floats, which: Whole) -> Floats:
         to = places - self.start[which]
         way = self.end[which] - self.start[which]
         square = np.maximum((way**2).sum(1), 1e-300)
         part = np.clip((to * way).sum(1) / square, 0, 1)
-        line = np.hypot(*(to - part[:, None] * way).T)
+        return np.hypot(*(to - part[:, None] * way).T)
+
+    def _from_arc(self, places: Floats, which: Whole) -> Floats:
         about = places - self.centre[which]
         far = np.hypot(about[:, 0], about[:, 1])
         ahead = (np.arctan2(about[:, 1], about[:, 0]) - self.first[which]) * np.sign(self.sweep[which])
         inside = np.mod(ahead, 2 * pi) <= np.abs(self.sweep[which])
-        ends = np.minimum(np.hypot(*to.T), np.hypot(*(places - self.end[which]).T))
-        arc = np.where(inside, np.abs(far - self.radius[which]), ends)
-        return np.where(self.is_arc[which], arc, line)
+        ends = np.minimum(np.hypot(*(places - self.start[which]).T), np.hypot(*(places - self.end[which]).T))
+        return np.where(inside, np.abs(far - self.radius[which]), ends)
 
     def from_carrier(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from the whole line or circle that its piece lies on."""
@@ -96,54 +108,100 @@ class Pieces:
         return np.where(self.is_arc[which], arc, line)
 
     def nearest(self, places: Floats, owners: Whole, reach: float) -> Nearest:
-        """What lies within `reach` of each of m places; `owners`: whose each place is."""
-        found = Nearest(
-            np.full(len(places), np.inf),
-            np.full(len(places), -1),
-            np.full(len(places), np.inf),
-            np.full(len(places), -1),
-        )
+        """What lies within `reach` of each of m places, and maybe a little beyond; `owners`: whose each place is."""
+        found = Nearest(*(np.full(len(places), nothing) for nothing in (np.inf, -1, np.inf, -1)))
         if not len(self.length) or not len(places):
             return found
-        cell = max(1.5 * reach, float(self.length.sum()) / _MOST_CELLS, 1e-6)
-        which, part = self.samples(cell / 2, 1)
-        laid = self.at(which, part)
-        corner = np.minimum(laid.min(0), places.min(0)) - 2 * cell
-        width = int((max(laid[:, 1].max(), places[:, 1].max()) - corner[1]) / cell) + 4
-
-        def cells(of: Floats) -> Whole:
-            column, row = np.floor((of - corner) / cell).astype(np.int64).T
-            return column * width + row
-
-        # Each piece once in every cell that it passes.
-        keys, piece = np.divmod(np.unique(cells(laid) * len(self.length) + which), len(self.length))
-        around = np.array([i * width + j for i in (-1, 0, 1) for j in (-1, 0, 1)])
-        wanted = (cells(places)[:, None] + around).ravel()
-        first, last = np.searchsorted(keys, wanted), np.searchsorted(keys, wanted, "right")
-        counts = last - first
-        ends = np.cumsum(counts.reshape(-1, 9).sum(1))
-        low = 0
-        while low < len(places):
-            high = max(low + 1, int(np.searchsorted(ends, (ends[low - 1] if low else 0) + _BATCH, "right")))
-            self._look(places, owners, piece, first[9 * low : 9 * high], counts[9 * low : 9 * high], low, found)
-            low = high
+        grid = self._grid(max(1.5 * reach, float(self.length.sum()) / _MOST_CELLS, 1e-6))
+        for low in range(0, len(places), _PLACES):
+            self._look(grid, places, owners, low, reach, found)
         return found
 
-    def _look(
-        self, places: Floats, owners: Whole, piece: Whole, first: Whole, counts: Whole, low: int, found: Nearest
-    ) -> None:
-        """Measure pairs of places and pieces: those of the places from number `low` on."""
-        place = np.repeat(low + np.arange(len(counts)) // 9, counts)
-        offset = np.arange(len(place)) - np.repeat(np.cumsum(counts) - counts, counts)
-        which = piece[np.repeat(first, counts) + offset]
-        far = self.from_place(places[place], which)
-        own = self.owner[which] == owners[place]
-        for mask, distance, at in ((own, found.own, found.own_at), (~own, found.other, found.other_at)):
-            # The last of several writes to one place stands: so the nearest is written last.
-            order = np.argsort(-far[mask], kind="stable")
-            chosen = place[mask][order]
-            distance[chosen] = far[mask][order]
-            at[chosen] = which[mask][order]
+    def _grid(self, cell: float) -> _Grid:
+        """The pieces laid out on cells."""
+        if cell not in self._grids:
+            self._grids[cell] = _Grid(self, cell)
+        return self._grids[cell]
+
+    def _look(self, grid: _Grid, places: Floats, owners: Whole, low: int, reach: float, found: Nearest) -> None:
+        """Find what is nearest to the places from number `low` on."""
+        place, first, counts = grid.around(places[low : low + _PLACES], reach)
+        place += low
+        ends = np.cumsum(counts)
+        begin = 0
+        while begin < len(place):
+            until = int(np.searchsorted(ends, (ends[begin - 1] if begin else 0) + _PAIRS, "right"))
+            # (what is found for a place in one batch stands beside that of the next)
+            some = slice(begin, max(until, begin + 1))
+            which = grid.pieces(first[some], counts[some])
+            at = np.repeat(place[some], counts[some])
+            far = self.from_place(places[at], which)
+            own = self.owner[which] == owners[at]
+            _keep_nearest(far[own], at[own], which[own], found.own, found.own_at)
+            _keep_nearest(far[~own], at[~own], which[~own], found.other, found.other_at)
+            begin = some.stop
+
+
+class _Grid:
+    """Pieces laid out on square cells: `which` pieces stand in the cells `keys`, in the order of these."""
+
+    def __init__(self, pieces: Pieces, cell: float) -> None:
+        self.cell = cell
+        #: A piece is nowhere further from a place that was laid out.
+        self.apart = cell / 8
+        self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - 2 * pieces.radius.max() - 2 * cell
+        spots = np.cumsum(np.ceil(pieces.length / (2 * self.apart)).astype(np.int64) + 1)
+        cuts = np.unique(np.searchsorted(spots, np.arange(0, spots[-1] + _PAIRS, _PAIRS), "right"))
+        found = []
+        for begin, end in pairwise(cuts.tolist()):
+            which, part = pieces.samples(2 * self.apart, 1, slice(begin, end))
+            column, row = self._cells(pieces.at(which, part))
+            found.append(_once(which, column, row))
+        which, column, row = np.concatenate(found, 1)
+        self.width = int(row.max()) + 2
+        keys = column * self.width + row
+        order = np.lexsort((which, keys))
+        self.keys, self.which = _once(keys[order], which[order])
+
+    def _cells(self, places: Floats) -> Whole:
+        return np.floor((places - self.corner) / self.cell).astype(np.int64).T
+
+    def around(self, places: Floats, reach: float) -> tuple[Whole, Whole, Whole]:
+        """For each column of cells around each place: the place, and where the pieces there begin and how many."""
+        aside = reach + self.apart
+        low, bottom = np.maximum(self._cells(places - aside), 0)
+        high, top = self._cells(places + aside)
+        top = np.minimum(top, self.width - 1)
+        columns = np.where(top >= bottom, np.maximum(high - low + 1, 0), 0)
+        place = np.repeat(np.arange(len(places)), columns)
+        column = low[place] + np.arange(len(place)) - np.repeat(np.cumsum(columns) - columns, columns)
+        first = np.searchsorted(self.keys, column * self.width + bottom[place])
+        counts = np.searchsorted(self.keys, column * self.width + top[place], "right") - first
+        return place, first, counts
+
+    def pieces(self, first: Whole, counts: Whole) -> Whole:
+        """The pieces that stand there."""
+        offset = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        return self.which[np.repeat(first, counts) + offset]
+
+
+def _once(*rows: Whole) -> Whole:
+    """Columns of numbers without those that are like the one before."""
+    table = np.stack(rows)
+    is_new = np.ones(table.shape[1], bool)
+    is_new[1:] = (table[:, 1:] != table[:, :-1]).any(0)
+    return table[:, is_new]
+
+
+def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at: Whole) -> None:
+    """Keep the nearest of the pieces that were looked at for each place, where it is nearer than the one known."""
+    if not len(far):
+        return
+    begins = np.flatnonzero(np.diff(place, prepend=-1))
+    least = np.minimum.reduceat(far, begins)
+    is_least = far == np.repeat(np.minimum(least, distance[place[begins]]), np.diff(begins, append=len(place)))
+    distance[place[is_least]] = far[is_least]
+    at[place[is_least]] = which[is_least]
 
 
 def _row(piece: Piece, owner: int) -> tuple[float, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import date
 from math import ceil, cos, pi, sin
@@ -20,8 +20,7 @@ from skg.cutting.job import Job, kind
 from skg.drawing.account import short, shown
 from skg.drawing.plot import outline
 from skg.files import write_bytes
-from skg.piece import Piece
-from skg.plane import XY, distance, polar
+from skg.plane import XY, distance
 from skg.tape.simulation import duration
 
 #: The page lies on its side: A4, and A3 where A4 has no room for the table; mm.
@@ -113,7 +112,7 @@ class SetupSheet:
         """Where the part lies on the page, and its scale."""
         outlines = [outline(piece) for route in self.job.routes for piece in drawn(route)]
         self.curve = paths.Path.make_compound_path(*outlines)
-        points = np.array([point for route in self.job.routes for piece in drawn(route) for point in _extremes(piece)])
+        points = np.array([point for route in self.job.routes for piece in drawn(route) for point in piece.extremes()])
         # (a bound of -1e-17 is 0)
         self.low, self.high = (tuple(np.round(bound, 6) + 0.0) for bound in (points.min(0), points.max(0)))
         holes = np.array([route.start for route in self.job.routes] + [self.low, self.high])
@@ -322,15 +321,6 @@ class SetupSheet:
         with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "skg", "path.simplify": False}):
             self.figure.savefig(picture, format=form, dpi=200, facecolor="white")
         write_bytes(output, picture.getvalue())
-
-
-def _extremes(piece: Piece) -> Iterator[XY]:
-    """The ends of a piece, and where an arc is farthest left, right, up or down."""
-    yield from (piece.start, piece.end)
-    if piece.centre is not None:
-        low, high = sorted(piece.angles)
-        for quarter in range(ceil(low / (pi / 2)), int(high // (pi / 2)) + 1):
-            yield polar(piece.centre, piece.radius, quarter * pi / 2)
 
 
 def _way(samples: tuple[XY, ...]) -> float:

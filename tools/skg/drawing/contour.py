@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from math import pi
+from math import cos, pi, sin
 
 from skg.piece import Piece
 from skg.plane import XY, cross, distance, shifted
@@ -73,7 +73,21 @@ class Edge(Piece):
         if self.centre is None:
             return [self.start, self.end]
         pieces = max(2, int(abs(self.sweep) / 0.08) + 1)
-        return [self.start, *(self.at(k / pieces) for k in range(1, pieces)), self.end]
+        (x, y), radius, first = self.centre, self.radius, self.angles[0]
+        angles = [first + k / pieces * self.sweep for k in range(1, pieces)]
+        return [self.start, *[(x + radius * cos(angle), y + radius * sin(angle)) for angle in angles], self.end]
+
+    def extremes(self) -> list[XY]:
+        """The ends, and where it is farthest left, right, up or down (of a curve all samples)."""
+        return list(self.samples) if self.nodes else super().extremes()
+
+    @property
+    def area(self) -> float:
+        """Signed area that the edge runs around as seen from the origin: positive counter-clockwise."""
+        if self.nodes:
+            return sum(cross(p, q) for p, q in pairwise(self.samples)) / 2
+        segment = self.radius**2 * (self.sweep - sin(self.sweep)) if self.centre is not None else 0.0
+        return (cross(self.start, self.end) + segment) / 2
 
 
 @dataclass(frozen=True)
@@ -94,7 +108,7 @@ class Contour:
     @property
     def area(self) -> float:
         """Signed area: positive when a closed contour runs counter-clockwise."""
-        return sum(cross(p, q) for p, q in pairwise(self.points())) / 2
+        return sum(edge.area for edge in self.edges)
 
     def reversed(self) -> Contour:
         """The same contour, run through backwards."""
@@ -103,12 +117,3 @@ class Contour:
     def shifted(self, by: XY) -> Contour:
         """The same contour elsewhere."""
         return replace(self, edges=tuple(edge.shifted(by) for edge in self.edges))
-
-    def holds(self, point: XY) -> bool:
-        """Whether a point lies inside the closed contour (counts crossings of a ray to the right)."""
-        x, y = point
-        inside = False
-        for (x1, y1), (x2, y2) in pairwise(self.points()):
-            if (y1 > y) != (y2 > y) and x < x1 + (y - y1) / (y2 - y1) * (x2 - x1):
-                inside = not inside
-        return inside

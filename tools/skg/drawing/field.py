@@ -1,15 +1,45 @@
-"""What lies around a place of a drawing: contours by their boxes, then by their chords (numpy)."""
+"""What lies around a place of a drawing: contours by their boxes, then by their chords (numpy; shapely finds boxes)."""
 
 from __future__ import annotations
 
-from functools import cache
+from collections import defaultdict
+from collections.abc import Callable, Collection, Generator, Sequence
+from dataclasses import dataclass
+from itertools import islice
 from math import cos, inf, sin
+from typing import TypeVar
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from skg.drawing.contour import Contour
-from skg.plane import XY
+from skg.errors import UserError
+from skg.plane import XY, distance
+
+#: So many chords that follow each other are looked for together.
+_RUN = 32
+#: What is within a reach may seem to lie this much farther away, mm.
+_HAIR = 1e-9
+#: So many pairs of a place and a chord are looked at together.
+_PAIRS = 100_000
+#: So many boxes are asked for the places in them together.
+_BOXES = 1000
+
+Floats = NDArray[np.float64]
+Measure = Callable[[Floats, Floats, Floats, Floats, Floats], Floats]
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """A look from a place for the nearest contour within a reach, mm; with an `angle` (radians) for the next one that
+    way, where what is nearer than `least` is none."""
+
+    place: XY
+    reach: float
+    angle: float | None = None
+    least: float = 0.0
 
 
 class Field:
@@ -17,74 +47,199 @@ class Field:
 
     def __init__(self, contours: list[Contour]) -> None:
         self.contours = contours
-        self._chords = cache(self._make_chords)
-        boxes = [(*chords.min(0), *chords.max(0)) for chords in map(self._ends, range(len(contours)))]
-        self.low_x, self.low_y, self.high_x, self.high_y = np.array(boxes, float).reshape(-1, 4).T
+        points = [np.array(contour.points(), float) for contour in contours]
+        counts = np.array([len(one) for one in points], int)
+        self._points = np.concatenate(points) if points else np.empty((0, 2))
+        self._first = np.concatenate(([0], np.cumsum(counts)))
+        # Runs of chords: from which point to which.
+        runs = np.maximum(1, -(-(counts - 1) // _RUN))
+        of, begins = np.repeat(np.arange(len(points)), runs), np.cumsum(runs) - runs
+        self._low = self._first[of] + _RUN * (np.arange(len(of)) - begins[of])
+        self._high = np.minimum(self._low + _RUN, self._first[of + 1] - 1)
+        self._runs = shapely.STRtree(self._boxes())
 
-    def _make_chords(self, at: int) -> NDArray[np.float64]:
-        points = np.array(self.contours[at].points(), float)
-        return np.hstack((points[:-1], points[1:]))
+    def _boxes(self) -> NDArray[np.object_]:
+        """The boxes around the runs."""
+        ends = self._points[self._high]
+        low = np.minimum(np.minimum.reduceat(self._points, self._low), ends) if len(ends) else ends
+        high = np.maximum(np.maximum.reduceat(self._points, self._low), ends) if len(ends) else ends
+        return shapely.box(*low.T, *high.T)
 
-    def _ends(self, at: int) -> NDArray[np.float64]:
-        return self._chords(at).reshape(-1, 2)
+    def look(self, looks: Sequence[Look]) -> list[float]:
+        """What each of some looks finds, mm; infinite when there is nothing within its reach."""
+        found = np.full(len(looks), inf)
+        for is_ahead, measure in ((False, _beside), (True, _ahead)):
+            some = [at for at, one in enumerate(looks) if (one.angle is not None) == is_ahead]
+            for first in range(0, len(some), _BOXES):
+                self._look(looks, some[first : first + _BOXES], measure, found)
+        return found.tolist()
 
-    def near(self, low: XY, high: XY) -> NDArray[np.intp]:
-        """The numbers of the contours whose boxes meet a box."""
-        meets = (self.low_x <= high[0]) & (self.high_x >= low[0]) & (self.low_y <= high[1]) & (self.high_y >= low[1])
-        return np.flatnonzero(meets)
-
-    def chords(self, low: XY, high: XY) -> NDArray[np.float64]:
-        """The chords (x, y, x, y) of the contours whose boxes meet a box."""
-        found = [self._chords(int(at)) for at in self.near(low, high)]
-        return np.vstack(found) if found else np.empty((0, 4))
+    def _look(self, looks: Sequence[Look], which: list[int], measure: Measure, found: Floats) -> None:
+        """Look for chords in the boxes that some looks pass, and measure how far these are."""
+        places = np.array([looks[at].place for at in which], float)
+        reach = np.array([looks[at].reach for at in which], float)
+        ways = np.array([_direction(looks[at].angle) for at in which], float)
+        least = np.array([looks[at].least for at in which], float)
+        is_round = ~ways.any(1)
+        ends = places + reach[:, None] * ways
+        aside = np.where(is_round, reach, 0.0)[:, None] + _HAIR
+        boxes = shapely.box(*(np.minimum(places, ends) - aside).T, *(np.maximum(places, ends) + aside).T)
+        of, runs = self._runs.query(boxes)
+        order = np.argsort(of, kind="stable")
+        of, runs = of[order], runs[order]
+        chords = self._high[runs] - self._low[runs]
+        total = np.concatenate(([0], np.cumsum(chords)))
+        low = 0
+        while low < len(of):
+            high = max(low + 1, int(np.searchsorted(total, total[low] + _PAIRS, "right")) - 1)
+            counts = chords[low:high]
+            at = np.arange(counts.sum()) + np.repeat(self._low[runs[low:high]] - np.cumsum(counts) + counts, counts)
+            one = np.repeat(of[low:high], counts)
+            starts = self._points[at]
+            sides = self._points[at + 1] - starts
+            far = measure(places[one] - starts, sides, ways[one], reach[one], least[one])
+            begins = np.flatnonzero(np.diff(one, prepend=-1))
+            some = np.array(which)[one[begins]]
+            found[some] = np.minimum(found[some], np.minimum.reduceat(far, begins))
+            low = high
 
     def depths(self) -> list[int]:
         """How many closed contours lie around each."""
-        closed = np.array([contour.is_closed for contour in self.contours], bool)
-        found = []
-        for at, contour in enumerate(self.contours):
-            x, y = contour.edges[0].start
-            around = closed & (self.low_x <= x) & (self.high_x >= x) & (self.low_y <= y) & (self.high_y >= y)
-            around[at] = False
-            found.append(sum(self._holds(int(other), x, y) for other in np.flatnonzero(around)))
+        starts = [contour.edges[0].start for contour in self.contours]
+        return [len(around) for around in self.around(starts, range(len(starts)))]
+
+    def around(self, places: Sequence[XY], on: Sequence[int] = ()) -> list[list[int]]:
+        """The closed contours around each of some places, by their numbers; `on`: those that the places lie on."""
+        found: list[list[int]] = [[] for _ in places]
+        closed = np.flatnonzero([contour.is_closed for contour in self.contours])
+        if not len(closed) or not len(places):
+            return found
+        low = np.minimum.reduceat(self._points, self._first[:-1])[closed]
+        high = np.maximum.reduceat(self._points, self._first[:-1])[closed]
+        boxes, tree = shapely.box(*low.T, *high.T), shapely.STRtree(shapely.points(places))
+        given, own = np.array(places, float), np.array(on or np.full(len(places), -1))
+        for first in range(0, len(closed), _BOXES):
+            box, within = tree.query(boxes[first : first + _BOXES])
+            others = closed[first + box]
+            others, within = (some[own[within] != others] for some in (others, within))
+            order = np.lexsort((within, others))
+            others, within = others[order], within[order]
+            numbers, begins = np.unique(others, return_index=True)
+            for at, some in zip(numbers.tolist(), np.split(within, begins[1:]), strict=len(numbers) > 0):
+                for number in some[self._holds(at, given[some])].tolist():
+                    found[number].append(at)
         return found
 
-    def _holds(self, at: int, x: float, y: float) -> bool:
-        """Whether a place lies inside a closed contour (counts crossings of a ray to the right)."""
-        x1, y1, x2, y2 = self._chords(at).T
-        crosses = (y1 > y) != (y2 > y)
-        x1, y1, x2, y2 = x1[crosses], y1[crosses], x2[crosses], y2[crosses]
-        return bool(np.count_nonzero(x < x1 + (y - y1) / (y2 - y1) * (x2 - x1)) % 2)
+    def nearest(self, place: XY, without: Collection[int]) -> int:
+        """The contour that has a point nearest to a place, of all but some."""
+        far = np.minimum.reduceat(np.hypot(*(self._points - place).T), self._first[:-1])
+        far[list(without)] = inf
+        near = np.flatnonzero(far <= far.min() + _HAIR).tolist()
+        return min(near, key=lambda at: min(distance(place, point) for point in self.contours[at].points()))
 
-    def distance(self, place: XY, reach: float) -> float:
-        """From a place to the nearest contour, mm; infinite when that is more than `reach`."""
-        x, y = place
-        chords = self.chords((x - reach, y - reach), (x + reach, y + reach))
-        if not len(chords):
-            return inf
-        start, way = chords[:, :2], chords[:, 2:] - chords[:, :2]
-        to = np.array(place) - start
-        square = np.maximum((way**2).sum(1), 1e-300)
-        part = np.clip((to * way).sum(1) / square, 0, 1)
-        nearest = float(np.sqrt(((to - part[:, None] * way) ** 2).sum(1).min()))
-        return nearest if nearest <= reach else inf
+    def _holds(self, at: int, places: Floats) -> NDArray[np.bool_]:
+        """Which places lie inside a closed contour (counts crossings of rays to the right)."""
+        points = self._points[self._first[at] : self._first[at + 1]]
+        found = np.zeros(len(places), bool)
+        order = np.argsort(places[:, 1])
+        size = max(1, min(_PAIRS // len(points), 64 if len(points) > 64 else len(places)))
+        bottom, top = np.minimum(points[:-1, 1], points[1:, 1]), np.maximum(points[:-1, 1], points[1:, 1])
+        for some in (order[first : first + size] for first in range(0, len(order), size)):
+            x, y = places[some].T
+            beside = np.flatnonzero((bottom <= y[-1]) & (top >= y[0]))
+            (x1, y1), (x2, y2) = points[beside].T[:, :, None], points[beside + 1].T[:, :, None]
+            with np.errstate(divide="ignore", invalid="ignore"):
+                is_right = x < x1 + (y - y1) / (y2 - y1) * (x2 - x1)
+            found[some] = np.count_nonzero(((y1 > y) != (y2 > y)) & is_right, axis=0) % 2
+        return found
 
-    def way(self, place: XY, angle: float, reach: float, least: float) -> float:
-        """How far it is from a place in a direction (radians) to the next contour, mm.
 
-        What is nearer than `least` is none; infinite when nothing stands in the way up to `reach`.
-        """
-        x, y = place
-        along = np.array((cos(angle), sin(angle)))
-        u, v = x + reach * along[0], y + reach * along[1]
-        chords = self.chords((min(x, u), min(y, v)), (max(x, u), max(y, v)))
-        if not len(chords):
-            return inf
-        side = chords[:, 2:] - chords[:, :2]
-        area = along[0] * side[:, 1] - along[1] * side[:, 0]
-        to = chords[:, :2] - np.array(place)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            far = (to[:, 0] * side[:, 1] - to[:, 1] * side[:, 0]) / area
-            part = (to[:, 0] * along[1] - to[:, 1] * along[0]) / area
-        hits = far[(np.abs(area) > 1e-12) & (far > least) & (far <= reach) & (part >= 0) & (part <= 1)]
-        return float(hits.min()) if len(hits) else inf
+def _direction(angle: float | None) -> XY:
+    return (0.0, 0.0) if angle is None else (cos(angle), sin(angle))
+
+
+def _beside(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats) -> Floats:
+    """How far places, which lie `to` from where chords begin, are from these."""
+    square = np.maximum((sides**2).sum(1), 1e-300)
+    part = np.clip((to * sides).sum(1) / square, 0, 1)
+    far = np.sqrt(((to - part[:, None] * sides) ** 2).sum(1))
+    return np.where(far <= reach, far, inf)
+
+
+def _ahead(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats) -> Floats:
+    """How far it is from places along their ways to chords."""
+    area = ways[:, 0] * sides[:, 1] - ways[:, 1] * sides[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        far = (to[:, 1] * sides[:, 0] - to[:, 0] * sides[:, 1]) / area
+        part = (to[:, 1] * ways[:, 0] - to[:, 0] * ways[:, 1]) / area
+    hits = (np.abs(area) > 1e-12) & (far > least) & (far <= reach) & (part >= 0) & (part <= 1)
+    return np.where(hits, far, inf)
+
+
+def in_step(tasks: Sequence[Generator[Sequence[Look], list[float], T]], field: Field) -> list[T]:
+    """Carry on tasks that wait for what they look for: all that are waiting look together.
+
+    Where tasks fail with a `UserError` that of the first one in order is raised.
+    """
+    done: dict[int, T] = {}
+    failed: dict[int, UserError] = {}
+    answers: dict[int, list[float] | None] = dict.fromkeys(range(len(tasks)))
+    while answers:
+        asked: dict[int, Sequence[Look]] = {}
+        for at, answer in answers.items():
+            try:
+                asked[at] = tasks[at].send(answer)
+            except StopIteration as stop:
+                done[at] = stop.value
+            except UserError as error:
+                failed[at] = error
+        found = iter(field.look([look for looks in asked.values() for look in looks]))
+        answers = {at: list(islice(found, len(looks))) for at, looks in asked.items()}
+    if failed:
+        raise failed[min(failed)]
+    return [done[at] for at in range(len(tasks))]
+
+
+def nearest_order(places: Floats, begin: XY) -> list[int]:
+    """The order of places when from `begin` on the nearest one is always next; of equally near ones the first."""
+    left = set(range(len(places)))
+    x, y = places.T.copy()
+    xs, ys = x.tolist(), y.tolist()
+    low, size = places.min(0).tolist(), (places.max(0) - places.min(0)).tolist()
+    cell = max((size[0] * size[1] / len(xs)) ** 0.5 * 1.5, max(size) / len(xs), 1e-9)
+    cells: dict[tuple[int, int], list[int]] = defaultdict(list)
+    columns, rows = int(size[0] / cell), int(size[1] / cell)
+    home = [(int((p - low[0]) / cell), int((q - low[1]) / cell)) for p, q in zip(xs, ys, strict=True)]
+    for at, key in enumerate(home):
+        cells[key].append(at)
+    order: list[int] = []
+    p, q = begin
+    while left:
+        column = min(max(int((p - low[0]) // cell), 0), columns)
+        row = min(max(int((q - low[1]) // cell), 0), rows)
+        best = inf, -1
+        for ring in range(4):
+            for key in _ring(column, row, ring):
+                for at in cells.get(key, ()):
+                    u, v = xs[at] - p, ys[at] - q
+                    best = min(best, (u * u + v * v, at))
+            # All that is in no ring yet is at least so many cells away.
+            if best[0] < (ring * cell) ** 2 * (1 - 1e-9):
+                break
+        else:
+            best = 0.0, int(np.argmin((x - p) ** 2 + (y - q) ** 2))
+        at = best[1]
+        order.append(at)
+        left.discard(at)
+        cells[home[at]].remove(at)
+        p, q = xs[at], ys[at]
+        x[at] = inf
+    return order
+
+
+def _ring(column: int, row: int, ring: int) -> list[tuple[int, int]]:
+    """The cells so many cells around one."""
+    if not ring:
+        return [(column, row)]
+    found = [(column + i, row + j) for i in range(-ring, ring + 1) for j in (-ring, ring)]
+    return found + [(column + i, row + j) for i in (-ring, ring) for j in range(1 - ring, ring)]

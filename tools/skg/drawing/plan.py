@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, inf, pi
+from typing import TypeVar
 
 import numpy as np
 
 from skg.drawing.contour import Contour, Edge
-from skg.drawing.field import Field
+from skg.drawing.field import Field, Look, in_step, nearest_order
 from skg.errors import UserError
 from skg.plane import XY, distance, minus, polar, turn
 
+T = TypeVar("T")
 #: Where the wire may run, see `plan`.
 SIDES = ("auto", "inside", "outside", "left", "right", "on")
 #: A start hole is this far from the contour where there is room, mm.
@@ -268,12 +270,12 @@ def _entries(contour: Contour, tab: float) -> Iterator[tuple[Contour, float]]:
     )
     fitting = [at for at in ranked if contour.edges[at].length > 1.2 * tab]
     for at in fitting[:_TRIED]:
-        edge = contour.edges[at]
+        edge, turned = contour.edges[at], _turned_to(contour, at)
         aside = tab / 2 / edge.length
         for part in (0.0, 0.25, 0.5, 0.75) if edge.is_circle else (0.5, 0.3, 0.7):
             part += aside
             if edge.is_circle or part - 2 * aside > 0.05 and part < 0.95:
-                yield _turned_to(contour, at), part % 1
+                yield turned, part % 1
     if not ranked or not fitting and any(edge.nodes and edge.length > 1.2 * tab for edge in contour.edges):
         yield _entry_on_curve(contour)
 
@@ -291,14 +293,21 @@ class Method:
     is_arc: bool = False
 
 
+#: What waits for the answers to its looks before it goes on.
+_Looking = Generator[Sequence[Look], list[float], T]
+
+
 class _Planner:
-    """Plans one contour after the other; knows what lies around them."""
+    """Plans contours, each by itself; knows what lies around them."""
 
     def __init__(self, contours: list[Contour], method: Method) -> None:
         self.field = Field(contours)
         self.method = method
 
-    def plan(self, number: int, contour: Contour, sign: float, depth: int, given: XY | None) -> PlannedContour:
+    def plan(
+        self, number: int, contour: Contour, sign: float, depth: int, given: XY | None
+    ) -> _Looking[PlannedContour]:
+        """Plan a contour."""
         method = self.method
         passes = tuple(sign * (method.offset + more) for more in method.passes)
         offset = passes[-1]
@@ -313,14 +322,13 @@ class _Planner:
             contour, part = _entry_near(contour, given, max(passes, key=abs))
             if tab:
                 contour, part = self._tab_before(contour, part, number)
-            made = replace(made, contour=contour, start=given, part=part)
-            return self._with_tab_hole(made, is_outside == is_ccw)
-        return self._chosen(made, is_outside, is_ccw)
+            hole = yield from self._tab_hole(contour, part, given, tab, is_outside == is_ccw)
+            return replace(made, contour=contour, start=given, part=part, tab_hole=hole)
+        return (yield from self._chosen(made, is_outside, is_ccw))
 
-    def _chosen(self, made: PlannedContour, is_outside: bool, is_ccw: bool) -> PlannedContour:
+    def _chosen(self, made: PlannedContour, is_outside: bool, is_ccw: bool) -> _Looking[PlannedContour]:
         """Choose the entry with the most room: the first one with enough, else the best one."""
-        method = self.method
-        reach = method.lead + max(map(abs, made.passes))
+        reach = self.method.lead + max(map(abs, made.passes))
         best: PlannedContour | None = None
         for contour, part in _entries(made.contour, made.tab):
             edge = contour.edges[0]
@@ -329,13 +337,14 @@ class _Planner:
                 part = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
                 start = edge.centre
             else:
-                start = self._hole(edge, part, is_outside == is_ccw, reach)
-            one = replace(made, contour=contour, start=start, part=part)
-            one = self._with_tab_hole(one, is_outside == is_ccw)
-            one = replace(one, room=self._room(one))
-            if best is None or one.room > best.room:
-                best = one
-            if one.room >= _ENOUGH * reach or start == edge.centre:
+                start = yield from self._hole(edge, part, is_outside == is_ccw, reach)
+            tab_hole = yield from self._tab_hole(contour, part, start, made.tab, is_outside == is_ccw)
+            # How far the nearest contour is from the start holes.
+            around = 2 * distance(start, edge.at(part)) + 1e-3
+            room = min((yield [Look(hole, around) for hole in ((start, tab_hole) if made.tab else (start,))]))
+            if best is None or room > best.room:
+                best = replace(made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=room)
+            if room >= _ENOUGH * reach or start == edge.centre:
                 break
         if best is None:
             raise self._too_short(made.contour)
@@ -358,33 +367,32 @@ class _Planner:
             raise self._too_short(contour)
         return contour, min(0.95, max(part, aside + 0.05))
 
-    def _hole(self, edge: Edge, part: float, is_right: bool, reach: float, at_end: bool = False) -> XY:
+    def _hole(self, edge: Edge, part: float, is_right: bool, reach: float, at_end: bool = False) -> _Looking[XY]:
         """A start hole square to the entry, on the wire's side: `reach` away, or in the middle of the room there is."""
         entry = edge.at(part)
         way = edge.direction(1.0 if at_end else part)
         square = way - pi / 2 if is_right else way + pi / 2
         # An arc's own chords lie up to 0.1 % of its radius inside of it.
         least = 1e-3 * (1 + edge.radius) if edge.centre is not None else 1e-3
-        reach = min(reach, self.field.way(entry, square, 2 * reach + least, least) / 2)
+        (ahead,) = yield [Look(entry, 2 * reach + least, square, least)]
+        reach = min(reach, ahead / 2)
         hole = polar(entry, reach, square)
-        while self.method.is_arc and reach > _LEAST_ARC and self.field.distance(hole, reach) < _ROUND * reach:
+        while self.method.is_arc and reach > _LEAST_ARC:
             # (the quarters of the circle to the contour and from it must be free)
+            (near,) = yield [Look(hole, reach)]
+            if near >= _ROUND * reach:
+                break
             reach *= 0.8
             hole = polar(entry, reach, square)
         return hole
 
-    def _with_tab_hole(self, made: PlannedContour, is_right: bool) -> PlannedContour:
-        if not made.tab:
-            return made
-        main, _ = split_at_end(made.chain(), made.tab)
-        reach = distance(made.start, made.entry)
-        hole = self._hole(main[-1], 1.0, is_right, reach, True)
-        return replace(made, tab_hole=hole)
-
-    def _room(self, made: PlannedContour) -> float:
-        """How far the nearest contour is from the start holes."""
-        holes = [made.start, made.tab_hole] if made.tab else [made.start]
-        return min(self.field.distance(hole, 2 * distance(made.start, made.entry) + 1e-3) for hole in holes)
+    def _tab_hole(self, contour: Contour, part: float, start: XY, tab: float, is_right: bool) -> _Looking[XY]:
+        """The start hole at the other side of the tab, as far from the contour as the first one."""
+        if not tab:
+            return 0.0, 0.0
+        main, _ = split_at_end(chain_from(contour, part), tab)
+        reach = distance(start, contour.edges[0].at(part))
+        return (yield from self._hole(main[-1], 1.0, is_right, reach, True))
 
 
 def _part_at(edge: Edge, place: XY) -> float:
@@ -414,9 +422,9 @@ def plan(
     planner = _Planner(contours, method)
     depths = planner.field.depths()
     ready = [_oriented(one, side, depth, reverse) for one, depth in zip(contours, depths, strict=True)]
-    given = _given_starts([contour for contour, _ in ready], depths, list(starts))
-    routes = [planner.plan(at, contour, sign, depths[at], given.get(at)) for at, (contour, sign) in enumerate(ready)]
-    return _ordered(routes)
+    given = _given_starts(planner.field, depths, list(starts))
+    tasks = [planner.plan(at, contour, sign, depths[at], given.get(at)) for at, (contour, sign) in enumerate(ready)]
+    return _ordered(in_step(tasks, planner.field))
 
 
 def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
@@ -424,31 +432,21 @@ def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
     places = np.array([route.start for route in routes], float).reshape(-1, 2)
     depths = np.array([route.depth for route in routes], int)
     ordered: list[PlannedContour] = []
-    at_now = np.zeros(2)
+    at_now = 0.0, 0.0
     for depth in sorted(set(depths.tolist()), reverse=True):
-        left = np.flatnonzero(depths == depth)
-        while len(left):
-            nearest = int(np.argmin(((places[left] - at_now) ** 2).sum(1)))
-            ordered.append(routes[left[nearest]])
-            at_now = places[left[nearest]]
-            left = np.delete(left, nearest)
+        some = np.flatnonzero(depths == depth)
+        ordered += [routes[at] for at in some[nearest_order(places[some], at_now)].tolist()]
+        at_now = ordered[-1].start
     return ordered
 
 
-def _given_starts(contours: list[Contour], depths: list[int], starts: list[XY]) -> dict[int, XY]:
+def _given_starts(field: Field, depths: list[int], starts: list[XY]) -> dict[int, XY]:
     """Which contour (by its number) each given start hole belongs to."""
     found: dict[int, XY] = {}
-    for start in starts:
-        around = [
-            at
-            for at, contour in enumerate(contours)
-            if at not in found and depths[at] % 2 and contour.is_closed and contour.holds(start)
-        ]
-        free = [at for at in range(len(contours)) if at not in found]
-        if not free:
-            raise UserError(f"{len(starts)} start holes for {len(contours)} contours")
-        if around:
-            found[max(around, key=depths.__getitem__)] = start
-        else:
-            found[min(free, key=lambda at: min(distance(start, p) for p in contours[at].points()))] = start
+    if len(starts) > len(depths):
+        raise UserError(f"{len(starts)} start holes for {len(depths)} contours")
+    for start, holding in zip(starts, field.around(starts), strict=True):
+        around = [at for at in holding if at not in found and depths[at] % 2]
+        chosen = max(around, key=depths.__getitem__) if around else field.nearest(start, found)
+        found[chosen] = start
     return found

@@ -245,11 +245,17 @@ def _open_ends(contours: list[Contour], factor: float) -> list[OpenEnd]:
     return found
 
 
+def _box(contour: Contour) -> tuple[float, float, float, float]:
+    """Smallest x and y, largest x and y of a contour."""
+    xs, ys = zip(*(place for edge in contour.edges for place in edge.extremes()), strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
 def _measure(contours: list[Contour], report: Account) -> None:
     """Size, length and number of the contours."""
-    found = [point for contour in contours for point in contour.points()]
-    report.low = min(x for x, _ in found), min(y for _, y in found)
-    report.high = max(x for x, _ in found), max(y for _, y in found)
+    boxes = [_box(contour) for contour in contours]
+    report.low = min(box[0] for box in boxes), min(box[1] for box in boxes)
+    report.high = max(box[2] for box in boxes), max(box[3] for box in boxes)
     report.closed = sum(contour.is_closed for contour in contours)
     report.open = len(contours) - report.closed
     report.length = sum(edge.length for contour in contours for edge in contour.edges)

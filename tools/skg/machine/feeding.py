@@ -14,6 +14,8 @@ MOST_CYCLES = 10**12
 #: RAM that a board may have, KiB.
 LEAST_RAM, MOST_RAM = 2, 56
 MEMORY_FULL = 9
+#: Ctrl-Z: nothing follows on a tape of program lines.
+TAPE_END = "\x1a"
 #: A line's number: blanks mean nothing, inside it too.
 _NUMBERED = re.compile(r"[\0- ]*(\d[\0- \d]*)")
 _MEANS_NOTHING = re.compile(r"[\0- ]")
@@ -90,7 +92,8 @@ def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fe
     board = Board(rom, ram_kib, max_cycles=MOST_CYCLES)
     done, error = 0, None
     for part in parts:
-        error = find_error(board.load(part))
+        # (LOAD would wait for what follows a tape without this end)
+        error = find_error(board.load(f"{part}{TAPE_END}"))
         if error:
             break
         done += 1

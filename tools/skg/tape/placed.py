@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from math import atan2, ceil, floor, pi
+from math import atan2, pi
 
 from skg.piece import Piece
-from skg.plane import XY, minus, polar
+from skg.plane import XY, minus
 from skg.tape.block import Block, Tape
 from skg.tape.controller import run_block
 from skg.tape.moves import closed_moves
@@ -130,19 +130,12 @@ def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
     """Smallest and largest x and y (xmin, ymin, xmax, ymax) of the routes in µm, bulges of arcs included."""
     low = high = (0.0, 0.0)
     for at, placed in enumerate(placed for route in routes for placed in route.blocks):
-        points = [placed.start, placed.end, *([] if placed.is_line else _bulges(placed))]
+        points = placed.extremes()
         if at == 0:
             low = high = placed.start
         low = min(low[0], *(x for x, _ in points)), min(low[1], *(y for _, y in points))
         high = max(high[0], *(x for x, _ in points)), max(high[1], *(y for _, y in points))
     return *low, *high
-
-
-def _bulges(placed: Placed) -> Iterator[XY]:
-    """Where an arc has its extremes, but for its ends."""
-    first, last = sorted(placed.angles)
-    for quarter in range(ceil(first / (pi / 2)), floor(last / (pi / 2)) + 1):
-        yield polar(placed.centre, placed.radius, quarter * pi / 2)
 
 
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:

@@ -1,0 +1,170 @@
+"""What is looked for among many contours at once. The judges are shapely, and looking at all of them one by one."""
+
+from __future__ import annotations
+
+import random
+from math import cos, hypot, inf, pi, sin
+
+import numpy as np
+import pytest
+import shapely
+from shapely.geometry import LineString, Point, Polygon
+
+from skg.cutting.near import Pieces
+from skg.drawing.contour import Contour, Edge
+from skg.drawing.field import Field, Look, in_step, nearest_order
+from skg.errors import UserError
+from skg.piece import Piece
+from skg.plane import XY
+
+
+def ring(points: list[XY]) -> Contour:
+    return Contour(tuple(Edge(p, q) for p, q in zip(points, [*points[1:], points[0]], strict=True)), True)
+
+
+def thrown(seed: int, count: int) -> list[Contour]:
+    """Rectangles and triangles on small whole numbers, which touch and repeat, circles, and a line of 90 edges."""
+    rng = random.Random(seed)
+    found = []
+    for _ in range(count):
+        x, y, width, height = rng.randint(0, 40), rng.randint(0, 40), rng.randint(1, 9), rng.randint(1, 9)
+        if rng.random() < 0.3:
+            found.append(Contour((Edge((x, y), (x, y), (x - width, y), 2 * pi),), True))
+        else:
+            corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+            found.append(ring([(float(u), float(v)) for u, v in corners[: rng.choice((3, 4))]]))
+    zigzag = [(0.5 * k, 20.0 + k % 2) for k in range(91)]
+    return [*found, Contour(tuple(Edge(p, q) for p, q in zip(zigzag, zigzag[1:], strict=False)), False)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_looks(seed: int) -> None:
+    """All at once, some of them far outside: the nearest chord, and the next one ahead."""
+    contours, rng = thrown(seed, 60), random.Random(seed)
+    chords = [LineString([p, q]) for one in contours for p, q in zip(one.points(), one.points()[1:], strict=False)]
+    everything = shapely.union_all(chords)
+    looks = []
+    for _ in range(300):
+        place, reach = (rng.uniform(-20, 60), rng.uniform(-20, 60)), rng.choice((0.3, 2.0, 30.0))
+        looks += [Look(place, reach), Look(place, reach, rng.uniform(-4, 4), 0.01)]
+    found = Field(contours).look(looks)
+    hits = 0
+    for look, far in zip(looks, found, strict=True):
+        ahead = [
+            (look.place[0] + part * cos(look.angle or 0), look.place[1] + part * sin(look.angle or 0))
+            for part in (look.least, look.reach)
+        ]
+        if look.angle is None:
+            true = everything.distance(Point(look.place))
+        else:
+            true = shapely.distance(Point(look.place), everything.intersection(LineString(ahead)))
+        if not true <= look.reach:
+            assert far == inf or far == pytest.approx(look.reach, abs=1e-9)
+        else:
+            hits += 1
+            assert far == pytest.approx(true, abs=1e-9)
+    assert hits > 100
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_lies_around(seed: int) -> None:
+    contours = thrown(seed, 60)
+    field = Field(contours)
+    areas = [Polygon(one.points()) if one.is_closed else None for one in contours]
+    rng = random.Random(seed)
+    places = [(rng.uniform(-1, 50), rng.uniform(-1, 50)) for _ in range(200)]
+    for place, around in zip(places, field.around(places), strict=True):
+        assert around == [at for at, area in enumerate(areas) if area is not None and area.contains(Point(place))]
+        free = [at for at in range(len(contours)) if at not in around]
+        far = [min(hypot(x - place[0], y - place[1]) for x, y in contours[at].points()) for at in free]
+        assert field.nearest(place, set(around)) == free[far.index(min(far))]
+
+
+def test_depths_of_many() -> None:
+    """Rings within rings, each begun at another corner, and one of 3,000 chords around them all."""
+    rings = [ring([(k, k), (60 - k, k), (60 - k, 60 - k), (k, 60 - k)]) for k in range(20)]
+    round_about = ring([(30 + 50 * cos(k * pi / 1500), 30 + 50 * sin(k * pi / 1500)) for k in range(3000)])
+    aside = ring([(200, 0), (210, 0), (205, 5)])
+    assert Field([*rings, round_about, aside]).depths() == [*range(1, 21), 0, 0]
+    assert Field([]).depths() == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_nearest_order(seed: int) -> None:
+    """Places anywhere, on whole numbers, on one line, in two heaps: of equally near ones the first is next."""
+    rng = random.Random(seed)
+    count = rng.choice((1, 2, 30, 400))
+    kinds = [
+        [(rng.uniform(0, 99), rng.uniform(0, 99)) for _ in range(count)],
+        [(float(rng.randint(0, 9)), float(rng.randint(0, 9))) for _ in range(count)],
+        [(float(rng.randint(0, 50)), 7.0) for _ in range(count)],
+        [(rng.choice((0.0, 1e5)) + rng.random(), rng.random()) for _ in range(count)],
+    ]
+    for places in kinds:
+        begin = at = rng.uniform(-500, 500), rng.uniform(-5, 5)
+        left, wanted = list(range(count)), []
+        while left:
+            following = min(left, key=lambda k: ((places[k][0] - at[0]) ** 2 + (places[k][1] - at[1]) ** 2, k))
+            left.remove(following)
+            wanted.append(following)
+            at = places[following]
+        assert nearest_order(np.array(places), begin) == wanted
+
+
+def test_in_step() -> None:
+    """Tasks of different length get their own answers; of two that fail the first one's error is raised."""
+    field = Field([ring([(0, 0), (9, 0), (9, 9), (0, 9)])])
+
+    def task(number: int, steps: int) -> object:
+        found = []
+        for step in range(steps):
+            found += yield [Look((4.5, step / 8), 5.0)] * (number % 2 + 1)
+        if number > 5:
+            raise UserError(f"number {number}")
+        return found
+
+    got = in_step([task(number, number) for number in range(5)], field)
+    assert got == [[step / 8 for step in range(number) for _ in range(number % 2 + 1)] for number in range(5)]
+    with pytest.raises(UserError, match="number 6"):
+        in_step([task(number, 9 - number) for number in range(8)], field)
+
+
+@pytest.mark.parametrize("reach", [0.006, 0.5, 4.0])
+def test_nearest_pieces(reach: float) -> None:
+    """Lines and arcs of three owners: the nearest of the place's own, and of another's."""
+    rng = random.Random(1)
+    pieces, shapes = [], []
+    for at in range(400):
+        x, y, owner = rng.uniform(0, 100), rng.uniform(0, 100), at % 3
+        if at % 2:
+            piece = Piece((x, y), (x + rng.uniform(-9, 9), y + rng.uniform(-40, 40)))
+            shapes.append(LineString([piece.start, piece.end]))
+        else:
+            radius, first, sweep = rng.uniform(0.5, 5), rng.uniform(-3, 3), rng.uniform(-6, 6)
+            ends = [(x + radius * cos(a), y + radius * sin(a)) for a in (first, first + sweep)]
+            piece = Piece(*ends, (x, y), sweep)
+            turns = np.linspace(first, first + sweep, 300)
+            shapes.append(LineString(np.column_stack((x + radius * np.cos(turns), y + radius * np.sin(turns)))))
+        pieces.append((piece, owner))
+    path = Pieces(pieces)
+    which, part = path.samples(1.0, 2)
+    aside = np.array([[rng.uniform(-reach, reach) for _ in "xy"] for _ in which])
+    places, owners = (
+        np.vstack((path.at(which, part) + aside, [(1e4, 0), (-1e4, 50), (50, -1e4)])),
+        [*which % 3, 0, 1, 2],
+    )
+    found = path.nearest(places, np.array(owners), reach)
+    seen = 0
+    for at in range(0, len(places), 29):
+        far = shapely.distance(Point(places[at]), shapes)
+        is_own = np.array([owner == owners[at] for _, owner in pieces])
+        for mask, got, number in (
+            (is_own, found.own[at], found.own_at[at]),
+            (~is_own, found.other[at], found.other_at[at]),
+        ):
+            if far[mask].min() <= reach - 1e-3:
+                seen += 1
+                assert got == pytest.approx(far[mask].min(), abs=1e-3)
+                assert far[number] == pytest.approx(got, abs=1e-3)
+                assert mask[number]
+    assert seen > 100
