@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterator
-from math import cos, pi, sin
+from math import cos, hypot, pi, sin
 from pathlib import Path
 
-import ezdxf
 import pytest
 import shapely
+from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretches
 from ezdxf.document import Drawing
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from shapely.geometry import LineString, Point, Polygon
@@ -20,24 +19,10 @@ from skg import tape as tapes
 from skg.errors import UserError
 from skg.machine.feeding import feed, is_stored, without_numbers
 from skg.plane import XY
-from skg.tape.block import Block
 from skg.tape.controller import run_block
 
 #: A drawing.
 BRACKET = Path(__file__).parents[2] / "docs/pictures/bracket.dxf"
-#: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
-LIMIT, CHORDS = 0.003, 0.0005
-
-
-def drawing() -> Drawing:
-    found = ezdxf.new()
-    found.units = ezdxf.units.MM
-    return found
-
-
-def polygon(corners: list[XY], page: Drawing, **attributes: object) -> Polygon:
-    page.modelspace().add_lwpolyline(corners, close=True, dxfattribs=attributes)
-    return Polygon(corners)
 
 
 def plate(page: Drawing) -> tuple[Polygon, list[Polygon]]:
@@ -46,49 +31,6 @@ def plate(page: Drawing) -> tuple[Polygon, list[Polygon]]:
     page.modelspace().add_circle((12, 10), 5)
     window = polygon([(10, 20), (20, 20), (20, 27), (14, 24), (10, 27)], page)
     return outline, [Point(12, 10).buffer(5, quad_segs=400), window]
-
-
-def saved(page: Drawing, folder: Path) -> Path:
-    path = folder / "part.dxf"
-    page.saveas(path)
-    return path
-
-
-def along(block: Block, at: XY) -> tuple[list[XY], XY]:
-    """Where the controller goes in a block, from a place in mm: its places, thinned out."""
-    (dx, dy), start = run_block(block).move, block.start
-    end = at[0] + dx / 1000, at[1] + dy / 1000
-    if block.is_line:
-        return [at, end], end
-    centre = at[0] - start[0] / 1000, at[1] - start[1] / 1000
-    radius = ((block.x**2 + block.y**2) ** 0.5) / 1000
-    begin = complex(start[0], start[1])
-    steps = max(4, int(abs(block.sweep) * (radius / CHORDS / 8) ** 0.5) + 2)
-    places = []
-    for k in range(steps + 1):
-        turned = begin * complex(cos(block.sweep * k / steps), sin(block.sweep * k / steps)) / 1000
-        places.append((centre[0] + turned.real, centre[1] + turned.imag))
-    return [*places[:-1], end], end
-
-
-def stretches(data: bytes, start: XY) -> Iterator[list[XY]]:
-    """The places of the wire between stops; moves between start holes are passed over."""
-    at = start
-    for number, blocks in enumerate(tapes.parse(data, "tape").stretches()):
-        places = [at]
-        for block in blocks:
-            more, at = along(block, at)
-            places += more[1:]
-        if number % 2 == 0:
-            yield places
-
-
-def apart(one: shapely.Geometry, other: shapely.Geometry) -> float:
-    """Hausdorff distance, both ways, of two curves (mm)."""
-    return max(
-        one.segmentize(0.02).hausdorff_distance(other),
-        other.segmentize(0.02).hausdorff_distance(one),
-    )
 
 
 def test_plate(run: Run, tmp_path: Path) -> None:
@@ -156,12 +98,12 @@ def test_a_wire_and_a_gap_that_together_are_too_much(run: Run) -> None:
 @pytest.mark.parametrize(
     ("offset", "words"),
     [
-        (0.6, ["the wire", "mm into it", "no room"]),
-        (2.5, ["contour 1 (opening", "ERR 07", "smaller --offset"]),
+        (0.6, ["offset of 0.6 mm", "does not come to", "no room"]),
+        (2.5, ["contour 1 (opening", "does not come to", "no room"]),
     ],
 )
 def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: list[str]) -> None:
-    """A slot that the wire does not fit into, and an arc that it eats: refused, nothing is written."""
+    """A slot and a hole that the wire does not fit into: refused, nothing is written."""
     page = drawing()
     polygon([(0, 0), (30, 0), (30, 20), (0, 20)], page)
     if offset < 1:
@@ -177,11 +119,7 @@ def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: 
         ]
         polygon([(5, 5), (10, 5), *neck, (10, 12), (5, 12)], page)
     else:
-        page.modelspace().add_lwpolyline(
-            [(5, 5, 0), (15, 5, 0.41421356), (17, 7, 0), (17, 15, 0), (5, 15, 0)],
-            "xyb",
-            close=True,
-        )
+        page.modelspace().add_circle((10, 10), 2.4)
     result = run_failing(
         run,
         "cut",
@@ -194,12 +132,6 @@ def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: 
     for word in words:
         assert word in result
     assert not (tmp_path / "part.3b").exists()
-
-
-def run_failing(run: Run, *words: object) -> str:
-    with pytest.raises(UserError) as failed:
-        run(*words)
-    return str(failed.value)
 
 
 def test_wrong_tapes_are_found() -> None:
@@ -224,6 +156,22 @@ def test_wrong_tapes_are_found() -> None:
     assert faults and faults[0].route == 1
     with pytest.raises(UserError, match="stops"):
         check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), routes, True)
+
+
+def test_a_circle_too_many_is_found() -> None:
+    """At a corner the wire goes on along the line or circle there, but not all around that."""
+    from skg.cutting.check import check
+    from skg.cutting.job import Settings, make
+    from skg.drawing.contour import Contour, Edge
+    from skg.drawing.plan import plan
+
+    half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
+    routes = plan([half], [], 0.1, "auto")
+    job = make(routes, "part", 1.0, Settings())
+    assert not job.checked.faults
+    (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
+    around = job.data.replace(arc, b"B5099B100B20400GYNR4\r\n" + arc)
+    assert check(tapes.parse(around, "around"), routes, True).faults
 
 
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
@@ -296,7 +244,13 @@ def test_passes(run: Run, tmp_path: Path) -> None:
     cut = rings(first, hole) + rings(rest, hole)
     assert len(cut) == len(OFFSETS)
     for ring, offset in zip(cut, OFFSETS, strict=True):
-        assert apart(ring, window.buffer(-offset, join_style="mitre", mitre_limit=50).exterior) < LIMIT
+        assert (
+            apart(
+                ring,
+                window.buffer(-offset, join_style="mitre", mitre_limit=50).exterior,
+            )
+            < LIMIT
+        )
     ways = [shapely.LinearRing(ring.coords).is_ccw for ring in cut]
     assert ways[0] != ways[1] != ways[2]
 
@@ -312,7 +266,18 @@ def test_tab(run: Run, tmp_path: Path, shape: str, outline: str) -> None:
     else:
         part = polygon([(0, 0), (30, 0), (30, 12), (14, 10), (0, 25)], page)
     tape, program = tmp_path / "part.3b", tmp_path / "part.skg"
-    words = ["--offset", offset, "--passes", PASSES, "--tab", tab, "--lead-shape", shape, "--program", program]
+    words = [
+        "--offset",
+        offset,
+        "--passes",
+        PASSES,
+        "--tab",
+        tab,
+        "--lead-shape",
+        shape,
+        "--program",
+        program,
+    ]
     assert run("cut", saved(page, tmp_path), "-o", tape, *words).exit_code == 0
     before, after = (LineString(places) for places in stretches(tape.read_bytes(), start_of(program)))
     assert program.read_text().count("STOP") == 1
@@ -354,12 +319,17 @@ def test_arc_leads(run: Run, tmp_path: Path) -> None:
     assert turned < 0.002
 
 
-def test_a_tab_needs_an_edge(run: Run, tmp_path: Path) -> None:
-    """A tab longer than every edge is refused, with the longest."""
+def test_a_tab_goes_around_corners(run: Run, tmp_path: Path) -> None:
+    """A tab longer than every edge has several; one that is too long for the contour is refused, with its length."""
     page = drawing()
     polygon([(3 * cos(at * pi / 12), 3 * sin(at * pi / 12)) for at in range(24)], page)
-    message = run_failing(run, "cut", saved(page, tmp_path), "--tab", 1.5)
-    assert "tab of 1.5 mm" in message and "the longest has 0.783" in message
+    tape = tmp_path / "part.3b"
+    run("cut", saved(page, tmp_path), "-o", tape, "--offset", 0.1, "--tab", 1.5)
+    _, tab = tapes.parse(tape.read_bytes(), "tape").stretches()[::2]
+    cut = sum(hypot(*run_block(block).move) for block in tab) / 1000
+    assert 1.5 + 2 * 3 < cut < 2.4 + 2 * 3.1
+    message = run_failing(run, "cut", saved(page, tmp_path), "--tab", 7)
+    assert "tab of 7 mm" in message and "it has 18.79" in message
 
 
 @pytest.mark.parametrize(("size", "columns"), [(1.0, 1), (500.0, 11)])
@@ -371,7 +341,12 @@ def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
     from skg.drawing.plan import plan
 
     corners = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
-    contours = [Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)]
+    contours = [
+        Contour(
+            tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)),
+            True,
+        )
+    ]
     for at in range(columns**2):
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
@@ -394,5 +369,12 @@ def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
     tree = shapely.STRtree(part)
     assert not len(tree.query(boxes, "intersects")[0]) and not len(tree.query(marks, "intersects")[0])
     text = (tmp_path / "sheet.svg").read_text()
-    for word in ("part.dxf", "part.3b", f"{job.cut_length:.1f} mm", "0.18 mm, gap 0.01 mm", "opening", "outline"):
+    for word in (
+        "part.dxf",
+        "part.3b",
+        f"{job.cut_length:.1f} mm",
+        "0.18 mm, gap 0.01 mm",
+        "opening",
+        "outline",
+    ):
         assert word in text

@@ -30,6 +30,8 @@ from skg.tape.placed import Placed, closed_moves
 LIMIT = 0.003
 #: Rounding takes a block's end up to this far, mm: where it is further off there may be a reason.
 _USUAL = 0.0008
+#: At a sharp corner, outside, the wire is no further from it than so often what it is where two lines meet.
+_TIP = 2.0
 #: The wire's path is looked at in no more places than this.
 _MOST_PLACES = 400_000
 
@@ -119,7 +121,8 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
     faults, crossings, worst = _beside(wire, steps, contours, routes, offsets, widest)
-    more, far = _reached(wire, contours, _in_tabs(routes), offsets, widest)
+    is_chord = np.array([not isinstance(piece, Edge) for route in routes for piece in drawn(route)], bool)
+    more, far = _reached(wire, contours, is_chord, _in_tabs(routes), offsets, widest)
     return Checked(cuts, max(worst, far), faults + more, crossings)
 
 
@@ -238,6 +241,10 @@ def _off_leads(places: Floats, owners: Whole, routes: list[PlannedContour]) -> F
     return leads.nearest(places, owners, 2 * LIMIT).own
 
 
+def _far(places: Floats, others: Floats) -> Floats:
+    return np.hypot(*(places - others).T)
+
+
 def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats) -> Floats:
     """How far places outside of sharp corners are from where they should be: beside a line or circle there."""
     off = np.full(len(places), np.inf)
@@ -247,13 +254,22 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
         reach *= 6
         near = contours.nearest(places[left], owners[left], reach)
         found = near.own_at >= 0
-        first = np.searchsorted(contours.owner, owners[left][found])
-        count = np.searchsorted(contours.owner, owners[left][found], "right") - first
-        for beside in (-1, 0, 1):
-            other = first + (near.own_at[found] - first + beside) % count
-            carrier = contours.from_carrier(places[left][found], other)
-            at = left[found]
-            off[at] = np.minimum(off[at], np.abs(carrier[:, None] - wanted[at]).min(1))
+        at, place = left[found], places[left][found]
+        first = np.searchsorted(contours.owner, owners[at])
+        count = np.searchsorted(contours.owner, owners[at], "right") - first
+        nearest = near.own_at[found]
+        # The corner of two pieces that a place is nearest to.
+        is_behind = _far(place, contours.end[nearest]) < _far(place, contours.start[nearest])
+        other = first + (nearest - first + np.where(is_behind, 1, -1)) % count
+        before, after = np.where(is_behind, nearest, other), np.where(is_behind, other, nearest)
+        corner = np.where(is_behind[:, None], contours.end[nearest], contours.start[nearest])
+        ways = [contours.normal(piece, np.full(len(piece), end)) for piece, end in ((before, 1.0), (after, 0.0))]
+        bend = np.sqrt(np.maximum(0, (1 + (ways[0] * ways[1]).sum(1)) / 2))
+        # Where two lines meet the wire is R / cos(bend / 2) from the corner; arcs may take it a little further.
+        is_there = _far(place, corner) * bend <= _TIP * wanted[at].max(1, initial=0.0) + LIMIT
+        for piece in (before, after):
+            carrier = np.abs(contours.from_carrier(place, piece)[:, None] - wanted[at]).min(1)
+            off[at] = np.minimum(off[at], np.where(is_there, carrier, np.inf))
         left = left[~found]
         if not len(left):
             break
@@ -271,10 +287,15 @@ def _in_tabs(routes: list[PlannedContour]) -> np.ndarray:
 
 
 def _reached(
-    wire: Pieces, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
+    wire: Pieces, contours: Pieces, is_chord: np.ndarray, in_tabs: np.ndarray, offsets: Floats, widest: float
 ) -> tuple[list[Misfit], float]:
-    """Whether the wire has been beside every place of the contours that it can reach."""
+    """Whether the wire has been beside every place of the contours that it can reach.
+
+    `is_chord`: pieces that stand for a part of a curve, and are square to it in their middle alone.
+    """
     which, part = contours.samples(_spacing(contours, widest), 2)
+    true = ~is_chord[which] | (part > 0) & (part < 1)
+    which, part = which[true], part[true]
     owners = contours.owner[which]
     on, square = contours.at(which, part), contours.normal(which, part)
     faults: list[Misfit] = []

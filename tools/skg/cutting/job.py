@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from skg.cutting.check import LIMIT, Checked, Threading, check
 from skg.drawing.account import counted, short, shown
+from skg.drawing.parallel import NoRoom, uncut
 from skg.drawing.plan import PlannedContour
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
@@ -74,20 +75,56 @@ class Job:
 def make(routes: list[PlannedContour], title: str, factor: float, settings: Settings, fillets: bool = True) -> Job:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
-    `factor`: mm in a unit of the file, for the places that a `UserError` names. Nothing is returned that is wrong: a
-    contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
+    Where a contour has edges that the wire cannot follow, the program has the wire's own way along it. `factor`: mm in
+    a unit of the file, for the places that a `UserError` names. Nothing is returned that is wrong: a contour that
+    cannot be cut, or that is not cut as it is drawn, is a `UserError`.
     """
     program = Program(routes, title, fillets)
     text, is_stored, fed = _through(program, settings)
+    if fed.error and fillets:
+        # A rounded corner without room to round it may still go as an arc.
+        return make(routes, title, factor, settings, False)
     if fed.error:
-        if fillets:
-            # A rounded corner without room to round it may still go as an arc.
-            return make(routes, title, factor, settings, False)
-        raise UserError(_located(program, fed.error, factor, settings))
+        helped = _helped(routes, _refused(program, settings), factor)
+        if helped is None:
+            raise UserError(_located(program, fed.error, factor, settings))
+        return make(helped, title, factor, settings, False)
     tape = tapes.parse(fed.tape, title)
     checked = check(tape, routes, settings.is_without_drift)
+    if checked.faults:
+        helped = _helped(routes, {fault.route for fault in checked.faults}, factor)
+        if helped is not None:
+            return make(helped, title, factor, settings, fillets)
     _refuse(checked, routes, factor)
     return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings)
+
+
+def _refused(program: Program, settings: Settings) -> set[int]:
+    """The routes that the ROM refuses, each tried alone."""
+    _, *routes, _ = program.unnumbered()
+    return {at for at, one in enumerate(routes) if feed_lines([_text(one)], settings.rom, settings.ram_kib)[0].error}
+
+
+def _helped(routes: list[PlannedContour], which: set[int], factor: float) -> list[PlannedContour] | None:
+    """The routes, some with a straight lead or with the wire's own way; None where none of these can be helped.
+
+    A contour that the wire does not get around is a `UserError`.
+    """
+    found = list(routes)
+    for at in which:
+        route = routes[at]
+        if route.is_arc and route.contour.is_closed:
+            # (an arc that comes to the contour takes more room than a line)
+            found[at] = replace(route, is_arc=False, is_cramped=True)
+        elif route.contour.is_closed and all(route.passes) and not route.traced:
+            try:
+                found[at] = route.with_wire_ways()
+            except NoRoom as no_room:
+                raise UserError(
+                    f"{_named(route, at, factor)}: {no_room} {_in_file(no_room.place, factor)}, there is no room "
+                    f"for an offset of {short(max(map(abs, route.passes)))} mm: take a smaller one or a thinner wire"
+                ) from None
+    return found if found != routes else None
 
 
 def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
@@ -181,6 +218,7 @@ def report(job: Job, factor: float) -> list[str]:
         f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
         + _closing(job.checked.cuts, routes),
     ]
+    lines += _corners(routes, factor)
     for crossing in job.checked.crossings[:_PLACES]:
         lines.append(
             f"take care: the cut of contour {crossing.route + 1} comes {short(crossing.depth)} mm into contour "
@@ -206,6 +244,24 @@ def _offsets(routes: list[PlannedContour]) -> list[str]:
                 f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
             )
     return lines
+
+
+def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
+    """Contours that the wire cannot follow everywhere."""
+    lines = []
+    for at, route in enumerate(routes):
+        if route.is_cramped:
+            lines.append(f"contour {at + 1} has no room for a lead along an arc: it is straight")
+        if not route.traced:
+            continue
+        off, place = uncut(route.contour, route.traced[-1], route.passes[-1])
+        if off > LIMIT:
+            lines.append(
+                f"take care: contour {at + 1} has corners that are too narrow for the wire, as at "
+                f"{_in_file(place, factor)}: it stays {short(off)} mm off"
+            )
+    more = len(lines) - _PLACES
+    return lines[:_PLACES] + [f"and {counted(more, 'more such contour')}"] * (more > 0)
 
 
 def _how(job: Job) -> str:

@@ -90,6 +90,13 @@ class Edge(Piece):
         return (cross(self.start, self.end) + segment) / 2
 
 
+def part_of(edge: Edge, first: float, last: float) -> Edge:
+    """A line's or an arc's piece between two parts of its length."""
+    start = edge.start if first == 0 else edge.at(first)
+    end = edge.end if last == 1 else edge.at(last)
+    return replace(edge, start=start, end=end, sweep=edge.sweep * (last - first))
+
+
 @dataclass(frozen=True)
 class Contour:
     """Edges that follow each other; the last one's end is the first one's start when it is closed.

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import cos, inf, pi
+from math import cos, inf, pi, sin
 from typing import TypeVar
 
 import numpy as np
 
-from skg.drawing.contour import Contour, Edge
+from skg.drawing.contour import Contour, Edge, part_of
 from skg.drawing.field import Field, Look, in_step, nearest_order
+from skg.drawing.parallel import part_between, wire_way
 from skg.errors import UserError
 from skg.plane import XY, distance, minus, polar, turn
 
@@ -24,6 +25,16 @@ LEAD = 3.0
 _TRIED = 8
 #: A start hole has room enough when nothing is nearer than this part of the lead.
 _ENOUGH = 0.5
+#: A lead that is an arc has a radius of so often R.
+_ROOMY = 1.5
+#: Edges of so often R are surely there beside the contour.
+_SURE = 4.0
+#: A tab that goes around corners ends no nearer to one than this part of the edge there.
+_INSIDE = 0.2
+#: A contour with a tab is so many times as long as that.
+_LONG = 3
+#: So many places between a contour and its start hole are looked at.
+_LOOKS = 12
 #: A lead that is an arc is no smaller, mm; chords of a contour lie inside of it by the rest of this, of the radius.
 _LEAST_ARC, _ROUND = 0.05, 0.998
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
@@ -87,6 +98,8 @@ class PlannedContour:
     around it. `passes`: R of each pass, as if all were cut in the contour's direction; every second one is cut
     backwards. `tab`: the length before the entry that stays until the last cut, mm; `tab_hole`: the other start hole.
     `number`: its place among the contours that were planned, from 0. `room`: from the start hole to what is nearest.
+    `traced`: the wire's own way in each pass, where the contour has edges that it cannot follow; see `with_wire_ways`.
+    `is_cramped`: a lead that is an arc was asked for, and has no room.
     """
 
     contour: Contour
@@ -100,6 +113,8 @@ class PlannedContour:
     is_arc: bool = False
     number: int = 0
     room: float = inf
+    traced: tuple[tuple[Edge, ...], ...] = ()
+    is_cramped: bool = False
 
     @property
     def entry(self) -> XY:
@@ -128,7 +143,7 @@ class PlannedContour:
             for at, r in enumerate(passes):
                 falls = "IS" if at == 1 and len(passes) > 1 else ""
                 stop = falls and ("TAKE THE SLUG OUT" if self.is_opening else "THE PART IS FREE")
-                run = Way(edges, r, lead, lead, stop)
+                run = self._way(at, Way(edges, r, lead, lead, stop))
                 yield _backwards(run) if at % 2 else run
 
     def _lead(self, hole: XY, edge: Edge, at_end: bool = False) -> Lead:
@@ -142,11 +157,33 @@ class PlannedContour:
         main, tab = split_at_end(edges, self.tab)
         into, out = self._lead(self.start, main[0]), self._lead(self.tab_hole, main[-1], True)
         for at, r in enumerate(passes):
-            run = Way(main, r, into, out)
+            run = self._way(at, Way(main, r, into, out))
             yield _backwards(run) if at % 2 else run
         is_there = len(passes) % 2 == 1
-        last = Way(tab, passes[-1], out, into, "HOLD THE PART, THE NEXT CUT FREES IT")
+        last = self._way(-1, Way(tab, passes[-1], out, into, "HOLD THE PART, THE NEXT CUT FREES IT"))
         yield last if is_there else _backwards(last)
+
+    def with_wire_ways(self) -> PlannedContour:
+        """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.drawing.parallel)."""
+        return replace(self, traced=tuple(wire_way(self.contour, r) for r in self.passes))
+
+    def _way(self, at: int, run: Way) -> Way:
+        """A run of a pass along the wire's own way, if there are such."""
+        if not self.traced:
+            return run
+        first, last = (
+            _beside(place, way, run.offset)
+            for place, way in (
+                (run.edges[0].start, run.edges[0].direction()),
+                (run.edges[-1].end, run.edges[-1].direction(1.0)),
+            )
+        )
+        edges = part_between(self.traced[at], first, None if run.is_closed else last)
+        into, out = run.into, run.out
+        if into and out:
+            into = replace(into, entry=edges[0].start, is_arc=into.is_arc and distance(edges[0].start, first) < _SQUARE)
+            out = replace(out, entry=edges[-1].end, is_arc=out.is_arc and distance(edges[-1].end, last) < _SQUARE)
+        return replace(run, edges=edges, offset=0.0, into=into, out=out)
 
 
 def _backwards(run: Way) -> Way:
@@ -155,15 +192,13 @@ def _backwards(run: Way) -> Way:
     return Way(edges, -run.offset, into, out, run.stop)
 
 
+def _beside(place: XY, way: float, r: float) -> XY:
+    """The place R to the right of one that is passed in a direction (radians)."""
+    return place[0] + r * sin(way), place[1] - r * cos(way)
+
+
 def _angle(way: XY) -> float:
     return float(np.arctan2(way[1], way[0]))
-
-
-def part_of(edge: Edge, first: float, last: float) -> Edge:
-    """A line's or an arc's piece between two parts of its length."""
-    start = edge.start if first == 0 else edge.at(first)
-    end = edge.end if last == 1 else edge.at(last)
-    return replace(edge, start=start, end=end, sweep=edge.sweep * (last - first))
 
 
 def chain_from(contour: Contour, part: float) -> tuple[Edge, ...]:
@@ -178,21 +213,26 @@ def chain_from(contour: Contour, part: float) -> tuple[Edge, ...]:
 
 
 def split_at_end(edges: tuple[Edge, ...], length: float) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
-    """The edges up to `length` before their end, and those from there on.
+    """The edges up to `length` before their end, and those from there on: no less than that, and cut within an edge.
 
     A curve is split at the node there, or at the one before it.
     """
-    *before, last = edges
+    before, tail, left = list(edges), (), length
+    while len(before) > 1 and (1 - left / before[-1].length < _INSIDE if tail else left > before[-1].length):
+        tail = (before.pop(), *tail)
+        left = max(0.0, left - tail[0].length)
+    last = before.pop()
     if not last.nodes:
-        part = 1 - length / last.length
-        return (*before, part_of(last, 0, part)), (part_of(last, part, 1),)
+        part = 1 - left / last.length
+        part = min(1 - _INSIDE, max(_INSIDE, part)) if tail else part
+        return (*before, part_of(last, 0, part)), (part_of(last, part, 1), *tail)
     lengths = np.cumsum([0.0, *(distance(p, q) for p, q in pairwise(last.samples))])
     near = [node_sample(last, at) for at in range(len(last.nodes))]
-    at = max((at for at in range(1, len(near) - 1) if lengths[-1] - lengths[near[at]] >= length), default=0)
+    at = max((at for at in range(1, len(near) - 1) if lengths[-1] - lengths[near[at]] >= left), default=0)
     if not at:
-        return tuple(before), (last,)
-    head, tail = split_curve(last, at)
-    return (*before, head), (tail,)
+        return tuple(before), (last, *tail)
+    head, rest = split_curve(last, at)
+    return (*before, head), (rest, *tail)
 
 
 def node_sample(edge: Edge, at: int) -> int:
@@ -243,41 +283,61 @@ def _entry_near(contour: Contour, start: XY, offset: float) -> tuple[Contour, fl
         # A full circle is entered by a straight radial move; elsewhere any place of the edge will do.
         best = min(best, (distance(edge.at(part), start), at, part))
     if best[0] == inf:
-        return _entry_on_curve(contour)
+        return next(_entries_on_curve(contour))
     return _turned_to(contour, best[1]), best[2]
 
 
-def _entry_on_curve(contour: Contour) -> tuple[Contour, float]:
-    """Begin a contour of curves alone at a node inside its longest curve (a closed one at its seam)."""
+def _entries_on_curve(contour: Contour) -> Iterator[tuple[Contour, float]]:
+    """Begin a contour at nodes inside its longest curve (first, a closed one at its seam)."""
     at = max(range(len(contour.edges)), key=lambda k: contour.edges[k].length)
     edge = contour.edges[at]
     is_smooth = len(contour.edges) == 1 and abs(turn(edge.nodes[0].angle, edge.nodes[-1].angle)) < 1e-3
-    if is_smooth or len(edge.nodes) < 3:
-        return _turned_to(contour, at), 0.0
-    before, after = split_curve(edge, len(edge.nodes) // 2)
+    inner = {len(edge.nodes) * k // 4 for k in (1, 2, 3)} - {0, len(edge.nodes) - 1}
     turned = _turned_to(contour, at).edges
-    return replace(contour, edges=(after, *turned[1:], before)), 0.0
+    if is_smooth or not inner:
+        yield replace(contour, edges=turned), 0.0
+    for node in sorted(inner, key=lambda k: abs(2 * k - len(edge.nodes))):
+        before, after = split_curve(edge, node)
+        yield replace(contour, edges=(after, *turned[1:], before)), 0.0
 
 
-def _entries(contour: Contour, tab: float) -> Iterator[tuple[Contour, float]]:
+def _is_long(contour: Contour, tab: float) -> bool:
+    """Whether there is room for a tab that goes around corners."""
+    return sum(edge.length for edge in contour.edges) > _LONG * tab
+
+
+def _entries(contour: Contour, tab: float, widest: float) -> Iterator[tuple[Contour, float]]:
     """Where a closed contour may begin: in its longest lines, else in its longest arcs, else on a curve.
 
-    The tab lies before the entry, on the same edge.
+    The tab lies before the entry, on the same edge where there is one that is long enough. `widest`: the largest R.
     """
     ranked = sorted(
         (at for at, edge in enumerate(contour.edges) if not edge.nodes),
         key=lambda at: (not contour.edges[at].is_line, -contour.edges[at].length),
     )
     fitting = [at for at in ranked if contour.edges[at].length > 1.2 * tab]
-    for at in fitting[:_TRIED]:
+    # (a short edge may not be there any more beside the contour)
+    sure = [at for at in fitting if contour.edges[at].length > _SURE * widest]
+    yield from _on_edges(contour, sure[:_TRIED], tab)
+    if any(edge.nodes and edge.length > 1.2 * tab for edge in contour.edges):
+        yield from _entries_on_curve(contour)
+    yield from _on_edges(contour, [at for at in fitting if at not in sure][:_TRIED], tab)
+    if not fitting and _is_long(contour, tab):
+        for at in ranked[:_TRIED]:
+            yield _turned_to(contour, at), 0.5
+        if not ranked:
+            yield from _entries_on_curve(contour)
+
+
+def _on_edges(contour: Contour, edges: list[int], tab: float) -> Iterator[tuple[Contour, float]]:
+    """Entries in the middle of edges and aside from it, behind a tab."""
+    for at in edges:
         edge, turned = contour.edges[at], _turned_to(contour, at)
         aside = tab / 2 / edge.length
         for part in (0.0, 0.25, 0.5, 0.75) if edge.is_circle else (0.5, 0.3, 0.7):
             part += aside
             if edge.is_circle or part - 2 * aside > 0.05 and part < 0.95:
                 yield turned, part % 1
-    if not ranked or not fitting and any(edge.nodes and edge.length > 1.2 * tab for edge in contour.edges):
-        yield _entry_on_curve(contour)
 
 
 @dataclass(frozen=True)
@@ -303,6 +363,7 @@ class _Planner:
     def __init__(self, contours: list[Contour], method: Method) -> None:
         self.field = Field(contours)
         self.method = method
+        self.widest = method.offset + max(method.passes) if method.side != "on" else 0.0
 
     def plan(
         self, number: int, contour: Contour, sign: float, depth: int, given: XY | None
@@ -322,7 +383,7 @@ class _Planner:
             contour, part = _entry_near(contour, given, max(passes, key=abs))
             if tab:
                 contour, part = self._tab_before(contour, part, number)
-            hole = yield from self._tab_hole(contour, part, given, tab, is_outside == is_ccw)
+            hole = yield from self._tab_hole(contour, part, given, made, is_outside == is_ccw)
             return replace(made, contour=contour, start=given, part=part, tab_hole=hole)
         return (yield from self._chosen(made, is_outside, is_ccw))
 
@@ -330,15 +391,15 @@ class _Planner:
         """Choose the entry with the most room: the first one with enough, else the best one."""
         reach = self.method.lead + max(map(abs, made.passes))
         best: PlannedContour | None = None
-        for contour, part in _entries(made.contour, made.tab):
+        for contour, part in _entries(made.contour, made.tab, self.widest):
             edge = contour.edges[0]
             if edge.is_circle and not is_outside and not made.is_arc:
                 # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
                 part = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
                 start = edge.centre
             else:
-                start = yield from self._hole(edge, part, is_outside == is_ccw, reach)
-            tab_hole = yield from self._tab_hole(contour, part, start, made.tab, is_outside == is_ccw)
+                start = yield from self._hole(edge, part, is_outside == is_ccw, reach, made.is_arc)
+            tab_hole = yield from self._tab_hole(contour, part, start, made, is_outside == is_ccw)
             # How far the nearest contour is from the start holes.
             around = 2 * distance(start, edge.at(part)) + 1e-3
             room = min((yield [Look(hole, around) for hole in ((start, tab_hole) if made.tab else (start,))]))
@@ -348,14 +409,17 @@ class _Planner:
                 break
         if best is None:
             raise self._too_short(made.contour)
+        if best.is_arc and best.room < _ROOMY * self.widest:
+            # (an arc takes more room than a line)
+            return (yield from self._chosen(replace(made, is_arc=False, is_cramped=True), is_outside, is_ccw))
         return best
 
     def _too_short(self, contour: Contour) -> UserError:
         x, y = contour.edges[0].start
-        longest = max(edge.length for edge in contour.edges)
+        length = sum(edge.length for edge in contour.edges)
         return UserError(
-            f"no edge of the contour at ({x:.3f}, {y:.3f}) is long enough for a tab of {self.method.tab:g} mm: "
-            f"the longest has {longest:.3f} mm"
+            f"the contour at ({x:.3f}, {y:.3f}) is not long enough for a tab of {self.method.tab:g} mm: "
+            f"it has {length:.3f} mm in all, try a shorter --tab"
         )
 
     def _tab_before(self, contour: Contour, part: float, number: int) -> tuple[Contour, float]:
@@ -363,11 +427,15 @@ class _Planner:
         aside = self.method.tab / edge.length
         if edge.is_circle:
             return contour, part
+        if aside > 0.8 and _is_long(contour, self.method.tab):
+            return contour, part
         if aside > 0.8:
             raise self._too_short(contour)
         return contour, min(0.95, max(part, aside + 0.05))
 
-    def _hole(self, edge: Edge, part: float, is_right: bool, reach: float, at_end: bool = False) -> _Looking[XY]:
+    def _hole(
+        self, edge: Edge, part: float, is_right: bool, reach: float, is_arc: bool, at_end: bool = False
+    ) -> _Looking[XY]:
         """A start hole square to the entry, on the wire's side: `reach` away, or in the middle of the room there is."""
         entry = edge.at(part)
         way = edge.direction(1.0 if at_end else part)
@@ -375,9 +443,9 @@ class _Planner:
         # An arc's own chords lie up to 0.1 % of its radius inside of it.
         least = 1e-3 * (1 + edge.radius) if edge.centre is not None else 1e-3
         (ahead,) = yield [Look(entry, 2 * reach + least, square, least)]
-        reach = min(reach, ahead / 2)
+        reach = yield from self._clear(entry, square, min(reach, ahead / 2))
         hole = polar(entry, reach, square)
-        while self.method.is_arc and reach > _LEAST_ARC:
+        while is_arc and reach > _LEAST_ARC:
             # (the quarters of the circle to the contour and from it must be free)
             (near,) = yield [Look(hole, reach)]
             if near >= _ROUND * reach:
@@ -386,13 +454,27 @@ class _Planner:
             hole = polar(entry, reach, square)
         return hole
 
-    def _tab_hole(self, contour: Contour, part: float, start: XY, tab: float, is_right: bool) -> _Looking[XY]:
+    def _clear(self, entry: XY, square: float, reach: float) -> _Looking[float]:
+        """How far the wire gets away from an entry: all the way it stays R off what it does not cut there."""
+        r = self.widest
+        if reach <= r or not r:
+            return reach
+        middle = (r + reach) / 2
+        (near,) = yield [Look(polar(entry, middle, square), middle)]
+        if near >= _ROUND * middle:
+            return reach
+        away = [r + k / _LOOKS * (reach - r) for k in range(_LOOKS + 1)]
+        free = [near >= _ROUND * r for near in (yield [Look(polar(entry, far, square), r) for far in away])]
+        # (halfway to where it is no longer free)
+        return reach if all(free) else (r + away[max(0, free.index(False) - 1)]) / 2
+
+    def _tab_hole(self, contour: Contour, part: float, start: XY, made: PlannedContour, is_right: bool) -> _Looking[XY]:
         """The start hole at the other side of the tab, as far from the contour as the first one."""
-        if not tab:
+        if not made.tab:
             return 0.0, 0.0
-        main, _ = split_at_end(chain_from(contour, part), tab)
+        main, _ = split_at_end(chain_from(contour, part), made.tab)
         reach = distance(start, contour.edges[0].at(part))
-        return (yield from self._hole(main[-1], 1.0, is_right, reach, True))
+        return (yield from self._hole(main[-1], 1.0, is_right, reach, made.is_arc, True))
 
 
 def _part_at(edge: Edge, place: XY) -> float:

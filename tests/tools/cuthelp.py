@@ -1,0 +1,83 @@
+"""What the tests of `skg cut` have in common: drawings, and a tape's places as the controller goes; shapely judges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import cos, sin
+from pathlib import Path
+
+import ezdxf
+import pytest
+import shapely
+from ezdxf.document import Drawing
+from shapely.geometry import Polygon
+from toolhelp import Run
+
+from skg import tape as tapes
+from skg.errors import UserError
+from skg.plane import XY
+from skg.tape.block import Block
+from skg.tape.controller import run_block
+
+#: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
+LIMIT, CHORDS = 0.003, 0.0005
+
+
+def drawing() -> Drawing:
+    found = ezdxf.new()
+    found.units = ezdxf.units.MM
+    return found
+
+
+def polygon(corners: list[XY], page: Drawing, **attributes: object) -> Polygon:
+    page.modelspace().add_lwpolyline(corners, close=True, dxfattribs=attributes)
+    return Polygon(corners)
+
+
+def saved(page: Drawing, folder: Path) -> Path:
+    path = folder / "part.dxf"
+    page.saveas(path)
+    return path
+
+
+def along(block: Block, at: XY) -> tuple[list[XY], XY]:
+    """Where the controller goes in a block, from a place in mm: its places, thinned out."""
+    (dx, dy), start = run_block(block).move, block.start
+    end = at[0] + dx / 1000, at[1] + dy / 1000
+    if block.is_line:
+        return [at, end], end
+    centre = at[0] - start[0] / 1000, at[1] - start[1] / 1000
+    radius = ((block.x**2 + block.y**2) ** 0.5) / 1000
+    begin = complex(start[0], start[1])
+    steps = max(4, int(abs(block.sweep) * (radius / CHORDS / 8) ** 0.5) + 2)
+    places = []
+    for k in range(steps + 1):
+        turned = begin * complex(cos(block.sweep * k / steps), sin(block.sweep * k / steps)) / 1000
+        places.append((centre[0] + turned.real, centre[1] + turned.imag))
+    return [*places[:-1], end], end
+
+
+def stretches(data: bytes, start: XY) -> Iterator[list[XY]]:
+    """The places of the wire between stops; moves between start holes are passed over."""
+    at = start
+    for number, blocks in enumerate(tapes.parse(data, "tape").stretches()):
+        places = [at]
+        for block in blocks:
+            more, at = along(block, at)
+            places += more[1:]
+        if number % 2 == 0:
+            yield places
+
+
+def apart(one: shapely.Geometry, other: shapely.Geometry) -> float:
+    """Hausdorff distance, both ways, of two curves (mm)."""
+    return max(
+        one.segmentize(0.02).hausdorff_distance(other),
+        other.segmentize(0.02).hausdorff_distance(one),
+    )
+
+
+def run_failing(run: Run, *words: object) -> str:
+    with pytest.raises(UserError) as failed:
+        run(*words)
+    return str(failed.value)

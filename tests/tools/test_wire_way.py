@@ -1,0 +1,168 @@
+"""Contours with edges that the wire cannot follow: `skg cut` goes past them. The judge is shapely's buffer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import atan, cos, pi, sin
+from pathlib import Path
+
+import pytest
+from cuthelp import LIMIT, apart, drawing, run_failing, saved, stretches
+from ezdxf.layouts import Modelspace
+from shapely import union_all
+from shapely.geometry import LinearRing, LineString, Polygon
+from toolhelp import Run
+
+from skg.drawing.contour import Contour, Edge
+from skg.drawing.parallel import NoRoom, wire_way
+from skg.plane import XY
+
+
+def steps(space: Modelspace) -> Polygon:
+    """A window whose corners have a step, a chamfer and a fillet that are smaller than R, and a round end."""
+    corners = [
+        (0, 0, 0),
+        (9.96, 0, 0),
+        (9.96, 0.03, 0),
+        (10, 0.03, 0),
+        (10, 5.97, 0),
+        (9.97, 6, 0),
+        (1.5, 6, 1),
+    ]
+    corners += [(0, 4.5, 0.4142135623730951), (-0.05, 4.45, 0)]
+    space.add_lwpolyline(corners, "xyb", close=True)
+    return rough(corners)
+
+
+def rough(corners: list[tuple[float, float, float]]) -> Polygon:
+    """A polyline with bulges as a polygon of short chords."""
+    places: list[XY] = []
+    for (x, y, bulge), (u, v, _) in zip(corners, [*corners[1:], corners[0]], strict=True):
+        one, other = complex(x, y), complex(u, v)
+        if not bulge:
+            places.append((x, y))
+            continue
+        centre = (one + other) / 2 + (other - one) / 2 * 1j * (1 - bulge * bulge) / (2 * bulge)
+        sweep = 4 * atan(bulge)
+        for k in range(400):
+            at = centre + (one - centre) * complex(cos(sweep * k / 400), sin(sweep * k / 400))
+            places.append((at.real, at.imag))
+    return Polygon(places)
+
+
+def petals(space: Modelspace) -> Polygon:
+    """A closed spline with narrow bends inwards."""
+    controls = [
+        (
+            (12 if k % 2 else 7) * cos(k * pi / 7),
+            (12 if k % 2 else 7) * sin(k * pi / 7),
+            0,
+        )
+        for k in range(14)
+    ]
+    spline = space.add_spline(dxfattribs={"degree": 2})
+    spline.set_closed(controls, degree=2)
+    return Polygon([(point.x, point.y) for point in spline.construction_tool().approximate(6000)])
+
+
+def arch(space: Modelspace) -> Polygon:
+    """A plate with half an ellipse cut out of it: in its corners the wire does not come to the curve's first span."""
+    space.add_ellipse((0, 0), (0.9, 0), 0.55, 0, pi)
+    corners = [(-0.9, 0), (-2, 0), (-2, 3), (2, 3), (2, 0), (0.9, 0)]
+    for p, q in zip(corners, corners[1:], strict=False):
+        space.add_line(p, q)
+    curve = [(0.9 * cos(pi * k / 150), 0.9 * 0.55 * sin(pi * k / 150)) for k in range(1, 150)]
+    return Polygon([*curve, *corners])
+
+
+def parallel(shape: Polygon, offset: float, side: str, style: str = "round") -> LinearRing:
+    """The wire's way as shapely has it, around sharp corners or up to where their lines meet."""
+    if side == "inside":
+        # (GEOS is wrong by 0.02 mm and more where many short chords come to a corner: few chords, a few at a time)
+        places = shape.exterior.coords
+        pieces = [LineString(places[k : k + 6]).buffer(offset, quad_segs=200) for k in range(0, len(places) - 1, 5)]
+        return shape.difference(union_all(pieces)).exterior
+    return shape.buffer(offset, quad_segs=200, join_style=style, mitre_limit=50).exterior
+
+
+def cut(run: Run, page: object, folder: Path, *words: object) -> tuple[list[list[XY]], str]:
+    tape, program = folder / "part.3b", folder / "part.skg"
+    result = run("cut", saved(page, folder), "-o", tape, "--program", program, *words)
+    start = program.read_text().split("FROM (")[1].split(")")[0].split(",")
+    return list(stretches(tape.read_bytes(), (float(start[0]), float(start[1])))), result.stderr
+
+
+@pytest.mark.parametrize("side", ["inside", "outside"])
+@pytest.mark.parametrize(("shape", "offset"), [(steps, 0.1), (petals, 0.9), (arch, 0.15)])
+def test_past_what_is_too_small(
+    run: Run,
+    tmp_path: Path,
+    shape: Callable[[Modelspace], Polygon],
+    offset: float,
+    side: str,
+) -> None:
+    """The wire stays R beside the contour, everywhere that it can come to."""
+    page = drawing()
+    wanted = shape(page.modelspace())
+    (places,), words = cut(run, page, tmp_path, "--offset", offset, "--side", side)
+    way = LineString(places[1:-1])
+    assert min(apart(way, parallel(wanted, offset, side, style)) for style in ("round", "mitre")) < LIMIT
+    assert places[0] == pytest.approx(places[-1], abs=1e-9)
+    assert ("too narrow for the wire" in words) == (side == "inside" or shape is steps)
+
+
+def test_passes_and_tab(run: Run, tmp_path: Path) -> None:
+    """Each pass has its own way; the tab is cut off on the way of the last."""
+    page = drawing()
+    wanted = steps(page.modelspace())
+    cuts, words = cut(run, page, tmp_path, "--offset", 0.1, "--passes", "0.05,0", "--tab", 2)
+    assert len(cuts) == 2 and "too narrow for the wire" in words
+    outer, inner = (parallel(wanted, away, "outside", "mitre") for away in (0.15, 0.1))
+    for ring in (outer, inner):
+        part = LineString(cuts[0]).intersection(ring.buffer(LIMIT))
+        assert ring.length - 3 < part.length < ring.length - 1.8
+    tab = LineString(cuts[1]).intersection(inner.buffer(LIMIT))
+    assert 2 - LIMIT < tab.length < 2.5
+
+
+def test_what_the_wire_does_not_come_to(run: Run, tmp_path: Path) -> None:
+    """A window of two rooms with a door that is too narrow: said with the place, nothing is written."""
+    page = drawing()
+    page.modelspace().add_lwpolyline([(-20, -20), (40, -20), (40, 20), (-20, 20)], close=True)
+    rooms = [
+        (0, 0),
+        (8, 0),
+        (8, 3.9),
+        (12, 3.9),
+        (12, 0),
+        (20, 0),
+        (20, 8),
+        (12, 8),
+        (12, 4.1),
+        (8, 4.1),
+        (8, 8),
+        (0, 8),
+    ]
+    page.modelspace().add_lwpolyline(rooms, close=True)
+    message = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.15)
+    assert "contour 1 (opening" in message and "does not come to" in message and "no room" in message
+    assert not (tmp_path / "part.3b").exists()
+
+
+def test_wire_way_by_itself() -> None:
+    """On whole numbers, where edges touch, and beside what is smaller than R all around."""
+    square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+
+    def ring(corners: list[XY]) -> Contour:
+        ends = zip(corners, corners[1:] + corners[:1], strict=True)
+        return Contour(tuple(Edge(p, q) for p, q in ends), True)
+
+    inner = wire_way(ring(square[::-1]), 1.0)
+    assert sorted(edge.start for edge in inner) == pytest.approx([(1, 1), (1, 3), (3, 1), (3, 3)])
+    outer = wire_way(ring(square), 1.0)
+    assert sum(edge.length for edge in outer) == pytest.approx(16 + 2 * pi)
+    notch = [*square[:2], (4.0, 1.0), (2.0, 1.0), (2.0, 3.0), (4.0, 3.0), *square[2:]]
+    way = wire_way(ring(notch), 0.5)
+    assert sum(edge.length for edge in way) == pytest.approx(12 + 2 + 2 * 1.5 + 1 + 6 * pi / 4, abs=1e-6)
+    with pytest.raises(NoRoom):
+        wire_way(ring(square[::-1]), 2.5)

@@ -1,0 +1,275 @@
+"""The way of the wire beside a closed contour where that has edges that the wire cannot follow.
+
+An inner arc with a smaller radius than R, a step shorter than R in a corner: the wire goes past them, from one edge
+that it can follow to the next. `wire_way` finds which these are from shapely's buffer of the contour, and then works
+out their parallels and where these meet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import acos, atan2, ceil, cos, hypot, pi, sin
+
+import numpy as np
+import shapely
+
+from skg.drawing.contour import Contour, Edge, part_of
+from skg.drawing.curve import biarc_joint
+from skg.plane import XY, cross, distance, dot, minus, polar, turn
+
+#: Chords that stand for arcs while the edges are looked for are this near, mm.
+_CHORD = 5e-5
+#: The wire follows nothing that is shorter, mm: the ROM would take its ends for one place.
+_LEAST = 2e-3
+#: An arc that is this near to its chord is cut as the chord, mm.
+_FLAT = 1e-4
+#: Directions (radians) that differ by less run on without a corner.
+_SMOOTH = 1e-3
+#: A closed way begins within an edge, this part of it from its ends where it is short.
+_INSIDE = 0.2
+
+
+class NoRoom(Exception):
+    """The wire does not get around a contour; the message says why, `place` (mm) where."""
+
+    def __init__(self, place: XY, why: str = "the wire does not come to") -> None:
+        super().__init__(why)
+        self.place = place
+
+
+@dataclass(frozen=True)
+class _Beside:
+    """What the wire runs beside: an edge, or a corner of the contour (`centre`, with the edge before it).
+
+    On a circle about `centre` it is `radius` away from it, and turns by `sense`; on a line `centre` is None.
+    """
+
+    edge: Edge
+    at: int
+    centre: XY | None
+    radius: float = 0.0
+    sense: int = 0
+
+    def off(self, place: XY, r: float) -> tuple[float, XY]:
+        """How far a place is from the wire's line or circle, to its right, and the direction in which that grows."""
+        if self.centre is None:
+            way = minus(self.edge.end, self.edge.start)
+            length = hypot(*way)
+            square = way[1] / length, -way[0] / length
+            return dot(minus(place, self.edge.start), square) - r, square
+        way = minus(place, self.centre)
+        length = hypot(*way) or 1e-12
+        return length - self.radius, (way[0] / length, way[1] / length)
+
+    def piece(self, start: XY, end: XY) -> Edge:
+        """The wire's way along it."""
+        if self.centre is None:
+            return Edge(start, end, entity=self.edge.entity)
+        first, last = (atan2(*reversed(minus(place, self.centre))) for place in (start, end))
+        sweep = self.sense * (self.sense * (last - first) % (2 * pi))
+        if abs(sweep) > 2 * pi - 1e-3:
+            # (a corner that rounding put before the one before it)
+            sweep -= self.sense * 2 * pi
+        if self.radius * (1 - cos(min(pi, abs(sweep)) / 2)) < _FLAT:
+            return Edge(start, end, entity=self.edge.entity)
+        return Edge(start, end, self.centre, sweep, entity=self.edge.entity)
+
+
+def as_arcs(edge: Edge) -> Iterator[Edge]:
+    """An edge as lines and arcs; of a curve the biarcs that FIT makes of its nodes."""
+    if not edge.nodes:
+        yield edge
+        return
+    for one, other in pairwise(edge.nodes):
+        joint = biarc_joint(one, other)
+        if joint is None:
+            yield Edge(one.point, other.point, entity=edge.entity)
+            continue
+        yield _tangent(one.point, one.angle, joint, edge.entity)
+        yield _tangent(other.point, other.angle + pi, joint, edge.entity).reversed()
+
+
+def _tangent(start: XY, angle: float, end: XY, entity: int) -> Edge:
+    """The arc that leaves a place in a direction for another place."""
+    normal = -sin(angle), cos(angle)
+    way = minus(end, start)
+    height = dot(normal, way)
+    if abs(height) < _FLAT:
+        return Edge(start, end, entity=entity)
+    radius = dot(way, way) / (2 * height)
+    centre = start[0] + radius * normal[0], start[1] + radius * normal[1]
+    sweep = 2 * turn(angle, atan2(way[1], way[0]))
+    return Edge(start, end, centre, sweep, entity=entity)
+
+
+def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
+    """Return the way of the wire along a closed contour, in its direction, R (mm) to the right of it.
+
+    Where it does not get everywhere, or nowhere at all, it raises `NoRoom`.
+    """
+    edges = [piece for edge in contour.edges for piece in as_arcs(edge) if piece.length > 1e-9]
+    if len(edges) == 1:
+        (edge,) = edges
+        radius = edge.radius + (r if edge.sweep > 0 else -r)
+        if radius < _LEAST:
+            raise NoRoom(edge.start)
+        start = polar(edge.centre, radius, edge.angles[0])
+        return (replace(edge, start=start, end=start),)
+    ring = _ring(edges, r)
+    runs = _runs(edges, ring, r)
+    while len(runs) > 1:
+        corners = [_corner(one, other, near, r) for (one, _), (other, near) in pairwise([runs[-1], *runs])]
+        way = [
+            beside.piece(start, end)
+            for (beside, _), (start, end) in zip(runs, pairwise([*corners, corners[0]]), strict=True)
+        ]
+        short = min(range(len(way)), key=lambda k: way[k].length)
+        if way[short].length >= _LEAST:
+            return tuple(way)
+        del runs[short]
+    raise NoRoom(contour.edges[0].start)
+
+
+def _ring(edges: list[Edge], r: float) -> np.ndarray:
+    """The wire's way roughly: places along it, the last one the first."""
+    points = np.array([point for edge in edges for point in _chords(edge)])
+    area = shapely.Polygon(points)
+    if not area.is_valid:
+        raise NoRoom(edges[0].start, "the contour crosses itself, it begins at")
+    is_ccw = area.exterior.is_ccw
+    # (GEOS loses corners of a contour that it widens in one piece: each edge by itself)
+    lines = [shapely.LineString([*_chords(edge), edge.end]) for edge in edges]
+    strip = shapely.union_all(shapely.buffer(lines, abs(r), quad_segs=64))
+    beside = shapely.union(area, strip) if is_ccw == (r > 0) else shapely.difference(area, strip)
+    parts = [part for part in getattr(beside, "geoms", [beside]) if not part.is_empty]
+    rings = [ring for part in parts for ring in (part.exterior, *part.interiors)]
+    if not rings:
+        raise NoRoom(edges[0].start)
+    rings.sort(key=lambda ring: -ring.length)
+    for other in rings[1:]:
+        if other.length > 10 * _LEAST:
+            raise NoRoom(other.coords[0])
+    found = shapely.get_coordinates(rings[0])
+    return found if rings[0].is_ccw == is_ccw else found[::-1]
+
+
+def _chords(edge: Edge) -> list[XY]:
+    """Places along an edge, the last one left out."""
+    if edge.centre is None:
+        return [edge.start]
+    step = 2 * acos(max(0.9, 1 - _CHORD / edge.radius))
+    pieces = max(1, ceil(abs(edge.sweep) / step))
+    return [edge.start, *(edge.at(k / pieces) for k in range(1, pieces))]
+
+
+def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, XY]]:
+    """What the wire runs beside, in order, each with where that about begins."""
+    middles = (ring[:-1] + ring[1:]) / 2
+    lengths = np.hypot(*(ring[1:] - ring[:-1]).T)
+    kept = lengths > 1e-7
+    tree = shapely.STRtree([shapely.LineString([*_chords(edge), edge.end]) for edge in edges])
+    nearest = tree.query_nearest(shapely.points(middles[kept]), all_matches=False)[1]
+    runs: list[tuple[_Beside, XY]] = []
+    travel: list[float] = []
+    for at, begin, middle, length in zip(nearest, ring[:-1][kept], middles[kept], lengths[kept], strict=True):
+        beside = _beside(edges, int(at), (float(middle[0]), float(middle[1])), r)
+        if runs and runs[-1][0] == beside:
+            travel[-1] += float(length)
+        else:
+            runs.append((beside, (float(begin[0]), float(begin[1]))))
+            travel.append(float(length))
+    if len(runs) > 1 and runs[0][0] == runs[-1][0]:
+        runs[0] = runs.pop()
+        travel[0] += travel.pop()
+    found: list[tuple[_Beside, XY]] = []
+    for run, length in zip(runs, travel, strict=True):
+        if length >= _LEAST / 2 and not (found and found[-1][0] == run[0]):
+            found.append(run)
+    if len(found) > 1 and found[0][0] == found[-1][0]:
+        found[0] = found.pop()
+    return found
+
+
+def _beside(edges: list[Edge], at: int, place: XY, r: float) -> _Beside:
+    """What the wire runs beside at a place: the edge with a number, or one of its ends."""
+    edge = edges[at]
+    part = edge.nearest(place)
+    for end, before in ((0.0, at - 1), (1.0, at)):
+        if part == end:
+            one, other = edges[before], edges[(before + 1) % len(edges)]
+            if abs(turn(one.direction(1.0), other.direction())) > _SMOOTH:
+                return _Beside(one, before % len(edges), other.start, abs(r), 1 if r > 0 else -1)
+    if edge.centre is None:
+        return _Beside(edge, at, None)
+    sense = 1 if edge.sweep > 0 else -1
+    return _Beside(edge, at, edge.centre, edge.radius + sense * r, sense)
+
+
+def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
+    """Where the wire changes from one to the other, near a place."""
+    place = near
+    for _ in range(30):
+        (off, square), (too, athwart) = one.off(place, r), other.off(place, r)
+        area = cross(square, athwart)
+        if abs(area) < _SMOOTH:
+            break
+        step = (too * square[1] - off * athwart[1]) / area, (off * athwart[0] - too * square[0]) / area
+        place = place[0] + step[0], place[1] + step[1]
+        if hypot(*step) < 1e-11:
+            break
+        if distance(place, near) > abs(r):
+            place = near
+            break
+    else:
+        return place
+    (off, square), (too, athwart) = one.off(place, r), other.off(place, r)
+    if abs(cross(square, athwart)) >= _SMOOTH:
+        return place
+    # They touch: halfway between their own nearest places.
+    ends = (
+        (place[0] - off * square[0], place[1] - off * square[1]),
+        (
+            place[0] - too * athwart[0],
+            place[1] - too * athwart[1],
+        ),
+    )
+    return (ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2
+
+
+def uncut(contour: Contour, way: tuple[Edge, ...], r: float) -> tuple[float, XY]:
+    """How far (mm) the wire, R beside a contour, stays off it at most, and where: in corners that it cannot follow."""
+    path = shapely.LineString([place for edge in way for place in (*_chords(edge), edge.end)])
+    places = contour.points()
+    off = shapely.distance(shapely.points(places), path) - abs(r)
+    worst = int(np.argmax(off))
+    return float(off[worst]), places[worst]
+
+
+def part_between(way: tuple[Edge, ...], first: XY, last: XY | None = None) -> tuple[Edge, ...]:
+    """A closed way from the place on it nearest to `first` on: to the one nearest to `last`, or back to where it began
+    (then it begins within an edge)."""
+    at, part = _nearest(way, first, last is None)
+    edge = way[at]
+    if edge.is_circle:
+        opened: tuple[Edge, ...] = (replace(edge, start=edge.at(part), end=edge.at(part)),)
+    else:
+        head, tail = part_of(edge, part, 1.0), part_of(edge, 0.0, part)
+        opened = (head, *way[at + 1 :], *way[:at], replace(tail, end=head.start))
+    if last is not None:
+        at, part = _nearest(opened, last, False)
+        opened = (*opened[:at], part_of(opened[at], 0.0, part))
+    # (ends that fall on a corner leave a bit of an edge, shorter than what the ROM tells apart)
+    return tuple(edge for edge in opened if edge.length > _LEAST / 2)
+
+
+def _nearest(way: tuple[Edge, ...], place: XY, is_within: bool) -> tuple[int, float]:
+    found = []
+    for at, edge in enumerate(way):
+        part = edge.nearest(place)
+        if is_within and not edge.is_circle:
+            margin = min(_INSIDE, 10 * _LEAST / edge.length)
+            part = min(1 - margin, max(margin, part))
+        found.append((distance(edge.at(part), place), at, part))
+    return min(found)[1:]
