@@ -27,7 +27,6 @@ import facts  # noqa: E402
 import words  # noqa: E402
 from images import IMAGES, STANDARD, Image  # noqa: E402
 
-ROOT = ASM.parent
 ROM_SIZE = 8192
 #: Fewer jumps of the calculator than this in a listing of all files: it was not understood.
 LEAST_JUMPS = 50

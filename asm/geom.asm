@@ -1,6 +1,6 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: RSTAR BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
-;         XALNG XROTV XLEG XE6D
+; Offers: BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XALNG
+;         XROTV XLEG XE6D
 ; Uses:   calc consts float start value
 ; Room:   548 bytes
 ;

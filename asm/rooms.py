@@ -151,7 +151,6 @@ def header(rooms: dict[str, Room], room: Room) -> tuple[str, str]:
     """The lines Offers: and Uses: as they should be."""
     wanted: set[str] = set().union(*offered(rooms, room).values()) if room.name not in COMMON else set()
     names = [name for name in dict.fromkeys(room.defines) if name in wanted]
-    names = [name for name in sorted(wanted) if name.startswith("RST")] + names
 
     def lines(word: str, items: list[str]) -> str:
         text = " ".join(items) or "nothing"

@@ -73,10 +73,10 @@ def test_no_file_asks_which_image_it_is_in() -> None:
 TABLES = "OPTAB: DW OADD,XMIN\nQADD EQU 01H\nQMIN EQU 02H\n"
 TWO = {
     "equ": "; Offers: names for all\nCELL EQU 2000H\n",
-    "one": "; Offers: STATE PLAY XMIN\n; Uses:   two\n; Room:   9 bytes\n"
-    'STATE EQU CELL+1\nPLAY: CALL WORK ; not OTHER\nXMIN: RET\nHERE: DB "OTHER"\n',
+    "one": "; Offers: RSTATE PLAY XMIN\n; Uses:   two\n; Room:   9 bytes\n"
+    'RSTATE EQU CELL+1\nPLAY: CALL WORK ; not OTHER\nXMIN: RET\nHERE: DB "OTHER"\n',
     "two": "; Offers: WORK\n; Uses:   one\n; Room:   12 bytes\n"
-    "WORK: LDA STATE\n DB QMIN\n CALL PLAY\nOTHER: RET\n" + TABLES + "OADD: RET\n",
+    "WORK: LDA RSTATE\n DB QMIN\n CALL PLAY\nOTHER: RET\n" + TABLES + "OADD: RET\n",
 }
 
 
@@ -96,8 +96,8 @@ def test_small_sources_are_right() -> None:
 @pytest.mark.parametrize(
     ("file", "change", "said"),
     [
-        ("one", "STATE PLAY|PLAY", "one.asm: Offers: lacks [STATE], has too much []"),
-        ("one", "STATE PLAY|PLAY STATE", "one.asm: Offers: is written in another way"),
+        ("one", "RSTATE PLAY|PLAY", "one.asm: Offers: lacks [RSTATE], has too much []"),
+        ("one", "RSTATE PLAY|PLAY RSTATE", "one.asm: Offers: is written in another way"),
         ("one", "XMIN\n|XMIN GONE\n", "one.asm: Offers: lacks [], has too much [GONE]"),
         ("one", "; Uses:   two|; Uses:   three", "one.asm: Uses: lacks [two], has too much [three]"),
         ("one", "CALL WORK|CALL CELL", "one.asm: Uses: lacks [nothing], has too much [two]"),
@@ -112,7 +112,7 @@ def test_what_is_wrong_is_said(file: str, change: str, said: str) -> None:
 def test_a_knot_is_said() -> None:
     """`one` calls WORK of `two`, which calls PLAY of `one`; the hooks' names are not among these."""
     assert rooms.tangled(small())[0] == "one two lean on each other"
-    hooks = ["PLAY", "STATE", "XMIN", "QMIN"]
+    hooks = ["PLAY", "RSTATE", "XMIN", "QMIN"]
     assert rooms.knots(rooms.leans(small(), hooks)) == [["equ"], ["two"], ["one"]]
     said = [line for line in rooms.idle_hooks(small()) if "READY" in line]
     assert said == ["READY is a hook that nobody calls"]
