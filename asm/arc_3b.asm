@@ -1,7 +1,7 @@
 ; arc_3b.asm - arcs as 3B blocks, each from its own rounded start (tape-3b.md)
 ; Offers: ARC
 ; Uses:   calc consts float geom grid start tape
-; Room:   162 bytes
+; Room:   152 bytes
 ;
 ; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there
 ; is one sense to think about; for the count along Y it is turned by a quarter, so that the
@@ -36,7 +36,7 @@ ARC:    DB      CALC,QVK,ST3    ; -
 ARCL:   DB      QEND            ;               short, and the sweep is not positive: a line
         JMP     MOVE
 ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
-        DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
+        DB      LB1,QABS,LB0,QABS,QSUB,ST0 ; -
         DB      QEND
         CALL    QUAD
         LDA     MC2+1           ; sign
@@ -61,14 +61,10 @@ ARC4:   DB      CALC,LT3,QJN    ; -             an arc of up to half a turn ...
         DB      QDUP,QNEG,QJN   ; d             (below 0 when (r,0) was passed)
         DB      ARC7-$
         DB      QDRP            ; -
-ARC5:   DB      QVEC,QSS        ; n             t5 = r: the root cut off ...
-        DB      QDUP,QSQRT,QFLR,ST5 ; n
-        DB      LT5,QSQ,QSUB    ; n-r^2         ... n > r^2+r: nearer to r+1
-        DB      LT5,QSUB,QHALF,QSUB ; n-r^2-r-1/2
-        DB      QJN
-        DB      ARC6-$
-        DB      LT5,Q1,QADD,ST5 ; -
-ARC6:   DB      LA0,LT5,QADD,LA1,QSIG ; 2r-F(start)
+ARC5:   DB      QVEC,QSS        ; n             t5 = r = root of n to the nearest: f = the root
+        DB      QDUP,QSQRT,QFLR,QADD ; n+f      cut off; n+f reaches (f+1)^2 from n = f^2+f+1 on,
+        DB      QSQRT,QFLR,ST5  ; -             where f+1 is nearer
+        DB      LA0,LT5,QADD,LA1,QSIG ; 2r-F(start)
         DB      LB0,LT5,QADD,LB1,QSIG,QSUB ; d  = F(end)-F(start)
         DB      QDUP,LT5,LT3,QSIG,QADD ; d d+r  long: d-r; below 0 when (r,0) was passed
         DB      LT5,QDBL,QSWP,QSIG,QSUB ; d-2r     then d+2r

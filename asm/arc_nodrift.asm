@@ -1,7 +1,7 @@
 ; arc_nodrift.asm - arcs as 3B blocks, each from where the controller stands (docs/drift.md)
 ; Offers: ARC
 ; Uses:   calc consts float geom grid start tape
-; Room:   254 bytes
+; Room:   252 bytes
 ;
 ; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there
 ; is one sense to think about; for the count along Y it is turned by a quarter, so that the
@@ -49,7 +49,7 @@ ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
 ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
         DB      LBX,LBY,QMAX,QJZ ; -            the start is the centre: no arc
         DB      ARCL-$
-        DB      LB0,QABS,LB1,QABS,QSUB,ST0 ; -
+        DB      LB1,QABS,LB0,QABS,QSUB,ST0 ; -
         DB      QEND
         CALL    QUAD
         LDA     MC2+1           ; sign
@@ -90,7 +90,7 @@ ARC7:   DB      QABS,QDUP,SBJ,QJZ ; -
         CALL    AROOT           ; |v|
         DB      CALC,QHALF,LT1,QSIG,QADD,QHALF,QSUB ; |v|    less 1 when w < 0
         DB      LB1,QSIG,LB1,QSUB ; dv          v less that of b
-        DB      LT0,QNEG,QJN    ; dv            back into the drawing's axes
+        DB      LT0,QJN         ; dv            back into the drawing's axes
         DB      ARC8-$
         DB      LC2,QSIG,LVY,QADD,SVY ; -
         DB      QJMP
@@ -104,4 +104,4 @@ ARCL2:  DB      QEND            ;               (ARCL is too far away)
 ; AROOT - w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
 ; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
 AROOT:  DB      CALC,QSQ,QVEC,QSS,QSUB ; w^2-n
-        DB      QABS,QSQRT,QNEG,QFLR,QNEG,QRET ; root
+        DB      QABS,QSQRT,QNEG,QFLR,QNEG+QRET ; root

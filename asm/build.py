@@ -30,6 +30,8 @@ from images import IMAGES, STANDARD, Image  # noqa: E402
 ROM_SIZE = 8192
 #: Fewer jumps of the calculator than this in a listing of all files: it was not understood.
 LEAST_JUMPS = 50
+#: Likewise of operations that are one byte with QRET.
+LEAST_RETURNS = 25
 #: Likewise of facts in the sources.
 LEAST_FACTS = 25
 #: Words that an assembler has for itself, so that no label or equate may be called so: each keyword of z88dk's
@@ -217,6 +219,19 @@ def check_jumps(listing: str, symbols: dict[str, int]) -> None:
             fail(f"calculator jump at {address} to {target}: {distance} bytes do not fit")
 
 
+def check_returns(texts: dict[str, str], symbols: dict[str, int]) -> None:
+    """Fail where an operation with QRET in one byte (`QADD+QRET`) is none: assemblers cut off what is too large."""
+    count = 0
+    for file, text in texts.items():
+        for line, code in enumerate((line.split(";")[0] for line in text.splitlines()), start=1):
+            for name in re.findall(r"(\w+)\+QRET\b", code):
+                count += 1
+                if not 0 < symbols[name] <= 0xFF - symbols["QRET"] or name.startswith("QJ"):
+                    fail(f"{file}.asm:{line}: {name}+QRET is not one byte that does both")
+    if count < LEAST_RETURNS:
+        fail(f"only {count} operations with QRET in the sources: is their form another one?")
+
+
 def check_facts(texts: dict[str, str], symbols: dict[str, int]) -> None:
     """Fail when a fact that the sources rely on does not hold."""
     count, wrong = facts.check(texts, symbols)
@@ -248,6 +263,7 @@ def build(name: str) -> tuple[bytes, dict[str, int], str, dict[str, str]]:
     with tempfile.TemporaryDirectory() as work:
         image, symbols, listing = assemble(texts, Path(work))
     check_jumps(listing, symbols)
+    check_returns(texts, symbols)
     check_facts(texts, symbols)
     return image, symbols, listing, texts
 

@@ -1,8 +1,8 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALC3 CALPOP OJN OJZ OJMP OJMP1 ORET ODBL XSIG
-;         XMAX XE6N ERGEO XXCH OSWP OSWP1
+; Offers: CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALC3 CALPOP OJN OJZ OJMP OJMP1 ODBL XSIG XMAX
+;         XE6N ERGEO XXCH OSWP OSWP1
 ; Uses:   consts float start
-; Room:   218 bytes
+; Room:   224 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;
@@ -10,7 +10,9 @@
 ;   01-3F           operation n of OPTAB
 ;   40-7F           push register M0 ... M63
 ;   80-BF           pop into register M0 ... M63
-;   C0-FF           push constant 0 ... 63 of CONTAB
+;   C0-D3           push constant 0 ... 19 of CONTAB
+;   D4      QRET    back to who called the routine, A not 0, Z clear
+;   D5-FF           operation 1 ... 2B, then back: QADD+QRET (A and the flags are QADD's)
 ;
 ; QJMP, QJN (pop, jump if negative) and QJZ (pop, jump if zero) are followed by
 ; the signed distance of their target from the distance byte itself:
@@ -18,13 +20,13 @@
 ;         DB      QJZ
 ;         DB      TARGET-$
 ;
-; The stack grows upward in FSTK; FSP -> behind its top.  There is no check for
-; its end.  The code pointer lies on the 8080 stack while an operation runs, so
+; The stack grows upward in FSTK, a page's start; FSP -> its top (when it is empty, the low
+; byte is 256-5).  There is no check for its end.  The code pointer lies on the 8080 stack while an operation runs, so
 ; an operation may use RST 5 itself.
 ;
 ; An operation is a subroutine:
-; In:  HL -> top, DE -> second, FSP -> behind the top; for the numbers up to OPPOP
-;      FSP = HL, that is: the top is popped, but still there to be read
+; In:  HL -> top, DE -> second; FSP = HL, but for the numbers from OPPOP on FSP = DE, that is:
+;      the top is popped, but still there to be read
 ; Out: FSP and floats   Clobbers all
 ; One from OPBYTE on is byte-code, up to QRET, or up to QEND and machine code behind it.
 
@@ -32,7 +34,7 @@ FSP     EQU FWORK+46    ; stack pointer of the calculator
 
 ; CALINI - empties the float stack
 ; Clobbers HL
-CALINI: LXI     H,FSTK
+CALINI: LXI     H,FSTK+256-5
         SHLD    FSP
         RET
 
@@ -43,7 +45,7 @@ RUNBC:  PUSH    D
 
 ; CALC - runs byte-code (RST 5 jumps here)
 ; In:  on the stack: code pointer   Clobbers all
-; Cycles: a load 283, a store 315, a constant 317, an operation 244 + its own, byte-code 158 + its own
+; Cycles: a load 283, a store 315, a constant 334, an operation 244 + its own, byte-code 158 + its own
 CALC0:  POP     B
 CALC1:  LDAX    B
         INX     B
@@ -65,6 +67,8 @@ CALC1:  LDAX    B
         ADD     A
         JNC     OOVR            ; 01: push
         JP      CALPOP          ; 10: pop
+        CPI     (2*QRET)&255
+        JNC     CALC4           ; 11: operation and QRET
         LXI     H,CONTAB-MREG   ; 11: constant
         DAD     D
 ODUP:   XCHG                    ; DE -> float
@@ -75,6 +79,7 @@ ODUP:   XCHG                    ; DE -> float
 OOVR:   LHLD    FSP
         MOV     A,L
         ADI     5               ; FSTK lies within a page
+        MOV     L,A
         STA     FSP
 ; (fall into COPY5)
 
@@ -109,36 +114,37 @@ CALC3:  PUSH    B
         LXI     H,CALC0
         PUSH    H               ; every operation returns there
         ADD     A
-        ADI     (OPTAB-2)&255   ; (the table lies within a page)
-        MOV     C,A
+        ADI     OPTAB&255       ; (the table lies within a page)
+CALC5:  MOV     C,A
         MOV     L,A
         MVI     H,OPTAB/256
         MOV     E,M
         INX     H
         MOV     D,M
         PUSH    D               ; operation
-        CPI     2*OPBYTE+((OPTAB-2)&255)
+        CPI     2*OPBYTE+(OPTAB&255)
         JNC     CALC0           ; byte-code
-        LHLD    FSP
+        LHLD    FSP             ; HL -> top
         MOV     A,L             ; FSTK lies within a page
-        SUI     5
-        MOV     L,A             ; HL -> top
         SUI     5
         MOV     E,A
         MOV     D,H             ; DE -> second
         MOV     A,C
-        CPI     2*OPPOP+1+((OPTAB-2)&255)
-        RNC
-        SHLD    FSP
+        CPI     2*OPPOP+(OPTAB&255)
+        RC
+        MOV     A,E
+        STA     FSP
         RET
+CALC4:  POP     H               ; not to CALC1: the operation returns to who called the byte-code
+        ADI     (OPTAB-2*QRET)&255
+        JMP     CALC5
 
 ; CALPOP - pops a float
 ; In:  DE -> where to   Out: DE, HL -> last bytes   Clobbers A
 CALPOP: LHLD    FSP
         MOV     A,L
         SUI     5
-        MOV     L,A
-        SHLD    FSP
+        STA     FSP
         XCHG
         JMP     COPY5
 
@@ -162,10 +168,6 @@ OJMP2:  MOV     E,A
         DAD     D
         PUSH    H
         PUSH    B
-        RET
-
-ORET:   POP     H               ; CALC
-        POP     H               ; code pointer
         RET
 
 ; ODBL - QDBL: x + x

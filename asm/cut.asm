@@ -2,7 +2,7 @@
 ; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR SCALED CPYEL
 ;         CPYPL ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XXING SBACK SBACK1
 ; Uses:   arc_3b arc_iso arc_nodrift calc consts fit float geom grid iso parser start tape value
-; Room:   1274 bytes
+; Room:   1267 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -427,7 +427,7 @@ CORNO:  LDA     RNAMED
 CORN9:  DB      QRET
 ; a corner that no point names: the crossing
 CROSS:  DB      CALC,QXING      ; -
-ATOK:   DB      QVEC,QTOK,QRET  ; -
+ATOK:   DB      QVEC,QTOK+QRET  ; -
 CORN2:  DB      CALC            ; as seen from P both pass at their offsets alone
         DB      LO1,SA2,LO2,SB2,QEND ; -
         CALL    SXS
@@ -475,7 +475,7 @@ PLACE1: DB      QDIF,QFAR,QJN   ; r
         DB      QNORM           ; r
         DB      LC0,SB0,LC1,SB1,QJMP ; r        b = centre
         DB      NAMED3-$
-PLACE2: DB      QABS,LC0,QADD,LC1,QTOK,QRET ; - the +X side
+PLACE2: DB      QABS,LC0,QADD,LC1,QTOK+QRET ; - the +X side
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
@@ -629,10 +629,10 @@ ROUTER: LDA     RITEMS
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
 XSENS:  DB      QJC
         DB      XSENS1-$
-        DB      QABS,QRET       ; >= 0
+        DB      QABS+QRET       ; >= 0
 XSENS1: DB      LA2,QADD        ; r'
         DB      LA2,QSIG        ; +-r'          as r has it
-        DB      QNEAR,QSUB,QRET ; +-r'-eps
+        DB      QNEAR,QSUB+QRET ; +-r'-eps
 ; QJC: jumps when a is a circle, not a line
 XJC:    LDA     VKIND
         SUI     KLIN            ; CY: jump
@@ -648,7 +648,7 @@ XONEL:  LDA     FITSM
         DB      XONEL2-$
 XONEL1: DB      QDIF,QHYP       ; distance
         DB      LA2,QABS        ; distance |r|
-XONEL2: DB      QE6D,QRET       ; -
+XONEL2: DB      QE6D+QRET       ; -
 ; QNORM: a0 a1 = right normal of the element a at the point b
 XNORM:  DB      QJC
         DB      XNORM1-$
@@ -656,13 +656,12 @@ XNORM:  DB      QJC
 XNORM1: DB      QDIF            ; dx dy
         DB      LA2,QSIG,QSWP   ; +-dy dx
         DB      LA2,QSIG,QSWP   ; +-dx +-dy
-        DB      QUNIT,QRET      ; -
+        DB      QUNIT+QRET      ; -
 ; QNORMS: a0 a1, b0 b1 = right normals of C and N at K = b; negative when they differ by less than
 ; 0.001 rad
 XNORMS: DB      QNA,QNORM,QVEC ; x y
         DB      QCA,QNORM,SB1,SB0 ; -
-        DB      QCRS,QABS,QMU,QSUB ; |sine|-0.001
-        DB      QRET
+        DB      QCRS,QABS,QMU,QSUB+QRET ; |sine|-0.001
 
 ; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
 XXING:  DB      QNA        ; -

@@ -278,7 +278,7 @@ LSG     EQU 07FH
 SSG     EQU 0BFH        ; M63 chord of the beginning of the circle C that a fillet has left out, mm; 0: there was none
 
 ; ---- RAM -------------------------------------------------------------------
-;! FSTK/100H == (FSTK+60-1)/100H -- CALC and OOVR change the low byte of FSP alone
+;! FSTK & 0FFH == 0 -- CALINI, CALC and OOVR change the low byte of FSP alone
 ;! CWORK >= FSTK+60 and FWORK >= CWORK+68 and MWORK >= FWORK+48 and KEPT >= MWORK+25 -- no cells overlap
 ;! MREG & 0FFH == 0 -- CALC makes a register's address from its number
 ;! MA/100H == (MA+5)/100H -- QUAD changes the low byte alone

@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
 ; Offers: STOL SFIT FITEND
 ; Uses:   calc consts cut float geom parser start value
-; Room:   608 bytes
+; Room:   605 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -178,7 +178,7 @@ TRY:    LDA     HELDN
         CALL    CHORD
         DB      CALC,QMU,QDOT,QSUB,QJN ; v*v         (not of half a circle, where rounding decides)
         DB      TRY1-$
-        DB      QDRP,QRET       ; -             begins or ends backwards
+        DB      QDRP,QRET       ; -             begins or ends backwards (QRET leaves Z clear)
 TRY1:   DB      QEND
         CALL    BIARC
         LXI     D,MNODE1
@@ -244,13 +244,13 @@ MIRROR: CALL    CHORD
 ; MIRR1 - a vector mirrored about another
 ; In:  a, b, on the float stack b*b   Out: on the float stack y x   Clobbers all
 MIRR1:  DB      CALC,QDOT,QDBL,QSWP,QDIV,QALNG ; -
-        DB      LA1,QNEG,LA0,QNEG,QRET  ; y x
+        DB      LA1,QNEG,LA0,QNEG+QRET  ; y x
 
 ; CHORD - prepares for a biarc
 ; In:  nodes 1 and 2   Out: b = v, a = t+u; on the float stack v*v   Clobbers all
 CHORD:  DB      CALC,L1U,L2U,QADD,SA0 ; -
         DB      L1V,L2V,QADD,SA1 ; -
-        DB      L2X,L1X,L2Y,L1Y,QWAY,QRET ; v*v
+        DB      L2X,L1X,L2Y,L1Y,QWAY+QRET ; v*v
 
 ; BIARC - where its arcs meet
 ; In:  CHORD   Out: MX MY = from node 1 to M; ERR 06   Clobbers all
@@ -266,7 +266,7 @@ BIARC:  DB      CALC,ST1,QDOT,QDUP,QSQ ; along along^2
 ; Clobbers all
 ARCW:   LXI     H,MT4
         CALL    CPYEL           ; (a byte too much, which does no harm)
-        DB      CALC,LMX,LT4,L1X,QSUB,LMY,LT5,L1Y,QSUB,QWAY,QRET ; w*w
+        DB      CALC,LMX,LT4,L1X,QSUB,LMY,LT5,L1Y,QSUB,QWAY+QRET ; w*w
 
 ; FITCIR - the arc between a node and the joint goes out; a flat one not: the point at its end
 ;          brings the chord

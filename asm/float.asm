@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FITOF FTOI16 FWHOLE FFLR FSQR FTG FCOS FSIN FATG
 ; Uses:   calc consts start
-; Room:   1095 bytes
+; Room:   1091 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -735,13 +735,12 @@ FSQR4:  MOV     M,A
 
 ; FTG - tangent, sine by cosine
 ; In:  HL -> x   Out: x; ERR 05 for odd multiples of 90   Clobbers all
-FTG:    DB      CALC,QDUP,QSIN,QSWP,QCOS,QDIV ; tan x
-        DB      QRET
+FTG:    DB      CALC,QDUP,QSIN,QSWP,QCOS,QDIV+QRET ; tan x
 
 ; FCOS - cosine
 ; In:  HL -> x   Out: x; ERR 05 as FSIN   Clobbers all
 FCOS:   DB      CALC,QABS,Q90,QSWP,QSUB      ; 90-|x|
-        DB      QSIN,QRET               ; cos x
+        DB      QSIN+QRET               ; cos x
 
 ; FSIN - sine
 ; In:  HL -> x   Out: x; ERR 05 from 2^33 on, where the turns are too many to count
@@ -774,7 +773,7 @@ FSER:   CALL    OOVR            ; y c1
         POP     D                       ; (QDUP leaves HL -> last byte of z)
         CALL    FSER1           ; y c1 z Q
         DB      CALC,QMUL,QSUB  ; y P
-        DB      QOVR,QMUL,QADD,QRET     ; y+y*P
+        DB      QOVR,QMUL,QADD+QRET     ; y+y*P
 
 ; FSER1 - z to Q(z), on top of the calculator's stack
 ; In:  DE -> table from 80H+e on, HL -> last byte of z   Clobbers all
@@ -862,6 +861,6 @@ FATG2:  DB      CALC,QM1,QSWP           ; x 90 -1 s
 FATG3:  DB      QI64,QMUL,QDIV,QEND     ; x base y      y = 64 times the quotient
         LXI     D,CATG
         CALL    FSER
-        DB      CALC,QADD,QSWP,QSIG,QRET ; atan |x|, with the sign of x
+        DB      CALC,QADD,QSWP,QSIG+QRET ; atan |x|, with the sign of x
 
 FLTEND  EQU     $               ; (for the table of bytes)

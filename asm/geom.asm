@@ -2,7 +2,7 @@
 ; Offers: BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XALNG
 ;         XROTV XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   548 bytes
+; Room:   529 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -134,18 +134,18 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      KINDS+KTURN+1
 
 ; P+P, D+D: a1 and b1 of a number are 0; P-P, D-D
-GADD:   DB      QM1,QALNG,QRET          ; -
-GSUB:   DB      Q1,QALNG,QRET           ; -
+GADD:   DB      QM1,QALNG+QRET          ; -
+GSUB:   DB      Q1,QALNG+QRET           ; -
 ; P#S: foot; P/S, C/S: mirror image; S/S: mirrored and reversed
 GFOOT:  DB      QDOT,LB2,QSUB           ; e
-        DB      QALNG,QRET              ; -
+        DB      QALNG+QRET              ; -
 GMIRR:  DB      QDOT,LB2,QSUB           ; e
         DB      QDBL                    ; 2e
-        DB      QALNG,QRET              ; -
+        DB      QALNG+QRET              ; -
 GMIRS:  DB      QDOT,QDBL               ; 2c            c = n1*n2
         DB      LA2,QOVR,LB2,QMUL       ; 2c gamma 2c*g
         DB      QSUB,SA2                ; 2c
-        DB      QALNG,QRET              ; -
+        DB      QALNG+QRET              ; -
 ; S:P, S:C: the parallel that leaves C along its direction
 GPARC:  DB      QDOT,LB2,QJMP           ; n*c r
         DB      GPAR1-$
@@ -181,9 +181,9 @@ GROTP:  DB      LB1,LA0,QSUB,SA0        ; -
 ; P*D, D*D; D*P: 0 - (-D)*P
 GMULT:  DB      QXCH                    ; -
 GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
-        DB      QALNG,QRET              ; -
+        DB      QALNG+QRET              ; -
 ; D#A: polar point, (D,0) turned
-GPOLAR: DB      QROTV,QRET              ; -
+GPOLAR: DB      QROTV+QRET              ; -
 
 ; S*S: crossing by Cramer's rule; ERR 06 when they are parallel
 SXS:    DB      CALC            ; (for CORNO: as a routine)
@@ -208,7 +208,7 @@ GSXC1:  DB      QSWP,ST2,LB2,QABS,ST3,QLEG ; h
         DB      LB2,QSIG,QXCH           ; +-h
         DB      LT2,QALNG               ; +-h           the foot
         DB      LB1,LB0,QNEG,SB1,SB0    ; +-h           b = backwards
-        DB      QALNG,QRET              ; -
+        DB      QALNG+QRET              ; -
 ; C1*C2: the crossing of C1 with the line through both crossings, whose right
 ; normal is the unit vector a from centre to centre, at c = (d^2+r1^2-r2^2)/2d
 ; from the first centre, which goes to b.
@@ -247,7 +247,7 @@ GTHRU:  DB      QDIF,QHYP,QJMP          ; r
 GCIR:   DB      LA2,LB0,QADD            ; r
 GCIR1:  DB      QDUP,SA2,QABS           ; |r|
         DB      QNEAR,QSUB              ; |r|-1E-7
-        DB      QSQRT,QDRP,QRET         ; -             (the root refuses what is negative)
+        DB      QSQRT,QDRP+QRET         ; -             (the root refuses what is negative)
 
 ; P#P: perpendicular bisector, the first point on its left
 GBISEC: DB      QDIF                    ; dx dy
@@ -273,24 +273,24 @@ GBELT:  DB      QVEC                    ; x y
 
 ; QDOT a0*b0+a1*b1 and QCRS a0*b1-a1*b0
 XDOT:   DB      LA0,LB0,QMUL       ; a0*b0
-        DB      LA1,LB1,QMUL,QADD,QRET  ; dot
+        DB      LA1,LB1,QMUL,QADD+QRET  ; dot
 XCRS:   DB      LA0,LB1,QMUL       ; a0*b1
-        DB      LA1,LB0,QMUL,QSUB,QRET  ; cross
+        DB      LA1,LB0,QMUL,QSUB+QRET  ; cross
 ; QVEC: the vector a
 XVEC:   DB      LA0,LA1,QRET       ; x y
 ; QDIF: from the point a to the point b
 XDIF:   DB      LB0,LA0,QSUB       ; dx
-        DB      LB1,LA1,QSUB,QRET       ; dx dy
+        DB      LB1,LA1,QSUB+QRET       ; dx dy
 ; QCENT: QUNIT from centre to centre, then r of a less r of b; ERR 06 when they are concentric (within TL)
 XCENT:  DB      QUNIT,LT3,LTL,QSUB,QE6N ; -
-        DB      LA2,LB2,QSUB,QRET       ; e
+        DB      LA2,LB2,QSUB+QRET       ; e
 ; QWAY: x2 x1 y2 y1 -> w*w; b = w: from (x1,y1) to (x2,y2)
 XWAY:   DB      QSUB,SB1,QSUB,SB0  ; -
         DB      LB0,LB1                 ; wx wy
 ; (fall into XSS)
 ; QSS: length of a vector, squared.  QHYP: length of a vector
-XSS:    DB      QSQ,QSWP,QSQ,QADD,QRET ; x^2+y^2
-XHYP:   DB      QSS,QSQRT,QRET     ; length
+XSS:    DB      QSQ,QSWP,QSQ,QADD+QRET ; x^2+y^2
+XHYP:   DB      QSS,QSQRT+QRET     ; length
 ; QFAR: is a vector longer than 1 um?  (no square root)
 XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         ADI     80H-78H
@@ -299,8 +299,8 @@ XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         ADI     80H-78H
         ORA     C
         JM      XFAR1
-        DB      CALC,QSS,QMU,QSQ,QSUB,QRET ; -1um^2
-XFAR1:  DB      CALC,QDRP,QABS,QRET     ; |x|
+        DB      CALC,QSS,QMU,QSQ,QSUB+QRET ; -1um^2
+XFAR1:  DB      CALC,QDRP,QABS+QRET     ; |x|
 ; QALNG: a0 a1 moved by -k times b0 b1, k from the stack
 XALNG:  DB      LA0,QOVR,LB0,QMUL  ; k a0 k*b0
         DB      QSUB,SA0                ; k
@@ -323,8 +323,8 @@ XLEG:   DB      QMU,QOVR,QSUB,QE6N ; g
         DB      LT3,LT2,QSIG,ST2        ; -
 XLEG1:  DB      LT3,LT2,QSUB            ; r-e
         DB      LT3,LT2,QADD            ; r-e r+e
-        DB      QMUL,QSQRT,QRET         ; h
+        DB      QMUL,QSQRT+QRET         ; h
 
 ; QE6D: takes two numbers, ERR 06 when they are more than 1 um apart
 XE6D:   DB      QSUB,QABS,QMU,QSWP,QSUB ; room
-        DB      QE6N,QRET               ; -
+        DB      QE6N+QRET               ; -

@@ -1,7 +1,7 @@
 ; grid.asm - where the wire goes, in whole micrometres (tape-3b.md, section "Rounding")
 ; Offers: XRND XVK XTOK
 ; Uses:   calc consts float start
-; Room:   38 bytes
+; Room:   37 bytes
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   DB      Q1000,QMUL         ; um
@@ -9,7 +9,7 @@ XRND:   DB      Q1000,QMUL         ; um
         DB      QFLR,Q8DIG,QOVR,QSUB    ; um |whole| room
         DB      QJN
         DB      XRND1-$
-        DB      QSWP,QSIG,QRET          ; whole
+        DB      QSWP,QSIG+QRET          ; whole
 XRND1:  DB      QEND            ; um |whole|
         DB      ERROR,ETAPE
 ; QVK: V = K in whole um; A = K, since the wire goes there (by no fillet, for all that is known here)

@@ -2,7 +2,7 @@
 ; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   586 bytes
+; Room:   585 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -381,7 +381,7 @@ NOTURN: LDA     VKIND
 ; In:  x = a0   Out: on the calculator's stack   Clobbers all
 FINT:   CALL    NRINT
         JZ      FINT1
-        DB      CALC,QFLR,QRET  ; whole
+        DB      CALC,QFLR+QRET  ; whole
 FINT1:  DB      CALC,QDRP,LB0,QRET ; whole
 
 ; NRINT - nearest whole number

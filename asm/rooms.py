@@ -89,7 +89,7 @@ def operations(rooms: dict[str, Room]) -> dict[str, str]:
             in_table = in_table or line.startswith("OPTAB:")
             if in_table and (table := TABLE.match(code(line))):
                 routines += [name.strip() for name in table[1].split(",")]
-    return {name: routines[n - 1] for name, n in numbers.items() if 1 <= n <= len(routines)}
+    return {name: routines[n] for name, n in numbers.items() if 0 < n < len(routines)}
 
 
 def read(texts: Mapping[str, str]) -> dict[str, Room]:

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK QUAD SETZG
 ; Uses:   calc consts float grid io io_disk io_punch io_tty lexer start
-; Room:   242 bytes
+; Room:   238 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -60,8 +60,8 @@ MOVE1:  DB      QVK             ; -
         DB      LVX,LWX,QSUB,QDUP,SA0,QABS,SBX ; -
         DB      LVY,LWY,QSUB,QDUP,SA1,QABS,SBY ; -
         DB      LBX,LBY,QMAX,SBJ ; -
-        DB      QHALF,LA0,QSIG,LA1,QSIG ; 1/2   x = y: along Y in quadrants 1 and 3
-        DB      LBY,QADD,LBX,QSUB,ST0,QEND ; -
+        DB      LBX,LBY,QSUB    ; x-y           x = y: along Y in quadrants 1 and 3
+        DB      QHALF,LA0,QSIG,LA1,QSIG,QSUB,ST0,QEND ; -
         CALL    QUAD
         MVI     B,CLTL
         CALL    SETZG
@@ -142,15 +142,14 @@ QUAD:   LXI     H,MA
 ; by the signs of x and y: -- -0 -+ 0- 00 0+ +- +0 ++
 QUADS:  DB      "332412411"
 
-; SETZG - B, C = letter and digit of Z; the count goes along Y when t0 > 0, else along X
+; SETZG - B, C = letter and digit of Z; the count goes along Y when t0 is negative, else along X
 ; Out: CY = X   Clobbers A, HL
 SETZG:  MOV     H,C
         MOV     L,B
         SHLD    TZLET
-        LXI     H,MT0
-        CALL    FSGN            ; 1, or 0 or 0FFH
-        DCR     A
-        ADI     0FFH            ; CY: it was not 1
+        LDA     MT0+1           ; bit 7: sign
+        RLC
+        CMC
         SBB     A
         ADI     CLTY            ; CY again, when that was 0FFH
         STA     TGAX

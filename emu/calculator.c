@@ -69,6 +69,12 @@ const char *calculator_init(calculator *k, const symbols *names)
             k->distance[s->value] |= s->value < OPERATIONS && s->name[1] == 'J';
         }
     }
+    for (unsigned code = k->leave + 1u; code < CALCULATOR_CODES; code++) {
+        const char *name = k->code[code - k->leave];
+        if (*name && !k->distance[code - k->leave]) {
+            snprintf(k->code[code], CALCULATOR_TEXT, "%.*s+QRET", CALCULATOR_TEXT / 2, name);
+        }
+    }
     return NULL;
 }
 
@@ -105,7 +111,7 @@ unsigned calculator_operation(const calculator *k, const i8080 *c, uint16_t addr
         snprintf(text, CALCULATOR_TEXT, "%s %s", name, symbols_place(k->names, jump_target(c, address), place));
         return 2;
     }
-    if (code >= CONSTANTS) {
+    if (code >= CONSTANTS && code < k->leave) {
         snprintf(text, CALCULATOR_TEXT, "%s (%.9g)", name, float_at(c, k->constants + FLOAT * (code - CONSTANTS)));
     } else if (code >= LOADS && code < STORES) {
         snprintf(text, CALCULATOR_TEXT, "%s (%.9g)", name, float_at(c, k->registers + FLOAT * (code - LOADS)));
@@ -118,8 +124,8 @@ unsigned calculator_operation(const calculator *k, const i8080 *c, uint16_t addr
 void calculator_print_stack(const calculator *k, const i8080 *c, FILE *out)
 {
     unsigned top = i8080_peek(c, k->stack_pointer) | i8080_peek(c, (uint16_t)(k->stack_pointer + 1)) << 8;
-    unsigned depth = (top - k->stack) / FLOAT;
-    if (top < k->stack || depth > DEPTH) {
+    unsigned depth = (uint8_t)(top + FLOAT - k->stack) / FLOAT;
+    if (depth > DEPTH) {
         fprintf(out, " (FSP is %04X)", top);
         return;
     }
@@ -183,7 +189,7 @@ uint16_t calculator_print_code(const calculator *k, const i8080 *c, uint16_t add
         fprintf(out, "%04X %-10s %s\n", address, symbols_place(k->names, address, place), text);
         target[address & 0xff] = false;
         address = (uint16_t)(address + length);
-        ends = code == k->end || (code == k->leave && !target[address & 0xff]);
+        ends = code == k->end || (code >= k->leave && !target[address & 0xff]);
     }
     return address;
 }

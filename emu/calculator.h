@@ -2,8 +2,8 @@
  *
  * All names come from the firmware's symbols (asm/calc.asm, ops.asm, consts.asm, equ.asm): an operation is a Q name below
  * 40H, one that begins with QJ is followed by a distance; a register is a pair of names, Lxx of 40H to 7FH and Sxx 40H
- * above it; a constant is a Q name from C0H up, its value what stands in CONTAB. Registers and constants may have several
- * names, or none.
+ * above it; a constant is a Q name from C0H up to QRET, its value what stands in CONTAB; from there on an operation's
+ * number is added to QRET. Registers and constants may have several names, or none.
  *
  * NOT IMPLEMENTED: finding out where in the ROM byte-code begins: one looks where the calculator is, or where one knows.
  */
@@ -20,9 +20,9 @@ enum { CALCULATOR_CODES = 256, CALCULATOR_REGISTERS = 64, CALCULATOR_TEXT = 64 }
 typedef struct {
     const symbols *names;
     uint16_t next;                  /* CALC1: the next operation is the byte at BC */
-    uint16_t stack, stack_pointer;  /* FSTK; FSP: the cell that points behind the top */
+    uint16_t stack, stack_pointer;  /* FSTK; FSP: the cell that points to the top, its low byte counts */
     uint16_t registers, constants;  /* MREG, CONTAB */
-    uint8_t end, leave;             /* QEND, QRET: the last bytes of byte-code */
+    uint8_t end, leave;             /* the last bytes of byte-code: QEND; QRET, and what is above that */
     char code[CALCULATOR_CODES][CALCULATOR_TEXT];       /* empty: no name */
     bool distance[CALCULATOR_CODES];
 } calculator;
@@ -44,8 +44,8 @@ void calculator_print_stack(const calculator *k, const i8080 *c, FILE *out);
  * a name and are not 0 when `name` is NULL. False when there is no such register. */
 bool calculator_print_registers(const calculator *k, const i8080 *c, const char *name, FILE *out);
 
-/* Prints byte-code from an address on, for so many operations or up to its end: QEND, or a QRET that no jump in front of it
- * leads past. Gives the address behind. */
+/* Prints byte-code from an address on, for so many operations or up to its end: QEND, or a QRET (with an operation or
+ * without) that no jump in front of it leads past. Gives the address behind. */
 uint16_t calculator_print_code(const calculator *k, const i8080 *c, uint16_t address, unsigned count, FILE *out);
 
 #endif

@@ -167,7 +167,7 @@ class Walk:
                 waiting.append(at + 1 + distance - (256 if distance > 127 else 0))
                 if operation != self.names["QJMP"]:
                     waiting.append(at + 2)
-            elif operation != self.names["QRET"]:
+            elif operation < self.names["QRET"]:
                 waiting.append(at + 1)
         return after
 
@@ -287,7 +287,7 @@ def starting(name: str, walk: Walk) -> list[int]:
     that are byte-code, what stands behind it."""
     origin = labels(name)["ORIGIN"]
     starts = [origin] if origin else list(range(0, 0x40, 8))
-    first = labels(name)["OPTAB"] + 2 * (labels(name)["OPBYTE"] - 1)
+    first = labels(name)["OPTAB"] + 2 * labels(name)["OPBYTE"]
     for line in listed(name):
         if line.mnemonic == "DW":
             for n in range(0, len(line.data), 2):
@@ -399,6 +399,17 @@ def test_jumps_that_do_not_fit_and_listings_that_are_not_understood(capsys: pyte
     builder.check_jumps(fit, {"THERE": 0x20})
     assert "0000 to THERE: 128 bytes do not fit" in refused(capsys, builder.check_jumps, fit, {"THERE": 0x80})
     assert "only 0 jumps" in refused(capsys, builder.check_jumps, fit.lower(), {"THERE": 0x20})
+
+
+def test_what_cannot_be_one_byte_with_qret(capsys: pytest.CaptureFixture[str]) -> None:
+    """An assembler cuts off what does not fit; a jump there would be no jump."""
+    fit = {"some": "        DB      CALC,LA0,QADD+QRET ; QEND+QRET\n" * 30}
+    names = {"QRET": 0xD4, "QEND": 0, "QADD": 0x16, "QFAR": 0x2C, "QJN": 0x1A}
+    builder.check_returns(fit, names)
+    for wrong in ("QFAR", "QJN", "QEND"):
+        other = {"other": f"        DB      {wrong}+QRET\n"}
+        assert f"other.asm:1: {wrong}+QRET" in refused(capsys, builder.check_returns, fit | other, names)
+    assert "only 0" in refused(capsys, builder.check_returns, {"some": "        DB      QADD,QRET\n"}, names)
 
 
 def test_z88dks_listing_is_read() -> None:

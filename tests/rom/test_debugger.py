@@ -16,7 +16,7 @@ SKG80 = ROOT / "build" / "skg80"
 PROMPT = "debug> "
 EXAMPLE = ROOT / "examples" / "plate-fillets.skg"
 #: Names of byte-code in the sources: an operation or a constant, a load, a store; the distance of a jump.
-CODE = re.compile(r"(?!SKIP)[QLS]\w+")
+CODE = re.compile(r"(?!SKIP)[QLS]\w+(?:\+QRET)?")
 DISTANCE = re.compile(r"(\w+)-\$")
 
 
@@ -168,7 +168,11 @@ def test_trace_follows_the_floats(traced: tuple[list[str], str]) -> None:
     assert all(operations)
     seen = dict.fromkeys([*does, "load", "store", "constant"], 0)
     for one, after in zip(operations, operations[1:], strict=False):
-        name, stack, then = one[3].split("/")[0], tuple(map(float, one[5].split())), tuple(map(float, after[5].split()))
+        name, stack, then = (
+            re.split(r"[/+]", one[3])[0],
+            tuple(map(float, one[5].split())),
+            tuple(map(float, after[5].split())),
+        )
         value = float(one[4].strip("()")) if one[4] and one[4].startswith("(") else None
         expected = None
         if name in does:
