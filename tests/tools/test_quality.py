@@ -259,7 +259,7 @@ def test_command(run_program: object, tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.skg"
     wrong.write_text("10 A=1/0\n")
     done = run_program("quality", wrong)
-    assert (done.returncode, done.stderr) == (2, "skg: the program ends in ERR 05 LINE 10\n")
+    assert (done.returncode, done.stderr) == (2, f"skg: {wrong}: the program ends in ERR 05 LINE 10\n")
 
 
 def test_any_program(run_program: object, tmp_path: Path) -> None:
@@ -270,7 +270,7 @@ def test_any_program(run_program: object, tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (2, f"skg: {part}: byte 8 is not ASCII\n")
     part.write_text("10 CUT O,,\n")
     done = run_program("quality", part)
-    assert (done.returncode, done.stderr) == (2, "skg: the program ends in ERR 01 LINE 10\n")
+    assert (done.returncode, done.stderr) == (2, f"skg: {part}: the program ends in ERR 01 LINE 10\n")
     part.write_text("10 FIT (0,0)\n20 FIT (10,0)\n30 FIT (20,5)\n40 FIT (20,5)\n50 FIT (20,5)\n")
     for options in ([], ["--tol", "0.01"]):
         done = run_program("quality", *options, part)

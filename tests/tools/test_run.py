@@ -46,7 +46,7 @@ def test_examples(run_program: Program, part: Path) -> None:
 ENDS = {
     "an error": ("10 CUT O,(1,0)\n20 A=1/0\n", [], 1),
     "a syntax error": ("10 CUT O,,\n", [], 1),
-    "nothing": ("", [], 0),
+    "nothing that is cut": ("10 REM\n", [], 0),
     "no line end": ("10 CUT O,(1,0)", [], 0),
     "CR LF": ("10 CUT O,(1,0)\r\n20 END\r\n", [], 0),
     "ctrl-Z": ("10 CUT O,(1,0)\n\x1a20 CUT (5,5)\n", [], 0),

@@ -126,7 +126,9 @@ IS_4B = (
     ("B 5000B0B5001GXL1 DD", "line 1, column 1: block 1: J = 5001 is more than the larger of x and y, 5000"),
     ("B 123456789B0B123456789GXL1 DD", "line 1, column 1: x has 9 digits, at most 8 fit"),
     ("B 0B0B5GYL1 DD", "line 1, column 1: block 1: x and y are both 0"),
-    ("  0\nSECTION\n  2\nENTITIES\n", f"line 1, column 1: {EXPECTED}, there is none: is this a tape?"),
+    ("hello\nworld\n", f"line 1, column 1: {EXPECTED}, there is none: is this a tape?"),
+    ("  0\nSECTION\n  2\nENTITIES\n", "a DXF drawing, expected a 3B tape"),
+    ("10 FROM O\n20 CUT (1,0)\n", "an SKG program, expected a 3B tape"),
     ("B0B0B2900GXL1\nB2900B0B2900B2900GYDNR1\nDD",
      f"line 2, column 1: {IS_4B}"),
     ("B3000B0B3000GXDL1\nDD", f"line 1, column 13: {IS_4B}"),
@@ -188,7 +190,7 @@ def test_check_says_what_is_different(run: Run, tmp_path: Path) -> None:
     path.write_text("  0\nSECTION\n  2\nENTITIES\n" * 1000)
     result = run("check", path)
     assert (result.exit_code, len(result.stdout.splitlines())) == (1, 1)
-    assert "there is none: is this a tape?" in result.stdout
+    assert result.stdout.endswith(": a DXF drawing, expected a 3B tape\n")
 
 
 def test_written_in_a_style(run: Run, tmp_path: Path) -> None:

@@ -9,12 +9,17 @@ from pathlib import Path
 from typing import TextIO
 
 from skg.errors import UserError
+from skg.kinds import named
 
 
 def read_bytes(path: str) -> bytes:
     """Return a file's bytes."""
     if path != "-":
-        return Path(path).read_bytes()
+        try:
+            return Path(path).read_bytes()
+        except OSError as error:
+            # (a read that fails names no file)
+            raise OSError(error.errno, error.strerror, path) from None
     if sys.stdin is None:
         raise UserError("standard input: closed")
     return sys.stdin.buffer.read()
@@ -25,13 +30,18 @@ def without_filling(data: bytes) -> bytes:
     return data.rstrip(b"\x1a\0")
 
 
+def without_mark(data: bytes) -> bytes:
+    """A text file without the mark that some editors begin UTF-8 with."""
+    return data.removeprefix(b"\xef\xbb\xbf")
+
+
 def read_ascii(path: str) -> str:
     """Return a file's text; anything but ASCII is a `UserError`."""
-    data = without_filling(read_bytes(path))
+    data = without_mark(without_filling(read_bytes(path)))
     try:
         return data.decode("ascii")
     except UnicodeDecodeError as error:
-        raise UserError(f"{path}: byte {error.start + 1} is not ASCII") from None
+        raise UserError(f"{path}: {named(data)}byte {error.start + 1} is not ASCII") from None
 
 
 @contextmanager

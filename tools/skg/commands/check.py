@@ -9,9 +9,10 @@ from dataclasses import asdict
 import click
 
 from skg.commands.options import positions_option
-from skg.drawing.source import tape_bytes
+from skg.drawing.source import gcode_text, tape_bytes
 from skg.errors import UserError
-from skg.files import read_ascii, without_filling
+from skg.files import without_filling
+from skg.kinds import TAPE, kind_of
 from skg.tape import gcode
 from skg.tape.block import Tape
 from skg.tape.styles import read_any
@@ -36,7 +37,7 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     found: list[tuple[str, Finding | gcode.GcodeFinding]] = []
     for name in tapes_:
         if gcode.is_gcode(name):
-            text = read_ascii(name)
+            text = gcode_text(name)
             findings = gcode.scan(text, name)[1]
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)
@@ -70,7 +71,7 @@ def _list_3b(name: str, data: bytes, tape: Tape, findings: list[Finding], list_a
         try:
             notes = read_any(data, name).notes
         except UserError as error:
-            if not tape.blocks and len(findings) > MOST and not list_all:
+            if kind_of(data) not in ("", TAPE) or not tape.blocks and len(findings) > MOST and not list_all:
                 # No tape at all: every line is a finding.
                 click.echo(str(error))
                 return

@@ -5,9 +5,9 @@ from __future__ import annotations
 import click
 
 from skg.commands.options import Coordinates, decided, output_option, positions_option
-from skg.drawing.source import load
+from skg.drawing.source import gcode_text, load
 from skg.errors import UserError
-from skg.files import read_ascii, write_bytes
+from skg.files import write_bytes
 from skg.plane import XY
 from skg.tape import gcode
 from skg.tape.block import micrometres
@@ -85,7 +85,7 @@ def command(
     A program (.skg, .xy, .tkh) is run first. FILE - (or none) is the standard input.
     """
     if back:
-        write_bytes(output, to_bytes(gcode.read(read_ascii(source), source).tape().items))
+        write_bytes(output, to_bytes(gcode.read(gcode_text(source), source).tape().items))
         return
     made = load(source)
     x, y = start or made.start

@@ -49,7 +49,8 @@ def decided(tape: Tape, positions: str) -> str:
 
 def say(tape: Tape, more: str = "") -> None:
     """Write to standard error what was noted when a tape was read, and what else there is to say."""
-    for note in (*tape.notes, *filter(None, [more])):
+    nothing = "" if tape.blocks else "no blocks: nothing is cut"
+    for note in (*tape.notes, *filter(None, [more, nothing])):
         click.echo(f"skg: {tape.name}: {note}", err=True)
 
 

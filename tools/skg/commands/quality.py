@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from skg.files import read_ascii
+from skg.errors import UserError
 
 if TYPE_CHECKING:
     from skg.quality.fewest import Saving
@@ -77,11 +77,25 @@ def command(parts: tuple[Path, ...], tol: float | None) -> None:
     With --tol, what TOL (docs/curves.md) does to the number of blocks, with the program's nodes and four times as many,
     if these are no more than 300; a TOL in the program does not count.
     """
+    from skg.drawing.source import program_text
     from skg.quality.fewest import savings
     from skg.quality.fitted import fitted_runs
     from skg.quality.measure import measure
 
-    curves = [(part, run) for part in parts for run in fitted_runs(read_ascii(str(part))) if len(run.nodes) > 2]
+    curves, without = [], []
+    for part in parts:
+        text = program_text(str(part))
+        try:
+            found = [(part, run) for run in fitted_runs(text) if len(run.nodes) > 2]
+        except UserError as error:
+            raise UserError(f"{part}: {error}") from None
+        if not found:
+            without.append(f"{part}: no curve of FIT with three nodes")
+        curves += found
+    if not curves:
+        raise UserError("; ".join(without))
+    for line in without:
+        click.echo(f"skg: {line}", err=True)
     if tol is None:
         click.echo(quality_table([measure(part, run) for part, run in curves]), nl=False)
     else:

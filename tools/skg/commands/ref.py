@@ -3,30 +3,32 @@
 from __future__ import annotations
 
 import sys
-from typing import BinaryIO
 
 import click
 
 from skg.commands.options import output_option
 from skg.errors import UserError
-from skg.files import write_bytes
+from skg.files import read_bytes, without_mark, write_bytes
+from skg.kinds import named
 
 
-def _text(file: BinaryIO) -> str:
+def _text(name: str) -> str:
+    data = without_mark(read_bytes(name))
     try:
-        return file.read().decode("ascii")
+        return data.decode("ascii")
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
-        raise UserError(f"{file.name}: line {line}: not plain ASCII") from None
+        raise UserError(f"{name}: {named(data)}line {line}: not plain ASCII") from None
 
 
 @click.command("ref")
-@click.argument("part", type=click.File("rb"))
+@click.argument("part", type=click.Path(allow_dash=True))
 @output_option("Where the tape goes.")
 @click.option(
     "--input",
     "answers",
-    type=click.File("rb"),
+    metavar="FILE",
+    type=click.Path(allow_dash=True),
     help="What the operator answers to INPUT, one line each.",
 )
 @click.option(
@@ -37,7 +39,7 @@ def _text(file: BinaryIO) -> str:
 )
 @click.option("--mill", is_flag=True, help="The milling machine's language and its ISO tape, as roms/skg-mill.bin.")
 @click.option("--grbl", is_flag=True, help="The same with LF alone behind each block, as roms/skg-grbl.bin.")
-def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool, mill: bool, grbl: bool) -> None:
+def command(part: str, output: str, answers: str | None, drift: bool, mill: bool, grbl: bool) -> None:
     """Run PART in 50-digit arithmetic: the exact tape that it must give, 3B or, with --mill, ISO.
 
     PART is an SKG program, or a rival's (.xy, .tkh), which is translated; `-`: an SKG program on the standard input.
@@ -50,7 +52,7 @@ def command(part: BinaryIO, output: str, answers: BinaryIO | None, drift: bool, 
     from skg.ref import run
     from skg.rivals.languages import is_rival
 
-    program = program_text(part.name) if is_rival(part.name) else checked_program(_text(part), part.name)
+    program = program_text(part) if is_rival(part) else checked_program(_text(part), part)
     inputs = _text(answers).splitlines() if answers else []
     if not (mill or grbl):
         result = run(program, inputs, drift=drift)

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 import click
 
 from skg.commands.options import output_option
+from skg.drawing.source import checked_program
 from skg.errors import UserError
-from skg.files import read_ascii, read_bytes, write_bytes
+from skg.files import read_ascii, read_bytes, without_mark, write_bytes
 from skg.machine.board import Board, BoardStopped
 from skg.machine.feeding import MEMORY_FULL, is_stored, too_large
 from skg.rivals.languages import is_rival, translated
@@ -57,8 +58,8 @@ def command(part: str, output: str, rom: str, ram: int, answers: str | None, max
     """
     if part == answers == "-":
         raise UserError("the program and the answers cannot both come from the standard input")
-    program, line_begins = translated(part).encode() if is_rival(part) else read_bytes(part), True
-    text = program.decode("latin-1")
+    program, line_begins = translated(part).encode() if is_rival(part) else without_mark(read_bytes(part)), True
+    text = checked_program(program.decode("latin-1"), part)
 
     def show(paper: str) -> None:
         nonlocal line_begins

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from skg.files import read_bytes
+from skg.files import read_bytes, without_mark
 
 
 @click.command(name="term")
@@ -91,7 +91,7 @@ def command(
     if unnumbered and not (file and run):
         raise click.UsageError("--unnumbered goes with --send and --run")
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
-    lines = lines_to_type(read_bytes(file), file) if file else []
+    lines = lines_to_type(without_mark(read_bytes(file)), file) if file else []
     keyed = (
         [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), "standard input")
     )

@@ -22,6 +22,7 @@ from ezdxf.lldxf.types import DXFTag
 from ezdxf.tools.codepage import toencoding
 
 from skg.errors import UserError
+from skg.kinds import kind_of
 from skg.plane import XY
 
 # What ezdxf would say is said here, in one line.
@@ -121,7 +122,8 @@ def load(data: bytes) -> DxfFile:
     if data.startswith(_BINARY):
         groups = _of_binary(data)
     elif b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
-        raise UserError("not a DXF drawing, it has no SECTION")
+        found_kind = kind_of(data)
+        raise UserError(f"{found_kind}, expected a drawing" if found_kind else "not a DXF drawing, it has no SECTION")
     else:
         groups = _of_text(_decoded(data), found.notes)
     section = ""

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes
+from skg.kinds import GCODE, PROGRAM, refuse_others
 from skg.machine.board import BoardStopped, find_error
 from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, feed, least_ram, too_large
 from skg.piece import Piece
@@ -22,9 +23,6 @@ from skg.tape.gcode import GcodeProgram, is_gcode
 from skg.tape.gcode import read as read_gcode
 from skg.tape.placed import PlacedRoute, place, stop_places
 from skg.tape.positions import decide
-
-#: How a tape begins, and no program.
-_TAPE = re.compile(r"\s*(?:B\s*\d+\s*){3}G", re.I)
 
 
 @dataclass(frozen=True)
@@ -61,7 +59,14 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
 
 def gcode(name: str) -> GcodeProgram:
     """Return the G-code in a file, told by its name's end; what is odd about it but can be read is no matter here."""
-    return read_gcode(read_ascii(name), name)
+    return read_gcode(gcode_text(name), name)
+
+
+def gcode_text(name: str) -> str:
+    """Return the text of a file that should be G-code; another kind of file is a `UserError`."""
+    text = read_ascii(name)
+    refuse_others(text.encode(), name, GCODE)
+    return text
 
 
 def tape_bytes(name: str, skg80: str | None = None) -> bytes:
@@ -75,9 +80,10 @@ def program_text(name: str) -> str:
 
 
 def checked_program(text: str, name: str) -> str:
-    """Return what is in a file if it may be a program; a tape is a `UserError`."""
-    if _TAPE.match(text):
-        raise UserError(f"{name}: a tape, expected a program")
+    """Return what is in a file if it may be a program; another kind of file, and an empty one, is a `UserError`."""
+    refuse_others(text.encode("latin-1", "replace"), name, PROGRAM)
+    if not text.strip("\0\x1a \t\r\n"):
+        raise UserError(f"{name}: empty, expected {PROGRAM}")
     return text
 
 
@@ -141,7 +147,7 @@ def _contour_at(text: str, line: int) -> str:
     """The contour that a line cuts, as the REM over it has it in a program that was made of a drawing; else nothing."""
     found = ""
     for number, statement in re.findall(r"^\s*(\d+)\s*(.*?)\s*$", text, re.M):
-        if int(number) > line:
+        if len(number) > 4 or int(number) > line:
             break
         title = re.match(r"REM (\d+\. .*)", statement)
         found = title[1] if title else "" if statement == "END" else found
@@ -154,8 +160,6 @@ def _run_reference(name: str, text: str, with_contour: bool) -> tuple[bytes, XY,
     from skg.drawing.nominal import nominal
     from skg.ref import run
 
-    if not text.strip():
-        raise UserError(f"{name}: expected a program, the file is empty")
     result = run(text)
     if result.error:
         raise _failure(name, text, *result.error)

@@ -7,10 +7,12 @@ from pathlib import Path
 
 from skg.errors import UserError
 from skg.files import read_bytes, without_filling
+from skg.kinds import refuse_others
 
 #: A rival's ending -> the module that makes SKG of it, loaded when it is needed: its `translate` takes the text and
 #: the file's name.
 MODULES = {".xy": "skg.rivals.xy", ".tkh": "skg.rivals.tekhtran"}
+_NAMES = {".xy": "a program in XY", ".tkh": "a program in TEKHTRAN"}
 
 
 class RivalFault(Exception):
@@ -30,6 +32,9 @@ def translated(name: str, ending: str | None = None) -> str:
     """
     rival = import_module(MODULES[ending or Path(name).suffix.lower()])
     data = without_filling(read_bytes(name))
+    refuse_others(data, name, _NAMES[ending or Path(name).suffix.lower()])
+    if not data.strip():
+        raise UserError(f"{name}: empty, expected {_NAMES[ending or Path(name).suffix.lower()]}")
     try:
         return rival.translate(data.decode("utf-8-sig"), Path(name).name)
     except UnicodeDecodeError as error:

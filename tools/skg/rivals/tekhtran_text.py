@@ -119,7 +119,7 @@ def statements(text: str, names: Names) -> Iterator[Tree]:
         word, is_new = KINDS.get(token), True
         first = _as_kind(token, names, word, is_new)
         if first.type not in parser.choices():
-            raise TextFault(token.start_pos, f"expected a statement, found {token}")
+            raise TextFault(token.start_pos, f"expected a statement, found {token[:40]}")
         feed(parser, first, SHOWN)
         while token.type != "END":
             is_new = is_new and token.type != "EQUALS" and first.type in _MAKING

@@ -13,6 +13,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from skg.errors import UserError
+from skg.files import without_mark
+from skg.kinds import TAPE, refuse_others
 from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, line_block, start_quadrant
 
 #: Words for a stop, and for the end of the tape.
@@ -36,7 +38,8 @@ def read_any(data: bytes, name: str = "-") -> Tape:
     What cannot be read, or cannot be right, is a `UserError` with line and column. A tape in the punch's own style must
     be whole; of any other it is noted where no word ends it.
     """
-    text = data.decode("latin-1").strip("\0\x1a\x7f").removeprefix("\xef\xbb\xbf")
+    refuse_others(data, name, TAPE)
+    text = without_mark(data).decode("latin-1").strip("\0\x1a\x7f")
     return _StyleReader(name, re.sub("\r\n?", "\n", text)).read()
 
 

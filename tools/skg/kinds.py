@@ -1,0 +1,44 @@
+"""What a file is by its first bytes, for the message when it is none of what was expected."""
+
+from __future__ import annotations
+
+import re
+
+from skg.errors import UserError
+
+TAPE, PROGRAM, GCODE, DRAWING = "a 3B tape", "an SKG program", "G-code", "a DXF drawing"
+#: How files begin, in the order in which they are tried.
+_BEGINNINGS = [
+    (rb"\x89PNG\r\n", "a PNG picture"),
+    (rb"\xff\xd8\xff", "a JPEG picture"),
+    (rb"%PDF-", "a PDF file"),
+    (rb"PK\x03\x04", "a zip archive"),
+    (rb"AC10\d\d", "a DWG drawing"),
+    (rb"AutoCAD Binary DXF", DRAWING),
+    (rb"\xff\xfe|\xfe\xff", "text in UTF-16"),
+    (rb"(?:\s*999\r?\n.*\r?\n)*\s*0\r?\n\s*SECTION\s", DRAWING),
+    (rb"\s*(?:<!--.*?-->\s*|<[?!][^>]*>\s*)*<svg\b", "an SVG drawing"),
+    (rb"\s*(?:<![^>]*>\s*)?<html\b", "a web page"),
+    (rb"\s*(?:B\s*\d+\s*){3}G", TAPE),
+    (rb"\s*%?\s*(?:N\s*\d+\s*)?G\s*0*\d{1,2}(?![\d.])", GCODE),
+    (rb"\s*\d{1,4}\s*(?:REM|FROM|CUT|R\s*=|[A-Z]\d*\s*=)", PROGRAM),
+]
+
+
+def kind_of(data: bytes) -> str:
+    """What a file is, such as "a 3B tape"; empty where that does not show."""
+    head = data[:4096].removeprefix(b"\xef\xbb\xbf").lstrip(b"\0")
+    return next((kind for begins, kind in _BEGINNINGS if re.match(begins, head, re.IGNORECASE | re.DOTALL)), "")
+
+
+def named(data: bytes) -> str:
+    """What a file is that cannot be read as text, for the beginning of a message; empty where it is text."""
+    found = kind_of(data)
+    return f"{found}, " if found not in ("", TAPE, PROGRAM, GCODE) else ""
+
+
+def refuse_others(data: bytes, name: str, expected: str) -> None:
+    """Raise a `UserError` when a file shows that it is not what is expected, such as `TAPE`, but of another kind."""
+    found = kind_of(data)
+    if found not in ("", expected):
+        raise UserError(f"{name}: {found}, expected {expected}")
