@@ -145,3 +145,19 @@ def test_wrong_usage_is_one_line() -> None:
             code, out, said = invoke(command, *words)
             assert (code, out) == (2, "") and "\n" not in said, (command, said)
         assert "--help" in invoke(command, "--hlp")[2], command
+
+
+def test_output_onto_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A drawing is not written over the tape that it was made of; `skg tape` may write a tape over itself."""
+    monkeypatch.chdir(tmp_path)
+    for command, (words, kind) in OUTPUTS.items():
+        if not kind:
+            continue
+        ending = {"tape": "3b", "fit": "skg"}.get(kind, kind)
+        name = f"in.{'svg' if command == 'plot' else ending}"
+        Path(name).write_bytes(FILES[kind][0])
+        code, _, said = invoke(*words, f"./{name}", name)
+        assert (code, Path(name).read_bytes() == FILES[kind][0]) == (0 if command == "tape" else 2, True), command
+        assert command == "tape" or said == f"./{name}: to be written, and read or written by the same command"
+    Path("in.dxf").write_bytes(FILES["dxf"][0])
+    assert "out: to be written" in invoke("cut", "in.dxf", "-o", "out", "--program", "out")[2]

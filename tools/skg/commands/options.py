@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
 
 import click
@@ -54,10 +55,37 @@ def say(tape: Tape, more: str = "") -> None:
         click.echo(f"skg: {tape.name}: {note}", err=True)
 
 
-def output_option(text: str, required: bool = False) -> Callable[[Callable], Callable]:
-    """The option -o, FILE or - for the standard output; `text` is its help."""
+def output_option(text: str, required: bool = False, in_place: bool = False) -> Callable[[Callable], Callable]:
+    """The option -o, FILE or - for the standard output; `text` is its help.
+
+    A command that has it writes onto none of the files that it reads, unless `in_place`.
+    """
     default = {"required": True} if required else {"default": "-", "show_default": True}
-    return click.option("-o", "--output", type=click.Path(allow_dash=True), help=text, **default)
+    option = click.option("-o", "--output", type=click.Path(allow_dash=True), help=text, **default)
+
+    def give(function: Callable) -> Callable:
+        @wraps(function)
+        def careful(*arguments: object, **named: object) -> object:
+            if not in_place:
+                _refuse_onto(click.get_current_context())
+            return function(*arguments, **named)
+
+        return option(careful)
+
+    return give
+
+
+def _refuse_onto(context: click.Context) -> None:
+    """Raise a `UserError` when a command would write a file that it reads, or one file twice."""
+    read, written = [], []
+    for parameter in context.command.params:
+        if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name]):
+            is_read = isinstance(parameter, click.Argument) or parameter.name == "answers"
+            (read if is_read else written).extend(map(str, value if isinstance(value, tuple) else [value]))
+    real = [name for name in written if name != "-" and (not Path(name).exists() or Path(name).is_file())]
+    for at, name in enumerate(real):
+        if any(Path(name).resolve() == Path(other).resolve() for other in [*read, *real[:at]] if other != "-"):
+            raise UserError(f"{name}: to be written, and read or written by the same command")
 
 
 def offset_option(text: str) -> Callable[[Callable], Callable]:

@@ -12,7 +12,7 @@ from skg.tape.styles import STYLES, to_style
 
 @click.command(name="tape")
 @click.argument("file", default="-", type=click.Path(allow_dash=True))
-@output_option("Tape to write, - for the standard output.")
+@output_option("Tape to write, - for the standard output.", in_place=True)
 @click.option(
     "--style",
     type=click.Choice(list(STYLES)),
