@@ -74,10 +74,25 @@ SAME = {
     ),
 }
 
+#: The same in other encodings: a header in Chinese, numbers as Chinese editors write them, full-width letters and blanks.
+SAME |= {
+    "a header in Chinese": (
+        "零件程序 图号：冲模01\n偏移量=0.1\n" + "\n".join(BLOCKS) + "\nDD\n",
+        "a header of 2 lines",
+    ),
+    "counted in Chinese": ("".join(f"{k}、{block}\n" for k, block in enumerate(BLOCKS, 1)) + "DD\n", "block numbers"),
+    "counted with a bracket": ("".join(f"{k}) {b}\n" for k, b in enumerate(BLOCKS, 1)) + "DD\n", "block numbers"),
+    "full-width": (
+        "".join("".join(chr(ord(c) + 0xFEE0) for c in block) + "\u3000\n" for block in BLOCKS) + "ＤＤ\n",
+        "full-width characters",
+    ),
+}
 
+
+@pytest.mark.parametrize("encoding", ["utf-8", "gb18030"])
 @pytest.mark.parametrize(("text", "noted"), SAME.values(), ids=SAME)
-def test_the_same_tape(text: str, noted: str) -> None:
-    tape = tapes.parse(text.encode("latin-1"))
+def test_the_same_tape(text: str, noted: str, encoding: str) -> None:
+    tape = tapes.parse(text.encode(encoding))
     assert [str(block) for block in tape.blocks] == BLOCKS
     assert tape.stops == []
     assert tape.notes == (f"written in another style: {noted}",)
@@ -131,6 +146,9 @@ IS_4B = (
     ("10 FROM O\n20 CUT (1,0)\n", "an SKG program, expected a 3B tape"),
     ("B0B0B2900GXL1\nB2900B0B2900B2900GYDNR1\nDD",
      f"line 2, column 1: {IS_4B}"),
+    ("B5B0B5GXL1\nD1\nB0B5B5GYL2\nDD", f"line 2, column 2: {EXPECTED}, D or DD, found '1'"),
+    ("B5B0B5GXL1\n结束了\n", f"line 2, column 1: {EXPECTED}, D or DD, found '结束了'"),
+    ("B5B0B5FXL1\nDD", f"line 1, column 1: {EXPECTED}"),
     ("B3000B0B3000GXDL1\nDD", f"line 1, column 13: {IS_4B}"),
 ])  # fmt: skip
 def test_refused(text: str, message: str) -> None:

@@ -19,7 +19,8 @@ from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, line_block, start_quad
 
 #: Words for a stop, and for the end of the tape.
 STOPS, ENDS = ("D", "A"), ("DD", "FF", "E", "MJ")
-_NUMBER = r"(?:N\s*(\d+)\s*[:.]?|(\d+)\s*[:.]?)?\s*"
+#: In the block's own line, so that no header's last number is one.
+_NUMBER = r"(?:N[^\S\n]*(\d+)|(\d+))?(?:(?<=\d)[^\S\n]*[:.,)、]?[^\S\n]*)?"
 _BLOCK = re.compile(
     _NUMBER + r"(B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*G\s*([XY])[\s,]*(L|[NS]R)\s*([1-4]))", re.I
 )
@@ -27,6 +28,8 @@ _WORD = re.compile(_NUMBER + r"(DD|FF|MJ|[DAE])(?=[BN]\s*\d|[^A-Z]|$)", re.I)
 _BLANK = re.compile(r"[\s,]*")
 _COMMENT = re.compile(r"\([^()\n]*\)|(?:;|//|#)[^\n]*")
 _START = re.compile(r"START\s+POINT\s*=\s*([-+]?[\d.]+)\s*,\s*([-+]?[\d.]+)", re.I)
+#: Full-width characters, as Chinese editors write them, and what they mean.
+_FULL_WIDTH = {0x3000: " "} | {0xFF00 + code: chr(0x20 + code) for code in range(1, 0x5F)}
 #: A line that is, or is meant to be, a block.
 _LIKE_A_BLOCK = re.compile(r"^\s*(?:N?\s*\d+\s*[:.]?\s*)?B\s*\d|G\s*[XY]\s*(?:L|[NS]R)\s*\d", re.I | re.M)
 _FOUR = re.compile(r"B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*G|G\s*[XY]\s*DD?\s*(?:L|[NS]R)\s*[1-4]", re.I)
@@ -39,16 +42,28 @@ def read_any(data: bytes, name: str = "-") -> Tape:
     be whole; of any other it is noted where no word ends it.
     """
     refuse_others(data, name, TAPE)
-    text = without_mark(data).decode("latin-1").strip("\0\x1a\x7f")
-    return _StyleReader(name, re.sub("\r\n?", "\n", text)).read()
+    text = re.sub("\r\n?", "\n", _decoded(without_mark(data)).strip("\0\x1a\x7f"))
+    return _StyleReader(name, text.translate(_FULL_WIDTH), text).read()
+
+
+def _decoded(data: bytes) -> str:
+    """The text of a tape: headers and comments are in UTF-8 or in GBK, if not in ASCII."""
+    for encoding in ("utf-8", "gb18030"):
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    return data.decode("latin-1")
 
 
 @dataclass
 class _StyleReader:
-    """A tape that is being read; `seen` is what was different, with how often."""
+    """A tape that is being read, and as it was before full-width characters became others; `seen` is what was
+    different, with how often."""
 
     name: str
     text: str
+    written: str
     seen: Counter[str] = field(default_factory=Counter)
     items: list[Block | Stop] = field(default_factory=list)
     numbers: list[int] = field(default_factory=list)
@@ -147,6 +162,7 @@ class _StyleReader:
             if len(number.lstrip("0")) > MAX_DIGITS:
                 raise self.error(match.start(3), f"{name} has {len(number)} digits, at most {MAX_DIGITS} fit")
         self._note(any(number[:1] == "0" and len(number) > 1 for number in digits), "leading zeros")
+        self._note(self.written[match.start() : match.end()] != match[0], "full-width characters")
         self._note("" in digits, "zeros left out")
         self._note(bool(re.search(r"[\s,]", written)), "blanks")
         self._note(written != written.upper(), "small letters")
