@@ -10,6 +10,7 @@ import pytest
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
+from skg.machine.feeding import feed
 from skg.ref import run as reference
 from skg.tape.placed import place
 from skg.tape.positions import decide
@@ -106,3 +107,44 @@ def test_one_decision_for_all_routes(run: Run, tmp_path: Path) -> None:
         report = json.loads(run("sim", "--json", path).stdout)[0]
         assert report["positions"] == positions
         assert (report["largest_drift"] == 0) == (not drift)
+
+
+#: Its arc ends where it should, to the micrometre, on either tape: what was drawn, to less than that, is not the same.
+FINE = """R=-0.1
+FROM (0,0)
+CUT (2,-20),(20,-20),3.76362,(25,17.696767),(-15,10),(-15,-20)
+BACK
+END
+"""
+
+
+def test_what_matters_to_less_than_a_micrometre(run: Run, tmp_path: Path) -> None:
+    """`skg dxf` says what it has taken a tape for where corners would be drawn elsewhere; the others need no word."""
+    path = tmp_path / "part.3b"
+    path.write_bytes(feed(FINE, "no-drift").tape)
+    assert path.read_bytes() != feed(FINE).tape
+    assert run("sim", path).stderr == ""
+    assert f"skg: {path}: taken as " in run("dxf", path).stderr
+    for options in (["--positions", "machine"], ["--joints", "tape"]):
+        assert run("dxf", path, *options).stderr == ""
+
+
+def test_a_name_that_gets_lost(run: Run, tmp_path: Path) -> None:
+    path, other = tmp_path / "a.nodrift.3b", tmp_path / "b.3b"
+    path.write_bytes((ROOT / "examples" / "ratchet.3b").read_bytes())
+    assert "its name says that it is without drift; end that of " in run("tape", path, "-o", other).stderr
+    for output in (tmp_path / "b.nodrift.3b", "-"):
+        assert run("tape", path, "-o", output).stderr == ""
+
+
+def test_cut_says_when_its_tape_does_not_show_it() -> None:
+    """A symmetrical part closes on any tape: only a name or an option tells that it is without drift."""
+    from skg.commands.cut import unmarked
+
+    program = (ROOT / "examples" / "skg06-tangent-slot.skg").read_text()
+    tape = tapes.parse(feed(program, "no-drift").tape)
+    assert decide(tape).positions == "programmed" and not decide(tape).is_sure
+    assert "end its name in .nodrift.3b" in unmarked("slot.3b", tape, "no-drift")[0]
+    assert unmarked("slot.NoDrift.3b", tape, "no-drift") == unmarked("slot.3b", tape, "standard") == []
+    sure = tapes.parse(feed((ROOT / "examples" / "skg06-belts.skg").read_text(), "no-drift").tape)
+    assert unmarked("belts.3b", sure, "no-drift") == []

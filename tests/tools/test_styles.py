@@ -74,7 +74,7 @@ SAME = {
     ),
 }
 
-#: The same in other encodings: a header in Chinese, numbers as Chinese editors write them, full-width letters and blanks.
+#: The same with a header in Chinese, counted as Chinese editors do, with full-width letters and blanks.
 SAME |= {
     "a header in Chinese": (
         "零件程序 图号：冲模01\n偏移量=0.1\n" + "\n".join(BLOCKS) + "\nDD\n",

@@ -6,7 +6,21 @@ import click
 
 from skg.commands.options import Coordinates, decided, output_option, positions_option, skg80_option
 from skg.files import text_output
-from skg.plane import XY
+from skg.plane import XY, distance
+from skg.tape.placed import PlacedRoute
+from skg.tape.positions import OTHER, decide
+
+#: A drawing that is otherwise by more than this is another one, µm.
+_SAME = 0.5
+
+
+def _differ(ones: list[PlacedRoute], others: list[PlacedRoute]) -> bool:
+    """Whether blocks end elsewhere in one layout than in the other."""
+    return any(
+        distance(one.end, other.end) > _SAME
+        for route, beside in zip(ones, others, strict=True)
+        for one, other in zip(route.blocks, beside.blocks, strict=True)
+    )
 
 
 @click.command(name="dxf")
@@ -36,6 +50,11 @@ def command(
     from skg.drawing.source import lay_out, load
 
     made = load(file, skg80)
-    routes, stops = lay_out(made, start or made.start, decided(made.tape, positions), joints)
+    home = start or made.start
+    taken = decided(made.tape, positions)
+    routes, stops = lay_out(made, home, taken, joints)
+    finely = decide(made.tape, positions).finely if joints == "drawn" else ""
+    if finely and _differ(routes, lay_out(made, home, OTHER[taken], joints)[0]):
+        click.echo(f"skg: {made.tape.name}: {finely}", err=True)
     with text_output(output) as stream:
         write(stream, routes, stops, polylines)

@@ -8,6 +8,7 @@ from skg.commands.options import output_option, say
 from skg.drawing.source import load
 from skg.files import write_bytes
 from skg.tape.styles import STYLES, to_style
+from skg.tape.text import WITHOUT_DRIFT
 
 
 @click.command(name="tape")
@@ -28,5 +29,6 @@ def command(file: str, output: str, style: str) -> None:
     (or none) is the standard input.
     """
     tape = load(file).tape
-    say(tape)
+    lost = tape.drift is False and output != "-" and not output.lower().endswith(WITHOUT_DRIFT)
+    say(tape, f"its name says that it is without drift; end that of {output} in {WITHOUT_DRIFT} too" if lost else "")
     write_bytes(output, to_style(tape.items, style))

@@ -15,7 +15,7 @@ POSITIONS = ("auto", "programmed", "machine")
 
 #: What the two are called when something is said of a tape.
 _MEANING = {"programmed": "with drift (programmed)", "machine": "without drift (machine)"}
-_OTHER = {"programmed": "machine", "machine": "programmed"}
+OTHER = {"programmed": "machine", "machine": "programmed"}
 #: More evidence than this (log likelihood) for a tape without drift, and it is one. Tapes with drift are more.
 _DOUBT = 1
 #: Less evidence than this is not certain.
@@ -25,10 +25,12 @@ _SURE = 5
 @dataclass(frozen=True)
 class Decision:
     """Where a tape's blocks start, "programmed" or "machine", and why (empty: it was asked for, or is all the same to
-    the micrometre)."""
+    the micrometre). `finely`: why, where it is the same to the micrometre and matters in what is less alone."""
 
     positions: str
     why: str = ""
+    is_sure: bool = True
+    finely: str = ""
 
 
 def decide(tape: Tape, positions: str = "auto") -> Decision:
@@ -53,10 +55,10 @@ def decide(tape: Tape, positions: str = "auto") -> Decision:
         # A block that never ends on the controller (a circle of a few µm): it cannot tell where it stands.
         return Decision("programmed", f"taken as {_MEANING['programmed']}: it has blocks that never end")
     decided = "machine" if found > _DOUBT else "programmed"
-    if is_same:
-        return Decision(decided)
-    if abs(found) < _SURE:
-        return Decision(
-            decided, f"taken as {_MEANING[decided]}, which is likely, not certain: --positions {_OTHER[decided]} if not"
-        )
-    return Decision(decided, f"taken as {_MEANING[decided]}: its arcs and the routes that close say so")
+    is_sure = abs(found) >= _SURE
+    why = f"taken as {_MEANING[decided]}" + (
+        ": its arcs and the routes that close say so"
+        if is_sure
+        else f", which is likely, not certain: --positions {OTHER[decided]} if not"
+    )
+    return Decision(decided, "" if is_same else why, is_sure, why if is_same else "")
