@@ -486,16 +486,6 @@ def test_a_digitised_curve_is_quick() -> None:
     assert sum(len(edge.nodes) for edge in contour.edges) < 400
 
 
-def test_twenty_thousand_elements() -> None:
-    """The whole reading of 5,000 squares, each of four lines, in a grid with its frame."""
-    lines = [side for k in range(5000) for side in square(3 * (k % 100), 3 * (k // 100), 2)]
-    data = raw(*lines, *square(-5, -5, 320))
-    began = time.process_time()
-    assert len(checked(data).contours) == 5001
-    # (it takes 3 s where nothing else runs)
-    assert time.process_time() - began < 7
-
-
 @pytest.mark.parametrize(
     ("encoding", "page"),
     [("cp1252", "ANSI_1252"), ("gbk", "ANSI_936"), ("utf-8", ""), ("utf-16", ""), ("utf-8-sig", "")],

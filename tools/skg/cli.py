@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from contextlib import suppress
@@ -32,6 +33,10 @@ COMMANDS = {
     "term": "Be the teletype of a board on a serial port.",
     "xy": "Make an SKG program of one in XY.",
 }
+
+
+#: So many new objects before garbage is looked for.
+_GARBAGE = 200_000
 
 
 class LazyGroup(click.Group):
@@ -73,6 +78,8 @@ def main() -> None:
 
     Who reads the output may stop reading (`| head -1`): exit code 1, and not a word.
     """
+    # What commands make of large files lives to their end: the collector would look through millions of blocks in vain.
+    gc.set_threshold(_GARBAGE)
     try:
         try:
             # (click alone would take four lines for wrong usage)

@@ -115,14 +115,13 @@ def _placed(blocks: list[Block], moves: list[XY], at: XY) -> tuple[tuple[Placed,
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
     """Follow a tape and compare it with the routes that it should cut."""
     cuts = follow(tape, routes, is_without_drift)
-    contours = Pieces((piece, at) for at, route in enumerate(routes) for piece in drawn(route))
+    contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
     wire = Pieces((_millimetres(piece), cut.route) for cut in cuts for piece in cut.pieces)
     steps = np.array([off for cut in cuts for off in cut.off_curve], float) / 1000
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
     faults, crossings, worst = _beside(wire, steps, contours, routes, offsets, widest)
-    is_chord = np.array([not isinstance(piece, Edge) for route in routes for piece in drawn(route)], bool)
-    more, far = _reached(wire, contours, is_chord, _in_tabs(routes), offsets, widest)
+    more, far = _reached(wire, contours, _in_tabs(contours, routes), offsets, widest)
     return Checked(cuts, max(worst, far), faults + more, crossings)
 
 
@@ -134,21 +133,21 @@ def _offsets(routes: list[PlannedContour]) -> Floats:
 
 def drawn(route: PlannedContour) -> Iterator[Piece]:
     """A contour as lines and arcs, in its direction."""
-    if route.tab:
-        for edges in split_at_end(route.chain(), route.tab):
-            yield from _as_pieces(edges)
-    else:
-        yield from _as_pieces(route.chain())
-
-
-def _as_pieces(edges: Iterable[Edge]) -> Iterator[Piece]:
-    for edge in edges:
-        if not edge.nodes:
+    for edge in (edge for part in _parts(route) for edge in part):
+        if edge.nodes:
+            yield from (Piece(p, q) for p, q in pairwise(edge.samples) if p != q)
+        else:
             yield edge
-            continue
-        for p, q in pairwise(edge.samples):
-            if p != q:
-                yield Piece(p, q)
+
+
+def _parts(route: PlannedContour) -> tuple[tuple[Edge, ...], ...]:
+    """A contour's edges up to its tab, and those of the tab."""
+    return split_at_end(route.chain(), route.tab) if route.tab else (route.chain(),)
+
+
+def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
+    """Lines and arcs, and the samples of curves."""
+    return (np.array(edge.samples) if edge.nodes else edge for edge in edges)
 
 
 def _millimetres(piece: Placed) -> Piece:
@@ -194,40 +193,42 @@ def _beside(
     wire: Pieces, steps: Floats, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
 ) -> tuple[list[Misfit], list[Crossing], float]:
     """Whether every place of the wire lies as far beside its contour as it should."""
-    which, part = wire.samples(_spacing(wire, widest), 2)
-    places, owners, step = wire.at(which, part), wire.owner[which], steps[which]
-    wanted = np.abs(offsets)[owners]
-    near = contours.nearest(places, owners, widest + 2 * LIMIT)
-    off = np.abs(near.own[:, None] - wanted).min(1)
-    into = near.own < wanted.min(1) - LIMIT
+    faults: dict[int, Misfit] = {}
+    crossings: dict[int, Crossing] = {}
+    worst = 0.0
     is_open = np.array([not route.contour.is_closed for route in routes])
-    # The wire of an open contour begins on it and goes aside.
-    begins = np.flatnonzero(into & is_open[owners])
-    into[begins] = _off_leads(places[begins], owners[begins], routes) > LIMIT
-    doubtful = np.flatnonzero((off > _USUAL) & ~into)
-    off[doubtful] = np.minimum(off[doubtful], _off_leads(places[doubtful], owners[doubtful], routes))
-    doubtful = doubtful[off[doubtful] > _USUAL]
-    off[doubtful] = np.minimum(
-        off[doubtful], _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful])
-    )
-    total = off + step
-    faults = [
-        Misfit(int(owners[at]), _xy(places[at]), float(abs(wanted[at].min() - near.own[at])), bool(into[at]))
-        for at in _first_of_each(owners, (off > LIMIT) | into)
-    ]
-    deep = wanted.min(1) - near.other
-    crossings = [
-        Crossing(int(owners[at]), int(contours.owner[near.other_at[at]]), _xy(places[at]), float(deep[at]))
-        for at in _first_of_each(owners, deep > LIMIT)
-    ]
-    good = ~into & np.isfinite(total)
-    return faults, crossings, float(total[good].max(initial=0.0))
+    for which, part in wire.batches(_spacing(wire, widest), 2):
+        places, owners = wire.at(which, part), wire.owner[which]
+        wanted = np.abs(offsets)[owners]
+        near = contours.nearest(places, owners, widest + 2 * LIMIT)
+        off = np.abs(near.own[:, None] - wanted).min(1)
+        into = near.own < wanted.min(1) - LIMIT
+        # The wire of an open contour begins on it and goes aside.
+        begins = np.flatnonzero(into & is_open[owners])
+        into[begins] = _off_leads(places[begins], owners[begins], routes) > LIMIT
+        doubtful = np.flatnonzero((off > _USUAL) & ~into)
+        off[doubtful] = np.minimum(off[doubtful], _off_leads(places[doubtful], owners[doubtful], routes))
+        doubtful = doubtful[off[doubtful] > _USUAL]
+        off[doubtful] = np.minimum(
+            off[doubtful], _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful])
+        )
+        for owner, at in _first_of_each(owners, (off > LIMIT) | into):
+            misses = float(abs(wanted[at].min() - near.own[at]))
+            faults.setdefault(owner, Misfit(owner, _xy(places[at]), misses, bool(into[at])))
+        deep = wanted.min(1) - near.other
+        for owner, at in _first_of_each(owners, deep > LIMIT):
+            other = int(contours.owner[near.other_at[at]])
+            crossings.setdefault(owner, Crossing(owner, other, _xy(places[at]), float(deep[at])))
+        total = off + steps[which]
+        worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
+    return list(faults.values()), list(crossings.values()), worst
 
 
-def _first_of_each(owners: Whole, mask: np.ndarray) -> list[int]:
-    """The first place of each owner where something is so."""
+def _first_of_each(owners: Whole, mask: np.ndarray) -> Iterator[tuple[int, int]]:
+    """The owners of places where something is so, each with the first one."""
     at = np.flatnonzero(mask)
-    return [int(at[k]) for k in np.unique(owners[at], return_index=True)[1]]
+    found, first = np.unique(owners[at], return_index=True)
+    return zip(found.tolist(), at[first].tolist(), strict=True)
 
 
 def _xy(place: Floats) -> XY:
@@ -236,8 +237,7 @@ def _xy(place: Floats) -> XY:
 
 def _off_leads(places: Floats, owners: Whole, routes: list[PlannedContour]) -> Floats:
     """How far places are from the ways between start holes and contours."""
-    wanted = set(owners.tolist())
-    leads = Pieces((piece, at) for at, route in enumerate(routes) if at in wanted for piece in _lead_pieces(route))
+    leads = Pieces((piece, at) for at in np.unique(owners).tolist() for piece in _lead_pieces(routes[at]))
     return leads.nearest(places, owners, 2 * LIMIT).own
 
 
@@ -276,40 +276,40 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
     return off
 
 
-def _in_tabs(routes: list[PlannedContour]) -> np.ndarray:
+def _in_tabs(contours: Pieces, routes: list[PlannedContour]) -> np.ndarray:
     """Which of the pieces of the contours are cut in the last pass alone."""
-    found = []
-    for route in routes:
-        count = sum(1 for _ in drawn(route))
-        tab = sum(1 for _ in _as_pieces(split_at_end(route.chain(), route.tab)[1])) if route.tab else 0
-        found.append(np.arange(count) >= count - tab)
-    return np.concatenate(found)
+    found = np.zeros(len(contours.owner), bool)
+    ends = np.searchsorted(contours.owner, np.arange(len(routes)), "right")
+    for end, route in zip(ends.tolist(), routes, strict=True):
+        if route.tab:
+            tab = Pieces((path, 0) for path in _paths(_parts(route)[1]))
+            found[end - len(tab.owner) : end] = True
+    return found
 
 
 def _reached(
-    wire: Pieces, contours: Pieces, is_chord: np.ndarray, in_tabs: np.ndarray, offsets: Floats, widest: float
+    wire: Pieces, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
 ) -> tuple[list[Misfit], float]:
-    """Whether the wire has been beside every place of the contours that it can reach.
-
-    `is_chord`: pieces that stand for a part of a curve, and are square to it in their middle alone.
-    """
-    which, part = contours.samples(_spacing(contours, widest), 2)
-    true = ~is_chord[which] | (part > 0) & (part < 1)
-    which, part = which[true], part[true]
-    owners = contours.owner[which]
-    on, square = contours.at(which, part), contours.normal(which, part)
-    faults: list[Misfit] = []
+    """Whether the wire has been beside every place of the contours that it can reach."""
+    faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
-    for number, r in enumerate(offsets.T):
-        aside = r[owners]
-        places = on + aside[:, None] * square
-        free = np.ones(len(places), bool)
-        if widest:
-            free = contours.nearest(places, owners, widest).own > np.abs(aside) - LIMIT / 10
-        if number + 1 < offsets.shape[1]:
-            free &= ~in_tabs[which]
-        off = wire.nearest(places[free], owners[free], 2 * LIMIT).own
-        for at in _first_of_each(owners[free], off > LIMIT):
-            faults.append(Misfit(int(owners[free][at]), _xy(places[free][at]), float(off[at]), False))
-        worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
-    return faults, worst
+    for which, part in contours.batches(_spacing(contours, widest), 2):
+        # (a chord of a curve is square to it in its middle alone)
+        true = ~contours.is_chord[which] | (part > 0) & (part < 1)
+        which, part = which[true], part[true]
+        owners = contours.owner[which]
+        on, square = contours.at(which, part), contours.normal(which, part)
+        for number, r in enumerate(offsets.T):
+            aside = r[owners]
+            places = on + aside[:, None] * square
+            free = np.ones(len(places), bool)
+            if widest:
+                free = contours.nearest(places, owners, widest).own > np.abs(aside) - LIMIT / 10
+            if number + 1 < offsets.shape[1]:
+                free &= ~in_tabs[which]
+            off = wire.nearest(places[free], owners[free], 2 * LIMIT).own
+            for owner, at in _first_of_each(owners[free], off > LIMIT):
+                found = Misfit(owner, _xy(places[free][at]), float(off[at]), False)
+                faults.setdefault((number, owner), found)
+            worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
+    return [faults[key] for key in sorted(faults)], worst

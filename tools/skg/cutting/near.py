@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
@@ -20,7 +20,6 @@ _PAIRS = 50_000
 _PLACES = 20_000
 #: A path is laid out on about so many cells at most.
 _MOST_CELLS = 200_000
-_ALL = slice(None)
 
 
 @dataclass(frozen=True)
@@ -35,14 +34,27 @@ class Nearest:
 
 
 class Pieces:
-    """n lines and arcs, each with an owner."""
+    """n lines and arcs, each with an owner.
 
-    def __init__(self, pieces: Iterable[tuple[Piece, int]]) -> None:
-        rows = [_row(piece, owner) for piece, owner in pieces]
-        table = np.array(rows, float).reshape(-1, 10)
+    They are given one by one, or as places (m, 2) with chords between them: those are `is_chord`, and left out where
+    they have no length.
+    """
+
+    def __init__(self, pieces: Iterable[tuple[Piece | Floats, int]]) -> None:
+        tables = [np.empty((0, 11))]
+        rows: list[tuple[float, ...]] = []
+        for piece, owner in pieces:
+            if isinstance(piece, Piece):
+                rows.append(_row(piece, owner))
+            if rows and (len(rows) == _PLACES or not isinstance(piece, Piece)):
+                tables.append(np.array(rows))
+                rows.clear()
+            if not isinstance(piece, Piece):
+                tables.append(_chords(piece, owner))
+        table = np.concatenate([*tables, np.array(rows, float).reshape(-1, 11)])
         self.start, self.end, self.centre = table[:, 0:2], table[:, 2:4], table[:, 4:6]
         self.radius, self.first, self.sweep = table[:, 6], table[:, 7], table[:, 8]
-        self.owner = table[:, 9].astype(np.int64)
+        self.owner, self.is_chord = table[:, 9].astype(np.int64), table[:, 10] > 0
         self.is_arc = self.radius > 0
         way = self.end - self.start
         self.length = np.where(self.is_arc, self.radius * np.abs(self.sweep), np.hypot(way[:, 0], way[:, 1]))
@@ -65,14 +77,25 @@ class Pieces:
         out = np.stack((np.cos(angle), np.sin(angle)), 1) * np.sign(self.sweep[which])[:, None]
         return np.where(self.is_arc[which, None], out, line)
 
-    def samples(self, spacing: float, least: int, some: slice = _ALL) -> tuple[Whole, Floats]:
-        """Pieces (all, or some that follow each other) and parts of them: both ends, and places no further apart than
-        `spacing`, at least `least` spaces; on an arc one for every 15 degrees besides."""
-        turns = np.ceil(np.abs(self.sweep[some]) / (pi / 12)) * self.is_arc[some]
-        count = np.maximum(np.maximum(np.ceil(self.length[some] / spacing), turns), least).astype(np.int64)
-        which = np.repeat(np.arange(len(count)), count + 1)
-        first = np.repeat(np.cumsum(count + 1) - count - 1, count + 1)
-        return which + (some.start or 0), (np.arange(len(which)) - first) / count[which]
+    def samples(self, spacing: float, least: int) -> tuple[Whole, Floats]:
+        """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
+        an arc one for every 15 degrees besides."""
+        spaces = self._spaces(spacing, least)
+        return _spread(spaces, 0, len(spaces))
+
+    def batches(self, spacing: float, least: int) -> Iterator[tuple[Whole, Floats]]:
+        """The same, some pieces after the other."""
+        spaces = self._spaces(spacing, least)
+        ends = np.cumsum(spaces + 1)
+        total = int(ends[-1]) if len(ends) else 0
+        cuts = np.unique(np.searchsorted(ends, np.arange(0, total + _PAIRS, _PAIRS), "right"))
+        for begin, end in pairwise(cuts.tolist()):
+            yield _spread(spaces, begin, end)
+
+    def _spaces(self, spacing: float, least: int) -> Whole:
+        """In how many spaces places divide each piece."""
+        turns = np.ceil(np.abs(self.sweep) / (pi / 12)) * self.is_arc
+        return np.maximum(np.maximum(np.ceil(self.length / spacing), turns), least).astype(np.int64)
 
     def from_place(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from its piece."""
@@ -150,11 +173,8 @@ class _Grid:
         #: A piece is nowhere further from a place that was laid out.
         self.apart = cell / 8
         self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - 2 * pieces.radius.max() - 2 * cell
-        spots = np.cumsum(np.ceil(pieces.length / (2 * self.apart)).astype(np.int64) + 1)
-        cuts = np.unique(np.searchsorted(spots, np.arange(0, spots[-1] + _PAIRS, _PAIRS), "right"))
         found = []
-        for begin, end in pairwise(cuts.tolist()):
-            which, part = pieces.samples(2 * self.apart, 1, slice(begin, end))
+        for which, part in pieces.batches(2 * self.apart, 1):
             column, row = self._cells(pieces.at(which, part))
             found.append(_once(which, column, row))
         which, column, row = np.concatenate(found, 1)
@@ -204,7 +224,22 @@ def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at:
     at[place[is_least]] = which[is_least]
 
 
+def _spread(spaces: Whole, begin: int, end: int) -> tuple[Whole, Floats]:
+    """The pieces from one number up to another, each as often as it has places, and the parts where these are."""
+    count = spaces[begin:end]
+    which = np.repeat(np.arange(begin, end), count + 1)
+    first = np.repeat(np.cumsum(count + 1) - count - 1, count + 1)
+    return which, (np.arange(len(which)) - first) / spaces[which]
+
+
+def _chords(places: Floats, owner: int) -> Floats:
+    """The rows of a path of chords."""
+    found = np.zeros((len(places) - 1, 11))
+    found[:, 0:2], found[:, 2:4], found[:, 9:] = places[:-1], places[1:], (owner, 1.0)
+    return found[(places[:-1] != places[1:]).any(1)]
+
+
 def _row(piece: Piece, owner: int) -> tuple[float, ...]:
     if piece.centre is None:
-        return (*piece.start, *piece.end, 0.0, 0.0, 0.0, 0.0, 0.0, owner)
-    return (*piece.start, *piece.end, *piece.centre, piece.radius, piece.angles[0], piece.sweep, owner)
+        return (*piece.start, *piece.end, 0.0, 0.0, 0.0, 0.0, 0.0, owner, 0.0)
+    return (*piece.start, *piece.end, *piece.centre, piece.radius, piece.angles[0], piece.sweep, owner, 0.0)
