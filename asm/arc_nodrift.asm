@@ -1,7 +1,7 @@
 ; arc_nodrift.asm - arcs as 3B blocks, each from where the controller stands (docs/drift.md)
 ; Offers: ARC
 ; Uses:   calc consts float geom grid start tape
-; Room:   252 bytes
+; Room:   280 bytes
 ;
 ; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there
 ; is one sense to think about; for the count along Y it is turned by a quarter, so that the
@@ -102,6 +102,12 @@ ARCL2:  DB      QEND            ;               (ARCL is too far away)
         JMP     MOVE
 
 ; AROOT - w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
-; (exact for n < 2^32: the root of k^2+1 is still more than k when it is rounded)
-AROOT:  DB      CALC,QSQ,QVEC,QSS,QSUB ; w^2-n
-        DB      QABS,QSQRT,QNEG,QFLR,QNEG+QRET ; root
+; (the root, rounded, is k or one less; k^2-a1^2 and w^2-a0^2 as products are exact while they are below 2^32, as
+; they are for a short arc of any radius; n itself is so up to 65 mm)
+AROOT:  DB      CALC,QDUP,LA0,QADD,QSWP,LA0,QSUB,QMUL ; p = w^2-a0^2
+        DB      QDUP,LA1,QSQ,QSUB,QABS,QSQRT,Q502,QADD,QFLR,ST4 ; p
+        DB      LT4,LA1,QSUB,LT4,LA1,QADD,QMUL,QADD ; k^2-(n-w^2)
+        DB      QJN
+        DB      AROOT1-$
+        DB      LT4,QRET        ; k
+AROOT1: DB      LT4,Q1,QADD+QRET ; k+1

@@ -59,6 +59,24 @@ def test_an_arc_that_starts_in_its_centre_is_none(board: type[Board], first: str
     assert board is Board or outcome.tape == reference(program, drift=False).tape
 
 
+#: Arcs of metres, each with its end: what is under the root is rounded, where the controller stops is not.
+LARGE = [
+    ("(4.634,1999.995):2000.000368", "(7.753268,-0.002936)"),
+    ("(-3.2,-2999.998):2999.999707", "(-7.989169,-0.002116)"),
+    ("(-3.933,3999.998):-3999.999934", "(-4.181807,-0.001926)"),
+    ("(2999.997,4.234):-2999.999988", "(-0.002988,4.219574)"),
+    ("(999.989,4.783):-1000.000439", "(-0.008879,7.045713)"),
+]
+
+
+@pytest.mark.parametrize(("circle", "end"), LARGE)
+def test_a_large_radius(circle: str, end: str) -> None:
+    """The line back to where the arc began starts where the controller stands, whatever the radius."""
+    program = f"FROM (0,0)\nCUT (0,0),{circle},{end},(0,0)\nEND\n"
+    outcome = Driftless().outcome(program)
+    assert outcome.tape == reference(program, drift=False).tape
+
+
 @pytest.mark.parametrize("share", SHARES)
 def test_parts(share: int, record_property: Record) -> None:
     rng = Random(f"{SEED} no drift {share}")
