@@ -19,7 +19,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from math import asin, atan2, copysign, hypot, pi
+from math import acos, asin, atan2, ceil, copysign, hypot, pi
 
 from skg.drawing.contour import Contour, CurveNode, Edge
 from skg.plane import XY, distance, dot, minus, turn
@@ -30,6 +30,8 @@ _LEAST = 1e-3
 _EXACT = 1e-6
 #: Directions within this (radians) run straight on.
 _STRAIGHT_ON = 0.02
+#: The chords that stand for an arc that is bent are this near to it, mm.
+_CHORD = 1e-4
 #: An arc whose ends were moved may leave the drawn one by this, mm; else it is bent at its ends alone.
 _BENT = 1e-3
 
@@ -105,7 +107,8 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
     pieces = max(3, int(abs(edge.sweep) / 0.5) + 1)
     nodes = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
     nodes[0], nodes[-1] = CurveNode(start, nodes[0].angle), CurveNode(end, nodes[-1].angle)
-    samples = (start, *edge.points()[1:-1], end)
+    fine = max(pieces, ceil(abs(edge.sweep) / 2 / acos(max(0.5, 1 - _CHORD / edge.radius))))
+    samples = (start, *(edge.at(k / fine) for k in range(1, fine)), end)
     return Edge(start, end, nodes=tuple(nodes), samples=samples, entity=edge.entity)
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
-from math import atan2, copysign, cos, hypot, isfinite, pi, sin
+from itertools import accumulate, pairwise
+from math import atan2, cos, hypot, isfinite, pi, sin
 
 from ezdxf.math import BSpline
 
@@ -20,6 +20,8 @@ _SAME = 1e-6
 _LARGEST = 50_000.0
 #: A part of a spline's parameters so small that it needs a look.
 _NARROW = 1e-6
+#: Where a spline runs slower than this part of its mean, its direction is that of a chord.
+_SLOW = 1e-4
 #: A spline's direction jumps by more than this (radians) at a corner.
 _CORNER = 1e-4
 
@@ -64,7 +66,7 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
         return
     knots = list(tool.knots())
     low, high = knots[tool.degree], knots[len(tool.control_points)]
-    aside = 1e-9 * (high - low)
+    size = sum(p.distance(q) for p, q in pairwise(tool.control_points))
     # (a new one each time that the spline is asked for it)
     evaluator = tool.evaluator
 
@@ -72,48 +74,71 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
         point = evaluator.point(t)
         return point.x, point.y
 
-    def heading(t: float) -> float:
-        way = evaluator.derivative(t, 1)[1]
-        if way.magnitude < 1e-9:
-            # Controls that coincide: the direction is that from just before to just behind.
-            way = evaluator.point(min(high, t + 1e4 * aside)) - evaluator.point(max(low, t - 1e4 * aside))
-        return atan2(way.y, way.x)
-
     # Between knots a spline is smooth; at a knot it may have a corner, where it is cut in two.
     stations = [low]
     for knot in sorted(knots):
         if stations[-1] < knot <= high and knot - stations[-1] > 1e-13 * (high - low):
             stations.append(knot)
     stations[-1] = high
-    ways = stations
-    if min(other - one for one, other in pairwise(stations)) < _NARROW * (high - low):
+    spans, lengths = [], []
+    for span in pairwise(stations):
+        places = [at(span[0] + k / 8 * (span[1] - span[0])) for k in range(9)]
+        length = sum(distance(p, q) for p, q in pairwise(places))
+        if length > 1e-9 * size:
+            # (else it stands still, its controls are one place)
+            spans.append(span)
+            lengths.append(length)
+    if not spans:
+        return
+    parts = [last - first for first, last in spans]
+    if min(parts) < _NARROW * (high - low):
         # Rounded knots lie next to each other, maybe with much of the curve between them: it is run through by length.
-        ways = [0.0]
-        for one, other in pairwise(stations):
-            places = [at(one + k / 8 * (other - one)) for k in range(9)]
-            ways.append(ways[-1] + max(_SAME, sum(distance(p, q) for p, q in pairwise(places))))
+        parts = [max(_SAME, length) for length in lengths]
+    ways = [0.0, *accumulate(parts)]
 
-    def parameter(way: float) -> float:
-        k = min(max(bisect_right(ways, way) - 1, 0), len(stations) - 2)
-        return stations[k] + (way - ways[k]) / (ways[k + 1] - ways[k]) * (stations[k + 1] - stations[k])
+    def heading(t: float, k: int) -> float:
+        """The direction in span number k."""
+        first, last = spans[k]
+        way = evaluator.derivative(t, 1)[1]
+        beside = 1e-5 * (last - first)
+        while way.magnitude * (last - first) < _SLOW * lengths[k] and beside < last - first:
+            # Controls that coincide, or nearly: the direction is that of a chord.
+            chord = evaluator.point(min(last, t + beside)) - evaluator.point(max(first, t - beside))
+            if chord.magnitude > 0.01 * _SLOW * lengths[k]:
+                way = chord
+                break
+            beside *= 2
+        return atan2(way.y, way.x)
 
-    def beside(k: int, other: int) -> float:
-        """Just before or just behind a station, towards another one."""
-        gap = stations[other] - stations[k]
-        return stations[k] + copysign(max(1e-6 * abs(gap), 1e-15 * max(abs(low), abs(high))), gap)
+    def edge_of(k: int, is_last: bool) -> float:
+        """Just behind the beginning of a span, or just before its end."""
+        first, last = spans[k]
+        aside = max(1e-6 * (last - first), 1e-15 * max(abs(low), abs(high)))
+        return last - aside if is_last else first + aside
+
+    def place(way: float) -> tuple[float, int]:
+        """The parameter, and the number of its span."""
+        k = min(max(bisect_right(ways, way) - 1, 0), len(spans) - 1)
+        first, last = spans[k]
+        return first + (way - ways[k]) / (ways[k + 1] - ways[k]) * (last - first), k
 
     corners = [0]
-    for k in range(1, len(stations) - 1):
-        if abs(turn(heading(beside(k, k - 1)), heading(beside(k, k + 1)))) > _CORNER:
+    for k in range(1, len(spans)):
+        if abs(turn(heading(edge_of(k - 1, True), k - 1), heading(edge_of(k, False), k))) > _CORNER:
             corners.append(k)
-    for first, last in pairwise([*corners, len(stations) - 1]):
+    for first, behind in pairwise([*corners, len(spans)]):
         # At a corner the tangent is that of this piece, not of its neighbour.
-        inside = beside(first, first + 1) if first else low, beside(last, last - 1) if stations[last] < high else high
+        begin = edge_of(first, False) if first else spans[first][0]
+        end = edge_of(behind - 1, True) if behind < len(spans) else spans[-1][1]
 
-        def inner(way: float, inside: tuple[float, float] = inside) -> float:
-            return heading(min(max(parameter(way), inside[0]), inside[1]))
+        def inner(
+            way: float, first: int = first, last: int = behind - 1, begin: float = begin, end: float = end
+        ) -> float:
+            t, k = place(way)
+            k = min(max(k, first), last)
+            return heading(min(max(t, begin), end), k)
 
-        yield simplest(curve_edge(lambda way: at(parameter(way)), inner, ways[first : last + 1], tolerance))
+        yield simplest(curve_edge(lambda way: at(place(way)[0]), inner, ways[first : behind + 1], tolerance))
 
 
 def simplest(edge: Edge) -> Edge:
