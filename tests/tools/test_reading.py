@@ -349,8 +349,13 @@ def test_arcs_of_a_large_radius(radius: float) -> None:
 
 
 def test_no_outline_is_refused() -> None:
+    star = raw(*(line(0, 0, *end) for end in ((5, 0), (0, 5), (-5, -5))))
     with pytest.raises(UserError, match=r"no closed outline: 3 entities meet .* as at \(0, 0\).*--open all"):
-        checked(raw(*(line(0, 0, *end) for end in ((5, 0), (0, 5), (-5, -5)))))
+        checked(star, open="leave")
+    # Where nothing else is asked for it is cut as it is drawn, with a word.
+    reading = checked(star)
+    assert len(reading.contours) == 3 and not left(reading)
+    assert "no closed outline: what meets at junctions or crosses is cut as it is drawn" in reading.report.notes
 
 
 @given(st.integers(0, 10**9))
@@ -414,11 +419,44 @@ def test_units() -> None:
     assert read(inches, "a.dxf").report.lines()[0] == "50.8 x 50.8 mm, read in inch (as the file says)"
     assert read(raw(*square(0, 0, 20)), "a.dxf").report.units_from == "the file does not say"
     assert read(raw(*square(0, 0, 2)), "a.dxf", Wishes(units="foot")).report.size == pytest.approx((609.6, 609.6))
-    for side in (0.5, 2.0, 5000.0):
+    with pytest.raises(UserError, match=r"give --units \(.*\); it would be 50.8 x 50.8 mm in inch, 20 x 20 mm in cm"):
+        read(raw(*square(0, 0, 2)), "a.dxf")
+    # ezdxf writes m where it is told nothing.
+    metres = read(raw(*square(0, 0, 60), header="9\n$INSUNITS\n70\n6\n"), "a.dxf").report
+    assert metres.size == (60, 60)
+    assert metres.lines()[0].startswith("60 x 60 mm, read in mm (the file says m, but 60 x 60 m is no part")
+    for side in (0.5, 2.0, 15000.0):
         with pytest.raises(UserError, match=r"a.dxf: the file does not say its units, and .* odd size: give --units"):
             read(raw(*square(0, 0, side)), "a.dxf")
     with pytest.raises(UserError, match="a tape has room for 100 m"):
         read(raw(*square(0, 0, 9e4)), "a.dxf", Wishes(units="m"))
+
+
+def test_paper_space_alone() -> None:
+    """What is in paper space is cut where the model space has nothing to cut, with a word; else it is left."""
+    paper = [f"{one} 67 1" for one in square(0, 0, 20)]
+    reading = checked(raw(*paper, "TEXT 8 0 10 1 20 1 1 A"))
+    assert len(reading.contours) == 1 and left(reading) == {"nothing to cut": 1}
+    assert "there is nothing to cut in the model space: the paper space was read" in reading.report.notes
+    both = checked(raw(*paper, *square(50, 0, 10)))
+    assert left(both) == {"in paper space": 4} and both.report.size == (10, 10)
+
+
+def test_widths_are_said() -> None:
+    """A polyline with a width is cut along its middle: said with layer and place, however the width is written."""
+    corners = "10 0 20 0 10 30 20 0 10 30 20 20"
+    wide = checked(raw(f"LWPOLYLINE 8 WIDE 90 3 70 1 43 0.5 {corners}"))
+    assert wide.report.notes[0].startswith("1 polyline on layer WIDE drawn with a width, as at (0, 0)")
+    tapering = checked(raw(f"LWPOLYLINE 8 0 90 3 70 1 40 0.0 41 1.5 {corners}"))
+    assert "with a width" in tapering.report.notes[0]
+    plain = checked(raw(f"LWPOLYLINE 8 0 90 3 70 1 43 0.0 40 0 41 0.00 {corners}"))
+    assert not any("width" in note for note in plain.report.notes)
+
+
+def test_only_unseen_layers() -> None:
+    frozen = "0\nLAYER\n2\nPART\n70\n1\n62\n7\n"
+    with pytest.raises(UserError, match="4 LINE: the layer is frozen.*: --layer PART takes what is on that layer"):
+        checked(raw(*square(0, 0, 20, "PART"), layers=frozen))
 
 
 def test_repeated_vertices_and_no_length() -> None:
@@ -592,6 +630,12 @@ def test_svg_shapes() -> None:
     ]
     assert max(y for _, y in half.points()) == pytest.approx(55)
     assert left(reading) == {"text, convert it to paths": 1, "it has no length": 1}
+
+
+def test_svg_path_without_any_data() -> None:
+    """As matplotlib writes the glyph of a space."""
+    content = '<defs><path id="a"/></defs><use href="#a"/><path/><rect x="1" y="1" width="20" height="10"/>'
+    assert len(read_svg(content).contours) == 1
 
 
 def test_svg_transforms() -> None:

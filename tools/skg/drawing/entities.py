@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import pi, radians
 
 from ezdxf.entities import DXFGraphic
 from ezdxf.lldxf.const import DXFError
 from ezdxf.math import BSpline, Matrix44, Vec3, bulge_to_arc
 
-from skg.drawing.account import Content, Entity
+from skg.drawing.account import Content, Entity, counted, shown
 from skg.drawing.contour import Edge
 from skg.drawing.dxf_file import DxfFile, Record
 from skg.drawing.shapes import conic, is_number, spline_edges
@@ -53,6 +53,7 @@ class _Collector:
         self.content = Content()
         self.matrix: Matrix44 | None = None
         self.known: dict[int, DXFGraphic] = {}
+        self.wide: list[Entity] = []
 
     def collect(self, records: Iterable[Record], inherited: str, hidden: str, blocks: tuple[str, ...]) -> None:
         """Add records; those of a block on layer 0 lie on its reference's layer.
@@ -121,6 +122,8 @@ class _Collector:
                 else:
                     x, y = self.content.edges[known].start
                     account.place = x / self.factor, y / self.factor
+                    if _is_wide(record):
+                        self.wide.append(account)
                 return
         except NotFlat as error:
             account.left = str(error)
@@ -280,6 +283,12 @@ class _Collector:
         return spline_edges(flat, self.wishes.fit_tolerance)
 
 
+def _is_wide(record: Record) -> bool:
+    """Whether a polyline is drawn with a width."""
+    widths = [value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43)]
+    return record.kind in ("POLYLINE", "LWPOLYLINE") and any(width.strip(" 0.+-eE") for width in widths)
+
+
 def _sweep(first: float, last: float) -> float:
     """From one angle on to the other, radians; whole turns, as files round them, are one."""
     turns = (last - first) / (2 * pi)
@@ -302,6 +311,22 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     collector = _Collector(file, wishes, factor)
     collector.collect(file.model, "", "", ())
     collector.matrix = None
-    for record in file.paper:
-        collector.account(record, record.layer).left = "in paper space"
+    if not collector.content.edges and file.paper:
+        # (some programs write all that they have there)
+        collector.collect(file.paper, "", "", ())
+        if collector.content.edges:
+            file.notes.append("there is nothing to cut in the model space: the paper space was read")
+    else:
+        for record in file.paper:
+            collector.account(record, record.layer).left = "in paper space"
+    for layer, wide in groupby(sorted(collector.wide, key=_layer_of), _layer_of):
+        some = list(wide)
+        file.notes.append(
+            f"{counted(len(some), 'polyline')} on layer {layer} drawn with a width, as at {shown(some[0].place)}: "
+            "the middle is cut"
+        )
     return collector.content
+
+
+def _layer_of(entity: Entity) -> str:
+    return entity.layer

@@ -24,7 +24,7 @@ from skg.plane import XY, distance, shifted
 __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
 #: A drawing that does not tell its units is in mm when its larger side has this many, mm.
-USUAL = 3.0, 3000.0
+USUAL = 3.0, 10_000.0
 #: No drawing that is cut has a larger side, mm.
 FARTHEST = 50_000.0
 #: Who says what units a drawing is in.
@@ -81,6 +81,9 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     rest = [one for at, one in enumerate(rest, len(contours)) if at not in gone]
     rest += [contours[at] for at in sorted(hanging)]
     kept = [one for at, one in enumerate(contours) if at not in gone | hanging]
+    if wishes.open == "cut" and rest and not kept:
+        report.notes.append("no closed outline: what meets at junctions or crosses is cut as it is drawn")
+        kept, rest = rest, []
     if wishes.open == "all":
         kept, rest = kept + rest, []
     for run in rest:
@@ -98,6 +101,12 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
         raise UserError(_no_outline(report))
     contours = [replace(merged(one), layers=fates.layers(one)) for one in kept]
     _measure(contours, report)
+    if report.units == "m" and report.units_from == TOLD and max(report.size) > USUAL[1]:
+        # (what a program writes that was not told any units)
+        width, height = (short(side / UNITS["m"]) for side in report.size)
+        found = _read(data, name, replace(wishes, units="mm"))
+        found.report.units_from = f"the file says m, but {width} x {height} m is no part; --units says otherwise"
+        return found
     _check_size(report)
     if max(map(abs, (*report.low, *report.high))) < FARTHEST:
         return Reading(contours, content.starts, report)
@@ -203,7 +212,9 @@ def _nothing(content: Content, wishes: Wishes) -> str:
     where = f" on {', '.join(wishes.layers)}" if wishes.layers else ""
     reasons = Counter(f"{entity.kind}: {entity.left}" for entity in content.entities)
     found = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
-    return f"no lines, arcs or curves to cut{where}" + (f" ({found})" if found else "")
+    unseen = sorted({entity.layer for entity in content.entities if entity.left.startswith("the layer is")})
+    help_ = f": --layer {unseen[0]} takes what is on that layer" if unseen and not wishes.layers else ""
+    return f"no lines, arcs or curves to cut{where}" + (f" ({found})" if found else "") + help_
 
 
 def _no_outline(report: Account) -> str:
@@ -267,7 +278,20 @@ def _check_size(report: Account) -> None:
     if report.units_from.startswith(NOT_TOLD) and not USUAL[0] <= max(report.size) <= USUAL[1]:
         raise UserError(
             f"the file does not say its units, and {width} x {height} mm is an odd size: "
-            f"give --units ({', '.join(UNITS)})"
+            f"give --units ({', '.join(UNITS)}){_in_other_units(report)}"
         )
     if max(report.size) >= FARTHEST:
-        raise UserError(f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; see --units")
+        raise UserError(
+            f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; "
+            f"give --units{_in_other_units(report)}"
+        )
+
+
+def _in_other_units(report: Account) -> str:
+    """The size that a drawing has in units that make it a usual one."""
+    found = []
+    for name in ("mm", "inch", "cm"):
+        width, height = (side / report.factor * UNITS[name] for side in report.size)
+        if name != report.units and USUAL[0] <= max(width, height) <= USUAL[1]:
+            found.append(f"{short(width)} x {short(height)} mm in {name}")
+    return f"; it would be {', '.join(found)}" if found else ""

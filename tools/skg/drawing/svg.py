@@ -65,6 +65,9 @@ class SvgFile:
             self.guess, self.guessed = 25.4 / 72, "Illustrator has 72 px in an inch"
         elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
             self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
+        for element in self.root.iter():
+            if _name(element) == "path" and element.get("d") is None:
+                element.set("d", "")
         self.drawn: list[tuple[str, str, bool]] = []
         self._number(self.root, "0", True)
 
