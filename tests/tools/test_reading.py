@@ -453,6 +453,14 @@ def test_widths_are_said() -> None:
     assert not any("width" in note for note in plain.report.notes)
 
 
+def test_arcs_from_an_angle_to_the_same() -> None:
+    """One program's full circle is another one's nothing: it is said what was taken."""
+    reading = checked(raw("ARC 8 A 10 0 20 0 40 5 50 270.0 51 270.0", "ARC 8 A 10 20 20 0 40 5 50 0 51 360"))
+    assert [contour.is_closed for contour in reading.contours] == [True, True]
+    note = "1 arc on layer A from an angle to the same angle, as at (0, -5): a full circle is cut"
+    assert reading.report.notes == [note]
+
+
 def test_only_unseen_layers() -> None:
     frozen = "0\nLAYER\n2\nPART\n70\n1\n62\n7\n"
     with pytest.raises(UserError, match="4 LINE: the layer is frozen.*: --layer PART takes what is on that layer"):

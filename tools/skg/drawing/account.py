@@ -123,7 +123,8 @@ class Account:
 
 def short(value: float) -> str:
     """A length as a person writes it: at most four decimals."""
-    return f"{value:.4f}".rstrip("0").rstrip(".")
+    text = f"{value:.4f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
 
 
 def shown(place: XY) -> str:

@@ -54,6 +54,7 @@ class _Collector:
         self.matrix: Matrix44 | None = None
         self.known: dict[int, DXFGraphic] = {}
         self.wide: list[Entity] = []
+        self.whole: list[Entity] = []
 
     def collect(self, records: Iterable[Record], inherited: str, hidden: str, blocks: tuple[str, ...]) -> None:
         """Add records; those of a block on layer 0 lie on its reference's layer.
@@ -124,6 +125,8 @@ class _Collector:
                     account.place = x / self.factor, y / self.factor
                     if _is_wide(record):
                         self.wide.append(account)
+                    if record.kind == "ARC" and record.value(50).strip() == record.value(51).strip():
+                        self.whole.append(account)
                 return
         except NotFlat as error:
             account.left = str(error)
@@ -319,13 +322,16 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     else:
         for record in file.paper:
             collector.account(record, record.layer).left = "in paper space"
-    for layer, wide in groupby(sorted(collector.wide, key=_layer_of), _layer_of):
-        some = list(wide)
-        file.notes.append(
-            f"{counted(len(some), 'polyline')} on layer {layer} drawn with a width, as at {shown(some[0].place)}: "
-            "the middle is cut"
-        )
+    file.notes += _said(collector.wide, "polyline", "drawn with a width", "the middle is cut")
+    file.notes += _said(collector.whole, "arc", "from an angle to the same angle", "a full circle is cut")
     return collector.content
+
+
+def _said(entities: list[Entity], noun: str, what: str, then: str) -> Iterator[str]:
+    """What is odd about entities and what is made of that, a line for each layer."""
+    for layer, group in groupby(sorted(entities, key=_layer_of), _layer_of):
+        some = list(group)
+        yield f"{counted(len(some), noun)} on layer {layer} {what}, as at {shown(some[0].place)}: {then}"
 
 
 def _layer_of(entity: Entity) -> str:
