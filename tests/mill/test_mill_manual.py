@@ -1,6 +1,8 @@
 """The milling chapter of docs/manual.md: each program's tape is the one printed, by the reference and by the ROM.
 
-A fence ```mill holds a program, ```iso behind it the tape. Run as a program, this writes the tapes anew.
+A fence ```mill holds a program, ```iso behind it the tape. Run as a program, this writes the tapes anew. A fence
+```handshake is a session with the ROM that waits for a machine: what is typed stands behind the prompt, and the machine
+answers as GRBL does.
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from playedhelp import OK, Played
 
 from skg.ref import mill
 
@@ -19,6 +22,7 @@ ROM = ROOT / "roms" / "skg-mill.bin"
 SKG80 = ROOT / "build" / "skg80"
 
 FENCE = re.compile(r"^```mill\n(?P<program>(?:(?!```).*\n)*)```\n\n```iso\n(?P<tape>(?:(?!```).*\n)*)```$", re.M)
+SESSION = re.compile(r"^```handshake\n((?:(?!```).*\n)*)```$", re.M)
 EXAMPLES = list(FENCE.finditer(PAGE.read_text()))
 
 examples = pytest.mark.parametrize("example", EXAMPLES, ids=lambda match: match["program"].split("\n")[0])
@@ -51,6 +55,22 @@ def test_example_on_the_board(example: re.Match[str], tmp_path: Path) -> None:
     done = subprocess.run([SKG80, "--rom", ROM, part], capture_output=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
     assert done.stdout.decode().replace("\r\n", "\n") == example["tape"]
+
+
+def grbl(block: str, _number: int) -> bytes:
+    """What GRBL says: it has no tool changer."""
+    return b"error:20\r\n" if "M6" in block else OK
+
+
+def test_handshake() -> None:
+    session = SESSION.findall(PAGE.read_text())
+    assert session and all("error:" in text and "M30" in text for text in session)
+    for text in session:
+        board, paper = Played(), ""
+        for line in re.findall(r"^>(.*)$", text, re.M):
+            board.clear()
+            paper += "".join(f"{said}\n" for said in [f">{line}", *board.driven(line, grbl)])
+        assert paper == text
 
 
 if __name__ == "__main__":

@@ -33,7 +33,12 @@ BOARDS = {
     "skg-nodrift": (0x10, 0x11, 0x12, 0x13, 1, 2),
     "skg-8251": (0x11, 0x10, 0x13, 0x12, 2, 1),
     "skg-tty": (0x10, 0x11, 0x12, 0x11, 1, 2),
+    "skg-mill": (0x10, 0x11, 0x12, 0x13, 1, 2),
+    "skg-grbl": (0x10, 0x11, 0x12, 0x13, 1, 2),
 }
+#: What a machine says to the image that waits for it.
+OK = b"[MSG:x]\r\nok\r\n"
+MILLED = sorted((ROOT / "examples" / "mill").glob("*.skg"))
 
 
 class Board:
@@ -42,7 +47,7 @@ class Board:
     def __init__(self, processor: str, name: str = "skg") -> None:
         self.cpu = PROCESSORS[processor]()
         self.status, self.data, self.punch_status, self.punch_data, self.received, self.ready = BOARDS[name]
-        self.alone = self.data == self.punch_data
+        self.alone, self.answers = self.data == self.punch_data, name == "skg-grbl"
         self.sent, self.paper, self.punched = bytearray(), bytearray(), bytearray()
         self.keys, self.reader = bytearray(), bytearray()
         self.stray: list[int] = []
@@ -91,6 +96,8 @@ class Board:
                 self.moves = value == DC1
         elif port == self.punch_data:
             self.punched.append(value)
+            if self.answers and value == ord("\n"):
+                self.reader += OK
         else:
             assert port in (self.status, self.punch_status), f"{port:02X} is no port"
 
@@ -138,6 +145,14 @@ def test_other_images(stem: str, name: str, processor: str) -> None:
     drift = name != "skg-nodrift"
     tape = part.with_suffix(".3b").read_bytes() if drift else reference(part.read_text(), drift=False).tape
     assert Board(processor, name).tape(part.read_text()) == tape
+
+
+@pytest.mark.parametrize(("name", "processor"), [("skg-mill", "8080"), ("skg-grbl", "Z80")])
+@pytest.mark.parametrize("part", MILLED, ids=stem)
+def test_mills(part: Path, name: str, processor: str) -> None:
+    tape = part.with_suffix(".nc").read_bytes()
+    wanted = tape if name == "skg-mill" else tape.replace(b"\r\n", b"\n")
+    assert Board(processor, name).tape(part.read_text()) == wanted
 
 
 @pytest.mark.parametrize("processor", PROCESSORS)
