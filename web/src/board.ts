@@ -59,6 +59,9 @@ const PATIENCE = 100_000_000;
 /** LOAD looks at the empty reader for so many cycles before it is said that it waits for a tape. */
 const SILENCE = 6_000_000;
 
+/** Bytes of a CALL. */
+const CALL = 3;
+
 /** Addresses for `Names` from a .sym file: lines with a hexadecimal value and a name. A missing name is an Error. */
 export function readNames(sym: string): Names {
   const values = new Map(sym.split("\n").map((line) => {
@@ -73,7 +76,8 @@ export function readNames(sym: string): Names {
   const register = value("SWX") - 0x80;
   return {
     current: value("CURLIN"), direct: value("NXTP"), element: value("NTOC"), along: value("ADVANC"),
-    run: value("SRUN"), wire: value("MREG") + 5 * register,
+    // Behind the call that ends its line: a line that is only looked at (10 RUN) does not come back from there.
+    run: value("SRUN") + CALL, wire: value("MREG") + 5 * register,
   };
 }
 

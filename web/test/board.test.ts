@@ -94,6 +94,17 @@ test("the memory: a reset keeps program and variables, LIST on the second board 
   assert.match(untilPrompt(other), /DAMAGED/);
 });
 
+test("a line with RUN that is only looked at begins no tape", async () => {
+  const board = await started();
+  run(board, "10 CUT O,(5,0)\n");
+  for (const line of ["10 RUN", "RUN,", "RUN 1.5.5"]) {
+    assert.match(type(board, line), /ERR 01/, line);
+    assert.deepEqual(board.takePunched(), [], line);
+  }
+  type(board, "RUN 10");
+  assert.equal(board.takePunched()[0]?.text, "RUN");
+});
+
 test("a line on the punch that is not whole yet waits", async () => {
   const board = await started();
   type(board, "NEW");
