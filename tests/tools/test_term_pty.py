@@ -238,6 +238,32 @@ def test_nothing_is_sent_behind_an_error(what: str, rom: str, tmp_path: Path) ->
         assert done.stderr.endswith(b"the tape is not complete\n")
 
 
+@pytest.mark.parametrize(("output", "code"), [(">&-", 0), ("| head -c 10", 0), (">/dev/full", 2)])
+def test_paper_that_nobody_takes(output: str, code: int, tmp_path: Path) -> None:
+    """The tape is made all the same; a disk that is full is said."""
+    part, tape = ROOT / "examples" / "plate-fillets.skg", tmp_path / "part.3b"
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        words = f'"$@" {output}'
+        command = [SKG, "term", machine.link, "--send", part, "--run", "--batch", "--record", tape]
+        done = subprocess.run(
+            ["bash", "-o", "pipefail", "-c", words, "bash", *command], capture_output=True, text=True, timeout=60
+        )
+    assert done.returncode == code, done.stderr
+    assert "Traceback" not in done.stderr
+    if code:
+        assert done.stderr.splitlines()[-1] == "skg: standard output: No space left on device"
+    else:
+        assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()
+
+
+def test_a_tape_that_cannot_be_kept(tmp_path: Path) -> None:
+    part = ROOT / "examples" / "plate-fillets.skg"
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        done = term(machine.link, "--send", part, "--run", "--batch", "--record", "/dev/full")
+    assert done.returncode == 2
+    assert done.stderr.decode().splitlines()[-1] == "skg: /dev/full: No space left on device"
+
+
 def test_answers_from_a_pipe(tmp_path: Path) -> None:
     """What stands on the standard input is typed behind RUN: INPUT's answers, as they are asked for."""
     part = tmp_path / "part.skg"

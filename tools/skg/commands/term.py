@@ -102,7 +102,7 @@ def command(
         if punch_port:
             readers.append((Port(punch_port, baud, teletype.say, teletype.punch_is_back, patience), True))
         if record:
-            teletype.record = stack.enter_context(Path(record).open("wb"))
+            teletype.record = stack.enter_context(Path(record).open("wb", buffering=0))
         for reader in readers:
             thread = threading.Thread(target=teletype.listen, args=reader, daemon=True)
             stack.callback(thread.join, 2)

@@ -18,7 +18,7 @@ import time
 import tty
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import BinaryIO
+from io import RawIOBase
 
 import serial
 from tqdm import tqdm
@@ -163,7 +163,7 @@ class Teletype:
     `losses` how often the port went away, `gaps` how often that of the punch did.
     """
 
-    record: BinaryIO | None = None
+    record: RawIOBase | None = None
     keys: Callable[[], bytes] = bytes
     splitter: Splitter = field(default_factory=Splitter)
     last: float = field(default_factory=time.monotonic)
@@ -200,9 +200,17 @@ class Teletype:
                 self.line.clear()
         self.received += len(data)
         self.news.set()
-        with tqdm.external_write_mode(file=sys.stdout) if self.show_bars else contextlib.nullcontext():
-            sys.stdout.buffer.write(data)
-            sys.stdout.buffer.flush()
+        if sys.stdout is None:
+            return
+        try:
+            with tqdm.external_write_mode(file=sys.stdout) if self.show_bars else contextlib.nullcontext():
+                sys.stdout.buffer.write(data)
+                sys.stdout.buffer.flush()
+        except BrokenPipeError:
+            # Nobody reads the paper any more: the tape is made all the same.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        except OSError as error:
+            raise UserError(f"standard output: {error.strerror}") from None
 
     def punch(self, data: bytes) -> None:
         """Record what the port punched."""
@@ -211,8 +219,10 @@ class Teletype:
         self.last = time.monotonic()
         self.punched += len(data)
         if self.record:
-            self.record.write(data)
-            self.record.flush()
+            try:
+                self.record.write(data)
+            except OSError as error:
+                raise UserError(f"{self.record.name}: {error.strerror}") from None
         if self.show_bars:
             if self.punching is None:
                 self.punching = tqdm(unit="block", desc="punching", leave=False)
@@ -278,8 +288,6 @@ class Teletype:
                     self.punch(punch)
         except UserError as error:
             self.failure = error
-        except OSError as error:
-            self.failure = UserError(f"punch file: {error.strerror}")
 
 
 @contextlib.contextmanager
