@@ -38,6 +38,8 @@ class Machine:
         self.held: list[int] = []
         #: A character that gets lost on the line, so often.
         self.loses, self.losses = b"", 0
+        #: Whether it takes one character at a time, and what comes meanwhile is lost.
+        self.is_slow = False
         #: A line that is answered with this error.
         self.refuses, self.answer_is = "", b"ERR 06\r\n"
         self.master = -1
@@ -74,6 +76,8 @@ class Machine:
                 for byte in os.read(master, 1):
                     self.received.append(byte)
                     self.answer(line, byte, master)
+                    if self.is_slow and select.select([master], [], [], 0)[0]:
+                        os.read(master, 64)
 
     def answer(self, line: bytearray, byte: int, master: int) -> None:
         if byte == 0x15:
@@ -185,7 +189,17 @@ def test_a_character_that_got_lost(machine: Machine, tmp_path: Path) -> None:
     machine.losses = 9
     result = term(machine.link, "--send", part, "--batch")
     assert (result.returncode, machine.lines) == (1, ["10 REM A"])
-    assert b"part.skg, line 2: comes back as '20 CUT (105,0)': the line to the board loses characters" in result.stderr
+    assert b"part.skg, line 2: comes back as '20 CUT (10': the line to the board loses characters" in result.stderr
+
+
+def test_a_board_that_takes_one_character_at_a_time(machine: Machine, tmp_path: Path) -> None:
+    """What is typed ahead gets lost, as with SIMH's Altair: each echo is waited for then, and that is said."""
+    part = tmp_path / "part.skg"
+    part.write_text(PROGRAM)
+    machine.is_slow = True
+    result = term(machine.link, "--send", part, "--batch")
+    assert (result.returncode, machine.lines) == (0, PROGRAM.splitlines()), result.stderr
+    assert result.stderr.count(b"the line to the board loses characters: each is waited for from here on") == 1
 
 
 @pytest.mark.parametrize("pace", ["prompt", "none"])

@@ -66,13 +66,15 @@ def lines_to_type(data: bytes, name: str) -> list[TypedLine]:
 @dataclass
 class Typist:
     """Types lines as a careful operator does. `silence`: seconds without a character after which the board will not
-    come back to its prompt. With `paced` false nothing but XOFF is waited for. `delay`: seconds after each line."""
+    come back to its prompt. With `paced` false nothing but XOFF is waited for. `delay`: seconds after each line.
+    `one_by_one`: characters get lost, so the echo of each is waited for."""
 
     port: Port
     teletype: Teletype
     silence: float
     paced: bool = True
     delay: float = 0.0
+    one_by_one: bool = False
 
     def begin(self) -> None:
         """Forget what somebody has begun to type; a board that does not answer is `Stopped`."""
@@ -114,19 +116,33 @@ class Typist:
         """Type a line's characters until the board has them all, as its echo says."""
         teletype, tries = self.teletype, 0
         while tries < _TRIES:
-            losses, expected = teletype.losses, bytes(teletype.line) + data
-
-            def is_whole(wanted: bytes = expected) -> bool:
-                return bytes(teletype.line) == wanted
-
-            self._put(data)
-            teletype.wait(lambda lost=losses: is_whole() or teletype.losses > lost, _ECHO)
-            if is_whole():
+            losses = teletype.losses
+            if self._is_echoed(data):
                 return
             came = bytes(teletype.line)
-            tries += teletype.losses == losses
+            if teletype.losses == losses:
+                tries += 1
+                self._slow_down()
             self._forget_line()
         raise Stopped(f"comes back as {came.decode('ascii', 'replace')!r}: the line to the board loses characters")
+
+    def _is_echoed(self, data: bytes) -> bool:
+        """Type characters, and see whether the paper has them then."""
+        teletype, losses = self.teletype, self.teletype.losses
+        step = 1 if self.one_by_one else len(data)
+        for at in range(0, len(data), step):
+            expected = bytes(teletype.line) + data[at : at + step]
+            self._put(data[at : at + step])
+            teletype.wait(lambda wanted=expected: bytes(teletype.line) == wanted or teletype.losses > losses, _ECHO)
+            if bytes(teletype.line) != expected:
+                return False
+        return True
+
+    def _slow_down(self) -> None:
+        """A board that cannot take a line at once is given it character by character."""
+        if not self.one_by_one:
+            self.one_by_one = True
+            self.teletype.say("the line to the board loses characters: each is waited for from here on")
 
     def _forget_line(self) -> None:
         """ctrl-U, and the new line that it is answered with."""

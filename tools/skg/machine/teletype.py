@@ -31,7 +31,7 @@ LF, PROMPT = 0x0A, 0x3E
 #: Seconds between two tries to open a port that went away.
 _RETRY = 0.5
 #: What pyserial raises when a port cannot be opened, or is closed or gone in the middle of a call.
-_TROUBLE = (OSError, ValueError, TypeError, termios.error)
+_TROUBLE = (OSError, ValueError, TypeError, AttributeError, termios.error)
 
 
 class Splitter:
