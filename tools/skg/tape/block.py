@@ -17,6 +17,10 @@ MAX_OVERLAP = 4
 CODES = tuple(f"{kind}{quadrant}" for kind in ("L", "NR", "SR") for quadrant in range(1, 5))
 #: Signs of x and y in quadrants 1 to 4 (index 0 is unused).
 _SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))
+#: What a code says: the quadrant, the sense, and the signs of where the block starts (a line at its origin).
+_QUADRANTS = {code: int(code[-1]) for code in CODES}
+_SENSES = {code: {"L": 0, "N": 1, "S": -1}[code[0]] for code in CODES}
+_STARTS = {code: _SIGNS[_QUADRANTS[code] if _SENSES[code] else 0] for code in CODES}
 
 
 def round_sqrt(square: int) -> int:
@@ -52,6 +56,9 @@ class Block:
     axis: str
     code: str
     number: int = field(default=0, compare=False)
+    #: An arc's end and sweep, once they were asked for.
+    _end: tuple[int, int] | None = field(default=None, init=False, compare=False, repr=False)
+    _sweep: float | None = field(default=None, init=False, compare=False, repr=False)
 
     def __str__(self) -> str:
         return f"B{self.x}B{self.y}B{self.j}G{self.axis}{self.code}"
@@ -64,19 +71,17 @@ class Block:
     @property
     def quadrant(self) -> int:
         """The quadrant a line points into, or the one an arc moves into from its start."""
-        return int(self.code[-1])
+        return _QUADRANTS[self.code]
 
     @property
     def sense(self) -> int:
         """0 for a line, 1 for a counter-clockwise arc (NR), −1 for a clockwise one (SR)."""
-        return {"L": 0, "N": 1, "S": -1}[self.code[0]]
+        return _SENSES[self.code]
 
     @property
     def start(self) -> tuple[int, int]:
         """Where the block starts: a line at (0, 0), an arc relative to its centre."""
-        if self.is_line:
-            return 0, 0
-        sign_x, sign_y = _SIGNS[self.quadrant]
+        sign_x, sign_y = _STARTS[self.code]
         return sign_x * self.x, sign_y * self.y
 
     @property
@@ -92,7 +97,7 @@ class Block:
     @property
     def across(self) -> int:
         """The axis that the block does not count: 0 for x, 1 for y."""
-        return "YX".index(self.axis)
+        return 0 if self.axis == "Y" else 1
 
     def on_circle(self, place: tuple[int, int]) -> tuple[float, float]:
         """A place about an arc's centre, moved across the count axis onto the circle, on its own side of the centre."""
@@ -111,7 +116,11 @@ class Block:
     @property
     def is_full_circle(self) -> bool:
         """True for an arc that counts four radii."""
-        return not self.is_line and self.j in (4 * self.radius, 4 * self.turn)
+        if self.is_line or self.j % 4:
+            return False
+        # (both counts of the radius are near the root of x² + y²)
+        radius = self.j // 4
+        return abs(radius**2 - self.x**2 - self.y**2) <= 2 * radius + 1 and radius in (self.radius, self.turn)
 
     def count_end(self, radius: int | None = None) -> tuple[int, int]:
         """Return (distance from the centre along the count axis, quadrant) of an arc's end.
@@ -140,8 +149,13 @@ class Block:
         their circle by up to a micrometre, and its rule for G looks at the rounded end).
         """
         if self.is_line:
-            sign_x, sign_y = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1)}[self.quadrant]
+            sign_x, sign_y = _SIGNS[self.quadrant]
             return sign_x * self.x, sign_y * self.y
+        if self._end is None:
+            object.__setattr__(self, "_end", self._arc_end())
+        return self._end
+
+    def _arc_end(self) -> tuple[int, int]:
         if self.is_full_circle:
             return self.start
         distance, quadrant = self.count_end()
@@ -164,6 +178,11 @@ class Block:
         """An arc's signed sweep in radians, 0 for a line; a full circle is ±2π."""
         if self.is_line:
             return 0.0
+        if self._sweep is None:
+            object.__setattr__(self, "_sweep", self._arc_sweep())
+        return self._sweep
+
+    def _arc_sweep(self) -> float:
         if self.is_full_circle:
             return 2 * pi * self.sense
         (xs, ys), (xe, ye) = self.start, self.end

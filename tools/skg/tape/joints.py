@@ -8,6 +8,7 @@ each axis.
 
 from __future__ import annotations
 
+from array import array
 from itertools import pairwise
 from math import cos, exp, hypot, sin, sqrt
 
@@ -110,8 +111,9 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
     gap, spread = gap_of(blocks)
     is_closed = len(blocks) > 1 and closes(gap, spread)
     misses = Misses(blocks, is_closed)
-    pulls = misses.pulls().tolist()
-    known = misses.none().tolist()
+    # (a list of lists would take a kilobyte for each block)
+    pulls = [array("d", pull.tobytes()) for pull in misses.pulls()]
+    known = array("d", misses.none().tobytes())
     for k, block in enumerate(blocks):
         if block.number not in radii:
             continue
@@ -119,13 +121,14 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
         radius, joint, centre = hypot(block.x, block.y), misses.joints[k], misses.centres[k]
         first = block.start[0] / radius, block.start[1] / radius
         half = (radius - radii[block.number][0]) / 2
-        _shift(known[joint], known[centre], half, first)
+        _shift(known, joint, centre, half, first)
         # What closes the route shall not disturb it.
         for pull in pulls:
-            _shift(pull[joint], pull[centre], -dot(minus(pull[joint], pull[centre]), first) / 2, first)
-    roundings = np.array(known)
+            apart = pull[2 * joint] - pull[2 * centre], pull[2 * joint + 1] - pull[2 * centre + 1]
+            _shift(pull, joint, centre, -dot(apart, first) / 2, first)
+    roundings = np.array(known).reshape(-1, 2)
     if is_closed:
-        ways = np.array(pulls)
+        ways = np.array(pulls).reshape(2, -1, 2)
         products = np.einsum("ikl,jkl->ij", ways, ways)
         roundings += np.einsum(
             "i,ikl->kl", np.linalg.pinv(products, rcond=1e-9) @ (gap - misses.of(roundings).sum(axis=0)), ways
@@ -138,11 +141,11 @@ def _from_programmed(blocks: list[Block], at: XY, radii: Radii) -> tuple[list[Pl
     return _placed(blocks, _xys(joints), _xys(centres)), _xys(rounded[-1:])[0]
 
 
-def _shift(one: list[float], other: list[float], by: float, way: XY) -> None:
-    """Move one rounding by so much along `way`, and the other one against it."""
+def _shift(roundings: array[float], one: int, other: int, by: float, way: XY) -> None:
+    """Move one rounding (by its number) by so much along `way`, and the other one against it."""
     for k in (0, 1):
-        one[k] += by * way[k]
-        other[k] -= by * way[k]
+        roundings[2 * one + k] += by * way[k]
+        roundings[2 * other + k] -= by * way[k]
 
 
 # A tape without drift -------------------------------------------------------------------------------------

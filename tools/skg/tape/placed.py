@@ -128,14 +128,16 @@ def lay(tape: Tape, start: XY, place_blocks: Callable[[list[Block], XY], tuple[l
 
 def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
     """Smallest and largest x and y (xmin, ymin, xmax, ymax) of the routes in µm, bulges of arcs included."""
-    low = high = (0.0, 0.0)
-    for at, placed in enumerate(placed for route in routes for placed in route.blocks):
-        points = placed.extremes()
-        if at == 0:
-            low = high = placed.start
-        low = min(low[0], *(x for x, _ in points)), min(low[1], *(y for _, y in points))
-        high = max(high[0], *(x for x, _ in points)), max(high[1], *(y for _, y in points))
-    return *low, *high
+    xs: list[float] = []
+    ys: list[float] = []
+    for route in routes:
+        for placed in route.blocks:
+            places = (placed.start, placed.end) if placed.is_line else placed.extremes()
+            for side, ordinates in zip((xs, ys), zip(*places, strict=True), strict=True):
+                side += ordinates
+        # (one route may have a million blocks, or a million routes one)
+        xs[:], ys[:] = [min(xs), max(xs)], [min(ys), max(ys)]
+    return (xs[0], ys[0], xs[1], ys[1]) if xs else (0.0, 0.0, 0.0, 0.0)
 
 
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:

@@ -46,7 +46,7 @@ def decide(tape: Tape, positions: str = "auto") -> Decision:
 
     try:
         is_same = all(
-            run_block(block).move == move
+            block.is_line or run_block(block).move == move
             for blocks in tape.stretches()
             for block, move in zip(blocks, closed_moves(blocks), strict=True)
         )
