@@ -18,6 +18,7 @@ from rs274help import moves as their_moves
 from rs274help import needs_rs274, same
 
 from skg.cli import cli
+from skg.errors import UserError
 from skg.ref import mill
 
 ROOT = Path(__file__).parents[2]
@@ -66,6 +67,28 @@ def test_check_and_plot(path: Path, tmp_path: Path) -> None:
     assert done.output == f"{tape}: {len(tape.read_text().splitlines())} lines, nothing wrong\n"
     plotted(tape, picture)
     assert picture.read_text() == path.with_suffix(".svg").read_text()
+
+
+@pytest.mark.parametrize("command", ["plot", "check", "gcode", "dxf", "sim"])
+def test_commands_for_wire_say_what_a_milling_program_is(command: str, tmp_path: Path) -> None:
+    path = FOLDER / "panel.skg"
+    done = CliRunner().invoke(
+        cli, [command, str(path), *(["-o", str(tmp_path / "p.svg")] if command == "plot" else [])]
+    )
+    assert isinstance(done.exception, UserError)
+    assert str(done.exception) == (
+        f"{path}: line 20 is of a milling program: `skg run --rom mill {path} -o part.nc` makes its tape, "
+        "and plot, check and gcode read that"
+    )
+
+
+@pytest.mark.parametrize("line", ["20 f 5", "20Z-1", "20 M3", "20 G 4", "20 HOLE O", "20 FORM O", "20 CUT )"])
+def test_only_what_begins_as_one_is_taken_for_a_milling_program(line: str, tmp_path: Path) -> None:
+    part = tmp_path / "part.skg"
+    part.write_text(f"10 FROM O\n{line}\n")
+    done = CliRunner().invoke(cli, ["check", str(part)])
+    assert isinstance(done.exception, UserError)
+    assert ("line 20 is of a milling program" in str(done.exception)) == (line not in ("20 FORM O", "20 CUT )"))
 
 
 @needs_rs274

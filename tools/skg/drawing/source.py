@@ -24,6 +24,9 @@ from skg.tape.gcode import read as read_gcode
 from skg.tape.placed import PlacedRoute, place, stop_places
 from skg.tape.positions import decide
 
+#: What is not understood (language.md, section 6).
+SYNTAX = 1
+
 
 @dataclass(frozen=True)
 class Made:
@@ -137,7 +140,28 @@ def _run_emulator(name: str, text: str, skg80: str) -> bytes:
     return done.stdout
 
 
+#: A line that begins with a statement of milling (milling.md), which the ROM for wire does not know.
+_MILLING = re.compile(r"^\s*(\d+)\s*(?:F(?!ROM|IT|REE)|G(?!OTO|OSUB)|Z|M|HOLE)", re.I | re.M)
+
+
+def _is_milling(text: str) -> bool:
+    """Whether a program is understood as one of milling."""
+    from skg.ref import mill
+    from skg.ref.interpreter import Endless
+
+    try:
+        found = mill.run(text, patience=1).error
+    except Endless:
+        return True
+    return not found or found[0] != SYNTAX
+
+
 def _failure(name: str, text: str, number: int, line: int | None) -> UserError:
+    if number == SYNTAX and str(line) in _MILLING.findall(text) and _is_milling(text):
+        return UserError(
+            f"{name}: line {line} is of a milling program: `skg run --rom mill {name} -o part.nc` makes its tape, and "
+            "plot, check and gcode read that"
+        )
     where = f" LINE {line}" if line is not None else ""
     contour = _contour_at(text, line) if line is not None else ""
     return UserError(f"{name}: ERR {number:02d}{where}" + (f", in contour {contour}" if contour else ""))
