@@ -7,12 +7,16 @@
 enum {
     PORT_TTY = 0x10,        /* first port of the teletype's pair */
     PORT_AUX = 0x12,        /* of the punch's and reader's */
+    PORT_DRIVE = 0x14,
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
     POLL_GAP = 300,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
     VAIN_READS = 1000,      /* so often a chip may be read before it is readied (its receiver may be emptied) */
     NO_ANSWER = 0xff        /* what an open bus reads */
 };
+
+/* Bits that the machine answers. */
+enum { DRIVE_CLOCK = 0x01, DRIVE_STOP = 0x02 };
 
 enum { DC1 = 0x11, DC2 = 0x12, DC3 = 0x13, DC4 = 0x14 };
 
@@ -57,6 +61,28 @@ static bool queue_empty(const board_queue *q)
 static uint8_t queue_take(board_queue *q)
 {
     return q->bytes[q->first++];
+}
+
+/* ---- the two motors ---- */
+
+static uint8_t drive_in(const board *b)
+{
+    bool clock = b->feed_hz > 0 ? (uint64_t)((double)b->cpu.cycles * 2 * b->feed_hz / b->hz) & 1
+                                : !(b->drive & (BOARD_STEP_X | BOARD_STEP_Y));
+    bool stop = b->stop || (b->stop_at && b->steps >= b->stop_at);
+    return (uint8_t)((clock ? DRIVE_CLOCK : 0) | (stop ? DRIVE_STOP : 0));
+}
+
+static void drive_out(board *b, uint8_t value)
+{
+    uint8_t rises = value & ~b->drive & (BOARD_STEP_X | BOARD_STEP_Y);
+    b->drive = value;
+    if (rises) {
+        b->steps += rises == (BOARD_STEP_X | BOARD_STEP_Y) ? 2 : 1;
+        if (b->step) {
+            b->step(b->user, value);
+        }
+    }
 }
 
 /* ---- the teletype ---- */
@@ -275,6 +301,10 @@ static uint8_t port_in(void *user, uint8_t port)
 {
     board *b = user;
     bool control;
+    if (port == PORT_DRIVE) {
+        b->polls = 0;
+        return drive_in(b);
+    }
     board_uart *u = find_uart(b, port, &control);
     if (!(u && control && is_tty(b, u))) {
         b->polls = 0;
@@ -295,6 +325,9 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     board_uart *u = find_uart(b, port, &control);
     b->polls = 0;
     b->reader_asked_at = 0;
+    if (port == PORT_DRIVE) {
+        drive_out(b, value);
+    }
     if (!u) {
         return;
     }

@@ -13,7 +13,7 @@ typedef struct {
 
 struct machine {
     board *board;
-    record paper, punch;
+    record paper, punch, steps;
 };
 
 static void keep(record *r, uint8_t byte)
@@ -40,6 +40,11 @@ static void keep_punch(void *user, uint8_t byte)
     keep(&((machine *)user)->punch, byte);
 }
 
+static void keep_step(void *user, uint8_t value)
+{
+    keep(&((machine *)user)->steps, value);
+}
+
 machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int kind, bool punch_tty, unsigned baud)
 {
     machine *m = calloc(1, sizeof *m);
@@ -51,6 +56,7 @@ machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int ki
     m->board->baud = baud;
     m->board->paper = keep_paper;
     m->board->punch = keep_punch;
+    m->board->step = keep_step;
     m->board->user = m;
     board_rom(m->board, rom, length);
     return m;
@@ -62,6 +68,7 @@ void machine_free(machine *m)
         board_free(m->board);
         free(m->paper.bytes);
         free(m->punch.bytes);
+        free(m->steps.bytes);
         free(m);
     }
 }
@@ -86,7 +93,29 @@ uint8_t machine_nobody(const machine *m, bool *chip)
 
 void machine_clear(machine *m)
 {
-    m->paper.length = m->punch.length = 0;
+    m->paper.length = m->punch.length = m->steps.length = 0;
+}
+
+size_t machine_steps(const machine *m, const uint8_t **bytes)
+{
+    *bytes = m->steps.bytes;
+    return m->steps.length;
+}
+
+uint8_t machine_drive(const machine *m)
+{
+    return m->board->drive;
+}
+
+void machine_feed(machine *m, double hz)
+{
+    m->board->feed_hz = hz;
+}
+
+void machine_stop(machine *m, bool on, uint64_t after)
+{
+    m->board->stop = on;
+    m->board->stop_at = after ? m->board->steps + after : 0;
 }
 
 void machine_peek(const machine *m, uint16_t address, uint8_t *bytes, size_t length)

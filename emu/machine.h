@@ -49,6 +49,14 @@ board *machine_board(machine *m);
 size_t machine_output(const machine *m, bool punch, const uint8_t **bytes);
 void machine_clear(machine *m);
 
+/* The values of port 14H at which a step's pulse rose, since the last machine_clear; and what it was told last. */
+size_t machine_steps(const machine *m, const uint8_t **bytes);
+uint8_t machine_drive(const machine *m);
+
+/* The feed clock's frequency (0: tied to the step output's inverse); the stop, on at once or after so many steps (0: not). */
+void machine_feed(machine *m, double hz);
+void machine_stop(machine *m, bool on, uint64_t after);
+
 /* The port of the last BOARD_NOBODY, and whether a chip is there. */
 uint8_t machine_nobody(const machine *m, bool *chip);
 

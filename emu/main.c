@@ -24,6 +24,7 @@
 #include "debug.h"
 #include "image.h"
 #include "options.h"
+#include "path.h"
 #include "symbols.h"
 #include "terminal.h"
 
@@ -54,6 +55,9 @@ typedef struct {
     bool running;                   /* the part has been loaded and RUN typed */
     pacer pacer;
     FILE *paper, *punch;            /* NULL: nowhere */
+    FILE *steps;                    /* the motors' steps; NULL: nobody keeps them */
+    FILE *picture;
+    path *drawn;                    /* and their way; NULL: nobody draws it */
     uint64_t printed;               /* characters on the paper */
     int failed;                     /* errno of output that was lost; 0: none */
     bool prompted;                  /* the machine has come to its first prompt */
@@ -97,10 +101,21 @@ static void punch(void *user, uint8_t byte)
     }
 }
 
+static void step(void *user, uint8_t value)
+{
+    session *s = user;
+    if (s->steps) {
+        put(s, value, s->steps);
+    }
+    if (s->drawn && !path_step(s->drawn, value)) {
+        s->failed = ENOMEM;
+    }
+}
+
 /* Gives all output away; false when some of it is lost. */
 static bool flush(session *s)
 {
-    FILE *const files[] = { s->paper, s->punch, s->terminal.copy };
+    FILE *const files[] = { s->paper, s->punch, s->steps, s->terminal.copy };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         if (files[i] && fflush(files[i])) {
             s->failed = errno;
@@ -554,11 +569,27 @@ static int set_board(session *s)
     s->board->punch_tty = s->o.punch_tty;
     s->board->paper = print;
     s->board->punch = punch;
+    s->board->step = s->o.steps || s->o.drive ? step : NULL;
+    s->board->feed_hz = s->o.feed_hz;
+    s->board->stop_at = s->o.stop_at;
     s->board->user = s;
     i8080_watch(&s->board->cpu, s->o.stats, 0, BOARD_ROM_SIZE - 1);
     s->board->cpu.written = s->written;
     pacer_start(&s->pacer, mhz * 1e6, 0);
     return set_rom(s);
+}
+
+/* The files that the motors' steps go to. The picture's is opened now, so that nobody waits for what cannot be written. */
+static int set_drive(session *s)
+{
+    int code = open_output(&s->steps, s->o.steps);
+    if (!code && s->o.drive) {
+        code = open_output(&s->picture, s->o.drive);
+        if (!code && !(s->drawn = path_new())) {
+            code = complain(EXIT_ERR, "out of memory");
+        }
+    }
+    return code;
 }
 
 /* Makes a pseudo-terminal and prints its name. */
@@ -660,9 +691,13 @@ int main(int argc, char **argv)
         return run_com(&s.o);
     }
     code = set_board(&s);
+    code = code ? code : set_drive(&s);
     code = code ? code : set_debug(&s);
     if (!code) {
         code = s.o.part ? with_part(&s) : with_terminal(&s);
+        if (s.drawn && !path_draw(s.drawn, s.picture)) {
+            s.failed = errno;
+        }
         if (!flush(&s) && !code) {
             code = report_failure(&s);
         }
@@ -672,6 +707,7 @@ int main(int argc, char **argv)
     }
     debug_free(s.debug);
     symbols_free(s.names);
+    path_free(s.drawn);
     board_free(s.board);
     return !code && ferror(stderr) ? EXIT_USAGE : code;
 }

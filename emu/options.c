@@ -26,6 +26,10 @@ static const char USAGE[] =
     "  --board KIND      6850 or 8251 (6850)\n"
     "  --punch-tty       a teletype alone: its own punch and reader\n"
     "  --punch-pty       punch and reader are a pseudo-terminal, whose name is printed: a machine behind it answers\n"
+    "  --drive FILE      draw the path of the two motors at port 14H, as SVG\n"
+    "  --steps FILE      the value of port 14H at each of their steps, a byte each\n"
+    "  --feed HZ         the machine's feed clock (default: the step output's inverse, full speed)\n"
+    "  --stop-at N       the machine's limit or emergency stop is on from step N on\n"
     "  --stats           cycles, instructions, time and memory used, on standard error\n"
     "  --max-cycles N    give up with exit 3\n"
     "  --debug           stop before the first instruction and ask what to do (help); ctrl-^ asks again\n"
@@ -52,7 +56,8 @@ static const char *misfit(const options *o)
 {
     if (o->com
         && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->punch_pty
-            || o->debug || o->break_count || o->trace || o->sym)) {
+            || o->debug || o->break_count || o->trace || o->sym || o->drive || o->steps || o->feed_hz > 0
+            || o->stop_at)) {
         return "--com goes with --stats and --max-cycles alone";
     }
     if (o->part && o->pty) {
@@ -88,7 +93,7 @@ static bool will_be_one(const char *a, const char *b)
 static const char *overwritten(const options *o)
 {
     const char *const read[] = { o->part, o->rom, o->input, o->tape, o->sym };
-    const char *const written[] = { o->punch, o->tty, o->trace };
+    const char *const written[] = { o->punch, o->tty, o->trace, o->drive, o->steps };
     enum { WRITTEN = sizeof written / sizeof *written };
     for (size_t w = 0; w < WRITTEN; w++) {
         for (size_t r = 0; r < sizeof read / sizeof *read; r++) {
@@ -124,7 +129,7 @@ int options_read(int argc, char **argv, options *o)
 {
     // clang-format off
     enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, PUNCH_PTY, STATS, MAX_CYCLES, COM, DEBUG, BREAK,
-           TRACE, SYM, HELP };
+           TRACE, SYM, DRIVE, STEPS, FEED, STOP_AT, HELP };
     // clang-format on
     static const struct option list[] = {
         { "rom", required_argument, NULL, ROM },
@@ -146,6 +151,10 @@ int options_read(int argc, char **argv, options *o)
         { "break", required_argument, NULL, BREAK },
         { "trace", required_argument, NULL, TRACE },
         { "sym", required_argument, NULL, SYM },
+        { "drive", required_argument, NULL, DRIVE },
+        { "steps", required_argument, NULL, STEPS },
+        { "feed", required_argument, NULL, FEED },
+        { "stop-at", required_argument, NULL, STOP_AT },
         { "help", no_argument, NULL, HELP },
         { NULL, 0, NULL, 0 },
     };
@@ -234,6 +243,23 @@ int options_read(int argc, char **argv, options *o)
             break;
         case SYM:
             o->sym = optarg;
+            break;
+        case DRIVE:
+            o->drive = optarg;
+            break;
+        case STEPS:
+            o->steps = optarg;
+            break;
+        case FEED:
+            o->feed_hz = strtod(optarg, &end);
+            if (end == optarg || *end || !(o->feed_hz >= 0.001 && o->feed_hz <= 1e6)) {
+                return complain(EXIT_USAGE, "--feed %s: not 0.001 to 1000000", optarg);
+            }
+            break;
+        case STOP_AT:
+            if (!whole_number(optarg, 1, UINT64_MAX, &o->stop_at)) {
+                return complain(EXIT_USAGE, "--stop-at %s: not a number of steps, from 1", optarg);
+            }
             break;
         case HELP:
             fputs(USAGE, stdout);

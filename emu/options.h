@@ -8,6 +8,9 @@ enum { OPTIONS_BREAKS = 16 };
 
 typedef struct {
     const char *part, *rom, *input, *punch, *tty, *tape, *com;
+    const char *drive, *steps;      /* pictures and steps of the two motors */
+    double feed_hz;                 /* 0: tied to the step output */
+    uint64_t stop_at;
     const char *sym, *trace, *breaks[OPTIONS_BREAKS];
     unsigned break_count;
     unsigned ram_kib, baud;

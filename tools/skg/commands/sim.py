@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, replace
+from itertools import chain
 
 import click
 
 from skg.commands.options import decided, positions_option
 from skg.drawing.source import load
+from skg.files import write_bytes
 from skg.plane import XY
 from skg.tape.simulation import Report, closing, duration, simulate
+from skg.tape.steps import tape_steps
 
 
 def _text(report: Report, blocks: bool) -> str:
@@ -72,9 +75,23 @@ def _xy(point: XY) -> str:
 @click.option(
     "--json", "as_json", is_flag=True, help="Write the figures as JSON (µm, seconds), one list for all tapes."
 )
+@click.option(
+    "--steps",
+    "steps_file",
+    type=click.Path(allow_dash=True),
+    metavar="FILE",
+    help="Write each step of the tapes' two motors, a byte each: what the drive's port is told (- for the standard "
+    "output: then no report).",
+)
 @click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
 def command(
-    tapes_: tuple[str, ...], feed: float, positions: str, blocks: bool, as_json: bool, strict_close: bool
+    tapes_: tuple[str, ...],
+    feed: float,
+    positions: str,
+    blocks: bool,
+    as_json: bool,
+    steps_file: str | None,
+    strict_close: bool,
 ) -> None:
     """Follow TAPE step by step as a 3B controller does.
 
@@ -82,6 +99,10 @@ def command(
     and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input.
     """
     tapes = [load(name).tape for name in tapes_]
+    if steps_file:
+        write_bytes(steps_file, b"".join(chain.from_iterable(map(tape_steps, tapes))))
+        if steps_file == "-":
+            return
     reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
     if as_json:
         kept = reports if blocks else [replace(report, each=()) for report in reports]

@@ -106,6 +106,10 @@ def _library() -> ctypes.CDLL:
             size,
             [pointer, ctypes.POINTER(_Job), size, ctypes.c_char_p, pointer, pointer, pointer, pointer],
         ),
+        "machine_steps": (size, [pointer, ctypes.POINTER(pointer)]),
+        "machine_drive": (ctypes.c_uint8, [pointer]),
+        "machine_feed": (None, [pointer, ctypes.c_double]),
+        "machine_stop": (None, [pointer, flag, ctypes.c_uint64]),
         "board_reset": (None, [pointer]),
         "board_type": (flag, [pointer, ctypes.c_char_p, size]),
         "board_press": (flag, [pointer, ctypes.c_uint8]),
@@ -261,8 +265,28 @@ class Machine:
         """Everything punched since the start or `clear`."""
         return self._output(True)
 
+    @property
+    def steps(self) -> bytes:
+        """What port 14H was told at every step of the two motors since the start or `clear`: a byte each."""
+        start = ctypes.c_void_p()
+        length = self._lib.machine_steps(self._machine, ctypes.byref(start))
+        return ctypes.string_at(start.value, length) if length else b""
+
+    @property
+    def drive(self) -> int:
+        """What port 14H was told last (bit 7: cutting)."""
+        return self._lib.machine_drive(self._machine)
+
+    def feed(self, hz: float) -> None:
+        """Let the machine's feed clock run at `hz` of the board's time; 0: tied to the step output's inverse."""
+        self._lib.machine_feed(self._machine, hz)
+
+    def stop(self, on: bool = False, after: int = 0) -> None:
+        """The machine's limit or emergency stop: on or off now, and on for good after so many more steps (0: not)."""
+        self._lib.machine_stop(self._machine, on, after)
+
     def clear(self) -> None:
-        """Tear off paper and punch tape."""
+        """Tear off paper and punch tape, and forget the steps."""
         self._lib.machine_clear(self._machine)
 
     @property
