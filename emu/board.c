@@ -7,16 +7,12 @@
 enum {
     PORT_TTY = 0x10,        /* first port of the teletype's pair */
     PORT_AUX = 0x12,        /* of the punch's and reader's */
-    PORT_DRIVE = 0x14,
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
     POLL_GAP = 300,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
     VAIN_READS = 1000,      /* so often a chip may be read before it is readied (its receiver may be emptied) */
     NO_ANSWER = 0xff        /* what an open bus reads */
 };
-
-/* Bits that the machine answers. */
-enum { DRIVE_CLOCK = 0x01, DRIVE_STOP = 0x02 };
 
 enum { DC1 = 0x11, DC2 = 0x12, DC3 = 0x13, DC4 = 0x14 };
 
@@ -61,28 +57,6 @@ static bool queue_empty(const board_queue *q)
 static uint8_t queue_take(board_queue *q)
 {
     return q->bytes[q->first++];
-}
-
-/* ---- the two motors ---- */
-
-static uint8_t drive_in(const board *b)
-{
-    bool clock = b->feed_hz > 0 ? (uint64_t)((double)b->cpu.cycles * 2 * b->feed_hz / b->hz) & 1
-                                : !(b->drive & (BOARD_STEP_X | BOARD_STEP_Y));
-    bool stop = b->stop || (b->stop_at && b->steps >= b->stop_at);
-    return (uint8_t)((clock ? DRIVE_CLOCK : 0) | (stop ? DRIVE_STOP : 0));
-}
-
-static void drive_out(board *b, uint8_t value)
-{
-    uint8_t rises = value & ~b->drive & (BOARD_STEP_X | BOARD_STEP_Y);
-    b->drive = value;
-    if (rises) {
-        b->steps += rises == (BOARD_STEP_X | BOARD_STEP_Y) ? 2 : 1;
-        if (b->step) {
-            b->step(b->user, value);
-        }
-    }
 }
 
 /* ---- the teletype ---- */
@@ -204,8 +178,11 @@ static bool has_received(board *b, board_uart *u)
     return u->full;
 }
 
-static uint8_t read_data(board_uart *u)
+static uint8_t read_data(board *b, board_uart *u)
 {
+    if (u->full && is_tty(b, u)) {
+        drive_key(&b->drive);
+    }
     u->full = false;
     return u->received;
 }
@@ -301,13 +278,12 @@ static uint8_t port_in(void *user, uint8_t port)
 {
     board *b = user;
     bool control;
-    if (port == PORT_DRIVE) {
-        b->polls = 0;
-        return drive_in(b);
-    }
     board_uart *u = find_uart(b, port, &control);
     if (!(u && control && is_tty(b, u))) {
         b->polls = 0;
+    }
+    if (port == DRIVE_PORT) {
+        return drive_in(&b->drive, b->cpu.cycles, b->hz);
     }
     if (!u || u->state != UART_READY) {
         ask_in_vain(b, port, u);
@@ -315,7 +291,7 @@ static uint8_t port_in(void *user, uint8_t port)
     if (!u) {
         return NO_ANSWER;
     }
-    return control ? read_status(b, u) : read_data(u);
+    return control ? read_status(b, u) : read_data(b, u);
 }
 
 static void port_out(void *user, uint8_t port, uint8_t value)
@@ -325,8 +301,8 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     board_uart *u = find_uart(b, port, &control);
     b->polls = 0;
     b->reader_asked_at = 0;
-    if (port == PORT_DRIVE) {
-        drive_out(b, value);
+    if (port == DRIVE_PORT) {
+        drive_out(&b->drive, value, b->cpu.cycles, b->user);
     }
     if (!u) {
         return;
@@ -350,6 +326,7 @@ board *board_new(board_kind kind, unsigned ram_kib)
     }
     b->kind = kind;
     b->hz = BOARD_HZ;
+    drive_init(&b->drive);
     i8080_init(&b->cpu, port_in, port_out, b);
     i8080_map(&b->cpu, 0, BOARD_ROM_SIZE - 1, I8080_ROM);
     unsigned ram_end = BOARD_RAM_START + ram_kib * 1024;
@@ -383,6 +360,7 @@ void board_reset(board *b)
     i8080_reset(&b->cpu);
     uart_reset(b, &b->tty);
     uart_reset(b, &b->aux);
+    drive_reset(&b->drive);
     b->polls = 0;
     b->waiting = b->nobody = b->reader_on = b->punch_on = false;
     b->reader_asked_at = 0;

@@ -1,12 +1,11 @@
-/* The SKG board: 8080A, 8 KiB ROM at 0000, RAM from 2000, two serial ports
+/* The SKG board: 8080A, 8 KiB ROM at 0000, RAM from 2000, two serial ports, a drive
  *
  *      port    standard board (MITS 88-2SIO)           BOARD=8251
  *      10H     teletype  6850 status / control         teletype  8251 data
  *      11H     teletype  6850 data                     teletype  8251 status / mode, command
  *      12H     punch and reader  6850 status / control punch and reader  8251 data
  *      13H     punch and reader  6850 data             punch and reader  8251 status / mode, command
- *      14H     two motors: out: bit 0 X step, 1 X direction (1 = -), 2 Y step, 3 Y direction, 7 cutting
- *                          in: bit 0 feed clock, 1 limit or emergency stop
+ *      14H     drive (drive.h)                         drive
  *
  *                      b7    b6    b5    b4    b3    b2    b1    b0
  *      6850 status     IRQ   PE    OVRN  FE    CTS   DCD   TDRE  RDRF      control xxxxxx11: master reset
@@ -25,9 +24,6 @@
  * arrive at once. The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
  * asked in one run or in many short ones.
  *
- * Behind port 14H is a machine of two stepping motors (docs/spec/drive.md): a step for each rising edge of its bit. Its feed
- * clock is the step output's inverse, or runs at `feed_hz`; its stop is on while `stop` is set, and from step `stop_at` on.
- *
  * A ROM made for another board asks ports where there is nothing, or a chip that it has never readied, and would ask for
  * ever: board_run says so (BOARD_NOBODY). Writes to such ports are lost without a word, as on a real board.
  *
@@ -38,6 +34,7 @@
 #ifndef BOARD_H
 #define BOARD_H
 
+#include "drive.h"
 #include "i8080.h"
 
 enum {
@@ -49,9 +46,6 @@ enum {
     BOARD_HZ = 2000000,
     BOARD_LINE = 132                /* characters of the paper's present line that are remembered */
 };
-
-/* Bits that the two motors are told through port 14H. */
-enum { BOARD_STEP_X = 0x01, BOARD_MINUS_X = 0x02, BOARD_STEP_Y = 0x04, BOARD_MINUS_Y = 0x08, BOARD_CUTS = 0x80 };
 
 /* Why board_run came back. */
 typedef enum {
@@ -92,11 +86,8 @@ typedef struct board {
     double hz;                      /* the processor's clock */
     unsigned baud;                  /* the teletype's line; 0: no time at all */
     board_sink *paper, *punch;      /* what the teletype prints (7 bits), what the punch punches (8 bits) */
-    board_sink *step;               /* every value of port 14H at which a step's pulse rises */
-    void *user;
-    double feed_hz;                 /* the machine's feed clock; 0: tied to the step output's inverse */
-    bool stop;                      /* the machine's stop, */
-    uint64_t stop_at;               /* which is on for good from this step on; 0: never */
+    void *user;                     /* of these two and of the drive's */
+    drive drive;
 
     board_queue typed, pressed, tape;
     bool reader_on;                 /* the teletype's own reader (punch_tty) */
@@ -106,8 +97,6 @@ typedef struct board {
     unsigned error_lines;           /* lines on the paper that begin with `ERR ` */
     uint8_t nobody_port;            /* the port of the last BOARD_NOBODY, */
     bool nobody_chip;               /* and whether a chip is there, which has never been readied */
-    uint8_t drive;                  /* what port 14H was told last */
-    uint64_t steps;                 /* steps of both motors since power-on */
 
     /* The rest is the board's own. */
     board_uart tty, aux;
@@ -127,7 +116,7 @@ void board_free(board *b);
 /* Puts up to BOARD_ROM_SIZE bytes into the ROM; the rest of it reads FF. */
 void board_rom(board *b, const uint8_t *bytes, size_t length);
 
-/* The reset button: processor and serial ports; memory stays. */
+/* The reset button: processor, serial ports and drive; memory stays. */
 void board_reset(board *b);
 
 /* The operator: types when asked, presses a key now, puts a tape into the reader (behind what is left of the old).

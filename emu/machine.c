@@ -13,12 +13,12 @@ typedef struct {
 
 struct machine {
     board *board;
-    record paper, punch, steps;
+    record paper, punch, steps, stepped_at; /* (of the last, bytes of 64-bit numbers) */
 };
 
-static void keep(record *r, uint8_t byte)
+static void keep(record *r, const void *bytes, size_t length)
 {
-    if (r->length == r->size) {
+    if (r->size - r->length < length) {
         size_t size = r->size * 2 + 4096;
         uint8_t *grown = realloc(r->bytes, size);
         if (!grown) {
@@ -27,22 +27,25 @@ static void keep(record *r, uint8_t byte)
         r->bytes = grown;
         r->size = size;
     }
-    r->bytes[r->length++] = byte;
+    memcpy(r->bytes + r->length, bytes, length);
+    r->length += length;
 }
 
 static void keep_paper(void *user, uint8_t byte)
 {
-    keep(&((machine *)user)->paper, byte);
+    keep(&((machine *)user)->paper, &byte, 1);
 }
 
 static void keep_punch(void *user, uint8_t byte)
 {
-    keep(&((machine *)user)->punch, byte);
+    keep(&((machine *)user)->punch, &byte, 1);
 }
 
-static void keep_step(void *user, uint8_t value)
+static void keep_step(void *user, uint8_t value, uint64_t cycles)
 {
-    keep(&((machine *)user)->steps, value);
+    machine *m = user;
+    keep(&m->steps, &value, 1);
+    keep(&m->stepped_at, &cycles, sizeof cycles);
 }
 
 machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int kind, bool punch_tty, unsigned baud)
@@ -56,7 +59,7 @@ machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int ki
     m->board->baud = baud;
     m->board->paper = keep_paper;
     m->board->punch = keep_punch;
-    m->board->step = keep_step;
+    m->board->drive.step = keep_step;
     m->board->user = m;
     board_rom(m->board, rom, length);
     return m;
@@ -69,6 +72,7 @@ void machine_free(machine *m)
         free(m->paper.bytes);
         free(m->punch.bytes);
         free(m->steps.bytes);
+        free(m->stepped_at.bytes);
         free(m);
     }
 }
@@ -76,6 +80,35 @@ void machine_free(machine *m)
 board *machine_board(machine *m)
 {
     return m->board;
+}
+
+void machine_feed(machine *m, double hz)
+{
+    m->board->drive.feed_hz = hz;
+}
+
+void machine_stop_at(machine *m, uint64_t step, bool stays)
+{
+    m->board->drive.stop_at = step;
+    m->board->drive.stop_stays = stays;
+    m->board->drive.stopped = false;
+}
+
+uint64_t machine_hasty_steps(const machine *m)
+{
+    return m->board->drive.hasty;
+}
+
+uint8_t machine_drive(const machine *m)
+{
+    return m->board->drive.latch;
+}
+
+size_t machine_steps(const machine *m, const uint8_t **values, const uint64_t **cycles)
+{
+    *values = m->steps.bytes;
+    *cycles = (const uint64_t *)(const void *)m->stepped_at.bytes;
+    return m->steps.length;
 }
 
 size_t machine_output(const machine *m, bool punch, const uint8_t **bytes)
@@ -93,29 +126,7 @@ uint8_t machine_nobody(const machine *m, bool *chip)
 
 void machine_clear(machine *m)
 {
-    m->paper.length = m->punch.length = m->steps.length = 0;
-}
-
-size_t machine_steps(const machine *m, const uint8_t **bytes)
-{
-    *bytes = m->steps.bytes;
-    return m->steps.length;
-}
-
-uint8_t machine_drive(const machine *m)
-{
-    return m->board->drive;
-}
-
-void machine_feed(machine *m, double hz)
-{
-    m->board->feed_hz = hz;
-}
-
-void machine_stop(machine *m, bool on, uint64_t after)
-{
-    m->board->stop = on;
-    m->board->stop_at = after ? m->board->steps + after : 0;
+    m->paper.length = m->punch.length = m->steps.length = m->stepped_at.length = 0;
 }
 
 void machine_peek(const machine *m, uint16_t address, uint8_t *bytes, size_t length)

@@ -1,6 +1,6 @@
 /* The board as a test sees it: what skg.machine (Python, ctypes) calls in build/libskg80.so
  *
- * A board that keeps its paper and its punch tape in memory, and on which single subroutines of the ROM can be called,
+ * A board that keeps its paper, its punch tape and its drive's steps in memory, and on which single subroutines of the ROM can be called,
  * one at a time or a million in a row. Functions give counts and reasons; all memory is the machine's own.
  *
  * NOT IMPLEMENTED: calls that start in the middle of a run (a call takes over PC and SP).
@@ -45,17 +45,21 @@ machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int ki
 void machine_free(machine *m);
 board *machine_board(machine *m);
 
+/* The drive: its feed clock (0: full speed), and when its stop line, which is down now, rises: at a
+ * step counted since power-on (0: never). Those that came together with their direction (drive.h). */
+void machine_feed(machine *m, double hz);
+void machine_stop_at(machine *m, uint64_t step, bool stays);
+uint64_t machine_hasty_steps(const machine *m);
+
+/* What is on its lines to the machine now. */
+uint8_t machine_drive(const machine *m);
+
+/* The steps since the last machine_clear: the port's value, and the cycles at which the pulse rose. */
+size_t machine_steps(const machine *m, const uint8_t **values, const uint64_t **cycles);
+
 /* Everything printed (`punch` false) or punched since the last machine_clear. */
 size_t machine_output(const machine *m, bool punch, const uint8_t **bytes);
 void machine_clear(machine *m);
-
-/* The values of port 14H at which a step's pulse rose, since the last machine_clear; and what it was told last. */
-size_t machine_steps(const machine *m, const uint8_t **bytes);
-uint8_t machine_drive(const machine *m);
-
-/* The feed clock's frequency (0: tied to the step output's inverse); the stop, on at once or after so many steps (0: not). */
-void machine_feed(machine *m, double hz);
-void machine_stop(machine *m, bool on, uint64_t after);
 
 /* The port of the last BOARD_NOBODY, and whether a chip is there. */
 uint8_t machine_nobody(const machine *m, bool *chip);

@@ -16,15 +16,17 @@
  * (behind that of --pty), and what is punched goes to --punch FILE alone besides. A part is read before the machine
  * is listened to. What the machine says waits until the board asks for it.
  *
+ * The drive's options take the operator's part too: with a part he types DRIVE 1 before RUN, and a key at each `D`.
+ *
  * NOT IMPLEMENTED: the tape reader's and punch's own speed; characters that a machine loses when nobody asks; saving the state of the machine.
  */
 #include "board.h"
 #include "com.h"
 #include "complain.h"
 #include "debug.h"
+#include "drawn.h"
 #include "image.h"
 #include "options.h"
-#include "path.h"
 #include "symbols.h"
 #include "terminal.h"
 
@@ -32,6 +34,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum {
@@ -54,10 +57,10 @@ typedef struct {
     terminal line;                  /* the machine's, with --punch-pty */
     bool running;                   /* the part has been loaded and RUN typed */
     pacer pacer;
-    FILE *paper, *punch;            /* NULL: nowhere */
-    FILE *steps;                    /* the motors' steps; NULL: nobody keeps them */
-    FILE *picture;
-    path *drawn;                    /* and their way; NULL: nobody draws it */
+    FILE *paper, *punch, *steps;    /* NULL: nowhere */
+    FILE *picture;                  /* of the drive; NULL: none */
+    drawn *drawn;                   /* what goes onto it, */
+    uint64_t steps_drawn;           /* and how many steps are there already */
     uint64_t printed;               /* characters on the paper */
     int failed;                     /* errno of output that was lost; 0: none */
     bool prompted;                  /* the machine has come to its first prompt */
@@ -101,14 +104,39 @@ static void punch(void *user, uint8_t byte)
     }
 }
 
-static void step(void *user, uint8_t value)
+static void step(void *user, uint8_t value, uint64_t cycles)
 {
     session *s = user;
+    (void)cycles;
     if (s->steps) {
         put(s, value, s->steps);
     }
-    if (s->drawn && !path_step(s->drawn, value)) {
+    if (s->drawn && !drawn_step(s->drawn, value)) {
         s->failed = ENOMEM;
+    }
+}
+
+/* Writes the picture, in place of an earlier one. */
+static void draw(session *s)
+{
+    if (!s->picture) {
+        return;
+    }
+    rewind(s->picture);
+    /* (an earlier one may be longer) */
+    if ((s->steps_drawn && ftruncate(fileno(s->picture), 0)) || !drawn_write(s->drawn, s->picture)) {
+        s->failed = errno;
+    }
+    s->steps_drawn = s->board->drive.steps;
+}
+
+/* The board is at its prompt: what has been drawn can be looked at. */
+static void draw_meanwhile(session *s)
+{
+    struct stat file;
+    if (s->steps_drawn != s->board->drive.steps && s->picture && !fstat(fileno(s->picture), &file)
+        && S_ISREG(file.st_mode)) {
+        draw(s);
     }
 }
 
@@ -163,6 +191,12 @@ static void print_stats(const session *s)
     print_counts(c->cycles, c->instructions);
     print_untouched(s, BOARD_RAM_START + s->o.ram_kib * 1024);
     fprintf(stderr, "stack         down to %04X\n", c->lowest_sp);
+    const drive *d = &s->board->drive;
+    if (d->gaps) {
+        fprintf(stderr, "drive         %llu steps, from one to the next %.1f cycles, at most %llu\n",
+                (unsigned long long)d->steps, (double)d->gap_cycles / (double)d->gaps,
+                (unsigned long long)d->longest_gap);
+    }
 }
 
 /* ---- running ---- */
@@ -179,6 +213,9 @@ static board_reason run_slice(session *s)
     if (reason == BOARD_PROMPT && !s->prompted) {
         s->prompted = true;
         memset(s->written, 0, sizeof s->written); /* the size of the RAM was found by writing to it */
+    }
+    if (reason == BOARD_PROMPT) {
+        draw_meanwhile(s);
     }
     return reason;
 }
@@ -274,11 +311,11 @@ static bool type_line(session *s, const char *line, size_t length)
     return board_type(s->board, (const uint8_t *)line, length) && board_type(s->board, (const uint8_t *)"\r", 1);
 }
 
-/* The operator's work with one part: LOAD, RUN, answers to INPUT. Returns the exit code. */
+/* The operator's work with one part: LOAD, RUN, answers to INPUT; DRIVE 1, a key at each stop. Returns the exit code. */
 static int run_part(session *s, const char *answers)
 {
-    static const char *const commands[] = { "LOAD", "RUN" };
-    enum { COMMANDS = sizeof commands / sizeof *commands };
+    const char *const commands[] = { "LOAD", s->o.drives ? "DRIVE 1" : "RUN", "RUN" };
+    const size_t count = s->o.drives ? 3 : 2;
     size_t given = 0;
     unsigned old_errors = 0;
     for (;;) {
@@ -297,7 +334,7 @@ static int run_part(session *s, const char *answers)
             if (s->board->error_lines != old_errors) {
                 return EXIT_ERR;
             }
-            if (given == COMMANDS) {
+            if (given == count) {
                 return 0;
             }
             if (!type_line(s, commands[given], strlen(commands[given]))) {
@@ -306,7 +343,7 @@ static int run_part(session *s, const char *answers)
             if (given++ == 0) {
                 board_reader(s->board, true);
             }
-            s->running = given == COMMANDS;
+            s->running = given == count;
             break;
         case BOARD_INPUT: {
             if (!*answers) {
@@ -322,6 +359,12 @@ static int run_part(session *s, const char *answers)
             break;
         }
         case BOARD_WAIT:
+            if (s->running && s->o.drives && !strcmp(s->board->line, "D")) {
+                if (!type_line(s, "", 0)) {
+                    return complain(EXIT_ERR, "out of memory");
+                }
+                break;
+            }
             return board_reader_silence(s->board) ? report_reader() : report_wait(s);
         default:
             return report(s, reason);
@@ -569,27 +612,39 @@ static int set_board(session *s)
     s->board->punch_tty = s->o.punch_tty;
     s->board->paper = print;
     s->board->punch = punch;
-    s->board->step = s->o.steps || s->o.drive ? step : NULL;
-    s->board->feed_hz = s->o.feed_hz;
-    s->board->stop_at = s->o.stop_at;
     s->board->user = s;
+    s->board->drive.feed_hz = s->o.feed;
+    s->board->drive.stop_at = s->o.stop_at;
+    s->board->drive.stop_stays = s->o.stop_stays;
+    s->board->drive.step = step;
     i8080_watch(&s->board->cpu, s->o.stats, 0, BOARD_ROM_SIZE - 1);
     s->board->cpu.written = s->written;
     pacer_start(&s->pacer, mhz * 1e6, 0);
     return set_rom(s);
 }
 
-/* The files that the motors' steps go to. The picture's is opened now, so that nobody waits for what cannot be written. */
+/* The files that the drive's steps go to. */
 static int set_drive(session *s)
 {
     int code = open_output(&s->steps, s->o.steps);
-    if (!code && s->o.drive) {
-        code = open_output(&s->picture, s->o.drive);
-        if (!code && !(s->drawn = path_new())) {
-            code = complain(EXIT_ERR, "out of memory");
-        }
+    code = code ? code : open_output(&s->picture, s->o.drive);
+    if (!code && s->picture && !(s->drawn = drawn_new())) {
+        return complain(EXIT_ERR, "out of memory");
     }
     return code;
+}
+
+/* What the drive's user should know at the end. */
+static void report_drive(const session *s)
+{
+    const drive *d = &s->board->drive;
+    if (!d->steps && s->o.drives) {
+        remark("the drive was told no step");
+    }
+    if (d->hasty) {
+        remark("of the drive's steps %llu came together with their direction, or it changed under the pulse",
+               (unsigned long long)d->hasty);
+    }
 }
 
 /* Makes a pseudo-terminal and prints its name. */
@@ -691,23 +746,23 @@ int main(int argc, char **argv)
         return run_com(&s.o);
     }
     code = set_board(&s);
-    code = code ? code : set_drive(&s);
     code = code ? code : set_debug(&s);
+    code = code ? code : set_drive(&s);
     if (!code) {
         code = s.o.part ? with_part(&s) : with_terminal(&s);
-        if (s.drawn && !path_draw(s.drawn, s.picture)) {
-            s.failed = errno;
-        }
-        if (!flush(&s) && !code) {
+        bool known = s.failed && code;
+        draw(&s);
+        report_drive(&s);
+        if (!flush(&s) && !known) {
             code = report_failure(&s);
         }
         if (s.o.stats) {
             print_stats(&s);
         }
     }
+    drawn_free(s.drawn);
     debug_free(s.debug);
     symbols_free(s.names);
-    path_free(s.drawn);
     board_free(s.board);
     return !code && ferror(stderr) ? EXIT_USAGE : code;
 }

@@ -26,10 +26,10 @@ static const char USAGE[] =
     "  --board KIND      6850 or 8251 (6850)\n"
     "  --punch-tty       a teletype alone: its own punch and reader\n"
     "  --punch-pty       punch and reader are a pseudo-terminal, whose name is printed: a machine behind it answers\n"
-    "  --drive FILE      draw the path of the two motors at port 14H, as SVG\n"
-    "  --steps FILE      the value of port 14H at each of their steps, a byte each\n"
-    "  --feed HZ         the machine's feed clock (default: the step output's inverse, full speed)\n"
-    "  --stop-at N       the machine's limit or emergency stop is on from step N on\n"
+    "  --drive FILE      draw what the drive was told, as SVG; with a part, DRIVE 1 is typed before RUN, and a key at each D\n"
+    "  --steps FILE      write each step of the drive's: one byte, the port's value\n"
+    "  --feed HZ         the drive's feed clock (full speed)\n"
+    "  --stop-at N       the drive's stop line rises at step N, until the next key; N,stay: for ever\n"
     "  --stats           cycles, instructions, time and memory used, on standard error\n"
     "  --max-cycles N    give up with exit 3\n"
     "  --debug           stop before the first instruction and ask what to do (help); ctrl-^ asks again\n"
@@ -56,8 +56,7 @@ static const char *misfit(const options *o)
 {
     if (o->com
         && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->punch_pty
-            || o->debug || o->break_count || o->trace || o->sym || o->drive || o->steps || o->feed_hz > 0
-            || o->stop_at)) {
+            || o->debug || o->break_count || o->trace || o->sym || o->drives)) {
         return "--com goes with --stats and --max-cycles alone";
     }
     if (o->part && o->pty) {
@@ -112,6 +111,20 @@ static const char *overwritten(const options *o)
     return NULL;
 }
 
+/* The step at which the drive is to stop: N, or N,stay. */
+static bool read_stop(const char *text, options *o)
+{
+    static const char stay[] = ",stay";
+    char digits[24];
+    size_t length = strcspn(text, ",");
+    if (length >= sizeof digits || (text[length] && strcmp(text + length, stay))) {
+        return false;
+    }
+    snprintf(digits, sizeof digits, "%.*s", (int)length, text);
+    o->stop_stays = text[length];
+    return whole_number(digits, 1, UINT64_MAX, &o->stop_at);
+}
+
 /* What getopt_long did not like: an option that is not there, or a value where none belongs. */
 static int refuse(char **argv)
 {
@@ -128,8 +141,8 @@ static int refuse(char **argv)
 int options_read(int argc, char **argv, options *o)
 {
     // clang-format off
-    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, PUNCH_PTY, STATS, MAX_CYCLES, COM, DEBUG, BREAK,
-           TRACE, SYM, DRIVE, STEPS, FEED, STOP_AT, HELP };
+    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, PUNCH_PTY, DRIVE, STEPS, FEED, STOP_AT, STATS,
+           MAX_CYCLES, COM, DEBUG, BREAK, TRACE, SYM, HELP };
     // clang-format on
     static const struct option list[] = {
         { "rom", required_argument, NULL, ROM },
@@ -144,6 +157,10 @@ int options_read(int argc, char **argv, options *o)
         { "board", required_argument, NULL, BOARD },
         { "punch-tty", no_argument, NULL, PUNCH_TTY },
         { "punch-pty", no_argument, NULL, PUNCH_PTY },
+        { "drive", required_argument, NULL, DRIVE },
+        { "steps", required_argument, NULL, STEPS },
+        { "feed", required_argument, NULL, FEED },
+        { "stop-at", required_argument, NULL, STOP_AT },
         { "stats", no_argument, NULL, STATS },
         { "max-cycles", required_argument, NULL, MAX_CYCLES },
         { "com", required_argument, NULL, COM },
@@ -151,10 +168,6 @@ int options_read(int argc, char **argv, options *o)
         { "break", required_argument, NULL, BREAK },
         { "trace", required_argument, NULL, TRACE },
         { "sym", required_argument, NULL, SYM },
-        { "drive", required_argument, NULL, DRIVE },
-        { "steps", required_argument, NULL, STEPS },
-        { "feed", required_argument, NULL, FEED },
-        { "stop-at", required_argument, NULL, STOP_AT },
         { "help", no_argument, NULL, HELP },
         { NULL, 0, NULL, 0 },
     };
@@ -218,6 +231,24 @@ int options_read(int argc, char **argv, options *o)
         case PUNCH_PTY:
             o->punch_pty = true;
             break;
+        case DRIVE:
+            o->drive = optarg;
+            break;
+        case STEPS:
+            o->steps = optarg;
+            break;
+        case FEED:
+            o->feed = strtod(optarg, &end);
+            if (end == optarg || *end || !(o->feed >= 0.01 && o->feed <= 1e6)) {
+                return complain(EXIT_USAGE, "--feed %s: not 0.01 to 1000000", optarg);
+            }
+            break;
+        case STOP_AT:
+            if (!read_stop(optarg, o)) {
+                return complain(EXIT_USAGE, "--stop-at %s: not a step's number, 1 or more, or that and `,stay`",
+                                optarg);
+            }
+            break;
         case STATS:
             o->stats = true;
             break;
@@ -244,23 +275,6 @@ int options_read(int argc, char **argv, options *o)
         case SYM:
             o->sym = optarg;
             break;
-        case DRIVE:
-            o->drive = optarg;
-            break;
-        case STEPS:
-            o->steps = optarg;
-            break;
-        case FEED:
-            o->feed_hz = strtod(optarg, &end);
-            if (end == optarg || *end || !(o->feed_hz >= 0.001 && o->feed_hz <= 1e6)) {
-                return complain(EXIT_USAGE, "--feed %s: not 0.001 to 1000000", optarg);
-            }
-            break;
-        case STOP_AT:
-            if (!whole_number(optarg, 1, UINT64_MAX, &o->stop_at)) {
-                return complain(EXIT_USAGE, "--stop-at %s: not a number of steps, from 1", optarg);
-            }
-            break;
         case HELP:
             fputs(USAGE, stdout);
             return fflush(stdout) ? complain(EXIT_USAGE, "cannot write: %s", strerror(errno)) : -1;
@@ -274,6 +288,7 @@ int options_read(int argc, char **argv, options *o)
         return complain(EXIT_USAGE, "%s: one part at a time", argv[optind + 1]);
     }
     o->part = argv[optind];
+    o->drives = o->drive || o->steps || o->feed > 0 || o->stop_at;
     const char *wrong = misfit(o), *lost = wrong ? NULL : overwritten(o);
     if (lost) {
         return complain(EXIT_USAGE, "%s: one file for two purposes", lost);

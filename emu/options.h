@@ -8,16 +8,17 @@ enum { OPTIONS_BREAKS = 16 };
 
 typedef struct {
     const char *part, *rom, *input, *punch, *tty, *tape, *com;
-    const char *drive, *steps;      /* pictures and steps of the two motors */
-    double feed_hz;                 /* 0: tied to the step output */
-    uint64_t stop_at;
+    const char *drive, *steps;
     const char *sym, *trace, *breaks[OPTIONS_BREAKS];
     unsigned break_count;
     unsigned ram_kib, baud;
     double mhz;                     /* 0: no time is kept */
+    double feed;                    /* 0: full speed */
     uint64_t max_cycles;
+    uint64_t stop_at;               /* 0: never */
     board_kind kind;
     bool pty, stats, punch_tty, punch_pty, debug;
+    bool stop_stays, drives;        /* drives: one of the drive's options was given */
 } options;
 
 /* Fills `o`. Returns 0, or the exit code after a message; -1: all is said and done (--help). */

@@ -27,7 +27,7 @@ ABOVE = HERE if (HERE / "emu").is_dir() else HERE.parent
 LIBRARIES = {
     "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3"]),
     "libskg80.so": (
-        [ABOVE / "emu" / name for name in ("i8080.c", "board.c", "machine.c", "image.c")],
+        [ABOVE / "emu" / name for name in ("i8080.c", "board.c", "drive.c", "machine.c", "image.c")],
         ["-O2", "-D_DEFAULT_SOURCE", "-D_XOPEN_SOURCE=700"],
     ),
 }

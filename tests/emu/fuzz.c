@@ -30,7 +30,7 @@ static void fill(uint8_t *bytes, size_t length)
 static uint64_t fuzz_board(void)
 {
     static const uint8_t io[] = { 0xdb, 0xd3, 0xfb, 0xf3 };
-    static const uint8_t ports[] = { 0x10, 0x11, 0x12, 0x13 };
+    static const uint8_t ports[] = { 0x10, 0x11, 0x12, 0x13, 0x14 };
     uint8_t rom[BOARD_ROM_SIZE], bytes[512];
     fill(rom, sizeof rom);
     for (unsigned i = 0; i < sizeof rom; i++) {

@@ -1,5 +1,5 @@
 # The ROM under random typing. `make fuzz` goes on where the tests stop: BYTES to type, SEED another one each time.
-FUZZ_SOURCES := tests/fuzz/fuzz.c tests/fuzz/noise.c emu/board.c emu/image.c
+FUZZ_SOURCES := tests/fuzz/fuzz.c tests/fuzz/noise.c emu/board.c emu/drive.c emu/image.c
 FUZZ_HEADERS := tests/fuzz/noise.h $(EMU_HEADERS)
 BYTES        ?= 200000000
 SEED         ?= $(shell date +%s)

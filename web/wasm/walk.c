@@ -23,7 +23,7 @@ void walk_block(int sense, int quadrant, double x, double y, double j, int axis,
 /* Takes at most so many steps: 0 done, 1 more to come, 2 the block never ends. */
 EXPORT(walk_run) int walk_run(double budget)
 {
-    return skgsim_run(&now, (int64_t)budget, 0);
+    return skgsim_run(&now, (int64_t)budget, 0, 0);
 }
 
 /* The position, relative to the line's start or the arc's centre, and the steps taken. */

@@ -12,8 +12,9 @@ from skg.commands.options import decided, positions_option
 from skg.drawing.source import load
 from skg.files import write_bytes
 from skg.plane import XY
+from skg.tape.block import Tape
+from skg.tape.drive import drive_steps, stops_in_pairs
 from skg.tape.simulation import Report, closing, duration, simulate
-from skg.tape.steps import tape_steps
 
 
 def _text(report: Report, blocks: bool) -> str:
@@ -48,6 +49,18 @@ def _text(report: Report, blocks: bool) -> str:
     return "\n".join(lines)
 
 
+def _write_steps(path: str, tapes: list[Tape]) -> None:
+    """The steps of all tapes, one after the other."""
+    write_bytes(path, b"".join(chain.from_iterable(map(drive_steps, tapes))))
+    for tape in tapes:
+        if not stops_in_pairs(tape):
+            click.echo(
+                f"skg: {tape.name}: its stops are not in pairs around moves: bit 7 of the steps turns over at each of "
+                "them, which is not where it cuts and where it moves",
+                err=True,
+            )
+
+
 def _rounded(value: object) -> object:
     """The figures with three decimals: nm and ms."""
     if isinstance(value, float):
@@ -80,8 +93,8 @@ def _xy(point: XY) -> str:
     "steps_file",
     type=click.Path(allow_dash=True),
     metavar="FILE",
-    help="Write each step of the tapes' two motors, a byte each: what the drive's port is told (- for the standard "
-    "output: then no report).",
+    help="Write each step, one byte: the value of a drive's port (docs/spec/drive.md). "
+    "-: standard output, without the report.",
 )
 @click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
 def command(
@@ -99,12 +112,12 @@ def command(
     and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input.
     """
     tapes = [load(name).tape for name in tapes_]
-    if steps_file:
-        write_bytes(steps_file, b"".join(chain.from_iterable(map(tape_steps, tapes))))
-        if steps_file == "-":
-            return
     reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
-    if as_json:
+    if steps_file:
+        _write_steps(steps_file, tapes)
+    if steps_file == "-":
+        pass
+    elif as_json:
         kept = reports if blocks else [replace(report, each=()) for report in reports]
         click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))
     else:

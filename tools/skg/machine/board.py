@@ -123,7 +123,7 @@ class Board:
         return self._lines(start)
 
     def clear(self) -> None:
-        """Tear off paper and tape."""
+        """Tear off paper and tape, and forget the drive's steps."""
         self.machine.clear()
         self._reported = 0
 
@@ -136,6 +136,11 @@ class Board:
     def tape(self) -> bytes:
         """All that was punched since the start or `clear`."""
         return self.machine.punch
+
+    @property
+    def steps(self) -> bytes:
+        """The drive's steps since the start or `clear`, a byte each: the value of its port (docs/spec/drive.md)."""
+        return self.machine.steps
 
     @property
     def error(self) -> ErrorLine | None:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+from array import array
 from collections.abc import Iterable
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -94,6 +95,11 @@ def _library() -> ctypes.CDLL:
         "machine_board": (pointer, [pointer]),
         "machine_output": (size, [pointer, flag, ctypes.POINTER(pointer)]),
         "machine_clear": (None, [pointer]),
+        "machine_feed": (None, [pointer, ctypes.c_double]),
+        "machine_stop_at": (None, [pointer, ctypes.c_uint64, flag]),
+        "machine_drive": (ctypes.c_uint8, [pointer]),
+        "machine_hasty_steps": (ctypes.c_uint64, [pointer]),
+        "machine_steps": (size, [pointer, ctypes.POINTER(pointer), ctypes.POINTER(pointer)]),
         "machine_peek": (None, [pointer, address, pointer, size]),
         "machine_poke": (None, [pointer, address, ctypes.c_char_p, size]),
         "machine_get": (None, [pointer, ctypes.POINTER(_Registers)]),
@@ -106,10 +112,6 @@ def _library() -> ctypes.CDLL:
             size,
             [pointer, ctypes.POINTER(_Job), size, ctypes.c_char_p, pointer, pointer, pointer, pointer],
         ),
-        "machine_steps": (size, [pointer, ctypes.POINTER(pointer)]),
-        "machine_drive": (ctypes.c_uint8, [pointer]),
-        "machine_feed": (None, [pointer, ctypes.c_double]),
-        "machine_stop": (None, [pointer, flag, ctypes.c_uint64]),
         "board_reset": (None, [pointer]),
         "board_type": (flag, [pointer, ctypes.c_char_p, size]),
         "board_press": (flag, [pointer, ctypes.c_uint8]),
@@ -208,6 +210,17 @@ class Machine:
         """Move the lever of the teletype's own reader (boards with `punch_tty` only)."""
         self._lib.board_reader(self._board, on)
 
+    def feed(self, hz: float) -> None:
+        """The drive's feed clock, a square wave of so many Hz of the board's time; 0: full speed."""
+        self._lib.machine_feed(self._machine, hz)
+
+    def stop_at(self, step: int, stays: bool = False) -> None:
+        """Raise the drive's stop line with the pulse of a step, counted from 1 since power-on; 0: never.
+
+        It is down until then, and falls when the board takes the operator's next key, unless it `stays`.
+        """
+        self._lib.machine_stop_at(self._machine, step, stays)
+
     def reset(self) -> None:
         """The reset button; memory stays."""
         self._lib.board_reset(self._board)
@@ -265,28 +278,38 @@ class Machine:
         """Everything punched since the start or `clear`."""
         return self._output(True)
 
+    def _steps(self) -> tuple[int, ctypes.c_void_p, ctypes.c_void_p]:
+        values, cycles = ctypes.c_void_p(), ctypes.c_void_p()
+        return (
+            self._lib.machine_steps(self._machine, ctypes.byref(values), ctypes.byref(cycles)),
+            values,
+            cycles,
+        )
+
     @property
     def steps(self) -> bytes:
-        """What port 14H was told at every step of the two motors since the start or `clear`: a byte each."""
-        start = ctypes.c_void_p()
-        length = self._lib.machine_steps(self._machine, ctypes.byref(start))
-        return ctypes.string_at(start.value, length) if length else b""
+        """The drive's steps since the start or `clear`: the port's value with the pulse up, a byte each."""
+        count, values, _ = self._steps()
+        return ctypes.string_at(values, count) if count else b""
+
+    @property
+    def step_cycles(self) -> array[int]:
+        """The cycles at which each of `steps` rose."""
+        count, _, cycles = self._steps()
+        return array("Q", ctypes.string_at(cycles, 8 * count) if count else b"")
 
     @property
     def drive(self) -> int:
-        """What port 14H was told last (bit 7: cutting)."""
+        """What the drive's port was told last (bit 7: cutting)."""
         return self._lib.machine_drive(self._machine)
 
-    def feed(self, hz: float) -> None:
-        """Let the machine's feed clock run at `hz` of the board's time; 0: tied to the step output's inverse."""
-        self._lib.machine_feed(self._machine, hz)
-
-    def stop(self, on: bool = False, after: int = 0) -> None:
-        """The machine's limit or emergency stop: on or off now, and on for good after so many more steps (0: not)."""
-        self._lib.machine_stop(self._machine, on, after)
+    @property
+    def hasty_steps(self) -> int:
+        """Steps since power-on that came together with their direction, or whose direction changed under the pulse."""
+        return self._lib.machine_hasty_steps(self._machine)
 
     def clear(self) -> None:
-        """Tear off paper and punch tape, and forget the steps."""
+        """Tear off paper and punch tape, and forget the drive's steps."""
         self._lib.machine_clear(self._machine)
 
     @property

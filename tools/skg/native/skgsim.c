@@ -30,6 +30,16 @@ static int64_t sign_y(int64_t quadrant)
     return quadrant <= 2 ? 1 : -1;
 }
 
+/* What a drive's port shows of the two steps: directions of both, and the one that is made. */
+static uint8_t directions(steps s)
+{
+    return (uint8_t)((s.in_x + s.out_x < 0 ? SKGSIM_X_MINUS : 0) | (s.in_y + s.out_y < 0 ? SKGSIM_Y_MINUS : 0));
+}
+static uint8_t port_step(steps s, int x)
+{
+    return (uint8_t)(directions(s) | (x ? SKGSIM_X_STEP : SKGSIM_Y_STEP));
+}
+
 static int64_t larger(int64_t a, int64_t b)
 {
     return a > b ? a : b;
@@ -42,7 +52,7 @@ static int64_t smaller(int64_t a, int64_t b)
 /* The controller knows that it leaves a quadrant when the coordinate that shrinks there has reached 0.
  * The loop below runs within one quadrant: F changes by a constant on a line; on an arc a step along an axis
  * whose coordinate is p changes it by 2sp + 1 (s = +-1, the step), which a step itself changes by 2. */
-static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, int is_line)
+static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, uint8_t *port, int is_line)
 {
     const int64_t end_x = is_line ? sign_x(b->quadrant) * b->x : 0;
     const int64_t end_y = is_line ? sign_y(b->quadrant) * b->y : 0;
@@ -60,6 +70,7 @@ static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, int is_li
     }
     while (b->counted < b->j) {
         const steps s = steps_in(b->quadrant, b->sense);
+        const uint8_t port_in = port_step(s, s.in_x), port_out = port_step(s, s.out_x);
         const int64_t in_counts = b->axis ? s.in_y != 0 : s.in_x != 0;
         int64_t px = b->px, py = b->py, f = b->f, counted = b->counted, taken = 0;
         int64_t f_max = b->f_max, f_min = b->f_min, d_max = b->d_max, d_min = b->d_min;
@@ -85,6 +96,8 @@ static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, int is_li
         }
         const int64_t room = smaller(budget, limit - b->steps);
         while (taken < room && counted < b->j) {
+            if (port != NULL)
+                *port++ = f >= 0 ? port_in : port_out;
             if (f >= 0) {
                 f += f_in;
                 f_in += grow;
@@ -135,8 +148,8 @@ static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, int is_li
     return SKGSIM_DONE;
 }
 
-int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace)
+int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace, uint8_t *port)
 {
     /* Two copies of the loop, each with its kind of block folded in. */
-    return block->sense ? run(block, budget, trace, 0) : run(block, budget, trace, 1);
+    return block->sense ? run(block, budget, trace, port, 0) : run(block, budget, trace, port, 1);
 }

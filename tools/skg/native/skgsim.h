@@ -23,8 +23,12 @@ typedef struct {
     int64_t d_max, d_min;             /* the same against the curve from where it should have started */
 } skgsim_block;
 
+/* Bits of a drive's port (docs/spec/drive.md). */
+enum { SKGSIM_X_STEP = 1, SKGSIM_X_MINUS = 2, SKGSIM_Y_STEP = 4, SKGSIM_Y_MINUS = 8 };
+
 /* Take at most budget steps. When trace is not null, the position after each of them goes into
- * trace[2k], trace[2k + 1]. STALLED: the count axis does not move any more, J will never be reached. */
-int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace);
+ * trace[2k], trace[2k + 1]; when port is not null, what a drive's port shows with the pulse up into port[k]: the step, and
+ * the directions that both axes have in the quadrant. STALLED: the count axis does not move any more, J will never be reached. */
+int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace, uint8_t *port);
 
 #endif

@@ -16,7 +16,7 @@ How the controller moves (`docs/tools.md` has the same in pictures):
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from math import hypot, sqrt
@@ -27,6 +27,8 @@ from skg.tape.block import Block
 
 #: Steps between two reports of progress.
 CHUNK = 20_000_000
+#: Steps in one piece of `port_steps`.
+_PIECE = 1_000_000
 _STALLED = 2
 
 
@@ -42,7 +44,8 @@ class _State(ctypes.Structure):
 def _library() -> ctypes.CDLL:
     """The library, its functions declared."""
     library = load("skgsim")
-    library.skgsim_run.argtypes = [ctypes.POINTER(_State), ctypes.c_int64, ctypes.POINTER(ctypes.c_int64)]
+    library.skgsim_run.argtypes = [ctypes.POINTER(_State), ctypes.c_int64,
+                                    ctypes.POINTER(ctypes.c_int64), ctypes.c_char_p]  # fmt: skip
     library.skgsim_run.restype = ctypes.c_int
     return library
 
@@ -89,7 +92,7 @@ def run_block(
     (possible on circles of a few µm) is a `UserError`.
     """
     run, state, before = _library().skgsim_run, _state(block, drift), 0
-    while (result := run(ctypes.byref(state), CHUNK, None)) == 1:
+    while (result := run(ctypes.byref(state), CHUNK, None, None)) == 1:
         progress(state.steps - before)
         before = state.steps
     if result == _STALLED:
@@ -111,7 +114,7 @@ def trace_array(block: Block) -> ctypes.Array:
     """
     count = run_block(block).steps
     buffer = (ctypes.c_int64 * (2 * count))()
-    _library().skgsim_run(ctypes.byref(_state(block, (0, 0))), count, buffer)
+    _library().skgsim_run(ctypes.byref(_state(block, (0, 0))), count, buffer, None)
     return buffer
 
 
@@ -119,3 +122,20 @@ def trace_block(block: Block) -> list[tuple[int, int]]:
     """Return the controller's position after each step, µm, relative to `block.start`'s origin."""
     places = trace_array(block)
     return list(zip(places[::2], places[1::2], strict=True))
+
+
+def port_steps(block: Block) -> Iterator[bytes]:
+    """The steps of one block as a drive's port shows them (docs/spec/drive.md), a byte each, bit 7 off; in pieces.
+
+    A block whose J is never reached is a `UserError`.
+    """
+    state, result = _state(block, (0, 0)), 1
+    # (few blocks take more than two steps for each that counts)
+    size = min(2 * block.j + 16, _PIECE)
+    buffer = ctypes.create_string_buffer(size)
+    while result == 1:
+        before = state.steps
+        result = _library().skgsim_run(ctypes.byref(state), size, None, buffer)
+        yield ctypes.string_at(buffer, state.steps - before)
+    if result == _STALLED:
+        raise _stalled(block)

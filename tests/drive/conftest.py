@@ -1,0 +1,17 @@
+"""Where the tests of the drive find their helpers; what they need is built first."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def libraries(build: Callable[..., None]) -> None:
+    """The board, skg80 and the simulator."""
+    build("emu", "tools")
