@@ -317,6 +317,7 @@ static int run_part(session *s, const char *answers)
     const char *const commands[] = { "LOAD", s->o.drives ? "DRIVE 1" : "RUN", "RUN" };
     const size_t count = s->o.drives ? 3 : 2;
     size_t given = 0;
+    uint64_t at_stop = 0; /* characters on the paper when a stop's key was pressed */
     unsigned old_errors = 0;
     for (;;) {
         board_reason reason = until_asked(s);
@@ -359,7 +360,9 @@ static int run_part(session *s, const char *answers)
             break;
         }
         case BOARD_WAIT:
-            if (s->running && s->o.drives && !strcmp(s->board->line, "D")) {
+            /* (at a stop, when something has happened since the last one) */
+            if (s->running && s->o.drives && s->printed != at_stop) {
+                at_stop = s->printed;
                 if (!type_line(s, "", 0)) {
                     return complain(EXIT_ERR, "out of memory");
                 }
