@@ -2,7 +2,7 @@
 ; Offers: CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALC3 CALPOP OJN OJZ OJMP OJMP1 ODBL XSIG XMAX
 ;         XE6N ERGEO XXCH OSWP OSWP1
 ; Uses:   consts float start
-; Room:   224 bytes
+; Room:   216 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;
@@ -10,9 +10,9 @@
 ;   01-3F           operation n of OPTAB
 ;   40-7F           push register M0 ... M63
 ;   80-BF           pop into register M0 ... M63
-;   C0-D3           push constant 0 ... 19 of CONTAB
-;   D4      QRET    back to who called the routine, A not 0, Z clear
-;   D5-FF           operation 1 ... 2B, then back: QADD+QRET (A and the flags are QADD's)
+;   C0-D4           push constant 0 ... 20 of CONTAB
+;   D5      QRET    back to who called the routine, A not 0, Z clear
+;   D6-FF           operation 1 ... 2A, then back: QADD+QRET (A and the flags are QADD's)
 ;
 ; QJMP, QJN (pop, jump if negative) and QJZ (pop, jump if zero) are followed by
 ; the signed distance of their target from the distance byte itself:
@@ -184,19 +184,11 @@ XSIG:   INX     H               ; -> sign of the second one
         XCHG
         JMP     FNEG
 
-; QMAX: the greater of two that are not negative: their bytes can be compared one by one
-XMAX:   PUSH    H
-        PUSH    D
-XMAX1:  LDAX    D
-        CMP     M
-        INX     D
-        INX     H
-        JZ      XMAX1           ; (past the end of equal ones, which does not matter)
-        POP     D
-        POP     H
-        RNC
-        XCHG
-        JMP     COPY5
+; QMAX: the greater of two (byte-code)
+XMAX:   DB      QOVR,QOVR,QSUB,QJN ; x y
+        DB      XMAX1-$
+        DB      QDRP+QRET       ; x
+XMAX1:  DB      QSWP,QDRP+QRET  ; y
 
 ; QE6N: takes a number, ERR 06 when it is negative
 XE6N:   INX     H

@@ -1,8 +1,8 @@
 ; cut.asm - the route: from items to corners, fillets and closing
 ; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR SCALED CPYEL
-;         CPYPL ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XXING SBACK SBACK1
+;         CPYPL ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XCHDA XXING SBACK SBACK1
 ; Uses:   arc_3b arc_iso arc_nodrift calc consts fit float geom grid iso parser start tape value
-; Room:   1267 bytes
+; Room:   1263 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -367,10 +367,8 @@ PASS1:  DB      QNORM,QVEC      ; tx ty
         DB      LC2,LCR,QADD,ST0 ; tx ty                t0 = r of the wire's path
         DB      QCA,LKX,LKY,QTOK,QNORM,QVEC ; tx ty kx ky
         DB      QCA,LAX,LAY,QTOK,QNORM ; tx ty kx ky  a = of the entry
-        DB      LA1,QSUB,LT0,QMUL,SB1 ; tx ty kx        b = chord to K
-        DB      LA0,QSUB,LT0,QMUL,SB0 ; tx ty
-        DB      LA1,QSUB,LT0,QMUL,QSWP ; dy tx          a = chord to T
-        DB      LA0,QSUB,LT0,QMUL,SA0,SA1 ; -
+        DB      QCHDA,SB0,SB1   ; tx ty         b = chord to K
+        DB      QCHDA,SA0,SA1   ; -             a = chord to T
         DB      QVEC,QFAR,QJN   ; -             T is the entry
         DB      PASS2-$
         DB      LB0,LB1,QFAR,QJN ; -            K is the entry
@@ -402,7 +400,7 @@ CORNO:  LDA     RNAMED
         ORA     A
         JZ      CROSS
         DB      CALC,LPX,LPY,QTOK ; -             K = P = b
-        DB      LO1,LO2,QMAX,QJZ ; -
+        DB      LO1,QABS,LO2,QABS,QADD,QJZ ; -  no offset
         DB      CORN9-$
         DB      QEND
         LDA     FITSM
@@ -662,6 +660,10 @@ XNORM1: DB      QDIF            ; dx dy
 XNORMS: DB      QNA,QNORM,QVEC ; x y
         DB      QCA,QNORM,SB1,SB0 ; -
         DB      QCRS,QABS,QMU,QSUB+QRET ; |sine|-0.001
+
+; QCHDA: x y -> dy dx: from a0 a1 to x y, times t0
+XCHDA:  DB      LA1,QSUB,LT0,QMUL,QSWP ; dy x
+        DB      LA0,QSUB,LT0,QMUL+QRET ; dy dx
 
 ; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
 XXING:  DB      QNA        ; -

@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
-; Offers: STOL SFIT FITEND
+; Offers: STOL SFIT FITEND XCHRD XMIRR XBIAR
 ; Uses:   calc consts cut float geom parser start value
-; Room:   605 bytes
+; Room:   589 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -76,8 +76,8 @@ TAKE:   CALL    GETR
 ; LAST - the last node's tangent, which is not given, mirrors the one before it about the chord;
 ;        two nodes without tangents have the chord's.  Then the span to it goes out
 ; In:  nodes 1 and 2   Clobbers all
-LAST:   CALL    MIRROR          ; y x           b = chord
-        DB      CALC,L1U,L1V,QFAR,QJN ; y x
+LAST:   DB      CALC,QCHRD,QMIRR ; y x          b = chord
+        DB      L1U,L1V,QFAR,QJN ; y x
         DB      LAST1-$
         DB      QJMP
         DB      MIDD1-$
@@ -115,8 +115,7 @@ SPAN:   LDA     MNODE1+10
         SHLD    HELDN
         JMP     SPOUT3
 
-SPAN1:  CALL    MIRROR          ; tangent 1 mirrors tangent 2
-        DB      CALC,S1U,S1V,QRET ; -
+SPAN1:  DB      CALC,QCHRD,QMIRR,S1U,S1V,QRET ; - tangent 1 mirrors tangent 2
 
 SPAN2:  CALL    SWAP            ; (for SPAN, which exchanges them once more)
 ; (fall into FLUSH)
@@ -147,8 +146,7 @@ SWAP:   MVI     C,NODSIZ
 
 ; SPOUT - the biarc from node 1 to node 2 goes out; node 2 becomes node 1
 ; Out: FITN = 1; ERR 06   Clobbers all
-SPOUT:  CALL    CHORD
-        CALL    BIARC
+SPOUT:  DB      CALC,QCHRD,QBIAR,QEND ; -
         LXI     D,MNODE1
         CALL    FITCIR
         DB      CALC,LMX,L1X,QADD ; x             the joint
@@ -175,16 +173,13 @@ TRY:    LDA     HELDN
         DCR     A
         CPI     15*PLCSIZ
         RNC                     ; none, or more than 15
-        CALL    CHORD
-        DB      CALC,QMU,QDOT,QSUB,QJN ; v*v         (not of half a circle, where rounding decides)
+        DB      CALC,QCHRD,QMU,QDOT,QSUB,QJN ; v*v   (not of half a circle, where rounding decides)
         DB      TRY1-$
         DB      QDRP,QRET       ; -             begins or ends backwards (QRET leaves Z clear)
-TRY1:   DB      QEND
-        CALL    BIARC
+TRY1:   DB      QBIAR,QEND      ; -
         LXI     D,MNODE1
-        CALL    ARCW
-        CALL    MIRR1
-        DB      CALC,ST2,ST3    ; -             t2 t3 = tangent at the joint
+        CALL    ARCW            ; w*w
+        DB      CALC,QMIRR,ST2,ST3 ; -          t2 t3 = tangent at the joint
         DB      LMX,L1X,QADD,LT2,QMUL ; m
         DB      LMY,L1Y,QADD,LT3,QMUL,QADD,SBX ; - bx = how far the joint lies along it
         DB      LTO,QSQ,SBY,QEND ; -            by = d*d
@@ -237,24 +232,20 @@ FITEND: CALL    CHKRET
         SHLD    FITN            ; and FITSM
         RET
 
-; MIRROR - a tangent that is not known: the other one mirrored about the chord
-; In:  nodes 1 and 2, the unknown tangent is 0 0   Out: on the float stack y x, b = chord
-; Clobbers all
-MIRROR: CALL    CHORD
-; MIRR1 - a vector mirrored about another
-; In:  a, b, on the float stack b*b   Out: on the float stack y x   Clobbers all
-MIRR1:  DB      CALC,QDOT,QDBL,QSWP,QDIV,QALNG ; -
-        DB      LA1,QNEG,LA0,QNEG+QRET  ; y x
+; Operations of the calculator that FIT adds, byte-code
 
-; CHORD - prepares for a biarc
-; In:  nodes 1 and 2   Out: b = v, a = t+u; on the float stack v*v   Clobbers all
-CHORD:  DB      CALC,L1U,L2U,QADD,SA0 ; -
+; QCHRD: prepares for a biarc from node 1 to node 2: b = v, a = t+u (one tangent and 0 0: the one)
+XCHRD:  DB      L1U,L2U,QADD,SA0 ; -
         DB      L1V,L2V,QADD,SA1 ; -
         DB      L2X,L1X,L2Y,L1Y,QWAY+QRET ; v*v
 
-; BIARC - where its arcs meet
-; In:  CHORD   Out: MX MY = from node 1 to M; ERR 06   Clobbers all
-BIARC:  DB      CALC,ST1,QDOT,QDUP,QSQ ; along along^2
+; QMIRR: b*b -> y x: the vector a mirrored about b; behind QCHRD: the tangent that is not known, the
+; other one mirrored about the chord
+XMIRR:  DB      QDOT,QDBL,QSWP,QDIV,QALNG ; -
+        DB      LA1,QNEG,LA0,QNEG+QRET  ; y x
+
+; QBIAR: behind QCHRD: where the arcs of the biarc meet, MX MY = from node 1 to M; ERR 06
+XBIAR:  DB      ST1,QDOT,QDUP,QSQ ; along along^2
         DB      QXCH,L2U,L1U,L2V,L1V,QWAY ; along along^2 |u-t|^2  a = v, b = u-t
         DB      LT1,QMUL,QADD,QSQRT,QADD ; below
         DB      QDUP,QNEAR,QSUB,QE6N ; below

@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FITOF FTOI16 FWHOLE FFLR FSQR FTG FCOS FSIN FATG
 ; Uses:   calc consts start
-; Room:   1091 bytes
+; Room:   1090 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -350,34 +350,30 @@ FDIV2:  XCHG
         RAL
         MOV     B,A
         JC      FDIV5           ; 2^32 and more: it goes
-FDIV3:  LXI     H,FY
+FDIV3:  LHLD    FY
         MOV     A,E
-        SUB     M
-        INX     H
+        SUB     L
         MOV     A,D
-        SBB     M
-        INX     H
+        SBB     H
+        LHLD    FY+2
         MOV     A,C
-        SBB     M
-        INX     H
+        SBB     L
         MOV     A,B
-        SBB     M
+        SBB     H
         JC      FDIV6           ; smaller: bit 0
-FDIV5:  LXI     H,FY
+FDIV5:  LHLD    FY
         MOV     A,E
-        SUB     M
+        SUB     L
         MOV     E,A
-        INX     H
         MOV     A,D
-        SBB     M
+        SBB     H
         MOV     D,A
-        INX     H
+        LHLD    FY+2
         MOV     A,C
-        SBB     M
+        SBB     L
         MOV     C,A
-        INX     H
         MOV     A,B
-        SBB     M
+        SBB     H
         MOV     B,A
         ORA     A
 FDIV6:  CMC
@@ -458,12 +454,11 @@ FNRM2:  MOV     A,L
         MOV     A,C
         RAL
         MOV     C,A
-        MOV     A,B
-        RAL
-        MOV     B,A
-        DCR     H
+        DCR     H               ; (CY stays)
         JZ      FZERO
-        ORA     A
+        MOV     A,B
+        ADC     A
+        MOV     B,A
         JP      FNRM2
 ; (fall into FRND)
 

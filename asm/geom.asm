@@ -1,8 +1,8 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
 ; Offers: BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XALNG
-;         XROTV XLEG XE6D
+;         XROTV XTURN XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   529 bytes
+; Room:   524 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -265,8 +265,7 @@ GBELT:  DB      QVEC                    ; x y
         DB      LT3,QSUB,QLEG           ; x y h
         DB      QNEG,LT3,QDIV,SB0       ; x y
         DB      LT2,LT3,QDIV,SB1        ; x y
-        DB      QDOT,QCRS,SA0,SA1       ; x y           (as in QROTV)
-        DB      SB1,SB0                 ; -
+        DB      QTURN                   ; -
         DB      QDOT,LA2,QADD,SA2,QRET  ; -
 
 ; Operations of the calculator that geometry adds: byte-code but for QFAR (OPTAB, ops.asm)
@@ -306,11 +305,12 @@ XALNG:  DB      LA0,QOVR,LB0,QMUL  ; k a0 k*b0
         DB      QSUB,SA0                ; k
         DB      LA1,QSWP,LB1,QMUL       ; a1 k*b1
         DB      QSUB,SA1,QRET           ; -
-; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2
+; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2.  QTURN: by the angle whose sine
+; and cosine are b0 and b1
 XROTV:  DB      LB1,LB2            ; x y
         DB      LB0,QCOS,SB1            ; x y           b = sine, cosine:
         DB      LB0,QSIN,SB0            ; x y
-        DB      QDOT,QCRS,SA0,SA1       ; x y           cross is x', dot is y'
+XTURN:  DB      QDOT,QCRS,SA0,SA1       ; x y           cross is x', dot is y'
         DB      SB1,SB0,QRET            ; -
 ; QLEG: how far from its foot a line crosses a circle whose centre lies t2 off, of radius
 ; t3 (the sign does not matter): the other leg of a right triangle.  They miss by g:

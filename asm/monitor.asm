@@ -3,7 +3,7 @@
 ;         SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
 ; Uses:   calc cpm cut decimal float io io_disk io_punch io_tty iso lexer parser program reset start
 ;         tape value
-; Room:   735 bytes
+; Room:   733 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
 ;! COLS == OUTSEL+1 and LASTC == COLS+1 -- PUTC1 walks back from LASTC
@@ -191,9 +191,7 @@ SRETN:  DB      CHKEND
         JMP     RUN1
 
 ; SGOSUB - statement: GOSUB n
-SGOSUB: CALL    LNEND
-        CALL    FINDLN
-        JNZ     ERLINE
+SGOSUB: CALL    TARGET
         PUSH    H
         LHLD    NXTP
         XCHG
@@ -247,13 +245,15 @@ SIF3:   CMP     B
 ; (fall into SGOTO)
 
 ; SGOTO - statement: GOTO n
-SGOTO:  CALL    LNEND
-; (fall into GOLINE)
+SGOTO:  CALL    TARGET
+        JMP     RUN1
 
-; GOLINE - goes on with a line
-; In:  DE = its number; ERR 02
-GOLINE: CALL    FINDLN
-        JZ      RUN1
+; TARGET - takes the number of a line to go to and demands the statement's end
+; Out: HL-> the line; ERR 02   Clobbers all
+TARGET: CALL    LNEND
+; TARGE1 - the same for a number in DE (RUN)
+TARGE1: CALL    FINDLN
+        RZ
 ERLINE: DB      ERROR,ELINE
 
 ; SRUN - command: RUN, RUN n
@@ -265,8 +265,8 @@ SRUN:   CALL    OPTLN
         INX     H               ; HL = PROG
         MOV     A,D
         ORA     E
-        JNZ     GOLINE
-RUN1:   SHLD    NXTP            ; (GOLINE, GOSUB and RETURN come in here with the line to go on at)
+        CNZ     TARGE1
+RUN1:   SHLD    NXTP            ; (GOTO, GOSUB and RETURN come in here with the line to go on at)
 ; (fall into RUNLP)
 
 ; RUNLP - runs the program from NXTP on; to READY when a direct line is done

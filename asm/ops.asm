@@ -1,7 +1,7 @@
 ; ops.asm - the operations of the calculator: their numbers, and their routines
 ; Offers: names for all
-; Uses:   calc cut float geom grid parser value
-; Room:   104 bytes
+; Uses:   calc cut fit float geom grid parser value
+; Room:   114 bytes
 ;
 ; Behind each number: what is on the float stack before and after, the top last; other effects.
 ; The numbers from OPPOP on pop one float; from OPBYTE on the routine is byte-code itself.
@@ -11,7 +11,7 @@
 ; one byte. Up to QTOK, but for jumps and QEND, that is possible.
 
 ;! OPTAB/100H == (OPEND-1)/100H -- CALC makes the low byte alone of a place in the table
-;! OPEND-OPTAB == 2*(QXING+1) -- every number has its routine
+;! OPEND-OPTAB == 2*(QCHDA+1) -- every number has its routine
 ;! QTOK+QRET == 0FFH -- the codes behind the constants are all used
 ;! (OPTAB & 0FFH) > 0 -- QRET leaves A not 0
 
@@ -46,37 +46,43 @@ QJN     EQU 1AH         ; x ->
 QJZ     EQU 1BH         ; x ->
 QDRP    EQU 1CH         ; x ->
 QSIG    EQU 1DH         ; x y -> x, or -x when y is negative
-QMAX    EQU 1EH         ; x y -> the greater; neither may be negative (else but: 0 when both are 0)
-QE6N    EQU 1FH         ; x ->    ERR 06 when negative
-OPBYTE  EQU 20H         ; (from here on: byte-code)
-QCRS    EQU 20H         ; -> a0*b1-a1*b0
-QDOT    EQU 21H         ; -> a0*b0+a1*b1
-QDIF    EQU 22H         ; -> b0-a0 b1-a1
-QVEC    EQU 23H         ; ->      a0 a1
-QSS     EQU 24H         ; x y -> x*x+y*y
-QHYP    EQU 25H         ; x y -> square root of x*x+y*y
-QWAY    EQU 26H         ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
-QALNG   EQU 27H         ; k ->    a0 a1 less k times b0 b1
-QROTV   EQU 28H         ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
-QUNIT   EQU 29H         ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
-QE6D    EQU 2AH         ; x y ->  ERR 06 when more than 1 um apart
-QTOK    EQU 2BH         ; x y ->  K = b0 b1 = x y
-QLEG    EQU 2CH         ; gap -> h  crossing of a line and a circle: distance from the foot
-QCENT   EQU 2DH         ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within TL
-QRND    EQU 2EH         ; mm -> whole um
-QVK     EQU 2FH         ; ->      V = K in whole um, A = K
-QNORM   EQU 30H         ; ->      a0 a1 = right normal of a at the point b
-QNORMS  EQU 31H         ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
-QSENS   EQU 32H         ; R ->    negative when a is a circle that R would turn inside out
-QXING   EQU 33H         ; ->      a0 a1 = crossing of C and N as offset
-QRET    EQU 0D4H        ; ends the byte-code and returns from the routine, A not 0, Z clear
+QE6N    EQU 1EH         ; x ->    ERR 06 when negative
+OPBYTE  EQU 1FH         ; (from here on: byte-code)
+QCRS    EQU 1FH         ; -> a0*b1-a1*b0
+QDOT    EQU 20H         ; -> a0*b0+a1*b1
+QDIF    EQU 21H         ; -> b0-a0 b1-a1
+QVEC    EQU 22H         ; ->      a0 a1
+QSS     EQU 23H         ; x y -> x*x+y*y
+QHYP    EQU 24H         ; x y -> square root of x*x+y*y
+QWAY    EQU 25H         ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
+QALNG   EQU 26H         ; k ->    a0 a1 less k times b0 b1
+QROTV   EQU 27H         ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
+QUNIT   EQU 28H         ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
+QE6D    EQU 29H         ; x y ->  ERR 06 when more than 1 um apart
+QTOK    EQU 2AH         ; x y ->  K = b0 b1 = x y
+QMAX    EQU 2BH         ; x y -> the greater
+QTURN   EQU 2CH         ; x y ->  a0 a1 turned, b0 b1 = its sine and cosine; then b0 b1 = x y
+QCHRD   EQU 2DH         ; -> v*v  chord of nodes 1 and 2: b = v, a = t+u
+QBIAR   EQU 2EH         ; v*v ->  behind QCHRD: MX MY = joint of the biarc; ERR 06
+QMIRR   EQU 2FH         ; b*b -> y x  a mirrored about b; behind QCHRD: the tangent that is not known
+QLEG    EQU 30H         ; gap -> h  crossing of a line and a circle: distance from the foot
+QCENT   EQU 31H         ; x y ->  e  as QUNIT for two centres, x y apart; e = r1-r2; ERR 06 when within TL
+QRND    EQU 32H         ; mm -> whole um
+QVK     EQU 33H         ; ->      V = K in whole um, A = K
+QNORM   EQU 34H         ; ->      a0 a1 = right normal of a at the point b
+QNORMS  EQU 35H         ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
+QSENS   EQU 36H         ; R ->    negative when a is a circle that R would turn inside out
+QXING   EQU 37H         ; ->      a0 a1 = crossing of C and N as offset
+QCHDA   EQU 38H         ; x y -> dy dx  from a0 a1 to x y, times t0
+QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not 0, Z clear
 
 OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
         DW      OJMP,ODUP,OOVR,OSWP,OSQ,ODBL,FNEG,FFLR
         DW      FSQR,FSIN,FCOS,FTG,FATG,FABS,FINT
         DW      XXCH,XCA,XNA,XJC,XONEL,XFAR
-        DW      FADD,FSUB,FMUL,FDIV,OJN,OJZ,ODRP,XSIG,XMAX,XE6N
+        DW      FADD,FSUB,FMUL,FDIV,OJN,OJZ,ODRP,XSIG,XE6N
         DW      XCRS,XDOT,XDIF,XVEC,XSS,XHYP,XWAY
-        DW      XALNG,XROTV,XUNIT,XE6D,XTOK,XLEG,XCENT
-        DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING
+        DW      XALNG,XROTV,XUNIT,XE6D,XTOK
+        DW      XMAX,XTURN,XCHRD,XBIAR,XMIRR,XLEG,XCENT
+        DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA
 OPEND:                          ; (its end)
