@@ -1,7 +1,7 @@
 ; arc_3b.asm - arcs as 3B blocks, each from its own rounded start (tape-3b.md)
 ; Offers: ARC
 ; Uses:   calc consts float geom grid start tape
-; Room:   152 bytes
+; Room:   107 bytes
 ;
 ; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there
 ; is one sense to think about; for the count along Y it is turned by a quarter, so that the
@@ -35,25 +35,9 @@ ARC:    DB      CALC,QVK,ST3    ; -
         DB      ARC1-$
 ARCL:   DB      QEND            ;               short, and the sweep is not positive: a line
         JMP     MOVE
-ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
-        DB      LB1,QABS,LB0,QABS,QSUB,ST0 ; -
-        DB      QEND
-        CALL    QUAD
-        LDA     MC2+1           ; sign
-        ORA     A
-        MVI     B,CLTN
-        JP      ARC3
-        MVI     A,2*CZERO+5     ; clockwise quadrants are mirrored ones
-        SUB     C
-        MOV     C,A
-        MVI     B,CLTS
-ARC3:   CALL    SETZG
-        JC      ARC4
-        DB      CALC            ; count along Y: turned by a quarter
-        DB      LA1,LA0,QNEG,SA1,SA0 ; -
-        DB      LB1,LB0,QNEG,SB1,SB0 ; -
-        DB      QEND
-ARC4:   DB      CALC,LT3,QJN    ; -             an arc of up to half a turn ...
+ARC1:   DB      QEND
+        CALL    ARCZ
+        DB      CALC,LT3,QJN    ; -             an arc of up to half a turn ...
         DB      ARC5-$
         DB      LA1,LB1,QSIG,QJN ; -            ... in one half plane needs no r
         DB      ARC5-$

@@ -1,19 +1,9 @@
 ; arc_nodrift.asm - arcs as 3B blocks, each from where the controller stands (docs/drift.md)
 ; Offers: ARC
 ; Uses:   calc consts float geom grid start tape
-; Room:   280 bytes
+; Room:   230 bytes
 ;
-; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there
-; is one sense to think about; for the count along Y it is turned by a quarter, so that the
-; count always runs along u:
-;
-;       (u,v) going round counter-clockwise from (r,0): u falls from r to -r in the
-;       upper half plane, rises again in the lower.  F = r-u there, 3r+u here, is the
-;       travel counted since (r,0): F = 2r - (u+r) * sign of v.  J = F(end) - F(start),
-;       and 4r more when (r,0) was passed.  That is so when the difference is below -r,
-;       or below r when the arc is more than half a turn: nothing between comes up.
-;       r cancels out, and its square root is saved, when both ends lie in one half
-;       plane; a start on the axis does not matter: it is r or -r itself.
+; An arc is looked at, and J counted, as in arc_3b.asm, whose header has u, v and F.
 ;
 ; W is where the controller really stands, and the centre of an arc is moved, so that the
 ; arc from there passes V (docs/drift.md).
@@ -46,27 +36,11 @@ ARC0:   DB      LA0,LT0,QMUL,LA1,LT1,QMUL,QADD ; a*d
         DB      LA0,LT2,LT0,QMUL,Q502,QADD,QFLR,QSUB,SA0 ; -
         DB      LA1,LT2,LT1,QMUL,Q502,QADD,QFLR,QSUB,SA1 ; -
         DB      LA0,LT0,QADD,SB0,LA1,LT1,QADD,SB1 ; -
-ARC1:   DB      LA0,QABS,SBX,LA1,QABS,SBY ; -
-        DB      LBX,LBY,QMAX,QJZ ; -            the start is the centre: no arc
+ARC1:   DB      QEND
+        CALL    ARCZ
+        DB      CALC,LBX,LBY,QMAX,QJZ ; -       the start is the centre: no arc
         DB      ARCL-$
-        DB      LB1,QABS,LB0,QABS,QSUB,ST0 ; -
-        DB      QEND
-        CALL    QUAD
-        LDA     MC2+1           ; sign
-        ORA     A
-        MVI     B,CLTN
-        JP      ARC3
-        MVI     A,2*CZERO+5     ; clockwise quadrants are mirrored ones
-        SUB     C
-        MOV     C,A
-        MVI     B,CLTS
-ARC3:   CALL    SETZG
-        JC      ARC4
-        DB      CALC            ; count along Y: turned by a quarter
-        DB      LA1,LA0,QNEG,SA1,SA0 ; -
-        DB      LB1,LB0,QNEG,SB1,SB0 ; -
-        DB      QEND
-ARC4:   DB      CALC,LT3,QJN    ; -             an arc of up to half a turn ...
+        DB      LT3,QJN         ; -             an arc of up to half a turn ...
         DB      ARC5-$
         DB      LA1,LB1,QSIG,QJN ; -            ... in one half plane needs no r
         DB      ARC5-$

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
-; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK QUAD SETZG
+; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
 ; Uses:   calc consts float grid io io_disk io_punch io_tty lexer start
-; Room:   238 bytes
+; Room:   282 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -142,8 +142,24 @@ QUAD:   LXI     H,MA
 ; by the signs of x and y: -- -0 -+ 0- 00 0+ +- +0 ++
 QUADS:  DB      "332412411"
 
+; ARCZ - what an arc's block says besides J, for ARC
+; In:  a, b = start and end as seen from the centre, mirrored when it runs clockwise; C2
+; Out: BX BY, TGAX TZLET TZNUM, t0; a, b as SETZG   Clobbers all
+ARCZ:   DB      CALC,LA0,QABS,SBX,LA1,QABS,SBY ; -
+        DB      LB1,QABS,LB0,QABS,QSUB,ST0,QEND ; -
+        CALL    QUAD
+        LDA     MC2+1           ; sign
+        ORA     A
+        MVI     B,CLTN
+        JP      SETZG
+        MVI     A,2*CZERO+5     ; clockwise quadrants are mirrored ones
+        SUB     C
+        MOV     C,A
+        MVI     B,CLTS
+; (fall into SETZG)
+
 ; SETZG - B, C = letter and digit of Z; the count goes along Y when t0 is negative, else along X
-; Out: CY = X   Clobbers A, HL
+; Out: for the count along Y a and b are turned by a quarter, clockwise   Clobbers all
 SETZG:  MOV     H,C
         MOV     L,B
         SHLD    TZLET
@@ -153,4 +169,6 @@ SETZG:  MOV     H,C
         SBB     A
         ADI     CLTY            ; CY again, when that was 0FFH
         STA     TGAX
-        RET
+        RC
+        DB      CALC,LA1,LA0,QNEG,SA1,SA0 ; -
+        DB      LB1,LB0,QNEG,SB1,SB0,QRET ; -
