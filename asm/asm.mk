@@ -1,5 +1,5 @@
 # What is committed besides the standard image (asm/images.py says what they are).
-VARIANTS := skg-8251 skg-tty skg-nodrift skg-mill skg-grbl skg-ram skg.com skgmill.com
+VARIANTS := skg-8251 skg-tty skg-nodrift skg-mill skg-grbl skg-drive skg-ram skg.com skgmill.com
 
 # The ROM images are committed: only a change of asm/ needs an assembler.
 asm80: asm/node_modules/.bin/asm80

@@ -1,5 +1,5 @@
 ; decimal.asm - numbers as decimal digits: read, printed
-; Offers: DECOUT PRDEC DECIN LEXDEC DIGIT LEXCH
+; Offers: DECOUT DECOU1 PRDEC DECIN LEXDEC DIGIT LEXCH
 ; Uses:   calc consts float start
 ; Room:   451 bytes
 ;

@@ -1,7 +1,7 @@
-; fit.asm - smooth curves through nodes: biarcs (language.md, section 5), and TOL (curves.md)
-; Offers: STOL SFIT FITEND XCHRD XMIRR XBIAR
-; Uses:   calc consts cut float geom parser start value
-; Room:   589 bytes
+; fit.asm - smooth curves through nodes: biarcs (language.md, section 5) (curves.md)
+; Offers: NODSIZ SFIT SPOUT SPOUT3 FITEND XCHRD XMIRR XBIAR ARCW
+; Uses:   calc consts cut float geom notol parser start tol value
+; Room:   370 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -13,20 +13,8 @@
 ; r = w*w / 2(t x w), the centre lies r to the left of the node.  What waits in MX, MY is M - P:
 ; a joint in the drawing's coordinates would lose the last bits of w, and r is 2r^2/w^2 times as
 ; sensitive as they.
-;
-; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
-; has the places of the nodes behind that one, node 1's the last.  When node 2 comes and the
-; biarc from KEPT to it passes near all of them, that biarc is held back instead; else the held
-; span goes out, and node 1 becomes KEPT.  KEPT, node 1 and node 2 lie side by side in memory and
-; change places, since the byte-code has registers for nodes 1 and 2 only.
 
 NODSIZ  EQU 25          ; bytes of a node: place, tangent, wire offset
-
-; STOL - statement: TOL number
-STOL:   CALL    FITEND
-        CALL    EVNUM
-        DB      CHKEND
-        DB      CALC,LA0,QSQRT,QSQ,STO,QRET ; -      (the root refuses what is negative)
 
 ; SFIT - statement: FIT point; FIT point, angle
 SFIT:   CALL    EVPNT
@@ -101,48 +89,9 @@ SPAN:   LDA     MNODE1+10
         LXI     H,MNODE1+15
         ORA     M
         CZ      SPAN1
-        LDA     MTO
-        ORA     A
-        JZ      SPOUT
-        CALL    SWAP            ; node 1 = KEPT
-        CALL    TRY
-        CNZ     SPAN2           ; what is held goes out, and KEPT = node 1
-        CALL    SWAP
-        LHLD    HELDN
-        MVI     H,HELD/256
-        LXI     D,MNODE2
-        CALL    CPYPL
-        SHLD    HELDN
-        JMP     SPOUT3
+        JMP     HOLD
 
 SPAN1:  DB      CALC,QCHRD,QMIRR,S1U,S1V,QRET ; - tangent 1 mirrors tangent 2
-
-SPAN2:  CALL    SWAP            ; (for SPAN, which exchanges them once more)
-; (fall into FLUSH)
-
-; FLUSH - the span that is held back, if there is one, goes out
-; Out: HELDN = 0, KEPT = node 1   Clobbers all
-FLUSH:  XRA     A
-        LXI     H,HELDN
-        CMP     M
-        MOV     M,A
-        RZ
-        CALL    ROTATE
-        CALL    ROTATE          ; node 1 = KEPT, node 2 = node 1
-        CALL    SPOUT
-; (fall into ROTATE)
-
-; ROTATE - KEPT goes behind node 2; node 1 goes where it was, and node 2 to node 1
-; Clobbers all
-ROTATE: MVI     C,2*NODSIZ
-SWAP1:  LXI     D,KEPT
-        LXI     H,MNODE1
-        JMP     OSWP1           ; (calc: exchanges C bytes, the first one first)
-
-; SWAP - exchanges KEPT and node 1
-; Clobbers all
-SWAP:   MVI     C,NODSIZ
-        JMP     SWAP1
 
 ; SPOUT - the biarc from node 1 to node 2 goes out; node 2 becomes node 1
 ; Out: FITN = 1; ERR 06   Clobbers all
@@ -159,66 +108,12 @@ SPOUT:  DB      CALC,QCHRD,QBIAR,QEND ; -
 SPOUT2: DB      CALC            ; (SFIT comes here with the first node)
         DB      L2X,L2Y,QEND    ; x y
         CALL    FITPNT
-SPOUT3: LXI     D,MNODE2        ; (SPAN comes here when it holds it back)
+SPOUT3: LXI     D,MNODE2        ; (HOLD comes here when it holds it back)
         LXI     H,MNODE1
         MVI     A,NODSIZ
         CALL    COPY
         MVI     A,1
 FITN1:  STA     FITN            ; (SFIT comes in here with A = nodes)
-        RET
-
-; TRY - may the span from node 1 to node 2 be held back?
-; In:  HELD   Out: Z: yes, all nodes in HELD lie near it   Clobbers all
-TRY:    LDA     HELDN
-        DCR     A
-        CPI     15*PLCSIZ
-        RNC                     ; none, or more than 15
-        DB      CALC,QCHRD,QMU,QDOT,QSUB,QJN ; v*v   (not of half a circle, where rounding decides)
-        DB      TRY1-$
-        DB      QDRP,QRET       ; -             begins or ends backwards (QRET leaves Z clear)
-TRY1:   DB      QBIAR,QEND      ; -
-        LXI     D,MNODE1
-        CALL    ARCW            ; w*w
-        DB      CALC,QMIRR,ST2,ST3 ; -          t2 t3 = tangent at the joint
-        DB      LMX,L1X,QADD,LT2,QMUL ; m
-        DB      LMY,L1Y,QADD,LT3,QMUL,QADD,SBX ; - bx = how far the joint lies along it
-        DB      LTO,QSQ,SBY,QEND ; -            by = d*d
-        LXI     D,HELD
-TRY2:   LXI     H,MT0
-        CALL    CPYPL           ; t0 t1 = n
-        PUSH    D
-        DB      CALC,LBX,LT0,LT2,QMUL,LT1,LT3,QMUL,QADD ; m n
-        DB      QSUB,SO1,QEND   ; -             o1 = how far n lies before the joint
-        LXI     D,MNODE1
-        LDA     MO1+1
-        ORA     A
-        JP      TRY3            ; before the joint: the arc from node 1
-        MVI     E,MNODE2 & 255
-TRY3:   CALL    ARCW
-        DB      CALC,QCRS,QSWP,QDIV ; k             half the curvature
-        DB      LT0,LT4,LT1,LT5,QWAY ; k q*q    b = q: to n from the arc's node
-        DB      LBY,QSUB,QSWP,QDUP,ST0,QMUL ; k(q*q-d*d)  t0 = k
-        DB      QCRS,QSUB,QDUP,ST1 ; g          t1 = g = k(q*q-d*d)-t*q
-        DB      QABS,LTO,QSWP,QSUB,QJN ; -      d-|g|
-        DB      TRY6-$
-TRY5:   DB      QDOT,LO1,QSIG,QJN ; -           past the node, the wrong way
-        DB      TRY4-$
-        DB      QEND
-        POP     D
-        LDA     HELDN
-        CMP     E
-        JNZ     TRY2
-        RET
-; |g| > d: more than d off; but nothing lies too far inside an arc whose radius is below d
-TRY6:   DB      LT0,LBY,QMUL,QDBL ; 2kd*d
-        DB      LT1,QNEG,QSIG,LT1,QABS,QSUB ; +-2kd*d-|g|  + inside
-        DB      QJN             ; -
-        DB      TRY4-$
-        DB      QJMP
-        DB      TRY5-$
-TRY4:   DB      QEND
-        POP     D
-        INR     A
         RET
 
 ; FITEND - ends a curve

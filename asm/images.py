@@ -1,9 +1,11 @@
 """Every image: which files it is made of. No source file has an IF: what differs is a file of its own.
 
-Three seams. The **board**: where things lie (`map_rom`), ports and their setting up (`io_6850`, `io_8251`), teletype
-(`io_port`), punch and reader (`io_punch`, `io_tty`), what is done at reset and at the prompt (`reset`). **CP/M** fills
-these instead: `map_cpm`, `io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole
-micrometres (`tape`, and `arc_3b` or `arc_nodrift`). Words that not every image has are a set in words.txt.
+Four seams. The **board**: where things lie (`map_rom`), ports and their setting up (`io_6850`, `io_8251`), teletype
+(`io_port`), punch and reader (`io_punch`, `io_tty`), what is done when a block is complete and after an error
+(`io_ended`; `drive` follows the block), at reset and at the prompt (`reset`). **CP/M** fills these instead: `map_cpm`,
+`io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole micrometres (`tape`, and
+`arc_3b` or `arc_nodrift`). Whether spans of a curve are **held back**: `tol`, or `notol`. Words that not every image
+has are a set in words.txt.
 """
 
 from __future__ import annotations
@@ -22,9 +24,10 @@ class Image:
     map: str = "map_rom"
     restarts: bool = True
     ports: tuple[str, ...] = ("io_6850", "io_port")
-    punch: str = "io_punch"
+    punch: tuple[str, ...] = ("io_punch", "io_ended")
     start: str = "reset"
     post: tuple[str, ...] = ("grid", "arc_3b", "tape")
+    hold: str = "tol"
     more: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
     forms: tuple[str, ...] = (".bin", ".hex")
@@ -32,15 +35,15 @@ class Image:
     def files(self) -> list[str]:
         """All source files in the order in which they stand in the ROM; the first ones only name things."""
         return [
-            self.map, "equ", "start", "ops", *self.ports, "io", self.punch, "calc", "consts", "float",
-            "decimal", "value", "geom", "parser", *self.post, "cut", "repeat", "fit", "lexer", "program", *self.more,
-            "monitor", self.start, "words",
+            self.map, "equ", "start", "ops", *self.ports, "io", *self.punch, "calc", "consts", "float",
+            "decimal", "value", "geom", "parser", *self.post, "cut", "repeat", "fit", self.hold, "lexer", "program",
+            *self.more, "monitor", self.start, "words",
         ]  # fmt: skip
 
     def for_cpm(self, tape: str) -> Image:
         """The same firmware as a program of CP/M; `tape` says of what type a tape's file is."""
         return replace(
-            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch="io_disk", start="cpm",
+            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch=("io_disk",), start="cpm",
             more=(*self.more, tape), words=(*self.words, "cpm"), forms=(".com",),
         )  # fmt: skip
 
@@ -51,10 +54,11 @@ MILL = Image(post=("io_send", "grid", "arc_iso", "iso"), more=("mill",), words=(
 IMAGES = {
     STANDARD: Image(),
     "skg-8251": Image(ports=("io_8251", "io_port")),
-    "skg-tty": Image(punch="io_tty"),
+    "skg-tty": Image(punch=("io_tty",)),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
     "skg-mill": MILL,
     "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:])),
+    "skg-drive": Image(punch=("io_punch",), hold="notol", more=("drive",), words=("drive",)),
     "skg-ram": Image(forms=(".hex",)),
     "skg.com": Image().for_cpm("type_3b"),
     "skgmill.com": MILL.for_cpm("type_nc"),

@@ -1,6 +1,6 @@
 ; io_6850.asm - ports of the board: two Motorola 6850 (MITS 88-2SIO)
 ; Offers: TTYST TTYDT PUNST PUNDT RXRDY TXRDY BDINIT
-; Uses:   reset
+; Uses:   drive io_ended io_tty
 ; Room:   15 bytes
 
 TTYST   EQU 10H         ; teletype: status and control
@@ -21,4 +21,4 @@ BDINIT: MVI     A,SIORST
         MVI     A,SIO8N2
         OUT     TTYST
         OUT     PUNST
-        JMP     RESET
+        JMP     BDREST

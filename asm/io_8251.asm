@@ -1,6 +1,6 @@
 ; io_8251.asm - ports of the board: two Intel 8251
 ; Offers: TTYDT TTYST PUNDT PUNST TXRDY RXRDY BDINIT
-; Uses:   reset
+; Uses:   io_ended
 ; Room:   23 bytes
 
 TTYDT   EQU 10H         ; teletype: data
@@ -21,7 +21,7 @@ BDINI1: MOV     A,M
         OUT     PUNST
         CPI     USARUN
         JNZ     BDINI1
-        JMP     RESET
+        JMP     BDREST
 
 BDTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for
         DB      40H             ; reset

@@ -1,7 +1,7 @@
 ; io_punch.asm - punch and reader on a port of their own
-; Offers: BDPUN BDREAD SLOAD PUNOFF PUNON BDOFF
+; Offers: BDPUN BDREAD SLOAD PUNON
 ; Uses:   io io_6850 io_8251 start
-; Room:   45 bytes
+; Room:   40 bytes
 
 ; BDPUN - punches a character (PUTC1 of io.asm calls it)
 ; In:  B   Clobbers A
@@ -30,18 +30,8 @@ SLOA1:  CALL    BREAK
         MVI     M,1
         RET
 
-; PUNOFF - punch off; the place for a break, since the block is complete
-; Clobbers A, HL
-PUNOFF  EQU PAPON
-
 ; PUNON - what is printed from here on is punched too
 ; Clobbers A
 PUNON:  MVI     A,1
         STA     OUTSEL
-        RET
-
-; BDOFF - after an error and at a tape's end: no more lines from the reader
-; Clobbers A
-BDOFF:  XRA     A
-        STA     LOADF
         RET

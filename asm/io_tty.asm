@@ -1,6 +1,6 @@
 ; io_tty.asm - punch and reader are the teletype's own, switched by DC1 to DC4
-; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDOFF
-; Uses:   io start
+; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDREST BDOFF
+; Uses:   io reset start
 ; Room:   43 bytes
 
 ; BDREAD - a character from the reader: what the keyboard has sent
@@ -34,6 +34,9 @@ BDPUN:  RET
 PUNOFF: MVI     A,CDC4
         DB      PUTC
         JMP     PAPON
+
+; BDREST - what is readied at reset besides the serial port
+BDREST  EQU RESET
 
 ; BDOFF - after an error and at a tape's end: no more lines from the reader; punch and reader off
 ; Clobbers A, HL

@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LISTLN PRNUM PRNUM1 BLANK
-; Uses:   decimal io io_disk io_punch io_tty monitor start value
+; Uses:   decimal drive io io_disk io_ended io_punch io_tty monitor start value
 ; Room:   455 bytes
 ;
 ; The tokens are in equ.asm, the words and theirs in words.asm.  Words come before names; a character that begins

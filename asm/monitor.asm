@@ -1,8 +1,8 @@
 ; monitor.asm - prompt, commands, running the program, errors, reset
-; Offers: ERR READY CHKED SFREE FREE SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST SREAD
-;         SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
-; Uses:   calc cpm cut decimal float io io_disk io_punch io_tty iso lexer parser program reset start
-;         tape value
+; Offers: ERR READY CHKED SFREE FREE LNEND SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST
+;         SREAD SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
+; Uses:   calc cpm cut decimal drive float io io_disk io_ended io_tty iso lexer parser program reset
+;         start tape value
 ; Room:   733 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once

@@ -32,6 +32,7 @@ COMMON = ("equ", "map_rom", "map_cpm", "ops", "words")
 HOOKS = {
     "BDINIT": "restart 0 goes to the board",
     "RESET": "its ports are ready",
+    "BDREST": "the serial ports are ready: what else the board has",
     "ERR": "restart 1 goes to the monitor",
     "PUTC1": "restart 2 goes to the teletype",
     "CALC0": "restart 5 goes to the calculator",
@@ -39,6 +40,10 @@ HOOKS = {
     "BDPUN": "the teletype's characters go to the punch too: the board's",
     "BDRDY": "the prompt is there: the board's",
     "READY": "the reader has stopped: the prompt",
+    "PUNOFF": "a block is complete: the board's, which may follow it",
+    "BDOFF": "after an error: the board's",
+    "HOLD": "a span of a curve is there: it goes out, or is held back",
+    "FLUSH": "a curve ends: what is held back goes out",
     "FITEND": "an item of the route ends a curve",
 }
 #: Files that may lean on each other.

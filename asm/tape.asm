@@ -1,6 +1,6 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
-; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
-; Uses:   calc consts float grid io io_disk io_punch io_tty lexer start
+; Offers: TGAX TZLET TZNUM RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
+; Uses:   calc consts drive float grid io io_disk io_ended io_punch io_tty lexer start
 ; Room:   282 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
@@ -12,10 +12,10 @@ TZNUM   EQU CWORK+20    ; its digit
 
 ;! TZLET == TGAX+1 -- PUTBLK takes two letters at once
 
-RUNCEL  EQU MTO         ; what a run begins with cleared: tolerance, H, W, RMOVED, BLKNO
-RUNLEN  EQU 28
+RUNCEL  EQU MTO         ; what a run begins with cleared: tolerance, H, W, RMOVED, BLKNO, a cell of drive.asm
+RUNLEN  EQU 29
 
-;! RMOVED == MTO+25 and BLKNO == RMOVED+1 -- RUNINI clears from the tolerance to the block's number
+;! RMOVED == MTO+25 and BLKNO == RMOVED+1 -- RUNINI clears from the tolerance to the block's number, and a byte more
 
 ; REPOS - FROM: the first one is silent, another one a move between two stops
 ; In:  H   Out: W = H   Clobbers all

@@ -1,0 +1,17 @@
+; io_ended.asm - what a board does when a block is complete, after an error and at reset: nothing but its serial ports
+; Offers: PUNOFF BDOFF BDREST
+; Uses:   io reset
+; Room:   5 bytes
+
+; PUNOFF - punch off; the place for a break, since the block is complete
+; Clobbers A, HL
+PUNOFF  EQU PAPON
+
+; BDOFF - after an error and at a tape's end: no more lines from the reader
+; Clobbers A
+BDOFF:  XRA     A
+        STA     LOADF
+        RET
+
+; BDREST - what is readied at reset besides the serial ports
+BDREST  EQU RESET

@@ -1,0 +1,11 @@
+; notol.asm - no TOL: each span of a curve goes out at once
+; Offers: HOLD FLUSH
+; Uses:   calc fit
+; Room:   1 bytes
+
+; HOLD - the span from node 1 to node 2 goes out; node 2 becomes node 1 (SPAN ends here)
+; In:  nodes 1 and 2, their tangents   Out: FITN = 1; ERR 06   Clobbers all
+HOLD    EQU SPOUT
+
+; FLUSH - nothing is held back
+FLUSH   EQU ODRP                ; (a RET)
