@@ -16,6 +16,8 @@ from romhelp import Board as OwnBoard
 from test_examples import stem
 
 from skg.ref import run as reference
+from skg.tape.drive import drive_steps
+from skg.tape.text import read as read_tape
 
 RAM, RAM_END = 0x2000, 0x4000
 PROMPT = b"\r\n>"
@@ -35,7 +37,10 @@ BOARDS = {
     "skg-tty": (0x10, 0x11, 0x12, 0x11, 1, 2),
     "skg-mill": (0x10, 0x11, 0x12, 0x13, 1, 2),
     "skg-grbl": (0x10, 0x11, 0x12, 0x13, 1, 2),
+    "skg-drive": (0x10, 0x11, 0x12, 0x13, 1, 2),
 }
+#: The port of the motors, and its bits: the pulses out, the feed clock in.
+DRIVE, PULSES, CLOCK = 0x14, 0x05, 0x01
 #: What a machine says to the image that waits for it.
 OK = b"[MSG:x]\r\nok\r\n"
 MILLED = sorted((ROOT / "examples" / "mill").glob("*.skg"))
@@ -131,6 +136,27 @@ class Board:
         return b"".join(part.partition(bytes([DC4]))[0] for part in paper.split(bytes([DC2]))[1:])
 
 
+class DrivingBoard(Board):
+    """The image that steps two motors; the clock is the pulses' inverse."""
+
+    def __init__(self, processor: str) -> None:
+        self.drive, self.steps = 0, bytearray()
+        super().__init__(processor, "skg-drive")
+
+    def _input(self, port: int) -> int:
+        if port & 0xFF == DRIVE:
+            return 0 if self.drive & PULSES else CLOCK
+        return super()._input(port)
+
+    def _output(self, port: int, value: int) -> None:
+        if port & 0xFF == DRIVE:
+            if value & ~self.drive & PULSES:
+                self.steps.append(value)
+            self.drive = value
+        else:
+            super()._output(port, value)
+
+
 @pytest.mark.parametrize("processor", PROCESSORS)
 @pytest.mark.parametrize("part", EXAMPLES, ids=stem)
 def test_tape(part: Path, processor: str) -> None:
@@ -153,6 +179,23 @@ def test_mills(part: Path, name: str, processor: str) -> None:
     tape = part.with_suffix(".nc").read_bytes()
     wanted = tape if name == "skg-mill" else tape.replace(b"\r\n", b"\n")
     assert Board(processor, name).tape(part.read_text()) == wanted
+
+
+@pytest.mark.parametrize("processor", PROCESSORS)
+@pytest.mark.parametrize("stem", ["sym-keyhole", "xy-notched-disc"])
+def test_drive(stem: str, processor: str) -> None:
+    """Each step of a tape that is followed, and of a run's blocks: the controller's."""
+    part = ROOT / "examples" / f"{stem}.skg"
+    wanted = b"".join(drive_steps(read_tape(str(part.with_suffix(".3b")))))
+    board = DrivingBoard(processor)
+    board.reader += part.with_suffix(".3b").read_bytes()
+    assert fault(board.type("DRIVE")) is None
+    assert bytes(board.steps) == wanted
+    board.steps.clear()
+    board.type("DRIVE 1")
+    assert board.tape(part.read_text()) == part.with_suffix(".3b").read_bytes()
+    assert bytes(board.steps) == wanted
+    assert board.drive == 0
 
 
 @pytest.mark.parametrize("processor", PROCESSORS)
