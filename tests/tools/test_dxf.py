@@ -324,12 +324,12 @@ def test_sides(side: str) -> None:
 
 
 def comes_back(block: Block) -> bool:
-    """Whether what the programmed ends call a full circle is one on the controller, to 2 µm.
+    """Whether the controller ends a block, and what the programmed ends call a full circle where it began, to 2 µm.
 
-    J with the drift of a circle of a few µm may end it early or send it round again.
+    J with the drift of an arc of a few µm may end it early, or send it round for ever.
     """
     try:
-        return not block.is_full_circle or hypot(*run_block(block).move) <= 2
+        return hypot(*run_block(block).move) <= 2 or not block.is_full_circle
     except UserError:
         return False
 
@@ -554,11 +554,11 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["dxf", "empty.skg"], "skg: empty.skg: expected a program, the file is empty"),
+        (["dxf", "empty.skg"], "skg: empty.skg: empty, expected an SKG program"),
         (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
         (["dxf", "two.skg"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
         (["dxf", "two.skg", "--skg80", "reference"], "skg: two.skg: ERR 06 LINE 40, in contour 2. OPENING: 1 CIRCLE"),
-        (["ref", "tape.skg"], "skg: tape.skg: a tape, expected a program"),
+        (["ref", "tape.skg"], "skg: tape.skg: a 3B tape, expected an SKG program"),
     ],
 )
 def test_wrong_files(
