@@ -5,7 +5,7 @@
 #   make t T=tests/rom/test_build.py     one test
 #   make format   Python and C as the formatters write them; make lint checks that, and both languages' warnings
 #   make docs     tables, sessions and pictures of the pages, written anew
-#   make bench    the emulator's speed, cycles of the floats, cycles a block over the examples
+#   make bench    the emulator's speed, cycles of the floats, cycles a block and a step over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
 #   make web      the machine in a web page, web/dist; make web-serve shows it, make test-web looks at it in browsers
 #   make hunt     a million random programs, firmware against reference (PROGRAMS=1000000)
@@ -81,6 +81,7 @@ bench: bench-emu $(if $(wildcard tests/floats/floats.mk),bench-floats) bench-rom
 
 bench-rom: venv emu
 	@$(PY) tests/rom/bench.py
+	@$(PY) tests/drive/bench.py
 
 clean:
 	rm -rf build
