@@ -524,7 +524,6 @@ def tilted() -> Drawing:
 @pytest.mark.parametrize(
     ("make", "arguments", "message"),
     [
-        (branching, [], "no closed outline: 3 entities meet at junctions or cross, as at (0, 0)"),
         (empty, [], "no lines, arcs or curves to cut"),
         (tilted, [], "leaves the drawing's plane, expected a flat drawing"),
         (drawings.die_plate, ["--layer", "CUT"], "no layer CUT, the drawing has 0"),
@@ -541,6 +540,15 @@ def test_bad_drawings(
     assert message in result.stderr.splitlines()[-1]
     assert "Traceback" not in result.stderr
     assert result.stdout == ""
+
+
+def test_no_outline(run_program: Run, tmp_path: Path) -> None:
+    """Lines that meet in a star are all cut, and it is said that nothing is closed."""
+    branching().saveas(tmp_path / "star.dxf")
+    result = run_program("from-dxf", tmp_path / "star.dxf")
+    assert result.returncode == 0
+    assert result.stderr.endswith("no closed outline: what meets at junctions or crosses is cut as it is drawn\n")
+    assert result.stdout.count("CUT ") == 3
 
 
 @pytest.mark.parametrize("data", ["", "hello\n", "0\nSECTION\n2\nENTITIES\n0\nLINE\n", "\0\1\2"])
