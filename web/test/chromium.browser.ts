@@ -265,6 +265,8 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
   test("zoom and pan by wheel, mouse and keys", async () => {
     const { page, context } = await visit();
     await runPart(page, "die");
+    // (The closing's line takes room from the drawing.)
+    await page.waitForFunction(() => /closing error|closes/.test(document.getElementById("closing")?.textContent ?? ""));
     const view = async () => (await page.getAttribute("#base", "data-window") ?? "").split(" ").map(Number);
     const first = await view();
     await page.hover("#over", { position: { x: 200, y: 150 } });
