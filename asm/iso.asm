@@ -153,7 +153,6 @@ PUTNUM: DB      PUTC
         MVI     B,8
         JMP     PRNUM
 
-
 GLETS:  DB      "XYIJ"
 GLETZ:  DB      "Z"
 

@@ -22,7 +22,7 @@ HOLD:   LDA     MTO
         JZ      SPOUT
         CALL    SWAP            ; node 1 = KEPT
         CALL    TRY
-        CNZ     SPAN2           ; what is held goes out, and KEPT = node 1
+        CNZ     HOLD1           ; what is held goes out, and KEPT = node 1
         CALL    SWAP
         LHLD    HELDN
         MVI     H,HELD/256
@@ -31,7 +31,7 @@ HOLD:   LDA     MTO
         SHLD    HELDN
         JMP     SPOUT3
 
-SPAN2:  CALL    SWAP            ; (for SPAN, which exchanges them once more)
+HOLD1:  CALL    SWAP            ; (HOLD exchanges them once more)
 ; (fall into FLUSH)
 
 ; FLUSH - the span that is held back, if there is one, goes out
