@@ -111,6 +111,14 @@ static const char *overwritten(const options *o)
     return NULL;
 }
 
+/* A number with a point or without one, of a value in range. */
+static bool decimal_number(const char *text, double least, double most, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    return end != text && !*end && *value >= least && *value <= most;
+}
+
 /* The step at which the drive is to stop: N, or N,stay. */
 static bool read_stop(const char *text, options *o)
 {
@@ -176,7 +184,6 @@ int options_read(int argc, char **argv, options *o)
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, ":", list, NULL)) != -1;) {
         uint64_t number;
-        char *end;
         switch (option) {
         case ROM:
             o->rom = optarg;
@@ -203,8 +210,7 @@ int options_read(int argc, char **argv, options *o)
             o->pty = true;
             break;
         case MHZ:
-            o->mhz = strtod(optarg, &end);
-            if (end == optarg || *end || !(o->mhz >= 0.001 && o->mhz <= 1000)) {
+            if (!decimal_number(optarg, 0.001, 1000, &o->mhz)) {
                 return complain(EXIT_USAGE, "--mhz %s: not 0.001 to 1000", optarg);
             }
             break;
@@ -238,8 +244,7 @@ int options_read(int argc, char **argv, options *o)
             o->steps = optarg;
             break;
         case FEED:
-            o->feed = strtod(optarg, &end);
-            if (end == optarg || *end || !(o->feed >= 0.01 && o->feed <= 1e6)) {
+            if (!decimal_number(optarg, 0.01, 1e6, &o->feed)) {
                 return complain(EXIT_USAGE, "--feed %s: not 0.01 to 1000000", optarg);
             }
             break;
