@@ -147,7 +147,7 @@ def test_nearest_pieces(reach: float) -> None:
             shapes.append(LineString(np.column_stack((x + radius * np.cos(turns), y + radius * np.sin(turns)))))
         pieces.append((piece, owner))
     path = Pieces(pieces)
-    which, part = path.samples(1.0, 2)
+    which, part = map(np.concatenate, zip(*path.batches(1.0, 2), strict=True))
     aside = np.array([[rng.uniform(-reach, reach) for _ in "xy"] for _ in which])
     places, owners = (
         np.vstack((path.at(which, part) + aside, [(1e4, 0), (-1e4, 50), (50, -1e4)])),

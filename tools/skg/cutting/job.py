@@ -100,9 +100,17 @@ def make(routes: list[PlannedContour], title: str, factor: float, settings: Sett
 
 
 def _refused(program: Program, settings: Settings) -> set[int]:
-    """The routes that the ROM refuses, each tried alone."""
+    """The routes that the ROM refuses; behind one of these a new board goes on."""
     _, *routes, _ = program.unnumbered()
-    return {at for at, one in enumerate(routes) if feed_lines([_text(one)], settings.rom, settings.ram_kib)[0].error}
+    refused: set[int] = set()
+    at = 0
+    while at < len(routes):
+        fed, done = feed_lines(map(_text, routes[at:]), settings.rom, settings.ram_kib)
+        at += done
+        if fed.error:
+            refused.add(at)
+        at += 1
+    return refused
 
 
 def _helped(routes: list[PlannedContour], which: set[int], factor: float) -> list[PlannedContour] | None:

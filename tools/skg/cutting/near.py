@@ -77,14 +77,9 @@ class Pieces:
         out = np.stack((np.cos(angle), np.sin(angle)), 1) * np.sign(self.sweep[which])[:, None]
         return np.where(self.is_arc[which, None], out, line)
 
-    def samples(self, spacing: float, least: int) -> tuple[Whole, Floats]:
-        """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
-        an arc one for every 15 degrees besides."""
-        spaces = self._spaces(spacing, least)
-        return _spread(spaces, 0, len(spaces))
-
     def batches(self, spacing: float, least: int) -> Iterator[tuple[Whole, Floats]]:
-        """The same, some pieces after the other."""
+        """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
+        an arc one for every 15 degrees besides. Some pieces after the other."""
         spaces = self._spaces(spacing, least)
         ends = np.cumsum(spaces + 1)
         total = int(ends[-1]) if len(ends) else 0

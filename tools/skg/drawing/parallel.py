@@ -228,14 +228,8 @@ def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
     if abs(cross(square, athwart)) >= _SMOOTH:
         return place
     # They touch: halfway between their own nearest places.
-    ends = (
-        (place[0] - off * square[0], place[1] - off * square[1]),
-        (
-            place[0] - too * athwart[0],
-            place[1] - too * athwart[1],
-        ),
-    )
-    return (ends[0][0] + ends[1][0]) / 2, (ends[0][1] + ends[1][1]) / 2
+    aside = tuple(off * p + too * q for p, q in zip(square, athwart, strict=True))
+    return place[0] - aside[0] / 2, place[1] - aside[1] / 2
 
 
 def uncut(contour: Contour, way: tuple[Edge, ...], r: float) -> tuple[float, XY]:

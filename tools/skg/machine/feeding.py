@@ -34,7 +34,7 @@ class Fed:
 
 def lines_of(program: str) -> list[str]:
     """The lines of a program as LOAD takes them: CR or LF ends one, up to ctrl-Z; empty ones do not count."""
-    return [line for line in re.split(r"[\r\n]", program.partition("\x1a")[0]) if line.strip("\0 ")]
+    return [line for line in re.split(r"[\r\n]", program.partition(TAPE_END)[0]) if line.strip("\0 ")]
 
 
 def is_numbered(line: str) -> bool:
