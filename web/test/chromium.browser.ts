@@ -69,6 +69,10 @@ async function runPart(page: Page, name: string): Promise<void> {
   await wholeTape(page);
 }
 
+/** Until what was done is drawn: the frame in which it is asked for, and the one behind it. */
+const drawn = (page: Page) => page.evaluate(() =>
+  new Promise((tell) => requestAnimationFrame(() => requestAnimationFrame(tell))));
+
 async function shot(page: Page, name: string): Promise<void> {
   mkdirSync(SHOTS, { recursive: true });
   await page.waitForTimeout(150);
@@ -183,7 +187,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     const { page, context } = await visit();
     for (const name of ["wrench", "fit-ellipse", "gosub-holes"]) {
       await runPart(page, name);
-      await page.waitForTimeout(100);
+      await drawn(page);
       const { layout } = layOut(readTape(readFileSync(`examples/${name}.3b`, "latin1")).items);
       const walk = new Walk(new WebAssembly.Module(readFileSync("web/dist/walk.wasm")));
       walk.begin(layout.blocks);
@@ -264,9 +268,12 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
 
   test("zoom and pan by wheel, mouse and keys", async () => {
     const { page, context } = await visit();
+    const height = () => page.evaluate(() => document.getElementById("base")?.clientHeight);
+    const empty = await height();
     await runPart(page, "die");
-    // (The closing's line takes room from the drawing.)
     await page.waitForFunction(() => /closing error|closes/.test(document.getElementById("closing")?.textContent ?? ""));
+    // What is said of a tape has its room from the start: the drawing does not move under the pointer.
+    assert.equal(await height(), empty);
     const view = async () => (await page.getAttribute("#base", "data-window") ?? "").split(" ").map(Number);
     const first = await view();
     await page.hover("#over", { position: { x: 200, y: 150 } });
@@ -277,18 +284,18 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await page.mouse.down();
     await page.mouse.move(700, 400, { steps: 4 });
     await page.mouse.up();
-    await page.waitForTimeout(50);
+    await drawn(page);
     const third = await view();
     assert.equal(third[0], second[0]);
     assert.notEqual(third[1], second[1]);
     await page.focus("#over");
     await page.keyboard.press("-");
     await page.keyboard.press("ArrowLeft");
-    await page.waitForTimeout(50);
+    await drawn(page);
     const fourth = await view();
     assert.ok((fourth[0] as number) < (third[0] as number));
     await page.keyboard.press("0");
-    await page.waitForTimeout(50);
+    await drawn(page);
     assert.deepEqual(await view(), first);
     await context.close();
   });
@@ -331,7 +338,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await page.selectOption("#theme", "dark");
     await page.fill("#wire", "0.25");
     await page.keyboard.press("Tab");
-    await page.waitForTimeout(100);
+    await page.waitForTimeout(500); // (Storing is not seen from outside.)
     await page.reload();
     await page.waitForSelector("body[data-ready]");
     await onPaper(page, "10 REM KEPT");
@@ -590,7 +597,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
       send("pointerup", 1, 150, 300);
       send("pointerup", 2, 305, 300);
     });
-    await page.waitForTimeout(80);
+    await drawn(page);
     const [was, is] = [before, await page.getAttribute("#base", "data-window")].map((text) => Number(text?.split(" ")[0]));
     assert.ok((is as number) > 2 * (was as number));
     assert.deepEqual(said, []);
@@ -638,8 +645,9 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
       requestAnimationFrame(frame);
     }));
     t.diagnostic(`a block: ${block.toFixed(1)} ms; 20,000 blocks: ${rate.draw.toFixed(1)} ms to draw, ${rate.frame.toFixed(1)} ms a frame`);
-    assert.ok(block < 50);
-    assert.ok(rate.frame < 100);
+    // (Many times what an idle machine takes: a growth that is quadratic is seen, a busy machine is not.)
+    assert.ok(block < 250);
+    assert.ok(rate.frame < 250);
     await shot(page, "many");
     await context.close();
   });
