@@ -7,6 +7,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import ezdxf
 import pytest
 from click.testing import CliRunner
 
@@ -18,6 +19,7 @@ from rs274help import moves as their_moves
 from rs274help import needs_rs274, same
 
 from skg.cli import cli
+from skg.drawing.milling import is_milling
 from skg.errors import UserError
 from skg.ref import mill
 
@@ -69,26 +71,95 @@ def test_check_and_plot(path: Path, tmp_path: Path) -> None:
     assert picture.read_text() == path.with_suffix(".svg").read_text()
 
 
-@pytest.mark.parametrize("command", ["plot", "check", "gcode", "dxf", "sim"])
-def test_commands_for_wire_say_what_a_milling_program_is(command: str, tmp_path: Path) -> None:
-    path = FOLDER / "panel.skg"
-    done = CliRunner().invoke(
-        cli, [command, str(path), *(["-o", str(tmp_path / "p.svg")] if command == "plot" else [])]
-    )
+def invoked(*words: object) -> tuple[str, str]:
+    """A command that ends well: its output, and what it says."""
+    done = CliRunner(mix_stderr=False).invoke(cli, list(map(str, words)))
+    assert done.exit_code == 0, done.stderr or done.exception
+    return done.stdout, done.stderr
+
+
+@pytest.mark.parametrize("name", ["panel", "rosette"])
+def test_a_program_is_run_by_the_mill_rom_and_its_tape_taken(name: str, tmp_path: Path) -> None:
+    """plot, check, dxf, gcode, sim and run of a program do what they do with its tape, and say who made that."""
+    program, tape, ours = FOLDER / f"{name}.skg", FOLDER / f"{name}.nc", tmp_path / "ours"
+    said = f"skg: {program}: a milling program, run by the mill ROM\n"
+    for command, form in (("plot", "svg"), ("dxf", "dxf"), ("gcode", "nc"), ("run", "ngc")):
+        output = ours.with_suffix(f".{form}")
+        _, first = invoked(command, program, "-o", output)
+        assert first.startswith(said), (command, first)
+        wanted = tape.read_bytes()
+        if command in ("plot", "dxf"):
+            _, again = invoked(command, tape, "-o", tmp_path / f"theirs.{form}")
+            assert again.replace(str(tape), str(program)) == first.removeprefix(said)
+            wanted = (tmp_path / f"theirs.{form}").read_bytes()
+        assert strip(output.read_bytes()) == strip(wanted), command
+    for command in ("check", "sim"):
+        assert invoked(command, program)[0] == invoked(command, tape)[0].replace(str(tape), str(program))
+
+
+def strip(data: bytes) -> bytes:
+    """A file, of a drawing what is drawn: the rest says when it was made."""
+    return data.partition(b"ENTITIES")[2].partition(b"ENDSEC")[0] or data
+
+
+def test_what_is_said_of_heights_and_holes(tmp_path: Path) -> None:
+    program = FOLDER / "plate.skg"
+    heights = "cuts at Z-2, Z-4, Z-6.2, 4 holes down to Z-6.5, travels at Z5\n"
+    said = f"skg: {program}: a milling program, run by the reference\n"
+    drawing = tmp_path / "plate.dxf"
+    words = ("plot", program, "-o", tmp_path / "plate.svg", "--skg80", "reference", "--show-offset")
+    assert invoked(*words)[1] == f"{said}skg: {program}: {heights}"
+    assert 'id="tape-1-contour"' in (tmp_path / "plate.svg").read_text()
+    assert invoked("dxf", program, "-o", drawing)[1].endswith(f"skg: {program}: all in one plane: {heights}")
+    space = ezdxf.readfile(drawing).modelspace()
+    holes = [tuple(point.dxf.location)[:2] for point in space.query('POINT[layer=="HOLES"]')]
+    assert sorted(holes) == [(10, 10), (10, 40), (70, 10), (70, 40)]
+    moved = [(tuple(line.dxf.start)[:2], tuple(line.dxf.end)[:2]) for line in space.query('LINE[layer=="MOVES"]')]
+    assert moved[:3] == [((10, 10), (70, 10)), ((70, 10), (70, 40)), ((70, 40), (10, 40))]
+    left = "left out, as 3B has no word for it: 4 holes and the heights of its cuts, Z-2, Z-4, Z-6.2"
+    assert invoked("tape", program, "-o", tmp_path / "plate.3b")[1].endswith(f"skg: {program}: {left}\n")
+    # A pen plotter's program has no heights; heights that begin with a relative one are from nowhere.
+    assert invoked("plot", FOLDER / "gasket.nc", "-o", tmp_path / "gasket.svg")[1] == ""
+    part = tmp_path / "part.nc"
+    part.write_text("G21\nG91\nG0Z5\nG1Z-6F60\nG1X5\nG0Z6\nM30\n")
+    assert invoked("plot", part, "-o", tmp_path / "part.svg")[1] == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["gcode", "--feed", "60"], "a milling program says its own places, feeds and heights"),
+        (["dxf", "--start", "1,2"], "an ISO tape has its own places: --start is for 3B"),
+    ],
+)
+def test_what_a_milling_program_has_no_use_for(words: list[str], said: str) -> None:
+    done = CliRunner().invoke(cli, [*words, str(FOLDER / "panel.skg")])
     assert isinstance(done.exception, UserError)
-    assert str(done.exception) == (
-        f"{path}: line 20 is of a milling program: `skg run --rom mill {path} -o part.nc` makes its tape, "
-        "and plot, check and gcode read that"
-    )
+    assert said in str(done.exception)
 
 
-@pytest.mark.parametrize("line", ["20 f 5", "20Z-1", "20 M3", "20 G 4", "20 HOLE O", "20 FORM O", "20 CUT )"])
-def test_only_what_begins_as_one_is_taken_for_a_milling_program(line: str, tmp_path: Path) -> None:
+#: A line, and whether it makes the program one for the mill.
+BEGINNINGS = {
+    "20 f 5": True, "F 5": True, "20Z-1": True, "20 M3": True, "20 G 4": True, "20 H OLE O": True, "20 FORM O": False,
+    "20 CUT )": False, "20 GOTO 5": False, "20 REM M3": False, "20 FIT (1,2)": False, "Zürich": False,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("line", BEGINNINGS)
+def test_what_is_a_milling_program(line: str) -> None:
+    assert is_milling(f"10 FROM O\n{line}\n30 CUT )\n") == BEGINNINGS[line]
+
+
+def test_mistakes_in_a_milling_program(tmp_path: Path) -> None:
+    """The line is said, as of a program for wire; `skg ref` tells how to run one."""
     part = tmp_path / "part.skg"
-    part.write_text(f"10 FROM O\n{line}\n")
-    done = CliRunner().invoke(cli, ["check", str(part)])
-    assert isinstance(done.exception, UserError)
-    assert ("line 20 is of a milling program" in str(done.exception)) == (line not in ("20 FORM O", "20 CUT )"))
+    for line, error in (("30 CUT )", "ERR 01 LINE 30"), ("30 A=1/0", "ERR 05 LINE 30")):
+        part.write_text(f"10 F 60\n{line}\n")
+        done = CliRunner(mix_stderr=False).invoke(cli, ["check", str(part)])
+        assert str(done.exception) == f"{part}: {error}"
+    done = CliRunner(mix_stderr=False).invoke(cli, ["ref", str(part)])
+    assert done.exit_code == 1
+    assert done.stderr.endswith(f"skg: {part}: a milling program: --mill runs it\n")
 
 
 @needs_rs274

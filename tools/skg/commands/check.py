@@ -9,7 +9,7 @@ from dataclasses import asdict
 import click
 
 from skg.commands.options import positions_option
-from skg.drawing.source import gcode_text, tape_bytes
+from skg.drawing.source import iso_text, tape_bytes
 from skg.errors import UserError
 from skg.files import without_filling
 from skg.kinds import TAPE, kind_of
@@ -31,13 +31,13 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     """Find everything on TAPE that a controller would choke on: 3B, or G-code (.nc, .ngc, .gcode, .tap, .iso).
 
     One line for each finding: file, block (of G-code: line), column, what was expected. Exit code 1 when there is any.
-    A program (.skg, .xy, .tkh) is run first.
+    A program (.skg, .xy, .tkh) is run first, a milling program by the mill ROM.
     TAPE - is the standard input.
     """
     found: list[tuple[str, Finding | gcode.GcodeFinding]] = []
     for name in tapes_:
-        if gcode.is_gcode(name):
-            text = gcode_text(name)
+        text = iso_text(name)
+        if text is not None:
             findings = gcode.scan(text, name)[1]
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)

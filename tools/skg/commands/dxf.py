@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from skg.commands.options import Coordinates, decided, output_option, positions_option, skg80_option
+from skg.errors import UserError
 from skg.files import text_output
 from skg.plane import XY, distance
 from skg.tape.placed import PlacedRoute
@@ -41,14 +42,23 @@ def _differ(ones: list[PlacedRoute], others: list[PlacedRoute]) -> bool:
 def command(
     file: str, output: str, start: XY | None, polylines: bool, positions: str, joints: str, skg80: str | None
 ) -> None:
-    """Turn a tape (.3b) or a program (.skg, .xy, .tkh) into a DXF drawing of the wire's path.
+    """Turn a tape (.3b, G-code as .nc or .ngc) or a program (.skg, .xy, .tkh) into a DXF drawing of the wire's path.
 
     Layers: WIRE what is cut, LEAD the way from the start hole to the contour, MOVES positioning, START and
-    STOPS points. FILE - is a tape on the standard input.
+    STOPS points, of a milling tape HOLES, too. Its corners are where it has them, whatever --joints is.
+    FILE - is a tape on the standard input.
     """
     from skg.drawing.dxf import write
-    from skg.drawing.source import lay_out, load
+    from skg.drawing.source import iso_program, lay_out, load
 
+    if program := iso_program(file, skg80):
+        if start:
+            raise UserError(f"{file}: an ISO tape has its own places: --start is for 3B")
+        if heights := program.heights():
+            click.echo(f"skg: {file}: all in one plane: {heights}", err=True)
+        with text_output(output) as stream:
+            write(stream, program.routes(), program.stop_places, polylines, program.holes)
+        return
     made = load(file, skg80)
     home = start or made.start
     taken = decided(made.tape, positions)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from skg.commands.options import Coordinates, decided, output_option, positions_option
-from skg.drawing.source import gcode_text, load
+from skg.drawing.source import gcode_text, iso_text, load
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.plane import XY
@@ -82,10 +82,16 @@ def command(
     Written is the dialect of the milling ROM: G17 G21 G90 G94, G0 to G3 with I and J, M0 for a stop, M30; `skg plot`
     and `skg check` read it. Read are also G20, G91, G92 and more, comments, and other people's words that do not move;
     without G20 and G21 a number with a decimal point is millimetres, one without micrometres.
-    A program (.skg, .xy, .tkh) is run first. FILE - (or none) is the standard input.
+    A program (.skg, .xy, .tkh) is run first; a milling program's tape is written as it is. FILE - (or none) is the
+    standard input.
     """
     if back:
         write_bytes(output, to_bytes(gcode.read(gcode_text(source), source).tape().items))
+        return
+    if not gcode.is_gcode(source) and (iso := iso_text(source)) is not None:
+        if start or feed or heights:
+            raise UserError(f"{source}: a milling program says its own places, feeds and heights")
+        write_bytes(output, iso.encode())
         return
     made = load(source)
     x, y = start or made.start

@@ -18,7 +18,6 @@ from skg.commands.options import (
 from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import micrometres
-from skg.tape.gcode import is_gcode
 from skg.tape.placed import place, stop_places
 
 
@@ -62,20 +61,23 @@ def command(
 ) -> None:
     """Draw tapes (.3b, G-code as .nc or .ngc) and programs (.skg, .xy, .tkh), several in one picture.
 
-    Start holes are circles, drilled holes crosses in them, stops squares, positioning moves dashed.
-    A program is run first, by the ROM or by what --skg80 names. FILE - is a tape on the standard input.
+    Start holes are circles, drilled holes crosses in them, stops squares, moves that do not cut dashed.
+    A program is run first, by the ROM (a milling program by the mill ROM) or by what --skg80 names. FILE - is a tape
+    on the standard input.
     """
     from skg.drawing.plot import COLOURS, Picture, Sheet
-    from skg.drawing.source import gcode, load
+    from skg.drawing.source import contour_of, iso_program, load
 
     form = picture_format(output, form, ", or --format")
     sheets = []
     stops: list[list[XY]] = []
     for at, name in enumerate(files):
-        if is_gcode(name) and not show_offset:
-            program = gcode(name)
-            sheets.append(Sheet(Path(name).name, program.routes(), holes=tuple(program.holes)))
+        if program := iso_program(name, skg80):
+            contour = contour_of(name) if show_offset else ()
+            sheets.append(Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)))
             stops.append(program.stop_places)
+            if heights := program.heights():
+                click.echo(f"skg: {name}: {heights}", err=True)
             continue
         made = load(name, skg80, show_offset)
         x, y = start[at] if at < len(start) else made.start

@@ -77,6 +77,7 @@ def command(parts: tuple[Path, ...], tol: float | None) -> None:
     With --tol, what TOL (docs/curves.md) does to the number of blocks, with the program's nodes and four times as many,
     if these are no more than 300; a TOL in the program does not count.
     """
+    from skg.drawing.milling import is_milling
     from skg.drawing.source import program_text
     from skg.quality.fewest import savings
     from skg.quality.fitted import fitted_runs
@@ -86,7 +87,7 @@ def command(parts: tuple[Path, ...], tol: float | None) -> None:
     for part in parts:
         text = program_text(str(part))
         try:
-            found = [(part, run) for run in fitted_runs(text) if len(run.nodes) > 2]
+            found = [(part, run) for run in fitted_runs(text, is_milling(text)) if len(run.nodes) > 2]
         except UserError as error:
             raise UserError(f"{part}: {error}") from None
         if not found:

@@ -47,6 +47,7 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
+    from skg.drawing.milling import is_milling
     from skg.drawing.source import checked_program, program_text
     from skg.ref import mill as milling
     from skg.ref import run
@@ -61,5 +62,7 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     else:
         raise click.UsageError("--no-drift is for 3B tapes: an ISO tape has no drift")
     click.echo(result.paper, err=True, nl=False)
+    if result.error and not (mill or grbl) and is_milling(program):
+        click.echo(f"skg: {part}: a milling program: --mill runs it", err=True)
     write_bytes(output, result.tape)
     sys.exit(0 if result.error is None else 1)

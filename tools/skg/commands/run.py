@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import click
 
 from skg.commands.options import output_option
+from skg.drawing.milling import MILL_ROM, is_milling
 from skg.drawing.source import checked_program
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, without_mark, write_bytes
@@ -29,10 +30,9 @@ def _answers(name: str | None) -> Iterator[str]:
 @output_option("Where the tape goes.")
 @click.option(
     "--rom",
-    default="standard",
-    show_default=True,
     metavar="NAME|FILE",
-    help="The ROM: standard, no-drift, mill, 8251, tty, or an image of your own, .bin or Intel .hex.",
+    help="The ROM: standard, no-drift, mill, 8251, tty, or an image of your own, .bin or Intel .hex.  [default: "
+    "standard; mill, and said, for a milling program]",
 )
 @click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
 @click.option(
@@ -48,7 +48,7 @@ def _answers(name: str | None) -> Iterator[str]:
     type=click.IntRange(1),
     help="Give up LOAD or RUN after so many cycles, with exit code 3.",
 )
-def command(part: str, output: str, rom: str, ram: int, answers: str | None, max_cycles: int | None) -> None:
+def command(part: str, output: str, rom: str | None, ram: int, answers: str | None, max_cycles: int | None) -> None:
     """LOAD and RUN PART on the board, by the ROM itself.
 
     PART is an SKG program, or a rival's (.xy, .tkh), which is translated; `-`: an SKG program on the standard input.
@@ -60,6 +60,11 @@ def command(part: str, output: str, rom: str, ram: int, answers: str | None, max
         raise UserError("the program and the answers cannot both come from the standard input")
     program, line_begins = translated(part).encode() if is_rival(part) else without_mark(read_bytes(part)), True
     text = checked_program(program.decode("latin-1"), part)
+
+    if rom is None:
+        rom = MILL_ROM if is_milling(text) else "standard"
+        if rom == MILL_ROM:
+            click.echo(f"skg: {part}: a milling program, run by the mill ROM", err=True)
 
     def show(paper: str) -> None:
         nonlocal line_begins

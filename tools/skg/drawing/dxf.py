@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from io import StringIO
 from itertools import count
@@ -18,8 +18,10 @@ from ezdxf.lldxf.tagwriter import TagWriter
 from skg.plane import XY
 from skg.tape.placed import CUT, WAY_IN, Placed, PlacedRoute
 
-#: Layer -> AutoCAD colour index. LEAD: from the start hole to the contour and back; MOVES: positioning.
+#: Layer -> AutoCAD colour index. LEAD: from the start hole to the contour and back; MOVES: positioning. Drilled holes
+#: are on a layer of their own, which drawings without any do not have.
 LAYERS = {"WIRE": 5, "LEAD": 3, "MOVES": 8, "START": 1, "STOPS": 6}
+HOLES, HOLES_COLOUR = "HOLES", 4
 
 #: Lengths (µm) and angles (radians) below this are nothing but rounding of floats.
 _NONE = 1e-6
@@ -83,11 +85,14 @@ def _polyline(blocks: tuple[Placed, ...]) -> _Entity:
     return _Entity("LWPOLYLINE", "WIRE", {}, tuple(points), closed)
 
 
-def _entities(routes: list[PlacedRoute], stops: list[XY], polylines: bool) -> Iterator[_Entity]:
-    """All entities of a tape that was laid out; `stops` are places in µm."""
+def _entities(
+    routes: list[PlacedRoute], stops: Sequence[XY], polylines: bool, holes: Sequence[XY]
+) -> Iterator[_Entity]:
+    """All entities of a tape that was laid out; `stops` and `holes` are places in µm."""
     for route in routes:
         if route.is_move:
-            yield _block(route.blocks[0], "MOVES")
+            for placed in route.blocks:
+                yield _block(placed, "MOVES")
             continue
         yield _Entity("POINT", "START", {"location": _millimetres(route.start)})
         for part, blocks in route.parts():
@@ -99,15 +104,18 @@ def _entities(routes: list[PlacedRoute], stops: list[XY], polylines: bool) -> It
             elif part == CUT:
                 for placed in blocks:
                     yield _block(placed, "WIRE")
-    for stop in stops:
-        yield _Entity("POINT", "STOPS", {"location": _millimetres(stop)})
+    for layer, places in (("STOPS", stops), (HOLES, holes)):
+        for place in places:
+            yield _Entity("POINT", layer, {"location": _millimetres(place)})
 
 
-def _empty() -> Drawing:
+def _empty(has_holes: bool = False) -> Drawing:
     """A drawing with the layers and nothing on them."""
     drawing = ezdxf.new("R2010", units=ezdxf.units.MM)
     for name, colour in LAYERS.items():
         drawing.layers.add(name, color=colour)
+    if has_holes:
+        drawing.layers.add(HOLES, color=HOLES_COLOUR)
     drawing.header["$PDMODE"], drawing.header["$PDSIZE"] = 34, 1.0
     return drawing
 
@@ -116,7 +124,7 @@ def draw(routes: list[PlacedRoute], stops: list[XY], polylines: bool = False) ->
     """Return the drawing of a tape that was laid out; `stops` are places in µm."""
     drawing = _empty()
     space = drawing.modelspace()
-    for entity in _entities(routes, stops, polylines):
+    for entity in _entities(routes, stops, polylines, ()):
         attributes = {"layer": entity.layer, **entity.attributes}
         if entity.kind == "LWPOLYLINE":
             space.add_lwpolyline(entity.vertices, format="xyb", close=entity.is_closed, dxfattribs=attributes)
@@ -125,22 +133,28 @@ def draw(routes: list[PlacedRoute], stops: list[XY], polylines: bool = False) ->
     return drawing
 
 
-def write(stream: TextIO, routes: list[PlacedRoute], stops: list[XY], polylines: bool = False) -> None:
-    """Write the drawing of a tape that was laid out: what `draw` returns, but of any size.
+def write(
+    stream: TextIO,
+    routes: list[PlacedRoute],
+    stops: Sequence[XY],
+    polylines: bool = False,
+    holes: Sequence[XY] = (),
+) -> None:
+    """Write the drawing of a tape that was laid out: what `draw` returns, but of any size, and with drilled holes (µm).
 
     ezdxf takes a kilobyte and a tenth of a millisecond for each entity. So it writes the drawing without its entities,
     and one of every kind and layer as the pattern of all others.
     """
-    drawing, text = _empty(), StringIO()
+    drawing, text = _empty(bool(holes)), StringIO()
     owner, first = drawing.modelspace().layout_key, int(drawing.entitydb.next_handle(), 16)
     # Each block makes at most one entity besides the point where its route begins and the one where it stops.
-    most = 2 * sum(len(route.blocks) for route in routes) + len(stops)
+    most = 2 * sum(len(route.blocks) for route in routes) + len(stops) + len(holes)
     drawing.entitydb.handles.reset(f"{first + most + 1:X}")
     drawing.write(text)
     before, head, after = text.getvalue().partition("  2\nENTITIES\n")
     stream.write(before + head)
     patterns: dict[tuple[str, str], str] = {}
-    for handle, entity in enumerate(_entities(routes, stops, polylines), first):
+    for handle, entity in enumerate(_entities(routes, stops, polylines, holes), first):
         if entity.kind == "LWPOLYLINE":
             polyline = LWPolyline.new(f"{handle:X}", owner, {"layer": entity.layer})
             polyline.set_points(entity.vertices, format="xyb")

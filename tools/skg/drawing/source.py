@@ -1,4 +1,7 @@
-"""Where a tape comes from: a .3b file, G-code (.nc, .ngc …), or a program (.skg, or a rival's) that is run first."""
+"""Where a tape comes from: a .3b file, G-code (.nc, .ngc …), or a program (.skg, or a rival's) that is run first.
+
+A milling program's tape is G-code.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +11,15 @@ import sys
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from skg.drawing.milling import MILL_ROM, is_milling
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes
 from skg.kinds import GCODE, PROGRAM, refuse_others
 from skg.machine.board import BoardStopped, find_error
 from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, feed, least_ram, too_large
+from skg.machine.roms import rom_path
 from skg.piece import Piece
 from skg.plane import XY
 from skg.rivals.languages import is_program, is_rival, translated
@@ -24,8 +30,8 @@ from skg.tape.gcode import read as read_gcode
 from skg.tape.placed import PlacedRoute, place, stop_places
 from skg.tape.positions import decide
 
-#: What is not understood (language.md, section 6).
-SYNTAX = 1
+if TYPE_CHECKING:
+    from skg.ref import Result
 
 
 @dataclass(frozen=True)
@@ -43,12 +49,13 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
     `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator.
     `with_contour` on a tape, and a program that ends in ERR, are a `UserError`.
     """
+    if program := iso_program(name, skg80):
+        contour = contour_of(name) if with_contour else ()
+        tape = replace(program.tape(), notes=program.left_out())
+        return Made(tape, (program.home[0] / 1000, program.home[1] / 1000), contour)
     if not is_program(name):
         if with_contour:
-            raise UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
-        if is_gcode(name):
-            program = gcode(name)
-            return Made(program.tape(), (program.home[0] / 1000, program.home[1] / 1000))
+            raise _no_contour(name)
         tape = tapes.read(name)
         return Made(tape, tape.start or (0.0, 0.0))
     # The reference is needed in any case: only it knows where on the drawing the wire is.
@@ -60,9 +67,31 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
     return Made(tape, start, contour)
 
 
-def gcode(name: str) -> GcodeProgram:
-    """Return the G-code in a file, told by its name's end; what is odd about it but can be read is no matter here."""
-    return read_gcode(gcode_text(name), name)
+def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
+    """The G-code in a file, told by its name's end, or that of a milling program; else None.
+
+    What is odd about it but can be read is no matter here. `skg80` as in `load`.
+    """
+    text = iso_text(name, skg80)
+    return None if text is None else read_gcode(text, name)
+
+
+def iso_text(name: str, skg80: str | None = None) -> str | None:
+    """The text of `iso_program`."""
+    if is_gcode(name):
+        return gcode_text(name)
+    if not is_program(name) or is_rival(name):
+        return None
+    text = program_text(name)
+    if not is_milling(text):
+        return None
+    by = "the mill ROM" if skg80 is None else "the reference" if skg80 == "reference" else f"{skg80}, the mill ROM"
+    print(f"skg: {name}: a milling program, run by {by}", file=sys.stderr, flush=True)
+    return _tape_of(name, text, skg80, mills=True).decode("ascii")
+
+
+def _no_contour(name: str) -> UserError:
+    return UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
 
 
 def gcode_text(name: str) -> str:
@@ -75,6 +104,14 @@ def gcode_text(name: str) -> str:
 def tape_bytes(name: str, skg80: str | None = None) -> bytes:
     """Return a tape's bytes: those of a file (`-`: the standard input), or what its program punches."""
     return _run(name, skg80, False)[0] if is_program(name) else read_bytes(name)
+
+
+def contour_of(name: str) -> tuple[Piece, ...]:
+    """The nominal contour of a milling program; a tape has none, which is a `UserError`."""
+    if not is_program(name):
+        raise _no_contour(name)
+    text = program_text(name)
+    return _nominal(_reference(name, text, mills=True))
 
 
 def program_text(name: str) -> str:
@@ -91,77 +128,69 @@ def checked_program(text: str, name: str) -> str:
 
 
 def _run(name: str, skg80: str | None, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
-    """Run a program: the tape's bytes, where the wire starts (mm), the nominal contour."""
+    """Run a program for wire: the tape's bytes, where the wire starts (mm), the nominal contour."""
     text = program_text(name)
-    data, start, contour = _run_reference(name, text, with_contour)
+    result = _reference(name, text)
+    start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
+    data = result.tape if skg80 == "reference" else _tape_of(name, text, skg80)
+    return data, start, _nominal(result) if with_contour else ()
+
+
+def _tape_of(name: str, text: str, skg80: str | None, mills: bool = False) -> bytes:
+    """The tape of a program, by the ROM or by what `skg80` names."""
     if skg80 is None:
-        data = _run_rom(name, text)
-    elif skg80 != "reference":
-        data = _run_emulator(name, text, skg80)
-    return data, start, contour
+        return _run_rom(name, text, MILL_ROM if mills else "standard")
+    if skg80 == "reference":
+        return _reference(name, text, mills).tape
+    return _run_emulator(name, text, skg80, mills)
 
 
-def _run_rom(name: str, text: str) -> bytes:
-    """Run a program on the board, by the standard ROM; one that needs more memory gets it, with a word."""
+def _run_rom(name: str, text: str, rom: str) -> bytes:
+    """Run a program on the board; one that needs more memory gets it, with a word."""
     try:
-        fed = feed(text)
+        fed = feed(text, rom)
         if fed.error and fed.error.number == MEMORY_FULL:
-            fed = feed(text, ram_kib=MOST_RAM)
+            fed = feed(text, rom, MOST_RAM)
             if fed.error and fed.error.number == MEMORY_FULL:
-                raise too_large(name, text, MOST_RAM)
+                raise too_large(name, text, MOST_RAM, rom)
             if not fed.error:
-                print(f"skg: {name}: takes {least_ram(text)} KiB of RAM, more than the board's 8", file=sys.stderr)
+                least = least_ram(text, rom)
+                print(f"skg: {name}: takes {least} KiB of RAM, more than the board's 8", file=sys.stderr)
     except BoardStopped as stopped:
         raise UserError(f"{name}: {stopped}") from None
     if fed.error:
+        if fed.error.line is None:
+            # The board shows the line that it does not understand, the reference says its number.
+            _reference(name, text, rom == MILL_ROM)
         raise _failure(name, text, *fed.error)
     return fed.tape
 
 
-def _run_emulator(name: str, text: str, skg80: str) -> bytes:
+def _run_emulator(name: str, text: str, skg80: str, mills: bool) -> bytes:
     """Run a program on an emulator of one's own."""
     if not Path(skg80).exists():
         raise UserError(f"{skg80}: no such file")
+    rom = ["--rom", rom_path(MILL_ROM)] if mills else []
     try:
         with tempfile.TemporaryDirectory() as folder:
             part = Path(folder) / "part.skg"
             part.write_text(text)
-            done = subprocess.run([skg80, "--max-cycles", str(MOST_CYCLES), part], capture_output=True, check=False)
+            words = [skg80, *rom, "--max-cycles", str(MOST_CYCLES), part]
+            done = subprocess.run(words, capture_output=True, check=False)
     except PermissionError:
         raise UserError(f"{skg80}: not a program that can be run") from None
     if done.returncode:
         lines = done.stderr.decode("ascii", "replace").strip().splitlines()
         error, last = find_error(lines), lines[-1:]
         if error and error.number == MEMORY_FULL:
-            raise too_large(name, text, 8)
+            raise too_large(name, text, 8, MILL_ROM if mills else "standard")
         if error:
             raise _failure(name, text, *error)
         raise UserError(f"{name}: {last[0] if last else f'{skg80} ended with {done.returncode}'}")
     return done.stdout
 
 
-#: A line that begins with a statement of milling (milling.md), which the ROM for wire does not know.
-_MILLING = re.compile(r"^\s*(\d+)\s*(?:F(?!ROM|IT|REE)|G(?!OTO|OSUB)|Z|M|HOLE)", re.I | re.M)
-
-
-def _is_milling(text: str) -> bool:
-    """Whether a program is understood as one of milling."""
-    from skg.ref import mill
-    from skg.ref.interpreter import Endless
-
-    try:
-        found = mill.run(text, patience=1).error
-    except Endless:
-        return True
-    return not found or found[0] != SYNTAX
-
-
 def _failure(name: str, text: str, number: int, line: int | None) -> UserError:
-    if number == SYNTAX and str(line) in _MILLING.findall(text) and _is_milling(text):
-        return UserError(
-            f"{name}: line {line} is of a milling program: `skg run --rom mill {name} -o part.nc` makes its tape, and "
-            "plot, check and gcode read that"
-        )
     where = f" LINE {line}" if line is not None else ""
     contour = _contour_at(text, line) if line is not None else ""
     return UserError(f"{name}: ERR {number:02d}{where}" + (f", in contour {contour}" if contour else ""))
@@ -178,17 +207,21 @@ def _contour_at(text: str, line: int) -> str:
     return found
 
 
-def _run_reference(name: str, text: str, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
-    """Run a program through the reference: the tape's bytes, where the wire starts (mm), the nominal contour."""
+def _reference(name: str, text: str, mills: bool = False) -> Result:
+    """What the reference makes of a program; one that ends in ERR is a `UserError`."""
     # (slow to import, and not needed for tapes)
-    from skg.drawing.nominal import nominal
-    from skg.ref import run
+    from skg.ref import mill, run
 
-    result = run(text)
+    result = (mill.run if mills else run)(text)
     if result.error:
         raise _failure(name, text, *result.error)
-    start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
-    return result.tape, start, nominal(result.path) if with_contour else ()
+    return result
+
+
+def _nominal(result: Result) -> tuple[Piece, ...]:
+    from skg.drawing.nominal import nominal
+
+    return nominal(result.path)
 
 
 def lay_out(made: Made, start: XY, positions: str, joints: str) -> tuple[list[PlacedRoute], list[XY]]:

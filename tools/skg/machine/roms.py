@@ -39,6 +39,12 @@ def known_rom(name: str) -> str | None:
     return next((key for key in ROMS if bare(key) == bare(name)), None)
 
 
+def rom_path(key: str) -> Path:
+    """Where the image of a key of `ROMS` is."""
+    installed = Path(__file__).resolve().with_name("roms")
+    return (installed if installed.is_dir() else CHECKOUT / "roms") / ROMS[key].file
+
+
 def find_rom(name: str) -> tuple[bytes, list[int], Rom]:
     """The image of one of `ROMS`, or of a file (.bin or .hex) for the standard board; the addresses left out.
 
@@ -47,7 +53,4 @@ def find_rom(name: str) -> tuple[bytes, list[int], Rom]:
     key = known_rom(name)
     if key is None:
         return *read_rom(name), Rom(name)
-    rom = ROMS[key]
-    installed = Path(__file__).resolve().with_name("roms")
-    path = (installed if installed.is_dir() else CHECKOUT / "roms") / rom.file
-    return *read_rom(str(path)), rom
+    return *read_rom(str(rom_path(key))), ROMS[key]

@@ -16,6 +16,8 @@ from skg.ref import real
 from skg.ref.fit import FittedCurve, Node
 from skg.ref.geometry import enlarged, same_point
 from skg.ref.interpreter import Interpreter
+from skg.ref.mill.interpreter import MillInterpreter
+from skg.ref.mill.iso import IsoPunch
 from skg.ref.near import Watch
 from skg.ref.real import ZERO, Real
 from skg.ref.tape import Punch
@@ -74,9 +76,9 @@ class Run:
 class Recorder(Interpreter):
     """An interpreter that keeps every run of FIT statements."""
 
-    def __init__(self) -> None:
+    def __init__(self, punch: Punch | None = None) -> None:
         self.runs: list[Run] = []
-        super().__init__((), Watch(), Punch())
+        super().__init__((), Watch(), punch or Punch())
 
     def _fit(self, node: Point, angle: Real | None) -> None:
         if self.cutter.curve is None:
@@ -89,9 +91,16 @@ class Recorder(Interpreter):
             nodes.append(Node(place, tangent, self.offset))
 
 
-def fitted_runs(source: str) -> list[Run]:
+class MillRecorder(Recorder, MillInterpreter):
+    """The same for milling programs."""
+
+    def __init__(self) -> None:
+        super().__init__(IsoPunch())
+
+
+def fitted_runs(source: str, mills: bool = False) -> list[Run]:
     """The runs of FIT statements that a program makes; a program that ends in ERR is a UserError."""
-    machine = Recorder()
+    machine = MillRecorder() if mills else Recorder()
     error = machine.load(source) or machine.run()
     if error:
         number, line = error

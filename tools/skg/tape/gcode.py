@@ -9,7 +9,7 @@ beside its 3B tapes.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from decimal import ROUND_HALF_UP, Decimal
 from math import hypot, pi
@@ -171,9 +171,10 @@ class GcodeFinding:
 
 @dataclass(frozen=True)
 class Drilled:
-    """A hole: down and up again at a place, µm."""
+    """A hole: down and up again at a place, µm; its depth, if the program's heights are known."""
 
     place: Spot
+    depth: Decimal | None = None
 
 
 @dataclass(frozen=True)
@@ -185,11 +186,17 @@ class Rapid:
 
 @dataclass(frozen=True)
 class GcodeProgram:
-    """What G-code does in the plane, in order: cuts, rapids, holes, stops; `home` (µm) is where it begins."""
+    """What G-code does in the plane, in order: cuts, rapids, holes, stops; `home` (µm) is where it begins.
+
+    `depths` and `travels`: the heights (µm) at which it cuts and at which it is moved, each once, in the order in which
+    they come; empty where no height is known.
+    """
 
     name: str
     items: tuple[Placed | Rapid | Drilled | Stop, ...]
     home: Spot = (0, 0)
+    depths: tuple[Decimal, ...] = ()
+    travels: tuple[Decimal, ...] = ()
 
     @property
     def holes(self) -> list[Spot]:
@@ -219,6 +226,26 @@ class GcodeProgram:
                 found.append((is_move, []))
             found[-1][1].append(_placed(item))
         return [PlacedRoute(tuple(blocks), is_move) for is_move, blocks in found if blocks]
+
+    def heights(self) -> str:
+        """What there is to say of the heights of cuts, holes and rapids; empty where none is known."""
+        holes = [item.depth for item in self.items if isinstance(item, Drilled)]
+        deep = list(dict.fromkeys(depth for depth in holes if depth is not None))
+        said = [
+            f"cuts at {_several(self.depths)}" if self.depths else "",
+            f"{_counted_holes(len(holes))} down to {_several(deep)}" if deep else "",
+            f"travels at {_several(self.travels)}" if self.travels else "",
+        ]
+        return ", ".join(filter(None, said))
+
+    def left_out(self) -> tuple[str, ...]:
+        """What a 3B tape of the same path has no word for, to be said."""
+        holes = sum(isinstance(item, Drilled) for item in self.items)
+        said = [
+            _counted_holes(holes) if holes else "",
+            f"the heights of its cuts, {_several(self.depths)}" if self.depths else "",
+        ]
+        return (f"left out, as 3B has no word for it: {' and '.join(filter(None, said))}",) if any(said) else ()
 
     def tape(self) -> Tape:
         """The 3B tape of the same path: a rapid is a move between two stops; holes have no blocks.
@@ -253,6 +280,16 @@ class GcodeProgram:
         if moved_from is not None:
             items += _between(moved_from, at)
         return Tape(self.name, tuple(_counted(items)), drift=True)
+
+
+def _counted_holes(number: int) -> str:
+    return f"{number} hole{'s' * (number > 1)}"
+
+
+def _several(heights: Sequence[Decimal]) -> str:
+    """Some heights, or the first and the last of many."""
+    words = [f"Z{_millimetres(_rounded_one(height))}" for height in heights]
+    return ", ".join(words) if len(words) <= 3 else f"{words[0]} … {words[-1]} ({len(words)} heights)"
 
 
 def _between(start: Spot, end: Spot) -> list[Block]:
@@ -314,6 +351,10 @@ class _Reader:
         self.line = 0
         self.at = Decimal(0), Decimal(0)
         self.height: Decimal | None = None
+        # (heights that begin with a relative one are from an unknown place)
+        self.knows_height = False
+        self.depths: dict[Decimal, None] = {}
+        self.travels: dict[Decimal, None] = {}
         self.dipped: Spot | None = None
         self.motion = 0
         self.absolute = False
@@ -443,6 +484,8 @@ class _Reader:
             return
         goal = tuple(self.goal(values, letter, here) for letter, here in zip("XY", self.at, strict=True))
         end = _rounded(goal)
+        if self.knows_height:
+            (self.depths if cuts else self.travels)[self.height] = None
         if self.motion < 2:
             if "I" in values or "J" in values:
                 raise _Misread(column, "I and J belong to G02 and G03")
@@ -459,13 +502,14 @@ class _Reader:
     def to_height(self, height: Decimal, place: Spot, cuts: bool) -> Iterator[Drilled]:
         """Up or down: a hole is what is entered and left again."""
         is_down = self.height is None or height < self.height
-        self.height = height
+        before, self.height = self.height, height
+        self.knows_height |= self.absolute
         if is_down and cuts:
             self.dipped = place
         elif not is_down:
             if self.dipped == place:
                 self.begun = True
-                yield Drilled(place)
+                yield Drilled(place, before if self.knows_height else None)
             self.dipped = None
 
     def arc(self, start: Spot, end: Spot, from_centre: Spot, column: int) -> Iterator[Placed]:
@@ -514,7 +558,7 @@ def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
             reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
     if not reader.ended:
         reader.findings.append(GcodeFinding(reader.line + 1, 1, "expected M02 or M30, found the end of the program"))
-    return GcodeProgram(name, tuple(items), reader.home), reader.findings
+    return GcodeProgram(name, tuple(items), reader.home, tuple(reader.depths), tuple(reader.travels)), reader.findings
 
 
 def read(text: str, name: str = "-") -> GcodeProgram:
