@@ -122,8 +122,8 @@ def test_twenty_thousand_elements(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("offset", "words"),
     [
-        (0.6, ["offset of 0.6 mm", "does not come to", "no room"]),
-        (2.5, ["contour 1 (opening", "does not come to", "no room"]),
+        (0.6, ["does not get through at (15, 8.5), 0.6 mm beside it; at most 0.5 mm fits", "--small leave"]),
+        (2.5, ["contour 1 (opening", "no room at (10, 10), 2.5 mm beside it; at most 2.397 mm fits", "--small leave"]),
     ],
 )
 def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: list[str]) -> None:

@@ -7,10 +7,10 @@ from math import atan, cos, pi, sin
 from pathlib import Path
 
 import pytest
-from cuthelp import LIMIT, apart, drawing, run_failing, saved, stretches
+from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretches
 from ezdxf.layouts import Modelspace
 from shapely import union_all
-from shapely.geometry import LinearRing, LineString, Polygon
+from shapely.geometry import LinearRing, LineString, Point, Polygon
 from toolhelp import Run
 
 from skg.drawing.contour import Contour, Edge
@@ -145,8 +145,54 @@ def test_what_the_wire_does_not_come_to(run: Run, tmp_path: Path) -> None:
     ]
     page.modelspace().add_lwpolyline(rooms, close=True)
     message = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.15)
-    assert "contour 1 (opening" in message and "does not come to" in message and "no room" in message
+    assert "contour 1 (opening" in message and "does not get through at (10, 4)" in message
     assert not (tmp_path / "part.3b").exists()
+
+
+def test_what_is_too_small_may_be_left(run: Run, tmp_path: Path) -> None:
+    """Asked for it, contours without room are left out and accounted for; what lies around them is cut as ever."""
+    page = drawing()
+    space = page.modelspace()
+    space.add_lwpolyline([(0, 0), (30, 0), (30, 20), (0, 20)], close=True)
+    space.add_circle((5, 5), 0.08)
+    space.add_circle((10, 5), 2, dxfattribs={"layer": "HOLES"})
+    space.add_lwpolyline([(20, 5), (25, 5), (22, 5)], close=True, dxfattribs={"layer": "HOLES"})
+    # Around a hole, and crossing itself: the hole stays an opening.
+    space.add_lwpolyline([(40, 0), (60, 0), (60, 20), (50, 20), (56, 24), (50, 24), (56, 20), (40, 20)], close=True)
+    space.add_circle((50, 10), 3)
+    path = saved(page, tmp_path)
+    words = run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1)
+    assert "crosses or touches itself at (2" in words and "more contour without room" in words
+    assert words.endswith("--small leave") and not (tmp_path / "part.3b").exists()
+    cuts, words = cut(run, page, tmp_path, "--offset", 0.1, "--small", "leave")
+    wanted = [(10, 5, 1.9), (50, 10, 2.9)]
+    for places in cuts:
+        ring = LineString(places[1:-1])
+        if ring.length > 30:
+            assert apart(ring, parallel(Polygon([(0, 0), (30, 0), (30, 20), (0, 20)]), 0.1, "outside", "mitre")) < LIMIT
+        else:
+            x, y, radius = wanted.pop(0)
+            assert apart(ring, Point(x, y).buffer(radius, quad_segs=400).exterior) < LIMIT
+    assert not wanted and len(cuts) == 3
+    assert "layer 0: 4 entities, 2 cut, 2 left: 1 CIRCLE, 1 LWPOLYLINE (no room for the wire)" in words
+    assert "left out: opening from (5.08, 5), layer 0: the wire has no room at (5, 5)" in words
+    assert "3 contours: 3 closed" in words
+
+
+def test_a_slot_as_wide_as_the_wire(run: Run, tmp_path: Path) -> None:
+    """There and back on one line; a micrometre less is a micrometre's step, three are none."""
+    for width, is_cut in ((0.2, True), (0.1999, True), (0.19, False)):
+        page = drawing()
+        shape = [(0, 0), (8, 0), (8, 4 - width), (12, 4 - width), (12, 0), (20, 0), (20, 8)]
+        shape += [(12, 8), (12, 4), (8, 4), (8, 8), (0, 8)]
+        polygon(shape, page)
+        page.modelspace().add_lwpolyline([(-9, -9), (29, -9), (29, 17), (-9, 17)], close=True)
+        if is_cut:
+            cuts, _ = cut(run, page, tmp_path, "--offset", 0.1)
+            assert LineString(cuts[0]).distance(Point(10, 4 - width / 2)) < LIMIT
+        else:
+            words = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1)
+            assert "does not get through at (10, 3.905), 0.1 mm beside it; at most 0.095 mm fits" in words
 
 
 def test_wire_way_by_itself() -> None:

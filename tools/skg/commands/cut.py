@@ -85,6 +85,13 @@ _TELLING = 20_000
     help="Length of the bridge that keeps a part cut from outside; the machine stops, the last cut takes it off.",
 )
 @click.option(
+    "--small",
+    default="refuse",
+    show_default=True,
+    type=click.Choice(("refuse", "leave")),
+    help="What becomes of closed contours that are too small or narrow for the wire beside them.",
+)
+@click.option(
     "--rom",
     default="no-drift",
     show_default=True,
@@ -120,6 +127,7 @@ def command(
     lead_shape: str,
     passes: tuple[float, ...] | None,
     tab: float,
+    small: str,
     tolerance: float,
     rom: str,
     ram: int,
@@ -137,9 +145,10 @@ def command(
     distance = _offset(wire, gap, offset)
     form = picture_format(sheet, None) if sheet else ""
     wishes = Wishes(layers, start_layer, units, tolerance, open=opened or ("refuse" if distance else "cut"))
-    reading = read(read_bytes(file), file, wishes)
+    data = read_bytes(file)
+    reading = read(data, file, wishes)
     factor = reading.report.factor
-    settings = Settings(rom, ram, feed)
+    settings = Settings(rom, ram, feed, small)
     try:
         routes = plan(
             reading.contours,
@@ -155,6 +164,8 @@ def command(
         job = make(routes, "standard input" if file == "-" else Path(file).name, factor, settings)
     except UserError as error:
         raise UserError(f"{file}: {error}") from None
+    if job.left:
+        reading = read(data, file, wishes, {one.number for one in job.left})
     write_bytes(output, job.data)
     if program:
         write_bytes(program, job.program.encode("ascii"))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, replace
 
-from skg.cutting.check import LIMIT, Checked, Threading, check
+from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
 from skg.drawing.account import counted, short, shown
-from skg.drawing.parallel import NoRoom, uncut
+from skg.drawing.parallel import NoRoom, uncut, widest
 from skg.drawing.plan import PlannedContour
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
@@ -34,13 +34,21 @@ _MEANING = {
 }
 
 
+#: Of a contour with more edges than this the largest offset that fits is not looked for.
+_MANY = 2000
+#: What becomes of closed contours that the wire, beside them, has no room in.
+SMALL = ("refuse", "leave")
+
+
 @dataclass(frozen=True)
 class Settings:
-    """The board: its ROM ("no-drift", "standard") and RAM (KiB); the feed, mm/min."""
+    """The board: its ROM ("no-drift", "standard") and RAM (KiB); the feed, mm/min; `small`: one of `SMALL`, or empty
+    where nobody is asked."""
 
     rom: str = "no-drift"
     ram_kib: int = 8
     feed: float = 5.0
+    small: str = ""
 
     @property
     def is_without_drift(self) -> bool:
@@ -49,8 +57,17 @@ class Settings:
 
 
 @dataclass(frozen=True)
+class Left:
+    """A contour that is not cut, since the wire has no room: its number among those planned, what it is, and why."""
+
+    number: int
+    name: str
+    why: str
+
+
+@dataclass(frozen=True)
 class Job:
-    """A tape that was checked, the program that made it, how it went into the board."""
+    """A tape that was checked, the program that made it, how it went into the board; `left`: what it does not cut."""
 
     routes: list[PlannedContour]
     program: str
@@ -60,6 +77,7 @@ class Job:
     tape: Tape
     checked: Checked
     settings: Settings
+    left: tuple[Left, ...] = ()
 
     @property
     def cut_length(self) -> float:
@@ -72,31 +90,44 @@ class Job:
         return self.cut_length / self.settings.feed * 60
 
 
-def make(routes: list[PlannedContour], title: str, factor: float, settings: Settings, fillets: bool = True) -> Job:
+def make(
+    routes: list[PlannedContour],
+    title: str,
+    factor: float,
+    settings: Settings,
+    fillets: bool = True,
+    left: tuple[Left, ...] = (),
+) -> Job:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
     Where a contour has edges that the wire cannot follow, the program has the wire's own way along it. `factor`: mm in
-    a unit of the file, for the places that a `UserError` names. Nothing is returned that is wrong: a contour that
-    cannot be cut, or that is not cut as it is drawn, is a `UserError`.
+    a unit of the file, for the places that a `UserError` names. `left`: what is left out already. Nothing is returned
+    that is wrong: a contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
     """
+    if not routes:
+        raise UserError(f"no contour is left to cut: {left[0].name}: {left[0].why}")
     program = Program(routes, title, fillets)
     text, is_stored, fed = _through(program, settings)
     if fed.error and fillets:
         # A rounded corner without room to round it may still go as an arc.
-        return make(routes, title, factor, settings, False)
+        return make(routes, title, factor, settings, False, left)
     if fed.error:
-        helped = _helped(routes, _refused(program, settings), factor)
-        if helped is None:
+        helped, more = _helped(routes, _refused(program, settings), factor, settings)
+        if helped == routes:
             raise UserError(_located(program, fed.error, factor, settings))
-        return make(helped, title, factor, settings, False)
+        return make(helped, title, factor, settings, False, left + more)
     tape = tapes.parse(fed.tape, title)
     checked = check(tape, routes, settings.is_without_drift)
     if checked.faults:
-        helped = _helped(routes, {fault.route for fault in checked.faults}, factor)
-        if helped is not None:
-            return make(helped, title, factor, settings, fillets)
-    _refuse(checked, routes, factor)
-    return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings)
+        helped, more = _helped(routes, {fault.route for fault in checked.faults}, factor, settings)
+        if helped == routes and settings.small == "leave":
+            helped, more = _without(
+                routes, {fault.route: _cuts_into(fault, factor) for fault in checked.faults if fault.is_into}, factor
+            )
+        if helped != routes:
+            return make(helped, title, factor, settings, fillets, left + more)
+    _refuse(checked, routes, factor, settings)
+    return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings, left)
 
 
 def _refused(program: Program, settings: Settings) -> set[int]:
@@ -113,13 +144,17 @@ def _refused(program: Program, settings: Settings) -> set[int]:
     return refused
 
 
-def _helped(routes: list[PlannedContour], which: set[int], factor: float) -> list[PlannedContour] | None:
-    """The routes, some with a straight lead or with the wire's own way; None where none of these can be helped.
+def _helped(
+    routes: list[PlannedContour], which: set[int], factor: float, settings: Settings
+) -> tuple[list[PlannedContour], tuple[Left, ...]]:
+    """The routes, some with a straight lead or with the wire's own way, and those that are left out; the same routes
+    where none of these can be helped.
 
-    A contour that the wire does not get around is a `UserError`.
+    A contour that the wire does not get around is a `UserError`, or it is left out.
     """
     found = list(routes)
-    for at in which:
+    none: dict[int, NoRoom] = {}
+    for at in sorted(which):
         route = routes[at]
         if route.is_arc and route.contour.is_closed:
             # (an arc that comes to the contour takes more room than a line)
@@ -128,11 +163,48 @@ def _helped(routes: list[PlannedContour], which: set[int], factor: float) -> lis
             try:
                 found[at] = route.with_wire_ways()
             except NoRoom as no_room:
-                raise UserError(
-                    f"{_named(route, at, factor)}: {no_room} {_in_file(no_room.place, factor)}, there is no room "
-                    f"for an offset of {short(max(map(abs, route.passes)))} mm: take a smaller one or a thinner wire"
-                ) from None
-    return found if found != routes else None
+                none[at] = no_room
+    if none and settings.small != "leave":
+        raise UserError(_no_room(routes, none, factor, settings))
+    return _without(found, {at: f"{no_room} {_in_file(no_room.place, factor)}" for at, no_room in none.items()}, factor)
+
+
+def _without(
+    routes: list[PlannedContour], why: dict[int, str], factor: float
+) -> tuple[list[PlannedContour], tuple[Left, ...]]:
+    """The routes without some, and these with the reason."""
+    left = tuple(Left(routes[at].number, _called(routes[at], factor), reason) for at, reason in why.items())
+    return [route for at, route in enumerate(routes) if at not in why], left
+
+
+def _no_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings) -> str:
+    """What to say of contours that the wire does not get around: of the tightest one."""
+    fits = {at: _fits(routes[at], no_room) for at, no_room in none.items()}
+    at = min(fits, key=lambda one: (fits[one] is None, fits[one]))
+    route, fit = routes[at], fits[at]
+    message = f"{_named(route, at, factor)}: {none[at]} {_in_file(none[at].place, factor)}"
+    if none[at].is_crossing:
+        message += ", there is no way beside it for the wire"
+        help_ = "mend it in the drawing"
+    else:
+        message += f", {short(max(map(abs, route.passes)))} mm beside it"
+        if fit is not None:
+            message += f"; at most {short(fit)} mm fits" if fit else "; no offset fits"
+        help_ = "take a smaller offset or a thinner wire"
+    if len(none) > 1:
+        message += f"; {counted(len(none) - 1, 'more contour')} without room for the wire"
+    return f"{message}: {help_}{_or_leave(settings)}"
+
+
+def _fits(route: PlannedContour, no_room: NoRoom) -> float | None:
+    """How far the wire may be beside a contour to get around it, mm; None when it is not looked for."""
+    if no_room.is_crossing:
+        return 0.0
+    return widest(route.contour, max(route.passes, key=abs)) if len(route.contour.edges) <= _MANY else None
+
+
+def _or_leave(settings: Settings) -> str:
+    return ", or leave such contours out with --small leave" if settings.small else ""
 
 
 def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
@@ -179,24 +251,32 @@ def kind(route: PlannedContour) -> str:
     return "opening" if route.is_opening else "outline"
 
 
-def _named(route: PlannedContour, number: int, factor: float) -> str:
+def _called(route: PlannedContour, factor: float) -> str:
     layers = f", layer {', '.join(route.contour.layers)}" if route.contour.layers else ""
-    return f"contour {number + 1} ({kind(route)} from {_in_file(route.contour.edges[0].start, factor)}{layers})"
+    return f"{kind(route)} from {_in_file(route.contour.edges[0].start, factor)}{layers}"
 
 
-def _refuse(checked: Checked, routes: list[PlannedContour], factor: float) -> None:
+def _named(route: PlannedContour, number: int, factor: float) -> str:
+    return f"contour {number + 1} ({_called(route, factor)})"
+
+
+def _cuts_into(fault: Misfit, factor: float) -> str:
+    return f"the wire would cut {short(fault.off)} mm into it at {_in_file(fault.place, factor)}"
+
+
+def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, settings: Settings) -> None:
     """Raise what is wrong with a tape."""
     for fault in sorted(checked.faults, key=lambda fault: (not fault.is_into, fault.route)):
-        route, where = routes[fault.route], _in_file(fault.place, factor)
+        route = routes[fault.route]
         named = _named(route, fault.route, factor)
         if fault.is_into:
             raise UserError(
-                f"{named}: the wire, {short(abs(route.offset))} mm beside it, cuts {short(fault.off)} mm into it at "
-                f"{where}: there is no room for this offset, take a smaller one or a thinner wire"
+                f"{named}: {_cuts_into(fault, factor)}, {short(abs(route.offset))} mm beside it: there is no room for "
+                f"this offset, take a smaller one or a thinner wire{_or_leave(settings)}"
             )
         raise UserError(
-            f"{named}: the wire would be {short(1000 * fault.off)} µm off the drawing at {where}, more than "
-            f"{1000 * LIMIT:g}: nothing was written"
+            f"{named}: the wire would be {short(1000 * fault.off)} µm off the drawing at "
+            f"{_in_file(fault.place, factor)}, more than {1000 * LIMIT:g}: nothing was written"
         )
     for cut in checked.cuts:
         route = routes[cut.route]
@@ -226,6 +306,9 @@ def report(job: Job, factor: float) -> list[str]:
         f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
         + _closing(job.checked.cuts, routes),
     ]
+    lines += [f"take care, left out: {one.name}: {one.why}" for one in job.left[:_PLACES]]
+    if len(job.left) > _PLACES:
+        lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} without room for the wire")
     lines += _corners(routes, factor)
     for crossing in job.checked.crossings[:_PLACES]:
         lines.append(

@@ -1,16 +1,17 @@
 """The way of the wire beside a closed contour where that has edges that the wire cannot follow.
 
 An inner arc with a smaller radius than R, a step shorter than R in a corner: the wire goes past them, from one edge
-that it can follow to the next. `wire_way` finds which these are from shapely's buffer of the contour, and then works
-out their parallels and where these meet.
+that it can follow to the next. `wire_way` finds which these are from all that lies within R of the contour's edges, and
+then works out their parallels and where these meet.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import acos, atan2, ceil, cos, hypot, pi, sin
+from math import acos, atan2, ceil, cos, floor, hypot, pi, sin
 
 import numpy as np
 import shapely
@@ -23,6 +24,10 @@ from skg.plane import XY, cross, distance, dot, minus, polar, turn
 _CHORD = 5e-5
 #: The wire follows nothing that is shorter, mm: the ROM would take its ends for one place.
 _LEAST = 2e-3
+#: A slot that is narrower than two R by less than twice this is wide enough, mm: the machine's own step is twice that.
+_HAIR = 5e-4
+#: What is not as wide as this is no room, mm.
+_SLIT = 1e-5
 #: An arc that is this near to its chord is cut as the chord, mm.
 _FLAT = 1e-4
 #: Directions (radians) that differ by less run on without a corner.
@@ -31,12 +36,28 @@ _SMOOTH = 1e-3
 _INSIDE = 0.2
 
 
-class NoRoom(Exception):
-    """The wire does not get around a contour; the message says why, `place` (mm) where."""
+#: The largest offset that a contour has room for is looked for in so many halvings, and said in steps of so much, mm.
+_HALVINGS, _STEP = 12, 0.001
 
-    def __init__(self, place: XY, why: str = "the wire does not come to") -> None:
+
+class NoRoom(Exception):
+    """The wire does not get around a contour; the message says why, `place` (mm) where.
+
+    `is_crossing`: it would not with any offset.
+    """
+
+    def __init__(self, place: XY, why: str, is_crossing: bool = False) -> None:
         super().__init__(why)
         self.place = place
+        self.is_crossing = is_crossing
+
+
+#: Why it does not.
+_NONE, _NECK, _CROSSES = (
+    "the wire has no room at",
+    "the wire does not get through at",
+    "it crosses or touches itself at",
+)
 
 
 @dataclass(frozen=True)
@@ -109,12 +130,12 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
 
     Where it does not get everywhere, or nowhere at all, it raises `NoRoom`.
     """
-    edges = [piece for edge in contour.edges for piece in as_arcs(edge) if piece.length > 1e-9]
+    edges = _lines_and_arcs(contour)
     if len(edges) == 1:
         (edge,) = edges
         radius = edge.radius + (r if edge.sweep > 0 else -r)
         if radius < _LEAST:
-            raise NoRoom(edge.start)
+            raise NoRoom(edge.centre, _NONE)
         start = polar(edge.centre, radius, edge.angles[0])
         return (replace(edge, start=start, end=start),)
     ring = _ring(edges, r)
@@ -129,30 +150,73 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
         if way[short].length >= _LEAST:
             return tuple(way)
         del runs[short]
-    raise NoRoom(contour.edges[0].start)
+    raise NoRoom(contour.edges[0].start, _NONE)
+
+
+def widest(contour: Contour, r: float) -> float:
+    """The largest offset (mm, no more than that of R) with which the wire gets around a closed contour; 0: none."""
+    fits, fails = 0.0, abs(r)
+    for _ in range(_HALVINGS):
+        tried = (fits + fails) / 2
+        try:
+            wire_way(contour, tried if r > 0 else -tried)
+            fits = tried
+        except NoRoom:
+            fails = tried
+    return floor(fits / _STEP) * _STEP
+
+
+def _lines_and_arcs(contour: Contour) -> list[Edge]:
+    return [piece for edge in contour.edges for piece in as_arcs(edge) if piece.length > 1e-9]
 
 
 def _ring(edges: list[Edge], r: float) -> np.ndarray:
     """The wire's way roughly: places along it, the last one the first."""
-    points = np.array([point for edge in edges for point in _chords(edge)])
-    area = shapely.Polygon(points)
-    if not area.is_valid:
-        raise NoRoom(edges[0].start, "the contour crosses itself, it begins at")
+    area = _area(edges)
     is_ccw = area.exterior.is_ccw
-    # (GEOS loses corners of a contour that it widens in one piece: each edge by itself)
-    lines = [shapely.LineString([*_chords(edge), edge.end]) for edge in edges]
-    strip = shapely.union_all(shapely.buffer(lines, abs(r), quad_segs=64))
+    near = [ring for edge in edges for ring in _near(edge, max(abs(r) - _HAIR, abs(r) / 2))]
+    numbers = np.repeat(np.arange(len(near)), [len(ring) for ring in near])
+    strip = shapely.union_all(shapely.polygons(shapely.linearrings(np.concatenate(near), indices=numbers)))
     beside = shapely.union(area, strip) if is_ccw == (r > 0) else shapely.difference(area, strip)
     parts = [part for part in getattr(beside, "geoms", [beside]) if not part.is_empty]
     rings = [ring for part in parts for ring in (part.exterior, *part.interiors)]
     if not rings:
-        raise NoRoom(edges[0].start)
+        raise NoRoom(edges[0].start, _NONE)
     rings.sort(key=lambda ring: -ring.length)
     for other in rings[1:]:
-        if other.length > 10 * _LEAST:
-            raise NoRoom(other.coords[0])
+        # (where two arcs run on into each other there may be a slit between what is near to one and the other)
+        if other.length > 10 * _LEAST and shapely.Polygon(other).area > _SLIT * other.length:
+            neck = shapely.get_coordinates(shapely.shortest_line(rings[0], other)).mean(0)
+            raise NoRoom((float(neck[0]), float(neck[1])), _NECK)
     found = shapely.get_coordinates(rings[0])
     return found if rings[0].is_ccw == is_ccw else found[::-1]
+
+
+def _area(edges: list[Edge]) -> shapely.Polygon:
+    """What edges run around."""
+    points = [point for edge in edges for point in _chords(edge)]
+    area = shapely.Polygon(points if len(points) > 2 else [])
+    if not area.is_empty and area.is_valid:
+        return area
+    # (such as: Self-intersection[3.5 2])
+    found = re.search(r"\[(\S+) (\S+)]", shapely.is_valid_reason(area))
+    raise NoRoom((float(found[1]), float(found[2])) if found else edges[0].start, _CROSSES, True)
+
+
+def _near(edge: Edge, r: float) -> Iterator[np.ndarray]:
+    """The places within R (mm) of an edge: the corners of what lies beside it, and those of a circle about its end."""
+    # (GEOS's own buffers will not do: it takes corners away that are up to 1 % of R, where many short chords meet more)
+    whole = Edge((edge.end[0] + r, edge.end[1]), (edge.end[0] + r, edge.end[1]), edge.end, 2 * pi)
+    yield np.array(_chords(whole))
+    if edge.centre is None:
+        aside = np.array(polar((0.0, 0.0), r, edge.direction() + pi / 2))
+        yield np.array([edge.start - aside, edge.end - aside, edge.end + aside, edge.start + aside])
+        return
+    about = (np.array([*_chords(edge), edge.end]) - edge.centre) / edge.radius
+    inner = max(0.0, edge.radius - r)
+    # (in two: of a whole circle it would touch itself)
+    for half in (about[: len(about) // 2 + 1], about[len(about) // 2 :]):
+        yield edge.centre + np.concatenate(((edge.radius + r) * half, inner * (half[::-1] if inner else half[:1])))
 
 
 def _chords(edge: Edge) -> list[XY]:
@@ -160,7 +224,7 @@ def _chords(edge: Edge) -> list[XY]:
     if edge.centre is None:
         return [edge.start]
     step = 2 * acos(max(0.9, 1 - _CHORD / edge.radius))
-    pieces = max(1, ceil(abs(edge.sweep) / step))
+    pieces = max(2, ceil(abs(edge.sweep) / step))
     return [edge.start, *(edge.at(k / pieces) for k in range(1, pieces))]
 
 

@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from math import floor, inf
 
@@ -31,6 +31,7 @@ FARTHEST = 50_000.0
 TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
+SMALL = "no room for the wire"
 
 
 @dataclass(frozen=True)
@@ -42,19 +43,21 @@ class Reading:
     report: Account
 
 
-def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
+def read(data: bytes, name: str, wishes: Wishes | None = None, small: Collection[int] = ()) -> Reading:
     """Read a drawing file's bytes; `name` is the file's name, for messages and for its ending.
 
-    A drawing without anything to cut, or one that is refused, is a `UserError` that begins with the name.
+    `small`: numbers of contours, as they are read without it, that turned out to have no room for the wire: the report
+    has them among what is left, and the contours are without them. A drawing without anything to cut, or one that is
+    refused, is a `UserError` that begins with the name.
     """
     wishes = wishes or Wishes()
     try:
-        return _read(data, name, wishes)
+        return _read(data, name, wishes, small)
     except UserError as error:
         raise UserError(f"{name}: {error}") from None
 
 
-def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
+def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Reading:
     from skg.drawing.touching import relations
 
     content, report = _content(data, name, wishes)
@@ -96,15 +99,20 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
         kept = [one for one in kept if one.is_closed]
         for one in opened:
             fates.of_edges(one.edges, "of an open contour")
-    fates.account(kept, report)
+    for at in small:
+        fates.of_edges(kept[at].edges, SMALL)
+    cut = [one for at, one in enumerate(kept) if at not in small]
+    fates.account(cut, report)
     if not kept:
         raise UserError(_no_outline(report))
-    contours = [replace(merged(one), layers=fates.layers(one)) for one in kept]
-    _measure(contours, report)
+    # (the size, and with it where the drawing lies, is the same without the small ones)
+    _measure(kept, report)
+    contours = [replace(merged(one), layers=fates.layers(one)) for one in cut]
+    _count(contours, report)
     if report.units == "m" and report.units_from == TOLD and max(report.size) > USUAL[1]:
         # (what a program writes that was not told any units)
         width, height = (short(side / UNITS["m"]) for side in report.size)
-        found = _read(data, name, replace(wishes, units="mm"))
+        found = _read(data, name, replace(wishes, units="mm"), small)
         found.report.units_from = f"the file says m, but {width} x {height} m is no part; --units says otherwise"
         return found
     _check_size(report)
@@ -263,10 +271,14 @@ def _box(contour: Contour) -> tuple[float, float, float, float]:
 
 
 def _measure(contours: list[Contour], report: Account) -> None:
-    """Size, length and number of the contours."""
+    """The box around the contours."""
     boxes = [_box(contour) for contour in contours]
     report.low = min(box[0] for box in boxes), min(box[1] for box in boxes)
     report.high = max(box[2] for box in boxes), max(box[3] for box in boxes)
+
+
+def _count(contours: list[Contour], report: Account) -> None:
+    """Number and length of the contours."""
     report.closed = sum(contour.is_closed for contour in contours)
     report.open = len(contours) - report.closed
     report.length = sum(edge.length for contour in contours for edge in contour.edges)
