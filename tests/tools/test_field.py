@@ -168,3 +168,23 @@ def test_nearest_pieces(reach: float) -> None:
                 assert far[number] == pytest.approx(got, abs=1e-3)
                 assert mask[number]
     assert seen > 100
+
+
+def test_depths_of_neighbours() -> None:
+    """Tiles that share edges and corners, alone, in a plate whose edge some of them touch, with holes of their own."""
+    rng = random.Random(7)
+    looked_at = 0
+    for _ in range(40):
+        contours = []
+        for _ in range(rng.randint(4, 14)):
+            x, y, width, height = rng.randint(0, 6), rng.randint(0, 6), rng.randint(1, 5), rng.randint(1, 5)
+            corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+            first = rng.randrange(4)
+            contours.append(ring([(float(u), float(v)) for u, v in corners[first:] + corners[:first]]))
+        shapes = [Polygon(one.points()) for one in contours]
+        for at, (shape, depth) in enumerate(zip(shapes, Field(contours).depths(), strict=True)):
+            others = shapes[:at] + shapes[at + 1 :]
+            if all(not shape.overlaps(other) and not shape.equals(other) for other in others):
+                assert depth == sum(other.covers(shape) for other in others)
+                looked_at += 1
+    assert looked_at > 50

@@ -23,6 +23,8 @@ _RUN = 32
 _HAIR = 1e-9
 #: So many pairs of a place and a chord are looked at together.
 _PAIRS = 100_000
+#: Where a contour is looked across for a place in it, parts of its height: no corners lie there but by chance.
+_ACROSS = 0.4873
 #: So many boxes are asked for the places in them together.
 _BOXES = 1000
 
@@ -104,9 +106,35 @@ class Field:
             low = high
 
     def depths(self) -> list[int]:
-        """How many closed contours lie around each."""
-        starts = [contour.edges[0].start for contour in self.contours]
-        return [len(around) for around in self.around(starts, range(len(starts)))]
+        """How many closed contours lie around each: hold a place in it, and are larger.
+
+        (Its corners may lie on its neighbours, and a smaller one that lies in it may hold the place.)
+        """
+        sizes = self._sizes()
+        around = self.around([self._inner(at) for at in range(len(sizes))], range(len(sizes)))
+        return [sum(sizes[other] >= sizes[at] for other in others) for at, others in enumerate(around)]
+
+    def _sizes(self) -> Floats:
+        """The areas of all contours, mm²."""
+        x, y = (self._points - self._points[np.repeat(self._first[:-1], np.diff(self._first))]).T
+        turned = np.zeros(len(x))
+        turned[1:] = x[:-1] * y[1:] - x[1:] * y[:-1]
+        # (each begins at 0, 0: what comes to it from the one before is nothing)
+        return np.abs(np.add.reduceat(turned, self._first[:-1])) / 2 if len(x) else x
+
+    def _inner(self, at: int) -> XY:
+        """A place inside a closed contour: in the middle of the widest stretch across it, near half its height. An open
+        one's start."""
+        points = self._points[self._first[at] : self._first[at + 1]]
+        low, high = points[:, 1].min(), points[:, 1].max()
+        y = low + _ACROSS * (high - low)
+        (x1, y1), (x2, y2) = points[:-1].T, points[1:].T
+        across = np.flatnonzero((y1 > y) != (y2 > y))
+        if not self.contours[at].is_closed or len(across) < 2:
+            return self.contours[at].edges[0].start
+        x = np.sort(x1[across] + (y - y1[across]) / (y2[across] - y1[across]) * (x2[across] - x1[across]))
+        widest = int(np.argmax(x[1::2] - x[::2]))
+        return float(x[2 * widest] + x[2 * widest + 1]) / 2, float(y)
 
     def around(self, places: Sequence[XY], on: Sequence[int] = ()) -> list[list[int]]:
         """The closed contours around each of some places, by their numbers; `on`: those that the places lie on."""
