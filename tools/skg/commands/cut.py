@@ -18,6 +18,7 @@ from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
+from skg.memory import without_collector
 from skg.plane import XY
 from skg.tape.block import Tape
 from skg.tape.positions import decide
@@ -108,6 +109,7 @@ _TELLING = 20_000
     help="Feed, for the time.",
 )
 @click.option("--quiet", is_flag=True, help="No report.")
+@without_collector()
 def command(
     file: str,
     output: str,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
@@ -20,6 +21,8 @@ from skg.tape.simulation import duration
 
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
+#: No contour takes fewer bytes of the board's memory: the lines of its REM, FROM and CUT.
+_LEAST_STORED = 24
 #: What the errors of a route mean (language.md, section 6), and what to do.
 _MEANING = {
     5: ("a number is out of range", "is a radius or a place in the drawing absurdly small or large?"),
@@ -209,10 +212,10 @@ def _or_leave(settings: Settings) -> str:
 
 def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
     """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
-    try:
-        text = program.numbered()
-    except UserError:
-        text = ""
+    text = ""
+    if _LEAST_STORED * len(program.routes) <= 1024 * settings.ram_kib:
+        with suppress(UserError):
+            text = program.numbered()
     if text:
         fed = feed(text, settings.rom, settings.ram_kib)
         if fed.error is None or fed.error.number != MEMORY_FULL:

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from math import degrees, pi, tan
+from typing import NamedTuple
 
 from skg.drawing.contour import Edge
 from skg.drawing.plan import Lead, PlannedContour, Way
@@ -39,17 +40,14 @@ def literal(point: XY) -> str:
     return f"({number(point[0])},{number(point[1])})"
 
 
-@dataclass(frozen=True)
-class Step:
-    """A statement: its text, and of which route it is and at which place of the drawing (mm), if of any."""
+class Step(NamedTuple):
+    """A statement: its text, and at which place of the drawing (mm) it is, if at any."""
 
     text: str
-    route: int | None = None
     place: XY | None = None
 
 
-@dataclass(frozen=True)
-class _Item:
+class _Item(NamedTuple):
     """What stands between two separators of a CUT: its text, the letter that its name may have, its place."""
 
     text: str
@@ -191,11 +189,15 @@ class _Writer:
     names: dict[tuple[str, str], str] = field(default_factory=dict)
     used: Counter[str] = field(default_factory=Counter)
     r: float | None = None
-    route: int | None = None
 
     def say(self, text: str, place: XY | None = None) -> None:
         """Add a statement."""
-        self.statements.append(Step(text, self.route, place))
+        self.statements.append(Step(text, place))
+
+    def taken(self) -> list[Step]:
+        """The statements there are, for the caller alone."""
+        found, self.statements = self.statements, []
+        return found
 
     def named(self, item: _Item) -> str:
         """The item's text in a CUT: the name of one that is used again, given on a line before where it is new."""
@@ -210,9 +212,8 @@ class _Writer:
             self.say(f"{self.names[key]}={item.text}", item.place)
         return self.names[key]
 
-    def write(self, at: int, title: str, pieces: Iterable[str | float | _Item | Edge]) -> None:
+    def write(self, title: str, pieces: Iterable[str | float | _Item | Edge]) -> None:
         """Write a route."""
-        self.route = at
         self.say(f"REM {title}")
         if not self.is_stored and self.r == 0:
             self.r = None
@@ -236,7 +237,6 @@ class _Writer:
             else:
                 self.say(piece)
         self.cut(cut)
-        self.route = None
 
     def cut(self, items: list[tuple[str, XY]]) -> None:
         """Write elements as CUT statements, as many as they need."""
@@ -275,32 +275,22 @@ class Program:
         plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
         self.head = Step(f"REM {plain}: {_count(len(self.routes), 'CONTOUR')}")
 
-    def _written(self, is_stored: bool) -> _Writer:
-        pieces = [list(_pieces(route, self.fillets)) for route in self.routes]
-        writer = _Writer(is_stored)
-        if is_stored:
-            writer.uses.update(
-                (piece.letter, piece.text) for route in pieces for piece in route if isinstance(piece, _Item)
-            )
-        for at, route in enumerate(self.routes):
-            writer.write(at, f"{at + 1}. {describe(route)}", pieces[at])
-        return writer
-
     def unnumbered(self) -> Iterator[list[Step]]:
         """The statements without line numbers: the title, a list for each route, the end."""
         yield [self.head]
-        statements = self._written(False).statements
-        at = 0
-        for route in range(len(self.routes)):
-            first = at
-            while at < len(statements) and statements[at].route == route:
-                at += 1
-            yield statements[first:at]
+        writer = _Writer(False)
+        for at, route in enumerate(self.routes):
+            writer.write(_title(at, route), _pieces(route, self.fillets))
+            yield writer.taken()
         yield [Step("END")]
 
     def numbered(self) -> str:
         """The program with line numbers; too many lines are a `UserError`."""
-        writer = self._written(True)
+        pieces = [list(_pieces(route, self.fillets)) for route in self.routes]
+        writer = _Writer(True)
+        writer.uses.update((piece.letter, piece.text) for some in pieces for piece in some if isinstance(piece, _Item))
+        for at, route in enumerate(self.routes):
+            writer.write(_title(at, route), pieces[at])
         lines = [self.head.text, *(statement.text for statement in writer.statements), "END"]
         subroutine = len(lines)
         if writer.data:
@@ -341,6 +331,10 @@ def _data(items: list[str]) -> Iterator[str]:
 
 def _count(count: int, noun: str) -> str:
     return f"{count} {noun}{'S' if count > 1 else ''}"
+
+
+def _title(at: int, route: PlannedContour) -> str:
+    return f"{at + 1}. {describe(route)}"
 
 
 def describe(route: PlannedContour) -> str:

@@ -12,7 +12,7 @@ from skg.machine.roms import find_rom
 
 #: Cycles after which the operator looks at the paper again; those that a silent machine may wait for a key, and for a
 #: character from the empty reader: LOAD gives up sooner, unless nothing has come yet.
-SLICE, PATIENCE, READER_PATIENCE = 1_000_000, 20_000_000, 6_000_000
+SLICE, PATIENCE, READER_PATIENCE = 10_000_000, 20_000_000, 6_000_000
 _CTRL_C = 3
 _ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
 
