@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from skg.drawing.contour import Edge
@@ -19,7 +19,7 @@ class Entity:
 
     `kind`: its name in the file, such as LWPOLYLINE or path; `place`: a place on it in the file's own units.
     `left`: why it is not cut, or not all of it; empty while it is. `is_odd`: it is left because it was not understood,
-    not because it is nothing to cut.
+    not because it is nothing to cut. `dashes`: the name of its line type where that is not drawn through.
     """
 
     kind: str
@@ -27,6 +27,7 @@ class Entity:
     place: XY
     left: str = ""
     is_odd: bool = False
+    dashes: str = ""
 
 
 @dataclass
@@ -135,6 +136,15 @@ def shown(place: XY) -> str:
 def counted(count: int, noun: str, nouns: str = "") -> str:
     """A number with its noun."""
     return f"{count} {noun if count == 1 else nouns or noun + 's'}"
+
+
+def said(entities: Iterable[Entity], nouns: tuple[str, str], what: str, then: str) -> Iterator[str]:
+    """What is odd about entities and what is made of that, a line for each layer; `nouns`: one and many."""
+    layers: dict[str, list[Entity]] = defaultdict(list)
+    for entity in entities:
+        layers[entity.layer].append(entity)
+    for layer, some in sorted(layers.items()):
+        yield f"{counted(len(some), *nouns)} on layer {layer} {what}, as at {shown(some[0].place)}: {then}"
 
 
 def listed(kinds: dict[str, int]) -> str:

@@ -103,11 +103,15 @@ class Definition:
 @dataclass
 class DxfFile:
     """What a DXF file holds. `units`: name and mm in one, None when it does not tell. Names of layers and blocks are
-    in lower case as keys. `states`: "off" or "frozen" of layers that are not seen. `notes`: what was mended."""
+    in lower case as keys. `states`: "off" or "frozen" of layers that are not seen; `dashed`: the line types that are
+    not drawn through, in upper case; `dashed_layers`: that of each layer that has one. `notes`: what was mended."""
 
     units: tuple[str, float] | None = None
     layers: dict[str, str] = field(default_factory=dict)
     states: dict[str, str] = field(default_factory=dict)
+    dashed: set[str] = field(default_factory=set)
+    dashed_layers: dict[str, str] = field(default_factory=dict)
+    multiline_styles: dict[str, Record] = field(default_factory=dict)
     blocks: dict[str, Definition] = field(default_factory=dict)
     model: list[Record] = field(default_factory=list)
     paper: list[Record] = field(default_factory=list)
@@ -137,8 +141,13 @@ def load(data: bytes) -> DxfFile:
                 found.units = _units(record.groups)
         elif kind in ("ENDSEC", "EOF"):
             section = ""
+        elif section == "TABLES" and kind == "LTYPE":
+            if record.whole(73):
+                found.dashed.add(record.value(2).strip().upper())
         elif section == "TABLES" and kind == "LAYER":
             _layer(found, record)
+        elif section == "OBJECTS" and kind == "MLINESTYLE":
+            found.multiline_styles[record.value(2).strip().upper()] = record
         elif section == "BLOCKS":
             if kind == "BLOCK":
                 block = _block(record)
@@ -149,6 +158,7 @@ def load(data: bytes) -> DxfFile:
                 _add(block.records, record)
         elif section == "ENTITIES":
             _add(found.paper if record.whole(67) else found.model, record)
+    found.dashed_layers = {name: kind for name, kind in found.dashed_layers.items() if kind in found.dashed}
     for name, block in found.blocks.items():
         if name.startswith(("*paper_space", "$paper_space")):
             found.paper += block.records
@@ -229,6 +239,7 @@ def _units(header: list[Group]) -> tuple[str, float] | None:
 def _layer(found: DxfFile, record: Record) -> None:
     name = record.value(2).strip()
     found.layers[name.lower()] = name
+    found.dashed_layers[name.lower()] = record.value(6).strip().upper()
     if record.whole(70) & 1:
         found.states[name.lower()] = "frozen"
     elif record.whole(62) < 0:
@@ -258,6 +269,8 @@ def _tags(groups: list[Group]) -> list[DXFTag]:
         elif not is_application and (code != 5 and code != 330 or has_subclass):
             kept.append(DXFTag(code, value))
     kind = kept[0].value.strip().upper()
+    # (of before release 11, when a LINE had no height)
+    kind = "LINE" if kind == "3DLINE" else kind
     kept[0] = DXFTag(0, kind)
     if not has_subclass and kind in _SUBCLASS:
         kept[1:1] = [DXFTag(100, "AcDbEntity"), DXFTag(100, _SUBCLASS[kind])]

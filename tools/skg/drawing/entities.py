@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import groupby, pairwise
+from functools import cache
+from itertools import pairwise
 from math import pi, radians
 
+import ezdxf
+from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic
 from ezdxf.lldxf.const import DXFError
 from ezdxf.math import BSpline, Matrix44, Vec3, bulge_to_arc
 
-from skg.drawing.account import Content, Entity, counted, shown
+from skg.drawing.account import Content, Entity, said
 from skg.drawing.contour import Edge
 from skg.drawing.dxf_file import DxfFile, Record
 from skg.drawing.shapes import conic, is_number, spline_edges
@@ -55,6 +58,8 @@ class _Collector:
         self.known: dict[int, DXFGraphic] = {}
         self.wide: list[Entity] = []
         self.whole: list[Entity] = []
+        self.thick: list[Entity] = []
+        self.dashes_around = ""
 
     def collect(self, records: Iterable[Record], inherited: str, hidden: str, blocks: tuple[str, ...]) -> None:
         """Add records; those of a block on layer 0 lie on its reference's layer.
@@ -82,6 +87,15 @@ class _Collector:
         if self.matrix is not None:
             at = self.matrix.transform(Vec3(at)).xyz[:2]
         return at
+
+    def dashes(self, record: Record, layer: str) -> str:
+        """The line type of a record that is not drawn through, else nothing."""
+        name = record.value(6).strip().upper()
+        if name == "BYBLOCK":
+            return self.dashes_around
+        if name in ("", "BYLAYER"):
+            return self.file.dashed_layers.get(layer.lower(), "")
+        return name if name in self.file.dashed else ""
 
     def account(self, record: Record, layer: str) -> Entity:
         """Add an account of a record."""
@@ -123,6 +137,9 @@ class _Collector:
                 else:
                     x, y = self.content.edges[known].start
                     account.place = x / self.factor, y / self.factor
+                    account.dashes = self.dashes(record, layer)
+                    if record.value(39).strip(" 0.+-eE"):
+                        self.thick.append(account)
                     if _is_wide(record):
                         self.wide.append(account)
                     if record.kind == "ARC" and record.value(50).strip() == record.value(51).strip():
@@ -157,7 +174,7 @@ class _Collector:
         hidden = hidden or ("invisible" if record.whole(60) else "")
         if self.file.states.get(layer.lower()) == "frozen":
             hidden = hidden or self.unwanted(layer)
-        outer = self.matrix
+        outer = self.matrix, self.dashes_around
         try:
             matrices = [] if reason else [self.placed(single, block.base) for single in _singles(record.entity())]
         except UNREADABLE as error:
@@ -167,10 +184,11 @@ class _Collector:
             account.left = hidden or self.unwanted(layer) or reason
             account.is_odd = account.left == reason
             return
+        self.dashes_around = self.dashes(record, layer)
         for matrix in matrices:
             self.matrix = matrix
             self.collect(block.records, layer, hidden, (*blocks, name.lower()))
-        self.matrix = outer
+        self.matrix, self.dashes_around = outer
         self.collect((part for part in record.parts if part.kind == "ATTRIB"), layer, hidden, blocks)
 
     def placed(self, insert: DXFGraphic, base: tuple[float, float, float]) -> Matrix44:
@@ -214,8 +232,12 @@ class _Collector:
                 return self.polyline(entity, points, bulges, entity.is_closed)
             case "SPLINE" | "HELIX":
                 return self.spline(entity)
+            case "MLINE":
+                return self.multiline(entity)
             case "POLYLINE":
                 raise NotFlat("a mesh, expected a flat drawing")
+            case "3DFACE" | "MESH":
+                raise NotFlat("a face, not lines: draw its outline in the CAD program")
             case "REGION" | "BODY" | "3DSOLID" | "SURFACE" | "ACAD_PROXY_ENTITY" | "PROXY":
                 raise NotFlat("not understood, explode it in the CAD program")
             case _:
@@ -285,6 +307,28 @@ class _Collector:
         flat = BSpline(controls, tool.order, tool.knots(), tool.weights() or None)
         return spline_edges(flat, self.wishes.fit_tolerance)
 
+    def multiline(self, entity: DXFGraphic) -> Iterator[Edge]:
+        """The lines beside each other, and the caps that the style gives them at the ends."""
+        name = entity.dxf.style_name
+        style = self.file.multiline_styles.get(name.upper())
+        if style is None:
+            raise NotFlat(f"its style {name} is not in the file")
+        # (ezdxf draws one that is in a document)
+        entity.doc = _document()
+        entity.dxf.style_handle = None
+        known = entity.doc.mline_styles.get(name) or entity.doc.mline_styles.new(name)
+        given = style.entity()
+        known.dxf.flags, known.elements = given.dxf.flags, given.elements
+        for part in entity.virtual_entities():
+            if part.dxftype() in ("LINE", "ARC"):
+                yield from self.edges(part)
+
+
+@cache
+def _document() -> Drawing:
+    """A document for entities that ezdxf takes from no other place."""
+    return ezdxf.new()
+
 
 def _is_wide(record: Record) -> bool:
     """Whether a polyline is drawn with a width."""
@@ -322,17 +366,7 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     else:
         for record in file.paper:
             collector.account(record, record.layer).left = "in paper space"
-    file.notes += _said(collector.wide, "polyline", "drawn with a width", "the middle is cut")
-    file.notes += _said(collector.whole, "arc", "from an angle to the same angle", "a full circle is cut")
+    file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "the middle is cut")
+    file.notes += said(collector.whole, ("arc", "arcs"), "from an angle to the same angle", "a full circle is cut")
+    file.notes += said(collector.thick, ("entity", "entities"), "with a thickness", "what it stands on is cut")
     return collector.content
-
-
-def _said(entities: list[Entity], noun: str, what: str, then: str) -> Iterator[str]:
-    """What is odd about entities and what is made of that, a line for each layer."""
-    for layer, group in groupby(sorted(entities, key=_layer_of), _layer_of):
-        some = list(group)
-        yield f"{counted(len(some), noun)} on layer {layer} {what}, as at {shown(some[0].place)}: {then}"
-
-
-def _layer_of(entity: Entity) -> str:
-    return entity.layer

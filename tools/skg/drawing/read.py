@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from math import floor, inf
 
-from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, counted, listed, short, shown
+from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, counted, listed, said, short, shown
 from skg.drawing.chain import chain, merged
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.wishes import OPEN, UNITS, Wishes
@@ -31,6 +31,7 @@ FARTHEST = 50_000.0
 TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
+DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
 SMALL = "no room for the wire"
 
 
@@ -89,6 +90,11 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
         kept, rest = rest, []
     if wishes.open == "all":
         kept, rest = kept + rest, []
+    elif not wishes.layers and any(one.is_closed and not fates.is_dashed(one) for one in kept):
+        dashed = [one for one in kept if not one.is_closed and fates.is_dashed(one)]
+        kept = [one for one in kept if one.is_closed or not fates.is_dashed(one)]
+        for one in dashed:
+            fates.of_edges(one.edges, DASHED)
     for run in rest:
         fates.of_edges(run.edges, JUNCTION)
     opened = [one for one in kept if not one.is_closed]
@@ -179,6 +185,10 @@ class _Fates:
         """The layers of a contour's edges."""
         return tuple(dict.fromkeys(self.entities[edge.entity].layer for edge in contour.edges))
 
+    def is_dashed(self, contour: Contour) -> bool:
+        """Whether a contour is drawn with dashes, all of it: an axis, or what lies behind."""
+        return all(self.entities[edge.entity].dashes for edge in contour.edges)
+
     def account(self, contours: list[Contour], report: Account) -> None:
         """Put the sums of the layers into the report; one that does not agree is a `UserError`."""
         cut = Counter(edge.entity for contour in contours for edge in contour.edges)
@@ -208,6 +218,12 @@ class _Fates:
             elif entity.is_odd:
                 report.not_understood.append(entity)
         report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
+        dashed = defaultdict(list)
+        for at, entity in enumerate(self.entities):
+            if cut[at] and entity.dashes:
+                dashed[entity.dashes].append(entity)
+        for name, some in dashed.items():
+            report.notes += said(some, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
 
 
 def in_file(place: XY, factor: float) -> XY:

@@ -1,0 +1,132 @@
+"""Entities that few programs write, and what lines are drawn with: what is cut, left and said."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import pi
+
+import ezdxf
+import pytest
+from ezdxf.document import Drawing
+from test_reading import checked, dxf_bytes, left, line, raw, square
+
+from skg.drawing.read import Reading
+
+LAYERS = "0\nLAYER\n2\nAXES\n70\n0\n62\n1\n6\nCENTER\n0\nLAYER\n2\nPART\n70\n0\n62\n7\n6\nCONTINUOUS\n"
+TYPES = "0\nLTYPE\n2\nCENTER\n73\n4\n0\nLTYPE\n2\nCONTINUOUS\n73\n0\n"
+DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
+
+
+def notes(reading: Reading, word: str) -> list[str]:
+    return [note for note in reading.report.lines() if word in note]
+
+
+def mm() -> Drawing:
+    return ezdxf.new("R2010", units=ezdxf.units.MM)
+
+
+def test_multilines() -> None:
+    """Two lines with caps are one closed contour each; without caps they are two open ones; closed ones two rings."""
+    drawing = mm()
+    for name, flags in (("SQUARE", 16 | 256), ("ROUND", 64 | 1024), ("OPEN", 0)):
+        style = drawing.mline_styles.new(name)
+        style.elements.append(1.5)
+        style.elements.append(-1.5)
+        style.dxf.flags = flags
+    space = drawing.modelspace()
+    space.add_mline([(0, 0), (50, 0), (50, 30)], dxfattribs={"style_name": "SQUARE", "justification": 1})
+    space.add_mline([(0, 60), (50, 60)], dxfattribs={"style_name": "ROUND", "justification": 1})
+    space.add_mline([(0, 80), (50, 80)], dxfattribs={"style_name": "OPEN", "justification": 1})
+    space.add_mline([(100, 0), (150, 0), (150, 30)], close=True, dxfattribs={"style_name": "OPEN", "justification": 1})
+    contours = checked(dxf_bytes(drawing)).contours
+    lengths = [(one.is_closed, sum(edge.length for edge in one.edges)) for one in contours]
+    # A band 3 wide is as long as its two sides and its two ends; at a corner the outer side is 3 longer than the inner.
+    assert [one.is_closed for one in contours] == [True, True, False, False, True, True]
+    assert lengths[0][1] == pytest.approx(2 * 80 + 2 * 3, abs=1e-6)
+    assert lengths[1][1] == pytest.approx(100 + 3 * pi, abs=1e-6)
+    assert [length for _, length in lengths[2:4]] == pytest.approx([50, 50])
+    middle = 50 + 30 + (50**2 + 30**2) ** 0.5
+    assert sum(length for _, length in lengths[4:]) == pytest.approx(2 * middle, abs=1e-6)
+
+
+def test_multiline_without_its_style() -> None:
+    drawing = mm()
+    drawing.modelspace().add_mline([(0, 0), (50, 0)])
+    drawing.modelspace().add_circle((90, 0), 5)
+    data = dxf_bytes(drawing).replace(b"MLINESTYLE", b"NOLINESTYL")
+    reading = checked(data)
+    assert len(reading.contours) == 1
+    assert notes(reading, "not cut: MLINE")[0].endswith("its style Standard is not in the file")
+
+
+def test_old_line_in_space() -> None:
+    """What AutoCAD before release 11 wrote for a line that may leave the plane."""
+    sides = [line(*p, *q).replace("LINE", "3DLINE", 1) for p, q in pairwise([(0, 0), (9, 0), (0, 9), (0, 0)])]
+    assert checked(raw(*sides)).contours[0].is_closed
+
+
+def test_thickness_is_said() -> None:
+    reading = checked(raw("CIRCLE 8 PART 10 5 20 5 40 4 39 12.5", "CIRCLE 8 PART 10 50 20 5 40 4 39 0.0"))
+    assert len(reading.contours) == 2
+    assert notes(reading, "thickness") == [
+        "1 entity on layer PART with a thickness, as at (9, 5): what it stands on is cut"
+    ]
+
+
+def test_faces_are_named() -> None:
+    face = "3DFACE 10 0 20 0 30 0 11 9 21 0 31 0 12 9 22 9 32 0 13 0 23 9 33 0"
+    assert "a face, not lines: draw its outline in the CAD program" in left(checked(raw(face, *square(20, 0, 9))))
+
+
+AXIS = line(2, 5, 8, 5, "AXES")
+
+
+def types(*entities: str) -> bytes:
+    return raw(*entities, layers=TYPES + LAYERS)
+
+
+def test_axes_within_an_outline_are_left() -> None:
+    """By the layer's line type, or the entity's own; --open all and --layer cut them."""
+    own = line(3, 3, 7, 3) + " 6 Center"
+    data = types(*square(0, 0, 10, "PART"), AXIS, own)
+    reading = checked(data)
+    assert [one.is_closed for one in reading.contours] == [True]
+    assert left(reading) == {DASHED: 2}
+    assert len(checked(data, open="refuse").contours) == 1
+    assert len(checked(data, open="all").contours) == 3
+    assert len(checked(data, layers=("PART", "AXES")).contours) == 2
+
+
+def test_lines_that_are_drawn_through_are_cut() -> None:
+    """An engraved line, by the types of its layer and itself; one that says CONTINUOUS on the layer of the axes."""
+    data = types(*square(0, 0, 10, "PART"), line(2, 5, 8, 5, "PART"), line(2, 7, 8, 7, "AXES") + " 6 CONTINUOUS")
+    reading = checked(data)
+    assert len(reading.contours) == 3
+    assert not notes(reading, "dashes")
+
+
+def test_a_drawing_in_dashes_is_cut() -> None:
+    """Where no outline is drawn through, dashes mean nothing; they are said, as a dashed opening is."""
+    reading = checked(types(*square(0, 0, 10, "AXES"), AXIS))
+    assert len(reading.contours) == 2
+    assert notes(reading, "dashes") == [
+        "5 entities on layer AXES drawn with dashes (CENTER), as at (0, 0): cut as it is"
+    ]
+    reading = checked(types(*square(0, 0, 10, "PART"), "CIRCLE 8 AXES 10 5 20 5 40 2"))
+    assert len(reading.contours) == 2
+    assert notes(reading, "dashes") == ["1 entity on layer AXES drawn with dashes (CENTER), as at (7, 5): cut as it is"]
+
+
+def test_dashes_of_a_block() -> None:
+    """What is drawn BYBLOCK has the line type of its reference."""
+    drawing = mm()
+    drawing.linetypes.add("DASHED", [1.0, 0.6, -0.4])
+    block = drawing.blocks.new("MARK")
+    block.add_line((0, 0), (3, 0), {"linetype": "BYBLOCK"})
+    space = drawing.modelspace()
+    space.add_circle((0, 0), 20)
+    space.add_blockref("MARK", (1, 1), {"linetype": "DASHED"})
+    space.add_blockref("MARK", (1, 5))
+    reading = checked(dxf_bytes(drawing))
+    assert left(reading) == {DASHED: 1}
+    assert len(reading.contours) == 2
