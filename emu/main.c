@@ -30,6 +30,7 @@
 #include "symbols.h"
 #include "terminal.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -44,7 +45,9 @@ enum {
     MACHINE_PATIENCE = 10000,       /* cycles that the board asks for the machine's answer before time stands still */
     LINE_PATIENCE_MS = 5000,        /* so long a machine may leave its line full */
     SLICE_MS = 5,                   /* real time is kept, and the keyboard looked at, so often */
-    UNPACED_SLICE = 1000000         /* cycles, when no time is kept */
+    UNPACED_SLICE = 1000000,        /* cycles, when no time is kept */
+    ERROR_LINE = 16,                /* characters of the longest line with ERR: a line number has 4 */
+    CTRL_Z = 0x1a                   /* nothing follows on a tape of program lines */
 };
 
 /* Everything that one run of the program holds open. */
@@ -55,13 +58,17 @@ typedef struct {
     symbols *names;
     terminal terminal;
     terminal line;                  /* the machine's, with --punch-pty */
-    bool running;                   /* the part has been loaded and RUN typed */
+    bool running;                   /* the part has been loaded and RUN or END typed */
     pacer pacer;
     FILE *paper, *punch, *steps;    /* NULL: nowhere */
     FILE *picture;                  /* of the drive; NULL: none */
     drawn *drawn;                   /* what goes onto it, */
     uint64_t steps_drawn;           /* and how many steps are there already */
     uint64_t printed;               /* characters on the paper */
+    char printing[ERROR_LINE + 1];  /* how the present line of it begins */
+    size_t line_length;             /* and how long it is */
+    bool below_error;               /* the line above is one with ERR */
+    const char *rest;               /* what is to be typed when the part is loaded; NULL: nothing */
     int failed;                     /* errno of output that was lost; 0: none */
     bool prompted;                  /* the machine has come to its first prompt */
     uint8_t written[I8080_SPACE];   /* since then (--stats) */
@@ -81,10 +88,41 @@ static void put(session *s, uint8_t c, FILE *file)
     }
 }
 
+/* ERR nn, or ERR nn LINE n, and nothing else (language.md, section 6). */
+static bool is_error(const char *line)
+{
+    static const char words[] = "ERR ", where[] = " LINE ";
+    size_t at = sizeof words - 1;
+    if (strncmp(line, words, at) || !isdigit((unsigned char)line[at]) || !isdigit((unsigned char)line[at + 1])) {
+        return false;
+    }
+    line += at + 2;
+    at = sizeof where - 1;
+    return !*line || (!strncmp(line, where, at) && line[at] && !line[at + strspn(line + at, "0123456789")]);
+}
+
+/* Keeps the paper's present line, and whether the one above is an error's. */
+static void follow(session *s, uint8_t c)
+{
+    if (c == '\r' || c == '\n') {
+        if (s->line_length) {
+            s->printing[s->line_length < ERROR_LINE ? s->line_length : ERROR_LINE] = '\0';
+            s->below_error = s->line_length <= ERROR_LINE && is_error(s->printing);
+        }
+        s->line_length = 0;
+    } else if (c >= ' ') {
+        if (s->line_length < ERROR_LINE) {
+            s->printing[s->line_length] = (char)c;
+        }
+        s->line_length++;
+    }
+}
+
 static void print(void *user, uint8_t c)
 {
     session *s = user;
     s->printed++;
+    follow(s, c);
     if (s->paper) {
         put(s, c, s->paper);
     } else {
@@ -311,14 +349,13 @@ static bool type_line(session *s, const char *line, size_t length)
     return board_type(s->board, (const uint8_t *)line, length) && board_type(s->board, (const uint8_t *)"\r", 1);
 }
 
-/* The operator's work with one part: LOAD, RUN, answers to INPUT; DRIVE 1, a key at each stop. Returns the exit code. */
+/* The operator's work with one part: LOAD, RUN or END, answers to INPUT; DRIVE 1, a key at each stop. Returns the exit code. */
 static int run_part(session *s, const char *answers)
 {
-    const char *const commands[] = { "LOAD", s->o.drives ? "DRIVE 1" : "RUN", "RUN" };
-    const size_t count = s->o.drives ? 3 : 2;
+    const char *const commands[] = { "LOAD", s->o.drives ? "DRIVE 1" : s->rest, "RUN" };
+    const size_t count = s->o.drives ? 3 : s->rest ? 2 : 1;
     size_t given = 0;
     uint64_t at_stop = 0; /* characters on the paper when a stop's key was pressed */
-    unsigned old_errors = 0;
     for (;;) {
         board_reason reason = until_asked(s);
         if (s->failed) {
@@ -329,10 +366,8 @@ static int run_part(session *s, const char *answers)
         }
         switch (reason) {
         case BOARD_PROMPT:
-            if (given == 0) {
-                old_errors = s->board->error_lines;
-            }
-            if (s->board->error_lines != old_errors) {
+            /* (PRINT may write the same words: the prompt does not follow them) */
+            if (s->below_error) {
                 return EXIT_ERR;
             }
             if (given == count) {
@@ -515,6 +550,33 @@ static int set_rom(session *s)
 #endif
 }
 
+/* What is to be typed when a part is loaded: RUN, or nothing when it has no line numbers and is carried out up to END; END
+ * where that is missing, so that an open route gets its last block. */
+static const char *rest_of(const uint8_t *bytes, size_t length)
+{
+    const char *rest = "END";
+    for (size_t at = 0; at < length && bytes[at] != CTRL_Z; at++) {
+        char begin[3];
+        size_t kept = 0;
+        for (; at < length && bytes[at] != '\r' && bytes[at] != '\n' && bytes[at] != CTRL_Z; at++) {
+            /* (blanks and control characters mean nothing) */
+            if (bytes[at] > ' ' && kept++ < sizeof begin) {
+                begin[kept - 1] = (char)toupper(bytes[at]);
+            }
+        }
+        if (kept && isdigit((unsigned char)begin[0])) {
+            return "RUN";
+        }
+        if (kept) {
+            rest = kept == sizeof begin && !memcmp(begin, "END", kept) ? NULL : "END";
+        }
+        if (at < length && bytes[at] == CTRL_Z) {
+            break;
+        }
+    }
+    return rest;
+}
+
 /* A tape for the reader; its last line is ended if the file does not. */
 static int set_tape(session *s, const char *path)
 {
@@ -526,6 +588,7 @@ static int set_tape(session *s, const char *path)
     }
     /* (an empty file becomes an empty line: LOAD waits for a first character) */
     bool ended = length && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r');
+    s->rest = rest_of(bytes, length);
     bool fits = board_tape(s->board, bytes, length) && (ended || board_tape(s->board, (const uint8_t *)"\n", 1));
     free(bytes);
     return fits ? 0 : complain(EXIT_ERR, "out of memory");

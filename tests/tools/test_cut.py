@@ -20,7 +20,7 @@ from toolhelp import Run
 
 from skg import tape as tapes
 from skg.errors import UserError
-from skg.machine.feeding import feed, is_stored, without_numbers
+from skg.machine.feeding import feed, rest_of, without_numbers
 from skg.plane import XY
 from skg.tape.controller import run_block
 
@@ -210,7 +210,7 @@ def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
     assert time.process_time() - began < 6
     assert "lines without numbers" in result.stderr and "250 closed contours" in result.stderr
     text = program.read_text()
-    assert not is_stored(text) and text.count("BACK") == 250
+    assert rest_of(text) == "" and text.count("BACK") == 250
     assert feed(text, "no-drift", 2).tape == tape.read_bytes()
 
 

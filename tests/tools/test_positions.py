@@ -139,7 +139,7 @@ def test_a_name_that_gets_lost(run: Run, tmp_path: Path) -> None:
 
 def test_cut_says_when_its_tape_does_not_show_it() -> None:
     """A symmetrical part closes on any tape: only a name or an option tells that it is without drift."""
-    from skg.commands.cut import unmarked
+    from skg.commands.options import unmarked
 
     program = (ROOT / "examples" / "skg06-tangent-slot.skg").read_text()
     tape = tapes.parse(feed(program, "no-drift").tape)
@@ -148,3 +148,4 @@ def test_cut_says_when_its_tape_does_not_show_it() -> None:
     assert unmarked("slot.NoDrift.3b", tape, "no-drift") == unmarked("slot.3b", tape, "standard") == []
     sure = tapes.parse(feed((ROOT / "examples" / "skg06-belts.skg").read_text(), "no-drift").tape)
     assert unmarked("belts.3b", sure, "no-drift") == []
+    assert "it is with" in unmarked("slot.nodrift.3b", tape, "standard")[0]

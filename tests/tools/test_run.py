@@ -54,6 +54,11 @@ ENDS = {
     "for ever": ("10 GOTO 10\n", ["--max-cycles", "9000000"], 3),
     "little memory": ("10 CUT O,(1,0)\n", ["--ram", "2"], 0),
     "as typed": ("CUT O,(1,0)\nPRINT 2*3\n", [], 0),
+    "as typed, with END": ("CUT O,(1,0),(2,0)\n e n\td\r\n\n\x1aCUT", [], 0),
+    "numbers behind what is typed": ("R=1\n10 CUT O,(1,0)\n", [], 0),
+    "the words of an error": ('10 PRINT "ERR 05"\n20 PRINT "ERR 05 LINE 10"\n30 CUT O,(1,1)\n', [], 0),
+    "a line that begins as an error": ('10 PRINT "ERR 055"\n20 PRINT "ERR 05 LINE "\n', [], 0),
+    "an error behind its words": ('10 PRINT "ERR 05 LINE 10",1/0\n', [], 1),
 }
 
 
@@ -64,6 +69,35 @@ def test_ends(run_program: Program, tmp_path: Path, text: str, options: list[str
     ours, theirs = run_program("run", part, *options), by_skg80(*options, part)
     assert ours.returncode == code
     same(ours, theirs, part)
+
+
+@pytest.mark.parametrize(("end", "command"), [("", "END"), ("END\n", "")])
+def test_an_open_route_without_numbers_is_whole(run_program: Program, tmp_path: Path, end: str, command: str) -> None:
+    """Its last block goes out at END: typed behind a program that has none; with one nothing is typed. `skg ref` and
+    the other commands make the same tape of it."""
+    part = tmp_path / "part.skg"
+    part.write_text(f"CUT O,(1,0)\nCUT (1,2)\n{end}")
+    tape = "B1000B0B1000GXL1\nB0B2000B2000GYL2\nDD\n"
+    for done in (by_skg80(part), run_program("run", part)):
+        assert (done.returncode, done.stdout) == (0, tape)
+        typed = [line for line in done.stderr.split("\n") if line.startswith(">")]
+        assert typed == [">LOAD", *([f">{command}"] if command else []), ">"]
+    assert run_program("ref", part).stdout == tape
+    assert run_program("check", part).stdout == f"{part}: 2 blocks, nothing wrong\n"
+
+
+def test_a_tape_whose_name_does_not_say_what_it_is(run_program: Program, tmp_path: Path) -> None:
+    """As `skg cut` says it: a symmetrical part's tape without drift, and one with under the other's name."""
+    part = ROOT / "examples" / "skg06-tangent-slot.skg"
+    for rom, name, said in (
+        ("no-drift", "a.3b", "take care: the tape itself does not show that it is without drift"),
+        ("no-drift", "a.nodrift.3b", ""),
+        ("standard", "a.3b", ""),
+        ("standard", "a.nodrift.3b", "take care: the name says that the tape is without drift, and it is with"),
+    ):
+        done = run_program("run", part, "--rom", rom, "-o", tmp_path / name)
+        assert done.returncode == 0, done.stderr
+        assert ("take care" in done.stderr, said in done.stderr) == (bool(said), True), (rom, name, done.stderr)
 
 
 def test_answers_and_output(run_program: Program, tmp_path: Path) -> None:
@@ -158,6 +192,19 @@ def test_board_goes_on_after_an_error() -> None:
     board.clear()
     assert (board.paper, board.tape, board.error) == ("", b"", None)
     assert board.type("LIST") == ["10 PRINT 1/0"]
+
+
+def test_board_tells_an_error_from_its_words() -> None:
+    """PRINT may write them: the prompt does not follow, or the line that was typed has them."""
+    board = skg.Board()
+    board.load('10 PRINT "ERR 05"\n20 PRINT "ERR 06 LINE 20"\n')
+    board.run()
+    assert board.type('PRINT "ERR 05"') == ["ERR 05"]
+    assert board.error is None
+    assert board.type('PRINT "ERR 06",1/0')[-1] == "ERR 05"
+    assert board.error == (5, None)
+    board.type("PRINT 1")
+    assert board.error == (5, None)
 
 
 def test_board_breaks_off_input_without_answers() -> None:

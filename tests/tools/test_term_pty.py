@@ -194,6 +194,19 @@ def test_a_route_left_open_is_ended(tmp_path: Path) -> None:
     assert (done.returncode, tape) == (0, b"B5000B0B5000GXL1\r\nB0B5000B5000GYL2\r\nDD\r\n")
 
 
+def test_the_words_of_an_error_are_none(tmp_path: Path) -> None:
+    """PRINT writes them, in a program, in a line without a number and between the questions of INPUT: all is sent."""
+    part, words = tmp_path / "part.skg", 'PRINT "ERR 05 LINE 20"'
+    stored = ["INPUT A", words, "INPUT D", "CUT O,(A,D)", 'PRINT "ERR 06"']
+    lines = [words, *(f"{10 * at} {line}" for at, line in enumerate(stored, 1)), "RUN", "3", "ERR 05", "4"]
+    part.write_text("\n".join([*lines, ""]))
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        done = term(machine.link, "--send", part, "--record", tmp_path / "part.3b", "--batch")
+    assert (done.returncode, done.stderr.count(b"skg term: ")) == (0, 1), done.stderr
+    assert (tmp_path / "part.3b").read_bytes() == b"B3000B4000B4000GYL1\r\nDD\r\n"
+    assert done.stdout.count(b"\nERR 05 LINE 20\r\n") == 2
+
+
 #: What goes wrong: a program, options, what is said, what is not sent any more.
 WRONG = {
     "unnumbered": (

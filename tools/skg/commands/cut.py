@@ -13,6 +13,7 @@ from skg.commands.options import (
     offset_option,
     output_option,
     picture_format,
+    unmarked,
 )
 from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, read
@@ -20,9 +21,6 @@ from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.memory import without_collector
 from skg.plane import XY
-from skg.tape.block import Tape
-from skg.tape.positions import decide
-from skg.tape.text import WITHOUT_DRIFT
 
 
 class Passes(click.ParamType):
@@ -41,10 +39,6 @@ class Passes(click.ParamType):
         if not found or not all(0 <= more <= MOST_OFFSET for more in found):
             self.fail(f"{value!r}: expected lengths in mm with commas between them, such as 0.06,0.02,0", param, ctx)
         return found
-
-
-#: A tape of more blocks than this shows whether it is without drift.
-_TELLING = 20_000
 
 
 @click.command(name="cut")
@@ -179,19 +173,6 @@ def command(
     if not quiet:
         for line in [*reading.report.lines(), *report(job, factor), *unmarked(output, job.tape, rom)]:
             click.echo(line, err=True)
-
-
-def unmarked(output: str, tape: Tape, rom: str) -> list[str]:
-    """What to say when other commands would not know that a tape is without drift."""
-    if rom != "no-drift" or output.lower().endswith(WITHOUT_DRIFT) or len(tape.blocks) > _TELLING:
-        return []
-    found = decide(tape)
-    if not found.why or found.is_sure and found.positions == "machine":
-        return []
-    return [
-        f"take care: the tape itself does not show that it is without drift: end its name in {WITHOUT_DRIFT}, or tell "
-        "the other commands --positions machine"
-    ]
 
 
 def _offset(wire: float | None, gap: float, offset: float | None) -> float:

@@ -11,9 +11,12 @@ import click
 from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Tape
 from skg.tape.positions import POSITIONS, decide
+from skg.tape.text import WITHOUT_DRIFT
 
 #: No wire with its spark gap is wider than twice this, mm.
 MOST_OFFSET = 5.0
+#: A tape of more blocks than this shows whether it is without drift.
+_TELLING = 20_000
 #: Formats of pictures, by the ending of a file's name.
 FORMATS = ("svg", "png", "pdf")
 
@@ -53,6 +56,22 @@ def say(tape: Tape, more: str = "") -> None:
     nothing = "" if tape.blocks else "no blocks: nothing is cut"
     for note in (*tape.notes, *filter(None, [more, nothing])):
         click.echo(f"skg: {tape.name}: {note}", err=True)
+
+
+def unmarked(output: str, tape: Tape, rom: str) -> list[str]:
+    """What to say when other commands would not know by a tape, or its name, that it is without drift, or with."""
+    if rom != "no-drift":
+        wrong = output.lower().endswith(WITHOUT_DRIFT)
+        return ["take care: the name says that the tape is without drift, and it is with"] if wrong else []
+    if output.lower().endswith(WITHOUT_DRIFT) or len(tape.blocks) > _TELLING:
+        return []
+    found = decide(tape)
+    if not found.why or found.is_sure and found.positions == "machine":
+        return []
+    return [
+        f"take care: the tape itself does not show that it is without drift: end its name in {WITHOUT_DRIFT}, or tell "
+        "the other commands --positions machine"
+    ]
 
 
 def output_option(text: str, required: bool = False, in_place: bool = False) -> Callable[[Callable], Callable]:

@@ -49,16 +49,18 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     """
     from skg.drawing.milling import is_milling
     from skg.drawing.source import checked_program, program_text
+    from skg.machine.feeding import as_run
     from skg.ref import mill as milling
     from skg.ref import run
     from skg.rivals.languages import is_rival
 
     program = program_text(part) if is_rival(part) else checked_program(_text(part), part)
     inputs = _text(answers).splitlines() if answers else []
+    text, runs = as_run(program)
     if not (mill or grbl):
-        result = run(program, inputs, drift=drift)
+        result = run(text, inputs, drift=drift, runs=runs)
     elif drift:
-        result = milling.run(program, inputs, line_end="\n" if grbl else "\r\n")
+        result = milling.run(text, inputs, line_end="\n" if grbl else "\r\n", runs=runs)
     else:
         raise click.UsageError("--no-drift is for 3B tapes: an ISO tape has no drift")
     click.echo(result.paper, err=True, nl=False)

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 
 import click
 
-from skg.commands.options import output_option
+from skg.commands.options import output_option, unmarked
 from skg.drawing.milling import MILL_ROM, is_milling
 from skg.drawing.source import checked_program
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, without_mark, write_bytes
 from skg.machine.board import Board, BoardStopped
-from skg.machine.feeding import MEMORY_FULL, is_stored, too_large
+from skg.machine.feeding import MEMORY_FULL, rest_of, too_large
+from skg.machine.roms import known_rom
 from skg.rivals.languages import is_rival, translated
+from skg.tape.text import parse
 
 #: Exit codes, those of build/skg80; by the reason for which the board stopped, else ERR.
 ERR, STOPPED = 1, {"cycles": 3, "nobody": 2, "break": 2}
@@ -71,22 +74,31 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
         click.echo(paper, err=True, nl=False)
         line_begins = paper.endswith("\n")
 
+    def remark(text: object) -> None:
+        if not line_begins:
+            show("\r\n")
+        click.echo(f"skg: {text}", err=True)
+
     tape, code = b"", 0
     try:
         board = Board(rom, ram, max_cycles=max_cycles, on_paper=show)
         try:
             board.load(program)
-            if not board.error and is_stored(text):
-                board.run(_answers(answers))
+            if not board.error and (rest := rest_of(text)):
+                board.run(_answers(answers), rest)
         finally:
             tape = board.tape
         code = ERR if board.error else 0
         if board.error and board.error.number == MEMORY_FULL and not answers:
-            click.echo(f"skg: {too_large(part, text, ram, rom)}", err=True)
+            remark(too_large(part, text, ram, rom))
     except BoardStopped as stopped:
-        if not line_begins:
-            show("\r\n")
-        click.echo(f"skg: {part}: {stopped}", err=True)
+        remark(f"{part}: {stopped}")
         code = STOPPED.get(stopped.reason, ERR)
     write_bytes(output, tape)
+    known = known_rom(rom)
+    if output != "-" and code == 0 and known not in (None, MILL_ROM):
+        # (a tape of several runs is none to the other commands)
+        with suppress(UserError):
+            for line in unmarked(output, parse(tape, part), known):
+                remark(f"{output}: {line}")
     sys.exit(code)

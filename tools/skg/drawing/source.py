@@ -18,7 +18,7 @@ from skg.errors import UserError
 from skg.files import read_ascii, read_bytes
 from skg.kinds import GCODE, PROGRAM, refuse_others
 from skg.machine.board import BoardStopped, find_error
-from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, feed, least_ram, too_large
+from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, least_ram, too_large
 from skg.machine.roms import rom_path
 from skg.piece import Piece
 from skg.plane import XY
@@ -212,7 +212,8 @@ def _reference(name: str, text: str, mills: bool = False) -> Result:
     # (slow to import, and not needed for tapes)
     from skg.ref import mill, run
 
-    result = (mill.run if mills else run)(text)
+    program, runs = as_run(text)
+    result = (mill.run if mills else run)(program, runs=runs)
     if result.error:
         raise _failure(name, text, *result.error)
     return result

@@ -15,6 +15,7 @@ from skg.machine.roms import find_rom
 SLICE, PATIENCE, READER_PATIENCE = 10_000_000, 20_000_000, 6_000_000
 _CTRL_C = 3
 _ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
+_PROMPT = ">"
 
 
 #: What the errors mean (language.md, section 6).
@@ -37,6 +38,11 @@ class ErrorLine(NamedTuple):
 
     number: int
     line: int | None
+
+    @property
+    def words(self) -> str:
+        """As the board prints it."""
+        return f"ERR {self.number:02d}" + (f" LINE {self.line}" if self.line is not None else "")
 
 
 class BoardStopped(UserError):
@@ -108,11 +114,11 @@ class Board:
         self._at_prompt()
         return self._lines(start)
 
-    def run(self, answers: Iterable[str] = ()) -> list[str]:
-        """RUN the program. `answers` are typed when INPUT asks; INPUT that finds none left is broken off with ctrl-C
-        (ERR 10). Returns the lines printed."""
+    def run(self, answers: Iterable[str] = (), command: str = "RUN") -> list[str]:
+        """RUN the program, or give another command that may ask. `answers` are typed when INPUT asks; INPUT that finds
+        none left is broken off with ctrl-C (ERR 10). Returns the lines printed."""
         start, waiting = len(self.paper), iter(answers)
-        self._type("RUN")
+        self._type(command)
         while (reason := self._until_asked()) == "input":
             answer = next(waiting, None)
             if answer is None:
@@ -144,8 +150,16 @@ class Board:
 
     @property
     def error(self) -> ErrorLine | None:
-        """The last `ERR` on the paper, None where there is none."""
-        return find_error(self.paper.split("\r\n"))
+        """The last `ERR` of the board on the paper, None where there is none.
+
+        PRINT may write the same words. A prompt follows them only where the PRINT was typed without a line number, and
+        then its text stands above; but where LOAD has read it as the last line of a tape, it is taken for an error.
+        """
+        lines = ["", *self.paper.split("\r\n")]
+        for before, line, after in zip(lines[-3::-1], lines[-2::-1], lines[::-1], strict=False):
+            if after.startswith(_PROMPT) and (error := find_error([line])) and not is_printed(error, before):
+                return error
+        return None
 
     def _type(self, line: str) -> None:
         self.machine.type(_ascii(line) + b"\r")
@@ -208,12 +222,15 @@ class Board:
 
 
 def find_error(lines: Iterable[str]) -> ErrorLine | None:
-    """The last `ERR` of some lines of paper."""
-    found = [match for line in lines if (match := _ERROR.fullmatch(line))]
-    if not found:
-        return None
-    number, line = found[-1].groups()
-    return ErrorLine(int(number), int(line) if line else None)
+    """The `ERR` with which lines of paper end, prompts and empty lines behind it left out."""
+    last = next((line for line in reversed([*lines]) if line.strip(f"{_PROMPT}\r\n ")), "")
+    match = _ERROR.fullmatch(last)
+    return ErrorLine(int(match[1]), int(match[2]) if match[2] else None) if match else None
+
+
+def is_printed(error: ErrorLine, typed: str) -> bool:
+    """Whether a line that was typed writes the words of an error by itself."""
+    return f'"{error.words}"' in typed
 
 
 def _ascii(text: str) -> bytes:

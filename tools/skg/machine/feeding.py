@@ -47,10 +47,19 @@ def is_end(line: str) -> bool:
     return _bare(line) == "END"
 
 
-def is_stored(program: str) -> bool:
-    """Whether a program must be RUN: one without a line number that ends with END has done all when it is loaded."""
+def rest_of(program: str) -> str:
+    """What is to be typed when a program is loaded: RUN; of one without line numbers, which has been carried out then,
+    END where it lacks one, so that an open route gets its last block, else nothing."""
     lines = lines_of(program)
-    return any(map(is_numbered, lines)) or not any(map(is_end, lines[-1:]))
+    if any(map(is_numbered, lines)):
+        return "RUN"
+    return "" if any(map(is_end, lines[-1:])) else "END"
+
+
+def as_run(program: str) -> tuple[str, bool]:
+    """A program as the reference is to have it, with an END that `rest_of` says, and whether it is to be RUN."""
+    rest = rest_of(program)
+    return (f"{program.partition(TAPE_END)[0]}\nEND\n" if rest == "END" else program), rest == "RUN"
 
 
 def without_numbers(program: str) -> list[str] | None:
@@ -76,11 +85,11 @@ def _bare(line: str) -> str:
 
 
 def feed(program: str, rom: str | bytes = "standard", ram_kib: int = 8) -> Fed:
-    """LOAD a program, and RUN it if it has numbered lines. A board that does not come back is a `BoardStopped`."""
+    """LOAD a program, then type what `rest_of` says. A board that does not come back is a `BoardStopped`."""
     board = Board(rom, ram_kib, max_cycles=MOST_CYCLES)
     board.load(program)
-    if not board.error and is_stored(program):
-        board.run()
+    if not board.error and (rest := rest_of(program)):
+        board.run(command=rest)
     return Fed(board.tape, board.error, board.machine.cycles)
 
 
@@ -93,7 +102,7 @@ def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fe
     done, error = 0, None
     for part in parts:
         # (LOAD would wait for what follows a tape without this end)
-        error = find_error(board.load(f"{part}{TAPE_END}"))
+        error = find_error(board.load(f"{part}{TAPE_END}")[-1:])
         if error:
             break
         done += 1

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from tqdm import tqdm
 
 from skg.errors import UserError
-from skg.machine.board import ERRORS, ErrorLine
+from skg.machine.board import ERRORS, ErrorLine, is_printed
 from skg.machine.feeding import MEMORY_FULL, is_end, is_numbered, least_ram, without_numbers
 from skg.machine.teletype import Port, Teletype
 
@@ -103,6 +103,8 @@ class Typist:
             self._type_again(text)
         if self.delay:
             time.sleep(self.delay)
+        if teletype.error and is_printed(teletype.error, text):
+            teletype.error = None
         return teletype.error
 
     def _type_again(self, text: str) -> None:
@@ -298,8 +300,7 @@ def _refusal(refused: _Refused, name: str, paced: bool = True) -> str:
 
 
 def _meaning(error: ErrorLine) -> str:
-    where = f" LINE {error.line}" if error.line is not None else ""
-    return f"ERR {error.number:02d}{where}, {ERRORS.get(error.number, 'of a newer ROM')}"
+    return f"{error.words}, {ERRORS.get(error.number, 'of a newer ROM')}"
 
 
 def _too_large(program: str) -> str:

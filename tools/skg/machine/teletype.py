@@ -159,8 +159,9 @@ class BrokenOff(Exception):
 class Teletype:
     """The paper on the screen, the punch in a file, and what is known about the port's state.
 
-    `line` is the paper's last line, `received` how many characters are on the paper, `error` the last ERR there,
-    `losses` how often the port went away, `gaps` how often that of the punch did.
+    `line` is the paper's last line, `shown` an ERR on the one above, `received` how many characters are on the paper,
+    `error` the last ERR with a prompt behind it, `losses` how often the port went away, `gaps` how often that of the
+    punch did.
     """
 
     record: RawIOBase | None = None
@@ -169,6 +170,7 @@ class Teletype:
     last: float = field(default_factory=time.monotonic)
     line: bytearray = field(default_factory=bytearray)
     received: int = 0
+    shown: ErrorLine | None = None
     error: ErrorLine | None = None
     losses: int = 0
     gaps: int = 0
@@ -194,9 +196,12 @@ class Teletype:
         self.last = time.monotonic()
         for byte in data:
             if byte not in b"\r\n":
+                # (PRINT may write the words of an error: the prompt does not follow them)
+                if byte == PROMPT and not self.line and self.shown:
+                    self.error, self.shown = self.shown, None
                 self.line.append(byte)
             elif self.line:
-                self.error = find_error([self.line.decode()]) or self.error
+                self.shown = find_error([self.line.decode()])
                 self.line.clear()
         self.received += len(data)
         self.news.set()

@@ -440,8 +440,11 @@ def run(
     bits: int | None = None,
     drift: bool = True,
     patience: int | None = None,
+    runs: bool = True,
 ) -> Result:
     """Load a program and RUN it; `inputs` are the operator's answers to INPUT.
+
+    Without `runs` it is loaded alone: its lines without numbers have been carried out then.
 
     Without `drift` each block starts where the controller really stands after the one before (docs/drift.md).
     With `patience` a program that carries out more lines than that raises `Endless`.
@@ -450,15 +453,15 @@ def run(
     whose tape comes out differently at 33 bits is ill-conditioned for the machine's own floats.
     """
     return carry_out(
-        lambda watch: Interpreter(inputs, watch, Punch() if drift else DriftlessPunch(), patience), source, bits
+        lambda watch: Interpreter(inputs, watch, Punch() if drift else DriftlessPunch(), patience), source, bits, runs
     )
 
 
-def carry_out(machine: Callable[[Watch], Interpreter], source: str, bits: int | None) -> Result:
-    """Load and RUN a program on a machine; `bits` as in `run`."""
+def carry_out(machine: Callable[[Watch], Interpreter], source: str, bits: int | None, runs: bool = True) -> Result:
+    """Load and RUN a program on a machine; `bits` and `runs` as in `run`."""
     with watching() as watch, real.mp.workprec(bits or real.mp.prec):
         board = machine(watch)
         error = board.load(source)
-        if error is None:
+        if error is None and runs:
             error = board.run()
     return Result(board.tape.bytes(), "".join(board.paper), error, watch.calls, board.path)

@@ -88,11 +88,12 @@ def run(
     bits: int | None = None,
     line_end: str = "\r\n",
     patience: int | None = None,
+    runs: bool = True,
 ) -> interpreter.Result:
     """Load a program and RUN it as the milling machine's ROM does; as `skg.ref.run` but for the tape.
 
     `line_end`: what ends a block, LF alone where the machine answers each (milling.md, section "Handshake").
     """
     return interpreter.carry_out(
-        lambda watch: MillInterpreter(inputs, watch, IsoPunch(line_end=line_end), patience), source, bits
+        lambda watch: MillInterpreter(inputs, watch, IsoPunch(line_end=line_end), patience), source, bits, runs
     )
