@@ -188,3 +188,12 @@ def test_depths_of_neighbours() -> None:
                 assert depth == sum(other.covers(shape) for other in others)
                 looked_at += 1
     assert looked_at > 50
+
+
+def test_depths_of_what_crosses() -> None:
+    """Round reliefs in the corners of a plate's notch and of its window are openings, each like the other."""
+    plate = [(0, 0), (40, 0), (40, 20), (25, 20), (25, 14), (15, 14), (15, 20), (0, 20)]
+    window = [(10, 4), (30, 4), (30, 10), (10, 10)]
+    reliefs = [Contour((Edge((x + 1, y), (x + 1, y), (x, y), 2 * pi),), True) for x, y in [(15, 14), (25, 14), *window]]
+    shapes = [ring([(float(x), float(y)) for x, y in corners]) for corners in (plate, window)]
+    assert Field([*reliefs, *shapes]).depths() == [1] * 6 + [0, 1]
