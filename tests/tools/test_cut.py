@@ -182,6 +182,23 @@ def test_wrong_tapes_are_found() -> None:
         check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), routes, True)
 
 
+def test_the_controllers_steps_count() -> None:
+    """What is compared with 3 µm is where the controller goes, and it is what is said: on a slant it steps aside."""
+    from skg.cutting.check import check
+    from skg.cutting.job import Settings, make
+    from skg.drawing.contour import Contour, Edge
+    from skg.drawing.plan import plan
+
+    for height, is_far in ((0.0, False), (3.7, True)):
+        corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
+        contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+        job = make(plan([contour], [(5.0, -3.0)], 0.1, "auto"), "part", 1.0, Settings())
+        found = check(job.tape, plan([contour], [(5.0, -3.0)], 0.102, "auto"), True)
+        assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
+        if is_far:
+            assert LIMIT < found.faults[0].off < 0.0036
+
+
 def test_a_circle_too_many_is_found() -> None:
     """At a corner the wire goes on along the line or circle there, but not all around that."""
     from skg.cutting.check import check

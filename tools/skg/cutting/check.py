@@ -16,17 +16,17 @@ from math import cos, sin
 
 import numpy as np
 
-from skg.cutting.near import Floats, Pieces, Whole
+from skg.cutting.near import Floats, Nearest, Pieces, Whole
 from skg.drawing.contour import Edge
 from skg.drawing.plan import Lead, PlannedContour, split_at_end
 from skg.errors import UserError
 from skg.piece import Piece
 from skg.plane import XY
 from skg.tape.block import Block, Tape, micrometres
-from skg.tape.controller import run_block
+from skg.tape.controller import run_block, trace_array
 from skg.tape.placed import Placed, closed_moves
 
-#: A block may be this far from where the drawing has the wire, mm; the controller's steps go up to 1 µm beside it.
+#: The controller may go this far from where the drawing has the wire, mm.
 LIMIT = 0.003
 #: Rounding takes a block's end up to this far, mm: where it is further off there may be a reason.
 _USUAL = 0.0008
@@ -116,12 +116,11 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
     """Follow a tape and compare it with the routes that it should cut."""
     cuts = follow(tape, routes, is_without_drift)
     contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
-    wire = Pieces((_millimetres(piece), cut.route) for cut in cuts for piece in cut.pieces)
-    steps = np.array([off for cut in cuts for off in cut.off_curve], float) / 1000
+    path = _Path(cuts)
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
-    faults, crossings, worst = _beside(wire, steps, contours, routes, offsets, widest)
-    more, far = _reached(wire, contours, _in_tabs(contours, routes), offsets, widest)
+    faults, crossings, worst = _beside(path, contours, routes, offsets, widest)
+    more, far = _reached(path, contours, _in_tabs(contours, routes), offsets, widest)
     return Checked(cuts, max(worst, far), faults + more, crossings)
 
 
@@ -189,18 +188,41 @@ def _spacing(pieces: Pieces, widest: float) -> float:
     return max(widest / 2, float(pieces.length.sum()) / _MOST_PLACES) if widest else np.inf
 
 
+class _Path:
+    """The wire's path: the pieces of all cuts, and how far the controller's steps go aside of each.
+
+    What is compared with the drawing is where the controller goes. A piece and the largest of its steps tell that at
+    most; where this is too much, its steps are looked at one by one.
+    """
+
+    def __init__(self, cuts: list[Threading]) -> None:
+        self.placed = [piece for cut in cuts for piece in cut.pieces]
+        self.pieces = Pieces((_millimetres(piece), cut.route) for cut in cuts for piece in cut.pieces)
+        self.aside = np.array([off for cut in cuts for off in cut.off_curve], float) / 1000
+
+    def doubtful(self, off: Floats, which: Whole) -> Whole:
+        """Which of some places, as far off as this and on these pieces, may be too far off by the steps alone."""
+        return np.flatnonzero((off <= LIMIT) & (off + self.aside[which] > LIMIT))
+
+    def steps(self, at: int) -> Floats:
+        """The controller's places on a piece, mm (m, 2)."""
+        piece = self.placed[at]
+        found = np.frombuffer(trace_array(piece.block), np.int64).reshape(-1, 2)
+        return (found - piece.block.start + piece.start) / 1000
+
+
 def _beside(
-    wire: Pieces, steps: Floats, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
+    path: _Path, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
 ) -> tuple[list[Misfit], list[Crossing], float]:
     """Whether every place of the wire lies as far beside its contour as it should."""
+    wire = path.pieces
     faults: dict[int, Misfit] = {}
     crossings: dict[int, Crossing] = {}
     worst = 0.0
     is_open = np.array([not route.contour.is_closed for route in routes])
-    for which, part in wire.batches(_spacing(wire, widest), 2):
-        places, owners = wire.at(which, part), wire.owner[which]
-        wanted = np.abs(offsets)[owners]
-        near = contours.nearest(places, owners, widest + 2 * LIMIT)
+
+    def off_by(places: Floats, owners: Whole, wanted: Floats, near: Nearest) -> tuple[Floats, Floats]:
+        """How far places are from where they should be, and which run into their own contour."""
         off = np.abs(near.own[:, None] - wanted).min(1)
         into = near.own < wanted.min(1) - LIMIT
         # The wire of an open contour begins on it and goes aside.
@@ -212,14 +234,26 @@ def _beside(
         off[doubtful] = np.minimum(
             off[doubtful], _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful])
         )
-        for owner, at in _first_of_each(owners, (off > LIMIT) | into):
-            misses = float(abs(wanted[at].min() - near.own[at]))
-            faults.setdefault(owner, Misfit(owner, _xy(places[at]), misses, bool(into[at])))
+        return off, into
+
+    for which, part in wire.batches(_spacing(wire, widest), 2):
+        places, owners = wire.at(which, part), wire.owner[which]
+        wanted = np.abs(offsets)[owners]
+        near = contours.nearest(places, owners, widest + 2 * LIMIT)
+        off, into = off_by(places, owners, wanted, near)
+        total = off + path.aside[which]
+        for at in np.unique(which[path.doubtful(off, which)]).tolist():
+            steps = path.steps(at)
+            owner = np.full(len(steps), wire.owner[at])
+            looked = contours.nearest(steps, owner, widest + 2 * LIMIT)
+            total[which == at] = off_by(steps, owner, np.abs(offsets)[owner], looked)[0].max()
+        for owner, at in _first_of_each(owners, (total > LIMIT) | into):
+            misses = abs(wanted[at].min() - near.own[at]) if into[at] else total[at]
+            faults.setdefault(owner, Misfit(owner, _xy(places[at]), float(misses), bool(into[at])))
         deep = wanted.min(1) - near.other
         for owner, at in _first_of_each(owners, deep > LIMIT):
             other = int(contours.owner[near.other_at[at]])
             crossings.setdefault(owner, Crossing(owner, other, _xy(places[at]), float(deep[at])))
-        total = off + steps[which]
         worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
     return list(faults.values()), list(crossings.values()), worst
 
@@ -288,7 +322,7 @@ def _in_tabs(contours: Pieces, routes: list[PlannedContour]) -> np.ndarray:
 
 
 def _reached(
-    wire: Pieces, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
+    path: _Path, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
 ) -> tuple[list[Misfit], float]:
     """Whether the wire has been beside every place of the contours that it can reach."""
     faults: dict[tuple[int, int], Misfit] = {}
@@ -307,9 +341,13 @@ def _reached(
                 free = contours.nearest(places, owners, widest).own > np.abs(aside) - LIMIT / 10
             if number + 1 < offsets.shape[1]:
                 free &= ~in_tabs[which]
-            off = wire.nearest(places[free], owners[free], 2 * LIMIT).own
+            places = places[free]
+            near = path.pieces.nearest(places, owners[free], 2 * LIMIT)
+            off = near.own + np.where(near.own_at < 0, 0.0, path.aside[near.own_at])
+            for at in path.doubtful(near.own, near.own_at).tolist():
+                off[at] = np.hypot(*(path.steps(int(near.own_at[at])) - places[at]).T).min()
             for owner, at in _first_of_each(owners[free], off > LIMIT):
-                found = Misfit(owner, _xy(places[free][at]), float(off[at]), False)
+                found = Misfit(owner, _xy(places[at]), float(off[at]), False)
                 faults.setdefault((number, owner), found)
             worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
     return [faults[key] for key in sorted(faults)], worst

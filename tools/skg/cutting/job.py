@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from math import inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
 from skg.drawing.account import counted, short, shown
@@ -277,10 +278,12 @@ def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, setti
                 f"{named}: {_cuts_into(fault, factor)}, {short(abs(route.offset))} mm beside it: there is no room for "
                 f"this offset, take a smaller one or a thinner wire{_or_leave(settings)}"
             )
-        raise UserError(
-            f"{named}: the wire would be {short(1000 * fault.off)} µm off the drawing at "
-            f"{_in_file(fault.place, factor)}, more than {1000 * LIMIT:g}: nothing was written"
-        )
+        place, off = _in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
+        if fault.off < inf:
+            raise UserError(
+                f"{named}: the wire would be {off} at {place}, more than {1000 * LIMIT:g}: nothing was written"
+            )
+        raise UserError(f"{named}: the wire would not be beside the drawing at {place}: nothing was written")
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
