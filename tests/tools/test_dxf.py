@@ -42,7 +42,7 @@ from skg.ref import run as run_reference
 from skg.tape import Block, Stop
 from skg.tape.controller import run_block
 from skg.tape.joints import estimate
-from skg.tape.placed import place
+from skg.tape.laid import place
 
 PARTS = Path(__file__).parent / "parts"
 PAGE = ROOT / "docs" / "drift.md"

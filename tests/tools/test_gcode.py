@@ -16,7 +16,8 @@ from toolhelp import CAD_TAPE, Run
 from skg import tape as tapes
 from skg.ref import mill
 from skg.tape import Block, Stop, Tape, gcode
-from skg.tape.placed import PlacedRoute, place
+from skg.tape.laid import place
+from skg.tape.placed import PlacedRoute
 
 ROOT = Path(__file__).parents[2]
 

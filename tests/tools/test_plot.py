@@ -16,7 +16,8 @@ import pytest
 from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
-from skg.tape.placed import Placed, place
+from skg.tape.laid import place
+from skg.tape.placed import Placed
 
 HERE = Path(__file__).parent
 PLATE = HERE / "parts" / "plate.3b"

@@ -18,7 +18,7 @@ from skg.commands.options import (
 from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import micrometres
-from skg.tape.placed import place, stop_places
+from skg.tape.placed import stop_places
 
 
 @click.command(name="plot")
@@ -67,6 +67,7 @@ def command(
     """
     from skg.drawing.plot import COLOURS, Picture, Sheet
     from skg.drawing.source import contour_of, iso_program, load
+    from skg.tape.laid import place
 
     form = picture_format(output, form, ", or --format")
     sheets = []

@@ -118,7 +118,7 @@ def command(
     if steps_file == "-":
         pass
     elif as_json:
-        kept = reports if blocks else [replace(report, each=()) for report in reports]
+        kept = [replace(report, each=tuple(report.each) if blocks else ()) for report in reports]
         click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))
     else:
         click.echo("\n".join(_text(report, blocks) for report in reports))

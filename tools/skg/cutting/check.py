@@ -24,7 +24,8 @@ from skg.piece import Piece
 from skg.plane import XY
 from skg.tape.block import Block, Tape, micrometres
 from skg.tape.controller import run_block, trace_array
-from skg.tape.placed import Placed, closed_moves
+from skg.tape.moves import closed_moves
+from skg.tape.placed import Placed
 
 #: The controller may go this far from where the drawing has the wire, mm.
 LIMIT = 0.003
@@ -93,9 +94,9 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
         raise UserError(f"the tape has {len(stretches) - 1} stops, expected {2 * len(owners) - 2}")
     at = micrometres(routes[0].start[0]), micrometres(routes[0].start[1])
     cuts = []
-    for number, blocks in enumerate(stretches):
+    for number, (blocks, (first, last)) in enumerate(zip(stretches, tape.bounds, strict=True)):
         outcomes = [run_block(block) for block in blocks]
-        moves = [outcome.move for outcome in outcomes] if is_without_drift else closed_moves(blocks)
+        moves = [outcome.move for outcome in outcomes] if is_without_drift else closed_moves(tape)[first:last].tolist()
         begin = at
         pieces, at = _placed(blocks, moves, at)
         if number % 2 == 0:

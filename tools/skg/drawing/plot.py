@@ -20,7 +20,8 @@ from skg.errors import UserError
 from skg.files import write_bytes
 from skg.piece import Piece
 from skg.plane import XY
-from skg.tape.placed import PlacedRoute, extents
+from skg.tape.laid import Laid
+from skg.tape.placed import PlacedRoute
 
 #: One colour for each tape (Okabe and Ito's palette, which colour-blind readers tell apart).
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -45,13 +46,17 @@ def _path(pieces: Sequence[Piece], scale: float = 1.0) -> Outline:
     """One curve of lines and arcs that follow each other: the pen stays down between them. `scale` is a millimetre over
     the pieces' unit. Arcs are Bézier curves of at most 22.5°: true to one part in 10⁸.
     """
-    starts = np.array([piece.start for piece in pieces])
-    ends = np.array([piece.end for piece in pieces])
-    arcs = np.array([not piece.is_line for piece in pieces])
+    if isinstance(pieces, Laid):
+        starts, ends, arcs = pieces.starts, pieces.ends, ~pieces.is_line
+        centres, sweeps = pieces.centres[arcs], pieces.sweeps[arcs]
+    else:
+        starts = np.array([piece.start for piece in pieces])
+        ends = np.array([piece.end for piece in pieces])
+        arcs = np.array([not piece.is_line for piece in pieces])
+        drawn = [piece for piece in pieces if not piece.is_line]
+        centres, sweeps = np.array([piece.centre for piece in drawn]), np.array([piece.sweep for piece in drawn])
     counts = np.ones(len(pieces), int)
     if arcs.any():
-        drawn = [piece for piece in pieces if not piece.is_line]
-        sweeps = np.array([piece.sweep for piece in drawn])
         curves = np.maximum(1, np.ceil(abs(sweeps) / (pi / 8) - 1e-9).astype(int))
         counts[arcs] = 3 * curves
     # Where each piece begins among all vertices, its start included.
@@ -61,9 +66,8 @@ def _path(pieces: Sequence[Piece], scale: float = 1.0) -> Outline:
     vertices[first[1:] - 1] = ends
     codes = np.full(first[-1], Outline.LINETO)
     if arcs.any():
-        of = np.repeat(np.arange(len(drawn)), curves)
+        of = np.repeat(np.arange(len(sweeps)), curves)
         at = np.arange(len(of)) - np.repeat(np.cumsum(curves) - curves, curves)
-        centres = np.array([piece.centre for piece in drawn])
         arms = starts[arcs] - centres
         radii, angles, steps = np.hypot(*arms.T), np.arctan2(arms[:, 1], arms[:, 0]), sweeps / curves
         # The control points of an arc as L. Maisonobe has them, "Drawing an elliptical arc".
@@ -93,7 +97,8 @@ class Picture:
     """A drawing to scale: 1 mm of the part is `scale` mm on the paper."""
 
     def __init__(self, sheets: list[Sheet], scale: float | None, title: str) -> None:
-        boxes = [extents(sheet.routes) for sheet in sheets]
+        laid = [Laid.joined([Laid.of(route.blocks) for route in sheet.routes]) for sheet in sheets if sheet.routes]
+        boxes = [[*low, *high] for low, high in map(Laid.extents, laid)]
         pieces = [piece.start for sheet in sheets for piece in sheet.contour]
         xs = [x / 1000 for box in boxes for x in box[::2]] + [x for x, _ in pieces]
         ys = [y / 1000 for box in boxes for y in box[1::2]] + [y for _, y in pieces]

@@ -27,7 +27,7 @@ from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
 from skg.tape.gcode import GcodeProgram, is_gcode
 from skg.tape.gcode import read as read_gcode
-from skg.tape.placed import PlacedRoute, place, stop_places
+from skg.tape.placed import PlacedRoute, stop_places
 from skg.tape.positions import decide
 
 if TYPE_CHECKING:
@@ -231,7 +231,9 @@ def lay_out(made: Made, start: XY, positions: str, joints: str) -> tuple[list[Pl
     `positions` is one of `skg.tape.positions.POSITIONS`. `joints` "drawn": where the corners most likely were before
     the tape's rounding; "tape": at the whole µm that the blocks or the controller end at.
     """
-    from skg.tape.joints import estimate  # which loads numpy
+    # (these load numpy)
+    from skg.tape.joints import estimate
+    from skg.tape.laid import place
 
     home = micrometres(start[0]), micrometres(start[1])
     if joints == "tape":

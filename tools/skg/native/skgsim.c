@@ -153,3 +153,24 @@ int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace, uint8_t *por
     /* Two copies of the loop, each with its kind of block folded in. */
     return block->sense ? run(block, budget, trace, port, 0) : run(block, budget, trace, port, 1);
 }
+
+int64_t skgsim_walk(skgsim_block *blocks, int64_t count, const int64_t *should)
+{
+    int64_t x = count ? blocks->drift_x : 0, y = count ? blocks->drift_y : 0;
+    for (int64_t k = 0; k < count; k++) {
+        skgsim_block *b = &blocks[k];
+        b->drift_x = x;
+        b->drift_y = y;
+        const int64_t from_x = b->sense ? sign_x(b->quadrant) * b->x : 0;
+        const int64_t from_y = b->sense ? sign_y(b->quadrant) * b->y : 0;
+        if (skgsim_run(b, INT64_MAX, NULL, NULL) == SKGSIM_STALLED)
+            return k;
+        b->px -= from_x;
+        b->py -= from_y;
+        if (should != NULL) {
+            x += b->px - should[2 * k];
+            y += b->py - should[2 * k + 1];
+        }
+    }
+    return count;
+}

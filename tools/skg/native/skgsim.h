@@ -31,4 +31,9 @@ enum { SKGSIM_X_STEP = 1, SKGSIM_X_MINUS = 2, SKGSIM_Y_STEP = 4, SKGSIM_Y_MINUS 
  * the directions that both axes have in the quadrant. STALLED: the count axis does not move any more, J will never be reached. */
 int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace, uint8_t *port);
 
+/* Follow blocks one after the other, each to its end; px and py are then the way from its start. should[2k], should[2k + 1] is
+ * the way that block k ought to make: what it misses is added to the drift of the next one, which begins with that of
+ * blocks[0]. NULL: all have that drift. Returns count, or which block STALLED. */
+int64_t skgsim_walk(skgsim_block *blocks, int64_t count, const int64_t *should);
+
 #endif

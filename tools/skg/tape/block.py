@@ -8,6 +8,7 @@ always see the same points.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
 
 #: No x, y or J has more digits.
@@ -268,7 +269,7 @@ class Tape:
 
     `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so, in words (empty:
     it was made just now). `notes`: what there is to say of how it was read. `start`: where the wire starts on the
-    drawing, mm, where the tape says so.
+    drawing, mm, where the tape says so. `kept`: what was worked out of the blocks (`skg.tape.columns.kept`).
     """
 
     name: str
@@ -277,26 +278,28 @@ class Tape:
     drift_by: str = ""
     notes: tuple[str, ...] = ()
     start: tuple[float, float] | None = None
+    kept: dict[str, object] = field(default_factory=dict, compare=False, repr=False)
 
-    @property
+    @cached_property
     def blocks(self) -> list[Block]:
         """The blocks alone, in order."""
         return [item for item in self.items if isinstance(item, Block)]
 
-    @property
+    @cached_property
     def stops(self) -> list[Stop]:
         """The stops alone, in order."""
         return [item for item in self.items if isinstance(item, Stop)]
 
+    @cached_property
+    def bounds(self) -> list[tuple[int, int]]:
+        """For each of `stretches` which of all blocks it is: the first, and the one behind the last, from 0."""
+        stops = [at for at, item in enumerate(self.items) if isinstance(item, Stop)]
+        ends = [at - stops_before for stops_before, at in enumerate([*stops, len(self.items)])]
+        return list(zip([0, *ends], ends, strict=False))
+
     def stretches(self) -> list[list[Block]]:
         """Return the blocks between stops; an empty list where two stops follow each other."""
-        found: list[list[Block]] = [[]]
-        for item in self.items:
-            if isinstance(item, Stop):
-                found.append([])
-            else:
-                found[-1].append(item)
-        return found
+        return [self.blocks[first:last] for first, last in self.bounds]
 
     def positioning(self) -> list[bool]:
         """Tell for each of `stretches` whether it is positioning, with the wire out, and no cut.

@@ -32,7 +32,7 @@ _PIECE = 1_000_000
 _STALLED = 2
 
 
-class _State(ctypes.Structure):
+class State(ctypes.Structure):
     """`skgsim_block` of native/skgsim.h, member for member."""
 
     _fields_ = [(name, ctypes.c_int64) for name in (
@@ -41,13 +41,15 @@ class _State(ctypes.Structure):
 
 
 @cache
-def _library() -> ctypes.CDLL:
+def library() -> ctypes.CDLL:
     """The library, its functions declared."""
-    library = load("skgsim")
-    library.skgsim_run.argtypes = [ctypes.POINTER(_State), ctypes.c_int64,
+    found = load("skgsim")
+    found.skgsim_run.argtypes = [ctypes.POINTER(State), ctypes.c_int64,
                                     ctypes.POINTER(ctypes.c_int64), ctypes.c_char_p]  # fmt: skip
-    library.skgsim_run.restype = ctypes.c_int
-    return library
+    found.skgsim_run.restype = ctypes.c_int
+    found.skgsim_walk.argtypes = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p]
+    found.skgsim_walk.restype = ctypes.c_int64
+    return found
 
 
 @dataclass(frozen=True)
@@ -65,12 +67,12 @@ class Outcome:
     off_path: float
 
 
-def _state(block: Block, drift: tuple[int, int]) -> _State:
-    return _State(sense=block.sense, quadrant=block.quadrant, x=block.x, y=block.y, j=block.j,
+def _state(block: Block, drift: tuple[int, int]) -> State:
+    return State(sense=block.sense, quadrant=block.quadrant, x=block.x, y=block.y, j=block.j,
                   axis=int(block.axis == "Y"), drift_x=drift[0], drift_y=drift[1])  # fmt: skip
 
 
-def _stalled(block: Block) -> UserError:
+def stalled(block: Block) -> UserError:
     return UserError(f"block {block.number}: {block} never ends, the controller does not reach J = {block.j}")
 
 
@@ -91,12 +93,12 @@ def run_block(
     `progress` is called with the number of steps taken since its last call. A block whose J is never reached
     (possible on circles of a few µm) is a `UserError`.
     """
-    run, state, before = _library().skgsim_run, _state(block, drift), 0
+    run, state, before = library().skgsim_run, _state(block, drift), 0
     while (result := run(ctypes.byref(state), CHUNK, None, None)) == 1:
         progress(state.steps - before)
         before = state.steps
     if result == _STALLED:
-        raise _stalled(block)
+        raise stalled(block)
     progress(state.steps - before)
     start = block.start
     return Outcome(
@@ -114,7 +116,7 @@ def trace_array(block: Block) -> ctypes.Array:
     """
     count = run_block(block).steps
     buffer = (ctypes.c_int64 * (2 * count))()
-    _library().skgsim_run(ctypes.byref(_state(block, (0, 0))), count, buffer, None)
+    library().skgsim_run(ctypes.byref(_state(block, (0, 0))), count, buffer, None)
     return buffer
 
 
@@ -135,7 +137,7 @@ def port_steps(block: Block) -> Iterator[bytes]:
     buffer = ctypes.create_string_buffer(size)
     while result == 1:
         before = state.steps
-        result = _library().skgsim_run(ctypes.byref(state), size, None, buffer)
+        result = library().skgsim_run(ctypes.byref(state), size, None, buffer)
         yield ctypes.string_at(buffer, state.steps - before)
     if result == _STALLED:
-        raise _stalled(block)
+        raise stalled(block)

@@ -16,7 +16,7 @@ from math import hypot, pi
 
 from skg.errors import UserError
 from skg.tape.block import Block, Stop, Tape, arc_block, line_block
-from skg.tape.placed import Placed, PlacedRoute, place
+from skg.tape.placed import Placed, PlacedRoute
 
 Spot = tuple[int, int]
 
@@ -108,6 +108,8 @@ def write(
     between two stops is an up, a rapid and a down; without them the stops are M0. `positions` is one of
     `skg.tape.positions.POSITIONS`.
     """
+    from skg.tape.laid import place  # which loads numpy
+
     plane, down = map(decimal, feeds)
     writer = _GcodeWriter()
     routes = iter(place(tape, start, positions))

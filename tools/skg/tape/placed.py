@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from math import atan2, pi
 
 from skg.piece import Piece
 from skg.plane import XY, minus
 from skg.tape.block import Block, Tape
-from skg.tape.controller import run_block
-from skg.tape.moves import closed_moves
-from skg.tape.positions import decide
 
 #: The parts of a route that is cut: from the start hole to the contour, the contour, and back to the hole.
 WAY_IN, CUT, WAY_BACK = "way in", "cut", "way back"
@@ -44,7 +41,7 @@ class Placed(Piece):
 class PlacedRoute:
     """The blocks between two stops; `is_move`: positioning (see `Tape.positioning`), else they are cut."""
 
-    blocks: tuple[Placed, ...]
+    blocks: Sequence[Placed]
     is_move: bool
 
     @property
@@ -57,7 +54,7 @@ class PlacedRoute:
         """Larger coordinate of end minus start, µm."""
         return _apart(self.blocks[-1].end, self.blocks[0].start)
 
-    def parts(self) -> Iterator[tuple[str, tuple[Placed, ...]]]:
+    def parts(self) -> Iterator[tuple[str, Sequence[Placed]]]:
         """Split the route into `WAY_IN` and `WAY_BACK`, one block each, and what is `CUT`.
 
         A way in is a line, the way back the line that goes back along it later on: the path between them is closed.
@@ -97,51 +94,9 @@ def _apart(one: XY, other: XY) -> float:
     return max(abs(one[0] - other[0]), abs(one[1] - other[1]))
 
 
-def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") -> list[PlacedRoute]:
-    """Lay a tape out from `start` (µm); `positions` is one of `skg.tape.positions.POSITIONS`."""
-    machine = decide(tape, positions).positions == "machine"
-
-    def end_to_end(blocks: list[Block], at: XY) -> tuple[list[Placed], XY]:
-        moves = [run_block(block).move for block in blocks] if machine else closed_moves(blocks)
-        placed = []
-        for block, (dx, dy) in zip(blocks, moves, strict=True):
-            placed.append(Placed.between(block, at, (at[0] + dx, at[1] + dy)))
-            at = placed[-1].end
-        return placed, at
-
-    return lay(tape, start, end_to_end)
-
-
-def lay(tape: Tape, start: XY, place_blocks: Callable[[list[Block], XY], tuple[list[Placed], XY]]) -> list[PlacedRoute]:
-    """Lay a tape's routes out one after the other, from `start` (µm).
-
-    `place_blocks` is given the blocks between two stops, at least one, and where the first of them starts; it returns
-    them in their places, and where the block after them starts.
-    """
-    routes: list[PlacedRoute] = []
-    for blocks, is_move in zip(tape.stretches(), tape.positioning(), strict=True):
-        if blocks:
-            placed, start = place_blocks(blocks, start)
-            routes.append(PlacedRoute(tuple(placed), is_move))
-    return routes
-
-
-def extents(routes: list[PlacedRoute]) -> tuple[float, float, float, float]:
-    """Smallest and largest x and y (xmin, ymin, xmax, ymax) of the routes in µm, bulges of arcs included."""
-    xs: list[float] = []
-    ys: list[float] = []
-    for route in routes:
-        for placed in route.blocks:
-            places = (placed.start, placed.end) if placed.is_line else placed.extremes()
-            for side, ordinates in zip((xs, ys), zip(*places, strict=True), strict=True):
-                side += ordinates
-        # (one route may have a million blocks, or a million routes one)
-        xs[:], ys[:] = [min(xs), max(xs)], [min(ys), max(ys)]
-    return (xs[0], ys[0], xs[1], ys[1]) if xs else (0.0, 0.0, 0.0, 0.0)
-
-
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:
     """Where the controller stops, µm, each place once; `home` is where the tape begins."""
-    after = {stop.after for stop in tape.stops}
-    ends = {one.block.number: one.end for route in routes for one in route.blocks if one.block.number in after}
-    return list(dict.fromkeys(ends.get(stop.after, home) for stop in tape.stops))
+    found, laid = [home], iter(routes)
+    for first, last in tape.bounds[:-1]:
+        found.append(next(laid).blocks[-1].end if first < last else found[-1])
+    return list(dict.fromkeys(found[1:]))

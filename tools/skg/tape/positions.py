@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 from skg.errors import UserError
 from skg.tape.block import Tape
-from skg.tape.controller import run_block
-from skg.tape.moves import closed_moves
 
 #: Where a block starts: where the block before should have ended (programmed), or where the controller really stands
 #: then (machine: tapes without drift); auto: as the tape says, else found out.
@@ -42,14 +40,13 @@ def decide(tape: Tape, positions: str = "auto") -> Decision:
         return Decision(told, tape.drift_by and f"{_MEANING[told]}, {tape.drift_by} says so")
     if all(block.is_line for block in tape.blocks):
         return Decision("programmed")
-    from skg.tape.evidence import drift_evidence  # which loads numpy
+    # (these load numpy)
+    from skg.tape.evidence import drift_evidence
+    from skg.tape.moves import closed_moves
+    from skg.tape.walk import machine_moves
 
     try:
-        is_same = all(
-            block.is_line or run_block(block).move == move
-            for blocks in tape.stretches()
-            for block, move in zip(blocks, closed_moves(blocks), strict=True)
-        )
+        is_same = bool((machine_moves(tape) == closed_moves(tape)).all())
         found = drift_evidence(tape)
     except UserError:
         # A block that never ends on the controller (a circle of a few µm): it cannot tell where it stands.

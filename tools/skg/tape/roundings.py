@@ -6,45 +6,32 @@ All lengths are micrometres. δ is what rounding added to a joint, γ to a centr
 
 from __future__ import annotations
 
-from functools import lru_cache
-from itertools import accumulate
-from math import floor, hypot
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from skg.plane import XY, dot, minus
-from skg.tape.block import Block
-from skg.tape.controller import run_block
+from skg.plane import XY
+from skg.tape.block import Tape
+from skg.tape.columns import Columns, Flags, Numbers, columns_of
+from skg.tape.columns import Reals as Vector
+from skg.tape.walk import machine_moves
 
 #: Variance of an error spread evenly over ±½.
 VARIANCE = 1 / 12
 #: A route is meant to close when it does so to this many standard deviations.
 _CLOSES = 4
 
-Vector = NDArray[np.float64]
+
+def unrounded_ends(columns: Columns) -> Vector:
+    """The ends of arcs about their centres (n × 2): whole along the count axis, across it on the circle."""
+    return columns.on_circles(columns.ends)
 
 
-def end_of(block: Block) -> XY:
-    """An arc's end about its centre: whole along the count axis, across it on the circle."""
-    return block.on_circle(block.end)
-
-
-@lru_cache(maxsize=100_000)
-def goes(block: Block) -> tuple[int, int]:
-    """Where the controller goes with a block, (dx, dy)."""
-    return block.move if block.is_line else run_block(block).move
-
-
-def end_on_machine(block: Block) -> XY:
-    """An arc's end where the controller stops: a tape without drift counts J as it does."""
-    (xs, ys), (dx, dy) = block.start, goes(block)
-    return block.on_circle((xs + dx, ys + dy))
-
-
-def move_of(block: Block) -> XY:
-    """From a block's start to its end, not rounded."""
-    return minus(end_of(block), block.start) if block.is_arc else block.move
+def unrounded_moves(columns: Columns) -> Vector:
+    """From each block's start to its end (n × 2), not rounded."""
+    return np.where(columns.is_arc[:, None], unrounded_ends(columns) - columns.starts, columns.moves).astype(float)
 
 
 class Misses:
@@ -55,30 +42,26 @@ class Misses:
     centre to start and end: both true ends are equally far from the true centre.
     """
 
-    def __init__(self, blocks: list[Block], closed: bool) -> None:
-        self.count = len(blocks)
+    def __init__(self, columns: Columns, closed: bool) -> None:
+        self.count = len(columns)
         # A circle ends at the joint where it starts, a closed route too.
-        joints = list(accumulate((not block.is_full_circle for block in blocks), initial=0))
+        joints = np.concatenate([[0], np.cumsum(~columns.is_full_circle)])
         if closed:
-            joints = [0 if joint == joints[-1] else joint for joint in joints]
+            joints[joints == joints[-1]] = 0
         self.joints = joints
         self.centres = range(self.count + 1, 2 * self.count + 1)
         # Of each arc: which block it is, its axis across, the three roundings and how e goes by each of them.
-        found: list[tuple[int, int, tuple[int, int, int], tuple[XY, XY, XY]]] = []
-        for at, block in enumerate(blocks):
-            if not block.is_arc:
-                continue
-            radius, (xs, ys), (xe, ye) = hypot(block.x, block.y), block.start, end_of(block)
-            across = (xe, ye)[block.across]
-            # By its count axis an arc ends at 0.7 across it, but for circles of a few µm.
-            if abs(across) > 0.1 * radius:
-                first, last = (xs / across, ys / across), (xe / across, ye / across)
-                ways = first, (-last[0], -last[1]), minus(last, first)
-                found.append((at, block.across, (joints[at], joints[at + 1], self.centres[at]), ways))
-        self.blocks = np.array([one[0] for one in found], int)
-        self.axes = np.array([one[1] for one in found], int)
-        self.places = np.array([one[2] for one in found], int).reshape(-1, 3)
-        self.ways = np.array([one[3] for one in found], float).reshape(-1, 3, 2)
+        rows = np.flatnonzero(columns.is_arc)
+        arcs = columns[rows]
+        ends = unrounded_ends(arcs)
+        across = ends[np.arange(len(rows)), arcs.across]
+        # By its count axis an arc ends at 0.7 across it, but for circles of a few µm.
+        tells = abs(across) > 0.1 * np.sqrt(arcs.squares.astype(float))
+        rows, arcs, ends, across = rows[tells], arcs[tells], ends[tells], across[tells, None]
+        first, last = arcs.starts / across, ends / across
+        self.blocks, self.axes = rows, arcs.across
+        self.places = np.column_stack([joints[rows], joints[rows + 1], self.count + 1 + rows])
+        self.ways = np.stack([first, -last, last - first], axis=1).astype(float)
 
     def none(self) -> Vector:
         """Roundings, all 0."""
@@ -97,10 +80,10 @@ class Misses:
         return found
 
 
-def gap_of(blocks: list[Block]) -> tuple[Vector, Vector]:
+def gap_of(columns: Columns) -> tuple[Vector, Vector]:
     """By how much a route's unrounded moves do not close, and the standard deviation of that, were it closed."""
-    pulls = Misses(blocks, True).pulls()
-    return np.array([move_of(block) for block in blocks]).sum(axis=0), np.sqrt(VARIANCE * (pulls**2).sum(axis=(1, 2)))
+    pulls = Misses(columns, True).pulls()
+    return unrounded_moves(columns).sum(axis=0), np.sqrt(VARIANCE * (pulls**2).sum(axis=(1, 2)))
 
 
 def closes(gap: Vector, spread: Vector) -> bool:
@@ -108,23 +91,60 @@ def closes(gap: Vector, spread: Vector) -> bool:
     return bool((abs(gap) <= _CLOSES * spread + 1e-6).all())
 
 
-def likelihood(block: Block, end: XY) -> float:
-    """Density at a whole end of how far along the chord the centre was rounded, per µm across the count axis.
+class MayEnd(NamedTuple):
+    """The whole ends near to where one arc ends on the machine: a row of `WholeEnds`."""
+
+    machine: XY
+    along: int
+    beside: list[int]
+    likelihoods: list[float]
+    across: int
+
+    def at(self, beside: float) -> XY:
+        """The place beside the count axis."""
+        return (beside, self.along) if self.across == 0 else (self.along, beside)
+
+
+@dataclass(frozen=True)
+class WholeEnds:
+    """The whole ends near to where arcs end on the machine, six for each: their coordinate along the count axis (n),
+    and those beside it (n × 6).
+
+    `machine`: where the machine ends (n × 2), across the count axis on the circle: a tape without drift counts J as it
+    does. `is_on_circle` (n × 6). `likelihoods` (n × 6): density at a whole end of how far along the chord the centre
+    was rounded, per µm across the count axis. `across` (n): as `Block.across`.
+    """
+
+    machine: Vector
+    along: Numbers
+    beside: Numbers
+    is_on_circle: Flags
+    likelihoods: Vector
+    across: Numbers
+
+    def each(self) -> Iterator[MayEnd]:
+        """One arc after the other."""
+        columns = (self.machine, self.along, self.beside, self.likelihoods, self.across)
+        return map(MayEnd._make, zip(*(column.tolist() for column in columns), strict=True))
+
+
+def whole_ends(tape: Tape, rows: Numbers) -> WholeEnds:
+    """What the ends of the arcs in some rows of a tape may have been.
 
     With d the chord, r the rounding and n = x² + y²: |end|² − n = −2 r·d, and r is spread evenly over ±½ on
     each axis. The sum of two such is a trapezoid.
     """
-    dx, dy = minus(end, block.start)
-    short, long = sorted((abs(dx), abs(dy)))
-    off = abs(dot(end, end) - block.x**2 - block.y**2) / 2
+    arcs, each = columns_of(tape)[rows], np.arange(len(rows))
+    stands = arcs.starts + machine_moves(tape)[rows]
+    machine, across = arcs.on_circles(stands), arcs.across
+    along, from_along = stands[each, 1 - across], arcs.starts[each, 1 - across]
+    beside = np.floor(machine[each, across]).astype(along.dtype)[:, None] + np.arange(-2, 4)
+    squares = beside * beside + (along * along)[:, None]
+    ways = abs(beside - arcs.starts[each, across][:, None]), abs(along - from_along)[:, None]
+    short, long = np.minimum(*ways).astype(float), np.maximum(*ways).astype(float)
+    off = (abs(squares - arcs.squares[:, None]) / 2).astype(float)
     inside = (long + short) / 2 - off
-    if inside <= 0:
-        return 0.0
-    return min(1.0, inside / short if short else 1.0) / long * abs(end[block.across])
-
-
-def whole_ends(block: Block) -> list[XY]:
-    """The whole ends near to where an arc ends on the machine: its coordinate along the count axis, and beside it."""
-    end, across = end_on_machine(block), block.across
-    wholes = range(floor(end[across]) - 2, floor(end[across]) + 4)
-    return [(whole, end[1]) if across == 0 else (end[0], whole) for whole in wholes]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = np.where(short > 0, np.minimum(1.0, inside / short), 1.0)
+        likelihoods = np.where(inside > 0, part / long * abs(beside), 0.0)
+    return WholeEnds(machine, along, beside, squares == arcs.squares[:, None], likelihoods.astype(float), across)

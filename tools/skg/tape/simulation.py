@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from tqdm import tqdm
 
-from skg.plane import XY
 from skg.tape.block import Block, Tape
-from skg.tape.controller import Outcome, run_block
-from skg.tape.moves import closed_moves
 from skg.tape.positions import decide
+
+if TYPE_CHECKING:
+    from skg.tape.columns import Numbers
+    from skg.tape.walk import Walk
 
 #: A progress bar appears on tapes of more steps than this (about a second's worth).
 _LONG = 50_000_000
@@ -66,7 +68,7 @@ class Report:
     largest_miss: int
     largest_drift: int
     routes: tuple[RouteReport, ...]
-    each: tuple[BlockReport, ...]
+    each: Sequence[BlockReport]
 
     @property
     def closed(self) -> bool:
@@ -74,21 +76,19 @@ class Report:
         return self.gap == (0, 0)
 
 
-def expected_steps(block: Block) -> int:
-    """About how many steps a block takes: those on both axes, from its shape alone."""
-    return block.x + block.y if block.is_line else 2 * block.j
+class _Each(Sequence[BlockReport]):
+    """The reports of all blocks of a tape, each made when it is asked for."""
 
+    def __init__(self, blocks: Sequence[Block], should: Numbers, walk: Walk) -> None:
+        self.blocks, self.columns = blocks, (should, walk.moves, walk.steps, walk.off_curve)
 
-def _follow(
-    blocks: list[Block], moves: list[XY] | None, drift: XY, progress: Callable[[int], object] = lambda steps: None
-) -> Iterator[tuple[Block, XY, Outcome]]:
-    """Run blocks that should make these moves, or (None) are right where they end; `drift` is how far the controller
-    is off before them, µm. Gives each block's move as it should be, and what came of it."""
-    for at, block in enumerate(blocks):
-        outcome = run_block(block, drift, progress)
-        should = moves[at] if moves else outcome.move
-        yield block, should, outcome
-        drift = drift[0] + outcome.move[0] - should[0], drift[1] + outcome.move[1] - should[1]
+    def __len__(self) -> int:
+        return len(self.blocks)
+
+    def __getitem__(self, at: int) -> BlockReport:
+        should, really, steps, off_curve = (column[at].tolist() for column in self.columns)
+        block = self.blocks[at]
+        return BlockReport(block.number, str(block), tuple(should), tuple(really), steps, off_curve)
 
 
 def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: str = "auto") -> Report:
@@ -99,51 +99,41 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     blocks before it should have made add up to, "machine" where the controller stands, as a tape without drift
     means it.
     """
+    # (these load numpy)
+    import numpy as np
+
+    from skg.tape.columns import columns_of
+    from skg.tape.moves import closed_moves
+    from skg.tape.walk import expected_steps, walk
+
     positions = decide(tape, positions).positions
-    each: list[BlockReport] = []
-    routes: list[RouteReport] = []
-    real, programmed = (0, 0), (0, 0)
-    at_stop = real, programmed, 1
-    total = sum(expected_steps(block) for block in tape.blocks)
-    off_curve = off_path = 0.0
-    largest_drift = 0
+    columns = columns_of(tape)
+    total = int(expected_steps(columns).sum())
     bar = tqdm(total=total, unit="step", unit_scale=True, delay=0.5, leave=False,
                disable=None if progress and total > _LONG else True)  # fmt: skip
-
-    def close_route(last: int, is_move: bool) -> None:
-        nonlocal at_stop
-        (x, y), (xp, yp), first = at_stop
-        if last >= first:
-            routes.append(
-                RouteReport(first, last, (real[0] - x, real[1] - y), (programmed[0] - xp, programmed[1] - yp), is_move)
-            )
-        at_stop = real, programmed, last + 1
-
+    should = closed_moves(tape) if positions == "programmed" else None
     with bar:
-        for blocks, is_move in zip(tape.stretches(), tape.positioning(), strict=True):
-            moves = closed_moves(blocks) if positions == "programmed" else None
-            drift = real[0] - programmed[0], real[1] - programmed[1]
-            for block, should, outcome in _follow(blocks, moves, drift, bar.update):
-                each.append(
-                    BlockReport(block.number, str(block), should, outcome.move, outcome.steps, outcome.off_curve)
-                )
-                real = real[0] + outcome.move[0], real[1] + outcome.move[1]
-                programmed = programmed[0] + should[0], programmed[1] + should[1]
-                off_curve = max(off_curve, outcome.off_curve)
-                off_path = max(off_path, outcome.off_path)
-                largest_drift = max(largest_drift, _size((real[0] - programmed[0], real[1] - programmed[1])))
-            close_route(len(each), is_move)
+        walked = walk(tape, np.arange(len(columns)), should, bar.update)
+    should = walked.moves if should is None else should
+    # Where it stands, and where the blocks' ends add up to, before each block and at the end.
+    real, programmed = (np.concatenate([[[0, 0]], moves]).cumsum(axis=0) for moves in (walked.moves, should))
+    routes = [
+        RouteReport(first + 1, last, *((tuple((at[last] - at[first]).tolist())) for at in (real, programmed)), is_move)
+        for (first, last), is_move in zip(tape.bounds, tape.positioning(), strict=True)
+        if first < last
+    ]
     cut = [route for route in routes if not route.is_move] or [RouteReport(0, 0, (0, 0), (0, 0), False)]
-    travel = sum(block.length for block in tape.blocks)
-    missed = [max(abs(one.really[0] - one.should[0]), abs(one.really[1] - one.should[1])) for one in each]
+    travel = sum(columns.lengths.tolist())
+    missed = abs(walked.moves - should).max(axis=1, initial=0)
     return Report(
-        name=tape.name, positions=positions, blocks=len(each), stops=len(tape.stops),
-        travel=travel, steps=sum(one.steps for one in each), feed=feed, time=travel / 1000 / feed * 60,
+        name=tape.name, positions=positions, blocks=len(columns), stops=len(tape.stops),
+        travel=travel, steps=int(walked.steps.sum()), feed=feed, time=travel / 1000 / feed * 60,
         gap=max((route.gap for route in cut), key=_size),
-        programmed_gap=max((route.programmed_gap for route in cut), key=_size), end=real,
-        off_curve=off_curve, off_path=off_path,
-        misses=sum(miss > 0 for miss in missed), largest_miss=max(missed, default=0),
-        largest_drift=largest_drift, routes=tuple(routes), each=tuple(each))  # fmt: skip
+        programmed_gap=max((route.programmed_gap for route in cut), key=_size), end=tuple(real[-1].tolist()),
+        off_curve=float(walked.off_curve.max(initial=0)), off_path=float(walked.off_path.max(initial=0)),
+        misses=int((missed > 0).sum()), largest_miss=int(missed.max(initial=0)),
+        largest_drift=int(abs(real - programmed).max()), routes=tuple(routes),
+        each=_Each(tape.blocks, should, walked))  # fmt: skip
 
 
 def _size(gap: tuple[int, int]) -> int:

@@ -1,0 +1,120 @@
+"""Many blocks at once: the same as one by one, with little work for each."""
+
+from __future__ import annotations
+
+import sys
+from itertools import accumulate
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from test_tape import blocks
+from toolhelp import CAD_TAPE
+
+from skg import tape as tapes
+from skg.errors import UserError
+from skg.tape import Block, Stop, Tape, arc_block, line_block
+from skg.tape.columns import Columns, columns_of
+from skg.tape.controller import run_block
+from skg.tape.laid import Laid, place
+from skg.tape.placed import Placed, stop_places
+from skg.tape.simulation import simulate
+from skg.tape.walk import machine_moves, walk
+
+#: Lines, arcs about an axis and a circle that come back to where they begin.
+TURN = "B343B706B706GYL1\r\nB0B343B343GYSR1\r\nB343B706B706GYL3\r\nB343B0B343GXL3\r\nB200B0B800GYNR1\r\n"
+
+
+@given(st.lists(blocks(), min_size=1, max_size=8))
+@example([arc_block((2 * 10**9, 3), (-7, 2 * 10**9), 1), line_block(10**11, -5)])
+@example(
+    [
+        arc_block((5, 0), (5, 0), -1),
+        arc_block((1, 1), (-1, 1), 1),
+        Block(30, 0, 121, "Y", "NR1"),
+    ]
+)
+@settings(deadline=None)
+def test_columns_say_what_blocks_say(several: list[Block]) -> None:
+    columns = Columns.of(several)
+    assert columns.starts.tolist() == [list(block.start) for block in several]
+    assert columns.ends.tolist() == [list(block.end) for block in several]
+    assert columns.moves.tolist() == [list(block.move) for block in several]
+    assert columns.sweeps.tolist() == [block.sweep for block in several]
+    assert columns.lengths.tolist() == [block.length for block in several]
+    assert columns.radii.tolist() == [block.radius for block in several]
+    assert columns.turns.tolist() == [block.turn for block in several]
+    assert columns.is_full_circle.tolist() == [block.is_full_circle for block in several]
+    assert columns.on_circles(columns.ends).tolist() == [list(block.on_circle(block.end)) for block in several]
+    assert columns[1:].ends.tolist() == columns.ends[1:].tolist()
+
+
+def turns(count: int) -> Tape:
+    return tapes.parse(f"{TURN * count}DD\r\n".encode())
+
+
+def test_followed_together_as_one_by_one() -> None:
+    """Each block has the drift that those before it have left."""
+    tape, drift = tapes.parse(CAD_TAPE), (0, 0)
+    should = columns_of(tape).moves
+    found = walk(tape, range(len(should)), should)
+    assert machine_moves(tape).tolist() == [list(run_block(block).move) for block in tape.blocks]
+    for at, block in enumerate(tape.blocks):
+        outcome = run_block(block, drift)
+        assert tuple(found.moves[at]) == outcome.move and found.steps[at] == outcome.steps
+        assert (found.off_curve[at], found.off_path[at]) == pytest.approx(
+            (outcome.off_curve, outcome.off_path), abs=1e-9
+        )
+        drift = (
+            drift[0] + outcome.move[0] - block.move[0],
+            drift[1] + outcome.move[1] - block.move[1],
+        )
+    assert drift != (0, 0)
+
+
+def test_a_block_that_never_ends_is_named() -> None:
+    items = [line_block(5, 5), Stop(1), Block(1, 0, 4, "Y", "NR1", 2)]
+    with pytest.raises(UserError, match="block 2: B1B0B4GYNR1 never ends"):
+        simulate(Tape("-", tuple(items), drift=False))
+
+
+def test_laid_as_placed() -> None:
+    """A tape laid out gives the same places as its blocks one after the other, from both sides."""
+    tape = turns(3)
+    (route,) = place(tape, (7, -3), "programmed")
+    moves = [(one.end[0] - one.start[0], one.end[1] - one.start[1]) for one in route.blocks]
+    ends = list(accumulate(moves, lambda at, move: (at[0] + move[0], at[1] + move[1]), initial=(7, -3)))
+    placed = [Placed.between(*one) for one in zip(tape.blocks, ends, ends[1:], strict=False)]
+    assert list(route.blocks) == placed and route.blocks[-2] == placed[-2] and list(route.blocks[4:6]) == placed[4:6]
+    extremes = [place for one in placed for place in one.extremes()]
+    (left, low), (right, high) = Laid.of(placed).extents()
+    assert (left, right) == pytest.approx((min(x for x, _ in extremes), max(x for x, _ in extremes)))
+    assert (low, high) == pytest.approx((min(y for _, y in extremes), max(y for _, y in extremes)))
+
+
+def test_stops_where_nothing_is_between() -> None:
+    tape = tapes.parse(b"D\r\nB5B0B5GXL1\r\nD\r\nD\r\nB0B5B5GYL2\r\nD\r\nDD\r\n")
+    assert stop_places(tape, place(tape, (1, 1)), (1, 1)) == [(1, 1), (6, 1), (6, 6)]
+
+
+def calls_for(tape: Tape) -> int:
+    """How many functions are called to find out where a tape's blocks start, to lay it out and to follow it."""
+    calls = 0
+
+    def count(frame: object, event: str, argument: object) -> None:
+        nonlocal calls
+        calls += event in ("call", "c_call")
+
+    sys.setprofile(count)
+    try:
+        place(tape)
+        simulate(tape)
+    finally:
+        sys.setprofile(None)
+    return calls
+
+
+def test_work_for_each_block() -> None:
+    """A million blocks: block by block it was 214 calls for each of these, and minutes."""
+    few, many = calls_for(turns(20)), calls_for(turns(2020))
+    assert (many - few) / 10_000 < 4

@@ -1,0 +1,199 @@
+"""The blocks of a tape as columns: what `Block` says of one, of all at once.
+
+A tape may have a million blocks. The arithmetic is that of `skg.tape.block`, in whole numbers of any size: a tape gives
+the same places block by block and by columns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import cached_property
+from math import atan2, hypot, isqrt, pi
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skg.tape.block import Block, Tape
+
+Numbers = NDArray[np.int64]
+Reals = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+_Found = TypeVar("_Found")
+#: Squares of larger numbers are not sure to fit in 64 bits: they are reckoned with Python's own.
+_FITS = 10**9
+_SIGNS_X, _SIGNS_Y = np.array([0, 1, -1, -1, 1]), np.array([0, 1, 1, -1, -1])
+
+
+def _roots(squares: Numbers) -> Numbers:
+    """Square roots of whole numbers, rounded down."""
+    if squares.dtype == object:
+        return np.frompyfunc(isqrt, 1, 1)(squares)
+    roots = np.sqrt(squares.astype(float)).astype(np.int64)
+    roots -= roots * roots > squares
+    return roots + ((roots + 1) ** 2 <= squares)
+
+
+def round_roots(squares: Numbers) -> Numbers:
+    """Square roots of whole numbers, rounded to the nearest whole number."""
+    return (_roots(4 * squares) + 1) // 2
+
+
+def directions(ways: NDArray) -> Reals:
+    """Direction angles of ways (n × 2), radians."""
+    # (math.atan2 is the same on every machine, numpy's is not)
+    return np.fromiter(map(atan2, ways[:, 1].tolist(), ways[:, 0].tolist()), float, len(ways))
+
+
+def hypots(x: NDArray, y: NDArray) -> Reals:
+    """Lengths of ways, as math.hypot has them."""
+    return np.fromiter(map(hypot, x.tolist(), y.tolist()), float, len(x))
+
+
+class Columns:
+    """Blocks, a row for each; lengths in µm. What is worked out is kept, and cut with the rows.
+
+    `x`, `y`, `j` as they stand on the tape; `counts_y`: the count direction is Y; `sense` and `quadrant` as of `Block`.
+    """
+
+    def __init__(self, x: Numbers, y: Numbers, j: Numbers, counts_y: Flags, sense: Numbers, quadrant: Numbers) -> None:
+        self.x, self.y, self.j, self.counts_y, self.sense, self.quadrant = x, y, j, counts_y, sense, quadrant
+
+    @classmethod
+    def of(cls, blocks: Iterable[Block]) -> Columns:
+        """The columns of blocks."""
+        blocks = list(blocks)
+        lengths = [[block.x for block in blocks], [block.y for block in blocks], [block.j for block in blocks]]
+        kind = object if blocks and max(map(max, lengths)) >= _FITS else np.int64
+        codes = [block.code for block in blocks]
+        known = {code: (Block(0, 0, 0, "X", code).sense, Block(0, 0, 0, "X", code).quadrant) for code in set(codes)}
+        named = np.array([known[code] for code in codes], np.int64).reshape(-1, 2)
+        counts_y = np.array([block.axis == "Y" for block in blocks], bool)
+        return cls(*(np.array(column, kind) for column in lengths), counts_y, named[:, 0], named[:, 1])
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    def __getitem__(self, rows: slice | Flags | Numbers) -> Columns:
+        """Some of the rows, with what has been worked out of them."""
+        found = Columns.__new__(Columns)
+        found.__dict__.update({name: column[rows] for name, column in self.__dict__.items()})
+        return found
+
+    @cached_property
+    def is_line(self) -> Flags:
+        """As `Block.is_line`."""
+        return self.sense == 0
+
+    @cached_property
+    def squares(self) -> Numbers:
+        """x² + y²."""
+        return self.x * self.x + self.y * self.y
+
+    @cached_property
+    def radii(self) -> Numbers:
+        """As `Block.radius`."""
+        return round_roots(self.squares)
+
+    @cached_property
+    def turns(self) -> Numbers:
+        """As `Block.turn`."""
+        return np.where(self.squares > 1, _roots(np.maximum(self.squares - 2, 0)) + 1, 0)
+
+    @cached_property
+    def is_full_circle(self) -> Flags:
+        """As `Block.is_full_circle`."""
+        radii = self.j // 4
+        is_count = (radii == self.radii) | (radii == self.turns)
+        near = abs(radii * radii - self.squares) <= 2 * radii + 1
+        return np.array(~self.is_line & (self.j % 4 == 0) & near & is_count, bool)
+
+    @cached_property
+    def is_arc(self) -> Flags:
+        """As `Block.is_arc`."""
+        return ~self.is_line & ~self.is_full_circle
+
+    @cached_property
+    def across(self) -> Numbers:
+        """As `Block.across`."""
+        return np.where(self.counts_y, 0, 1)
+
+    @cached_property
+    def starts(self) -> Numbers:
+        """As `Block.start` (n × 2)."""
+        quadrants = np.where(self.is_line, 0, self.quadrant)
+        return np.column_stack([_SIGNS_X[quadrants] * self.x, _SIGNS_Y[quadrants] * self.y])
+
+    @cached_property
+    def _counted(self) -> Numbers:
+        """As `Block.count_end` of arcs (n × 2); the start of all others."""
+        along = np.where(self.counts_y, self.y, self.x)
+        found = np.column_stack([along, self.quadrant])
+        rows = np.flatnonzero(self.is_arc)
+        along, left, quadrants, radii = along[rows], self.j[rows], self.quadrant[rows], self.radii[rows]
+        while len(rows):
+            sense, counts_y = self.sense[rows], self.counts_y[rows]
+            shrinks = ((quadrants % 2 == 1) == (sense > 0)) != counts_y
+            room = np.where(shrinks, along, radii - along)
+            on = left > room
+            ends = np.where(shrinks, along - left, along + left)
+            found[rows[~on]] = np.column_stack([ends, quadrants])[~on]
+            left, along = (left - room)[on], np.where(shrinks, 0, radii)[on]
+            quadrants, radii, rows = ((quadrants - 1 + sense) % 4 + 1)[on], radii[on], rows[on]
+        return found
+
+    @cached_property
+    def ends(self) -> Numbers:
+        """As `Block.end` (n × 2)."""
+        along, quadrants = self._counted.T
+        beside = round_roots(np.maximum(0, self.squares - along * along))
+        least = along + self.counts_y
+        beside = np.where((least - 2 <= beside) & (beside < least), least, beside)
+        is_arc = self.is_arc
+        x = np.where(is_arc, np.where(self.counts_y, beside, along), self.x)
+        y = np.where(is_arc, np.where(self.counts_y, along, beside), self.y)
+        return np.column_stack([_SIGNS_X[quadrants.astype(int)] * x, _SIGNS_Y[quadrants.astype(int)] * y])
+
+    @cached_property
+    def moves(self) -> Numbers:
+        """As `Block.move` (n × 2)."""
+        return self.ends - self.starts
+
+    @cached_property
+    def sweeps(self) -> Reals:
+        """As `Block.sweep`."""
+        found = 2 * pi * self.sense
+        rows = np.flatnonzero(self.is_arc)
+        arcs = self[rows]
+        turn = arcs.sense * (directions(arcs.ends) - directions(arcs.starts)) % (2 * pi)
+        is_first = (arcs._counted[:, 1] - arcs.quadrant) * arcs.sense % 4 == 0
+        turn = np.where(is_first & (turn > 3 * pi / 2) & (arcs.j < 2 * arcs.radii), 0.0, turn)
+        turn = np.where(is_first & (turn < pi / 2) & (arcs.j > 2 * arcs.radii), turn + 2 * pi, turn)
+        found[rows] = arcs.sense * turn
+        return found
+
+    @cached_property
+    def lengths(self) -> Reals:
+        """As `Block.length`."""
+        return hypots(self.x, self.y) * np.where(self.is_line, 1.0, abs(self.sweeps))
+
+    def on_circles(self, places: NDArray) -> Reals:
+        """As `Block.on_circle`, of a place for each block (n × 2)."""
+        rows, across = np.arange(len(self)), self.across
+        along, beside = places[rows, 1 - across], places[rows, across]
+        moved = np.sqrt(np.maximum(0, self.squares - along * along).astype(float)) * np.where(beside >= 0, 1, -1)
+        found = np.empty((len(self), 2))
+        found[rows, across], found[rows, 1 - across] = moved, along
+        return found
+
+
+def columns_of(tape: Tape) -> Columns:
+    """All blocks of a tape."""
+    return kept(tape, "columns", lambda: Columns.of(tape.blocks))
+
+
+def kept(tape: Tape, name: str, find: Callable[[], _Found]) -> _Found:
+    """What was worked out of a tape's blocks once, and is kept with it."""
+    if name not in tape.kept:
+        tape.kept[name] = find()
+    return tape.kept[name]

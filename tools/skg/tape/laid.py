@@ -1,0 +1,127 @@
+"""A tape laid out, its blocks' places as columns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
+from math import pi
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skg.plane import XY
+from skg.tape.block import Block, Tape
+from skg.tape.columns import Columns, Flags, Reals, columns_of, directions, hypots
+from skg.tape.moves import closed_moves
+from skg.tape.placed import Placed, PlacedRoute
+from skg.tape.positions import decide
+from skg.tape.walk import machine_moves
+
+#: So many blocks at once leave the columns.
+AT_ONCE = 4096
+#: Where the four axes point.
+_QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+
+
+class Laid(Sequence[Placed]):
+    """Blocks in their places, as columns: each becomes a `Placed` when it is asked for.
+
+    `starts`, `ends`, `centres` (n × 2, µm; a line's centre is nothing), `sweeps` (n, radians), `is_line` (n).
+    """
+
+    def __init__(
+        self, blocks: Sequence[Block], starts: NDArray, ends: NDArray, centres: NDArray, sweeps: Reals, is_line: Flags
+    ) -> None:
+        self.blocks = blocks
+        self.starts, self.ends, self.centres, self.sweeps, self.is_line = starts, ends, centres, sweeps, is_line
+
+    @classmethod
+    def between(
+        cls, blocks: Sequence[Block], columns: Columns, places: NDArray, centres: NDArray | None = None
+    ) -> Laid:
+        """Blocks that end where the next one begins, at n + 1 places; as `Placed.between` of each."""
+        starts, ends = places[:-1], places[1:]
+        if centres is None:
+            centres = starts - columns.starts
+        sweeps, rows = columns.sweeps.copy(), np.flatnonzero(columns.is_arc)
+        first, last = (directions((side - centres)[rows]) for side in (starts, ends))
+        sweeps[rows] += (last - first - sweeps[rows] + pi) % (2 * pi) - pi
+        return cls(blocks, starts, ends, centres, sweeps, columns.is_line)
+
+    @classmethod
+    def of(cls, placed: Sequence[Placed]) -> Laid:
+        """The columns of blocks in their places."""
+        if isinstance(placed, Laid):
+            return placed
+        rows = [(*one.start, *one.end, *(one.centre or (0, 0)), one.sweep, one.is_line) for one in placed]
+        columns = np.array(rows, float).reshape(-1, 8)
+        places = (columns[:, first : first + 2] for first in (0, 2, 4))
+        return cls([one.block for one in placed], *places, columns[:, 6], columns[:, 7] > 0)
+
+    def __len__(self) -> int:
+        return len(self.blocks)
+
+    @overload
+    def __getitem__(self, at: int) -> Placed: ...
+    @overload
+    def __getitem__(self, at: slice) -> Laid: ...
+    def __getitem__(self, at: int | slice) -> Placed | Laid:
+        if isinstance(at, slice):
+            columns = (self.starts, self.ends, self.centres, self.sweeps, self.is_line)
+            return Laid(self.blocks[at], *(column[at] for column in columns))
+        at = range(len(self))[at]
+        return next(iter(self[at : at + 1]))
+
+    def __iter__(self) -> Iterator[Placed]:
+        for first in range(0, len(self), AT_ONCE):
+            part = slice(first, first + AT_ONCE)
+            columns = (self.starts, self.ends, self.centres, self.sweeps, self.is_line)
+            rows = zip(self.blocks[part], *(column[part].tolist() for column in columns), strict=True)
+            for block, start, end, centre, sweep, is_line in rows:
+                yield Placed(tuple(start), tuple(end), None if is_line else tuple(centre), sweep, block=block)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Laid]) -> Laid:
+        """The blocks of several, at least one, one after the other."""
+        columns = zip(*((one.starts, one.ends, one.centres, one.sweeps, one.is_line) for one in parts), strict=True)
+        return cls(list(chain.from_iterable(one.blocks for one in parts)), *map(np.concatenate, columns))
+
+    def extents(self) -> tuple[XY, XY]:
+        """The smallest and the largest x and y, bulges of arcs included; of at least one block."""
+        arcs = np.flatnonzero(~self.is_line)
+        centres, arms = self.centres[arcs], (self.starts - self.centres)[arcs]
+        first, radii = directions(arms), hypots(*arms.T)
+        last = first + self.sweeps[arcs]
+        quarter, latest = np.ceil(np.minimum(first, last) / (pi / 2)), np.maximum(first, last) // (pi / 2)
+        corners = [self.starts, self.ends]
+        while (is_on := quarter <= latest).any():
+            # (as `Piece.extremes`)
+            corners.append((centres + radii[:, None] * _QUARTERS[quarter.astype(int) % 4])[is_on])
+            quarter = quarter + 1
+        low, high = (find([find(part, axis=0) for part in corners], axis=0).tolist() for find in (np.min, np.max))
+        return tuple(low), tuple(high)
+
+
+def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") -> list[PlacedRoute]:
+    """Lay a tape out from `start` (µm); `positions` is one of `skg.tape.positions.POSITIONS`."""
+    is_machine = decide(tape, positions).positions == "machine"
+    moves = machine_moves(tape) if is_machine else closed_moves(tape)
+    places = np.concatenate([[start], moves]).cumsum(axis=0)
+    laid = Laid.between(tape.blocks, columns_of(tape), places)
+    bounds = zip(tape.bounds, tape.positioning(), strict=True)
+    return [PlacedRoute(laid[first:last], is_move) for (first, last), is_move in bounds if first < last]
+
+
+def lay(tape: Tape, start: XY, place_blocks: Callable[[slice, XY], tuple[Laid, XY]]) -> list[PlacedRoute]:
+    """Lay a tape's routes out one after the other, from `start` (µm).
+
+    `place_blocks` is given which blocks of the tape stand between two stops, at least one, and where the first of them
+    starts; it returns them in their places, and where the block after them starts.
+    """
+    routes: list[PlacedRoute] = []
+    for (first, last), is_move in zip(tape.bounds, tape.positioning(), strict=True):
+        if first < last:
+            laid, start = place_blocks(slice(first, last), start)
+            routes.append(PlacedRoute(laid, is_move))
+    return routes

@@ -1,0 +1,93 @@
+"""Following all blocks of a tape with the controller, one after the other (see `skg.tape.controller`)."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from skg.tape.block import Tape
+from skg.tape.columns import Columns, Numbers, Reals, columns_of, hypots, kept
+from skg.tape.controller import CHUNK, State, library, stalled
+
+#: So many blocks are followed at once, at most.
+_CHUNK = 10_000
+_FIELDS = [name for name, _ in State._fields_]
+
+
+@dataclass(frozen=True)
+class Walk:
+    """What the controller made of blocks, a row for each: as `Outcome` of one."""
+
+    moves: Numbers
+    steps: Numbers
+    off_curve: Reals
+    off_path: Reals
+
+
+def _distances(columns: Columns, highest: Numbers, lowest: Numbers) -> Reals:
+    """Turn extremes of F into the largest distances from the curves, µm."""
+    radii, squares = hypots(columns.x, columns.y), columns.squares
+    outside = np.sqrt((squares + highest).astype(float)) - radii
+    inside = radii - np.sqrt(np.maximum(0, squares + lowest).astype(float))
+    return np.where(columns.is_line, np.maximum(highest, -lowest) / radii, np.maximum(outside, inside))
+
+
+def expected_steps(columns: Columns) -> Numbers:
+    """About how many steps blocks take: those on both axes, from their shape alone."""
+    return np.where(columns.is_line, columns.x + columns.y, 2 * columns.j)
+
+
+def walk(
+    tape: Tape,
+    rows: Numbers,
+    should: Numbers | None = None,
+    progress: Callable[[int], object] = lambda steps: None,
+) -> Walk:
+    """Follow the blocks of a tape in some rows, one after the other.
+
+    `should`: the moves (n × 2) that they ought to make: what a block misses is the next one's drift. Without it all are
+    followed from where they start. `progress` is called with the number of steps taken since its last call. A block
+    that never ends is a `UserError`.
+    """
+    columns = columns_of(tape)[rows]
+    given = [getattr(columns, name) for name in ("sense", "quadrant", "x", "y", "j", "counts_y")]
+    moves, steps = np.zeros((len(rows), 2), np.int64), np.zeros(len(rows), np.int64)
+    extremes = np.zeros((len(rows), 4), np.int64)
+    drift, behind = np.zeros(2, np.int64), np.cumsum(expected_steps(columns))
+    first = 0
+    while first < len(rows):
+        most = np.searchsorted(behind, behind[first] + CHUNK)
+        part = slice(first, max(first + 1, min(first + _CHUNK, int(most))))
+        states = np.zeros((part.stop - first, len(_FIELDS)), np.int64)
+        for at, column in enumerate(given):
+            states[:, at] = column[part]
+        states[0, 6:8] = drift
+        wanted = None if should is None else np.ascontiguousarray(should[part], np.int64)
+        address = None if wanted is None else ctypes.c_void_p(wanted.ctypes.data)
+        done = library().skgsim_walk(ctypes.c_void_p(states.ctypes.data), len(states), address)
+        if done < len(states):
+            raise stalled(tape.blocks[int(rows[first + done])])
+        moves[part] = states[:, _FIELDS.index("px") : _FIELDS.index("py") + 1]
+        steps[part] = states[:, _FIELDS.index("steps")]
+        extremes[part] = states[:, _FIELDS.index("f_max") :]
+        if wanted is not None:
+            drift += (moves[part] - wanted).sum(axis=0)
+        progress(int(steps[part].sum()))
+        first = part.stop
+    return Walk(moves, steps, _distances(columns, *extremes[:, :2].T), _distances(columns, *extremes[:, 2:].T))
+
+
+def machine_moves(tape: Tape) -> Numbers:
+    """Where the controller goes with each block of a tape (n × 2); an arc that never ends is a `UserError`."""
+    return kept(tape, "machine moves", lambda: _machine_moves(tape))
+
+
+def _machine_moves(tape: Tape) -> Numbers:
+    columns = columns_of(tape)
+    # (a line ends where it should)
+    found, rows = columns.moves.copy(), np.flatnonzero(~columns.is_line)
+    found[rows] = walk(tape, rows).moves
+    return found
