@@ -66,13 +66,20 @@ class Edge(Piece):
             return self.nodes[-1 if part else 0].angle
         return super().direction(part)
 
+    @property
+    def chords(self) -> int:
+        """How many chords there are between `points`."""
+        if self.nodes:
+            return len(self.samples) - 1
+        return 1 if self.centre is None else max(2, int(abs(self.sweep) / 0.08) + 1)
+
     def points(self) -> list[XY]:
         """Points along the edge, both ends included: a chord is never further than 0.1 % of a radius away."""
         if self.nodes:
             return list(self.samples)
         if self.centre is None:
             return [self.start, self.end]
-        pieces = max(2, int(abs(self.sweep) / 0.08) + 1)
+        pieces = self.chords
         (x, y), radius, first = self.centre, self.radius, self.angles[0]
         angles = [first + k / pieces * self.sweep for k in range(1, pieces)]
         return [self.start, *[(x + radius * cos(angle), y + radius * sin(angle)) for angle in angles], self.end]

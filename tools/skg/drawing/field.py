@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Generator, Sequence
-from dataclasses import dataclass
 from itertools import islice
 from math import cos, inf, sin
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from skg.drawing.contour import Contour
+from skg.drawing.contour import Contour, Edge
 from skg.errors import UserError
 from skg.plane import XY, distance
 
@@ -25,6 +24,8 @@ _HAIR = 1e-9
 _PAIRS = 100_000
 #: Where a contour is looked across for places in it, parts of its height: no corners lie there but by chance.
 _ACROSS = 0.2873, 0.7127
+#: So many arcs become chords together.
+_ARCS = 1000
 #: So many boxes are asked for the places in them together.
 _BOXES = 1000
 
@@ -33,8 +34,7 @@ Measure = Callable[[Floats, Floats, Floats, Floats, Floats], Floats]
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
-class Look:
+class Look(NamedTuple):
     """A look from a place for the nearest contour within a reach, mm; with an `angle` (radians) for the next one that
     way, where what is nearer than `least` is none."""
 
@@ -49,13 +49,11 @@ class Field:
 
     def __init__(self, contours: list[Contour]) -> None:
         self.contours = contours
-        points = [np.array(contour.points(), float) for contour in contours]
-        counts = np.array([len(one) for one in points], int)
-        self._points = np.concatenate(points) if points else np.empty((0, 2))
+        self._points, counts = points_of(contours)
         self._first = np.concatenate(([0], np.cumsum(counts)))
         # Runs of chords: from which point to which.
         runs = np.maximum(1, -(-(counts - 1) // _RUN))
-        of, begins = np.repeat(np.arange(len(points)), runs), np.cumsum(runs) - runs
+        of, begins = np.repeat(np.arange(len(counts)), runs), np.cumsum(runs) - runs
         self._low = self._first[of] + _RUN * (np.arange(len(of)) - begins[of])
         self._high = np.minimum(self._low + _RUN, self._first[of + 1] - 1)
         self._runs = shapely.STRtree(self._boxes())
@@ -188,6 +186,40 @@ class Field:
                 is_right = x < x1 + (y - y1) / (y2 - y1) * (x2 - x1)
             found[some] = np.count_nonzero(((y1 > y) != (y2 > y)) & is_right, axis=0) % 2
         return found
+
+
+def points_of(contours: Sequence[Contour]) -> tuple[Floats, NDArray[np.int64]]:
+    """The points of contours one after the other, to the last bit those of `Contour.points`, and how many each has."""
+    edges = [edge for contour in contours for edge in contour.edges]
+    # A contour has its edges' points but the last of each, and its end.
+    counts = np.array([edge.chords for edge in edges], np.int64)
+    first = np.cumsum([0, *(len(contour.edges) for contour in contours)])
+    per_contour = np.add.reduceat(counts, first[:-1]) + 1 if edges else counts
+    at = np.cumsum(counts) - counts + np.repeat(np.arange(len(contours)), np.diff(first))
+    found = np.empty((int(per_contour.sum()), 2))
+    found[at] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
+    found[np.cumsum(per_contour) - 1] = np.array([contour.edges[-1].end for contour in contours]).reshape(-1, 2)
+    arcs = [number for number, edge in enumerate(edges) if not edge.is_line and not edge.nodes]
+    for begin in range(0, len(arcs), _ARCS):
+        some = arcs[begin : begin + _ARCS]
+        _inner_points([edges[number] for number in some], at[some], counts[some], found)
+    for number, edge in enumerate(edges):
+        if edge.nodes:
+            found[at[number] : at[number] + counts[number]] = edge.samples[:-1]
+    return found, per_contour
+
+
+def _inner_points(arcs: list[Edge], at: NDArray[np.int64], pieces: NDArray[np.int64], found: Floats) -> None:
+    """Put the points of arcs behind their first ones, which are at some places."""
+    shapes = np.array([(*arc.centre, arc.radius, arc.angles[0], arc.sweep) for arc in arcs])
+    inner = pieces - 1
+    x, y, radius, first, sweep = np.repeat(shapes, inner, axis=0).T
+    number = np.arange(inner.sum()) - np.repeat(np.cumsum(inner) - inner, inner) + 1
+    angles = (first + number / np.repeat(pieces, inner) * sweep).tolist()
+    # (numpy's own cosine is another one on another processor)
+    across, up = (np.fromiter(map(of, angles), float, len(angles)) for of in (cos, sin))
+    places = np.repeat(at, inner) + number
+    found[places, 0], found[places, 1] = x + radius * across, y + radius * up
 
 
 def _direction(angle: float | None) -> XY:

@@ -390,7 +390,7 @@ class _Planner:
     def _chosen(self, made: PlannedContour, is_outside: bool, is_ccw: bool) -> _Looking[PlannedContour]:
         """Choose the entry with the most room: the first one with enough, else the best one."""
         reach = self.method.lead + max(map(abs, made.passes))
-        best: PlannedContour | None = None
+        best: tuple[float, Contour, XY, float, XY] | None = None
         for contour, part in _entries(made.contour, made.tab, self.widest):
             edge = contour.edges[0]
             if edge.is_circle and not is_outside and not made.is_arc:
@@ -403,16 +403,17 @@ class _Planner:
             # How far the nearest contour is from the start holes.
             around = 2 * distance(start, edge.at(part)) + 1e-3
             room = min((yield [Look(hole, around) for hole in ((start, tab_hole) if made.tab else (start,))]))
-            if best is None or room > best.room:
-                best = replace(made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=room)
+            if best is None or room > best[0]:
+                best = room, contour, start, part, tab_hole
             if room >= _ENOUGH * reach or start == edge.centre:
                 break
         if best is None:
             raise self._too_short(made.contour)
-        if best.is_arc and best.room < _ROOMY * self.widest:
+        room, contour, start, part, tab_hole = best
+        if made.is_arc and room < _ROOMY * self.widest:
             # (an arc takes more room than a line)
             return (yield from self._chosen(replace(made, is_arc=False, is_cramped=True), is_outside, is_ccw))
-        return best
+        return replace(made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=room)
 
     def _too_short(self, contour: Contour) -> UserError:
         x, y = contour.edges[0].start
