@@ -12,8 +12,9 @@ import ezdxf
 from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic
 from ezdxf.lldxf.const import DXFError
-from ezdxf.math import BSpline, Matrix44, Vec3, bulge_to_arc
+from ezdxf.math import OCS, BSpline, Matrix44, Vec3, bulge_to_arc
 
+from skg.drawing import plain
 from skg.drawing.account import Content, Entity, said
 from skg.drawing.contour import Edge
 from skg.drawing.dxf_file import DxfFile, Record
@@ -130,7 +131,7 @@ class _Collector:
                 self.content.starts.append(self.start(self.entity(record)))
                 account.left = "a start hole"
             else:
-                for edge in self.edges(self.entity(record)):
+                for edge in self.edges_of(record):
                     self.add(edge)
                 if len(self.content.edges) == known:
                     account.left = "it has no length"
@@ -204,16 +205,29 @@ class _Collector:
             return self.point(entity.dxf.location)
         return self.point(entity.ocs().to_wcs(entity.dxf.center))
 
+    def edges_of(self, record: Record) -> Iterable[Edge]:
+        """One record's edges."""
+        if record.kind in plain.POLYLINES and (line := plain.polyline(record)):
+            points = [Vec3(x, y, line.height) for x, y, _ in line.vertices]
+            return self.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)
+        if record.kind in plain.KINDS and (given := plain.numbers(record)):
+            if record.kind == "LINE":
+                return [Edge(*self.points([Vec3(given[:3]), Vec3(given[3:])]), entity=self.number)]
+            first, last = map(radians, given[4:] or (0.0, 360.0))
+            sweep = _sweep(first, last) if record.kind == "ARC" else 2 * pi
+            return self.arc(Vec3(given[:3]), given[3], first, sweep)
+        return self.edges(self.entity(record))
+
     def edges(self, entity: DXFGraphic) -> Iterable[Edge]:
         """One entity's edges."""
         match entity.dxftype():
             case "LINE":
                 return [Edge(*self.points([entity.dxf.start, entity.dxf.end]))]
             case "CIRCLE":
-                return self.arc(entity, 0.0, 2 * pi)
+                return self.arc(entity.dxf.center, entity.dxf.radius, 0.0, 2 * pi, _ocs(entity))
             case "ARC":
                 first, last = (radians(angle) for angle in (entity.dxf.start_angle, entity.dxf.end_angle))
-                return self.arc(entity, first, _sweep(first, last))
+                return self.arc(entity.dxf.center, entity.dxf.radius, first, _sweep(first, last), _ocs(entity))
             case "ELLIPSE":
                 first, last = entity.dxf.start_param, entity.dxf.end_param
                 axes = entity.dxf.major_axis, entity.minor_axis
@@ -221,7 +235,7 @@ class _Collector:
             case "LWPOLYLINE":
                 points = [Vec3(x, y, entity.dxf.elevation) for x, y in entity.vertices()]
                 bulges = [bulge for (bulge,) in entity.get_points("b")]
-                return self.polyline(entity, points, bulges, bool(entity.closed))
+                return self.polyline(points, bulges, bool(entity.closed), _ocs(entity))
             case "POLYLINE" if entity.is_2d_polyline or entity.is_3d_polyline:
                 vertices = [vertex for vertex in entity.vertices if not vertex.dxf.flags & _FRAME]
                 points = [Vec3(vertex.dxf.location) for vertex in vertices]
@@ -229,7 +243,7 @@ class _Collector:
                 if entity.is_2d_polyline:
                     height = Vec3(entity.dxf.elevation).z if entity.dxf.hasattr("elevation") else 0.0
                     points = [Vec3(point.x, point.y, height) for point in points]
-                return self.polyline(entity, points, bulges, entity.is_closed)
+                return self.polyline(points, bulges, entity.is_closed, _ocs(entity) if entity.is_2d_polyline else None)
             case "SPLINE" | "HELIX":
                 return self.spline(entity)
             case "MLINE":
@@ -246,7 +260,12 @@ class _Collector:
     def add(self, edge: Edge) -> None:
         """Keep an edge unless it has no length."""
         if edge.length > 0:
-            self.content.edges.append(replace(edge, entity=len(self.content.entities) - 1))
+            self.content.edges.append(edge if edge.entity == self.number else replace(edge, entity=self.number))
+
+    @property
+    def number(self) -> int:
+        """The number of the present entity."""
+        return len(self.content.entities) - 1
 
     def in_drawing(self, points: Sequence[Vec3]) -> list[Vec3]:
         """Places of the present block on the drawing; those of different heights are refused."""
@@ -269,11 +288,10 @@ class _Collector:
         """One place in mm."""
         return self.points([point])[0]
 
-    def arc(self, entity: DXFGraphic, first: float, sweep: float) -> list[Edge]:
-        """An arc or circle, which stands in a coordinate system of its own."""
-        ocs = entity.ocs() if not Vec3(entity.dxf.extrusion).is_null else None
-        radius = abs(entity.dxf.radius)
-        frame = [Vec3(entity.dxf.center), Vec3(radius, 0, 0), Vec3(0, radius, 0)]
+    def arc(self, centre: Vec3, radius: float, first: float, sweep: float, ocs: OCS | None = None) -> list[Edge]:
+        """An arc or circle, which may stand in a coordinate system of its own."""
+        radius = abs(radius)
+        frame = [Vec3(centre), Vec3(radius, 0, 0), Vec3(0, radius, 0)]
         return self.conic(*(frame if ocs is None else ocs.points_to_wcs(frame)), first, sweep)
 
     def conic(self, centre: Vec3, u: Vec3, v: Vec3, first: float, sweep: float) -> list[Edge]:
@@ -282,16 +300,16 @@ class _Collector:
         axes = [(end[0] - middle[0], end[1] - middle[1]) for end in (one, other)]
         return [conic(middle, *axes, first, sweep, self.wishes.fit_tolerance)]
 
-    def polyline(self, entity: DXFGraphic, points: list[Vec3], bulges: list[float], is_closed: bool) -> Iterator[Edge]:
-        """Lines and arcs through points; those of a flat polyline stand in a coordinate system of its own."""
+    def polyline(
+        self, points: list[Vec3], bulges: list[float], is_closed: bool, ocs: OCS | None = None
+    ) -> Iterator[Edge]:
+        """Lines and arcs through points; those of a flat polyline may stand in a coordinate system of its own."""
         if is_closed and points:
             points, bulges = [*points, points[0]], [*bulges, 0.0]
-        is_flat = entity.dxftype() == "LWPOLYLINE" or entity.is_2d_polyline
-        ocs = entity.ocs() if is_flat and not Vec3(entity.dxf.extrusion).is_null else None
         in_drawing = self.points(list(ocs.points_to_wcs(points)) if ocs else points)
         for (p, q), (start, end), bulge in zip(pairwise(points), pairwise(in_drawing), bulges, strict=False):
             if not bulge or start == end:
-                yield Edge(start, end)
+                yield Edge(start, end, entity=self.number)
                 continue
             centre, first, last, radius = bulge_to_arc(p, q, bulge)
             frame = [Vec3(centre.x, centre.y, p.z), Vec3(radius, 0, 0), Vec3(0, radius, 0)]
@@ -328,6 +346,11 @@ class _Collector:
 def _document() -> Drawing:
     """A document for entities that ezdxf takes from no other place."""
     return ezdxf.new()
+
+
+def _ocs(entity: DXFGraphic) -> OCS | None:
+    """The coordinate system that an entity stands in, if it has one of its own."""
+    return None if Vec3(entity.dxf.extrusion).is_null else entity.ocs()
 
 
 def _is_wide(record: Record) -> bool:
