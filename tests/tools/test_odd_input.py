@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import random
+import subprocess
+import sys
 from pathlib import Path
 
 import click
@@ -12,6 +14,8 @@ from toolhelp import CAD_TAPE, ROOT
 
 from skg.cli import COMMANDS, cli
 from skg.errors import UserError
+
+SKG = Path(sys.executable).with_name("skg")
 
 #: How each command takes a file, `-o out` where it writes one; what it can read among `FILES`.
 READERS = {
@@ -132,7 +136,8 @@ def test_outputs_that_cannot_be(command: str, tmp_path: Path, monkeypatch: pytes
         Path(part[0]).write_bytes(FILES[kind][0])
     Path("folder.svg").mkdir()
     Path("file.svg").touch()
-    for name in ("none/out.svg", "folder.svg", "file.svg/out.svg"):
+    Path("loop.svg").symlink_to("loop.svg")
+    for name in ("none/out.svg", "folder.svg", "file.svg/out.svg", "loop.svg"):
         code, _, said = invoke(*words, name, *part)
         assert code == 2, (name, said)
         assert name in said
@@ -145,6 +150,36 @@ def test_wrong_usage_is_one_line() -> None:
             code, out, said = invoke(command, *words)
             assert (code, out) == (2, "") and "\n" not in said, (command, said)
         assert "--help" in invoke(command, "--hlp")[2], command
+
+
+def shell(words: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """`skg` as bash starts it, `words` with what is redirected or limited."""
+    words = words.replace("skg ", f"exec {SKG} ", 1)
+    return subprocess.run(["bash", "-c", words], cwd=folder, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("words", ["dxf in.3b -o good", "plot in.3b -o good --format svg"])
+def test_a_full_disk_spares_the_old_file(words: str, tmp_path: Path) -> None:
+    """The new file is whole before it takes the old one's place; and its mode and a link to it stay."""
+    (tmp_path / "in.3b").write_bytes((ROOT / "examples" / "wrench.3b").read_bytes())
+    good = tmp_path / "kept"
+    good.write_text("as it was")
+    good.chmod(0o640)
+    (tmp_path / "good").symlink_to("kept")
+    done = shell(f"trap '' XFSZ; ulimit -f 1; skg {words} --positions machine", tmp_path)
+    assert (done.returncode, done.stderr) == (2, "skg: good: File too large\n")
+    assert good.read_text() == "as it was"
+    assert shell(f"skg {words}", tmp_path).returncode == 0
+    assert len(good.read_text()) > 2000 and good.stat().st_mode & 0o777 == 0o640
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["good", "in.3b", "kept"]
+
+
+@pytest.mark.parametrize("words", ["check in.3b", "ref in.skg"])
+def test_a_closed_output_is_no_success(words: str, tmp_path: Path) -> None:
+    (tmp_path / "in.3b").write_bytes(FILES["tape"][0])
+    (tmp_path / "in.skg").write_bytes(FILES["skg"][0])
+    done = shell(f"skg {words} >&-", tmp_path)
+    assert (done.returncode, done.stderr) == (2, "skg: standard output: closed\n")
 
 
 def test_output_onto_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import io
 import os
 import sys
 from contextlib import suppress
@@ -37,6 +38,18 @@ COMMANDS = {
 
 #: So many new objects before garbage is looked for.
 _GARBAGE = 200_000
+
+
+class _Closed(io.TextIOBase):
+    """A standard output that was closed before the program began: what is written there is not lost in silence."""
+
+    def write(self, _text: str) -> NoReturn:
+        raise UserError("standard output: closed")
+
+    @property
+    def buffer(self) -> NoReturn:
+        """The same for bytes."""
+        return self.write("")
 
 
 class LazyGroup(click.Group):
@@ -78,6 +91,9 @@ def main() -> None:
 
     Who reads the output may stop reading (`| head -1`): exit code 1, and not a word.
     """
+    if sys.stdout is None and sys.argv[1:2] != ["term"]:
+        # (who types at a board may do without its paper)
+        sys.stdout = _Closed()
     # What commands make of large files lives to their end: the collector would look through millions of blocks in vain.
     gc.set_threshold(_GARBAGE)
     try:

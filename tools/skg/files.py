@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import sys
+import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from io import TextIOWrapper
 from pathlib import Path
-from typing import TextIO
+from stat import S_IMODE, S_ISREG
+from typing import BinaryIO, TextIO
 
 from skg.errors import UserError
 from skg.kinds import named
@@ -45,11 +49,58 @@ def read_ascii(path: str) -> str:
 
 
 @contextmanager
+def _new_file(path: str) -> Iterator[BinaryIO]:
+    """A file to write: it takes the place of an older one when all of it is written, and not before.
+
+    What is no plain file, has several names or lies in a folder that takes no new one is written where it is.
+    """
+    target = Path(os.path.realpath(path))
+    try:
+        with suppress(FileNotFoundError):
+            old = target.stat()
+            if not S_ISREG(old.st_mode) or old.st_nlink > 1 or not os.access(target, os.W_OK):
+                raise PermissionError
+        descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=".skg-")
+    except OSError:
+        with _named(path), Path(path).open("wb") as stream:
+            yield stream
+        return
+    try:
+        with _named(path), os.fdopen(descriptor, "wb") as stream:
+            yield stream
+            stream.flush()
+            os.fchmod(descriptor, S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask())
+        Path(name).replace(target)
+    except BaseException:
+        Path(name).unlink()
+        raise
+
+
+@contextmanager
+def _named(path: str) -> Iterator[None]:
+    """An error in writing names the file."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, path) from None
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+@contextmanager
 def text_output(path: str) -> Iterator[TextIO]:
     """A file to write ASCII text to, piece by piece."""
     if path != "-":
-        with Path(path).open("w", encoding="ascii", newline="") as stream:
-            yield stream
+        with _new_file(path) as binary:
+            stream = TextIOWrapper(binary, encoding="ascii", newline="")
+            try:
+                yield stream
+            finally:
+                stream.detach()
         return
     if sys.stdout is None:
         raise UserError("standard output: closed")
@@ -60,7 +111,8 @@ def text_output(path: str) -> Iterator[TextIO]:
 def write_bytes(path: str, data: bytes) -> None:
     """Write a file."""
     if path != "-":
-        Path(path).write_bytes(data)
+        with _new_file(path) as stream:
+            stream.write(data)
         return
     if sys.stdout is None:
         raise UserError("standard output: closed")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import wraps
+from os.path import realpath
 from pathlib import Path
 
 import click
@@ -103,7 +104,7 @@ def _refuse_onto(context: click.Context) -> None:
             (read if is_read else written).extend(map(str, value if isinstance(value, tuple) else [value]))
     real = [name for name in written if name != "-" and (not Path(name).exists() or Path(name).is_file())]
     for at, name in enumerate(real):
-        if any(Path(name).resolve() == Path(other).resolve() for other in [*read, *real[:at]] if other != "-"):
+        if any(realpath(name) == realpath(other) for other in [*read, *real[:at]] if other != "-"):
             raise UserError(f"{name}: to be written, and read or written by the same command")
 
 
