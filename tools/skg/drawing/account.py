@@ -32,11 +32,13 @@ class Entity:
 
 @dataclass
 class Content:
-    """What a file holds: its entities, their edges in mm (each with the number of its entity), start points in mm."""
+    """What a file holds: its entities, their edges in mm (each with the number of its entity), start points in mm,
+    and what is to be said of them."""
 
     entities: list[Entity] = field(default_factory=list)
     edges: list[Edge] = field(default_factory=list)
     starts: list[XY] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
 
 @dataclass

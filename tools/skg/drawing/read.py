@@ -154,7 +154,9 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
         elif not told:
             px = page.guess
         report = Account(name, units[0], units[2], units[1])
-        return svg.collect(page, px, units[1], wishes), report
+        content = svg.collect(page, px, units[1], wishes)
+        report.notes += content.notes
+        return content, report
     file = dxf_file.load(data)
     units = (*file.units, TOLD) if file.units else ("mm", 1.0, NOT_TOLD)
     if wishes.units:

@@ -1,43 +1,47 @@
 """SVG drawings: their shapes as edges, lengths in millimetres; each is accounted for.
 
-svgelements works out transforms, view boxes, units and `<use>`. The file's own tree is gone through first: what is
-drawn there and not found again in svgelements' shapes is named.
+The tree is gone through here: what is shown of it, where, and how it is drawn (view boxes, transforms, `use`, style
+sheets). svgelements reads what stands in an attribute: path data and transforms.
 """
 
 from __future__ import annotations
 
 import gzip
-import io
 import re
 from collections.abc import Iterator
-from dataclasses import replace
-from math import atan2, pi
+from dataclasses import dataclass, replace
+from math import atan2, hypot, pi, sqrt
 from xml.etree import ElementTree
 
 import svgelements
 from ezdxf.math import BSpline, Vec3
 
-from skg.drawing.account import Content, Entity
+from skg.drawing.account import Content, Entity, said
 from skg.drawing.contour import Edge
 from skg.drawing.shapes import conic, is_number, spline_edges
+from skg.drawing.stylesheet import Sheet, Style
 from skg.drawing.wishes import Wishes
 from skg.errors import UserError
 from skg.plane import XY, cross, distance, minus
 
 #: mm in one of the units that a page's width is given in.
 UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
-#: svgelements' own unit, mm.
+#: A pixel, mm.
 PX = 25.4 / 96
 #: What is drawn, and what is drawn but is nothing to cut.
 _SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
 _NOTES = {"text": "text, convert it to paths", "image": "a picture", "foreignObject": "not SVG", "flowRoot": "text"}
-#: What stands in these is drawn where it is used, or not at all.
-_HIDDEN = ("defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata", "namedview")
+#: What holds others; what stands in anything else is drawn where it is used, or not at all.
+_GROUPS = ("g", "a", "svg", "switch")
 _LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 _MODE = "{http://www.inkscape.org/namespaces/inkscape}groupmode"
-#: Attributes that the shapes are found again by; `values` of svgelements hands them down.
-_NUMBER, _LAYER = "skg-number", "skg-layer"
-_NONE = re.compile(r"\bdisplay\s*:\s*none")
+_LINK = "{http://www.w3.org/1999/xlink}href"
+#: Groups within groups within groups; more shapes than this in all are no drawing.
+_DEPTH, _MOST = 300, 1_000_000
+#: A line that is wider than this is said, mm.
+_WIDE = 1.0
+#: Why a shape is left that has neither a stroke nor a fill.
+_UNPAINTED = "drawn with neither line nor area"
 #: What a shape that cannot be read may raise.
 _UNREADABLE = (ValueError, TypeError, ArithmeticError, IndexError, KeyError, AttributeError)
 
@@ -45,6 +49,28 @@ _UNREADABLE = (ValueError, TypeError, ArithmeticError, IndexError, KeyError, Att
 def is_svg(data: bytes, name: str) -> bool:
     """Whether a file is SVG: by its ending, else by its first lines."""
     return name.lower().endswith((".svg", ".svgz")) or b"<svg" in data[:4096]
+
+
+@dataclass(frozen=True)
+class _View:
+    """Where an element stands. `matrix`: from its coordinates to pixels; `size`: that of the view box, for
+    percentages; `hidden`: why nothing of it is seen; `is_clipped`: whether only a part of it may be seen."""
+
+    matrix: svgelements.Matrix
+    size: XY
+    layer: str = "0"
+    style: Style = Style()
+    hidden: str = ""
+    is_clipped: bool = False
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """An element that is drawn, or left for a reason."""
+
+    element: ElementTree.Element
+    view: _View
+    left: str = ""
 
 
 class SvgFile:
@@ -65,11 +91,19 @@ class SvgFile:
             self.guess, self.guessed = 25.4 / 72, "Illustrator has 72 px in an inch"
         elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
             self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
-        for element in self.root.iter():
-            if _name(element) == "path" and element.get("d") is None:
-                element.set("d", "")
-        self.drawn: list[tuple[str, str, bool]] = []
-        self._number(self.root, "0", True)
+        self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
+        self.sheet = Sheet("".join(element.text or "" for element in self.root.iter() if _name(element) == "style"))
+        box = _view_box(self.root)
+        sides = [_length(self.root.get(side, ""), None) for side in ("width", "height")]
+        width, height = sides
+        # (a page that tells one side or none has that of its view box)
+        if box and width is None:
+            width = box[2] * (height / box[3] if height else 1.0)
+        if box and height is None:
+            height = box[3] * (width or 0.0) / box[2]
+        self.height = height or 0.0
+        size = width or 0.0, self.height
+        self.view = _View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size)
 
     def _units(self) -> tuple[str, float] | None:
         for side in ("width", "height"):
@@ -78,34 +112,84 @@ class SvgFile:
                 return unit[1].lower().replace("in", "inch"), UNITS[unit[1].lower()]
         return None
 
-    def _number(self, element: ElementTree.Element, layer: str, is_seen: bool) -> None:
-        """Number what is drawn (its name, its layer, whether it is displayed), and write that and the layer on it."""
-        for child in element:
-            name = _name(child)
-            if name in _HIDDEN or not name:
-                continue
-            inner = layer
-            if name == "g" and (child.get(_MODE) == "layer" or element is self.root):
-                inner = child.get(_LABEL) or child.get("id") or layer
-            child.set(_LAYER, inner)
-            shown = is_seen and not _NONE.search(f"display:{child.get('display', '')};{child.get('style', '')}")
-            if name in _SHAPES or name in _NOTES:
-                child.set(_NUMBER, str(len(self.drawn)))
-                self.drawn.append((name, inner, shown))
-            if name not in _NOTES:
-                self._number(child, inner, shown)
+    def drawn(self) -> Iterator[_Drawn]:
+        """All that is drawn, and what is left of it, in the order of the file."""
+        style = self.sheet.style(self.root, (), Style())
+        view = replace(self.view, style=style, hidden="not displayed" if style.display == "none" else "")
+        yield from self._children(self.root, view, (self.root,), ())
 
-    def shapes(self) -> Iterator[tuple[svgelements.Shape, int, str]]:
-        """svgelements' shapes, each with its number and layer."""
-        text = io.BytesIO(ElementTree.tostring(self.root))
+    def _children(
+        self, group: ElementTree.Element, view: _View, around: tuple[ElementTree.Element, ...], used: tuple[str, ...]
+    ) -> Iterator[_Drawn]:
+        if len(around) > _DEPTH:
+            raise UserError(f"groups within groups, more than {_DEPTH} deep")
+        shown = _switched(group) if _name(group) == "switch" else None
+        for child in group:
+            name = _name(child)
+            if name in (*_GROUPS, *_SHAPES, *_NOTES, "use"):
+                inner = view if shown in (None, child) else replace(view, hidden=view.hidden or "not displayed")
+                yield from self._one(child, name, inner, around, used)
+
+    def _one(
+        self,
+        element: ElementTree.Element,
+        name: str,
+        view: _View,
+        around: tuple[ElementTree.Element, ...],
+        used: tuple[str, ...],
+    ) -> Iterator[_Drawn]:
+        """What one element shows; `around`: those that it stands in, `used`: what is being used."""
+        style = self.sheet.style(element, around, view.style)
+        layer = view.layer
+        if name == "g" and (element.get(_MODE) == "layer" or len(around) == 1):
+            layer = element.get(_LABEL) or element.get("id") or layer
+        hidden = view.hidden or ("not displayed" if style.display == "none" else "invisible" * style.is_clear)
+        view = replace(view, layer=layer, style=style, hidden=hidden, is_clipped=view.is_clipped or style.is_clipped)
         try:
-            tree = svgelements.SVG.parse(text, reify=True, width="1000px", height="1000px")
+            if style.transform:
+                view = replace(view, matrix=svgelements.Matrix(style.transform) * view.matrix)
+            if name in ("use", "svg"):
+                at = [_length(element.get(side, "0"), size) for side, size in zip("xy", view.size, strict=True)]
         except _UNREADABLE as error:
-            raise UserError(f"not an SVG drawing that can be read ({error or type(error).__name__})") from None
-        self.height = float(tree.height or 0.0)
-        for shape in tree.elements():
-            if isinstance(shape, svgelements.Shape):
-                yield shape, int(shape.values.get(_NUMBER, -1)), shape.values.get(_LAYER, "0")
+            yield _Drawn(element, view, f"cannot be read ({str(error) or type(error).__name__})")
+            return
+        if name in _NOTES:
+            yield _Drawn(element, view, hidden or _NOTES[name])
+        elif name in _SHAPES:
+            yield _Drawn(element, view, hidden)
+        elif name == "use":
+            yield from self._used(element, view, (at[0] or 0.0, at[1] or 0.0), around, used)
+        elif name == "svg":
+            yield from self._children(
+                element, _framed(element, element, view, (at[0] or 0.0, at[1] or 0.0)), (*around, element), used
+            )
+        else:
+            yield from self._children(element, view, (*around, element), used)
+
+    def _used(
+        self,
+        element: ElementTree.Element,
+        view: _View,
+        at: XY,
+        around: tuple[ElementTree.Element, ...],
+        used: tuple[str, ...],
+    ) -> Iterator[_Drawn]:
+        """What a `use` shows."""
+        link = (element.get("href") or element.get(_LINK) or "").strip()
+        target = self.ids.get(link.removeprefix("#")) if link.startswith("#") else None
+        if target is None or link in used:
+            why = "is part of itself" if target is not None else "is not in the file"
+            yield _Drawn(element, view, view.hidden or f"what it shows, {link or 'nothing'}, {why}")
+            return
+        name = _name(target)
+        around, used = (*around, element), (*used, link)
+        if name in ("symbol", "svg"):
+            style = self.sheet.style(target, around, view.style)
+            framed = _framed(target, element, replace(view, style=style), at)
+            yield from self._children(target, framed, (*around, target), used)
+        elif name in (*_GROUPS, *_SHAPES, *_NOTES, "use"):
+            moved = replace(view, matrix=svgelements.Matrix.translate(*at) * view.matrix)
+            yield from self._one(target, name, moved, around, used)
 
 
 def _name(element: ElementTree.Element) -> str:
@@ -113,42 +197,170 @@ def _name(element: ElementTree.Element) -> str:
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
 
 
+def _switched(group: ElementTree.Element) -> ElementTree.Element | None:
+    """What a `switch` shows: the first that asks for nothing that is not there."""
+    for child in group:
+        languages = child.get("systemLanguage", "en").replace(" ", "").split(",")
+        is_english = any(language.partition("-")[0] == "en" for language in languages)
+        if _name(child) in (*_GROUPS, *_SHAPES, "use") and is_english and not child.get("requiredExtensions"):
+            return child
+    return group
+
+
+def _length(text: str, whole: float | None) -> float | None:
+    """A length in pixels; `whole` is that of 100 %. None where there is none, or nothing that it is a part of."""
+    found = re.fullmatch(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*", text)
+    if found is None:
+        return None
+    value, unit = float(found[1]), found[2].lower()
+    if unit == "%":
+        return None if whole is None else value / 100 * whole
+    return value * (UNITS[unit] / PX if unit in UNITS else 16.0 if unit == "em" else 1.0)
+
+
+def _view_box(element: ElementTree.Element) -> tuple[float, float, float, float] | None:
+    """The view box of an element that has one: its corner, its width and height."""
+    try:
+        x, y, width, height = (float(number) for number in element.get("viewBox", "").replace(",", " ").split())
+    except ValueError:
+        return None
+    return (x, y, width, height) if width > 0 and height > 0 else None
+
+
+def _fitted(element: ElementTree.Element, at: XY, size: XY) -> svgelements.Matrix:
+    """From the view box of an element to the frame at a place that it fills."""
+    box = _view_box(element)
+    if box is None or not all(size):
+        return svgelements.Matrix.translate(*at)
+    scales = [side / part for side, part in zip(size, box[2:], strict=True)]
+    words = (element.get("preserveAspectRatio") or "xMidYMid").split()
+    if words[0] == "none":
+        sx, sy = scales
+    else:
+        sx = sy = max(scales) if "slice" in words else min(scales)
+    aligned = {"min": 0.0, "mid": 0.5, "max": 1.0}
+    parts = [aligned.get(words[0][first : first + 3].lower(), 0.5) for first in (1, 5)]
+    free = size[0] - sx * box[2], size[1] - sy * box[3]
+    x, y = (corner + part * rest for corner, part, rest in zip(at, parts, free, strict=True))
+    return svgelements.Matrix(sx, 0, 0, sy, x - sx * box[0], y - sy * box[1])
+
+
+def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: _View, at: XY) -> _View:
+    """The view within a nested drawing or a symbol; `outer`, which may be what uses it, tells the frame's size."""
+    sides = []
+    for side, whole in zip(("width", "height"), view.size, strict=True):
+        told = outer.get(side) or inner.get(side) or "100%"
+        length = _length(told, whole)
+        sides.append(whole if length is None else length)
+    box = _view_box(inner)
+    matrix = _fitted(inner, at, (sides[0], sides[1])) * view.matrix
+    return replace(view, matrix=matrix, size=(box[2], box[3]) if box else (sides[0], sides[1]))
+
+
+def _outline(element: ElementTree.Element, view: _View) -> svgelements.Path:
+    """A shape as a path, in pixels."""
+    width, height = view.size
+    wholes = {**dict.fromkeys(("x", "cx", "rx", "x1", "x2", "width"), width), "r": hypot(*view.size) / sqrt(2)}
+
+    def given(name: str) -> float | None:
+        return _length(element.get(name, ""), wholes.get(name, height))
+
+    def of(name: str) -> float:
+        return given(name) or 0.0
+
+    match _name(element):
+        case "rect":
+            rx, ry = given("rx"), given("ry")
+            rx, ry = ry if rx is None else rx, rx if ry is None else ry
+            found = svgelements.Path()
+            if of("width") > 0 and of("height") > 0:
+                corner = min(rx or 0.0, of("width") / 2), min(ry or 0.0, of("height") / 2)
+                found = svgelements.Path(svgelements.Rect(of("x"), of("y"), of("width"), of("height"), *corner))
+        case "circle":
+            found = _around((of("cx"), of("cy")), of("r"), of("r"))
+        case "ellipse":
+            rx, ry = given("rx"), given("ry")
+            rx, ry = ry if rx is None else rx, rx if ry is None else ry
+            found = _around((of("cx"), of("cy")), rx or 0.0, ry or 0.0)
+        case "line":
+            found = svgelements.Path(svgelements.SimpleLine(of("x1"), of("y1"), of("x2"), of("y2")))
+        case "polyline":
+            found = svgelements.Path(svgelements.Polyline(element.get("points", "")))
+        case "polygon":
+            found = svgelements.Path(svgelements.Polygon(element.get("points", "")))
+        case _:
+            found = svgelements.Path(element.get("d", ""))
+    return (found * view.matrix).reify()
+
+
+def _around(centre: XY, rx: float, ry: float) -> svgelements.Path:
+    """A circle or an ellipse."""
+    return svgelements.Path(svgelements.Ellipse(*centre, rx, ry)) if rx > 0 and ry > 0 else svgelements.Path()
+
+
 def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
     """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
-    edge. `px`: mm in one pixel of svgelements; `factor`: mm in the units of the page."""
+    edge. `px`: mm in one pixel; `factor`: mm in the units of the page."""
     content = Content()
-    wishes.check_layers(layer for _, layer, _ in file.drawn)
-    found: set[int] = set()
-    for shape, number, layer in file.shapes():
-        found.add(number)
-        kind = type(shape).__name__.lower().replace("simpleline", "line")
-        account = Entity(kind, layer, (0.0, 0.0))
+    unpainted: list[tuple[Entity, list[Edge]]] = []
+    clipped: list[Entity] = []
+    wide: list[Entity] = []
+    found: list[_Drawn] = []
+    for one in file.drawn():
+        found.append(one)
+        if len(found) > _MOST:
+            raise UserError(f"more than {_MOST:,} shapes, expected a drawing")
+    wishes.check_layers(one.view.layer for one in found)
+    for one in found:
+        kind, layer, style = _name(one.element), one.view.layer, one.view.style
+        account = Entity(kind, layer, (0.0, 0.0), wishes.unwanted(layer) or one.left)
         content.entities.append(account)
+        if kind not in _SHAPES or one.left.startswith("cannot"):
+            account.is_odd = not one.view.hidden and kind not in _NOTES
+            continue
         reader = _Shapes(file.height, px, wishes.fit_tolerance)
         try:
-            edges = [replace(edge, entity=len(content.entities) - 1) for edge in reader.edges(shape)]
+            outline = _outline(one.element, one.view)
+            is_round = kind in ("circle", "ellipse")
+            entity = len(content.entities) - 1
+            edges = [replace(edge, entity=entity) for edge in reader.edges(outline, is_round)]
         except _UNREADABLE as error:
-            account.left, account.is_odd = f"cannot be read ({error or type(error).__name__})", True
+            account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"
+            account.is_odd = not one.view.hidden
             continue
         if edges:
             x, y = edges[0].start
             account.place = x / factor, y / factor
-        hidden = shape.values.get("visibility", "") in ("hidden", "collapse")
-        account.left = wishes.unwanted(layer) or ("invisible" if hidden else "")
+        account.left = account.left or ("invisible" if style.is_hidden else "")
         if account.left:
             continue
         if wishes.is_start(layer):
             account.left = "a start hole" if kind == "circle" else "nothing to cut"
-            if kind == "circle":
-                content.starts.append(reader.point(shape.implicit_center))
+            if kind == "circle" and edges:
+                middle = outline.bbox()
+                content.starts.append(
+                    reader.point(svgelements.Point((middle[0] + middle[2]) / 2, (middle[1] + middle[3]) / 2))
+                )
             continue
         account.left = "" if edges else "it has no length"
+        if edges and not style.is_painted:
+            account.left = _UNPAINTED
+            unpainted.append((account, edges))
+            continue
         content.edges += edges
-    for number, (name, layer, is_seen) in enumerate(file.drawn):
-        if number not in found or name in _NOTES:
-            why = _NOTES.get(name, "cannot be read") if is_seen else "not displayed"
-            is_odd = is_seen and name in _SHAPES
-            content.entities.append(Entity(name, layer, (0.0, 0.0), wishes.unwanted(layer) or why, is_odd))
+        account.dashes = "stroke-dasharray" if style.is_dashed else ""
+        if edges and one.view.is_clipped:
+            clipped.append(account)
+        if edges and style.width * sqrt(abs(one.view.matrix.determinant)) * px > _WIDE:
+            wide.append(account)
+    some = ("shape", "shapes")
+    if not content.edges:
+        for account, edges in unpainted:
+            account.left = ""
+            content.edges += edges
+        content.notes += said((account for account, _ in unpainted), some, _UNPAINTED, "cut, there is nothing else")
+    content.notes += said(clipped, some, "clipped or masked", "cut whole")
+    content.notes += said(wide, some, f"drawn with a line wider than {_WIDE:g} mm", "the middle is cut")
     return content
 
 
@@ -167,10 +379,8 @@ class _Shapes:
             raise ValueError("a place of it is no number")
         return at
 
-    def edges(self, shape: svgelements.Shape) -> Iterator[Edge]:
-        """One shape's edges."""
-        path = svgelements.Path(shape)
-        is_round = isinstance(shape, svgelements.Circle | svgelements.Ellipse)
+    def edges(self, path: svgelements.Path, is_round: bool) -> Iterator[Edge]:
+        """A path's edges; `is_round`: it is all of a circle or an ellipse."""
         for segment in path:
             if isinstance(segment, svgelements.Arc):
                 yield from self.arc(segment, is_round)

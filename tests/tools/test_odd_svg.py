@@ -1,0 +1,152 @@
+"""SVG drawings: what is shown of them, where, and that the rest is said."""
+
+from __future__ import annotations
+
+import pytest
+from test_reading import checked, left
+
+from skg.drawing.read import Reading, Wishes, read
+from skg.errors import UserError
+from skg.plane import XY
+
+PART = '<rect x="10" y="10" width="20" height="10"/>'
+WHERE = (10, 80, 30, 90)
+Box = tuple[float, float, float, float]
+
+
+def page(content: str, size: str = 'width="100mm" height="100mm" viewBox="0 0 100 100"') -> bytes:
+    spaces = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    return f"<svg {spaces} {size}>{content}</svg>".encode()
+
+
+def reading_of(data: bytes) -> Reading:
+    return checked(data, units=None)
+
+
+def boxes(reading: Reading) -> list[Box]:
+    """The box of each contour, sorted: smallest x and y, largest x and y."""
+    found = []
+    for contour in reading.contours:
+        places: list[XY] = [place for edge in contour.edges for place in edge.extremes()]
+        xs, ys = zip(*places, strict=True)
+        found.append(tuple(round(ordinate, 6) for ordinate in (min(xs), min(ys), max(xs), max(ys))))
+    return sorted(found)
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        # Nested drawings: their frame, their view box, in the middle of it.
+        ('<svg x="50" y="30" width="40" height="40" viewBox="0 0 20 20"><rect width="5" height="10"/></svg>',
+         [(50, 50, 60, 70)]),
+        ('<svg x="50" y="30" width="60" height="40" viewBox="0 0 20 20"><rect width="5" height="10"/></svg>',
+         [(60, 50, 70, 70)]),
+        ('<svg x="50%" y="0"><rect width="50%" height="10%"/></svg>', [(50, 90, 100, 100)]),
+        # What is used: moved, turned, once each time; a symbol fills the frame of its use, and is not shown itself.
+        ('<defs><rect id="r" width="5" height="5"/></defs><use xlink:href="#r" x="20" y="20"/>'
+         '<use href="#r" transform="translate(40 40) rotate(90)"/>', [(20, 75, 25, 80), (35, 55, 40, 60)]),
+        ('<symbol id="s" viewBox="0 0 10 10"><rect width="10" height="5"/></symbol>'
+         '<use xlink:href="#s" x="20" y="20" width="20" height="20"/>', [(20, 70, 40, 80)]),
+        ('<defs><rect id="r" width="5" height="5"/><g id="g"><use href="#r" x="3"/></g></defs>'
+         '<use href="#g" x="20"/>', [(23, 95, 28, 100)]),
+        # Style sheets move things, too; the element's own style comes last.
+        ("<style>.q{transform:translate(20px,0)}</style><rect class='q' width='5' height='5'/>", [(20, 95, 25, 100)]),
+        ("<style>g .q{transform:translate(9px)} #a{transform:translate(7px)}</style>"
+         "<g><rect id='a' class='q' width='5' height='5' style='transform:translate(30px,0)'/></g>",
+         [(30, 95, 35, 100)]),
+        ('<circle cx="50" cy="50" r="10%"/>', [(40, 40, 60, 60)]),
+        ('<ellipse cx="50" cy="50" rx="10"/>', [(40, 40, 60, 60)]),
+        ('<rect x="1cm" y="10" width="10" height="5pt"/>', [(37.795276, 83.333333, 47.795276, 90)]),
+    ],
+)  # fmt: skip
+def test_places(content: str, expected: list[Box]) -> None:
+    assert boxes(reading_of(page(content))) == pytest.approx(expected, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("size", "expected"),
+    [
+        ('width="100mm" height="50mm" viewBox="0 0 100 100"', (25, 0, 75, 50)),
+        ('width="100mm" height="50mm" viewBox="0 0 100 100" preserveAspectRatio="none"', (0, 0, 100, 50)),
+        ('width="100mm" height="50mm" viewBox="0 0 100 100" preserveAspectRatio="xMaxYMin meet"', (50, 0, 100, 50)),
+        ('width="100mm" height="50mm" viewBox="0 0 100 100" preserveAspectRatio="xMidYMax slice"', (0, 0, 100, 100)),
+        ('width="100mm" viewBox="0 0 100 100"', (0, 0, 100, 100)),
+        ('height="100mm" viewBox="0 0 50 100"', (0, 0, 100, 100)),
+        ('width="2in" height="2in" viewBox="0 0 100 100"', (0, 0, 50.8, 50.8)),
+        # A page that is as large as its window has the pixels of its view box.
+        ('width="100%" height="100%" viewBox="0 0 960 960"', (0, 227.541667, 26.458333, 254)),
+        ('viewBox="0 0 960 960"', (0, 227.541667, 26.458333, 254)),
+        ('width="100mm" height="100mm"', (0, 73.541667, 26.458333, 100)),
+    ],
+)
+def test_pages(size: str, expected: Box) -> None:
+    (box,) = boxes(reading_of(page('<rect width="100" height="100"/>', size)))
+    assert box == pytest.approx(expected, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        ("<style>.h{display:none}</style><rect class='x h' width='5' height='5'/>", "not displayed"),
+        (
+            "<style>#k, .b {display : none !important}</style><g id='k'><rect width='5' height='5'/></g>",
+            "not displayed",
+        ),
+        ("<style>g>rect.h{visibility:hidden}</style><g><rect class='h' width='5' height='5'/></g>", "invisible"),
+        ("<g display='none'><rect display='inline' width='5' height='5'/></g>", "not displayed"),
+        ("<g opacity='0.0'><rect width='5' height='5'/></g>", "invisible"),
+        ("<rect width='5' height='5' fill='none'/>", "drawn with neither line nor area"),
+        ("<switch><g><path d='M0 0'/></g><rect width='5' height='5'/></switch>", "not displayed"),
+        ("<switch><rect systemLanguage='de' width='5' height='5'/><g/></switch>", "not displayed"),
+        ("<use href='#nothing'/>", "what it shows, #nothing, is not in the file"),
+        ("<g id='g'><use href='#g'/></g>", "what it shows, #g, is part of itself"),
+        ("<path d='M0 0 L 5 5 Q 3 X 4'/>", "cannot be read (ValueError)"),
+        ("<rect width='5' height='5' transform='matrix(1 2)'/>", "cannot be read (tuple index out of range)"),
+        ("<text>a</text>", "text, convert it to paths"),
+    ],
+)
+def test_what_is_not_shown_is_left(content: str, why: str) -> None:
+    reading = reading_of(page(PART + content))
+    assert boxes(reading) == [WHERE]
+    assert why in left(reading)
+
+
+@pytest.mark.parametrize("where", ["clipPath", "mask", "marker", "pattern", "defs", "symbol"])
+def test_what_is_kept_for_use_is_not_drawn(where: str) -> None:
+    reading = reading_of(page(f'<{where} id="c"><rect width="5" height="5"/></{where}>' + PART))
+    assert boxes(reading) == [WHERE]
+    assert left(reading) == {}
+
+
+@pytest.mark.parametrize(
+    ("content", "note"),
+    [
+        ('<g clip-path="url(#c)">%s</g>', "1 shape on layer 0 clipped or masked, as at (10, 90): cut whole"),
+        ('<g style="mask:url(#c)">%s</g>', "1 shape on layer 0 clipped or masked, as at (10, 90): cut whole"),
+        ('<g stroke="red" stroke-width=".6" transform="scale(2) translate(-5,-5)">%s</g>',
+         "1 shape on layer 0 drawn with a line wider than 1 mm, as at (10, 90): the middle is cut"),
+        ('<g stroke="red" stroke-dasharray="2,1">%s</g>',
+         "1 entity on layer 0 drawn with dashes (stroke-dasharray), as at (10, 90): cut as it is"),
+        ('<g fill="none">%s</g>',
+         "1 shape on layer 0 drawn with neither line nor area, as at (10, 90): cut, there is nothing else"),
+    ],
+)  # fmt: skip
+def test_what_is_guessed_is_said(content: str, note: str) -> None:
+    reading = reading_of(page(content % PART))
+    assert len(reading.contours) == 1
+    assert note in reading.report.notes
+    content = '<g stroke="red" stroke-width="0.9" stroke-dasharray="none">%s</g>'
+    assert reading_of(page(content % PART)).report.notes == []
+
+
+def test_a_line_of_dashes_within_an_outline_is_left() -> None:
+    fold = '<line x1="12" y1="15" x2="28" y2="15" stroke="blue" style="stroke-dasharray:1"/>'
+    reading = reading_of(page(PART + fold))
+    assert boxes(reading) == [WHERE]
+    assert left(reading) == {"drawn with dashes, of no closed outline: --open all cuts it": 1}
+    assert len(read(page(PART + fold), "a.svg", Wishes(open="all")).contours) == 2
+
+
+def test_groups_without_end() -> None:
+    with pytest.raises(UserError, match="groups within groups, more than 300 deep"):
+        read(page("<g>" * 2000 + PART + "</g>" * 2000), "a.svg")

@@ -1,0 +1,117 @@
+"""How SVG elements are drawn: attributes, style sheets, and what is handed down."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from xml.etree.ElementTree import Element
+
+#: Attributes that mean what the property of that name means.
+_PROPERTIES = (
+    "display", "visibility", "opacity", "fill", "stroke", "stroke-width", "stroke-dasharray", "clip-path", "mask",
+    "transform",
+)  # fmt: skip
+#: A selector's parts: a name, classes and ids.
+_COMPOUND = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
+
+
+@dataclass(frozen=True)
+class Style:
+    """How an element is drawn, with what it has from those around it: fill, stroke, its width and dashes, visibility.
+    `width`: the line's, in the element's own pixels, 0 without a line."""
+
+    fill: str = "black"
+    stroke: str = "none"
+    stroke_width: float = 1.0
+    is_dashed: bool = False
+    is_hidden: bool = False
+    display: str = ""
+    transform: str = ""
+    is_clear: bool = False
+    is_clipped: bool = False
+
+    @property
+    def is_painted(self) -> bool:
+        """Whether it has a line or an area."""
+        return self.fill not in ("none", "transparent") or self.stroke not in ("none", "transparent")
+
+    @property
+    def width(self) -> float:
+        """How wide its line is, in its own pixels; 0 without one."""
+        return self.stroke_width if self.stroke not in ("none", "transparent") else 0.0
+
+
+class Sheet:
+    """The rules of a drawing's style sheets: those whose selectors are names, classes, ids and what these stand in."""
+
+    def __init__(self, text: str) -> None:
+        #: Weight, selector (parts from the outside in), declarations.
+        self.rules: list[tuple[tuple[int, int, int, int], list[str], dict[str, str]]] = []
+        text = re.sub(r"/\*.*?\*/|<!--|-->|@[\w-]+[^{};]*;", "", text, flags=re.DOTALL)
+        for selectors, declarations in re.findall(r"([^{}]+)\{([^{}]*)\}", text):
+            for selector in selectors.split(","):
+                parts = selector.replace(">", " ").split()
+                if parts and all(_COMPOUND.fullmatch(part) for part in parts):
+                    marks = "".join(parts)
+                    names = sum(part[0] not in "*.#" for part in parts)
+                    weight = marks.count("#"), marks.count("."), names, len(self.rules)
+                    self.rules.append((weight, parts, _declared(declarations)))
+        self.rules.sort(key=lambda rule: rule[0])
+
+    def style(self, element: Element, around: tuple[Element, ...], outer: Style) -> Style:
+        """How an element is drawn; `around`: those that it stands in, `outer`: how the last of these is drawn."""
+        told = {name: element.get(name, "").strip() for name in _PROPERTIES}
+        for _, parts, declarations in self.rules:
+            if _fits(parts, element, around):
+                told |= declarations
+        told |= _declared(element.get("style", ""))
+        told = {name: value for name, value in told.items() if value and value != "inherit"}
+        visibility = told.get("visibility")
+        dashes = told.get("stroke-dasharray")
+        width = re.match(r"[\d.]+(?:e-?\d+)?", told.get("stroke-width", ""))
+        return replace(
+            outer,
+            fill=told.get("fill", outer.fill).lower(),
+            stroke=told.get("stroke", outer.stroke).lower(),
+            stroke_width=float(width[0]) if width else outer.stroke_width,
+            is_dashed=bool(re.search("[1-9]", dashes)) if dashes else outer.is_dashed,
+            is_hidden=visibility in ("hidden", "collapse") if visibility else outer.is_hidden,
+            display=told.get("display", ""),
+            transform=told.get("transform", "").replace("none", ""),
+            is_clear=re.fullmatch(r"0*\.?0*%?", told.get("opacity", "1")) is not None,
+            is_clipped=any(told.get(name, "none") != "none" for name in ("clip-path", "mask")),
+        )
+
+
+def _declared(text: str) -> dict[str, str]:
+    """Declarations by the names of their properties."""
+    found = {}
+    for declaration in text.split(";"):
+        name, colon, value = declaration.partition(":")
+        if colon:
+            found[name.strip().lower()] = value.replace("!important", "").strip()
+    return found
+
+
+def _fits(parts: list[str], element: Element, around: tuple[Element, ...]) -> bool:
+    """Whether a selector means an element."""
+    *outer, last = parts
+    if not _is(last, element):
+        return False
+    waiting = list(outer)
+    for one in reversed(around):
+        if waiting and _is(waiting[-1], one):
+            waiting.pop()
+    return not waiting
+
+
+def _is(part: str, element: Element) -> bool:
+    """Whether a part of a selector means an element."""
+    name, marks = _COMPOUND.fullmatch(part).groups()  # type: ignore[union-attr]
+    if name not in (None, "*") and element.tag.rpartition("}")[2] != name:
+        return False
+    classes = element.get("class", "").split()
+    return all(
+        mark[1:] in classes if mark[0] == "." else element.get("id") == mark[1:]
+        for mark in re.findall(r"[.#][\w-]+", marks)
+    )
