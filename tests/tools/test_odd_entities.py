@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from itertools import pairwise
 from math import pi
 
@@ -10,7 +11,8 @@ import pytest
 from ezdxf.document import Drawing
 from test_reading import checked, dxf_bytes, left, line, raw, square
 
-from skg.drawing.read import Reading
+from skg.drawing.read import Reading, read
+from skg.errors import UserError
 
 LAYERS = "0\nLAYER\n2\nAXES\n70\n0\n62\n1\n6\nCENTER\n0\nLAYER\n2\nPART\n70\n0\n62\n7\n6\nCONTINUOUS\n"
 TYPES = "0\nLTYPE\n2\nCENTER\n73\n4\n0\nLTYPE\n2\nCONTINUOUS\n73\n0\n"
@@ -130,3 +132,36 @@ def test_dashes_of_a_block() -> None:
     reading = checked(dxf_bytes(drawing))
     assert left(reading) == {DASHED: 1}
     assert len(reading.contours) == 2
+
+
+def test_decimal_commas() -> None:
+    """As programs write them where they are the custom; a word or a list with a comma is none."""
+    data = raw("CIRCLE 8 a,5 10 50,25 20 -7,5 40 4,5e0", "CIRCLE 8 a,5 10 1,2,3 20 0 40 4")
+    reading = checked(data)
+    (contour,) = reading.contours
+    assert contour.edges[0].centre == (50.25, -7.5)
+    assert contour.layers == ("a,5",)
+    assert notes(reading, "commas") == ["numbers are written with commas: read as decimal points"]
+    assert not notes(checked(raw("CIRCLE 8 a,5 10 50.25 20 -7.5 40 4.5")), "commas")
+
+
+def test_a_binary_file_that_went_as_text() -> None:
+    data = dxf_bytes(mm(), binary=True).replace(b"\r\n", b"\n")
+    with pytest.raises(UserError, match="a binary DXF drawing that was changed on its way"):
+        read(data, "part.dxf")
+
+
+@pytest.mark.parametrize("measurement", [0, 1])
+def test_inches_are_hinted_at(measurement: int) -> None:
+    """A drawing without units says at least by which country's custom its hatches are drawn."""
+    header = f"9\n$INSUNITS\n70\n0\n9\n$MEASUREMENT\n70\n{measurement}\n"
+    said = read(raw(*square(0, 0, 9), header=header), "part.dxf").report.lines()[0]
+    hint = "" if measurement else "; its $MEASUREMENT is that of inches"
+    assert said == f"9 x 9 mm, read in mm (the file does not say{hint})"
+
+
+def test_a_circle_that_is_longer_than_a_tape() -> None:
+    began = time.process_time()
+    with pytest.raises(UserError, match="a tape has room for 100 m"):
+        checked(raw("CIRCLE 10 0 20 0 40 86000"))
+    assert time.process_time() - began < 2

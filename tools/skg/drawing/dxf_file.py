@@ -37,7 +37,9 @@ UNITS = {
     9: ("mil", 0.0254), 10: ("yard", 914.4), 13: ("um", 0.001), 14: ("dm", 100.0), 16: ("hm", 1e5), 7: ("km", 1e6),
     21: ("US survey foot", 1200 / 3937 * 1000),
 }  # fmt: skip
-_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+_BINARY, _IS_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00", b"AutoCAD Binary DXF"
+#: A number with a comma, as some programs write it where that is the custom.
+_COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
 #: Kinds that belong to the entity before them.
 _PARTS = ("VERTEX", "ATTRIB", "SEQEND")
 #: The subclass that ezdxf asks for where a file has none.
@@ -102,11 +104,13 @@ class Definition:
 
 @dataclass
 class DxfFile:
-    """What a DXF file holds. `units`: name and mm in one, None when it does not tell. Names of layers and blocks are
+    """What a DXF file holds. `units`: name and mm in one, None when it does not tell; `is_imperial`: it asks
+    for the hatches and line types of a country with inches. Names of layers and blocks are
     in lower case as keys. `states`: "off" or "frozen" of layers that are not seen; `dashed`: the line types that are
     not drawn through, in upper case; `dashed_layers`: that of each layer that has one. `notes`: what was mended."""
 
     units: tuple[str, float] | None = None
+    is_imperial: bool = False
     layers: dict[str, str] = field(default_factory=dict)
     states: dict[str, str] = field(default_factory=dict)
     dashed: set[str] = field(default_factory=set)
@@ -123,6 +127,8 @@ def load(data: bytes) -> DxfFile:
     if data[:4] == b"AC10" and data[4:6].isdigit():
         raise UserError("a DWG file, expected DXF: save it as DXF")
     found = DxfFile()
+    if data.startswith(_IS_BINARY) and not data.startswith(_BINARY):
+        raise UserError("a binary DXF drawing that was changed on its way, as by a transfer as text")
     if data.startswith(_BINARY):
         groups = _of_binary(data)
     elif b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
@@ -139,6 +145,7 @@ def load(data: bytes) -> DxfFile:
             section, block = record.value(2).strip().upper(), None
             if section == "HEADER":
                 found.units = _units(record.groups)
+                found.is_imperial = _variable(record.groups, "$MEASUREMENT") == "0"
         elif kind in ("ENDSEC", "EOF"):
             section = ""
         elif section == "TABLES" and kind == "LTYPE":
@@ -193,16 +200,27 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
     while first < len(lines) and not lines[first].strip():
         first += 1
     value = ""
+    has_commas = False
     for at in range(first, len(lines) - 1, 2):
         try:
             code = int(lines[at])
         except ValueError:
             raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
         value = lines[at + 1]
+        if "," in value and _is_real(code) and _COMMA.fullmatch(value):
+            value = value.replace(",", ".")
+            if not has_commas:
+                notes.append("numbers are written with commas: read as decimal points")
+            has_commas = True
         yield code, value
         if code == 0 and value.strip() == "EOF":
             return
     notes.append("the file has no EOF at its end, it may have been cut off")
+
+
+def _is_real(code: int) -> bool:
+    """Whether a group's value is a number with decimals."""
+    return 10 <= code < 60 or 110 <= code < 150 or 210 <= code < 240 or 460 <= code < 470
 
 
 def _of_binary(data: bytes) -> Iterator[Group]:
@@ -228,12 +246,18 @@ def _decoded(data: bytes) -> str:
         return data.decode("cp1252" if encoding == "utf8" else encoding, "replace")
 
 
+def _variable(header: list[Group], wanted: str) -> str:
+    """A variable of the header, empty when it is not there."""
+    for (code, name), (_, value) in zip(header, header[1:], strict=False):
+        if code == 9 and name.strip() == wanted:
+            return value.strip()
+    return ""
+
+
 def _units(header: list[Group]) -> tuple[str, float] | None:
     """What $INSUNITS tells."""
-    for (code, name), (_, value) in zip(header, header[1:], strict=False):
-        if code == 9 and name.strip() == "$INSUNITS":
-            return UNITS.get(int(value)) if value.strip().isdigit() else None
-    return None
+    value = _variable(header, "$INSUNITS")
+    return UNITS.get(int(value)) if value.isdigit() else None
 
 
 def _layer(found: DxfFile, record: Record) -> None:

@@ -158,7 +158,8 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
         report.notes += content.notes
         return content, report
     file = dxf_file.load(data)
-    units = (*file.units, TOLD) if file.units else ("mm", 1.0, NOT_TOLD)
+    unknown = f"{NOT_TOLD}; its $MEASUREMENT is that of inches" if file.is_imperial else NOT_TOLD
+    units = (*file.units, TOLD) if file.units else ("mm", 1.0, unknown)
     if wishes.units:
         units = wishes.units, UNITS[wishes.units], ASKED
     report = Account(name, units[0], units[2], units[1], notes=file.notes)

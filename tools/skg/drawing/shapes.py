@@ -52,7 +52,9 @@ def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float
         reach = [at(t) for t in (first, last)]
         return Edge(*reach) if sweep <= pi else Edge(start, start)
     sense = 1 if cross(u, v) > 0 else -1
-    if abs(dot(u, v)) <= 1e-9 * size**2 and abs(hypot(*u) - hypot(*v)) <= 1e-9 * size and size < _LARGEST:
+    # (what is longer than a tape is refused for its size)
+    is_arc = size < _LARGEST or size * sweep > 2 * _LARGEST
+    if abs(dot(u, v)) <= 1e-9 * size**2 and abs(hypot(*u) - hypot(*v)) <= 1e-9 * size and is_arc:
         return Edge(start, start if is_full else at(last), centre, sense * (2 * pi if is_full else sweep))
     edge = curve_edge(at, heading, [first, last], tolerance)
     return replace(edge, end=edge.start) if is_full else edge

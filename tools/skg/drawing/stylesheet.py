@@ -41,7 +41,7 @@ class Style:
         return self.stroke_width if self.stroke not in ("none", "transparent") else 0.0
 
 
-class Sheet:
+class StyleSheet:
     """The rules of a drawing's style sheets: those whose selectors are names, classes, ids and what these stand in."""
 
     def __init__(self, text: str) -> None:

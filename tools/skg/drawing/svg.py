@@ -19,7 +19,7 @@ from ezdxf.math import BSpline, Vec3
 from skg.drawing.account import Content, Entity, said
 from skg.drawing.contour import Edge
 from skg.drawing.shapes import conic, is_number, spline_edges
-from skg.drawing.stylesheet import Sheet, Style
+from skg.drawing.stylesheet import Style, StyleSheet
 from skg.drawing.wishes import Wishes
 from skg.errors import UserError
 from skg.plane import XY, cross, distance, minus
@@ -92,7 +92,9 @@ class SvgFile:
         elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
             self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
         self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
-        self.sheet = Sheet("".join(element.text or "" for element in self.root.iter() if _name(element) == "style"))
+        self.sheet = StyleSheet(
+            "".join(element.text or "" for element in self.root.iter() if _name(element) == "style")
+        )
         box = _view_box(self.root)
         sides = [_length(self.root.get(side, ""), None) for side in ("width", "height")]
         width, height = sides
