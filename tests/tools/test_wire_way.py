@@ -14,7 +14,7 @@ from shapely.geometry import LinearRing, LineString, Point, Polygon
 from toolhelp import Run
 
 from skg.drawing.contour import Contour, Edge
-from skg.drawing.parallel import NoRoom, wire_way
+from skg.drawing.parallel import NoRoom, part_between, wire_way
 from skg.plane import XY
 
 
@@ -212,3 +212,25 @@ def test_wire_way_by_itself() -> None:
     assert sum(edge.length for edge in way) == pytest.approx(12 + 2 + 2 * 1.5 + 1 + 6 * pi / 4, abs=1e-6)
     with pytest.raises(NoRoom):
         wire_way(ring(square[::-1]), 2.5)
+
+
+def test_ways_without_any_length(run: Run, tmp_path: Path) -> None:
+    """Half a disc that R fills: the wire stays where it is; a way that begins at a corner; a room that is a point."""
+    page = drawing()
+    page.modelspace().add_lwpolyline([(0, 0, 1), (0, 2, 0)], "xyb", close=True)
+    path = saved(page, tmp_path)
+    words = run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 0.5, "--side", "inside")
+    assert "the wire has no room at" in words and "at most 0.49" in words
+    halves = tuple(Edge((x, 0.0), (-x, 0.0), (0.0, 0.0), pi) for x in (2.0, -2.0))
+    part = part_between(halves, (2.0, 0.0), (0.0, 2.0))
+    assert sum(edge.length for edge in part) == pytest.approx(pi)
+    page = drawing()
+    rooms = [(7, 3), (12, 3), (12, 5), (10, 5), (10, 4), (9.6, 4), (9.6, 5), (7, 5)]
+    page.modelspace().add_lwpolyline(rooms, close=True)
+    path = saved(page, tmp_path)
+    words = run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 1, "--side", "inside")
+    assert "the wire does not come to (11, 4), 1 mm beside it" in words and words.endswith("--small leave")
+    words = run_failing(
+        run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 1, "--side", "inside", "--small", "leave"
+    )
+    assert "no contour is left to cut" in words

@@ -40,12 +40,13 @@ _MOST_PLACES = 400_000
 @dataclass(frozen=True)
 class Misfit:
     """A place (mm) where the wire is not where the drawing has it: `route` by its number in the order of cutting,
-    how far it is off, and whether it runs into its own contour there."""
+    how far it is off (infinite: far), whether it runs into its own contour there, whether it never came there."""
 
     route: int
     place: XY
     off: float
-    is_into: bool
+    is_into: bool = False
+    is_missed: bool = False
 
 
 @dataclass(frozen=True)
@@ -201,9 +202,9 @@ class _Path:
         self.pieces = Pieces((_millimetres(piece), cut.route) for cut in cuts for piece in cut.pieces)
         self.aside = np.array([off for cut in cuts for off in cut.off_curve], float) / 1000
 
-    def doubtful(self, off: Floats, which: Whole) -> Whole:
-        """Which of some places, as far off as this and on these pieces, may be too far off by the steps alone."""
-        return np.flatnonzero((off <= LIMIT) & (off + self.aside[which] > LIMIT))
+    def doubtful(self, off: Floats, total: Floats) -> Whole:
+        """Which of some places, as far off as this without the steps and with them, are too far off by these alone."""
+        return np.flatnonzero((off <= LIMIT) & (total > LIMIT))
 
     def steps(self, at: int) -> Floats:
         """The controller's places on a piece, mm (m, 2)."""
@@ -243,7 +244,7 @@ def _beside(
         near = contours.nearest(places, owners, widest + 2 * LIMIT)
         off, into = off_by(places, owners, wanted, near)
         total = off + path.aside[which]
-        for at in np.unique(which[path.doubtful(off, which)]).tolist():
+        for at in np.unique(which[path.doubtful(off, total)]).tolist():
             steps = path.steps(at)
             owner = np.full(len(steps), wire.owner[at])
             looked = contours.nearest(steps, owner, widest + 2 * LIMIT)
@@ -344,11 +345,13 @@ def _reached(
                 free &= ~in_tabs[which]
             places = places[free]
             near = path.pieces.nearest(places, owners[free], 2 * LIMIT)
-            off = near.own + np.where(near.own_at < 0, 0.0, path.aside[near.own_at])
-            for at in path.doubtful(near.own, near.own_at).tolist():
+            off = near.own.copy()
+            is_near = near.own_at >= 0
+            off[is_near] += path.aside[near.own_at[is_near]]
+            for at in path.doubtful(near.own, off).tolist():
                 off[at] = np.hypot(*(path.steps(int(near.own_at[at])) - places[at]).T).min()
             for owner, at in _first_of_each(owners[free], off > LIMIT):
-                found = Misfit(owner, _xy(places[at]), float(off[at]), False)
+                found = Misfit(owner, _xy(places[at]), float(off[at]), is_missed=off[at] == np.inf)
                 faults.setdefault((number, owner), found)
             worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
     return [faults[key] for key in sorted(faults)], worst

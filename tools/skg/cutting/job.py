@@ -125,9 +125,8 @@ def make(
     if checked.faults:
         helped, more = _helped(routes, {fault.route for fault in checked.faults}, factor, settings)
         if helped == routes and settings.small == "leave":
-            helped, more = _without(
-                routes, {fault.route: _cuts_into(fault, factor) for fault in checked.faults if fault.is_into}, factor
-            )
+            no_room = {fault.route: why for fault in checked.faults if (why := _why(fault, factor))}
+            helped, more = _without(routes, no_room, factor)
         if helped != routes:
             return make(helped, title, factor, settings, fillets, left + more)
     _refuse(checked, routes, factor, settings)
@@ -264,8 +263,12 @@ def _named(route: PlannedContour, number: int, factor: float) -> str:
     return f"contour {number + 1} ({_called(route, factor)})"
 
 
-def _cuts_into(fault: Misfit, factor: float) -> str:
-    return f"the wire would cut {short(fault.off)} mm into it at {_in_file(fault.place, factor)}"
+def _why(fault: Misfit, factor: float) -> str:
+    """Why there is no room for the wire; empty when it is something else that is wrong."""
+    place = _in_file(fault.place, factor)
+    if fault.is_into:
+        return f"the wire would cut {short(fault.off)} mm into it at {place}"
+    return f"the wire does not come to {place}" if fault.is_missed else ""
 
 
 def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, settings: Settings) -> None:
@@ -273,10 +276,10 @@ def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, setti
     for fault in sorted(checked.faults, key=lambda fault: (not fault.is_into, fault.route)):
         route = routes[fault.route]
         named = _named(route, fault.route, factor)
-        if fault.is_into:
+        if why := _why(fault, factor):
             raise UserError(
-                f"{named}: {_cuts_into(fault, factor)}, {short(abs(route.offset))} mm beside it: there is no room for "
-                f"this offset, take a smaller one or a thinner wire{_or_leave(settings)}"
+                f"{named}: {why}, {short(max(map(abs, route.passes)))} mm beside it: there is no room for this offset, "
+                f"take a smaller one or a thinner wire{_or_leave(settings)}"
             )
         place, off = _in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
         if fault.off < inf:

@@ -316,6 +316,8 @@ def part_between(way: tuple[Edge, ...], first: XY, last: XY | None = None) -> tu
         head, tail = part_of(edge, part, 1.0), part_of(edge, 0.0, part)
         opened = (head, *way[at + 1 :], *way[:at], replace(tail, end=head.start))
     if last is not None:
+        # (where it begins on a corner one of the two has no length)
+        opened = tuple(edge for edge in opened if edge.length > 1e-9)
         at, part = _nearest(opened, last, False)
         opened = (*opened[:at], part_of(opened[at], 0.0, part))
     # (ends that fall on a corner leave a bit of an edge, shorter than what the ROM tells apart)
