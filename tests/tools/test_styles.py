@@ -108,11 +108,38 @@ def test_own_style_is_not_noted() -> None:
     ("D\nB 5 B0 B5 GX L1\nD\nB0B5B5GYL2\nDD", 2, [0, 1]),
     ("N1 B5B0B5GXL1\nN2 D\nN3 B0B5B5GYL2\nN4 D\n", 2, [1, 2]),
     ("B5B0B5GXL1DB0B5B5GYL2DB 5B0B5GXL3DD", 3, [1, 2]),
+    ("B5B0B5GXL1\nSTOP\nB0B5B5GYL2\nPause\nB5B0B5GXL3\nM00\nM 1\nDD", 3, [1, 2, 3, 3]),
+    ("B5B0B5GXL1M0B0B5B5GYL2\nSTOP", 2, [1, 2]),
 ])  # fmt: skip
 def test_stops(text: str, blocks_: int, stops: list[int]) -> None:
     tape = tapes.parse(text.encode())
     assert len(tape.blocks) == blocks_
     assert [stop.after for stop in tape.stops] == stops
+
+
+@pytest.mark.parametrize("word", ["END", "end", "M02", "M2", "N3 M30", "M 02", "FF", "E", "MJ"])
+@pytest.mark.parametrize("between", ["\n", " ", ""])
+def test_words_that_end_a_tape(word: str, between: str) -> None:
+    """The word is noted, and what other programs put around it; a block behind it is not lost without a word."""
+    text = f"B5B0B5GXL1{between}B0B5B5GYL2{between}{word}"
+    tape = tapes.parse(f"{text}\n%\n".encode())
+    name = word.upper().removeprefix("N3 ").replace(" ", "")
+    assert len(tape.blocks) == 2 and tape.stops == []
+    assert f"{name} for the end, 1 more line after the end" in tape.notes[0] and "no DD" not in tape.notes[0]
+    with pytest.raises(UserError, match=f"expected nothing after {name}, found a block"):
+        tapes.parse(f"{text} B5B0B5GXL3 DD".encode())
+
+
+@pytest.mark.parametrize("word", ["M22", "M021", "ENDE", "M3", "HALT"])
+def test_other_words_are_refused(word: str) -> None:
+    with pytest.raises(UserError, match=f"found '{word}'"):
+        tapes.parse(f"B5B0B5GXL1\n{word}\nB0B5B5GYL2\nDD\n".encode())
+
+
+def test_blank_tape_and_rubouts_between_blocks() -> None:
+    tape = tapes.parse(b"\0\0B5B0B5GXL1\r\n\0\0\x7f\x7fB0B5B5GYL2\r\n\0DD\r\n\0\x7f")
+    assert len(tape.blocks) == 2
+    assert tape.notes == ("written in another style: blank tape or rubouts between blocks",)
 
 
 def test_diagonals_and_arcs_on_an_axis() -> None:

@@ -17,15 +17,17 @@ from skg.files import without_mark
 from skg.kinds import TAPE, refuse_others
 from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, line_block, start_quadrant
 
-#: Words for a stop, and for the end of the tape.
-STOPS, ENDS = ("D", "A"), ("DD", "FF", "E", "MJ")
+#: Words for the end of the tape. All others are stops.
+ENDS = ("DD", "FF", "E", "END", "MJ", "M2", "M02", "M30")
 #: In the block's own line, so that no header's last number is one.
 _NUMBER = r"(?:N[^\S\n]*(\d+)|(\d+))?(?:(?<=\d)[^\S\n]*[:.,)、]?[^\S\n]*)?"
 _BLOCK = re.compile(
     _NUMBER + r"(B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*G\s*([XY])[\s,]*(L|[NS]R)\s*([1-4]))", re.I
 )
-_WORD = re.compile(_NUMBER + r"(DD|FF|MJ|[DAE])(?=[BN]\s*\d|[^A-Z]|$)", re.I)
-_BLANK = re.compile(r"[\s,]*")
+_WORD = re.compile(
+    _NUMBER + r"(DD|FF|MJ|END|STOP|PAUSE|M[^\S\n]*(?:0?[0-2]|30)(?!\d)|[DAE])(?=[BN]\s*\d|[^A-Z]|$)", re.I
+)
+_BLANK = re.compile(r"[\s,\0\x7f]*")
 _COMMENT = re.compile(r"\([^()\n]*\)|(?:;|//|#)[^\n]*")
 _START = re.compile(r"START\s+POINT\s*=\s*([-+]?[\d.]+)\s*,\s*([-+]?[\d.]+)", re.I)
 #: Full-width characters, as Chinese editors write them, and what they mean.
@@ -80,6 +82,7 @@ class _StyleReader:
         # Comments give way to blanks: places stay what they are.
         bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), self.text)
         self.seen["comments"] += bare != self.text
+        self.seen["blank tape or rubouts between blocks"] += "\0" in bare or "\x7f" in bare
         at = self._header(bare)
         end = None
         while (at := _BLANK.match(bare, at).end()) < len(bare):
@@ -89,10 +92,11 @@ class _StyleReader:
             elif word := _WORD.match(bare, at):
                 at = word.end()
                 self._number(word)
-                if word[3].upper() in ENDS:
-                    end = word[3].upper()
+                name = "".join(word[3].upper().split())
+                if name in ENDS:
+                    end = name
                     break
-                self._note(word[3] != "D", f"{word[3]} for a stop")
+                self._note(word[3] != "D", f"{name} for a stop")
                 self.items.append(Stop(self.blocks))
             else:
                 raise self.error(at, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, at)}")
