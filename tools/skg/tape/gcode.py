@@ -83,7 +83,9 @@ class _GcodeWriter:
 
 
 def _millimetres(micrometres: int) -> str:
-    return f"{Decimal(micrometres).scaleb(-3):f}".rstrip("0").rstrip(".") if micrometres else "0"
+    whole, rest = divmod(abs(micrometres), 1000)
+    sign = "-" if micrometres < 0 else ""
+    return f"{sign}{whole}.{rest:03}".rstrip("0") if rest else f"{sign}{whole}"
 
 
 def _pair(letters: str, values: Spot) -> str:
