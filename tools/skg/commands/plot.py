@@ -91,8 +91,9 @@ def command(
     picture = Picture(sheets, scale, title)
     for at, sheet in enumerate(sheets):
         picture.draw(sheet, COLOURS[at % len(COLOURS)], f"tape-{at + 1}", wire, not no_arrows, blocks)
-        for number, point in enumerate(stops[at], 1):
-            picture.stop(point, f"tape-{at + 1}-stop-{number}")
+        picture.stops(stops[at], f"tape-{at + 1}")
+    if picture.left_out:
+        click.echo(f"skg: {output}: {picture.left_out} block numbers left out, there is no room for them", err=True)
     if len(sheets) > 1:
         picture.legend([sheet.name for sheet in sheets])
     picture.save(output, form)

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import cos, pi, sin
+from itertools import product
+from math import cos, floor, inf, pi, sin, sqrt
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.piece import Piece
-from skg.plane import XY
+from skg.plane import XY, minus
 from skg.tape.laid import Laid
 from skg.tape.placed import PlacedRoute
 
@@ -30,6 +34,15 @@ SCALES = (100, 50, 20, 10, 5, 4, 3, 2, 1, 1 / 2, 1 / 5, 1 / 10, 1 / 20, 1 / 50, 
 #: Largest size of the drawing on the paper, and the margin around it, mm.
 PAPER, MARGIN = 170.0, 14.0
 _INCH = 25.4
+#: Of so many routes, stops and arrows each is a part of the picture by itself, with an id in an SVG; of more than that
+#: all of a kind are one.
+FEW = 500
+#: Side of the squares of a page in which boxes are looked for, mm.
+_SQUARE = 4.0
+#: Of many marks of a kind each is no larger than this part of the room that there is for each.
+_MARK = 0.08
+#: Size of block numbers, points; width of a digit and its height in that size.
+_FONT, _WIDE, _HIGH = 6, 0.636, 0.729
 
 
 @dataclass(frozen=True)
@@ -42,9 +55,20 @@ class Sheet:
     holes: tuple[XY, ...] = ()
 
 
-def _path(pieces: Sequence[Piece], scale: float = 1.0) -> Outline:
-    """One curve of lines and arcs that follow each other: the pen stays down between them. `scale` is a millimetre over
-    the pieces' unit. Arcs are Bézier curves of at most 22.5°: true to one part in 10⁸.
+def _extents(routes: Sequence[PlacedRoute]) -> tuple[float, float, float, float]:
+    """Smallest and largest x and y (xmin, ymin, xmax, ymax) of routes in µm, bulges of arcs included."""
+    low, high = _joined(routes).extents() if routes else ((0.0, 0.0), (0.0, 0.0))
+    return *low, *high
+
+
+def _joined(routes: Sequence[PlacedRoute]) -> Laid:
+    return Laid.joined([Laid.of(route.blocks) for route in routes])
+
+
+def _path(pieces: Sequence[Piece], scale: float = 1.0, begins: Sequence[int] = ()) -> Outline:
+    """One curve of lines and arcs that follow each other: the pen stays down between them, but before the pieces that
+    `begins` counts. `scale` is a millimetre over the pieces' unit. Arcs are Bézier curves of at most 22.5°: true to one
+    part in 10⁸.
     """
     if isinstance(pieces, Laid):
         starts, ends, arcs = pieces.starts, pieces.ends, ~pieces.is_line
@@ -85,6 +109,7 @@ def _path(pieces: Sequence[Piece], scale: float = 1.0) -> Outline:
     apart = np.hypot(*(vertices[first[1:-1]] - vertices[first[1:-1] - 1]).T) >= 0.01
     codes[0] = Outline.MOVETO
     codes[first[1:-1][apart]] = Outline.MOVETO
+    codes[first[np.array(begins, int)]] = Outline.MOVETO
     return Outline(vertices, codes)
 
 
@@ -93,12 +118,32 @@ def outline(piece: Piece, scale: float = 1.0) -> Outline:
     return _path([piece], scale)
 
 
+class _Taken:
+    """What is taken of a page by boxes, mm."""
+
+    def __init__(self) -> None:
+        #: Which boxes reach into a square of `_SQUARE`.
+        self.squares: dict[tuple[int, int], list[tuple[float, float, float, float]]] = defaultdict(list)
+
+    def take(self, left: float, bottom: float, right: float, top: float) -> bool:
+        """Take a box, if nothing is in it."""
+        columns = range(floor(left / _SQUARE), floor(right / _SQUARE) + 1)
+        rows = range(floor(bottom / _SQUARE), floor(top / _SQUARE) + 1)
+        squares = [self.squares[at] for at in product(columns, rows)]
+        for square in squares:
+            for west, south, east, north in square:
+                if west < right and left < east and south < top and bottom < north:
+                    return False
+        for square in squares:
+            square.append((left, bottom, right, top))
+        return True
+
+
 class Picture:
     """A drawing to scale: 1 mm of the part is `scale` mm on the paper."""
 
     def __init__(self, sheets: list[Sheet], scale: float | None, title: str) -> None:
-        laid = [Laid.joined([Laid.of(route.blocks) for route in sheet.routes]) for sheet in sheets if sheet.routes]
-        boxes = [[*low, *high] for low, high in map(Laid.extents, laid)]
+        boxes = [_extents(sheet.routes) for sheet in sheets]
         pieces = [piece.start for sheet in sheets for piece in sheet.contour]
         xs = [x / 1000 for box in boxes for x in box[::2]] + [x for x, _ in pieces]
         ys = [y / 1000 for box in boxes for y in box[1::2]] + [y for _, y in pieces]
@@ -124,6 +169,8 @@ class Picture:
             "height_points": paper[1] * 72 / _INCH,
         }
         self.axes.axis("off")
+        # The page's lower left corner on the part, mm; what block numbers cover; how many of them found no room.
+        self.corner, self.taken, self.left_out = (left, bottom), _Taken(), 0
         self._rulers(title)
 
     def on_paper(self, millimetres: float) -> float:
@@ -160,11 +207,16 @@ class Picture:
 
     def draw(self, sheet: Sheet, colour: str, name: str, wire: float, arrows: bool, numbers: bool) -> None:
         """Draw one tape; `name` begins the ids of its parts in an SVG."""
-        for at, route in enumerate(sheet.routes, 1):
-            self._route(route, colour, f"{name}-route-{at}", wire)
-            if arrows and not route.is_move:
-                self._arrows(route, colour)
-            if numbers:
+        cuts = [route for route in sheet.routes if not route.is_move]
+        if len(sheet.routes) > FEW:
+            self._many_routes(cuts, [route for route in sheet.routes if route.is_move], colour, name, wire)
+        else:
+            for at, route in enumerate(sheet.routes, 1):
+                self._route(route, colour, f"{name}-route-{at}", wire)
+        if arrows:
+            self._heads([head for route in cuts for head in self._arrows(route)], colour)
+        if numbers:
+            for route in sheet.routes:
                 self._numbers(route, colour)
         for at, place in enumerate(sheet.holes, 1):
             self._hole(place, colour, f"{name}-hole-{at}")
@@ -206,6 +258,39 @@ class Picture:
             hole.set_gid(f"{gid}-start")
             self.axes.add_artist(hole)
 
+    def _many_routes(
+        self, cuts: list[PlacedRoute], moves: list[PlacedRoute], colour: str, name: str, wire: float
+    ) -> None:
+        """What `_route` draws of each, all of a kind as one."""
+        look = {"facecolor": "none", "edgecolor": colour, "joinstyle": "round"}
+        if wire and cuts:
+            # (where cuts overlap it shows: each is drawn by itself)
+            width = wire * self.description["mm_to_points"]
+            curves = [_path(route.blocks, 0.001) for route in cuts]
+            kerfs = PathCollection(curves, alpha=0.25, capstyle="round", linewidths=width, zorder=1, **look)
+            kerfs.set_gid(f"{name}-kerfs")
+            self.axes.add_artist(kerfs)
+        for routes, gid, dashes in ((cuts, "cuts", "solid"), (moves, "moves", (0, (4, 2)))):
+            if routes:
+                begins = np.cumsum([0, *(len(route.blocks) for route in routes[:-1])])
+                curve = _path(_joined(routes), 0.001, begins)
+                patch = PathPatch(curve, linewidth=0.8, zorder=2, linestyle=dashes, **look)
+                patch.set_gid(f"{name}-{gid}")
+                self.axes.add_artist(patch)
+        starts = np.array([route.start for route in cuts]).reshape(-1, 2) / 1000
+        self._marks(Outline.circle((0, 0), self.on_paper(1)), starts, f"{name}-starts", colour, 0.8)
+
+    def _marks(self, shape: Outline, places: NDArray, gid: str, colour: str, width: float) -> None:
+        """The same mark at many places (n × 2, mm), as one; it is so small that they do not cover the part."""
+        if len(places):
+            room = sqrt((self.high[0] - self.low[0]) * (self.high[1] - self.low[1]) / len(places))
+            part = min(1.0, _MARK * room / shape.vertices.max())
+            vertices = (places[:, None] + part * shape.vertices).reshape(-1, 2)
+            curve = Outline(vertices, np.tile(shape.codes, len(places)))
+            marks = PathPatch(curve, fill=False, zorder=4, edgecolor=colour, linewidth=part * width)
+            marks.set_gid(gid)
+            self.axes.add_artist(marks)
+
     def _hole(self, point: XY, colour: str, gid: str) -> None:
         """A drilled hole: a circle, and a cross in it."""
         x, y = point[0] / 1000, point[1] / 1000
@@ -220,44 +305,54 @@ class Picture:
         mark.set_gid(gid)
         self.axes.add_patch(mark)
 
-    def stop(self, point: XY, gid: str) -> None:
-        """Mark a place where the controller stops."""
-        x, y = point[0] / 1000, point[1] / 1000
+    def stops(self, points: Sequence[XY], name: str) -> None:
+        """Mark the places (µm) where the controller stops."""
         size = self.on_paper(1.6)
-        corners = [(x - size, y - size), (x + size, y - size), (x + size, y + size), (x - size, y + size)]
-        mark = Polygon(corners, fill=False, edgecolor="#333333", linewidth=0.7, zorder=4)
-        mark.set_gid(gid)
-        self.axes.add_artist(mark)
+        corners = np.array([(-size, -size), (size, -size), (size, size), (-size, size)])
+        places, colour, width = np.array(points).reshape(-1, 2) / 1000, "#333333", 0.7
+        if len(places) > FEW:
+            self._marks(Outline([*corners, corners[0]], closed=True), places, f"{name}-stops", colour, width)
+            return
+        for at, place in enumerate(places, 1):
+            mark = Polygon(place + corners, fill=False, edgecolor=colour, linewidth=width, zorder=4)
+            mark.set_gid(f"{name}-stop-{at}")
+            self.axes.add_artist(mark)
 
-    def _arrows(self, route: PlacedRoute, colour: str) -> None:
-        """Arrow heads along the route, no nearer to each other than 25 mm on the paper, at least one."""
-        spacing = 25_000 / self.scale
-        since = spacing
-        for placed in route.blocks:
-            length = placed.block.length
-            since += length
-            if since < spacing or length * self.scale < 4000:
+    def _arrows(self, route: PlacedRoute) -> Iterator[list[XY]]:
+        """Arrow heads along the route, no nearer to each other than 25 mm on the paper."""
+        laid, spacing = Laid.of(route.blocks), 25_000 / self.scale
+        lengths = laid.lengths()
+        behind, last = np.cumsum(lengths), -inf
+        for at in np.flatnonzero(lengths * self.scale >= 4000):
+            if behind[at] - last < spacing:
                 continue
-            since = 0.0
+            last, placed = behind[at], laid[int(at)]
             x, y = (ordinate / 1000 for ordinate in placed.at(0.5))
             way, size = placed.direction(0.5), self.on_paper(1.3)
-            head = [(x + size * 1.4 * cos(way + turn), y + size * 1.4 * sin(way + turn)) for turn in (0, 2.5, -2.5)]
+            yield [(x + size * 1.4 * cos(way + turn), y + size * 1.4 * sin(way + turn)) for turn in (0, 2.5, -2.5)]
+
+    def _heads(self, heads: list[list[XY]], colour: str) -> None:
+        if len(heads) > FEW:
+            self.axes.add_artist(PolyCollection(heads, facecolors=colour, edgecolors="none", zorder=5))
+            return
+        for head in heads:
             self.axes.add_artist(Polygon(head, facecolor=colour, edgecolor="none", zorder=5))
 
     def _numbers(self, route: PlacedRoute, colour: str) -> None:
-        """Block numbers, on the left of travel."""
+        """Block numbers, on the left of travel, or on the right where others stand on the left; those for which there
+        is no room beside others are left out."""
         for placed in route.blocks:
-            x, y = (ordinate / 1000 for ordinate in placed.at(0.5))
-            way, away = placed.direction(0.5) + pi / 2, self.on_paper(2.2)
-            self.axes.text(
-                x + away * cos(way),
-                y + away * sin(way),
-                str(placed.block.number),
-                fontsize=6,
-                ha="center",
-                va="center",
-                color=colour,
-            )
+            (x, y), number = placed.at(0.5), str(placed.block.number)
+            wide, high = (part * _FONT / 72 * _INCH / 2 for part in (_WIDE * len(number), _HIGH))
+            for side in (pi / 2, -pi / 2):
+                way, away = placed.direction(0.5) + side, self.on_paper(2.2)
+                place = x / 1000 + away * cos(way), y / 1000 + away * sin(way)
+                left, bottom = (at * self.scale for at in minus(place, self.corner))
+                if self.taken.take(left - wide, bottom - high, left + wide, bottom + high):
+                    self.axes.text(*place, number, fontsize=_FONT, ha="center", va="center", color=colour)
+                    break
+            else:
+                self.left_out += 1
 
     def legend(self, names: list[str]) -> None:
         """Name the tapes at the top left, each in its colour."""

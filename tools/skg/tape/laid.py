@@ -87,6 +87,11 @@ class Laid(Sequence[Placed]):
         columns = zip(*((one.starts, one.ends, one.centres, one.sweeps, one.is_line) for one in parts), strict=True)
         return cls(list(chain.from_iterable(one.blocks for one in parts)), *map(np.concatenate, columns))
 
+    def lengths(self) -> Reals:
+        """Lengths of the lines and arcs, µm."""
+        ways = np.where(self.is_line[:, None], self.ends, self.centres) - self.starts
+        return hypots(*ways.T) * np.where(self.is_line, 1.0, abs(self.sweeps))
+
     def extents(self) -> tuple[XY, XY]:
         """The smallest and the largest x and y, bulges of arcs included; of at least one block."""
         arcs = np.flatnonzero(~self.is_line)
