@@ -14,6 +14,7 @@ from toolhelp import CAD_TAPE
 from skg import tape as tapes
 from skg.errors import UserError
 from skg.tape import Block, Stop, Tape, arc_block, line_block
+from skg.tape.block import CODES
 from skg.tape.columns import Columns, columns_of
 from skg.tape.controller import run_block
 from skg.tape.laid import Laid, place
@@ -118,3 +119,22 @@ def test_work_for_each_block() -> None:
     """A million blocks: block by block it was 214 calls for each of these, and minutes."""
     few, many = calls_for(turns(20)), calls_for(turns(2020))
     assert (many - few) / 10_000 < 4
+
+
+@given(st.lists(st.builds(Block, *[st.integers(0, 30)] * 2, st.integers(0, 150), st.sampled_from("XY"),
+                          st.sampled_from(CODES)), min_size=1), st.lists(blocks(), max_size=5))  # fmt: skip
+@settings(deadline=None)
+def test_what_is_plainly_sound_is_sound(any_: list[Block], sound: list[Block]) -> None:
+    """On any block: nothing that is wrong is passed over; and of sound ones it is most."""
+    plainly = Columns.of([*any_, *sound]).is_plainly_sound.tolist()
+    for block, is_sound in zip([*any_, *sound], plainly, strict=True):
+        assert not (is_sound and (block.problems() or block.problems("programmed"))), block
+        assert is_sound or block.problems() or not block.is_line, block
+    assert all(Columns.of([one for one in sound if not one.is_full_circle]).is_plainly_sound)
+
+
+def test_a_long_tape_has_the_findings_of_a_short_one() -> None:
+    wrong = "B343B706B707GYL1\r\nB1B1GXL1\r\nB100B0B401GYNR1\r\nB5B5B5GXL1\n"
+    short, long = (tapes.scan(f"{TURN * count}{wrong}DDx\r\n".encode())[1] for count in (1, 5000))
+    moved = [(one.block + 5 * 4999, one.column, one.message) for one in short]
+    assert len(short) > 5 and moved == [(one.block, one.column, one.message) for one in long]
