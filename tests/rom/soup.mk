@@ -4,5 +4,6 @@ SEED     ?= $(shell date +%s)
 
 hunt: venv emu
 	$(PY) tests/rom/hunt.py --seed $(SEED) --programs $(PROGRAMS)
+	$(PY) tests/mill/hunt_grbl.py --seed $(SEED) --programs $$(($(PROGRAMS) / 10))
 
 .PHONY: hunt
