@@ -29,6 +29,11 @@ def with_a_corner(space: Modelspace) -> LinearRing:
     return bezier(space, controls, [0, 0, 0, *range(8), 7, 7, 7])
 
 
+def with_a_nook(space: Modelspace) -> LinearRing:
+    """The point of an ogive is a loop of some micrometres: no arcs follow that."""
+    return bezier(space, [(0, 0), (12.820059, 10), (0, 10), (12.759586, 0), (12.759586, -3), (0, -3), (0, 0)])
+
+
 def bezier(space: Modelspace, controls: list[tuple[float, float]], knots: list[float] | None = None) -> LinearRing:
     knots = knots or [0, *(k for k in range((len(controls) - 1) // 3 + 1) for _ in range(3)), (len(controls) - 1) // 3]
     spline = space.add_open_spline([(*place, 0) for place in controls], degree=3, knots=knots)
@@ -45,7 +50,7 @@ def bent(space: Modelspace) -> LinearRing:
     return LinearRing([*places, *lines])
 
 
-@pytest.mark.parametrize("shape", [standing_still, with_a_corner, bent])
+@pytest.mark.parametrize("shape", [standing_still, with_a_corner, with_a_nook, bent])
 def test_curve(run: Run, tmp_path: Path, shape: Callable[[Modelspace], LinearRing]) -> None:
     """The tape is the curve, as shapely has it."""
     page = drawing()

@@ -165,3 +165,8 @@ def test_a_circle_that_is_longer_than_a_tape() -> None:
     with pytest.raises(UserError, match="a tape has room for 100 m"):
         checked(raw("CIRCLE 10 0 20 0 40 86000"))
     assert time.process_time() - began < 2
+
+
+def test_areas_without_lines() -> None:
+    with pytest.raises(UserError, match="1 SOLID: nothing to cut.*: draw outlines around the areas in the CAD program"):
+        checked(raw("SOLID 10 0 20 0 11 9 21 0 12 0 22 9 13 9 23 9"))

@@ -29,6 +29,8 @@ USUAL = 3.0, 10_000.0
 FARTHEST = 50_000.0
 #: Who says what units a drawing is in.
 TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
+#: What fills an area, without lines around it.
+AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
 DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
@@ -241,6 +243,8 @@ def _nothing(content: Content, wishes: Wishes) -> str:
     found = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
     unseen = sorted({entity.layer for entity in content.entities if entity.left.startswith("the layer is")})
     help_ = f": --layer {unseen[0]} takes what is on that layer" if unseen and not wishes.layers else ""
+    if not help_ and any(entity.kind in AREAS for entity in content.entities):
+        help_ = ": draw outlines around the areas in the CAD program"
     return f"no lines, arcs or curves to cut{where}" + (f" ({found})" if found else "") + help_
 
 

@@ -22,6 +22,8 @@ _LARGEST = 50_000.0
 _NARROW = 1e-6
 #: Where a spline runs slower than this part of its mean, its direction is that of a chord.
 _SLOW = 1e-4
+#: A place as small as this (mm) where a spline turns by more than this (radians) is a corner.
+_NOOK, _NOOK_TURN = 0.004, 0.3
 #: A spline's direction jumps by more than this (radians) at a corner.
 _CORNER = 1e-4
 
@@ -140,12 +142,39 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
             k = min(max(k, first), last)
             return heading(min(max(t, begin), end), k)
 
-        yield simplest(curve_edge(lambda way: at(place(way)[0]), inner, ways[first : behind + 1], tolerance))
+        found = curve_edge(lambda way: at(place(way)[0]), inner, ways[first : behind + 1], tolerance)
+        yield from map(simplest, _without_nooks(found))
+
+
+def _without_nooks(edge: Edge) -> Iterator[Edge]:
+    """A curve in pieces, with a line where it turns within a few micrometres: no controller follows that."""
+    nodes, samples = edge.nodes, edge.samples
+    first = begun = 0
+    for last in range(1, len(nodes)):
+        one, other = nodes[last - 1], nodes[last]
+        if distance(one.point, other.point) >= _NOOK or abs(turn(one.angle, other.angle)) <= _NOOK_TURN:
+            continue
+        ends = begun + samples[begun:].index(one.point)
+        if last - 1 > first:
+            yield replace(
+                edge,
+                end=one.point,
+                start=nodes[first].point,
+                nodes=nodes[first:last],
+                samples=samples[begun : ends + 1],
+            )
+        if one.point != other.point:
+            yield Edge(one.point, other.point)
+        first, begun = last, ends + samples[ends:].index(other.point)
+    if first < len(nodes) - 1:
+        yield replace(edge, start=nodes[first].point, nodes=nodes[first:], samples=samples[begun:])
 
 
 def simplest(edge: Edge) -> Edge:
     """A curve as a line or an arc where it is one."""
     start, end, samples = edge.start, edge.end, edge.samples
+    if edge.is_line:
+        return edge
     length = distance(start, end)
     if length > _SAME and abs(edge.length - length) < _SAME:
         way = minus(end, start)
