@@ -13,6 +13,7 @@ from test_reading import checked, dxf_bytes, left, line, raw, square
 
 from skg.drawing.read import Reading, read
 from skg.errors import UserError
+from skg.plane import distance
 
 LAYERS = "0\nLAYER\n2\nAXES\n70\n0\n62\n1\n6\nCENTER\n0\nLAYER\n2\nPART\n70\n0\n62\n7\n6\nCONTINUOUS\n"
 TYPES = "0\nLTYPE\n2\nCENTER\n73\n4\n0\nLTYPE\n2\nCONTINUOUS\n73\n0\n"
@@ -170,3 +171,16 @@ def test_a_circle_that_is_longer_than_a_tape() -> None:
 def test_areas_without_lines() -> None:
     with pytest.raises(UserError, match="1 SOLID: nothing to cut.*: draw outlines around the areas in the CAD program"):
         checked(raw("SOLID 10 0 20 0 11 9 21 0 12 0 22 9 13 9 23 9"))
+
+
+def test_spline_through_points_alone() -> None:
+    """Some of its points come twice; the curve runs through all of them, and what is guessed is said."""
+    places = [(0, 0), (10, 8), (10, 8), (20, 0), (30, 8), (30, 8), (30, 8), (40, 0)]
+    fit = " ".join(f"11 {x} 21 {y} 31 0" for x, y in places)
+    reading = checked(raw(f"SPLINE 8 0 70 0 71 3 72 0 73 0 74 {len(places)} {fit}"))
+    (edge,) = reading.contours[0].edges
+    for place in places:
+        assert min(distance(place, sample) for sample in edge.samples) < 0.05
+    assert notes(reading, "guessed") == [
+        "1 spline on layer 0 through points alone, as at (0, 0): between them the curve is guessed"
+    ]

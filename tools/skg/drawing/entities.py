@@ -60,6 +60,7 @@ class _Collector:
         self.wide: list[Entity] = []
         self.whole: list[Entity] = []
         self.thick: list[Entity] = []
+        self.through: list[Entity] = []
         self.dashes_around = ""
 
     def collect(self, records: Iterable[Record], inherited: str, hidden: str, blocks: tuple[str, ...]) -> None:
@@ -319,7 +320,13 @@ class _Collector:
                 turned = edge if bulge > 0 else edge.reversed()
                 yield turned if turned.nodes else replace(turned, start=start, end=end)
 
-    def spline(self, entity: DXFGraphic) -> list[Edge]:
+    def spline(self, entity: DXFGraphic) -> Iterator[Edge]:
+        """A spline; one that tells the places alone that it runs through is ezdxf's."""
+        if not len(entity.control_points):
+            places = [Vec3(place) for place in entity.fit_points]
+            nearest = _LEVEL / self.factor
+            entity.fit_points = [q for p, q in pairwise([None, *places]) if p is None or p.distance(q) > nearest]
+            self.through.append(self.content.entities[-1])
         tool = entity.construction_tool()
         controls = [Vec3(x, y) for x, y in self.points(tool.control_points)]
         flat = BSpline(controls, tool.order, tool.knots(), tool.weights() or None)
@@ -391,5 +398,8 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
             collector.account(record, record.layer).left = "in paper space"
     file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "the middle is cut")
     file.notes += said(collector.whole, ("arc", "arcs"), "from an angle to the same angle", "a full circle is cut")
+    file.notes += said(
+        collector.through, ("spline", "splines"), "through points alone", "between them the curve is guessed"
+    )
     file.notes += said(collector.thick, ("entity", "entities"), "with a thickness", "what it stands on is cut")
     return collector.content
