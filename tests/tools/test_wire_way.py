@@ -234,3 +234,13 @@ def test_ways_without_any_length(run: Run, tmp_path: Path) -> None:
         run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 1, "--side", "inside", "--small", "leave"
     )
     assert "no contour is left to cut" in words
+
+
+def test_a_way_that_is_entered_at_a_narrow_end(run: Run, tmp_path: Path) -> None:
+    """Within a flat ellipse the wire turns in arcs of some micrometres where it is entered: it closes all the same."""
+    page = drawing()
+    page.modelspace().add_ellipse((6, 5), (4, 0), 0.25)
+    places = [(6 + 4 * cos(pi * k / 2000), 5 + sin(pi * k / 2000)) for k in range(4000)]
+    (found,), _ = cut(run, page, tmp_path, "--offset", 0.2, "--side", "inside", "--start", "6.8,5")
+    assert apart(LineString(found[1:-1]), parallel(Polygon(places), 0.2, "inside")) < LIMIT
+    assert found[0] == pytest.approx(found[-1], abs=1e-9)

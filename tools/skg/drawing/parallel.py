@@ -326,7 +326,11 @@ def part_between(way: tuple[Edge, ...], first: XY, last: XY | None = None) -> tu
 
 def _nearest(way: tuple[Edge, ...], place: XY, is_within: bool) -> tuple[int, float]:
     found = []
+    # (of a very short edge what is left behind the entry would be lost)
+    short = min(10 * _LEAST, max(edge.length for edge in way)) if is_within else 0.0
     for at, edge in enumerate(way):
+        if edge.length < short:
+            continue
         part = edge.nearest(place)
         if is_within and not edge.is_circle:
             margin = min(_INSIDE, 10 * _LEAST / edge.length)
