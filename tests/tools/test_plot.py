@@ -235,6 +235,20 @@ def test_many_routes_are_few_artists() -> None:
     assert max(np.ptp(parts["tape-1-stops"].vertices[:5], axis=0)) < 4
 
 
+def test_a_long_route_is_several_curves(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One string of a million blocks took half a gigabyte; each curve goes on where the one before ends."""
+    monkeypatch.setattr("skg.drawing.plot.LONGEST", 7)
+    tape = tapes.parse(b"B500B0B500GXL1\r\nB0B500B500GYL2\r\n" * 10 + b"DD\r\n")
+    sheet = Sheet("stairs", place(tape))
+    picture = Picture([sheet], None, "")
+    picture.draw(sheet, "#0072b2", "tape-1", 0, False, False)
+    curves = [patch for patch in picture.axes.patches if "-from-" in patch.get_gid()]
+    assert [patch.get_gid() for patch in curves] == [f"tape-1-route-1-from-{at}" for at in (1, 8, 15)]
+    drawn = np.concatenate([patch.get_path().vertices for patch in curves])
+    assert len(drawn) == 40 and drawn[0].tolist() == [0, 0] and drawn[-1].tolist() == [5, 5]
+    assert (drawn[1:-1:2] == drawn[2::2]).all()
+
+
 def test_block_numbers_never_pile_up() -> None:
     picture = squares(60)
     numbers = [text for text in picture.axes.texts if text.get_color() == "#0072b2"]

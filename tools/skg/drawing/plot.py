@@ -37,6 +37,8 @@ _INCH = 25.4
 #: Of so many routes, stops and arrows each is a part of the picture by itself, with an id in an SVG; of more than that
 #: all of a kind are one.
 FEW = 500
+#: The blocks of a route that are one curve of the picture, at most.
+LONGEST = 50_000
 #: Side of the squares of a page in which boxes are looked for, mm.
 _SQUARE = 4.0
 #: Of many marks of a kind each is no larger than this part of the room that there is for each.
@@ -227,8 +229,9 @@ class Picture:
             self.axes.add_artist(patch)
 
     def _route(self, route: PlacedRoute, colour: str, gid: str, wire: float) -> None:
-        curve = _path(route.blocks, 0.001)
-        if wire and not route.is_move:
+        has_kerf = wire and not route.is_move
+        curve = _path(route.blocks, 0.001) if has_kerf or len(route.blocks) <= LONGEST else None
+        if has_kerf:
             kerf = PathPatch(
                 curve,
                 fill=False,
@@ -241,17 +244,20 @@ class Picture:
             )
             kerf.set_gid(f"{gid}-kerf")
             self.axes.add_artist(kerf)
-        path = PathPatch(
-            curve,
-            fill=False,
-            edgecolor=colour,
-            linewidth=0.8,
-            zorder=2,
-            linestyle=(0, (4, 2)) if route.is_move else "solid",
-            joinstyle="round",
-        )
-        path.set_gid(gid)
-        self.axes.add_artist(path)
+        # (matplotlib writes a curve as one string, and has several copies of it meanwhile)
+        for first in range(0, len(route.blocks), LONGEST):
+            is_all = len(route.blocks) <= LONGEST
+            path = PathPatch(
+                curve if is_all else _path(route.blocks[first : first + LONGEST], 0.001),
+                fill=False,
+                edgecolor=colour,
+                linewidth=0.8,
+                zorder=2,
+                linestyle=(0, (4, 2)) if route.is_move else "solid",
+                joinstyle="round",
+            )
+            path.set_gid(gid if is_all else f"{gid}-from-{first + 1}")
+            self.axes.add_artist(path)
         x, y = (ordinate / 1000 for ordinate in route.start)
         if not route.is_move:
             hole = Circle((x, y), self.on_paper(1), fill=False, edgecolor=colour, linewidth=0.8, zorder=4)
