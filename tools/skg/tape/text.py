@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from itertools import chain, repeat
 
 from skg.errors import UserError
 from skg.files import read_bytes, without_filling
@@ -115,7 +116,8 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     number, ended, bare = 0, False, 0
     lines = text.split("\n")
     tail = lines.pop()
-    for raw, whole in [(line, True) for line in lines] + ([(tail, False)] if tail.strip("\0") else []):
+    last = [(tail, False)] if tail.strip("\0") else []
+    for raw, whole in chain(zip(lines, repeat(True)), last):
         if ended:
             rest = raw.removesuffix("\r").strip("\0")
             if rest:
@@ -140,6 +142,8 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
             findings.append(Finding(number, error.at + 1, str(error)))
             continue
         items.append(block)
+    # (a hundred megabytes, of a long tape)
+    del text, lines
     tape = Tape(name, tuple(items))
     # (of a block there is either this or what could not be read)
     findings[:0] = [
