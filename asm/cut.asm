@@ -1,6 +1,6 @@
 ; cut.asm - the route: from items to corners, fillets and closing
 ; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR SCALED CPYEL
-;         CPYPL ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XCHDA XXING SBACK SBACK1
+;         CPYPL RTDON1 ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XCHDA XXING SBACK SBACK1
 ; Uses:   arc_3b arc_iso arc_nodrift calc consts fit float geom grid iso parser start tape value
 ; Room:   1263 bytes
 ;
@@ -581,7 +581,7 @@ CLOSE8: CALL    ADVANC
 ; Clobbers B, HL
 RTDONE: LXI     H,HELDN
         MVI     B,FITSM+1-HELDN
-RTDON1: MVI     M,0             ; (RUNINI comes in here with its HL and B)
+RTDON1: MVI     M,0             ; (RUNINI and DLINE come in here with their HL and B)
         INX     H
         DCR     B
         JNZ     RTDON1

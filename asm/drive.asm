@@ -1,7 +1,12 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
-; Offers: PUNOFF SDRIV BDOFF BDREST
-; Uses:   calc consts decimal float io io_port io_punch monitor reset start tape value
-; Room:   697 bytes
+; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
+; Uses:   cut decimal float io io_6850 io_port io_punch monitor reset start tape value
+; Room:   700 bytes
+;
+; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
+; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
+; read and its numbers are made while the steps of the line before it are: a character each time that DLOOP has
+; something else to see to.  At the line's end DLINE makes the rest of those steps, and sets its own block up.
 ;
 ; A step goes along one of two records, one for each axis:
 ;
@@ -20,32 +25,43 @@
 DRIVE   EQU 14H         ; the machine's port, out:
 DYSTEP  EQU 04H         ; Y step
 DSTEPS  EQU 05H         ; both step bits
-DOFF    EQU 80H         ; cutting; in DSTATE: not cutting
-DSTOPB  EQU 02H         ; in: limit or emergency stop (bit 0: feed clock)
-DASK    EQU 02H         ; in DSTATE, counted: a key comes first,
-DHALF   EQU 01H         ; so it does, and a block was stopped
+DCUTS   EQU 80H         ; cutting
+DBELOW  EQU 0D0H        ; the lowest character, less '0'
+DMOST   EQU 6           ; numbers are below 6 * 2^24
 
-DN1     EQU HELD        ; the cells lie in FIT's, which holds nothing back here: record 1,
+; Cells that RUN, NEW and a reset clear: those in front of N, and TOL's, which this image goes without
+DPARS   EQU RUNCEL      ; -> place in DLINE; high byte 0: a line begins
+DSTATE  EQU DPARS+2     ; bit 0: not cutting
+DCOUNT  EQU MTO         ; -> the count's N; high byte 0: no block is in hand
+DHIGH   EQU MTO+2       ; bit 7: the feed clock has not fallen behind the last step
+
+; Cells that float.asm leaves free
+DX      EQU FWORK+12    ; the line that is read: J y x, high byte first
+DNUMP   EQU DX+12       ; -> behind the number that is read
+DAXIS   EQU DX+14       ; 0 X, 1 Y
+DKIND   EQU DX+15       ; as DTURN
+DFIRST  EQU DX+16       ; quadrant, from 0
+
+; Cells of FIT's, which holds nothing back here
+DN1     EQU HELD        ; record 1,
 DR1     EQU DN1+4
 DU1     EQU DN1+8
 DN2     EQU DN1+9       ; record 2
 DR2     EQU DN1+13
 DU2     EQU DN1+17
-DROLE   EQU DN1+18      ; bit 7: F >= 0 steps record 2
+DROLE   EQU DN1+18      ; bit 7: F >= 0 steps record 1
 DBASE   EQU DN1+19      ; the port without a pulse
 DINC    EQU DN1+20      ; what a step adds to its own R: 2 on an arc, else 0
 DTURN   EQU DN1+21      ; low two bits: what is added to the quadrant: 0 line, 1 counter-clockwise, 3 clockwise
-DQUAD   EQU DN1+22      ; low two bits: the quadrant that the motion points into
-DMODE   EQU DN1+23      ; 0FFH: RUN drives, 0: it does not
-DFDEV   EQU DN1+24      ; F of a block that was stopped
-DCOUNT  EQU DN1+28      ; -> the count's N
-DSTATE  EQU RUNCEL+RUNLEN-1 ; DOFF, DASK, DHALF; RUN clears it
+DQUAD   EQU DN1+22      ; low two bits: the quadrant that the motion points into, from 0
+DFDEV   EQU DN1+23      ; F
+DMODE   EQU DN1+27      ; 0FEH: RUN drives, 0: it does not
 
-;! DN1/100H == (DCOUNT+1)/100H -- the loop changes L alone
+;! DN1/100H == DU2/100H -- the loop changes L alone
 ;! DU2-DU1 == 9 and DR2-DR1 == 9 and DN2-DN1 == 9 and DR1-DN1 == 4 and DU1-DR1 == 4 -- DLOOP walks along a record
-;! DQUAD == DTURN+1 and TZNUM == TZLET+1 -- FOLLOW and DIRS take two cells at once
-;! DSTATE == BLKNO+2 and DSTATE < MFIRST -- it lies in a free cell of RUNINI's
-;! DCOUNT+2 <= CLOSED -- what FIT would hold back ends there
+;! DN2 == DU1+1 and DQUAD == DTURN+1 and DFIRST == DKIND+1 -- DLINE and DIRS take two cells at once
+;! DX & 3 == 0 and DX/100H == (DX+12)/100H and DFIRST < FSP -- DLINE sees a number's end by its low address
+;! DMODE < CLOSED and DSTATE < MNEXT and DHIGH < MTO+5 -- nobody else's cells
 
 ; DLOOP - steps, until there is something else to see to
 ; In:  B C D E = F, H = DN1/256
@@ -59,7 +75,7 @@ DLOOP:  IN      DRIVE
         MVI     L,DR1&255
         LDA     DROLE
         XRA     B
-        JP      DLOO1
+        JM      DLOO1
         MVI     L,DR2&255
 DLOO1:  MOV     A,E
         ADD     M
@@ -111,24 +127,314 @@ DCAR1:  INR     L
 DCAR2:  POP     H
         RET
 
+; PUNOFF - punch off, the block is complete: the place for a break; after DRIVE 1 a running program's is followed
+; Out: ERR 10, also when it was stopped   Clobbers all
+PUNOFF: CALL    PAPON
+        CALL    DASKED
+        RZ
+; (fall into DFIN)
+
+; DFIN - the rest of the block in hand; a line begins
+; Out: A = 0; ERR 10 as DSTEP   Clobbers all
+DFIN:   CALL    DSTEP
+        JNZ     DFIN
+        STA     DPARS+1
+        RET
+
+; BDPUN - punches a character (PUTC1 of io.asm calls it); DLINE gets it when RUN drives
+; In:  B   Out: ERR 10   Clobbers A, B, C, HL
+BDPUN:  CALL    BDPUT
+        CALL    DASKED
+        RZ
+        MOV     A,B
+        PUSH    D
+        CALL    DPUSH
+        POP     D
+        RET
+
+; DASKED - is what is punched to be followed?
+; Out: Z: no: not asked for, or no program runs, or it is over with an error   Clobbers A, HL
+DASKED: LHLD    NXTP+1          ; and CHKF
+        DCR     H               ; 0FFH, after an error 1
+        LDA     DMODE
+        ANA     L
+        ANA     H
+        RET
+
+; SDRIV - command: DRIVE follows the reader's tape; DRIVE 1, DRIVE 0: RUN drives, or not
+SDRIV:  DB      PEEK
+        JNZ     SDRI9
+        DB      CHKEND
+        LDA     DCOUNT+1
+        ORA     A
+        CNZ     DKEY            ; the block that was stopped
+SDRI1:  LXI     H,SDRI1         ; every character returns there
+        PUSH    H
+        CALL    DSTEP
+        CZ      BREAK
+        IN      TTYST
+        ANI     TXRDY           ; (no step waits for the teletype)
+        RZ
+        CALL    BDREAD
+        ANI     7FH
+        RZ
+        DB      PUTC
+; (fall into DPUSH)
+
+; DPUSH - takes a character of a tape
+; In:  A   Out: ERR 10   Clobbers all
+DPUSH:  SUI     CZERO
+        LHLD    DPARS
+        INR     H
+        DCR     H
+        JZ      DLINE
+        SUB     M
+        INX     H
+        CMP     M
+        INX     H
+        JNC     DERR
+        PCHL
+
+; DNEXT - DLINE comes back with the next character, one of so many from a first one on: that, less '0', and how
+;         many stand behind the call
+; In:  nothing on the stack but who called DPUSH   Out: A = character, counted from that first one   Clobbers all
+DNEXT:  POP     H
+        SHLD    DPARS
+        RET
+
+; DLINE - takes a line, character by character; at its end the block is in hand, and its first steps are made
+; In:  A = first character, less '0'   Out: ERR 10   Clobbers all
+DLINE:  ORA     A
+        RM                      ; between the lines
+        CPI     CLTD-CZERO
+        JZ      DSTOP
+        LXI     H,DX
+        MVI     B,12
+        CALL    RTDON1          ; (clears)
+        SHLD    DNUMP
+DLIN1:  CPI     CLTB-CZERO
+        JNZ     DERR
+        CALL    DNEXT
+        DB      0,10
+DLIN2:  LHLD    DNUMP
+        LXI     D,10
+        MOV     C,A             ; 10x+digit, byte by byte
+        MVI     B,0
+DLIN3:  DCX     H
+        MOV     A,M
+        PUSH    H
+        CALL    FMUL2
+        POP     H
+        MOV     M,A
+        MOV     A,L
+        ANI     3
+        JNZ     DLIN3
+        MOV     A,M
+        CPI     DMOST
+        JNC     DERR
+        CALL    DNEXT
+        DB      0,CLTG-CZERO+1
+        CPI     10
+        JC      DLIN2
+        MOV     B,A
+        LXI     H,DNUMP
+        MOV     A,M
+        SUI     4
+        MOV     M,A
+        CPI     DX&255
+        MOV     A,B
+        JNZ     DLIN1
+        CPI     CLTG-CZERO
+        JNZ     DERR
+        CALL    DNEXT
+        DB      CLTY-1-CZERO,2
+        STA     DAXIS
+        CALL    DNEXT
+        DB      CLTL-CZERO,CLTS-CLTL+1
+        RRC                     ; L 0, N 1, S 83H
+        STA     DKIND
+        ORA     A
+        JZ      DLIN5
+        DCR     A
+        JZ      DLIN4
+        CPI     82H
+        JNZ     DERR
+DLIN4:  CALL    DNEXT
+        DB      CLTR-CZERO,1
+DLIN5:  CALL    DNEXT
+        DB      1,4
+        STA     DFIRST
+        CALL    DNEXT
+        DB      DBELOW,100H-DBELOW
+        CALL    DFIN
+        LHLD    DKIND           ; and DFIRST
+        SHLD    DTURN           ; and DQUAD
+        MOV     A,L
+        ANI     1
+        ADD     A
+        STA     DINC
+        LDA     DAXIS
+        XRA     L
+        RAR                     ; CY: record 1 counts
+        SBB     A
+        ANI     (DN1-DN2)&255
+        ADI     (DN2+3)&255
+        MOV     C,A             ; -> its N's low byte
+        LXI     D,DX+12
+        LXI     H,DR1
+        CALL    DTWICE
+        INX     H
+        MOV     M,A             ; N of record 2 (A is positive: the one that does not count will never run out)
+        MVI     L,DR2&255
+        CALL    DTWICE
+        STA     DN1
+        MOV     L,C
+        MVI     B,4
+        STC
+DLIN6:  DCX     D               ; N = -J
+        LDAX    D
+        CMA
+        ACI     0
+        MOV     M,A
+        DCX     H
+        DCR     B
+        JNZ     DLIN6
+        RC                      ; J = 0 is no block
+        INX     H
+        SHLD    DCOUNT
+        CALL    DIRS
+        MOV     H,B             ; (DIRS leaves B = 0)
+        MOV     L,B
+        SHLD    DFDEV
+        SHLD    DFDEV+2
+; (fall into DSTEP)
+
+; DSTEP - steps of the block in hand, until there is something else to see to
+; Out: Z: no block is in hand any more, A = 0; ERR 10 when the operator or bit 1 stops it: the steps to go are typed
+; Clobbers all
+DSTEP:  LDA     DCOUNT+1
+        ORA     A
+        RZ
+        CALL    POLL
+        JZ      DSTE3           ; a break
+        IN      DRIVE
+        RAR
+        RAR
+        JC      DSTE3           ; bit 1
+        LXI     H,DHIGH
+        ANA     M
+        RM                      ; the clock is still high
+        LHLD    DFDEV
+        XCHG
+        LHLD    DFDEV+2
+        MOV     B,H
+        MOV     C,L
+        LDA     DBASE
+        OUT     DRIVE
+        MVI     H,DN1/256
+        CALL    DLOOP
+        RAR                     ; (leaves Z alone)
+        STA     DHIGH
+        JNZ     DSTE2
+        MVI     A,3
+DSTE1:  DCR     L
+        INR     M
+        JNZ     DSTE2
+        DCR     A
+        JNZ     DSTE1
+        STA     DCOUNT+1
+        RET
+DSTE2:  XCHG
+        SHLD    DFDEV
+        MOV     H,B
+        MOV     L,C
+        SHLD    DFDEV+2
+        RET
+DSTE3:  XRA     A
+        MOV     M,A             ; no key is typed ahead
+        OUT     DRIVE
+        CALL    CRLF
+        LHLD    DCOUNT
+        CALL    FLOAD           ; (the highest bit is 1 anyway)
+        XRA     A
+        SUB     E
+        MOV     L,A
+        MVI     A,0
+        SBB     D
+        MOV     H,A
+        MVI     A,0
+        SBB     C
+        MOV     E,A
+        MVI     A,0
+        SBB     B
+        MOV     D,A
+        MVI     C,0
+        CALL    DECOU1
+        DB      ERROR,ETAPE
+
+; DTWICE - R of a coordinate: doubled, and 1 on an arc
+; In:  DE -> behind its low byte, HL -> R, DINC   Out: A = highest byte, DE -> highest byte   Clobbers B, HL
+DTWICE: LDA     DINC
+        RRC
+        RRC
+        MVI     B,4
+DTWI1:  DCX     D
+        LDAX    D
+        RAL
+        MOV     M,A
+        INX     H
+        DCR     B
+        JNZ     DTWI1
+        RET
+
+; DSTOP - the line begins with D: the end of the tape, or off, and a key comes before the next block
+DSTOP:  CALL    DNEXT
+        DB      CLTD-CZERO,DBELOW+CLTD-CZERO+8 ; all but '0' to 'C'
+        ORA     A
+        JZ      DEND
+        JP      DERR
+        CALL    DFIN
+        OUT     DRIVE
+        LXI     H,DSTATE
+        INR     M
+; (fall into DKEY)
+
+; DKEY - waits for a key
+; Out: ERR 10   Clobbers A, HL
+DKEY:   XRA     A
+        STA     KEYB            ; none that is typed ahead
+DKEY1:  CALL    BREAK
+        ORA     A
+        JZ      DKEY1
+        MVI     M,0
+        RET
+
+; DEND - the end of the tape
+DEND:   CALL    DENDS
+        CALL    DASKED
+        RNZ                     ; RUN has punched it
+        JMP     ERR5            ; CR LF, and the prompt
+
 ; DIRS - directions and roles of the next quadrant; the record that leads inside changes the sign of R
-; In:  DTURN, DQUAD, DSTATE   Out: ERR 10: an arc begins where its coordinate cannot shrink   Clobbers A, B, C, HL
+; In:  DTURN, DQUAD, DSTATE   Out: B = 0; ERR 10: an arc begins where its coordinate cannot shrink   Clobbers A, B, C, HL
 DIRS:   LHLD    DTURN           ; and DQUAD
         MOV     A,L
         ADD     H
         STA     DQUAD
         MOV     C,A
-        DCR     A
         ANI     2
         RLC
         RLC
         MOV     B,A             ; Y direction
         MOV     A,C
+        INR     A
         ANI     2               ; X direction
         ORA     B
         MOV     B,A
         LDA     DSTATE
-        XRI     DOFF
+        INR     A
+        RRC
+        ANI     DCUTS
         ORA     B
         STA     DBASE
         MOV     B,A
@@ -147,9 +453,10 @@ DIRS:   LHLD    DTURN           ; and DQUAD
         RRC
         STA     DROLE
         LXI     H,DR1
-        JNC     DIRS2
+        JC      DIRS2
         MVI     L,DR2&255
 DIRS2:  LDA     DINC
+        MOV     C,A
         ORA     A
         MVI     B,4
 DIRS3:  SBB     M
@@ -159,291 +466,37 @@ DIRS3:  SBB     M
         DCR     B
         JNZ     DIRS3
         RC
-        LDA     DINC
-        ORA     A
+        ORA     C
         RZ                      ; a line along an axis
-        DB      ERROR,ETAPE
-
-; PUNOFF - punch off, the block is complete: the place for a break; after DRIVE 1 a running program's is followed
-; In:  B = 0: it was D or DD, BX BY BJ, TGAX TZLET TZNUM   Clobbers all
-PUNOFF: CALL    PAPON
-        LHLD    NXTP+1          ; and CHKF
-        DCR     H
-        RP                      ; after an error
-        LDA     DMODE
-        ANA     L
-        RZ                      ; not asked for, or no program
-        MOV     A,B
-        ORA     A
-        JZ      DRVSTP
-; (fall into FOLLOW)
-
-; FOLLOW - follows a block
-; In:  BX BY BJ, TGAX TZLET TZNUM: their lowest bits   Out: ERR 10 when it was stopped   Clobbers all
-FOLLOW: CALL    DREADY
-        LHLD    TZLET           ; and TZNUM
-        MOV     A,L
-        SUI     CLTL            ; L 0, N 2, S 7
-        RAR
-        MOV     L,A
-        SHLD    DTURN           ; and DQUAD
-        ANI     1
-        ADD     A
-        STA     DINC
-        LXI     H,MBX
-        LXI     D,DR1
-        CALL    DNUM
-        LXI     H,MBX+5
-        LXI     D,DR2
-        CALL    DNUM
-        LXI     H,MBX+10
-        MOV     A,M
-        ORA     A
-        RZ                      ; J = 0 is no block
-        CALL    FWHOLE
-        LDA     DTURN
-        LXI     H,TGAX
-        XRA     M
-        RAR
-        LXI     H,DN1
-        JC      FOLL1
-        MVI     L,DN2&255
-FOLL1:  SHLD    DCOUNT
-        STA     DN1             ; (A is positive: the other N will never run out)
-        STA     DN2
-        CALL    DNEG
-        MOV     M,B
-        INX     H
-        MOV     M,C
-        INX     H
-        MOV     M,D
-        INX     H
-        MOV     M,E
-        CALL    DIRS
-        MOV     C,B             ; (DIRS leaves B = 0)
-        MOV     D,B
-        MOV     E,B
-; (fall into DRUN)
-
-; DRUN - steps to the block's end
-; In:  B C D E = F, the records   Out: ERR 10 when it is stopped: its place is typed, J less the steps to go, and
-;      DHALF, DFDEV   Clobbers all
-DRUN:   LDA     DBASE
-        OUT     DRIVE
-DRUN1:  MVI     H,DN1/256
-        CALL    DLOOP
-        JNZ     DRUN3
-        MVI     A,3
-DRUN2:  DCR     L
-        INR     M
-        JNZ     DRUN3
-        DCR     A
-        JNZ     DRUN2
-        RET
-DRUN3:  PUSH    PSW             ; CY: the clock has not fallen yet
-        CALL    POLL
-        CPI     CCTLC
-        JZ      DRUN4
-        IN      DRIVE
-        ANI     DSTOPB
-        JNZ     DRUN4
-        POP     PSW
-        JNC     DRUN1
-        IN      DRIVE
-        RAR
-        JMP     DRUN3
-DRUN4:  MVI     M,0             ; no key is typed ahead
         XRA     A
-        OUT     DRIVE
-        XCHG
-        SHLD    DFDEV
-        MOV     H,B
-        MOV     L,C
-        SHLD    DFDEV+2
-        LXI     H,DSTATE
-        INR     M               ; DHALF
-        CALL    CRLF
-        MVI     A,CMINUS
-        DB      PUTC
-        LHLD    DCOUNT
-        CALL    FLOAD           ; (the highest bit is 1 anyway)
-        CALL    DNEG
-        XCHG
-        MOV     D,B
-        MOV     E,C
-        MVI     C,0
-        CALL    DECOU1
+        STA     DCOUNT+1
+; (fall into DERR)
+
+; DERR - the line is none: that counts when the block in hand has been followed
+DERR:   CALL    DENDS
         DB      ERROR,ETAPE
 
-; DNEG - changes the sign
-; In:  B C D E   Out: B C D E   Clobbers A
-DNEG:   XRA     A
-        SUB     E
-        MOV     E,A
-        MVI     A,0
-        SBB     D
-        MOV     D,A
-        MVI     A,0
-        SBB     C
-        MOV     C,A
-        MVI     A,0
-        SBB     B
-        MOV     B,A
-        RET
+; DNEW - command: NEW, which ends DRIVE 1 too
+DNEW:   CALL    SNEW
+        XRA     A
+        JMP     SDRI8
 
-; DNUM - R of a coordinate: doubled, and 1 on an arc
-; In:  HL -> float, DE -> R, DINC   Clobbers all
-DNUM:   PUSH    D
-        MVI     A,9FH
-        CALL    FALIGN
-        POP     H
-        LDA     DINC
-        RRC
-        ORA     E
-        MOV     M,A
-        INX     H
-        MOV     M,D
-        INX     H
-        MOV     M,C
-        INX     H
-        MOV     M,B
-        RET
-
-; DREADY - waits for the key that comes first, if one does
-; Out: DSTATE = DOFF or 0; ERR 10   Clobbers A, HL
-DREADY: LDA     DSTATE
-        ADD     A
-        JZ      DREA2
-        CALL    BREAK
-        MVI     M,0             ; none that is typed ahead
-DREA1:  CALL    BREAK
-        ORA     A
-        JZ      DREA1
-        MVI     M,0
-DREA2:  LXI     H,DSTATE
-        MOV     A,M
-        ANI     DOFF
-        MOV     M,A
-        RET
-
-; SDRIV - command: DRIVE follows the reader's tape; DRIVE 1, DRIVE 0: RUN drives, or not
-SDRIV:  DB      PEEK
-        JNZ     SDRI9
-        DB      CHKEND
-        LXI     H,DSTATE
-        MOV     A,M
-        RAR                     ; (CHKEND leaves CY clear)
-        JNC     SDRI0
-        CALL    DREADY          ; the block that was stopped
-        LHLD    DFDEV
-        XCHG
-        LHLD    DFDEV+2
-        MOV     B,H
-        MOV     C,L
-        CALL    DRUN
-        INR     A               ; (not 0)
-SDRI0:  ANI     (DOFF/2)-1
-        JNZ     SDRI1           ; broken off at a stop
-        MOV     M,A             ; a new tape
-SDRI1:  CALL    DGET
-        JC      SDRI1
-        CPI     CLTD-CZERO
-        JZ      SDRI6
-        LXI     H,MBX
-SDRI2:  CPI     CLTB-CZERO
-        JNZ     ERTAPE
-        PUSH    H               ; -> where the number goes
-        DB      CALC,Q0,QEND    ; x
-        LXI     B,10
-        CALL    DWANT
-SDRI3:  MOV     L,A
-        MVI     H,0
-        LXI     D,MT0
-        CALL    FITOF
-        DB      CALC,Q10,QMUL,LT0,QADD ; 10x+digit
-        DB      QDUP,Q8DIG,QSWP,QSUB,QE6N,QEND ; x
-        CALL    DGET
-        CPI     10
-        JC      SDRI3
-        POP     D
-        PUSH    PSW
-        CALL    CALPOP
-        INX     H
-        POP     B               ; B = behind the digits
-        MOV     A,L
-        CPI     (MBX+15)&255
-        MOV     A,B
-        JNZ     SDRI2
-        CPI     CLTG-CZERO
-        JNZ     ERTAPE
-        LXI     B,(CLTY-1-CZERO)*256+2
-        CALL    DWANT
-        STA     TGAX
-        CALL    DGET
-        STA     TZLET
-        CPI     CLTL-CZERO
-        JZ      SDRI5
-        CPI     CLTN-CZERO
-        JZ      SDRI4
-        CPI     CLTS-CZERO
-        JNZ     ERTAPE
-SDRI4:  LXI     B,(CLTR-CZERO)*256+1
-        CALL    DWANT
-SDRI5:  LXI     B,1*256+4
-        CALL    DWANT
-        INR     A
-        STA     TZNUM
-        CALL    DGET
-        JNC     ERTAPE
-        CALL    FOLLOW
-        JMP     SDRI1
-SDRI6:  CALL    DGET
-        JC      SDRI7
-        CPI     CLTD-CZERO
-        JNZ     ERTAPE
-        CALL    CRLF
-        CALL    BDOFF
-        STA     DSTATE
-        RET
-SDRI7:  CALL    DRVSTP
-        CALL    DREADY
-        JMP     SDRI1
 SDRI9:  CALL    LNEND
         LXI     H,-2
         DAD     D
         JC      ERRNG
         XRA     A
-        STA     DSTATE          ; a block that was stopped is forgotten
         SUB     E
-        STA     DMODE
-        RET
+        ADD     A
+SDRI8:  STA     DMODE
+        XRA     A
+        STA     DCOUNT+1        ; a block that was stopped is forgotten
+; (fall into DENDS)
 
-; DWANT - a character that must be one of a few
-; In:  B = the first, less '0', C = how many   Out: A = its number among them; ERR 10   Clobbers HL
-DWANT:  CALL    DGET
-        SUB     B
-        CMP     C
-        RC
-        DB      ERROR,ETAPE
-
-; DGET - a character of the tape, which is typed
-; Out: A = it, less '0'; CY: it comes before '0': a line's end, a blank; ERR 10   Clobbers HL
-DGET:   CALL    BDREAD
-        ANI     7FH
-        PUSH    PSW
-        CZ      BREAK           ; (not within a line that is there)
-        POP     PSW
-        JZ      DGET
-        DB      PUTC
-        SUI     CZERO
-        RET
-
-; DRVSTP - D: off; a key comes before the next block, which is a travel or none again
-; Clobbers A, HL
-DRVSTP: LXI     H,DSTATE
-        MOV     A,M
-        ADI     DOFF+DASK       ; (60 stops without a block between them would carry)
-        MOV     M,A
+; DENDS - the rest of the block in hand; the tape ends, the machine is off
+; Clobbers all
+DENDS:  CALL    DFIN
+        STA     DSTATE
 ; (fall into BDOFF)
 
 ; BDOFF - after an error and at a program tape's end: no more lines from the reader; the machine is off
@@ -453,9 +506,8 @@ BDOFF:  XRA     A
         OUT     DRIVE
         RET
 
-; BDREST - what is readied at reset besides the serial ports
+; BDREST - what is readied at reset besides the serial ports (the machine's port is cleared by the reset itself)
 ; Clobbers A
 BDREST: XRA     A
         STA     DMODE
-        OUT     DRIVE
         JMP     RESET

@@ -1,7 +1,12 @@
-; io_ended.asm - what a board does when a block is complete, after an error and at reset: nothing but its serial ports
-; Offers: PUNOFF BDOFF BDREST
-; Uses:   io reset
+; io_ended.asm - what a board does when a character is punched, when a block is complete, after an error and at reset:
+; nothing but its serial ports
+; Offers: BDPUN PUNOFF BDOFF BDREST
+; Uses:   io io_punch reset
 ; Room:   5 bytes
+
+; BDPUN - punches a character (PUTC1 of io.asm calls it)
+; In:  B   Clobbers A
+BDPUN   EQU BDPUT
 
 ; PUNOFF - punch off; the place for a break, since the block is complete
 ; Clobbers A, HL

@@ -1,6 +1,6 @@
 ; io_port.asm - the teletype's characters, through the board's ports
 ; Offers: PAPER POLL
-; Uses:   io_6850 io_8251 io_punch io_tty
+; Uses:   drive io_6850 io_8251 io_ended io_tty
 ; Room:   44 bytes
 
 ; PAPER - prints a character, which the punch gets too when it is on
@@ -16,7 +16,7 @@ PAPER:  CALL    POLL
         RET
 
 ; POLL - looks at the keyboard; while ctrl-S holds, does not come back
-; Out: A = KEYB, HL-> it   Clobbers nothing else
+; Out: A = KEYB, HL-> it, Z: it is a break that has been waiting   Clobbers nothing else
 POLL:   LXI     H,KEYB
 POLL1:  MOV     A,M
         CPI     CCTLC

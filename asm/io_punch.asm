@@ -1,13 +1,13 @@
 ; io_punch.asm - punch and reader on a port of their own
-; Offers: BDPUN BDREAD SLOAD PUNON
+; Offers: BDPUT BDREAD SLOAD PUNON
 ; Uses:   io io_6850 io_8251 start
 ; Room:   40 bytes
 
-; BDPUN - punches a character (PUTC1 of io.asm calls it)
+; BDPUT - punches a character
 ; In:  B   Clobbers A
-BDPUN:  IN      PUNST
+BDPUT:  IN      PUNST
         ANI     TXRDY
-        JZ      BDPUN
+        JZ      BDPUT
         MOV     A,B
         OUT     PUNDT
         RET

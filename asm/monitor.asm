@@ -1,5 +1,5 @@
 ; monitor.asm - prompt, commands, running the program, errors, reset
-; Offers: ERR READY CHKED SFREE FREE LNEND SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST
+; Offers: ERR ERR5 READY CHKED SFREE FREE LNEND SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST
 ;         SREAD SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
 ; Uses:   calc cpm cut decimal drive float io io_disk io_ended io_tty iso lexer parser program reset
 ;         start tape value
@@ -84,7 +84,7 @@ ERR3:   LDA     LASTC
         DB      " LINE",0A0H
         LHLD    CURLIN
 ERR4:   CALL    PRDEC           ; FREE ends here too
-ERR5:   CALL    CRLF
+ERR5:   CALL    CRLF            ; (DEND comes in here)
 ; (fall into READY)
 
 ; READY - the prompt: takes a line, for ever; it is parsed, then CHKED is the place

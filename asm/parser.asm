@@ -341,7 +341,7 @@ MORE:   DB      PEEK
 ; EVINT - value of an expression that must be a whole number
 ; In:  TXTP -> it   Out: HL = 0...65535 (4 in check mode); ERR 05   Clobbers all
 EVINT:  CALL    EVNUM
-        CALL    CHKRET
+        RNZ
         CALL    NRINT
         JNZ     ERRNG
         LXI     H,MVB

@@ -1,5 +1,5 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
-; Offers: TGAX TZLET TZNUM RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
+; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
 ; Uses:   calc consts drive float grid io io_disk io_ended io_punch io_tty lexer start
 ; Room:   282 bytes
 ;
@@ -12,10 +12,10 @@ TZNUM   EQU CWORK+20    ; its digit
 
 ;! TZLET == TGAX+1 -- PUTBLK takes two letters at once
 
-RUNCEL  EQU MTO         ; what a run begins with cleared: tolerance, H, W, RMOVED, BLKNO, a cell of drive.asm
-RUNLEN  EQU 29
+RUNCEL  EQU MNEXT-4     ; what a run begins with cleared: four cells for drive.asm, N (which is nothing then), tolerance,
+RUNLEN  EQU BLKNO+2-RUNCEL ; H, W, RMOVED, BLKNO
 
-;! RMOVED == MTO+25 and BLKNO == RMOVED+1 -- RUNINI clears from the tolerance to the block's number, and a byte more
+;! MC2+20 <= RUNCEL and BLKNO+2 <= MFIRST and RUNCEL+4 == MNEXT -- RUNINI clears no other cells
 
 ; REPOS - FROM: the first one is silent, another one a move between two stops
 ; In:  H   Out: W = H   Clobbers all

@@ -1,7 +1,8 @@
 """The committed images: built anew they are the same, and they hold nothing but 8080 code.
 
 The opcode table and the walk through the image are the test's own: from the restarts, along every jump and
-call, over the data that stands behind RST 1, RST 4, RST 5 (the calculator's byte-code) and calls of PUTSI.
+call, over the data that stands behind RST 1, RST 4, RST 5 (the calculator's byte-code) and calls of PUTSI
+and of the drive's DNEXT.
 """
 
 from __future__ import annotations
@@ -126,6 +127,8 @@ class Walk:
                 waiting += self.calculator(at + length)
             elif name == "CALL" and target == self.names["PUTSI"]:
                 waiting.append(1 + next(n for n in range(at + 3, len(self.image)) if self.image[n] & 0x80))
+            elif name == "CALL" and target == self.names.get("DNEXT"):
+                waiting.append(at + 5)
             elif name not in ("JMP", "RET", "PCHL", "RST 1", "HLT"):
                 waiting.append(at + length)
 
