@@ -120,10 +120,11 @@ def test_answers_and_output(run_program: Program, tmp_path: Path) -> None:
         ("nodrift", ["--rom", ROMS / "skg-nodrift.bin"]),
         ("skg-nodrift", ["--rom", ROMS / "skg-nodrift.bin"]),
         (ROMS / "skg.hex", ["--rom", ROMS / "skg.hex"]),
+        ("drive", ["--rom", ROMS / "skg-drive.bin"]),
         ("8251", ["--rom", ROMS / "skg-8251.bin", "--board", "8251"]),
         ("tty", ["--rom", ROMS / "skg-tty.bin", "--punch-tty"]),
     ],
-    ids=["no-drift", "nodrift", "skg-nodrift", "hex", "8251", "tty"],
+    ids=["no-drift", "nodrift", "skg-nodrift", "hex", "drive", "8251", "tty"],
 )
 def test_roms(run_program: Program, rom: str, options: list[str]) -> None:
     part = ROOT / "examples" / "skg06-belts.skg"

@@ -34,7 +34,7 @@ def _answers(name: str | None) -> Iterator[str]:
 @click.option(
     "--rom",
     metavar="NAME|FILE",
-    help="The ROM: standard, no-drift, mill, 8251, tty, or an image of your own, .bin or Intel .hex.  [default: "
+    help="The ROM: standard, no-drift, mill, drive, 8251, tty, or an image of your own, .bin or Intel .hex.  [default: "
     "standard; mill, and said, for a milling program]",
 )
 @click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")

@@ -25,6 +25,7 @@ ROMS = {
     "standard": Rom("skg.bin"),
     "no-drift": Rom("skg-nodrift.bin"),
     "mill": Rom("skg-mill.bin"),
+    "drive": Rom("skg-drive.bin"),
     "8251": Rom("skg-8251.bin", board="8251"),
     "tty": Rom("skg-tty.bin", punch_tty=True),
 }
