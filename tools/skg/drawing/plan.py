@@ -393,7 +393,7 @@ class _Planner:
         best: tuple[float, Contour, XY, float, XY] | None = None
         for contour, part in _entries(made.contour, made.tab, self.widest):
             edge = contour.edges[0]
-            if edge.is_circle and not is_outside and not made.is_arc:
+            if edge.is_circle and not is_outside and not made.is_arc and (yield from self._is_clear_from_centre(edge)):
                 # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
                 part = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
                 start = edge.centre
@@ -454,6 +454,14 @@ class _Planner:
             reach *= 0.8
             hole = polar(entry, reach, square)
         return hole
+
+    def _is_clear_from_centre(self, circle: Edge) -> _Looking[bool]:
+        """Whether the wire gets from a circle's centre to its +X side and cuts nothing that lies in the circle."""
+        (x, y), r = circle.centre, self.widest
+        # (not as far as the circle itself, and a mark of the centre is no obstacle)
+        reach = _ROUND * max(0.0, circle.radius**2 - r**2) ** 0.5
+        looks = [Look((x, y + aside), reach, 0.0, 1e-3 * (1 + circle.radius)) for aside in (-r, 0.0, r)]
+        return min((yield looks)) == inf
 
     def _clear(self, entry: XY, square: float, reach: float) -> _Looking[float]:
         """How far the wire gets away from an entry: all the way it stays R off what it does not cut there."""
