@@ -458,10 +458,10 @@ class _Planner:
     def _is_clear_from_centre(self, circle: Edge) -> _Looking[bool]:
         """Whether the wire gets from a circle's centre to its +X side and cuts nothing that lies in the circle."""
         (x, y), r = circle.centre, self.widest
-        # (not as far as the circle itself, and a mark of the centre is no obstacle)
+        # (not as far as the circle itself)
         reach = _ROUND * max(0.0, circle.radius**2 - r**2) ** 0.5
-        looks = [Look((x, y + aside), reach, 0.0, 1e-3 * (1 + circle.radius)) for aside in (-r, 0.0, r)]
-        return min((yield looks)) == inf
+        ahead = [Look((x, y + aside), reach, 0.0) for aside in (-r, 0.0, r)]
+        return min((yield [Look((x, y), max(r, 1e-3)), *ahead])) == inf
 
     def _clear(self, entry: XY, square: float, reach: float) -> _Looking[float]:
         """How far the wire gets away from an entry: all the way it stays R off what it does not cut there."""
