@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import acos, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
@@ -10,8 +11,12 @@ import pytest
 from toolhelp import Run
 
 from skg import tape as tapes
+from skg.cutting import job
 from skg.errors import UserError
+from skg.machine.board import ErrorLine
+from skg.machine.feeding import MEMORY_FULL, Fed, feed
 from skg.plane import XY
+from skg.ref import run as reference
 from skg.tape.block import Block
 from skg.tape.controller import run_block
 
@@ -45,10 +50,12 @@ def places_of(block: Block, at: XY) -> Iterator[XY]:
 
 
 @pytest.mark.parametrize(
-    ("module", "teeth", "angle", "shift"), [(2, 20, 20, 0), (1, 45, 20, 0), (3, 9, 20, 0.5), (0.5, 30, 14.5, -0.1)]
+    ("module", "teeth", "angle", "shift"),
+    [(2, 20, 20, 0), (1, 45, 20, 0), (3, 9, 20, 0.5), (0.5, 30, 14.5, -0.1), (0.3, 120, 20, 0), (5, 60, 25, 0)],
 )
 def test_gear(run: Run, tmp_path: Path, module: float, teeth: int, angle: float, shift: float) -> None:
-    """Every place of the wire on the flanks is on the involute that the tooth's thickness at the pitch circle gives."""
+    """Every place of the wire on the flanks of all teeth is on the involute that the tooth's thickness at the pitch
+    circle gives."""
     words = ["--module", module, "--teeth", teeth, "--pressure-angle", angle, "--shift", shift]
     result = run("gear", *words, "--tape", tmp_path / "gear.3b")
     assert result.exit_code == 0
@@ -69,6 +76,47 @@ def test_gear(run: Run, tmp_path: Path, module: float, teeth: int, angle: float,
             seen.add(int(atan2(y, x) % (2 * pi) / (2 * pi / teeth)))
     assert flanks > 8 * teeth and len(seen) == teeth
     assert 0 < worst < LIMIT
+
+
+@pytest.mark.parametrize(
+    ("words", "offset"),
+    [
+        (["--module", 2, "--teeth", 9], 0.1),
+        (["--module", 2, "--teeth", 20, "--bore", 12, "--keyway", 4, 13.8], 0.1),
+        (["--module", 0.3, "--teeth", 120], 0),
+        (["--module", 0.5, "--teeth", 30, "--pressure-angle", 14.5, "--shift", -0.1], 0),
+        (["--module", 1, "--teeth", 17, "--fillet", 0], 0.1),
+    ],
+)
+def test_a_gear_is_one_tooth(run: Run, tmp_path: Path, words: list[object], offset: float) -> None:
+    """The program has one tooth and REP: a board of 4 KiB stores it. The tape is the reference's, and it closes."""
+    teeth = words[3]
+    result = run("gear", *words, "--offset", offset, "--tape", tmp_path / "gear.3b")
+    assert "ROM with 8 KiB of RAM from a stored program" in result.stderr
+    program = result.stdout
+    assert program.count(f"REP {teeth},360/{teeth}\n") == 1
+    assert sum(line.split()[1:2] == ["GOSUB"] for line in program.splitlines()) == 2  # (the flanks of one tooth)
+    assert reference(program, drift=False).tape == (tmp_path / "gear.3b").read_bytes()
+    assert feed(program, "no-drift", 4).tape == (tmp_path / "gear.3b").read_bytes()
+    outline = tapes.read(str(tmp_path / "gear.3b")).stretches()[-1]
+    assert [sum(way) for way in zip(*(run_block(block).move for block in outline), strict=True)] == [0, 0]
+
+
+def test_a_gear_tooth_by_tooth(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a tab, and where the board has no room for REP, every tooth is in the program, and the tape is right."""
+    words = ["--module", 1, "--teeth", 12, "--offset", 0.1]
+    by_tooth = run("gear", *words, "--tab", 1)
+    assert "REP" not in by_tooth.stdout and "HOLD THE PART" in by_tooth.stdout
+
+    def small(text: str, rom: str, ram_kib: int) -> Fed:
+        """A board that has no room for a route: as the ROM says it."""
+        fed = feed(text, rom, ram_kib)
+        return replace(fed, error=ErrorLine(MEMORY_FULL, None)) if "REP" in text else fed
+
+    monkeypatch.setattr(job, "feed", small)
+    again = run("gear", *words)
+    assert "REP" not in again.stdout and again.stdout.count("CUT") > 12
+    assert "1 closed contour ends where it begins" in again.stderr
 
 
 def test_gear_with_a_keyway(run: Run, tmp_path: Path) -> None:

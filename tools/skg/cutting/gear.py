@@ -116,14 +116,15 @@ class Gear:
         half.append(flank)
         other = [_mirrored(edge).reversed() for edge in reversed(half)]
         pitch = 2 * pi / self.teeth
+        next_half = [_turned(edge, pitch) for edge in half]
         edges: list[Edge] = []
         for tooth in range(self.teeth):
             turned = tooth * pitch
             top = Edge(polar((0, 0), ra, -tip), polar((0, 0), ra, tip), (0.0, 0.0), 2 * tip)
             gap = pitch - 2 * angle
             root = Edge(polar((0, 0), rf, angle), polar((0, 0), rf, pitch - angle), (0.0, 0.0), gap)
-            edges += [_turned(edge, turned) for edge in (*half, top, *other, *([root] if gap > 1e-9 else []))]
-        return Contour(tuple(edges), True)
+            edges += [_turned(edge, turned) for edge in (top, *other, *([root] if gap > 1e-9 else []), *next_half)]
+        return Contour(tuple(edges), True, copies=self.teeth)
 
     def _bore(self) -> Contour:
         radius = self.bore / 2

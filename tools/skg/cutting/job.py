@@ -112,6 +112,10 @@ def make(
         raise UserError(f"no contour is left to cut: {left[0].name}: {left[0].why}")
     program = Program(routes, title, fillets)
     text, is_stored, fed = _through(program, settings)
+    one_by_one = [route.one_by_one() for route in routes]
+    if fed.error and one_by_one != routes:
+        # A tooth may be too much for the board's memory of a route, which REP needs.
+        return make(one_by_one, title, factor, settings, fillets, left)
     if fed.error and fillets:
         # A rounded corner without room to round it may still go as an arc.
         return make(routes, title, factor, settings, False, left)
@@ -122,6 +126,8 @@ def make(
         return make(helped, title, factor, settings, False, left + more)
     tape = tapes.parse(fed.tape, title)
     checked = check(tape, routes, settings.is_without_drift)
+    if checked.faults and one_by_one != routes:
+        return make(one_by_one, title, factor, settings, fillets, left)
     if checked.faults:
         helped, more = _helped(routes, {fault.route for fault in checked.faults}, factor, settings)
         if helped == routes and settings.small == "leave":

@@ -75,7 +75,7 @@ class Way:
 
     `offset` is R for this direction. `into`, `out`: how the wire comes from its start hole and goes to one; without
     them a closed run begins and ends at the start hole of its route (BACK), an open one at its own ends. `stop`: what
-    the operator is to do before it, the machine stops for it; empty: nothing.
+    the operator is to do before it, the machine stops for it; empty: nothing. `copies`: see `Contour`.
     """
 
     edges: tuple[Edge, ...]
@@ -83,6 +83,7 @@ class Way:
     into: Lead | None = None
     out: Lead | None = None
     stop: str = ""
+    copies: int = 1
 
     @property
     def is_closed(self) -> bool:
@@ -143,7 +144,9 @@ class PlannedContour:
             for at, r in enumerate(passes):
                 falls = "IS" if at == 1 and len(passes) > 1 else ""
                 stop = falls and ("TAKE THE SLUG OUT" if self.is_opening else "THE PART IS FREE")
-                run = self._way(at, Way(edges, r, lead, lead, stop))
+                # (what is repeated would have the lead too)
+                copies = 1 if lead or self.part else self.contour.copies
+                run = self._way(at, Way(edges, r, lead, lead, stop, copies))
                 yield _backwards(run) if at % 2 else run
 
     def _lead(self, hole: XY, edge: Edge, at_end: bool = False) -> Lead:
@@ -183,7 +186,11 @@ class PlannedContour:
         if into and out:
             into = replace(into, entry=edges[0].start, is_arc=into.is_arc and distance(edges[0].start, first) < _SQUARE)
             out = replace(out, entry=edges[-1].end, is_arc=out.is_arc and distance(edges[-1].end, last) < _SQUARE)
-        return replace(run, edges=edges, offset=0.0, into=into, out=out)
+        return replace(run, edges=edges, offset=0.0, into=into, out=out, copies=1)
+
+    def one_by_one(self) -> PlannedContour:
+        """The same, every copy with edges of its own in the program."""
+        return replace(self, contour=replace(self.contour, copies=1))
 
 
 def _backwards(run: Way) -> Way:
@@ -298,7 +305,7 @@ def _entries_on_curve(contour: Contour) -> Iterator[tuple[Contour, float]]:
         yield replace(contour, edges=turned), 0.0
     for node in sorted(inner, key=lambda k: abs(2 * k - len(edge.nodes))):
         before, after = split_curve(edge, node)
-        yield replace(contour, edges=(after, *turned[1:], before)), 0.0
+        yield replace(contour, edges=(after, *turned[1:], before), copies=1), 0.0
 
 
 def _is_long(contour: Contour, tab: float) -> bool:
@@ -310,7 +317,10 @@ def _entries(contour: Contour, tab: float, widest: float) -> Iterator[tuple[Cont
     """Where a closed contour may begin: in its longest lines, else in its longest arcs, else on a curve.
 
     The tab lies before the entry, on the same edge where there is one that is long enough. `widest`: the largest R.
+    Copies of a tooth are entered where one of them begins: there the next one goes on.
     """
+    if contour.copies > 1 and not tab:
+        yield contour, 0.0
     ranked = sorted(
         (at for at, edge in enumerate(contour.edges) if not edge.nodes),
         key=lambda at: (not contour.edges[at].is_line, -contour.edges[at].length),

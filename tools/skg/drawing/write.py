@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import degrees, pi, tan
 from typing import NamedTuple
 
@@ -125,6 +125,13 @@ def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
         at += 1
 
 
+def _repeated(run: Way, fillets: bool) -> Iterator[_Item | Edge | str]:
+    """The first of the copies that a run has, and REP: each next one begins where the one before it ends."""
+    first = run.edges[: len(run.edges) // run.copies]
+    yield from _items(replace(run, edges=first), fillets)
+    yield f"REP {run.copies},360/{run.copies}"
+
+
 def _into(lead: Lead, r: float) -> Iterator[float | _Item]:
     """From the start hole to the contour: straight pieces are the wire's own path, without an offset."""
     yield 0.0
@@ -161,7 +168,7 @@ def _pieces(route: PlannedContour, fillets: bool) -> Iterator[str | float | _Ite
             here = None
         parts = [
             *(_into(run.into, run.offset) if run.into else ()),
-            *_items(run, fillets),
+            *(_items(run, fillets) if run.copies == 1 else _repeated(run, fillets)),
             *(_out(run.out) if run.out else ()),
         ]
         for part in parts:
