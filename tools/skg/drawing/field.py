@@ -109,11 +109,9 @@ class Field:
         (Its corners may lie on its neighbours, and a smaller one that lies in it may hold the place.) One that crosses
         others takes something away where it does: it is looked at where an odd number of them lies around it.
         """
-        sizes, inner = self._sizes(), [self._inner(at) for at in range(len(self.contours))]
-        owners = [at for at, places in enumerate(inner) for _ in places]
-        around = self.around([place for places in inner for place in places], owners)
-        found = [0] * len(inner)
-        for at, others in zip(owners, around, strict=True):
+        sizes, (owners, places) = self._sizes(), self._inner()
+        found = [0] * len(self.contours)
+        for at, others in zip(owners, self.around(places, owners), strict=True):
             depth = sum(sizes[other] >= sizes[at] for other in others)
             found[at] = max(found[at], depth, key=lambda one: (one % 2, one))
         return found
@@ -126,21 +124,36 @@ class Field:
         # (each begins at 0, 0: what comes to it from the one before is nothing)
         return np.abs(np.add.reduceat(turned, self._first[:-1])) / 2 if len(x) else x
 
-    def _inner(self, at: int) -> list[XY]:
-        """Four places inside a closed contour: in the quarters of the widest stretches across it, at some heights. An
-        open one's start."""
-        points = self._points[self._first[at] : self._first[at + 1]]
-        low, high = points[:, 1].min(), points[:, 1].max()
-        (x1, y1), (x2, y2) = points[:-1].T, points[1:].T
-        found: list[XY] = []
-        for part in _ACROSS if self.contours[at].is_closed else ():
+    def _inner(self) -> tuple[list[int], list[XY]]:
+        """Four places inside each closed contour: in the quarters of the widest stretches across it, at some heights. An
+        open one's start. Whose the places are comes first."""
+        counts = np.diff(self._first)
+        closed = np.array([contour.is_closed for contour in self.contours], bool)
+        owner = np.repeat(np.arange(len(counts)), counts)[:-1]
+        (x1, y1), (x2, y2) = self._points[:-1].T, self._points[1:].T
+        # (no chord leads from one contour to the next)
+        is_chord = closed[owner]
+        is_chord[self._first[1:-1] - 1] = False
+        low, high = (of.reduceat(self._points[:, 1], self._first[:-1]) for of in (np.minimum, np.maximum))
+        owners, places = [], []
+        for part in _ACROSS:
             y = low + part * (high - low)
-            across = np.flatnonzero((y1 > y) != (y2 > y))
-            if len(across):
-                x = np.sort(x1[across] + (y - y1[across]) / (y2[across] - y1[across]) * (x2[across] - x1[across]))
-                widest = 2 * int(np.argmax(x[1::2] - x[::2]))
-                found += [(float(x[widest] + aside * (x[widest + 1] - x[widest])), float(y)) for aside in (0.25, 0.75)]
-        return found or [self.contours[at].edges[0].start]
+            across = np.flatnonzero(is_chord & ((y1 > y[owner]) != (y2 > y[owner])))
+            of, up = owner[across], y[owner[across]]
+            x = x1[across] + (up - y1[across]) / (y2[across] - y1[across]) * (x2[across] - x1[across])
+            x, of = x[np.lexsort((x, of))], of[::2]
+            wide = x[1::2] - x[::2]
+            # The first of the widest stretches of each.
+            order = np.lexsort((-wide, of))
+            numbers, first = np.unique(of[order], return_index=True)
+            widest = order[first]
+            for aside in (0.25, 0.75):
+                owners.append(numbers)
+                places.append(np.column_stack((x[2 * widest] + aside * wide[widest], y[numbers])))
+        whose = np.concatenate(owners)
+        without = np.setdiff1d(np.arange(len(counts)), whose)
+        starts = [self.contours[at].edges[0].start for at in without.tolist()]
+        return [*whose.tolist(), *without.tolist()], [*map(tuple, np.concatenate(places).tolist()), *starts]
 
     def around(self, places: Sequence[XY], on: Sequence[int] = ()) -> list[list[int]]:
         """The closed contours around each of some places, by their numbers; `on`: those that the places lie on."""
