@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 from math import cos, sin
 
@@ -22,10 +23,12 @@ from skg.drawing.plan import Lead, PlannedContour, split_at_end
 from skg.errors import UserError
 from skg.piece import Piece
 from skg.plane import XY
-from skg.tape.block import Block, Tape, micrometres
-from skg.tape.controller import run_block, trace_array
+from skg.tape.block import Tape, micrometres
+from skg.tape.columns import columns_of
+from skg.tape.controller import trace_array
+from skg.tape.laid import Laid
 from skg.tape.moves import closed_moves
-from skg.tape.placed import Placed
+from skg.tape.walk import walk
 
 #: The controller may go this far from where the drawing has the wire, mm.
 LIMIT = 0.003
@@ -61,17 +64,14 @@ class Crossing:
 
 @dataclass(frozen=True)
 class Threading:
-    """One stretch of cutting, from where the wire is threaded: its pieces (mm) and whose it is."""
+    """One stretch of cutting, from where the wire is threaded: its pieces (µm), how far the controller's steps go aside
+    of each (µm), and whose it is. `length`: what the wire travels, mm."""
 
     route: int
-    pieces: tuple[Placed, ...]
-    off_curve: tuple[float, ...]
+    pieces: Laid
+    off_curve: Floats
+    length: float
     gap: tuple[int, int]
-
-    @property
-    def length(self) -> float:
-        """What the wire travels, mm."""
-        return sum(piece.length for piece in self.pieces) / 1000
 
 
 @dataclass(frozen=True)
@@ -89,29 +89,23 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
 
     A tape whose stops are not those of the routes is a `UserError`.
     """
-    stretches = tape.stretches()
     owners = [at for at, route in enumerate(routes) for first, run in enumerate(route.runs()) if not first or run.stop]
-    if len(stretches) != 2 * len(owners) - 1:
-        raise UserError(f"the tape has {len(stretches) - 1} stops, expected {2 * len(owners) - 2}")
-    at = micrometres(routes[0].start[0]), micrometres(routes[0].start[1])
+    if len(tape.bounds) != 2 * len(owners) - 1:
+        raise UserError(f"the tape has {len(tape.bounds) - 1} stops, expected {2 * len(owners) - 2}")
+    columns = columns_of(tape)
+    walked = walk(tape, np.arange(len(columns)))
+    home = [micrometres(ordinate) for ordinate in routes[0].start]
+    places = np.cumsum([home, *(walked.moves if is_without_drift else closed_moves(tape))], axis=0)
+    laid = Laid.between(tape.blocks, columns, places)
+    lengths = np.where(
+        laid.is_line, _far(laid.starts, laid.ends), _far(laid.starts, laid.centres) * np.abs(laid.sweeps)
+    )
     cuts = []
-    for number, (blocks, (first, last)) in enumerate(zip(stretches, tape.bounds, strict=True)):
-        outcomes = [run_block(block) for block in blocks]
-        moves = [outcome.move for outcome in outcomes] if is_without_drift else closed_moves(tape)[first:last].tolist()
-        begin = at
-        pieces, at = _placed(blocks, moves, at)
-        if number % 2 == 0:
-            gap = at[0] - begin[0], at[1] - begin[1]
-            cuts.append(Threading(owners[number // 2], pieces, tuple(one.off_curve for one in outcomes), gap))
+    for owner, (first, last) in zip(owners, tape.bounds[::2], strict=True):
+        gap = tuple((places[last] - places[first]).tolist())
+        off, length = walked.off_curve[first:last], float(lengths[first:last].sum()) / 1000
+        cuts.append(Threading(owner, laid[first:last], off, length, gap))
     return cuts
-
-
-def _placed(blocks: list[Block], moves: list[XY], at: XY) -> tuple[tuple[Placed, ...], XY]:
-    placed = []
-    for block, (dx, dy) in zip(blocks, moves, strict=True):
-        placed.append(Placed.between(block, at, (at[0] + dx, at[1] + dy)))
-        at = placed[-1].end
-    return tuple(placed), at
 
 
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
@@ -149,12 +143,6 @@ def _parts(route: PlannedContour) -> tuple[tuple[Edge, ...], ...]:
 def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
     """Lines and arcs, and the samples of curves."""
     return (np.array(edge.samples) if edge.nodes else edge for edge in edges)
-
-
-def _millimetres(piece: Placed) -> Piece:
-    start, end = ((x / 1000, y / 1000) for x, y in (piece.start, piece.end))
-    centre = piece.centre and (piece.centre[0] / 1000, piece.centre[1] / 1000)
-    return Piece(start, end, centre, piece.sweep)
 
 
 def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
@@ -198,9 +186,10 @@ class _Path:
     """
 
     def __init__(self, cuts: list[Threading]) -> None:
-        self.placed = [piece for cut in cuts for piece in cut.pieces]
-        self.pieces = Pieces((_millimetres(piece), cut.route) for cut in cuts for piece in cut.pieces)
-        self.aside = np.array([off for cut in cuts for off in cut.off_curve], float) / 1000
+        self.placed = Laid.joined([cut.pieces for cut in cuts])
+        owners = np.repeat([cut.route for cut in cuts], [len(cut.pieces) for cut in cuts])
+        self.pieces = Pieces.of_tape(self.placed, owners)
+        self.aside = np.concatenate([cut.off_curve for cut in cuts]) / 1000
 
     def doubtful(self, off: Floats, total: Floats) -> Whole:
         """Which of some places, as far off as this without the steps and with them, are too far off by these alone."""
@@ -223,15 +212,24 @@ def _beside(
     worst = 0.0
     is_open = np.array([not route.contour.is_closed for route in routes])
 
+    @cache
+    def leads() -> Pieces:
+        """The ways between start holes and contours."""
+        return Pieces((piece, at) for at, route in enumerate(routes) for piece in _lead_pieces(route))
+
+    def off_leads(places: Floats, owners: Whole) -> Floats:
+        """How far places are from the ways of their routes."""
+        return leads().nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
+
     def off_by(places: Floats, owners: Whole, wanted: Floats, near: Nearest) -> tuple[Floats, Floats]:
         """How far places are from where they should be, and which run into their own contour."""
         off = np.abs(near.own[:, None] - wanted).min(1)
         into = near.own < wanted.min(1) - LIMIT
         # The wire of an open contour begins on it and goes aside.
         begins = np.flatnonzero(into & is_open[owners])
-        into[begins] = _off_leads(places[begins], owners[begins], routes) > LIMIT
+        into[begins] = off_leads(places[begins], owners[begins]) > LIMIT
         doubtful = np.flatnonzero((off > _USUAL) & ~into)
-        off[doubtful] = np.minimum(off[doubtful], _off_leads(places[doubtful], owners[doubtful], routes))
+        off[doubtful] = np.minimum(off[doubtful], off_leads(places[doubtful], owners[doubtful]))
         doubtful = doubtful[off[doubtful] > _USUAL]
         off[doubtful] = np.minimum(
             off[doubtful], _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful])
@@ -269,12 +267,6 @@ def _first_of_each(owners: Whole, mask: np.ndarray) -> Iterator[tuple[int, int]]
 
 def _xy(place: Floats) -> XY:
     return float(place[0]), float(place[1])
-
-
-def _off_leads(places: Floats, owners: Whole, routes: list[PlannedContour]) -> Floats:
-    """How far places are from the ways between start holes and contours."""
-    leads = Pieces((piece, at) for at in np.unique(owners).tolist() for piece in _lead_pieces(routes[at]))
-    return leads.nearest(places, owners, 2 * LIMIT).own
 
 
 def _far(places: Floats, others: Floats) -> Floats:

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from skg.drawing.field import Floats
 from skg.piece import Piece
+from skg.tape.columns import directions, hypots
+from skg.tape.laid import Laid
 
 Whole = NDArray[np.int64]
 
@@ -41,17 +43,22 @@ class Pieces:
     """
 
     def __init__(self, pieces: Iterable[tuple[Piece | Floats, int]]) -> None:
-        tables = [np.empty((0, 11))]
-        rows: list[tuple[float, ...]] = []
-        for piece, owner in pieces:
-            if isinstance(piece, Piece):
-                rows.append(_row(piece, owner))
-            if rows and (len(rows) == _PLACES or not isinstance(piece, Piece)):
-                tables.append(np.array(rows))
-                rows.clear()
-            if not isinstance(piece, Piece):
-                tables.append(_chords(piece, owner))
-        table = np.concatenate([*tables, np.array(rows, float).reshape(-1, 11)])
+        self._keep(_table(pieces))
+
+    @classmethod
+    def of_tape(cls, laid: Laid, owners: Whole) -> Pieces:
+        """The blocks of a tape, mm."""
+        found = cls.__new__(cls)
+        is_arc = ~laid.is_line
+        table = np.zeros((len(laid), 11))
+        table[:, 0:2], table[:, 2:4], table[:, 9] = laid.starts / 1000, laid.ends / 1000, owners
+        table[is_arc, 4:6], table[is_arc, 8] = laid.centres[is_arc] / 1000, laid.sweeps[is_arc]
+        out = table[is_arc, 0:2] - table[is_arc, 4:6]
+        table[is_arc, 6], table[is_arc, 7] = hypots(*out.T), directions(out)
+        found._keep(table)
+        return found
+
+    def _keep(self, table: Floats) -> None:
         self.start, self.end, self.centre = table[:, 0:2], table[:, 2:4], table[:, 4:6]
         self.radius, self.first, self.sweep = table[:, 6], table[:, 7], table[:, 8]
         self.owner, self.is_chord = table[:, 9].astype(np.int64), table[:, 10] > 0
@@ -198,6 +205,21 @@ class _Grid:
         """The pieces that stand there."""
         offset = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
         return self.which[np.repeat(first, counts) + offset]
+
+
+def _table(pieces: Iterable[tuple[Piece | Floats, int]]) -> Floats:
+    """The rows of pieces and owners."""
+    tables = [np.empty((0, 11))]
+    rows: list[tuple[float, ...]] = []
+    for piece, owner in pieces:
+        if isinstance(piece, Piece):
+            rows.append(_row(piece, owner))
+        if rows and (len(rows) == _PLACES or not isinstance(piece, Piece)):
+            tables.append(np.array(rows))
+            rows.clear()
+        if not isinstance(piece, Piece):
+            tables.append(_chords(piece, owner))
+    return np.concatenate([*tables, np.array(rows, float).reshape(-1, 11)])
 
 
 def _once(*rows: Whole) -> Whole:

@@ -125,8 +125,8 @@ class Field:
         return np.abs(np.add.reduceat(turned, self._first[:-1])) / 2 if len(x) else x
 
     def _inner(self) -> tuple[list[int], list[XY]]:
-        """Four places inside each closed contour: in the quarters of the widest stretches across it, at some heights. An
-        open one's start. Whose the places are comes first."""
+        """Four places inside each closed contour: in the quarters of the widest stretches across it, at some heights.
+        An open one's start. Whose the places are comes first."""
         counts = np.diff(self._first)
         closed = np.array([contour.is_closed for contour in self.contours], bool)
         owner = np.repeat(np.arange(len(counts)), counts)[:-1]
