@@ -120,7 +120,7 @@ def outline(piece: Piece, scale: float = 1.0) -> Outline:
     return _path([piece], scale)
 
 
-class _Taken:
+class _TakenBoxes:
     """What is taken of a page by boxes, mm."""
 
     def __init__(self) -> None:
@@ -172,7 +172,7 @@ class Picture:
         }
         self.axes.axis("off")
         # The page's lower left corner on the part, mm; what block numbers cover; how many of them found no room.
-        self.corner, self.taken, self.left_out = (left, bottom), _Taken(), 0
+        self.corner, self.taken, self.left_out = (left, bottom), _TakenBoxes(), 0
         self._rulers(title)
 
     def on_paper(self, millimetres: float) -> float:
