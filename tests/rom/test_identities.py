@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from romhelp import ROM, Board, fault
 
@@ -23,7 +23,7 @@ circles = st.builds("({}:{})".format, points, radii)
 lines = st.builds("(X:{}#{})".format, thousandths, angles)
 elements = st.one_of(thousandths.map("({})".format), points, circles, lines)
 
-quick = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+quick = settings(max_examples=60)
 
 
 @cache

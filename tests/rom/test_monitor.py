@@ -222,7 +222,7 @@ STATEMENTS = st.one_of(
 )
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(STATEMENTS)
 def test_a_listed_line_is_the_same_line(statement: str) -> None:
     """LIST's text, typed again, gives the same bytes in memory; a listed line that has grown too long is refused."""

@@ -6,7 +6,7 @@ import sys
 from itertools import accumulate
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from test_tape import blocks
 from toolhelp import CAD_TAPE
@@ -35,7 +35,6 @@ TURN = "B343B706B706GYL1\r\nB0B343B343GYSR1\r\nB343B706B706GYL3\r\nB343B0B343GXL
         Block(30, 0, 121, "Y", "NR1"),
     ]
 )
-@settings(deadline=None)
 def test_columns_say_what_blocks_say(several: list[Block]) -> None:
     columns = Columns.of(several)
     assert columns.starts.tolist() == [list(block.start) for block in several]
@@ -123,7 +122,6 @@ def test_work_for_each_block() -> None:
 
 @given(st.lists(st.builds(Block, *[st.integers(0, 30)] * 2, st.integers(0, 150), st.sampled_from("XY"),
                           st.sampled_from(CODES)), min_size=1), st.lists(blocks(), max_size=5))  # fmt: skip
-@settings(deadline=None)
 def test_what_is_plainly_sound_is_sound(any_: list[Block], sound: list[Block]) -> None:
     """On any block: nothing that is wrong is passed over; and of sound ones it is most."""
     plainly = Columns.of([*any_, *sound]).is_plainly_sound.tolist()

@@ -131,7 +131,7 @@ def arcs(draw: st.DrawFn) -> tuple[Grid, Grid, bool, float]:
 
 
 @given(arcs())
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=500)
 def test_any_arc_ends_where_it_is_said_to(given_arc: tuple[Grid, Grid, bool, float]) -> None:
     start, end, clockwise, sweep = given_arc
     made = arc(start, end, clockwise, sweep > pi)

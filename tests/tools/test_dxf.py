@@ -343,7 +343,7 @@ STOPS_EARLY = [
 
 @given(st.lists(blocks(), min_size=1, max_size=8))
 @example(STOPS_EARLY)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_any_tape_draws(items: list[Block]) -> None:
     """Every block's ends and middle lie on the drawing that is made of it."""
     tape = tapes.parse(tapes.to_bytes(items))
@@ -359,7 +359,7 @@ def test_any_tape_draws(items: list[Block]) -> None:
 
 
 @given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0))), min_size=1, max_size=12), st.booleans())
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_written_as_drawn(items: list[Block | Stop], polylines: bool) -> None:
     """What is written piece by piece is the drawing that ezdxf makes entity by entity, and ezdxf finds it sound."""
     tape = tapes.Tape(

@@ -8,7 +8,7 @@ from math import hypot, pi
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from test_tape import blocks
 from toolhelp import CAD_TAPE, Run
@@ -99,7 +99,6 @@ def laid(tape: Tape) -> list[PlacedRoute]:
 
 
 @given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0)))), st.booleans())
-@settings(deadline=None)
 def test_round_trip(items: list[Block | Stop], mills: bool) -> None:
     tape = tapes.parse(tapes.to_bytes(items))
     text = gcode.write(tape, heights=(-1000, 5000) if mills else None, positions="programmed")

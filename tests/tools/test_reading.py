@@ -359,7 +359,7 @@ def test_no_outline_is_refused() -> None:
 
 
 @given(st.integers(0, 10**9))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_small_whole_numbers_thrown_together(seed: int) -> None:
     """Lines, arcs and circles between places of a small grid: touching, crossing, coincident, double, without length.
     Whatever is cut, no length is lost: what is cut is drawn, what is closed is closed, and what is left is told."""
@@ -558,7 +558,7 @@ def test_old_files() -> None:
 
 
 @given(st.data())
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_damaged_files(data: st.DataObject) -> None:
     """Lines lost, doubled or garbled: a drawing, or one line that says what is wrong; never anything else."""
     drawing = DAMAGED.splitlines(keepends=True)

@@ -87,7 +87,7 @@ def arcs(draw: st.DrawFn, smallest: int = 60, largest: int = 3000) -> tuple[tupl
 
 
 @given(arcs())
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=600)
 def test_arc_against_geometry(arc: tuple[tuple[int, int], float, int]) -> None:
     start, sweep, sense = arc
     radius, first = hypot(*start), atan2(start[1], start[0])
@@ -142,7 +142,7 @@ def test_every_pair_of_quadrants() -> None:
 
 
 @given(arcs(20, 300), st.booleans())
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_arc_against_slow_controller(arc: tuple[tuple[int, int], float, int], full: bool) -> None:
     start, sweep, sense = arc
     last = atan2(start[1], start[0]) + sense * sweep
@@ -152,7 +152,7 @@ def test_arc_against_slow_controller(arc: tuple[tuple[int, int], float, int], fu
 
 
 @given(st.integers(-400, 400), st.integers(-400, 400))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_line(dx: int, dy: int) -> None:
     if dx == dy == 0:
         return
@@ -169,7 +169,7 @@ def test_line(dx: int, dy: int) -> None:
 
 
 @given(arcs(20, 200), st.integers(-5, 5), st.integers(-5, 5))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_distance_from_the_path_with_drift(arc: tuple, dx: int, dy: int) -> None:
     start, _, sense = arc
     for block in (arc_block(start, (-start[0], -start[1]), sense), line_block(*start)):

@@ -191,7 +191,7 @@ def test_a_line_that_is_missing() -> None:
 
 @given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0))), min_size=1).filter(
     lambda items: any(isinstance(item, Block) for item in items)))  # fmt: skip
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_every_style_is_read_again(items: list[Block | Stop]) -> None:
     own = to_style(items, "punch")
     for style in STYLES:

@@ -36,7 +36,6 @@ def blocks(draw: st.DrawFn) -> Block:
 
 
 @given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0)))))
-@settings(deadline=None)
 def test_round_trip(items: list[Block | Stop]) -> None:
     data = tapes.to_bytes(items)
     tape, findings = tapes.scan(data)
@@ -46,7 +45,7 @@ def test_round_trip(items: list[Block | Stop]) -> None:
 
 
 @given(blocks())
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 def test_geometry_gives_the_block_again(block: Block) -> None:
     """The end that a block tells makes the same block again."""
     again = line_block(*block.move) if block.is_line else arc_block(block.start, block.end, block.sense)

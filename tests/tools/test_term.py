@@ -75,9 +75,10 @@ class Machine:
             with contextlib.suppress(OSError):
                 for byte in os.read(master, 1):
                     self.received.append(byte)
-                    self.answer(line, byte, master)
-                    if self.is_slow and select.select([master], [], [], 0)[0]:
+                    # (Before the echo: who waits for that has typed nothing ahead.)
+                    if self.is_slow and select.select([master], [], [], 0.005)[0]:
                         os.read(master, 64)
+                    self.answer(line, byte, master)
 
     def answer(self, line: bytearray, byte: int, master: int) -> None:
         if byte == 0x15:
