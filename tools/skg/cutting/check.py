@@ -97,9 +97,7 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     home = [micrometres(ordinate) for ordinate in routes[0].start]
     places = np.cumsum([home, *(walked.moves if is_without_drift else closed_moves(tape))], axis=0)
     laid = Laid.between(tape.blocks, columns, places)
-    lengths = np.where(
-        laid.is_line, _far(laid.starts, laid.ends), _far(laid.starts, laid.centres) * np.abs(laid.sweeps)
-    )
+    lengths = laid.lengths()
     cuts = []
     for owner, (first, last) in zip(owners, tape.bounds[::2], strict=True):
         gap = tuple((places[last] - places[first]).tolist())
