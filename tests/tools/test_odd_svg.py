@@ -54,6 +54,13 @@ def boxes(reading: Reading) -> list[Box]:
         ("<style>g .q{transform:translate(9px)} #a{transform:translate(7px)}</style>"
          "<g><rect id='a' class='q' width='5' height='5' style='transform:translate(30px,0)'/></g>",
          [(30, 95, 35, 100)]),
+        # A transform turns about its origin: lengths, parts of the view box, sides.
+        ('<rect width="5" height="10" transform="rotate(90)" transform-origin="20 30"/>', [(40, 85, 50, 90)]),
+        ('<rect width="5" height="10" style="transform:rotate(90deg);transform-origin:20% 30px"/>', [(40, 85, 50, 90)]),
+        ('<rect width="5" height="10" style="transform:scale(2);transform-origin:bottom left"/>',
+         [(0, 180, 10, 200)]),
+        ("<style>@media screen{.q{transform:translate(20px,0)}} @media print{.q{display:none}}</style>"
+         "<rect class='q' width='5' height='5'/>", [(20, 95, 25, 100)]),
         ('<circle cx="50" cy="50" r="10%"/>', [(40, 40, 60, 60)]),
         ('<ellipse cx="50" cy="50" rx="10"/>', [(40, 40, 60, 60)]),
         ('<rect x="1cm" y="10" width="10" height="5pt"/>', [(37.795276, 83.333333, 47.795276, 90)]),
@@ -102,6 +109,10 @@ def test_pages(size: str, expected: Box) -> None:
         ("<g id='g'><use href='#g'/></g>", "what it shows, #g, is part of itself"),
         ("<path d='M0 0 L 5 5 Q 3 X 4'/>", "cannot be read (ValueError)"),
         ("<rect width='5' height='5' transform='matrix(1 2)'/>", "cannot be read (tuple index out of range)"),
+        (
+            "<rect width='5' height='5' transform='scale(2)' style='transform-origin:1px 1px;transform-box:fill-box'/>",
+            "cannot be read (its transform-origin, 1px 1px, fill-box)",
+        ),
         ("<text>a</text>", "text, convert it to paths"),
     ],
 )
@@ -129,6 +140,10 @@ def test_what_is_kept_for_use_is_not_drawn(where: str) -> None:
          "1 entity on layer 0 drawn with dashes (stroke-dasharray), as at (10, 90): cut as it is"),
         ('<g fill="none">%s</g>',
          "1 shape on layer 0 drawn with neither line nor area, as at (10, 90): cut, there is nothing else"),
+        ("<style>rect[x]{stroke:red} a:hover{color:red}</style>%s",
+         "1 rule of the style sheet not understood, as rect[x]: passed over"),
+        ("<style>@media (min-width:9px){rect{fill:red}}</style>%s",
+         "1 rule of the style sheet not understood, as @media (min-width:9px): passed over"),
     ],
 )  # fmt: skip
 def test_what_is_guessed_is_said(content: str, note: str) -> None:

@@ -9,8 +9,10 @@ from xml.etree.ElementTree import Element
 #: Attributes that mean what the property of that name means.
 _PROPERTIES = (
     "display", "visibility", "opacity", "fill", "stroke", "stroke-width", "stroke-dasharray", "clip-path", "mask",
-    "transform",
+    "transform", "transform-origin", "transform-box",
 )  # fmt: skip
+#: Rules that hold under a condition: what stands before their braces, and in them.
+_CONDITIONAL = re.compile(r"@(media|supports|container|layer)\b([^{};]*)\{((?:[^{}]*\{[^{}]*\})*[^{}]*)\}")
 #: A selector's parts: a name, classes and ids.
 _COMPOUND = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
 
@@ -18,7 +20,7 @@ _COMPOUND = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
 @dataclass(frozen=True)
 class Style:
     """How an element is drawn, with what it has from those around it: fill, stroke, its width and dashes, visibility.
-    `width`: the line's, in the element's own pixels, 0 without a line."""
+    `origin` and `box`: what its transform turns about, and whose sides percentages there are of."""
 
     fill: str = "black"
     stroke: str = "none"
@@ -27,6 +29,8 @@ class Style:
     is_hidden: bool = False
     display: str = ""
     transform: str = ""
+    origin: str = ""
+    box: str = ""
     is_clear: bool = False
     is_clipped: bool = False
 
@@ -47,7 +51,10 @@ class StyleSheet:
     def __init__(self, text: str) -> None:
         #: Weight, selector (parts from the outside in), declarations.
         self.rules: list[tuple[tuple[int, int, int, int], list[str], dict[str, str]]] = []
+        #: Selectors and conditions of rules that would show something otherwise, but are not understood.
+        self.missed: list[str] = []
         text = re.sub(r"/\*.*?\*/|<!--|-->|@[\w-]+[^{};]*;", "", text, flags=re.DOTALL)
+        text = _CONDITIONAL.sub(self._under_condition, text)
         for selectors, declarations in re.findall(r"([^{}]+)\{([^{}]*)\}", text):
             for selector in selectors.split(","):
                 parts = selector.replace(">", " ").split()
@@ -56,7 +63,17 @@ class StyleSheet:
                     names = sum(part[0] not in "*.#" for part in parts)
                     weight = marks.count("#"), marks.count("."), names, len(self.rules)
                     self.rules.append((weight, parts, _declared(declarations)))
+                elif parts and _declared(declarations).keys() & set(_PROPERTIES):
+                    self.missed.append(" ".join(parts))
         self.rules.sort(key=lambda rule: rule[0])
+
+    def _under_condition(self, rule: re.Match[str]) -> str:
+        """What of such rules holds on a screen."""
+        if rule[1] == "media" and rule[2].strip() in ("screen", "all"):
+            return rule[3]
+        if (rule[1], rule[2].strip()) != ("media", "print"):
+            self.missed.append(f"@{rule[1]} {rule[2].strip()}")
+        return ""
 
     def style(self, element: Element, around: tuple[Element, ...], outer: Style) -> Style:
         """How an element is drawn; `around`: those that it stands in, `outer`: how the last of these is drawn."""
@@ -78,6 +95,8 @@ class StyleSheet:
             is_hidden=visibility in ("hidden", "collapse") if visibility else outer.is_hidden,
             display=told.get("display", ""),
             transform=told.get("transform", "").replace("none", ""),
+            origin=told.get("transform-origin", ""),
+            box=told.get("transform-box", ""),
             is_clear=re.fullmatch(r"0*\.?0*%?", told.get("opacity", "1")) is not None,
             is_clipped=any(told.get(name, "none") != "none" for name in ("clip-path", "mask")),
         )

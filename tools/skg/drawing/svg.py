@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import svgelements
 from ezdxf.math import BSpline, Vec3
 
-from skg.drawing.account import Content, Entity, said
+from skg.drawing.account import Content, Entity, counted, said
 from skg.drawing.contour import Edge
 from skg.drawing.shapes import conic, is_number, spline_edges
 from skg.drawing.stylesheet import Style, StyleSheet
@@ -36,6 +36,8 @@ _GROUPS = ("g", "a", "svg", "switch")
 _LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 _MODE = "{http://www.inkscape.org/namespaces/inkscape}groupmode"
 _LINK = "{http://www.w3.org/1999/xlink}href"
+#: Sides that a transform may turn about.
+_SIDES = {"left": "0", "top": "0", "center": "50%", "right": "100%", "bottom": "100%"}
 #: Groups within groups within groups; more shapes than this in all are no drawing.
 _DEPTH, _MOST = 300, 1_000_000
 #: A line that is wider than this is said, mm.
@@ -149,7 +151,7 @@ class SvgFile:
         view = replace(view, layer=layer, style=style, hidden=hidden, is_clipped=view.is_clipped or style.is_clipped)
         try:
             if style.transform:
-                view = replace(view, matrix=svgelements.Matrix(style.transform) * view.matrix)
+                view = replace(view, matrix=_transform(style, view.size) * view.matrix)
             if name in ("use", "svg"):
                 at = [_length(element.get(side, "0"), size) for side, size in zip("xy", view.size, strict=True)]
         except _UNREADABLE as error:
@@ -218,6 +220,19 @@ def _length(text: str, whole: float | None) -> float | None:
     if unit == "%":
         return None if whole is None else value / 100 * whole
     return value * (UNITS[unit] / PX if unit in UNITS else 16.0 if unit == "em" else 1.0)
+
+
+def _transform(style: Style, size: XY) -> svgelements.Matrix:
+    """An element's transform, which turns about its origin; `size`: that of the view box."""
+    words = style.origin.split()[:2] or ["0", "0"]
+    if words[0] in ("top", "bottom") or words[-1] in ("left", "right"):
+        words.reverse()
+    whole = [_length(_SIDES.get(word, word), side) for word, side in zip((words + ["center"])[:2], size, strict=True)]
+    if None in whole or style.box not in ("", "view-box"):
+        raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
+    x, y = whole
+    translate = svgelements.Matrix.translate
+    return translate(-x, -y) * svgelements.Matrix(style.transform) * translate(x, y)
 
 
 def _view_box(element: ElementTree.Element) -> tuple[float, float, float, float] | None:
@@ -355,6 +370,10 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
             clipped.append(account)
         if edges and style.width * sqrt(abs(one.view.matrix.determinant)) * px > _WIDE:
             wide.append(account)
+    if missed := file.sheet.missed:
+        content.notes.append(
+            f"{counted(len(missed), 'rule', 'rules')} of the style sheet not understood, as {missed[0]}: passed over"
+        )
     some = ("shape", "shapes")
     if not content.edges:
         for account, edges in unpainted:
