@@ -19,7 +19,6 @@ from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
-from skg.memory import with_rare_collector
 from skg.plane import XY
 
 
@@ -103,7 +102,6 @@ class Passes(click.ParamType):
     help="Feed, for the time.",
 )
 @click.option("--quiet", is_flag=True, help="No report.")
-@with_rare_collector()
 def command(
     file: str,
     output: str,

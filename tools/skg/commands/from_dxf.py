@@ -11,7 +11,6 @@ from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, layer_lines, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
-from skg.memory import with_rare_collector
 from skg.plane import XY
 
 
@@ -30,7 +29,6 @@ from skg.plane import XY
     help="How near FIT shall come to splines and ellipses.",
 )
 @click.option("--no-fillets", is_flag=True, help="Write rounded corners as circles, not as fillet radii.")
-@with_rare_collector()
 def command(
     file: str,
     output: str,

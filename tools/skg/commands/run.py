@@ -15,7 +15,7 @@ from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, without_mark, write_bytes
 from skg.machine.board import Board, BoardStopped
 from skg.machine.feeding import MEMORY_FULL, rest_of, too_large
-from skg.machine.roms import known_rom
+from skg.machine.roms import ROMS, known_rom
 from skg.rivals.languages import is_rival, translated
 from skg.tape.text import parse
 
@@ -34,7 +34,7 @@ def _answers(name: str | None) -> Iterator[str]:
 @click.option(
     "--rom",
     metavar="NAME|FILE",
-    help="The ROM: standard, no-drift, mill, drive, 8251, tty, or an image of your own, .bin or Intel .hex.  [default: "
+    help=f"The ROM: {', '.join(ROMS)}, or an image of your own, .bin or Intel .hex.  [default: "
     "standard; mill, and said, for a milling program]",
 )
 @click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")

@@ -40,14 +40,12 @@ _MEANING = {
 
 #: Of a contour with more edges than this the largest offset that fits is not looked for.
 _MANY = 2000
-#: What becomes of closed contours that the wire, beside them, has no room in.
-SMALL = ("refuse", "leave")
 
 
 @dataclass(frozen=True)
 class Settings:
-    """The board: its ROM ("no-drift", "standard") and RAM (KiB); the feed, mm/min; `small`: one of `SMALL`, or empty
-    where nobody is asked."""
+    """The board: its ROM ("no-drift", "standard") and RAM (KiB); the feed, mm/min; `small`: whether to "refuse" or to
+    "leave" contours that the wire has no room beside, empty where nobody is asked."""
 
     rom: str = "no-drift"
     ram_kib: int = 8
@@ -112,8 +110,7 @@ def make(
         raise UserError(f"no contour is left to cut: {left[0].name}: {left[0].why}")
     program = Program(routes, title, fillets)
     text, is_stored, fed = _through(program, settings)
-    one_by_one = [route.one_by_one() for route in routes]
-    if fed.error and one_by_one != routes:
+    if fed.error and (one_by_one := _one_by_one(routes)):
         # A tooth may be too much for the board's memory of a route, which REP needs.
         return make(one_by_one, title, factor, settings, fillets, left)
     if fed.error and fillets:
@@ -126,7 +123,7 @@ def make(
         return make(helped, title, factor, settings, False, left + more)
     tape = tapes.parse(fed.tape, title)
     checked = check(tape, routes, settings.is_without_drift)
-    if checked.faults and one_by_one != routes:
+    if checked.faults and (one_by_one := _one_by_one(routes)):
         return make(one_by_one, title, factor, settings, fillets, left)
     if checked.faults:
         helped, more = _helped(routes, {fault.route for fault in checked.faults}, factor, settings)
@@ -137,6 +134,13 @@ def make(
             return make(helped, title, factor, settings, fillets, left + more)
     _refuse(checked, routes, factor, settings)
     return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings, left)
+
+
+def _one_by_one(routes: list[PlannedContour]) -> list[PlannedContour]:
+    """The routes with every copy of a tooth written out; none where there are no copies."""
+    if all(route.contour.copies == 1 for route in routes):
+        return []
+    return [route.one_by_one() for route in routes]
 
 
 def _refused(program: Program, settings: Settings) -> set[int]:
