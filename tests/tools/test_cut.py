@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import time
+from itertools import pairwise
 from math import cos, hypot, pi, sin
 from pathlib import Path
 
@@ -233,6 +234,27 @@ def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_fr
     assert (opening.start == (0.0, 0.0)) == is_from_centre
     assert Point(0, 0).buffer(10.001, quad_segs=400).covers(lead)
     assert lead.distance(Point(inner)) > radius + 0.1 - 1e-9
+
+
+def test_everyone_who_is_cut_into_is_named(run: Run, tmp_path: Path) -> None:
+    """Four strips nearer to each other than the wire is wide, and a pin that pokes 4 um into its way."""
+    page = drawing()
+    for at in range(4):
+        polygon([(4.15 * at, 0), (4.15 * at + 4, 0), (4.15 * at + 4, 9), (4.15 * at, 9)], page)
+    polygon([(2.013, 9.196), (3, 12), (1, 12)], page)
+    told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--lead", 0.5).stderr
+    pairs = re.findall(r"(?:contour |, |: )(\d) (?:comes \S+ mm(?: or more)? )?into (?:contour )?(\d)", told)
+    numbers = {place: str(at) for at, place in enumerate(_bottoms(told), 1)}
+    strips = [numbers[at] for at in range(4)]
+    neighbours = {frozenset(two) for two in pairwise(strips)} | {frozenset((strips[0], numbers[4]))}
+    assert {frozenset(two) for two in pairs} == neighbours and len(pairs) == 8, told
+    assert "comes 0.004 mm into" in told and told.count("comes 0.05 mm into") == 3
+
+
+def _bottoms(told: str) -> list[int]:
+    """Which of the strips (4: the pin) each start hole is at."""
+    holes = re.findall(r"\((\S+), (\S+)\)", told.split("start holes: ")[1].splitlines()[0])
+    return [4 if float(y) > 9.5 else min(3, int(float(x) / 4.15)) for x, y in holes]
 
 
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:

@@ -13,10 +13,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
-from math import cos, sin
+from math import cos, hypot, sin
 
 import numpy as np
 
+from skg.cutting.crossing import Crossing, crossings
 from skg.cutting.near import Floats, Nearest, Pieces, Whole
 from skg.drawing.contour import Edge
 from skg.drawing.plan import Lead, PlannedContour, split_at_end
@@ -50,16 +51,6 @@ class Misfit:
     off: float
     is_into: bool = False
     is_missed: bool = False
-
-
-@dataclass(frozen=True)
-class Crossing:
-    """The wire of one route comes into another's contour by `depth` mm."""
-
-    route: int
-    other: int
-    place: XY
-    depth: float
 
 
 @dataclass(frozen=True)
@@ -206,7 +197,7 @@ def _beside(
     """Whether every place of the wire lies as far beside its contour as it should."""
     wire = path.pieces
     faults: dict[int, Misfit] = {}
-    crossings: dict[int, Crossing] = {}
+    near_others: list[tuple[Whole, Whole]] = []
     worst = 0.0
     is_open = np.array([not route.contour.is_closed for route in routes])
 
@@ -234,10 +225,13 @@ def _beside(
         )
         return off, into
 
-    for which, part in wire.batches(_spacing(wire, widest), 2):
+    spacing = _spacing(wire, widest)
+    # Between two places the wire may be as much nearer to a corner.
+    slack = hypot(widest, spacing / 2) - widest + LIMIT if widest else 0.0
+    for which, part in wire.batches(spacing, 2):
         places, owners = wire.at(which, part), wire.owner[which]
         wanted = np.abs(offsets)[owners]
-        near = contours.nearest(places, owners, widest + 2 * LIMIT)
+        near = contours.nearest(places, owners, widest + slack + 2 * LIMIT)
         off, into = off_by(places, owners, wanted, near)
         total = off + path.aside[which]
         for at in np.unique(which[path.doubtful(off, total)]).tolist():
@@ -248,12 +242,13 @@ def _beside(
         for owner, at in _first_of_each(owners, (total > LIMIT) | into):
             misses = abs(wanted[at].min() - near.own[at]) if into[at] else total[at]
             faults.setdefault(owner, Misfit(owner, _xy(places[at]), float(misses), bool(into[at])))
-        deep = wanted.min(1) - near.other
-        for owner, at in _first_of_each(owners, deep > LIMIT):
-            other = int(contours.owner[near.other_at[at]])
-            crossings.setdefault(owner, Crossing(owner, other, _xy(places[at]), float(deep[at])))
+        close = np.flatnonzero(near.other < wanted.min(1) + slack)
+        near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
         worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
-    return list(faults.values()), list(crossings.values()), worst
+    empty = np.empty(0, np.int64)
+    some, others = (np.concatenate(found) for found in zip((empty, empty), *near_others, strict=True))
+    least = np.abs(offsets).min(1)
+    return list(faults.values()), crossings(wire, np.unique(some), contours, others, least, LIMIT), worst
 
 
 def _first_of_each(owners: Whole, mask: np.ndarray) -> Iterator[tuple[int, int]]:

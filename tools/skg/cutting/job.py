@@ -22,6 +22,8 @@ from skg.tape.simulation import duration
 
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
+#: So many pairs of contours it names of which one is cut into by the other's wire.
+_PAIRS = 100
 #: No contour takes fewer bytes of the board's memory: the lines of its REM, FROM and CUT.
 _LEAST_STORED = 24
 #: What the errors of a route mean (language.md, section 6), and what to do.
@@ -331,11 +333,16 @@ def report(job: Job, factor: float) -> list[str]:
     lines += _corners(routes, factor)
     for crossing in job.checked.crossings[:_PLACES]:
         lines.append(
-            f"take care: the cut of contour {crossing.route + 1} comes {short(crossing.depth)} mm into contour "
-            f"{crossing.other + 1} at {_in_file(crossing.place, factor)}"
+            f"take care: the cut of contour {crossing.route + 1} comes {short(crossing.depth)} mm"
+            f"{' or more' * crossing.is_through} into contour {crossing.other + 1} at "
+            f"{_in_file(crossing.place, factor)}"
         )
-    if len(job.checked.crossings) > _PLACES:
-        lines.append(f"and {len(job.checked.crossings) - _PLACES} more such places")
+    if more := job.checked.crossings[_PLACES:]:
+        lines.append(
+            f"take care: {counted(len(more), 'more cut')} into other contours: "
+            + ", ".join(f"{one.route + 1} into {one.other + 1}" for one in more[:_PAIRS])
+            + " …" * (len(more) > _PAIRS)
+        )
     return lines
 
 
