@@ -236,6 +236,16 @@ def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_fr
     assert lead.distance(Point(inner)) > radius + 0.1 - 1e-9
 
 
+def test_a_lead_passes_no_thorn(run: Run, tmp_path: Path) -> None:
+    """One pokes to 0.05 mm from where the wire would come: a look here and there does not see it."""
+    page = drawing()
+    polygon([(0, 0), (20, 0), (20, 15), (0, 15)], page)
+    for x, y in ((10, -1.475), (6, -1.475), (14, -1.475)):
+        polygon([(x + 0.05, y), (x + 1, y + 0.6), (x + 1, y - 0.6)], page)
+    told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--layer", "0").stderr
+    assert "take care" not in told and "4 outlines" in told, told
+
+
 def test_everyone_who_is_cut_into_is_named(run: Run, tmp_path: Path) -> None:
     """Four strips nearer to each other than the wire is wide, and a pin that pokes 4 um into its way."""
     page = drawing()

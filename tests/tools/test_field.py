@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections import Counter
 from math import cos, hypot, inf, pi, sin
 
 import numpy as np
@@ -15,7 +16,7 @@ from skg.drawing.contour import Contour, Edge
 from skg.drawing.field import Field, Look, in_step, nearest_order
 from skg.errors import UserError
 from skg.piece import Piece
-from skg.plane import XY
+from skg.plane import XY, polar
 
 
 def ring(points: list[XY]) -> Contour:
@@ -64,6 +65,31 @@ def test_looks(seed: int) -> None:
             hits += 1
             assert far == pytest.approx(true, abs=1e-9)
     assert hits > 100
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_how_far_a_disc_gets(seed: int) -> None:
+    """Up to there nothing is nearer than its radius, and there something is; also on whole numbers, along chords."""
+    contours, rng = thrown(seed, 40), random.Random(seed)
+    everything = shapely.union_all([LineString(one.points()) for one in contours])
+    looks = []
+    for _ in range(300):
+        place, angle, least = (rng.uniform(-5, 50), rng.uniform(-5, 50)), rng.uniform(-4, 4), rng.uniform(0, 2)
+        if rng.random() < 0.5:
+            place, angle, least = (rng.randint(0, 40) / 2, rng.randint(0, 40) / 2), rng.randint(0, 3) * pi / 2, 0.5
+        looks.append(Look(place, least + rng.choice((0.0, 2.0, 30.0)), angle, least, rng.choice((0.1, 0.25, 1.0))))
+    kinds = Counter()
+    for look, far in zip(looks, Field(contours).look(looks), strict=True):
+        until = min(far, look.reach)
+        first, last = (polar(look.place, along, look.angle) for along in (look.least, until))
+        if far == look.least:
+            assert everything.distance(Point(first)) <= look.wide + 1e-9
+        else:
+            assert everything.distance(LineString([first, last])) >= look.wide - 1e-9
+        if look.least < far < inf:
+            assert everything.distance(Point(last)) == pytest.approx(look.wide, abs=1e-9)
+        kinds[far == look.least, far == inf] += 1
+    assert len(kinds) == 3 and min(kinds.values()) > 20
 
 
 @pytest.mark.parametrize("seed", range(3))

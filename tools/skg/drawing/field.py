@@ -30,18 +30,20 @@ _ARCS = 1000
 _BOXES = 1000
 
 Floats = NDArray[np.float64]
-Measure = Callable[[Floats, Floats, Floats, Floats, Floats], Floats]
+Measure = Callable[[Floats, Floats, Floats, Floats, Floats, Floats], Floats]
 T = TypeVar("T")
 
 
 class Look(NamedTuple):
     """A look from a place for the nearest contour within a reach, mm; with an `angle` (radians) for the next one that
-    way, where what is nearer than `least` is none."""
+    way, where what is nearer than `least` is none. `wide`: how far from `least` on something that is so wide on each
+    side gets that way before it touches one."""
 
     place: XY
     reach: float
     angle: float | None = None
     least: float = 0.0
+    wide: float = 0.0
 
 
 class Field:
@@ -68,8 +70,8 @@ class Field:
     def look(self, looks: Sequence[Look]) -> list[float]:
         """What each of some looks finds, mm; infinite when there is nothing within its reach."""
         found = np.full(len(looks), inf)
-        for is_ahead, measure in ((False, _beside), (True, _ahead)):
-            some = [at for at, one in enumerate(looks) if (one.angle is not None) == is_ahead]
+        for kind, measure in enumerate((_beside, _ahead, _before)):
+            some = [at for at, one in enumerate(looks) if (one.angle is not None) * (1 + (one.wide > 0)) == kind]
             for first in range(0, len(some), _BOXES):
                 self._look(looks, some[first : first + _BOXES], measure, found)
         return found.tolist()
@@ -80,9 +82,10 @@ class Field:
         reach = np.array([looks[at].reach for at in which], float)
         ways = np.array([_direction(looks[at].angle) for at in which], float)
         least = np.array([looks[at].least for at in which], float)
+        wide = np.array([looks[at].wide for at in which], float)
         is_round = ~ways.any(1)
         ends = places + reach[:, None] * ways
-        aside = np.where(is_round, reach, 0.0)[:, None] + _HAIR
+        aside = np.where(is_round, reach, wide)[:, None] + _HAIR
         boxes = shapely.box(*(np.minimum(places, ends) - aside).T, *(np.maximum(places, ends) + aside).T)
         of, runs = self._runs.query(boxes)
         order = np.argsort(of, kind="stable")
@@ -97,7 +100,7 @@ class Field:
             one = np.repeat(of[low:high], counts)
             starts = self._points[at]
             sides = self._points[at + 1] - starts
-            far = measure(places[one] - starts, sides, ways[one], reach[one], least[one])
+            far = measure(places[one] - starts, sides, ways[one], reach[one], least[one], wide[one])
             begins = np.flatnonzero(np.diff(one, prepend=-1))
             some = np.array(which)[one[begins]]
             found[some] = np.minimum(found[some], np.minimum.reduceat(far, begins))
@@ -239,7 +242,7 @@ def _direction(angle: float | None) -> XY:
     return (0.0, 0.0) if angle is None else (cos(angle), sin(angle))
 
 
-def _beside(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats) -> Floats:
+def _beside(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
     """How far places, which lie `to` from where chords begin, are from these."""
     square = np.maximum((sides**2).sum(1), 1e-300)
     part = np.clip((to * sides).sum(1) / square, 0, 1)
@@ -247,7 +250,7 @@ def _beside(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Float
     return np.where(far <= reach, far, inf)
 
 
-def _ahead(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats) -> Floats:
+def _ahead(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
     """How far it is from places along their ways to chords."""
     area = ways[:, 0] * sides[:, 1] - ways[:, 1] * sides[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -255,6 +258,35 @@ def _ahead(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats
         part = (to[:, 1] * ways[:, 0] - to[:, 0] * ways[:, 1]) / area
     hits = (np.abs(area) > 1e-12) & (far > least) & (far <= reach) & (part >= 0) & (part <= 1)
     return np.where(hits, far, inf)
+
+
+def _before(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
+    """How far a disc gets from places along their ways before it touches chords: from `least` on.
+
+    It is on a chord while its centre is between the two ends of one of three stretches of the way: beside the chord,
+    and within its radius of each end.
+    """
+    first, last = np.full(len(to), inf), np.full(len(to), -inf)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for end in (to, to - sides):
+            middle = -(end * ways).sum(1)
+            half = np.sqrt(wide**2 - (end[:, 0] * ways[:, 1] - end[:, 1] * ways[:, 0]) ** 2)
+            first, last = np.fmin(first, middle - half), np.fmax(last, middle + half)
+        # Along the chord it is between its ends, across it no further than the radius.
+        length = np.hypot(*sides.T)
+        along, across = sides / length[:, None], np.stack((-sides[:, 1], sides[:, 0]), 1) / length[:, None]
+        low, high = np.full(len(to), -inf), np.full(len(to), inf)
+        for square, bottom, top in ((along, np.zeros(len(to)), length), (across, -wide, wide)):
+            place, speed = (to * square).sum(1), (ways * square).sum(1)
+            ends = np.stack(((bottom - place) / speed, (top - place) / speed))
+            is_still = np.abs(speed) < 1e-12
+            is_in = (place >= bottom) & (place <= top)
+            low = np.maximum(low, np.where(is_still, np.where(is_in, -inf, inf), ends.min(0)))
+            high = np.minimum(high, np.where(is_still, inf, ends.max(0)))
+    is_beside = low <= high
+    first = np.where(is_beside, np.fmin(first, low), first)
+    last = np.where(is_beside, np.fmax(last, high), last)
+    return np.where((last >= least) & (first <= reach), np.maximum(first, least), inf)
 
 
 def in_step(tasks: Sequence[Generator[Sequence[Look], list[float], T]], field: Field) -> list[T]:

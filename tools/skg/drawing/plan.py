@@ -33,8 +33,6 @@ _SURE = 4.0
 _INSIDE = 0.2
 #: A contour with a tab is so many times as long as that.
 _LONG = 3
-#: So many places between a contour and its start hole are looked at.
-_LOOKS = 12
 #: A lead that is an arc is no smaller, mm; chords of a contour lie inside of it by the rest of this, of the radius.
 _LEAST_ARC, _ROUND = 0.05, 0.998
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
@@ -469,23 +467,17 @@ class _Planner:
         """Whether the wire gets from a circle's centre to its +X side and cuts nothing that lies in the circle."""
         (x, y), r = circle.centre, self.widest
         # (not as far as the circle itself)
-        reach = _ROUND * max(0.0, circle.radius**2 - r**2) ** 0.5
-        ahead = [Look((x, y + aside), reach, 0.0) for aside in (-r, 0.0, r)]
-        return min((yield [Look((x, y), max(r, 1e-3)), *ahead])) == inf
+        ahead = Look((x, y), max(0.0, _ROUND * circle.radius - r), 0.0, 0.0, max(_ROUND * r, 1e-3))
+        return (yield [ahead]) == [inf]
 
     def _clear(self, entry: XY, square: float, reach: float) -> _Looking[float]:
         """How far the wire gets away from an entry: all the way it stays R off what it does not cut there."""
         r = self.widest
         if reach <= r or not r:
             return reach
-        middle = (r + reach) / 2
-        (near,) = yield [Look(polar(entry, middle, square), middle)]
-        if near >= _ROUND * middle:
-            return reach
-        away = [r + k / _LOOKS * (reach - r) for k in range(_LOOKS + 1)]
-        free = [near >= _ROUND * r for near in (yield [Look(polar(entry, far, square), r) for far in away])]
+        (far,) = yield [Look(entry, reach, square, r, _ROUND * r)]
         # (halfway to where it is no longer free)
-        return reach if all(free) else (r + away[max(0, free.index(False) - 1)]) / 2
+        return reach if far == inf else (r + far) / 2
 
     def _tab_hole(self, contour: Contour, part: float, start: XY, made: PlannedContour, is_right: bool) -> _Looking[XY]:
         """The start hole at the other side of the tab, as far from the contour as the first one."""
