@@ -153,12 +153,39 @@ def test_absolute_and_modal() -> None:
     ("G21 G90\nG1 X6 F5\nG0 X7\nG0 X6\nG1 X9\nM2", "B6000B0B6000GXL1 D D B3000B0B3000GXL1 DD"),
     # Holes have no blocks; heights no path.
     ("G21 G90\nG0 X1 Y1 Z5\nG1 Z-1 F5\nG0 Z5\nX2\nG1 Z-1\nX3\nG0 Z5\nM2", "D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD"),
+    # Arcs by their radius: the short way; below 0 the long one; half a turn, a micrometre short.
+    ("G21 G90\nG3 X5 Y5 R5 F5\nG2 X10 Y0 R-5\nM2", "B0B5000B5000GYNR4 B5000B0B15000GXSR2 DD"),
+    ("G21 G90\nG2 X10 Y0 R4.999 F5\nM2", "B5000B0B10000GYSR2 DD"),
+    # G80 leaves the line's other word alone.
+    ("G21 G90 G1 G80\nX10 F5\nG80 G0\nX5\nG1 X0\nM2", "B10000B0B10000GXL1 D B5000B0B5000GXL3 D B5000B0B5000GXL3 DD"),
     # What says nothing of the path.
-    ("(part 7)\nO1000\nG21 G90 G54 G64 P0.01\nT2 M6\nS1200 M3\nG43 H2\nG4 P1\nG1 X10 F5\nM9\nM2",
+    ("(part 7; lower side)\nO1000\nG21 G90 G54 G64 P0.01\nT2 M6\nS1200 M3\nG43 H2\nG4 P1\nG1 X10 F5\nM9\nM2",
      "B10000B0B10000GXL1 DD"),
 ])  # fmt: skip
 def test_what_is_read(text: str, wanted: str) -> None:
     assert back(text).decode().split() == wanted.split()
+
+
+@pytest.mark.parametrize(("text", "tape", "said"), [
+    ("G21\nG1 X10 F5\nX10 Y5\nM2", "B10000B0B10000GXL1 B0B5000B5000GYL2 DD",
+     ["line 2, column 4: no G90 or G91 yet: places are taken for absolute, as G90 says"]),
+    ("G90\nG1 X10 F5\nM2", "B10B0B10GXL1 DD",
+     ["line 2, column 4: no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm"]),
+    ("G21 G90\nG1 X10 F5", "B10000B0B10000GXL1 DD",
+     ["line 3, column 1: expected M02 or M30, found the end of the program"]),
+    ("G21 G90\nG1 X10 F5\nM2", "B10000B0B10000GXL1 DD", []),
+])  # fmt: skip
+def test_what_is_guessed_is_said(run_program: Run, text: str, tape: str, said: list[str]) -> None:
+    result = run_program("gcode", "--back", stdin=text)
+    assert (result.returncode, result.stdout.split()) == (0, tape.split())
+    assert result.stderr.splitlines() == [f"skg: -: {line}" for line in said]
+
+
+def test_a_place_is_named_anew() -> None:
+    """G92 in mid-program moves no tool: what is drawn goes on from where it was; a word left out keeps its place."""
+    program = gcode.read("G21 G90 F5\nG1 X10\nY10\nG92 X0 Y0\nX5\nG92 X0\nX-1 Y1\nG91\nX1\nG90\nX0 Y0\nM2")
+    wanted = [(10, 0), (10, 10), (15, 10), (14, 11), (15, 11), (15, 10)]
+    assert [placed.end for placed in program.items] == [(1000 * x, 1000 * y) for x, y in wanted]
 
 
 def test_holes_and_stops() -> None:
@@ -177,14 +204,21 @@ def test_holes_and_stops() -> None:
     ("G1 X1 X2\nM02", "-: line 1, column 7: X stands here twice"),
     ("G1 X1 A2\nM02", "-: line 1, column 7: A is not known here"),
     ("M98 P5", "-: line 1, column 1: M98: a sub-program is not known here"),
-    ("G1 X5", "-: line 2, column 1: expected M02"),
     ("M02\nG1", "-: line 2, column 1: expected nothing after M02"),
     ("G91\nG3 X5 Y5\nM02", "-: line 2, column 4: an arc needs its centre"),
     ("G91\nG3 X5 Y60 I100\nM02", "-: line 2, column 4: the arc's end is 12 µm off the circle"),
-    ("G91\nG3 X5 Y5 I100\nM02", "-: block 1: the arc's end is 5 µm off its circle"),
-    ("G91\nG1 X5 Y5 I100\nM02", "-: line 2, column 4: I and J belong to G02 and G03"),
-    ("G91 G1 X123456789\nM02", "line 1: B123456789B0B123456789GXL1 has a number of more than 8 digits"),
+    ("G21 G91\nG3 X5 R2.4\nM02", "-: line 2, column 4: the arc's ends are 5 mm apart, more than twice its radius"),
+    ("G21 G91\nG3 R2.4\nM02", "-: line 2, column 4: an arc by its radius that ends where it begins"),
+    ("G21 G91\nG3 X1 I2 R2\nM02", "-: line 2, column 4: an arc has its centre, I and J, or its radius, R, not both"),
+    ("G21 G91\nG1 X1 R2\nM02", "-: line 2, column 4: I, J and R belong to G02 and G03"),
+    ("G21 G91\nG3 X.005 Y.005 I.1\nM02", "-: block 1: the arc's end is 5 µm off its circle"),
+    ("G91\nG1 X5 Y5 I100\nM02", "-: line 2, column 4: I, J and R belong to G02 and G03"),
+    ("G21 G91 G1 X123456.789\nM02", "line 1: B123456789B0B123456789GXL1 has a number of more than 8 digits"),
     ("G1 Xµ", "-: byte 5 is not ASCII"),
+    ("G21 G90\nG1 X1 F5\nG4 X2\nM2", "-: line 3, column 4: X in a line with G4: a time, or a place to go to?"),
+    ("G21 G90\nG0 G1 X1\nM2", "-: line 2, column 4: G0 and G1 in one line"),
+    ("G21 G90 G91\nM2", "-: line 1, column 9: G90 and G91 in one line"),
+    ("G21 G90\nG0 X1\nG80\nX2\nM2", "-: line 4, column 1: a place to go to, and no G00…G03 behind G80"),
 ])  # fmt: skip
 def test_bad_programs(run_program: Run, text: str, message: str) -> None:
     result = run_program("gcode", "--back", stdin=text)
@@ -208,7 +242,8 @@ def test_bad_options(run_program: Run, cad_tape: Path, options: list[str], messa
 @pytest.mark.parametrize(("text", "findings"), [
     (OURS, []),
     (OURS.replace("F60", ""), ["line 3, column 5: cuts, and there has been no F"]),
-    (OURS.replace("F60", "F0"), ["line 3, column 15: a feed of 0", "line 3, column 5: cuts, and there has been no F"]),
+    (OURS.replace("F60", "F0"), ["line 3, column 15: a feed that is not more than 0",
+                                    "line 3, column 5: cuts, and there has been no F"]),
     (OURS.replace("G21", ""), [
         "line 2, column 5: no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm"]),
     (f"%\n{OURS}%\n", ["line 1, column 1: GRBL does not know %", "line 10, column 1: GRBL does not know %"]),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from skg.commands.options import Coordinates, decided, output_option, positions_option
-from skg.drawing.source import gcode_text, iso_text, load
+from skg.drawing.source import gcode_text, iso_of, iso_text, load
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.plane import XY
@@ -86,7 +86,7 @@ def command(
     standard input.
     """
     if back:
-        write_bytes(output, to_bytes(gcode.read(gcode_text(source), source).tape().items))
+        write_bytes(output, to_bytes(iso_of(gcode_text(source), source).tape().items))
         return
     if not gcode.is_gcode(source) and (iso := iso_text(source)) is not None:
         if start or feed or heights:

@@ -70,10 +70,18 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
 def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
     """The G-code in a file, told by its name's end, or that of a milling program; else None.
 
-    What is odd about it but can be read is no matter here. `skg80` as in `load`.
+    What is odd about it but can be read is no matter here, what is guessed is said. `skg80` as in `load`.
     """
     text = iso_text(name, skg80)
-    return None if text is None else read_gcode(text, name)
+    return None if text is None else iso_of(text, name)
+
+
+def iso_of(text: str, name: str) -> GcodeProgram:
+    """Read G-code; what it does not tell and is guessed is said on standard error."""
+    program = read_gcode(text, name)
+    for guess in program.guesses:
+        print(f"skg: {name}: {guess}", file=sys.stderr, flush=True)
+    return program
 
 
 def iso_text(name: str, skg80: str | None = None) -> str | None:

@@ -162,12 +162,16 @@ def _grid(place: tuple[float, float]) -> Spot:
 
 @dataclass(frozen=True)
 class GcodeFinding:
-    """Something wrong in G-code: line and column, from 1, and what. `is_fatal`: it cannot be read further."""
+    """Something wrong in G-code: line and column, from 1, and what.
+
+    `is_fatal`: it cannot be read further. `is_guess`: it is read as the message says, and might mean something else.
+    """
 
     line: int
     column: int
     message: str
     is_fatal: bool = field(default=True, repr=False)
+    is_guess: bool = field(default=False, repr=False)
 
     def __str__(self) -> str:
         return f"line {self.line}, column {self.column}: {self.message}"
@@ -193,7 +197,7 @@ class GcodeProgram:
     """What G-code does in the plane, in order: cuts, rapids, holes, stops; `home` (µm) is where it begins.
 
     `depths` and `travels`: the heights (µm) at which it cuts and at which it is moved, each once, in the order in which
-    they come; empty where no height is known.
+    they come; empty where no height is known. `guesses`: how it is read where it does not say.
     """
 
     name: str
@@ -201,6 +205,7 @@ class GcodeProgram:
     home: Spot = (0, 0)
     depths: tuple[Decimal, ...] = ()
     travels: tuple[Decimal, ...] = ()
+    guesses: tuple[str, ...] = ()
 
     @property
     def holes(self) -> list[Spot]:
@@ -334,7 +339,7 @@ class _Word:
 
 
 _WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
-_SPACE = re.compile(r"(?:\s|\([^()]*\))*")
+_SPACE = re.compile(r"(?:\s|\([^()]*\)|;.*)*")
 #: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
 #: modes, work offsets (one of them, see there); sub-programs are no part of a path.
 _SILENT = "FSTPHDL"
@@ -343,6 +348,12 @@ _MODES = {
 }
 _OFFSETS = {Decimal(n) for n in range(54, 60)}
 _CALLS = {96, 97, 98, 99}
+#: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
+_MOTIONS = set(map(Decimal, range(4)))
+_GROUPS = [_MOTIONS, *(set(map(Decimal, group.split())) for group in ("20 21", "90 91", "43 49", "61 64")), _OFFSETS]
+#: Words that are places, and what G4 has besides P on some controls.
+_PLACES = "XYZIJR"
+_DWELL, _NO_MOTION = Decimal(4), Decimal(80)
 _KNOWN = "G00…G03, G17, G20, G21, G40, G90, G91, G92 or one that does not move"
 #: µm in a number of each unit; None: by the decimal point.
 _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
@@ -360,8 +371,8 @@ class _Reader:
         self.depths: dict[Decimal, None] = {}
         self.travels: dict[Decimal, None] = {}
         self.dipped: Spot | None = None
-        self.motion = 0
-        self.absolute = False
+        self.motion: int | None = 0
+        self.absolute: bool | None = None
         self.unit: Decimal | None = None
         self.offset: Decimal | None = None
         self.ended = False
@@ -369,15 +380,17 @@ class _Reader:
         self.begun = False
         self.home: Spot = (0, 0)
         self.fed = self.warned_unit = False
+        # Where a G92 in mid-program has moved the origin of its places to; `at` goes on from the first one.
+        self.origin = {"X": Decimal(0), "Y": Decimal(0)}
         self.findings: list[GcodeFinding] = []
 
-    def warn(self, column: int, message: str) -> None:
-        """What can be read, and yet stops a control."""
-        self.findings.append(GcodeFinding(self.line, column, message, is_fatal=False))
+    def warn(self, column: int, message: str, is_guess: bool = False) -> None:
+        """What can be read, and yet stops a control, or might be meant otherwise."""
+        self.findings.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
 
     def words(self, text: str) -> Iterator[_Word]:
         """Split a line into words; comments in parentheses and after `;` are nothing."""
-        text = text.partition(";")[0].upper()
+        text = text.upper()
         at = _SPACE.match(text).end()
         while at < len(text):
             match = _WORD.match(text, at)
@@ -398,34 +411,54 @@ class _Reader:
         if not text:
             return
         values: dict[str, _Word] = {}
+        codes: list[Decimal] = []
         is_origin, stop = False, False
         for word in self.words(line):
             if self.ended:
                 raise _Misread(word.column, "expected nothing after M02")
             if word.letter == "G":
+                for code in codes:
+                    if any({code, word.number} <= group for group in _GROUPS):
+                        raise _Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
+                codes.append(word.number)
                 is_origin |= self.preparatory(word)
             elif word.letter == "M":
                 stop |= self.miscellaneous(word)
-            elif word.letter in "XYZIJF":
+            elif word.letter in _PLACES + "F":
                 if word.letter in values:
                     raise _Misread(word.column, f"{word.letter} stands here twice")
                 values[word.letter] = word
             elif word.letter not in "N" + _SILENT:
-                raise _Misread(word.column, f"{word.letter} is not known here, expected G, M, X, Y, Z, I or J")
+                raise _Misread(word.column, f"{word.letter} is not known here, expected G, M, X, Y, Z, I, J or R")
+        if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
+            self.motion = None
         feed = values.pop("F", None)
         if feed:
             self.fed = feed.number > 0
             if not self.fed:
-                self.warn(feed.column, "a feed of 0")
+                self.warn(feed.column, "a feed that is not more than 0")
+        places = [word for letter, word in values.items() if letter in _PLACES]
+        if _DWELL in codes and places:
+            raise _Misread(places[0].column, f"{places[0].letter} in a line with G4: a time, or a place to go to?")
         if is_origin:
-            self.at = tuple(self.value(values, letter, Decimal(0)) for letter in "XY")
-            if not self.begun:
-                self.home = _rounded(self.at)
+            self.name_place(values)
         elif values:
             yield from self.move(values)
         if stop:
             self.begun = True
             yield Stop(self.blocks)
+
+    def name_place(self, values: dict[str, _Word]) -> None:
+        """G92: the tool's place has these coordinates; what is not named keeps its own."""
+        here = dict(zip("XY", self.at, strict=True))
+        named = {letter: self.value(values, letter, here[letter] - self.origin[letter]) for letter in "XY"}
+        if "Z" in values:
+            self.height = self.value(values, "Z", Decimal(0))
+        if self.begun:
+            self.origin = {letter: here[letter] - named[letter] for letter in "XY"}
+        else:
+            self.at = named["X"], named["Y"]
+            self.home = _rounded(self.at)
 
     def preparatory(self, word: _Word) -> bool:
         """Carry out a G word; True for G92."""
@@ -465,18 +498,25 @@ class _Reader:
             return default
         if self.unit is None and not self.warned_unit:
             self.warned_unit = True
-            self.warn(word.column, "no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm")
+            self.warn(word.column, "no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm", True)
         unit = self.unit or (_MILLIMETRE if word.is_decimal else Decimal(1))
         return word.number * unit
 
     def goal(self, values: dict[str, _Word], letter: str, here: Decimal) -> Decimal:
         """Where a coordinate goes to, µm."""
-        value = self.value(values, letter, here if self.absolute else Decimal(0))
-        return value if self.absolute else here + value
+        if letter not in values:
+            return here
+        if self.absolute is None:
+            self.absolute = True
+            self.warn(values[letter].column, "no G90 or G91 yet: places are taken for absolute, as G90 says", True)
+        value = self.value(values, letter, Decimal(0))
+        return value + self.origin.get(letter, 0) if self.absolute else here + value
 
     def move(self, values: dict[str, _Word]) -> Iterator[Placed | Rapid | Drilled]:
         """What a block that moves does."""
         column = min(word.column for word in values.values())
+        if self.motion is None:
+            raise _Misread(column, "a place to go to, and no G00…G03 behind G80")
         cuts = self.motion > 0
         if cuts and not self.fed:
             self.fed = True
@@ -491,23 +531,28 @@ class _Reader:
         if self.knows_height:
             (self.depths if cuts else self.travels)[self.height] = None
         if self.motion < 2:
-            if "I" in values or "J" in values:
-                raise _Misread(column, "I and J belong to G02 and G03")
+            if values.keys() & set("IJR"):
+                raise _Misread(column, "I, J and R belong to G02 and G03")
             self.at = goal
             if not cuts and not self.begun:
                 self.home = end
             elif start != end:
                 yield from self.lay(line_block(*_minus(end, start)), start, end, cuts)
             return
-        xs, ys = (-_rounded_one(self.value(values, letter, Decimal(0))) for letter in "IJ")
-        yield from self.arc(start, end, (xs, ys), column)
+        if "R" in values:
+            if values.keys() & set("IJ"):
+                raise _Misread(column, "an arc has its centre, I and J, or its radius, R, not both")
+            to_centre = self.by_radius(_minus(end, start), float(self.value(values, "R", Decimal(0))), column)
+        else:
+            to_centre = tuple(_rounded_one(self.value(values, letter, Decimal(0))) for letter in "IJ")
+        yield from self.arc(start, end, (-to_centre[0], -to_centre[1]), column)
         self.at = goal
 
     def to_height(self, height: Decimal, place: Spot, cuts: bool) -> Iterator[Drilled]:
         """Up or down: a hole is what is entered and left again."""
         is_down = self.height is None or height < self.height
         before, self.height = self.height, height
-        self.knows_height |= self.absolute
+        self.knows_height |= bool(self.absolute)
         if is_down and cuts:
             self.dipped = place
         elif not is_down:
@@ -515,6 +560,18 @@ class _Reader:
                 self.begun = True
                 yield Drilled(place, before if self.knows_height else None)
             self.dipped = None
+
+    def by_radius(self, way: Spot, radius: float, column: int) -> Spot:
+        """From an arc's start to its centre, of the way to its end and its radius; below 0: more than half a turn."""
+        chord = hypot(*way)
+        if not chord:
+            raise _Misread(column, "an arc by its radius that ends where it begins")
+        if chord / 2 - abs(radius) > OFF_CONTROL:
+            raise _Misread(column, f"the arc's ends are {chord / 1000:g} mm apart, more than twice its radius")
+        aside = max(radius * radius - chord * chord / 4, 0) ** 0.5 / chord
+        if (radius > 0) != (self.motion == 3):
+            aside = -aside
+        return round(way[0] / 2 - way[1] * aside), round(way[1] / 2 + way[0] * aside)
 
     def arc(self, start: Spot, end: Spot, from_centre: Spot, column: int) -> Iterator[Placed]:
         xs, ys = from_centre
@@ -561,12 +618,15 @@ def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
         except _Misread as error:
             reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
     if not reader.ended:
-        reader.findings.append(GcodeFinding(reader.line + 1, 1, "expected M02 or M30, found the end of the program"))
-    return GcodeProgram(name, tuple(items), reader.home, tuple(reader.depths), tuple(reader.travels)), reader.findings
+        reader.line += 1
+        reader.warn(1, "expected M02 or M30, found the end of the program", is_guess=True)
+    guesses = tuple(str(finding) for finding in reader.findings if finding.is_guess)
+    program = GcodeProgram(name, tuple(items), reader.home, tuple(reader.depths), tuple(reader.travels), guesses)
+    return program, reader.findings
 
 
 def read(text: str, name: str = "-") -> GcodeProgram:
-    """Return a program; what cannot be read is a `UserError` with line and column."""
+    """Return a program; what cannot be read is a `UserError` with line and column, what is guessed is among it."""
     program, findings = scan(text, name)
     for finding in findings:
         if finding.is_fatal:
