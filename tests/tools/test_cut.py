@@ -240,7 +240,7 @@ def test_a_lead_passes_no_thorn(run: Run, tmp_path: Path) -> None:
     """One pokes to 0.05 mm from where the wire would come: a look here and there does not see it."""
     page = drawing()
     polygon([(0, 0), (20, 0), (20, 15), (0, 15)], page)
-    for x, y in ((10, -1.475), (6, -1.475), (14, -1.475)):
+    for x, y in ((10, -0.975), (6, -0.975), (14, -0.975)):
         polygon([(x + 0.05, y), (x + 1, y + 0.6), (x + 1, y - 0.6)], page)
     told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--layer", "0").stderr
     assert "take care" not in told and "4 outlines" in told, told
