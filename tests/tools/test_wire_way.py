@@ -174,9 +174,39 @@ def test_what_is_too_small_may_be_left(run: Run, tmp_path: Path) -> None:
             x, y, radius = wanted.pop(0)
             assert apart(ring, Point(x, y).buffer(radius, quad_segs=400).exterior) < LIMIT
     assert not wanted and len(cuts) == 3
-    assert "layer 0: 4 entities, 2 cut, 2 left: 1 CIRCLE, 1 LWPOLYLINE (no room for the wire)" in words
+    assert "layer 0: 4 entities, 2 cut, 2 left: 1 CIRCLE, 1 LWPOLYLINE (no room for the wire or the tab)" in words
     assert "left out: opening from (5.08, 5), layer 0: the wire has no room at (5, 5)" in words
     assert "3 contours: 3 closed" in words
+
+
+def test_an_outline_that_is_too_short_for_the_tab(run: Run, tmp_path: Path) -> None:
+    """Refused by name with the longest tab that fits, which does fit; asked for it, left out, and the others cut."""
+    page = drawing()
+    for x, side in ((0, 10), (20, 1), (30, 0.8)):
+        polygon([(x, 0), (x + side, 0), (x + side, side), (x, side)], page)
+    path, tape = saved(page, tmp_path), tmp_path / "part.3b"
+    options = ["--offset", 0.1, "--passes", "0.06,0"]
+    words = run_failing(run, "cut", path, "-o", tape, *options, "--tab", 1.5)
+    assert "(outline from (30, 0), layer 0): it is too short for the tab, at most 1.066 mm fits; 1 more" in words
+    run("cut", path, "-o", tape, *options, "--tab", 1.066)
+    run_failing(run, "cut", path, "-o", tape, *options, "--tab", 1.067)
+    cuts, words = cut(run, page, tmp_path, *options, "--tab", 1.5, "--small", "leave")
+    assert len(cuts) == 2 and "left out: outline from (20, 0), layer 0: it is too short for the tab" in words
+    assert "3 entities, 1 cut, 2 left" in words
+
+
+def test_the_largest_offset_with_passes(run: Run, tmp_path: Path) -> None:
+    """What fits is said of the last pass too; with that it is cut, with a micrometre more it is not."""
+    page = drawing()
+    polygon([(0, 0), (30, 0), (30, 20), (0, 20)], page)
+    page.modelspace().add_circle((10, 10), 0.2)
+    path, tape = saved(page, tmp_path), tmp_path / "part.3b"
+    words = run_failing(run, "cut", path, "-o", tape, "--offset", 0.18, "--passes", "0.06,0")
+    last = float(words.partition("mm fits in the widest pass, ")[2].partition(" in the last")[0])
+    run("cut", path, "-o", tape, "--offset", last, "--passes", "0.06,0")
+    run_failing(run, "cut", path, "-o", tape, "--offset", last + 0.004, "--passes", "0.06,0")
+    words = run_failing(run, "cut", path, "-o", tape, "--offset", 0.01, "--passes", "0.3,0")
+    assert "less than these passes take off" in words
 
 
 def test_a_slot_as_wide_as_the_wire(run: Run, tmp_path: Path) -> None:

@@ -83,7 +83,8 @@ class Passes(click.ParamType):
     default="refuse",
     show_default=True,
     type=click.Choice(("refuse", "leave")),
-    help="What becomes of closed contours that are too small or narrow for the wire beside them.",
+    help="What becomes of closed contours that are too small or narrow for the wire beside them, or too short for "
+    "the tab.",
 )
 @click.option(
     "--rom",

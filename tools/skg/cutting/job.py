@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from math import inf
+from math import floor, inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
 from skg.drawing.account import counted, short, shown
 from skg.drawing.parallel import NoRoom, uncut, widest
-from skg.drawing.plan import PlannedContour
+from skg.drawing.plan import PlannedContour, longest_tab
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
 from skg.machine.board import ErrorLine
@@ -108,6 +108,11 @@ def make(
     a unit of the file, for the places that a `UserError` names. `left`: what is left out already. Nothing is returned
     that is wrong: a contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
     """
+    if short_ones := {at: longest_tab(route.contour) for at, route in enumerate(routes) if route.is_short}:
+        if settings.small != "leave":
+            raise UserError(_no_tab(routes, short_ones, factor, settings))
+        routes, more = _without(routes, {at: _too_short(fit) for at, fit in short_ones.items()}, factor)
+        left += more
     if not routes:
         raise UserError(f"no contour is left to cut: {left[0].name}: {left[0].why}")
     program = Program(routes, title, fillets)
@@ -136,6 +141,19 @@ def make(
             return make(helped, title, factor, settings, fillets, left + more)
     _refuse(checked, routes, factor, settings)
     return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings, left)
+
+
+def _no_tab(routes: list[PlannedContour], fits: dict[int, float], factor: float, settings: Settings) -> str:
+    """What to say of outlines that have no room for their tab: of the shortest one."""
+    at = min(fits, key=lambda one: fits[one])
+    message = f"{_named(routes[at], at, factor)}: {_too_short(fits[at])}"
+    if len(fits) > 1:
+        message += f"; {counted(len(fits) - 1, 'more contour')} without room for the tab"
+    return f"{message}: take a shorter --tab{_or_leave(settings)}"
+
+
+def _too_short(fit: float) -> str:
+    return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
 
 
 def _one_by_one(routes: list[PlannedContour]) -> list[PlannedContour]:
@@ -205,10 +223,21 @@ def _no_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: floa
         message += f", {short(max(map(abs, route.passes)))} mm beside it"
         if fit is not None:
             message += f"; at most {short(fit)} mm fits" if fit else "; no offset fits"
+            message += _in_passes(route, fit) if fit else ""
         help_ = "take a smaller offset or a thinner wire"
     if len(none) > 1:
         message += f"; {counted(len(none) - 1, 'more contour')} without room for the wire"
     return f"{message}: {help_}{_or_leave(settings)}"
+
+
+def _in_passes(route: PlannedContour, fit: float) -> str:
+    """What the largest offset that fits is in the last pass, where another one has it."""
+    more = max(map(abs, route.passes)) - abs(route.passes[-1])
+    if not more:
+        return ""
+    return (
+        f" in the widest pass, {short(fit - more)} in the last" if fit > more else ", less than these passes take off"
+    )
 
 
 def _fits(route: PlannedContour, no_room: NoRoom) -> float | None:

@@ -31,8 +31,8 @@ _ROOMY = 1.5
 _SURE = 4.0
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
-#: A contour with a tab is so many times as long as that.
-_LONG = 3
+#: A contour with a tab is so many times as long as that, or has an edge that is so many times as long.
+_LONG, _ROOM = 3, 1.2
 #: A lead that is an arc is no smaller, mm; chords of a contour lie inside of it by the rest of this, of the radius.
 _LEAST_ARC, _ROUND = 0.05, 0.998
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
@@ -98,7 +98,7 @@ class PlannedContour:
     backwards. `tab`: the length before the entry that stays until the last cut, mm; `tab_hole`: the other start hole.
     `number`: its place among the contours that were planned, from 0. `room`: from the start hole to what is nearest.
     `traced`: the wire's own way in each pass, where the contour has edges that it cannot follow; see `with_wire_ways`.
-    `is_cramped`: a lead that is an arc was asked for, and has no room.
+    `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
     """
 
     contour: Contour
@@ -114,6 +114,7 @@ class PlannedContour:
     room: float = inf
     traced: tuple[tuple[Edge, ...], ...] = ()
     is_cramped: bool = False
+    is_short: bool = False
 
     @property
     def entry(self) -> XY:
@@ -311,6 +312,12 @@ def _is_long(contour: Contour, tab: float) -> bool:
     return sum(edge.length for edge in contour.edges) > _LONG * tab
 
 
+def longest_tab(contour: Contour) -> float:
+    """A closed contour has room for a tab that is shorter than this (mm): in an edge, or around corners."""
+    lengths = [edge.length for edge in contour.edges]
+    return max(max(lengths) / _ROOM, sum(lengths) / _LONG)
+
+
 def _entries(contour: Contour, tab: float, widest: float) -> Iterator[tuple[Contour, float]]:
     """Where a closed contour may begin: in its longest lines, else in its longest arcs, else on a curve.
 
@@ -323,11 +330,11 @@ def _entries(contour: Contour, tab: float, widest: float) -> Iterator[tuple[Cont
         (at for at, edge in enumerate(contour.edges) if not edge.nodes),
         key=lambda at: (not contour.edges[at].is_line, -contour.edges[at].length),
     )
-    fitting = [at for at in ranked if contour.edges[at].length > 1.2 * tab]
+    fitting = [at for at in ranked if contour.edges[at].length > _ROOM * tab]
     # (a short edge may not be there any more beside the contour)
     sure = [at for at in fitting if contour.edges[at].length > _SURE * widest]
     yield from _on_edges(contour, sure[:_TRIED], tab)
-    if any(edge.nodes and edge.length > 1.2 * tab for edge in contour.edges):
+    if any(edge.nodes and edge.length > _ROOM * tab for edge in contour.edges):
         yield from _entries_on_curve(contour)
     yield from _on_edges(contour, [at for at in fitting if at not in sure][:_TRIED], tab)
     if not fitting and _is_long(contour, tab):
@@ -386,11 +393,15 @@ class _Planner:
         is_ccw = contour.area > 0
         is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
         tab = method.tab if is_outside else 0.0
-        made = PlannedContour(contour, (0.0, 0.0), 0.0, offset, depth, passes, tab, is_arc=method.is_arc, number=number)
+        is_short = tab >= longest_tab(contour)
+        tab = 0.0 if is_short else tab
+        made = PlannedContour(
+            contour, (0.0, 0.0), 0.0, offset, depth, passes, tab, is_arc=method.is_arc, number=number, is_short=is_short
+        )
         if given is not None:
             contour, part = _entry_near(contour, given, max(passes, key=abs))
             if tab:
-                contour, part = self._tab_before(contour, part, number)
+                contour, part = self._tab_before(contour, part)
             hole = yield from self._tab_hole(contour, part, given, made, is_outside == is_ccw)
             return replace(made, contour=contour, start=given, part=part, tab_hole=hole)
         return (yield from self._chosen(made, is_outside, is_ccw))
@@ -415,23 +426,14 @@ class _Planner:
                 best = room, contour, start, part, tab_hole
             if room >= _ENOUGH * reach or start == edge.centre:
                 break
-        if best is None:
-            raise self._too_short(made.contour)
+        assert best is not None, "a contour that is long enough has an entry"
         room, contour, start, part, tab_hole = best
         if made.is_arc and room < _ROOMY * self.widest:
             # (an arc takes more room than a line)
             return (yield from self._chosen(replace(made, is_arc=False, is_cramped=True), is_outside, is_ccw))
         return replace(made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=room)
 
-    def _too_short(self, contour: Contour) -> UserError:
-        x, y = contour.edges[0].start
-        length = sum(edge.length for edge in contour.edges)
-        return UserError(
-            f"the contour at ({x:.3f}, {y:.3f}) is not long enough for a tab of {self.method.tab:g} mm: "
-            f"it has {length:.3f} mm in all, try a shorter --tab"
-        )
-
-    def _tab_before(self, contour: Contour, part: float, number: int) -> tuple[Contour, float]:
+    def _tab_before(self, contour: Contour, part: float) -> tuple[Contour, float]:
         edge = contour.edges[0]
         aside = self.method.tab / edge.length
         if edge.is_circle:
@@ -439,7 +441,11 @@ class _Planner:
         if aside > 0.8 and _is_long(contour, self.method.tab):
             return contour, part
         if aside > 0.8:
-            raise self._too_short(contour)
+            x, y = edge.start
+            raise UserError(
+                f"the edge from ({x:.3f}, {y:.3f}), which the start hole is at, has no room for a tab of "
+                f"{self.method.tab:g} mm: a shorter --tab, or another start hole"
+            )
         return contour, min(0.95, max(part, aside + 0.05))
 
     def _hole(

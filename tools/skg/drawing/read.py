@@ -34,7 +34,7 @@ AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
 DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
-SMALL = "no room for the wire"
+SMALL = "no room for the wire or the tab"
 
 
 @dataclass(frozen=True)
