@@ -222,6 +222,86 @@ def test_gaps(gap: int) -> None:
         assert max(abs(y) for edge in contour.edges for _, y in (edge.start,) if y < 1) <= gap / 2e3 + 1e-9
 
 
+#: A plate of 40 x 20 whose four corners the lines run past, or end at; two of them end on their neighbour.
+PAST = [line(-0.1, 0, 40, 0), line(40, -0.05, 40, 20.12), line(40.2, 20, 0, 20), line(0, 20.01, 0, -0.07)]
+
+
+def test_ends_past_corners() -> None:
+    """What runs a little past a corner is not cut, and said; the outline closes at the crossings themselves."""
+    reading = checked(raw(*PAST))
+    (contour,) = reading.contours
+    assert contour.is_closed
+    found = sorted((round(x, 6), round(y, 6)) for x, y in (edge.start for edge in contour.edges))
+    assert found == [(0, 0), (0, 20), (40, 0), (40, 20)]
+    assert left(reading) == {}
+    text = "\n".join(reading.report.lines())
+    assert "6 ends on layer 0 past a corner by up to 0.2 mm, as at (" in text
+    assert length(checked(raw(*PAST), open="all").contours) == pytest.approx(length(reading.contours) + 0.55)
+
+
+def test_ends_past_corners_of_arcs() -> None:
+    """A slot whose arcs go on behind their lines by up to 0.2 mm, and lines that go on behind an arc."""
+    over = 1.8  # degrees, 0.157 mm
+    data = raw(
+        line(0, 5, 30, 5),
+        line(30, -5, 0, -5),
+        f"ARC 8 0 10 30 20 0 40 5 50 {-90 - over} 51 {90 + over}",
+        f"ARC 8 0 10 0 20 0 40 5 50 {90 - over} 51 {270 + over}",
+        *(line(x, y, 50, 30) for x, y in ((50, 10), (50.1, 29.9))),
+        "ARC 8 0 10 60 20 30 40 10 50 170 51 180.5",
+    )
+    reading = checked(data)
+    slots = [contour for contour in reading.contours if contour.is_closed]
+    assert len(slots) == 1
+    for edge in slots[0].edges:
+        for x, y in edge.points():
+            off = abs(hypot(x - min(max(x, 0), 30), y) - 5)
+            assert off < 0.002
+    assert length(slots) == pytest.approx(60 + 10 * pi, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        # one runs past by more than that
+        [line(-0.3, 0, 40, 0), *PAST[1:3], line(0, 20, 0, -0.3)],
+        # three ends at a corner: nobody knows which
+        [*PAST, line(-0.05, -0.05, 10, 10)],
+        # a cross of lines as small as that, without an outline
+        [line(0, 0, 0.5, 0.5), line(0, 0.5, 0.5, 0)],
+        # two that cross near their ends, and close nothing
+        [line(-0.1, 0, 10, 0), line(0, -0.1, 0, 10)],
+    ],
+)
+def test_ends_that_are_no_corners(lines: list[str]) -> None:
+    reading = checked(raw(*lines))
+    assert not any(contour.is_closed for contour in reading.contours)
+    assert length(reading.contours) == pytest.approx(length(checked(raw(*lines), open="all").contours))
+    assert "past a corner" not in "\n".join(reading.report.lines())
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_outlines_of_lines_and_arcs_that_are_too_long(seed: int) -> None:
+    """Outlines from tangent to tangent, every edge of which goes on by up to 0.15 mm at its ends: they close where
+    the edges meet, and what is cut is what was drawn."""
+    random = Random(seed)
+    corners = [(30 * cos(2 * pi * k / 7) * (0.7 + 0.3 * (k % 2)), 30 * sin(2 * pi * k / 7)) for k in range(7)]
+    lines = []
+    for p, q in pairwise([*corners, corners[0]]):
+        way = distance(p, q)
+        before, behind = (random.choice([0, 0.02, 0.15]) / way for _ in range(2))
+        ends = [(1 + before) * a - before * b for a, b in zip(p, q, strict=True)]
+        ends += [(1 + behind) * b - behind * a for a, b in zip(p, q, strict=True)]
+        lines.append(line(*ends))
+    random.shuffle(lines)
+    reading = checked(raw(*lines))
+    (contour,) = reading.contours
+    assert contour.is_closed
+    found = [edge.start for edge in contour.edges]
+    assert len(found) == 7
+    assert all(min(distance(corner, place) for place in found) < 1e-6 for corner in corners)
+
+
 def test_ends_of_arcs_that_miss() -> None:
     """A keyway: the arc of almost a full turn stays within the tolerance where its ends are moved."""
     half, r = 0.4, 20.0

@@ -10,9 +10,10 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from math import floor, inf
+from typing import TYPE_CHECKING
 
 from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, counted, listed, said, short, shown
 from skg.drawing.chain import chain, merged
@@ -20,6 +21,9 @@ from skg.drawing.contour import Contour, Edge
 from skg.drawing.wishes import OPEN, UNITS, Wishes
 from skg.errors import UserError
 from skg.plane import XY, distance, shifted
+
+if TYPE_CHECKING:
+    from skg.drawing.overrun import Overrun
 
 __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
@@ -35,6 +39,7 @@ AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
 DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
 SMALL = "no room for the wire or the tab"
+PAST = "runs past a corner"
 
 
 @dataclass(frozen=True)
@@ -61,6 +66,7 @@ def read(data: bytes, name: str, wishes: Wishes | None = None, small: Collection
 
 
 def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Reading:
+    from skg.drawing.overrun import without_overruns
     from skg.drawing.touching import relations
 
     content, report = _content(data, name, wishes)
@@ -68,6 +74,10 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
         raise UserError(_nothing(content, wishes))
     chains = chain(content.edges, wishes.tolerance)
     fates = _Fates(content, report.factor)
+    if wishes.open != "all":
+        chains, cuts = without_overruns(chains, wishes.tolerance)
+        fates.of_pieces([one.piece for one in cuts], PAST)
+        report.notes += _past(cuts, content, report.factor)
     fates.of_edges(chains.short, SHORT)
     fates.of_edges(chains.doubles, DOUBLE)
     report.overlaps += [fates.overlap(DOUBLE, edge, edge.start) for edge in chains.doubles]
@@ -182,6 +192,11 @@ class _Fates:
         for edge in edges:
             self.gone[edge.entity][why] += 1
 
+    def of_pieces(self, pieces: list[Edge], why: str) -> None:
+        """Say why pieces are not cut that edges were divided into."""
+        self.parts.update(piece.entity for piece in pieces)
+        self.of_edges(pieces, why)
+
     def overlap(self, what: str, edge: Edge, place: XY) -> Overlap:
         """A line of the report."""
         return Overlap(what, self.entities[edge.entity].layer, in_file(place, self.factor))
@@ -207,8 +222,8 @@ class _Fates:
                     f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: of its {self.parts[at]} parts "
                     f"{cut[at] + gone.total()} are accounted for; a mistake in skg, please report it"
                 )
-            # (what is short or drawn twice is cut with its neighbour)
-            lost = [why for why in gone if not cut[at] or why not in (SHORT, DOUBLE)]
+            # (what is short or drawn twice is cut with its neighbour, what runs past a corner is said by itself)
+            lost = [why for why in gone if not cut[at] or why not in (SHORT, DOUBLE, PAST)]
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
@@ -229,6 +244,19 @@ class _Fates:
                 dashed[entity.dashes].append(entity)
         for name, some in dashed.items():
             report.notes += said(some, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
+
+
+def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]:
+    """What is said of ends that run past corners, a line for each layer."""
+    layers: dict[str, list[Overrun]] = defaultdict(list)
+    for one in cuts:
+        layers[content.entities[one.piece.entity].layer].append(one)
+    for layer, some in sorted(layers.items()):
+        longest = max(one.piece.length for one in some)
+        yield (
+            f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
+            f"{shown(in_file(some[0].corner, factor))}: cut to the corner; --open all cuts all that is drawn"
+        )
 
 
 def in_file(place: XY, factor: float) -> XY:
