@@ -236,6 +236,25 @@ def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_fr
     assert lead.distance(Point(inner)) > radius + 0.1 - 1e-9
 
 
+def test_a_part_that_falls_into_pieces_is_said(run: Run, tmp_path: Path) -> None:
+    """A window from edge to edge, two that are one there, a square whose corners reach the edges; none does so else."""
+    windows = [
+        ([[(5, 0), (10, 0), (10, 10), (5, 10)]], 2),
+        ([[(5, 0), (10, 0), (10, 5), (5, 5)], [(4, 5), (11, 5), (11, 10), (4, 10)]], 2),
+        ([[(5, 0), (10, 5), (5, 10), (0, 5)]], 3),
+        ([[(5, 0), (10, 0), (10, 9.98), (5, 9.98)]], 0),
+        ([[(5, 0), (10, 5), (5, 9), (1, 5)], [(15, 1), (18, 1), (18, 10), (15, 10)]], 0),
+    ]
+    for corners, pieces in windows:
+        page = drawing()
+        polygon([(0, 0), (20, 0), (20, 10), (0, 10)], page)
+        for some in corners:
+            polygon(some, page)
+        told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.05).stderr
+        found = re.search(r"the part of contour (\d) falls into (\d) pieces", told)
+        assert (found and found.groups()) == ((str(len(corners) + 1), str(pieces)) if pieces else None), told
+
+
 def test_a_lead_passes_no_thorn(run: Run, tmp_path: Path) -> None:
     """One pokes to 0.05 mm from where the wire would come: a look here and there does not see it."""
     page = drawing()

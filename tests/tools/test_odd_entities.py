@@ -100,6 +100,23 @@ def test_axes_within_an_outline_are_left() -> None:
     assert len(checked(data, layers=("PART", "AXES")).contours) == 2
 
 
+def test_a_circle_of_dashes_that_holes_lie_on_is_left() -> None:
+    """It crosses them; a part in it is none that it crosses, and where all is in dashes it is cut."""
+    holes = [f"CIRCLE 8 {{}} 10 {x} 20 {y} 40 1" for x, y in ((15, 10), (5, 10), (10, 15), (10, 5))]
+    pitch = "CIRCLE 8 AXES 10 10 20 10 40 5"
+    reading = checked(types(*square(0, 0, 20, "PART"), pitch, *(hole.format("PART") for hole in holes)))
+    assert len(reading.contours) == 5 and not notes(reading, "cut as it is")
+    assert left(reading) == {"drawn with dashes, across outlines: --open all cuts it": 1}
+    assert not reading.report.overlaps
+    data = types(pitch, *(hole.format("PART") for hole in holes))
+    assert [len(checked(data, **options).contours) for options in ({}, {"open": "all"}, {"layers": ("AXES",)})] == [
+        4,
+        5,
+        1,
+    ]
+    assert len(checked(types(*square(0, 0, 20, "PART"), pitch, *(hole.format("AXES") for hole in holes))).contours) == 6
+
+
 def test_lines_that_are_drawn_through_are_cut() -> None:
     """An engraved line, by the types of its layer and itself; one that says CONTINUOUS on the layer of the axes."""
     data = types(*square(0, 0, 10, "PART"), line(2, 5, 8, 5, "PART"), line(2, 7, 8, 7, "AXES") + " 6 CONTINUOUS")

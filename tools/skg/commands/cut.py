@@ -170,7 +170,12 @@ def command(
         names = (Path(path).name if path != "-" else "-" for path in (file, output))
         write_sheet(job, Facts(*names, wire, gap, reading.report.units), sheet, form)
     if not quiet:
-        for line in [*reading.report.lines(), *report(job, factor), *unmarked(output, job.tape, rom)]:
+        lines = [*reading.report.lines(), *report(job, factor)]
+        if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
+            from skg.cutting.fallen import said
+
+            lines += said(job.routes, factor)
+        for line in [*lines, *unmarked(output, job.tape, rom)]:
             click.echo(line, err=True)
 
 

@@ -24,6 +24,7 @@ from skg.plane import XY, distance, shifted
 
 if TYPE_CHECKING:
     from skg.drawing.overrun import Overrun
+    from skg.drawing.touching import Relations
 
 __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
@@ -38,6 +39,7 @@ AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
 DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
+AXIS = "drawn with dashes, across outlines: --open all cuts it"
 SMALL = "no room for the wire or the tab"
 PAST = "runs past a corner"
 
@@ -87,12 +89,15 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
         repeated = (contours + rest)[at].edges
         fates.of_edges(repeated, DOUBLE)
         report.overlaps.append(fates.overlap(DOUBLE, repeated[0], repeated[0].start))
-    for what, at, place in found.meetings:
-        if at < len(contours):
+    axes = _axes(contours, found, fates) if wishes.open != "all" and not wishes.layers else set()
+    for what, one, at, place in found.meetings:
+        if at < len(contours) and not {one, at} & axes:
             report.overlaps.append(fates.overlap(what, contours[at].edges[0], place))
     if found.unseen:
         report.notes.append(f"{counted(found.unseen, 'more pair')} of contours meet")
-    gone = set(found.repeated)
+    for at in sorted(axes):
+        fates.of_edges(contours[at].edges, AXIS)
+    gone = set(found.repeated) | axes
     hanging = {at for at in found.touched if at < len(contours)} - gone
     rest = [one for at, one in enumerate(rest, len(contours)) if at not in gone]
     rest += [contours[at] for at in sorted(hanging)]
@@ -257,6 +262,16 @@ def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]
             f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
             f"{shown(in_file(some[0].corner, factor))}: cut to the corner; --open all cuts all that is drawn"
         )
+
+
+def _axes(contours: list[Contour], found: Relations, fates: _Fates) -> set[int]:
+    """The closed contours drawn with dashes that cross others, which are not: circles that holes lie on."""
+    pairs = [(one, at) for what, one, at, _ in found.meetings if what == "cross" and at < len(contours)]
+    return {
+        one
+        for one, other in (*pairs, *((at, one) for one, at in pairs))
+        if fates.is_dashed(contours[one]) and not fates.is_dashed(contours[other])
+    }
 
 
 def in_file(place: XY, factor: float) -> XY:

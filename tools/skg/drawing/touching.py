@@ -24,20 +24,19 @@ _MOST = 300
 @dataclass
 class Relations:
     """Contours by their numbers. `repeated`: those that are the same as an earlier one; `touched`: open ones that touch
-    or cross another one; `meetings`: what two closed ones do at a place, by the number of the later one; `unseen`: how
-    many more pairs of closed ones meet."""
+    or cross another one; `meetings`: what two closed ones (or one with itself) do at a place; `unseen`: how many more
+    pairs of closed ones meet."""
 
     repeated: list[int] = field(default_factory=list)
     touched: set[int] = field(default_factory=set)
-    meetings: list[tuple[str, int, XY]] = field(default_factory=list)
+    meetings: list[tuple[str, int, int, XY]] = field(default_factory=list)
     unseen: int = 0
 
 
 def relations(contours: list[Contour], tolerance: float) -> Relations:
     """Find which contours meet: are nowhere further apart than `tolerance`, mm."""
     found = Relations()
-    coordinates, numbers = _coordinates(contours)
-    lines = shapely.linestrings(coordinates, indices=numbers)
+    lines = lines_of(contours)
     is_closed = np.array([contour.is_closed for contour in contours], bool)
     one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=tolerance + 2 * _CHORD)
     one, other = one[one < other], other[one < other]
@@ -52,20 +51,21 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
             found.unseen += 1
         elif is_closed[at] and is_closed[second]:
             what, place = _meeting(lines[at], lines[second], tolerance)
-            found.meetings.append((what, second, place))
+            found.meetings.append((what, at, second, place))
     for at in np.flatnonzero(~shapely.is_simple(lines) & is_closed).tolist():
         if at not in gone:
             reason = shapely.is_valid_reason(shapely.Polygon(lines[at].coords))
             place = reason.partition("[")[2].rstrip("]").split()
             where = (float(place[0]), float(place[1])) if len(place) == 2 else contours[at].edges[0].start
-            found.meetings.append(("cross", at, where))
+            found.meetings.append(("cross", at, at, where))
     return found
 
 
-def _coordinates(contours: list[Contour]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Points along all contours, and the number of the contour of each."""
+def lines_of(contours: list[Contour]) -> NDArray[Any]:
+    """Contours as shapely's lines."""
     found = [np.vstack([_points(edge) for edge in contour.edges]) for contour in contours]
-    return np.vstack(found), np.repeat(np.arange(len(found)), [len(points) for points in found])
+    numbers = np.repeat(np.arange(len(found)), [len(points) for points in found])
+    return shapely.linestrings(np.vstack(found), indices=numbers)
 
 
 def _points(edge: Edge) -> NDArray[np.float64]:
