@@ -115,3 +115,20 @@ def test_small_commands_start_fast(command: str) -> None:
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
+
+
+@pytest.mark.parametrize("name", [*COMMANDS, "term"][1:])
+def test_no_option_takes_what_is_no_number(name: str) -> None:
+    """NaN lies in every range, as Python compares."""
+    from importlib import import_module
+
+    import click
+
+    command = import_module(f"skg.commands.{name.replace('-', '_')}").command
+    options = [one for one in command.params if isinstance(one.type, click.FloatRange)]
+    assert options or name not in ("cut", "gear", "cam", "plot", "term")
+    for option in options:
+        for word in ("nan", "inf", "-inf", "1e8"):
+            with pytest.raises(click.BadParameter):
+                option.type.convert(word, option, None)
+        assert option.type.convert(str(option.type.max or 5.0), option, None) == (option.type.max or 5.0)

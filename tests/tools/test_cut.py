@@ -7,9 +7,11 @@ import re
 import subprocess
 import sys
 import time
+import warnings
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 import shapely
@@ -490,3 +492,25 @@ def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
         "outline",
     ):
         assert word in text
+
+
+@pytest.mark.parametrize("name", ["bad\udcff.dxf", "a$\\b$_c.dxf", "line\nbreak\x01.dxf", "零件" * 15 + ".dxf"])
+def test_sheet_of_a_file_with_an_odd_name(run: Run, tmp_path: Path, name: str) -> None:
+    """Bytes that are no UTF-8, what matplotlib takes for a formula, what no font has: a sheet, without a word."""
+    page = drawing()
+    page.modelspace().add_circle((0.00001, -0.00001), 5)
+    Path(saved(page, tmp_path)).rename(tmp_path / name)
+    passes = "0.12,0.09,0.06,0.03,0.02,0.01,0"
+    for form in ("svg", "pdf", "png"):
+        sheet = tmp_path / f"sheet.{form}"
+        words = ("--offset", 0.1, "--passes", passes, "--sheet", sheet, "--quiet")
+        with warnings.catch_warnings():
+            warnings.filterwarnings("error", "Glyph")
+            result = run("cut", tmp_path / name, "-o", tmp_path / "part.3b", *words)
+        assert (result.exit_code, result.stderr) == (0, "")
+    root = ElementTree.parse(tmp_path / "sheet.svg").getroot()
+    texts = ["".join(one.itertext()).strip() for one in root.iter("{http://www.w3.org/2000/svg}text")]
+    assert "0.22, 0.19, 0.16, 0.13, 0.12, 0.11, 0.1 mm" in texts and "x, mm" in texts
+    assert "-0.000" not in texts
+    shown = name.replace("\udcff", "?").replace("\n", "?").replace("\x01", "?")
+    assert any(shown.startswith(one.rstrip("…")) and len(one) > 6 for one in texts)

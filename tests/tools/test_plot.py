@@ -196,6 +196,16 @@ def test_bad_wishes(run_program: Run, arguments: list, message: str) -> None:
     assert "Traceback" not in result.stderr
 
 
+def test_odd_names(run: Run, tmp_path: Path) -> None:
+    """A name or title is written as it stands: no formula, a question mark for what is no letter."""
+    names = [tmp_path / name for name in ("b\udcff.3b", "a$\\b$.3b")]
+    for name in names:
+        name.write_bytes(PLATE.read_bytes())
+    words = [*names, "--positions", "programmed", "--title", "$\\t$"]
+    texts = [one.text for one in ElementTree.fromstring(run("plot", *words, "-o", "-").stdout_bytes).iter(f"{SVG}text")]
+    assert {"b?.3b", "a$\\b$.3b", "$\\t$"} <= set(texts)
+
+
 def test_program_with_an_error(run_program: Run, tmp_path: Path) -> None:
     part = tmp_path / "bad.skg"
     part.write_text("10 A=1/0\n20 END\n")

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import click
 
+from skg.commands.options import FiniteRange
 from skg.commands.shape import shape_options, write_shape
 
 _LAWS = ("harmonic", "cycloidal", "polynomial")
 
+#: No tape has room for a larger cam, mm.
+MOST = 50_000.0
+
 
 @click.command(name="cam")
-@click.option("--base", required=True, metavar="MM", type=click.FloatRange(0, min_open=True), help="Smallest radius.")
-@click.option("--lift", required=True, metavar="MM", type=click.FloatRange(0, min_open=True), help="Lift.")
+@click.option("--base", required=True, metavar="MM", type=FiniteRange(0, MOST, min_open=True), help="Smallest radius.")
+@click.option("--lift", required=True, metavar="MM", type=FiniteRange(0, MOST, min_open=True), help="Lift.")
+@click.option("--rise", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Rise.")
 @click.option(
-    "--rise", default=120.0, show_default=True, metavar="DEGREES", type=click.FloatRange(1, 359), help="Rise."
+    "--dwell", default=30.0, show_default=True, metavar="DEGREES", type=FiniteRange(0, 358), help="At the top."
 )
-@click.option(
-    "--dwell", default=30.0, show_default=True, metavar="DEGREES", type=click.FloatRange(0, 358), help="At the top."
-)
-@click.option(
-    "--fall", default=120.0, show_default=True, metavar="DEGREES", type=click.FloatRange(1, 359), help="Return."
-)
+@click.option("--fall", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Return.")
 @click.option(
     "--law",
     default="cycloidal",
@@ -29,7 +29,7 @@ _LAWS = ("harmonic", "cycloidal", "polynomial")
     help="Motion of rise and return; polynomial: 3-4-5.",
 )
 @click.option(
-    "--roller", default=0.0, metavar="MM", type=click.FloatRange(0), help="Diameter of the follower's roller."
+    "--roller", default=0.0, metavar="MM", type=FiniteRange(0, MOST), help="Diameter of the follower's roller."
 )
 @shape_options
 def command(

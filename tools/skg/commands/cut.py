@@ -8,6 +8,7 @@ import click
 
 from skg.commands.options import (
     MOST_OFFSET,
+    FiniteRange,
     RomName,
     drawing_options,
     offset_option,
@@ -45,14 +46,12 @@ class Passes(click.ParamType):
 @output_option("Tape to write, - for the standard output.")
 @click.option("--program", metavar="FILE", type=click.Path(), help="Also write the SKG program.")
 @click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
-@click.option(
-    "--wire", metavar="MM", type=click.FloatRange(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire."
-)
+@click.option("--wire", metavar="MM", type=FiniteRange(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
 @click.option(
     "--gap",
     metavar="MM",
     default=0.0,
-    type=click.FloatRange(0, MOST_OFFSET),
+    type=FiniteRange(0, MOST_OFFSET),
     help="Spark gap on each side of the wire.",
 )
 @offset_option("The wire's distance from the contour, instead of half of --wire and --gap. Default: 0.")
@@ -75,7 +74,7 @@ class Passes(click.ParamType):
     "--tab",
     default=0.0,
     metavar="MM",
-    type=click.FloatRange(0),
+    type=FiniteRange(0),
     help="Length of the bridge that keeps a part cut from outside; the machine stops, the last cut takes it off.",
 )
 @click.option(
@@ -99,7 +98,7 @@ class Passes(click.ParamType):
     default=5.0,
     show_default=True,
     metavar="MM/MIN",
-    type=click.FloatRange(0, min_open=True),
+    type=FiniteRange(0, min_open=True),
     help="Feed, for the time.",
 )
 @click.option("--quiet", is_flag=True, help="No report.")

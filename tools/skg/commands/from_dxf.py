@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from skg.commands.options import drawing_options, offset_option, output_option
+from skg.commands.options import FiniteRange, drawing_options, offset_option, output_option
 from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, layer_lines, read
 from skg.errors import UserError
@@ -25,7 +25,7 @@ from skg.plane import XY
     default=0.0002,
     show_default=True,
     metavar="MM",
-    type=click.FloatRange(1e-5),
+    type=FiniteRange(1e-5),
     help="How near FIT shall come to splines and ellipses.",
 )
 @click.option("--no-fillets", is_flag=True, help="Write rounded corners as circles, not as fillet radii.")

@@ -4,37 +4,37 @@ from __future__ import annotations
 
 import click
 
+from skg.commands.options import FiniteRange
 from skg.commands.shape import shape_options, write_shape
+from skg.errors import UserError
 
-_MM = click.FloatRange(0)
+_MM = FiniteRange(0)
 
 
 @click.command(name="gear")
-@click.option("--module", required=True, metavar="MM", type=click.FloatRange(0, min_open=True), help="Module.")
+@click.option("--module", required=True, metavar="MM", type=FiniteRange(0, 1000, min_open=True), help="Module.")
 @click.option("--teeth", required=True, type=click.IntRange(4, 1000), help="Number of teeth.")
 @click.option(
     "--pressure-angle",
     default=20.0,
     show_default=True,
     metavar="DEGREES",
-    type=click.FloatRange(5, 40),
+    type=FiniteRange(5, 40),
     help="Its angle.",
 )
-@click.option(
-    "--shift", default=0.0, show_default=True, type=click.FloatRange(-1, 1), help="Profile shift, in modules."
-)
+@click.option("--shift", default=0.0, show_default=True, type=FiniteRange(-1, 1), help="Profile shift, in modules.")
 @click.option(
     "--clearance",
     default=0.25,
     show_default=True,
-    type=click.FloatRange(0, 1),
+    type=FiniteRange(0, 1),
     help="Below the mate's tips, in modules.",
 )
 @click.option(
     "--fillet",
     default=0.2,
     show_default=True,
-    type=click.FloatRange(0, 1),
+    type=FiniteRange(0, 1),
     help="Radius of the root, in modules; 0: none.",
 )
 @click.option("--bore", default=0.0, metavar="MM", type=_MM, help="Diameter of the bore. Default: none.")
@@ -68,6 +68,8 @@ def command(
     """
     from skg.cutting.gear import Gear
 
+    if any(keyway) and not bore:
+        raise UserError("--keyway goes with --bore")
     gear = Gear(module, teeth, pressure_angle, shift, clearance, fillet, bore, *keyway)
     name = f"gear, module {module:g}, {teeth} teeth, {pressure_angle:g} degrees"
     write_shape(name, gear.contours, output, offset, tab, tape)

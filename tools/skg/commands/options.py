@@ -110,7 +110,7 @@ def _refuse_onto(context: click.Context) -> None:
 
 def offset_option(text: str) -> Callable[[Callable], Callable]:
     """The option --offset, None when it is not given; `text` is its help."""
-    return click.option("--offset", metavar="MM", type=click.FloatRange(0, MOST_OFFSET), help=text)
+    return click.option("--offset", metavar="MM", type=FiniteRange(0, MOST_OFFSET), help=text)
 
 
 def drawing_options(function: Callable) -> Callable:
@@ -126,7 +126,7 @@ def drawing_options(function: Callable) -> Callable:
             default=0.005,
             show_default=True,
             metavar="MM",
-            type=click.FloatRange(0, min_open=True),
+            type=FiniteRange(0, min_open=True),
             help="Ends no further apart than this are one corner.",
         ),
         click.option(
@@ -156,7 +156,7 @@ def drawing_options(function: Callable) -> Callable:
             default=LEAD,
             show_default=True,
             metavar="MM",
-            type=click.FloatRange(0, min_open=True),
+            type=FiniteRange(0, min_open=True),
             help="From a chosen start hole to the contour, where there is room.",
         ),
     )[::-1]:
@@ -182,6 +182,17 @@ class RomName(click.Choice):
         from skg.machine.roms import known_rom
 
         return super().convert(known_rom(str(value)) or value, param, ctx)
+
+
+class FiniteRange(click.FloatRange):
+    """A number in a range: neither infinite nor NaN, which is in every range, and of no more digits than a tape has."""
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number."""
+        number = super().convert(value, param, ctx)
+        if not abs(number) < 10**MAX_DIGITS:
+            self.fail(f"{value!r}: expected a number of at most {MAX_DIGITS} digits", param, ctx)
+        return number
 
 
 class Coordinates(click.ParamType):

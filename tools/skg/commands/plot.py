@@ -9,6 +9,7 @@ import click
 from skg.commands.options import (
     FORMATS,
     Coordinates,
+    FiniteRange,
     decided,
     output_option,
     picture_format,
@@ -30,7 +31,7 @@ from skg.tape.placed import stop_places
     "--wire",
     default=0.0,
     metavar="MM",
-    type=click.FloatRange(0),
+    type=FiniteRange(0),
     help="Draw the cut of a wire of this diameter, to scale.",
 )
 @click.option("--no-arrows", is_flag=True, help="No arrows in the direction of travel.")
@@ -41,7 +42,7 @@ from skg.tape.placed import stop_places
     type=Coordinates(),
     help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.",
 )
-@click.option("--scale", type=click.FloatRange(0, min_open=True), help="Drawing scale; default: what fits.")
+@click.option("--scale", type=FiniteRange(0, min_open=True), help="Drawing scale; default: what fits.")
 @click.option("--title", default="", help="A title above the drawing.")
 @positions_option
 @skg80_option

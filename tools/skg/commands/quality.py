@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from skg.commands.options import FiniteRange
 from skg.errors import UserError
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def saving_table(found: list[Saving]) -> str:
 @click.option(
     "--tol",
     metavar="MM",
-    type=click.FloatRange(min=0, min_open=True),
+    type=FiniteRange(min=0, min_open=True),
     help="Instead, join nodes within so many mm and compare the blocks with the fewest possible.",
 )
 def command(parts: tuple[Path, ...], tol: float | None) -> None:

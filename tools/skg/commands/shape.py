@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import click
 
-from skg.commands.options import offset_option, output_option
+from skg.commands.options import FiniteRange, offset_option, output_option
 from skg.drawing.contour import Contour
 from skg.errors import UserError
 from skg.files import write_bytes
@@ -16,7 +16,7 @@ def shape_options(function: Callable) -> Callable:
     """Give a command the options of `write_shape`."""
     for option in (
         click.option("--tape", metavar="FILE", type=click.Path(), help="Also write the tape, by the no-drift ROM."),
-        click.option("--tab", default=0.0, metavar="MM", type=click.FloatRange(0), help="A bridge, as in `skg cut`."),
+        click.option("--tab", default=0.0, metavar="MM", type=FiniteRange(0), help="A bridge, as in `skg cut`."),
         offset_option("R: half the wire and its spark gap. Default: 0, the wire's middle runs on the contour."),
         output_option("Program to write, - for the standard output."),
     ):

@@ -8,7 +8,7 @@ from itertools import chain
 
 import click
 
-from skg.commands.options import decided, positions_option
+from skg.commands.options import FiniteRange, decided, positions_option
 from skg.drawing.source import load
 from skg.files import write_bytes
 from skg.plane import XY
@@ -80,7 +80,7 @@ def _xy(point: XY) -> str:
     "--feed",
     default=5.0,
     show_default=True,
-    type=click.FloatRange(0, min_open=True),
+    type=FiniteRange(0, min_open=True),
     help="Feed in mm/min, for the time.",
 )
 @positions_option

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from skg.commands.options import FiniteRange
 from skg.files import read_bytes, without_mark
 
 
@@ -43,22 +44,22 @@ from skg.files import read_bytes, without_mark
     help="Look at the echo of each line and wait for the prompt behind it, or for nothing but XOFF.",
 )
 @click.option(
-    "--delay", default=0.0, metavar="SECONDS", type=click.FloatRange(0), help="Also wait this long after each line."
+    "--delay", default=0.0, metavar="SECONDS", type=FiniteRange(0), help="Also wait this long after each line."
 )
 @click.option(
     "--batch",
     is_flag=True,
     help="Leave when the board has answered the last line and the tape's DD was punched; nobody is at the keyboard.",
 )
-@click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS", type=click.FloatRange(0, min_open=True),
+@click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS", type=FiniteRange(0, min_open=True),
               help="How long --batch waits for more where no prompt tells it.")  # fmt: skip
-@click.option("--silence", default=120.0, show_default=True, metavar="SECONDS", type=click.FloatRange(0, min_open=True),
+@click.option("--silence", default=120.0, show_default=True, metavar="SECONDS", type=FiniteRange(0, min_open=True),
               help="Give up a board that is silent this long and not back at its prompt.")  # fmt: skip
 @click.option(
     "--patience",
     default=0.0,
     metavar="SECONDS",
-    type=click.FloatRange(0),
+    type=FiniteRange(0),
     help="Give up a port that stays away this long. Default: never.",
 )
 def command(

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import date
 from math import ceil, cos, pi, sin
+from unicodedata import east_asian_width
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib import path as paths
 from matplotlib.figure import Figure
@@ -18,8 +17,8 @@ from matplotlib.transforms import Affine2D
 from skg.cutting.check import drawn
 from skg.cutting.job import Job, kind
 from skg.drawing.account import short, shown
+from skg.drawing.page import as_it_stands, save
 from skg.drawing.plot import outline
-from skg.files import write_bytes
 from skg.plane import XY, distance
 from skg.tape.simulation import duration
 
@@ -41,6 +40,8 @@ _MOST_NUMBERS = 1000
 #: Numbers are looked for room on a grid of this, mm, no further from their holes than the second.
 _GRID, _FAR = 0.4, 14.0
 _FONT = 6.0
+#: A fact at the foot of the page, and how small its letters may be.
+_FACT, _SMALL = 6.5, 4.0
 #: A point of a font in mm; how wide a character is, in font sizes.
 _POINT, _WIDE = _INCH / 72, 0.62
 _INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
@@ -204,7 +205,7 @@ class SetupSheet:
         self._text(place, text, 7, _INK, ha="center", va="center", rotation=0 if is_flat else 90)
 
     def _text(self, place: XY, text: str, size: float, colour: str, **how: object) -> None:
-        self.axes.text(*place, text, fontsize=size, color=colour, **how)
+        self.axes.text(*place, **as_it_stands(text), fontsize=size, color=colour, **how)
 
     def _holes(self) -> int:
         """Mark and number the start holes; returns how many numbers found no room."""
@@ -266,9 +267,11 @@ class SetupSheet:
             column, row = divmod(at, self.per_column)
             x = right - (self.columns - column) * _COLUMN
             if row == 0:
-                self._row(x, top, ("no.", "x", "y", "contour", "mm cut"), _GREY)
+                self._row(x, top, ("no.", "x, mm", "y, mm", "contour", "mm cut"), _GREY)
             route = routes[at]
-            cells = (str(at + 1), f"{route.start[0]:.3f}", f"{route.start[1]:.3f}", kind(route).split()[0])
+            # (-0.0001 is 0.000)
+            x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
+            cells = (str(at + 1), x_, y_, kind(route).split()[0])
             self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[at]:.1f}"), _INK)
         if shown < len(routes):
             self._text((right, _MARGIN + _HEAD + 1), f"and {len(routes) - shown} more", 5, _INK, ha="right")
@@ -283,7 +286,7 @@ class SetupSheet:
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
         offsets = next((route.passes for route in job.routes if any(route.passes)), ())
-        beside = ", ".join(short(abs(r)) for r in offsets) or "0, the wire's middle on the contour"
+        beside = ", ".join(short(abs(r)) for r in offsets) + " mm" if offsets else "0, the wire's middle on the contour"
         wire = "not told" if facts.wire is None else f"{short(facts.wire)} mm, gap {short(facts.gap)} mm"
         tabs = {route.tab for route in job.routes if route.tab}
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
@@ -297,7 +300,7 @@ class SetupSheet:
             ),
             (
                 ("wire", wire),
-                ("offset", f"{beside} mm"),
+                ("offset", beside),
                 ("passes", f"{max(1, len(offsets))}, {'each from the other end' if len(offsets) > 1 else 'one way'}"),
                 ("tab", f"{short(max(tabs))} mm, the machine stops before it" if tabs else "none"),
             ),
@@ -313,14 +316,11 @@ class SetupSheet:
             for row, (name, value) in enumerate(facts_):
                 x, y = _MARGIN + column * wide + 1, _MARGIN + _HEAD - 6 - row * 5
                 self._text((x, y), name, 5.5, _GREY, va="center")
-                self._text((x + 14, y), _cut_to(value, wide - 16, 6.5), 6.5, _INK, va="center")
+                self._text((x + 14, y), *_fitted(value, wide - 16), _INK, va="center")
 
     def save(self, output: str, form: str) -> None:
         """Write the page as "pdf", "svg" or "png"."""
-        picture = io.BytesIO()
-        with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "skg", "path.simplify": False}):
-            self.figure.savefig(picture, format=form, dpi=200, facecolor="white")
-        write_bytes(output, picture.getvalue())
+        save(self.figure, output, form, 200)
 
 
 def _way(samples: tuple[XY, ...]) -> float:
@@ -330,10 +330,16 @@ def _way(samples: tuple[XY, ...]) -> float:
     return float(np.arctan2(v - y, u - x))
 
 
-def _cut_to(text: str, width: float, size: float) -> str:
-    """A text that is no wider than `width` mm."""
-    most = int(width / (_WIDE * 0.95 * size * _POINT))
-    return text if len(text) <= most else text[: most - 1] + "…"
+def _fitted(text: str, width: float) -> tuple[str, float]:
+    """A text that is no wider than `width` mm, and the size of its letters: small ones before some are left out."""
+    letters = [_WIDE * 0.95 * _POINT * (1.7 if east_asian_width(one) in "WF" else 1) for one in text]
+    size = max(_SMALL, min(_FACT, width / max(sum(letters), 1e-9)))
+    room = width / size
+    if sum(letters) <= room:
+        return text, size
+    while letters and sum(letters) > room - _WIDE * _POINT:
+        letters.pop()
+    return text[: len(letters)] + "…", size
 
 
 def write_sheet(job: Job, facts: Facts, output: str, form: str) -> None:

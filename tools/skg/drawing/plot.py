@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
@@ -10,7 +9,6 @@ from dataclasses import dataclass
 from itertools import product
 from math import cos, floor, inf, pi, sin, sqrt
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection, PolyCollection
@@ -20,8 +18,8 @@ from matplotlib.path import Path as Outline
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from skg.drawing.page import as_it_stands, save
 from skg.errors import UserError
-from skg.files import write_bytes
 from skg.piece import Piece
 from skg.plane import XY, minus
 from skg.tape.laid import Laid
@@ -203,9 +201,8 @@ class Picture:
         ratio = f"{self.scale:g}:1" if self.scale >= 1 else f"1:{1 / self.scale:g}"
         self.axes.text(right, y - self.on_paper(6), f"mm, scale {ratio}", ha="right", va="top", **grey)
         if title:
-            self.axes.text(
-                (left + right) / 2, top + self.on_paper(self.head - 4), title, ha="center", va="top", fontsize=9
-            )
+            place = (left + right) / 2, top + self.on_paper(self.head - 4)
+            self.axes.text(*place, **as_it_stands(title), ha="center", va="top", fontsize=9)
 
     def draw(self, sheet: Sheet, colour: str, name: str, wire: float, arrows: bool, numbers: bool) -> None:
         """Draw one tape; `name` begins the ids of its parts in an SVG."""
@@ -364,19 +361,14 @@ class Picture:
         """Name the tapes at the top left, each in its colour."""
         top = self.high[1] + self.on_paper(self.head - 3)
         for at, name in enumerate(names):
-            self.axes.text(
-                self.low[0], top - self.on_paper(3) * at, name, va="top", fontsize=6, color=COLOURS[at % len(COLOURS)]
-            )
+            place, colour = (self.low[0], top - self.on_paper(3) * at), COLOURS[at % len(COLOURS)]
+            self.axes.text(*place, **as_it_stands(name), va="top", fontsize=6, color=colour)
 
     def save(self, output: str, form: str) -> None:
         """Write the picture; the same drawing always gives the same bytes of SVG."""
-        settings = {"svg.hashsalt": "skg", "svg.fonttype": "none", "path.simplify": False}
         metadata: dict[str, str | None] = {}
         if form == "svg":
             metadata = {"Date": None, "Creator": "skg plot", "Description": json.dumps(self.description)}
         elif form == "pdf":
             metadata = {"CreationDate": None, "Creator": "skg plot"}
-        picture = io.BytesIO()
-        with mpl.rc_context(settings):
-            self.figure.savefig(picture, format=form, dpi=150, metadata=metadata, facecolor="white")
-        write_bytes(output, picture.getvalue())
+        save(self.figure, output, form, 150, metadata)

@@ -1,0 +1,57 @@
+"""What the pictures of plots and setup sheets have in common: words that are not ours, and how a page is written."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from functools import cache
+
+import matplotlib as mpl
+from matplotlib import font_manager
+from matplotlib.figure import Figure
+
+from skg.files import write_bytes
+
+#: The font that matplotlib brings along, and others that have what it has not, where they are installed.
+_FONT = "DejaVu Sans"
+_MORE_FONTS = (
+    "Noto Sans CJK SC",
+    "Noto Sans CJK JP",
+    "Source Han Sans SC",
+    "WenQuanYi Zen Hei",
+    "WenQuanYi Micro Hei",
+    "Microsoft YaHei",
+    "SimHei",
+    "PingFang SC",
+    "Hiragino Sans",
+    "Arial Unicode MS",
+    "Droid Sans Fallback",
+)
+
+
+def as_it_stands(text: str) -> dict[str, object]:
+    """What matplotlib is to be told to write a file's name or a title: no formula between dollars, in a font that has
+    its letters; what is no letter (bytes that are not UTF-8, control characters) is a question mark."""
+    shown = "".join(one if one.isprintable() else "?" for one in text)
+    told: dict[str, object] = {"s": shown, "parse_math": False}
+    letters = font_manager.get_font(font_manager.findfont(_FONT))
+    if not all(letters.get_char_index(ord(one)) for one in shown):
+        told["fontfamily"] = [_FONT, *_installed()]
+    return told
+
+
+@cache
+def _installed() -> tuple[str, ...]:
+    known = {font.name for font in font_manager.fontManager.ttflist}
+    return tuple(name for name in _MORE_FONTS if name in known)
+
+
+def save(figure: Figure, output: str, form: str, dpi: int, metadata: dict[str, str | None] | None = None) -> None:
+    """Write a page as "svg", "png" or "pdf"; text in an SVG stays text."""
+    picture = io.BytesIO()
+    settings = {"svg.hashsalt": "skg", "svg.fonttype": "none", "path.simplify": False}
+    with mpl.rc_context(settings), warnings.catch_warnings():
+        # (a letter that no font has is an empty box)
+        warnings.filterwarnings("ignore", "Glyph")
+        figure.savefig(picture, format=form, dpi=dpi, metadata=metadata, facecolor="white")
+    write_bytes(output, picture.getvalue())
