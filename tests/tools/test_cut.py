@@ -288,6 +288,25 @@ def _bottoms(told: str) -> list[int]:
     return [4 if float(y) > 9.5 else min(3, int(float(x) / 4.15)) for x, y in holes]
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.25, 0.5, 0.75])
+@pytest.mark.parametrize("offset", [0.0, 0.02])
+def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) -> None:
+    """The start hole of an opening with less room than the lead is long is not its centre, from where the ROM would go
+    to the +X side, when something lies on that way."""
+    from skg.cutting.job import Settings, make
+    from skg.drawing.contour import Contour, Edge
+    from skg.drawing.plan import plan
+
+    def circle(x: float, y: float, r: float) -> Contour:
+        start = x + r * cos(2 * pi * turn), y + r * sin(2 * pi * turn)
+        return Contour((Edge(start, start, (x, y), 2 * pi),), True)
+
+    routes = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], offset, "auto")
+    (opening,) = (route for route in routes if route.number == 1)
+    assert opening.start != (0.0, 0.0)
+    assert not make(routes, "part", 1.0, Settings()).checked.faults
+
+
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
     """A drawing that no memory holds goes line by line, in bounded time (1,000 elements)."""
     page = drawing()

@@ -29,6 +29,8 @@ _ENOUGH = 0.5
 _ROOMY = 1.5
 #: Edges of so often R are surely there beside the contour.
 _SURE = 4.0
+#: A start hole that is not a circle's centre is further from that than this part of the radius.
+_BESIDE = 0.1
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
 #: A contour with a tab is so many times as long as that, or has an edge that is so many times as long.
@@ -460,6 +462,10 @@ class _Planner:
         (ahead,) = yield [Look(entry, 2 * reach + least, square, least)]
         reach = yield from self._clear(entry, square, min(reach, ahead / 2))
         hole = polar(entry, reach, square)
+        if edge.is_circle and distance(hole, edge.centre) < _BESIDE * edge.radius:
+            # (from the centre the ROM would go to the +X side)
+            reach *= 1 - _BESIDE
+            hole = polar(entry, reach, square)
         while is_arc and reach > _LEAST_ARC:
             # (the quarters of the circle to the contour and from it must be free)
             (near,) = yield [Look(hole, reach)]
