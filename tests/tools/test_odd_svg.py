@@ -154,6 +154,30 @@ def test_what_is_guessed_is_said(content: str, note: str) -> None:
     assert reading_of(page(content % PART)).report.notes == []
 
 
+@pytest.mark.parametrize(
+    ("style", "is_said"),
+    [
+        ('style="marker-end:url(#a)"', True),
+        ('marker-start="url(#a)"', True),
+        ('style="marker:url(#a)"', True),
+        ('style="marker:none"', False),
+        ('marker-mid="none"', False),
+    ],
+)
+def test_markers_are_said(style: str, is_said: bool) -> None:
+    """The head of an arrow, told by the line or by the group that it stands in; a rectangle has none."""
+    line = '<line x1="5" y1="5" x2="60" y2="5" stroke="red" %s/>'
+    head = '<marker id="a"><path d="M0 0 L4 2 L0 4 z"/></marker>'
+    for content in (line % style, f"<g {style}>{line % ''}</g>"):
+        reading = reading_of(page(head + PART + content))
+        assert len(reading.contours) == 2
+        note = "1 shape on layer 0 drawn with markers, such as heads of arrows, as at (5, 95): these are not cut"
+        assert [text for text in reading.report.notes if "markers" in text] == [note] * is_said
+    assert reading_of(page(f"{head}<g {style}>{PART}</g>")).report.notes == []
+    unmarked = line % 'style="marker:none"'
+    assert reading_of(page(f"{head}<g {style}>{unmarked}</g>")).report.notes == []
+
+
 def test_a_line_of_dashes_within_an_outline_is_left() -> None:
     fold = '<line x1="12" y1="15" x2="28" y2="15" stroke="blue" style="stroke-dasharray:1"/>'
     reading = reading_of(page(PART + fold))

@@ -6,10 +6,12 @@ import re
 from dataclasses import dataclass, replace
 from xml.etree.ElementTree import Element
 
+#: What is drawn at the ends and corners of lines, such as heads of arrows.
+_MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
 #: Attributes that mean what the property of that name means.
 _PROPERTIES = (
     "display", "visibility", "opacity", "fill", "stroke", "stroke-width", "stroke-dasharray", "clip-path", "mask",
-    "transform", "transform-origin", "transform-box",
+    "transform", "transform-origin", "transform-box", *_MARKERS,
 )  # fmt: skip
 #: Rules that hold under a condition: what stands before their braces, and in them.
 _CONDITIONAL = re.compile(r"@(media|supports|container|layer)\b([^{};]*)\{((?:[^{}]*\{[^{}]*\})*[^{}]*)\}")
@@ -33,11 +35,17 @@ class Style:
     box: str = ""
     is_clear: bool = False
     is_clipped: bool = False
+    markers: tuple[str, ...] = ("none",) * len(_MARKERS)
 
     @property
     def is_painted(self) -> bool:
         """Whether it has a line or an area."""
         return self.fill not in ("none", "transparent") or self.stroke not in ("none", "transparent")
+
+    @property
+    def has_markers(self) -> bool:
+        """Whether something is drawn at its ends or corners."""
+        return any(marker != "none" for marker in self.markers)
 
     @property
     def width(self) -> float:
@@ -98,8 +106,14 @@ class StyleSheet:
             origin=told.get("transform-origin", ""),
             box=told.get("transform-box", ""),
             is_clear=re.fullmatch(r"0*\.?0*%?", told.get("opacity", "1")) is not None,
+            markers=_markers(told, outer.markers),
             is_clipped=any(told.get(name, "none") != "none" for name in ("clip-path", "mask")),
         )
+
+
+def _markers(told: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:
+    """What is drawn at the start, at corners and at the end; `marker` tells all of them."""
+    return tuple(told.get(name, told.get("marker", old)) for name, old in zip(_MARKERS, outer, strict=True))
 
 
 def _declared(text: str) -> dict[str, str]:

@@ -31,6 +31,8 @@ PX = 25.4 / 96
 #: What is drawn, and what is drawn but is nothing to cut.
 _SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
 _NOTES = {"text": "text, convert it to paths", "image": "a picture", "foreignObject": "not SVG", "flowRoot": "text"}
+#: Shapes that may have markers at their ends and corners.
+_MARKED = ("path", "line", "polyline", "polygon")
 #: What holds others; what stands in anything else is drawn where it is used, or not at all.
 _GROUPS = ("g", "a", "svg", "switch")
 _LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
@@ -322,6 +324,7 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
     unpainted: list[tuple[Entity, list[Edge]]] = []
     clipped: list[Entity] = []
     wide: list[Entity] = []
+    marked: list[Entity] = []
     found: list[_Drawn] = []
     for one in file.drawn():
         found.append(one)
@@ -368,6 +371,8 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
         account.dashes = "stroke-dasharray" if style.is_dashed else ""
         if edges and one.view.is_clipped:
             clipped.append(account)
+        if edges and style.has_markers and kind in _MARKED:
+            marked.append(account)
         if edges and style.width * sqrt(abs(one.view.matrix.determinant)) * px > _WIDE:
             wide.append(account)
     if missed := file.sheet.missed:
@@ -382,6 +387,7 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
         content.notes += said((account for account, _ in unpainted), some, _UNPAINTED, "cut, there is nothing else")
     content.notes += said(clipped, some, "clipped or masked", "cut whole")
     content.notes += said(wide, some, f"drawn with a line wider than {_WIDE:g} mm", "the middle is cut")
+    content.notes += said(marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
     return content
 
 
