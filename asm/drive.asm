@@ -1,7 +1,7 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
 ; Uses:   cut decimal float io io_6850 io_port io_punch monitor reset start tape value
-; Room:   700 bytes
+; Room:   699 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
@@ -25,43 +25,47 @@
 DRIVE   EQU 14H         ; the machine's port, out:
 DYSTEP  EQU 04H         ; Y step
 DSTEPS  EQU 05H         ; both step bits
+DMINUS  EQU 0AH         ; both directions
 DCUTS   EQU 80H         ; cutting
 DBELOW  EQU 0D0H        ; the lowest character, less '0'
 DMOST   EQU 6           ; numbers are below 6 * 2^24
 
 ; Cells that RUN, NEW and a reset clear: those in front of N, and TOL's, which this image goes without
-DPARS   EQU RUNCEL      ; -> place in DLINE; high byte 0: a line begins
+DPARS   EQU RUNCEL      ; -> place in DLINE; low byte 0: a line begins
 DSTATE  EQU DPARS+2     ; bit 0: not cutting
 DCOUNT  EQU MTO         ; -> the count's N; high byte 0: no block is in hand
 DHIGH   EQU MTO+2       ; bit 7: the feed clock has not fallen behind the last step
 
 ; Cells that float.asm leaves free
-DX      EQU FWORK+12    ; the line that is read: J y x, high byte first
-DNUMP   EQU DX+12       ; -> behind the number that is read
-DAXIS   EQU DX+14       ; 0 X, 1 Y
-DKIND   EQU DX+15       ; as DTURN
-DFIRST  EQU DX+16       ; quadrant, from 0
+DNUMP   EQU FWORK+12    ; -> behind the number that is read
+DAXIS   EQU DNUMP+2     ; 0 X, 1 Y
+DKIND   EQU DNUMP+3     ; as DTURN
+DFIRST  EQU DNUMP+4     ; quadrant, from 0
 
 ; Cells of FIT's, which holds nothing back here
-DN1     EQU HELD        ; record 1,
+DX      EQU HELD        ; the line that is read: J y x, high byte first
+DN1     EQU DX+12       ; record 1,
 DR1     EQU DN1+4
 DU1     EQU DN1+8
 DN2     EQU DN1+9       ; record 2
 DR2     EQU DN1+13
 DU2     EQU DN1+17
-DROLE   EQU DN1+18      ; bit 7: F >= 0 steps record 1
+DROLE   EQU DN1+18      ; bit 7: F >= 0 steps record 2
 DBASE   EQU DN1+19      ; the port without a pulse
 DINC    EQU DN1+20      ; what a step adds to its own R: 2 on an arc, else 0
 DTURN   EQU DN1+21      ; low two bits: what is added to the quadrant: 0 line, 1 counter-clockwise, 3 clockwise
-DQUAD   EQU DN1+22      ; low two bits: the quadrant that the motion points into, from 0
+DQUAD   EQU DN1+22      ; the quadrant that the motion points into, 0 to 3
 DFDEV   EQU DN1+23      ; F
 DMODE   EQU DN1+27      ; 0FEH: RUN drives, 0: it does not
 
+;! DX & 0FFH == 0 and DFIRST < FSP -- DLINE sees by the low address that a number, and the last one, has been read
 ;! DN1/100H == DU2/100H -- the loop changes L alone
 ;! DU2-DU1 == 9 and DR2-DR1 == 9 and DN2-DN1 == 9 and DR1-DN1 == 4 and DU1-DR1 == 4 -- DLOOP walks along a record
 ;! DN2 == DU1+1 and DQUAD == DTURN+1 and DFIRST == DKIND+1 -- DLINE and DIRS take two cells at once
-;! DX & 3 == 0 and DX/100H == (DX+12)/100H and DFIRST < FSP -- DLINE sees a number's end by its low address
 ;! DMODE < CLOSED and DSTATE < MNEXT and DHIGH < MTO+5 -- nobody else's cells
+;! (DSYN1&0FFH)*(DSYN2&0FFH)*(DSYN3&0FFH)*(DSYN4&0FFH)*(DSYN5&0FFH) != 0 -- DPUSH takes 0 for a line's beginning
+;! (DSYN6&0FFH)*(DSYN7&0FFH)*(DSYN8&0FFH)*((DSYN7-DSYN8)&0FFH) != 0 -- the same; SDRIV knows DSYN7 by its low byte
+;! DSYN7-DSYN1 < 100H -- SDRIV, the same
 
 ; DLOOP - steps, until there is something else to see to
 ; In:  B C D E = F, H = DN1/256
@@ -72,11 +76,11 @@ DLOOP:  IN      DRIVE
         ANI     3
         DCR     A
         RNZ
-        MVI     L,DR1&255
+        MVI     L,DR2&255
         LDA     DROLE
         XRA     B
         JM      DLOO1
-        MVI     L,DR2&255
+        MVI     L,DR1&255
 DLOO1:  MOV     A,E
         ADD     M
         MOV     E,A
@@ -138,7 +142,7 @@ PUNOFF: CALL    PAPON
 ; Out: A = 0; ERR 10 as DSTEP   Clobbers all
 DFIN:   CALL    DSTEP
         JNZ     DFIN
-        STA     DPARS+1
+        STA     DPARS
         RET
 
 ; BDPUN - punches a character (PUTC1 of io.asm calls it); DLINE gets it when RUN drives
@@ -168,6 +172,9 @@ SDRIV:  DB      PEEK
         LDA     DCOUNT+1
         ORA     A
         CNZ     DKEY            ; the block that was stopped
+        LDA     DPARS
+        CPI     DSYN7&255
+        CZ      DLIN6           ; a whole line has been read ahead: the character behind it does not come again
 SDRI1:  LXI     H,SDRI1         ; every character returns there
         PUSH    H
         CALL    DSTEP
@@ -185,8 +192,8 @@ SDRI1:  LXI     H,SDRI1         ; every character returns there
 ; In:  A   Out: ERR 10   Clobbers all
 DPUSH:  SUI     CZERO
         LHLD    DPARS
-        INR     H
-        DCR     H
+        INR     L
+        DCR     L
         JZ      DLINE
         SUB     M
         INX     H
@@ -215,7 +222,7 @@ DLINE:  ORA     A
 DLIN1:  CPI     CLTB-CZERO
         JNZ     DERR
         CALL    DNEXT
-        DB      0,10
+DSYN1:  DB      0,10
 DLIN2:  LHLD    DNUMP
         LXI     D,10
         MOV     C,A             ; 10x+digit, byte by byte
@@ -233,7 +240,7 @@ DLIN3:  DCX     H
         CPI     DMOST
         JNC     DERR
         CALL    DNEXT
-        DB      0,CLTG-CZERO+1
+DSYN2:  DB      0,CLTG-CZERO+1
         CPI     10
         JC      DLIN2
         MOV     B,A
@@ -241,16 +248,15 @@ DLIN3:  DCX     H
         MOV     A,M
         SUI     4
         MOV     M,A
-        CPI     DX&255
         MOV     A,B
         JNZ     DLIN1
         CPI     CLTG-CZERO
         JNZ     DERR
         CALL    DNEXT
-        DB      CLTY-1-CZERO,2
+DSYN3:  DB      CLTY-1-CZERO,2
         STA     DAXIS
         CALL    DNEXT
-        DB      CLTL-CZERO,CLTS-CLTL+1
+DSYN4:  DB      CLTL-CZERO,CLTS-CLTL+1
         RRC                     ; L 0, N 1, S 83H
         STA     DKIND
         ORA     A
@@ -260,19 +266,15 @@ DLIN3:  DCX     H
         CPI     82H
         JNZ     DERR
 DLIN4:  CALL    DNEXT
-        DB      CLTR-CZERO,1
+DSYN5:  DB      CLTR-CZERO,1
 DLIN5:  CALL    DNEXT
-        DB      1,4
+DSYN6:  DB      1,4
         STA     DFIRST
         CALL    DNEXT
-        DB      DBELOW,100H-DBELOW
-        CALL    DFIN
+DSYN7:  DB      DBELOW,100H-DBELOW
+DLIN6:  CALL    DFIN            ; (SDRIV comes in here)
         LHLD    DKIND           ; and DFIRST
         SHLD    DTURN           ; and DQUAD
-        MOV     A,L
-        ANI     1
-        ADD     A
-        STA     DINC
         LDA     DAXIS
         XRA     L
         RAR                     ; CY: record 1 counts
@@ -291,14 +293,14 @@ DLIN5:  CALL    DNEXT
         MOV     L,C
         MVI     B,4
         STC
-DLIN6:  DCX     D               ; N = -J
+DLIN7:  DCX     D               ; N = -J
         LDAX    D
         CMA
         ACI     0
         MOV     M,A
         DCX     H
         DCR     B
-        JNZ     DLIN6
+        JNZ     DLIN7
         RC                      ; J = 0 is no block
         INX     H
         SHLD    DCOUNT
@@ -359,23 +361,23 @@ DSTE3:  XRA     A
         XRA     A
         SUB     E
         MOV     L,A
-        MVI     A,0
+        MVI     E,0
+        MOV     A,E
         SBB     D
         MOV     H,A
-        MVI     A,0
+        MOV     A,E
         SBB     C
+        MOV     C,E             ; (no power of ten)
         MOV     E,A
-        MVI     A,0
+        MOV     A,C
         SBB     B
         MOV     D,A
-        MVI     C,0
         CALL    DECOU1
         DB      ERROR,ETAPE
 
 ; DTWICE - R of a coordinate: doubled, and 1 on an arc
-; In:  DE -> behind its low byte, HL -> R, DINC   Out: A = highest byte, DE -> highest byte   Clobbers B, HL
-DTWICE: LDA     DINC
-        RRC
+; In:  DE -> behind its low byte, HL -> R, DTURN   Out: A = highest byte, DE -> highest byte   Clobbers B, HL
+DTWICE: LDA     DTURN
         RRC
         MVI     B,4
 DTWI1:  DCX     D
@@ -389,7 +391,7 @@ DTWI1:  DCX     D
 
 ; DSTOP - the line begins with D: the end of the tape, or off, and a key comes before the next block
 DSTOP:  CALL    DNEXT
-        DB      CLTD-CZERO,DBELOW+CLTD-CZERO+8 ; all but '0' to 'C'
+DSYN8:  DB      CLTD-CZERO,DBELOW+CLTD-CZERO+8 ; all but '0' to 'C'
         ORA     A
         JZ      DEND
         JP      DERR
@@ -420,16 +422,14 @@ DEND:   CALL    DENDS
 DIRS:   LHLD    DTURN           ; and DQUAD
         MOV     A,L
         ADD     H
+        ANI     3
         STA     DQUAD
         MOV     C,A
-        ANI     2
-        RLC
-        RLC
-        MOV     B,A             ; Y direction
-        MOV     A,C
-        INR     A
-        ANI     2               ; X direction
-        ORA     B
+        ADD     A
+        ADD     A               ; bit 3: Y direction
+        INR     C
+        ORA     C               ; bit 1: X direction
+        ANI     DMINUS
         MOV     B,A
         LDA     DSTATE
         INR     A
@@ -442,21 +442,26 @@ DIRS:   LHLD    DTURN           ; and DQUAD
         RRC
         MOV     L,A
         SBB     A
+        MOV     H,A
         ANI     DSTEPS
         XRI     DYSTEP          ; X on an arc, Y on a line
         ORA     B
         STA     DU1
         XRI     DSTEPS
         STA     DU2
+        MOV     A,H
+        ANI     2
+        STA     DINC
+        MOV     B,A
         MOV     A,L
         XRA     C
+        MOV     C,B
         RRC
         STA     DROLE
-        LXI     H,DR1
+        LXI     H,DR2
         JC      DIRS2
-        MVI     L,DR2&255
-DIRS2:  LDA     DINC
-        MOV     C,A
+        MVI     L,DR1&255
+DIRS2:  MOV     A,C
         ORA     A
         MVI     B,4
 DIRS3:  SBB     M
@@ -468,8 +473,7 @@ DIRS3:  SBB     M
         RC
         ORA     C
         RZ                      ; a line along an axis
-        XRA     A
-        STA     DCOUNT+1
+        CALL    SDRI7
 ; (fall into DERR)
 
 ; DERR - the line is none: that counts when the block in hand has been followed
@@ -489,7 +493,7 @@ SDRI9:  CALL    LNEND
         SUB     E
         ADD     A
 SDRI8:  STA     DMODE
-        XRA     A
+SDRI7:  XRA     A               ; (DIRS comes in here)
         STA     DCOUNT+1        ; a block that was stopped is forgotten
 ; (fall into DENDS)
 

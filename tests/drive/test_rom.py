@@ -252,6 +252,28 @@ def test_ctrl_c_stops_between_two_steps(board: Driver) -> None:
     assert stopped > 10
 
 
+@pytest.mark.parametrize("end", ["\r\n", "\n", "\r"])
+def test_a_stop_with_a_line_read_ahead(board: Driver, end: str) -> None:
+    """A whole line that was read ahead is followed after the stop, whatever ends the lines; twice stopped too."""
+    tape = end.join(["B9000B4000B9000GXL1", "B0B30B30GYL2", "D", "B20B0B20GXL3", "B5B0B5GXL1", "DD", ""])
+    way = follow(tape)
+    stopped = []
+    for wait in range(2_000_000, 3_900_000, 300_000):
+        board.clear()
+        board.begin(tape, wait)
+        for _ in range(2):
+            assert board.stop().endswith("ERR 10\r\n>")
+            assert board.steps == way[: len(board.steps)]
+            stopped.append(len(board.steps))
+            board.machine.type("DRIVE\r")
+            board.machine.run(50_000)
+        board.stop()
+        board.go("DRIVE")
+        assert board.steps == way, (wait, end)
+    assert min(stopped) < 8000
+    assert sum(7000 < steps < 13_000 for steps in stopped) > 8, "while the block goes on behind which it was read"
+
+
 def test_half_a_line(board: Driver) -> None:
     """The reader has stopped within a line, with a block in hand or none: ctrl-C, and DRIVE goes on within it."""
     for tape in ("B9B5B9GXL1\r\nB7B3B7GXL2\r\nDD\r\n", "B30B40B90GXNR1\r\nDD\r\n"):
