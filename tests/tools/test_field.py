@@ -13,8 +13,7 @@ from shapely.geometry import LineString, Point, Polygon
 
 from skg.cutting.near import Pieces
 from skg.drawing.contour import Contour, Edge
-from skg.drawing.field import Field, Look, in_step, nearest_order
-from skg.errors import UserError
+from skg.drawing.field import Field, headings, nearest_order
 from skg.piece import Piece
 from skg.plane import XY, polar
 
@@ -44,26 +43,22 @@ def test_looks(seed: int) -> None:
     contours, rng = thrown(seed, 60), random.Random(seed)
     chords = [LineString([p, q]) for one in contours for p, q in zip(one.points(), one.points()[1:], strict=False)]
     everything = shapely.union_all(chords)
-    looks = []
-    for _ in range(300):
-        place, reach = (rng.uniform(-20, 60), rng.uniform(-20, 60)), rng.choice((0.3, 2.0, 30.0))
-        looks += [Look(place, reach), Look(place, reach, rng.uniform(-4, 4), 0.01)]
-    found = Field(contours).look(looks)
+    places = [(rng.uniform(-20, 60), rng.uniform(-20, 60)) for _ in range(300)]
+    reach, angles = [rng.choice((0.3, 2.0, 30.0)) for _ in places], [rng.uniform(-4, 4) for _ in places]
+    least = [0.01] * len(places)
+    field = Field(contours)
+    near = field.near(np.array(places), np.array(reach))
+    ahead = field.ahead(np.array(places), headings(np.array(angles)), np.array(reach), np.array(least))
     hits = 0
-    for look, far in zip(looks, found, strict=True):
-        ahead = [
-            (look.place[0] + part * cos(look.angle or 0), look.place[1] + part * sin(look.angle or 0))
-            for part in (look.least, look.reach)
-        ]
-        if look.angle is None:
-            true = everything.distance(Point(look.place))
-        else:
-            true = shapely.distance(Point(look.place), everything.intersection(LineString(ahead)))
-        if not true <= look.reach:
-            assert far == inf or far == pytest.approx(look.reach, abs=1e-9)
-        else:
-            hits += 1
-            assert far == pytest.approx(true, abs=1e-9)
+    for (x, y), far, angle, is_near, is_ahead in zip(places, reach, angles, near, ahead, strict=True):
+        way = LineString([(x + part * cos(angle), y + part * sin(angle)) for part in (0.01, far)])
+        for got, what in ((is_near, everything), (is_ahead, everything.intersection(way))):
+            true = shapely.distance(Point(x, y), what)
+            if not true <= far:
+                assert got == inf or got == pytest.approx(far, abs=1e-9)
+            else:
+                hits += 1
+                assert got == pytest.approx(true, abs=1e-9)
     assert hits > 100
 
 
@@ -77,18 +72,19 @@ def test_how_far_a_disc_gets(seed: int) -> None:
         place, angle, least = (rng.uniform(-5, 50), rng.uniform(-5, 50)), rng.uniform(-4, 4), rng.uniform(0, 2)
         if rng.random() < 0.5:
             place, angle, least = (rng.randint(0, 40) / 2, rng.randint(0, 40) / 2), rng.randint(0, 3) * pi / 2, 0.5
-        looks.append(Look(place, least + rng.choice((0.0, 2.0, 30.0)), angle, least, rng.choice((0.1, 0.25, 1.0))))
+        looks.append((place, angle, least + rng.choice((0.0, 2.0, 30.0)), least, rng.choice((0.1, 0.25, 1.0))))
+    places, angles, *others = map(np.array, zip(*looks, strict=True))
     kinds = Counter()
-    for look, far in zip(looks, Field(contours).look(looks), strict=True):
-        until = min(far, look.reach)
-        first, last = (polar(look.place, along, look.angle) for along in (look.least, until))
-        if far == look.least:
-            assert everything.distance(Point(first)) <= look.wide + 1e-9
+    found = Field(contours).before(places, headings(angles), *others).tolist()
+    for (place, angle, reach, least, wide), far in zip(looks, found, strict=True):
+        first, last = (polar(place, along, angle) for along in (least, min(far, reach)))
+        if far == least:
+            assert everything.distance(Point(first)) <= wide + 1e-9
         else:
-            assert everything.distance(LineString([first, last])) >= look.wide - 1e-9
-        if look.least < far < inf:
-            assert everything.distance(Point(last)) == pytest.approx(look.wide, abs=1e-9)
-        kinds[far == look.least, far == inf] += 1
+            assert everything.distance(LineString([first, last])) >= wide - 1e-9
+        if least < far < inf:
+            assert everything.distance(Point(last)) == pytest.approx(wide, abs=1e-9)
+        kinds[far == least, far == inf] += 1
     assert len(kinds) == 3 and min(kinds.values()) > 20
 
 
@@ -135,24 +131,6 @@ def test_nearest_order(seed: int) -> None:
             wanted.append(following)
             at = places[following]
         assert nearest_order(np.array(places), begin) == wanted
-
-
-def test_in_step() -> None:
-    """Tasks of different length get their own answers; of two that fail the first one's error is raised."""
-    field = Field([ring([(0, 0), (9, 0), (9, 9), (0, 9)])])
-
-    def task(number: int, steps: int) -> object:
-        found = []
-        for step in range(steps):
-            found += yield [Look((4.5, step / 8), 5.0)] * (number % 2 + 1)
-        if number > 5:
-            raise UserError(f"number {number}")
-        return found
-
-    got = in_step([task(number, number) for number in range(5)], field)
-    assert got == [[step / 8 for step in range(number) for _ in range(number % 2 + 1)] for number in range(5)]
-    with pytest.raises(UserError, match="number 6"):
-        in_step([task(number, 9 - number) for number in range(8)], field)
 
 
 @pytest.mark.parametrize("reach", [0.006, 0.5, 4.0])

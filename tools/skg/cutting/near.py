@@ -8,14 +8,11 @@ from itertools import pairwise
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
-from skg.drawing.field import Floats
+from skg.drawing.field import Floats, Whole
 from skg.piece import Piece
 from skg.tape.columns import directions, hypots
 from skg.tape.laid import Laid
-
-Whole = NDArray[np.int64]
 
 #: Pairs of a place and a piece that are looked at together, and so many places: more do not fit into a fast memory.
 _PAIRS = 50_000

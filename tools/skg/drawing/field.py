@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Generator, Sequence
-from itertools import islice
+from collections.abc import Callable, Collection, Sequence
 from math import cos, inf, sin
-from typing import NamedTuple, TypeVar
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from skg.drawing.contour import Contour, Edge
-from skg.errors import UserError
+from skg.piece import Piece
 from skg.plane import XY, distance
+from skg.tape.columns import Flags, directions, hypots
 
 #: So many chords that follow each other are looked for together.
 _RUN = 32
@@ -30,20 +29,8 @@ _ARCS = 1000
 _BOXES = 1000
 
 Floats = NDArray[np.float64]
-Measure = Callable[[Floats, Floats, Floats, Floats, Floats, Floats], Floats]
-T = TypeVar("T")
-
-
-class Look(NamedTuple):
-    """A look from a place for the nearest contour within a reach, mm; with an `angle` (radians) for the next one that
-    way, where what is nearer than `least` is none. `wide`: how far from `least` on something that is so wide on each
-    side gets that way before it touches one."""
-
-    place: XY
-    reach: float
-    angle: float | None = None
-    least: float = 0.0
-    wide: float = 0.0
+Whole = NDArray[np.int64]
+Measure = Callable[[Whole, Whole], Floats]
 
 
 class Field:
@@ -67,44 +54,62 @@ class Field:
         high = np.maximum(np.maximum.reduceat(self._points, self._low), ends) if len(ends) else ends
         return shapely.box(*low.T, *high.T)
 
-    def look(self, looks: Sequence[Look]) -> list[float]:
-        """What each of some looks finds, mm; infinite when there is nothing within its reach."""
-        found = np.full(len(looks), inf)
-        for kind, measure in enumerate((_beside, _ahead, _before)):
-            some = [at for at, one in enumerate(looks) if (one.angle is not None) * (1 + (one.wide > 0)) == kind]
-            for first in range(0, len(some), _BOXES):
-                self._look(looks, some[first : first + _BOXES], measure, found)
-        return found.tolist()
+    def near(self, places: Floats, reach: Floats) -> Floats:
+        """How far the nearest contour is from each of n places (n, 2), mm: infinite where none is within its reach."""
 
-    def _look(self, looks: Sequence[Look], which: list[int], measure: Measure, found: Floats) -> None:
-        """Look for chords in the boxes that some looks pass, and measure how far these are."""
-        places = np.array([looks[at].place for at in which], float)
-        reach = np.array([looks[at].reach for at in which], float)
-        ways = np.array([_direction(looks[at].angle) for at in which], float)
-        least = np.array([looks[at].least for at in which], float)
-        wide = np.array([looks[at].wide for at in which], float)
-        is_round = ~ways.any(1)
-        ends = places + reach[:, None] * ways
-        aside = np.where(is_round, reach, wide)[:, None] + _HAIR
-        boxes = shapely.box(*(np.minimum(places, ends) - aside).T, *(np.maximum(places, ends) + aside).T)
-        of, runs = self._runs.query(boxes)
-        order = np.argsort(of, kind="stable")
-        of, runs = of[order], runs[order]
-        chords = self._high[runs] - self._low[runs]
-        total = np.concatenate(([0], np.cumsum(chords)))
-        low = 0
-        while low < len(of):
-            high = max(low + 1, int(np.searchsorted(total, total[low] + _PAIRS, "right")) - 1)
-            counts = chords[low:high]
-            at = np.arange(counts.sum()) + np.repeat(self._low[runs[low:high]] - np.cumsum(counts) + counts, counts)
-            one = np.repeat(of[low:high], counts)
-            starts = self._points[at]
-            sides = self._points[at + 1] - starts
-            far = measure(places[one] - starts, sides, ways[one], reach[one], least[one], wide[one])
-            begins = np.flatnonzero(np.diff(one, prepend=-1))
-            some = np.array(which)[one[begins]]
-            found[some] = np.minimum(found[some], np.minimum.reduceat(far, begins))
-            low = high
+        def measure(at: Whole, one: Whole) -> Floats:
+            return _beside(*self._chords(at, places, one), reach[one])
+
+        return self._look(places, places, reach + _HAIR, measure)
+
+    def ahead(self, places: Floats, ways: Floats, reach: Floats, least: Floats) -> Floats:
+        """How far it is from each of n places along its way (n, 2; unit vectors) to the next contour, mm: infinite
+        where none is within its reach. What is nearer than `least` is none."""
+
+        def measure(at: Whole, one: Whole) -> Floats:
+            return _ahead(*self._chords(at, places, one), *_columns(ways, one), reach[one], least[one])
+
+        return self._look(places, places + reach[:, None] * ways, np.full(len(places), _HAIR), measure)
+
+    def before(self, places: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
+        """How far something that is so wide on each side gets from each of n places along its way (n, 2; unit vectors)
+        before it touches a contour, mm: from `least` on, infinite where it touches none within its reach."""
+
+        def measure(at: Whole, one: Whole) -> Floats:
+            return _before(*self._chords(at, places, one), *_columns(ways, one), reach[one], least[one], wide[one])
+
+        return self._look(places, places + reach[:, None] * ways, wide + _HAIR, measure)
+
+    def _chords(self, at: Whole, places: Floats, one: Whole) -> tuple[Floats, Floats, Floats, Floats]:
+        """The ways from where some chords begin to some places, and to where they end: x and y of each."""
+        (x, y), (x1, y1), (x2, y2) = _columns(places, one), _columns(self._points, at), _columns(self._points, at + 1)
+        return x - x1, y - y1, x2 - x1, y2 - y1
+
+    def _look(self, places: Floats, ends: Floats, aside: Floats, measure: Measure) -> Floats:
+        """The least that is measured from each of n places to the chords in a box: around it and its end, and so far
+        aside. `measure` is given which chords and which places."""
+        found = np.full(len(places), inf)
+        low, high = np.minimum(places, ends) - aside[:, None], np.maximum(places, ends) + aside[:, None]
+        for first in range(0, len(places), _BOXES):
+            some = slice(first, first + _BOXES)
+            of, runs = self._runs.query(shapely.box(*low[some].T, *high[some].T))
+            order = np.argsort(of, kind="stable")
+            of, runs = first + of[order], runs[order]
+            chords = self._high[runs] - self._low[runs]
+            total = np.concatenate(([0], np.cumsum(chords)))
+            begin = 0
+            while begin < len(of):
+                end = max(begin + 1, int(np.searchsorted(total, total[begin] + _PAIRS, "right")) - 1)
+                counts = chords[begin:end]
+                at = np.arange(counts.sum()) + np.repeat(
+                    self._low[runs[begin:end]] - np.cumsum(counts) + counts, counts
+                )
+                one = np.repeat(of[begin:end], counts)
+                starts = np.flatnonzero(np.diff(one, prepend=-1))
+                least = np.minimum.reduceat(measure(at, one), starts)
+                found[one[starts]] = np.minimum(found[one[starts]], least)
+                begin = end
+        return found
 
     def depths(self) -> list[int]:
         """How many closed contours lie around each: hold a place in it, and are larger.
@@ -187,7 +192,7 @@ class Field:
         near = np.flatnonzero(far <= far.min() + _HAIR).tolist()
         return min(near, key=lambda at: min(distance(place, point) for point in self.contours[at].points()))
 
-    def _holds(self, at: int, places: Floats) -> NDArray[np.bool_]:
+    def _holds(self, at: int, places: Floats) -> Flags:
         """Which places lie inside a closed contour (counts crossings of rays to the right)."""
         points = self._points[self._first[at] : self._first[at + 1]]
         found = np.zeros(len(places), bool)
@@ -204,7 +209,7 @@ class Field:
         return found
 
 
-def points_of(contours: Sequence[Contour]) -> tuple[Floats, NDArray[np.int64]]:
+def points_of(contours: Sequence[Contour]) -> tuple[Floats, Whole]:
     """The points of contours one after the other, to the last bit those of `Contour.points`, and how many each has."""
     edges = [edge for contour in contours for edge in contour.edges]
     # A contour has its edges' points but the last of each, and its end.
@@ -225,92 +230,92 @@ def points_of(contours: Sequence[Contour]) -> tuple[Floats, NDArray[np.int64]]:
     return found, per_contour
 
 
-def _inner_points(arcs: list[Edge], at: NDArray[np.int64], pieces: NDArray[np.int64], found: Floats) -> None:
+def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> None:
     """Put the points of arcs behind their first ones, which are at some places."""
-    shapes = np.array([(*arc.centre, arc.radius, arc.angles[0], arc.sweep) for arc in arcs])
     inner = pieces - 1
-    x, y, radius, first, sweep = np.repeat(shapes, inner, axis=0).T
+    x, y, radius, first, sweep = np.repeat(rows_of(arcs)[:, 4:], inner, axis=0).T
     number = np.arange(inner.sum()) - np.repeat(np.cumsum(inner) - inner, inner) + 1
-    angles = (first + number / np.repeat(pieces, inner) * sweep).tolist()
-    # (numpy's own cosine is another one on another processor)
-    across, up = (np.fromiter(map(of, angles), float, len(angles)) for of in (cos, sin))
+    across, up = headings(first + number / np.repeat(pieces, inner) * sweep).T
     places = np.repeat(at, inner) + number
     found[places, 0], found[places, 1] = x + radius * across, y + radius * up
 
 
-def _direction(angle: float | None) -> XY:
-    return (0.0, 0.0) if angle is None else (cos(angle), sin(angle))
+def rows_of(pieces: Sequence[Piece]) -> Floats:
+    """Lines and arcs as rows (n, 9): start, end, centre, radius, angle at the start, sweep; a line has zeros there."""
+    found = np.zeros((len(pieces), 9))
+    found[:, 0:2] = np.array([piece.start for piece in pieces]).reshape(-1, 2)
+    found[:, 2:4] = np.array([piece.end for piece in pieces]).reshape(-1, 2)
+    arcs = [at for at, piece in enumerate(pieces) if piece.centre is not None]
+    found[arcs, 4:6] = np.array([pieces[at].centre for at in arcs]).reshape(-1, 2)
+    found[arcs, 8] = [pieces[at].sweep for at in arcs]
+    out = found[arcs, 0:2] - found[arcs, 4:6]
+    found[arcs, 6], found[arcs, 7] = hypots(*out.T), directions(out)
+    return found
 
 
-def _beside(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
-    """How far places, which lie `to` from where chords begin, are from these."""
-    square = np.maximum((sides**2).sum(1), 1e-300)
-    part = np.clip((to * sides).sum(1) / square, 0, 1)
-    far = np.sqrt(((to - part[:, None] * sides) ** 2).sum(1))
+def headings(angles: Floats) -> Floats:
+    """Unit vectors (n, 2) in directions, radians."""
+    # (numpy's own cosine is another one on another processor)
+    turns = angles.tolist()
+    return np.column_stack([np.fromiter(map(of, turns), float, len(turns)) for of in (cos, sin)])
+
+
+def _columns(table: Floats, at: Whole) -> tuple[Floats, Floats]:
+    """x and y of some rows. (numpy is slow along rows of two)"""
+    return table[:, 0][at], table[:, 1][at]
+
+
+def _beside(x: Floats, y: Floats, along: Floats, up: Floats, reach: Floats) -> Floats:
+    """How far places, which lie x, y from where chords begin, are from these."""
+    square = np.maximum(along**2 + up**2, 1e-300)
+    part = np.clip((x * along + y * up) / square, 0, 1)
+    far = np.sqrt((x - part * along) ** 2 + (y - part * up) ** 2)
     return np.where(far <= reach, far, inf)
 
 
-def _ahead(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
-    """How far it is from places along their ways to chords."""
-    area = ways[:, 0] * sides[:, 1] - ways[:, 1] * sides[:, 0]
+def _ahead(
+    x: Floats, y: Floats, along: Floats, up: Floats, u: Floats, v: Floats, reach: Floats, least: Floats
+) -> Floats:
+    """How far it is from places along their ways u, v to chords."""
+    area = u * up - v * along
     with np.errstate(divide="ignore", invalid="ignore"):
-        far = (to[:, 1] * sides[:, 0] - to[:, 0] * sides[:, 1]) / area
-        part = (to[:, 1] * ways[:, 0] - to[:, 0] * ways[:, 1]) / area
+        far = (y * along - x * up) / area
+        part = (y * u - x * v) / area
     hits = (np.abs(area) > 1e-12) & (far > least) & (far <= reach) & (part >= 0) & (part <= 1)
     return np.where(hits, far, inf)
 
 
-def _before(to: Floats, sides: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
-    """How far a disc gets from places along their ways before it touches chords: from `least` on.
+def _before(
+    x: Floats, y: Floats, along: Floats, up: Floats, u: Floats, v: Floats, reach: Floats, least: Floats, wide: Floats
+) -> Floats:
+    """How far a disc gets from places along their ways u, v before it touches chords: from `least` on.
 
     It is on a chord while its centre is between the two ends of one of three stretches of the way: beside the chord,
     and within its radius of each end.
     """
-    first, last = np.full(len(to), inf), np.full(len(to), -inf)
+    first, last = np.full(len(x), inf), np.full(len(x), -inf)
     with np.errstate(divide="ignore", invalid="ignore"):
-        for end in (to, to - sides):
-            middle = -(end * ways).sum(1)
-            half = np.sqrt(wide**2 - (end[:, 0] * ways[:, 1] - end[:, 1] * ways[:, 0]) ** 2)
+        for p, q in ((x, y), (x - along, y - up)):
+            middle = -(p * u + q * v)
+            half = np.sqrt(wide**2 - (p * v - q * u) ** 2)
             first, last = np.fmin(first, middle - half), np.fmax(last, middle + half)
         # Along the chord it is between its ends, across it no further than the radius.
-        length = np.hypot(*sides.T)
-        along, across = sides / length[:, None], np.stack((-sides[:, 1], sides[:, 0]), 1) / length[:, None]
-        low, high = np.full(len(to), -inf), np.full(len(to), inf)
-        for square, bottom, top in ((along, np.zeros(len(to)), length), (across, -wide, wide)):
-            place, speed = (to * square).sum(1), (ways * square).sum(1)
-            ends = np.stack(((bottom - place) / speed, (top - place) / speed))
+        length = np.hypot(along, up)
+        p, q = along / length, up / length
+        low, high = np.full(len(x), -inf), np.full(len(x), inf)
+        for place, speed, bottom, top in (
+            (x * p + y * q, u * p + v * q, np.zeros(len(x)), length),
+            (y * p - x * q, v * p - u * q, -wide, wide),
+        ):
+            ends = (bottom - place) / speed, (top - place) / speed
             is_still = np.abs(speed) < 1e-12
             is_in = (place >= bottom) & (place <= top)
-            low = np.maximum(low, np.where(is_still, np.where(is_in, -inf, inf), ends.min(0)))
-            high = np.minimum(high, np.where(is_still, inf, ends.max(0)))
+            low = np.maximum(low, np.where(is_still, np.where(is_in, -inf, inf), np.minimum(*ends)))
+            high = np.minimum(high, np.where(is_still, inf, np.maximum(*ends)))
     is_beside = low <= high
     first = np.where(is_beside, np.fmin(first, low), first)
     last = np.where(is_beside, np.fmax(last, high), last)
     return np.where((last >= least) & (first <= reach), np.maximum(first, least), inf)
-
-
-def in_step(tasks: Sequence[Generator[Sequence[Look], list[float], T]], field: Field) -> list[T]:
-    """Carry on tasks that wait for what they look for: all that are waiting look together.
-
-    Where tasks fail with a `UserError` that of the first one in order is raised.
-    """
-    done: dict[int, T] = {}
-    failed: dict[int, UserError] = {}
-    answers: dict[int, list[float] | None] = dict.fromkeys(range(len(tasks)))
-    while answers:
-        asked: dict[int, Sequence[Look]] = {}
-        for at, answer in answers.items():
-            try:
-                asked[at] = tasks[at].send(answer)
-            except StopIteration as stop:
-                done[at] = stop.value
-            except UserError as error:
-                failed[at] = error
-        found = iter(field.look([look for looks in asked.values() for look in looks]))
-        answers = {at: list(islice(found, len(looks))) for at, looks in asked.items()}
-    if failed:
-        raise failed[min(failed)]
-    return [done[at] for at in range(len(tasks))]
 
 
 def nearest_order(places: Floats, begin: XY) -> list[int]:

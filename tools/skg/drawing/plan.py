@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, inf, pi, sin
-from typing import TypeVar
+from typing import NamedTuple
 
 import numpy as np
 
 from skg.drawing.contour import Contour, Edge, part_of
-from skg.drawing.field import Field, Look, in_step, nearest_order
+from skg.drawing.field import Field, Floats, headings, nearest_order, rows_of
 from skg.drawing.parallel import part_between, wire_way
 from skg.errors import UserError
 from skg.plane import XY, distance, minus, polar, turn
+from skg.tape.columns import Flags, directions, hypots
 
-T = TypeVar("T")
 #: Where the wire may run, see `plan`.
 SIDES = ("auto", "inside", "outside", "left", "right", "on")
 #: A start hole is this far from the contour where there is room, mm.
@@ -275,7 +275,7 @@ def _oriented(contour: Contour, side: str, depth: int, reverse: bool) -> tuple[C
 
 def _turned_to(contour: Contour, at: int) -> Contour:
     """The closed contour, beginning with another of its edges."""
-    return replace(contour, edges=contour.edges[at:] + contour.edges[:at])
+    return contour if not at else replace(contour, edges=contour.edges[at:] + contour.edges[:at])
 
 
 def _entry_near(contour: Contour, start: XY, offset: float) -> tuple[Contour, float]:
@@ -291,22 +291,37 @@ def _entry_near(contour: Contour, start: XY, offset: float) -> tuple[Contour, fl
         # A full circle is entered by a straight radial move; elsewhere any place of the edge will do.
         best = min(best, (distance(edge.at(part), start), at, part))
     if best[0] == inf:
-        return next(_entries_on_curve(contour))
+        entry = next(_entries_on_curve(contour))
+        return entry.begun(contour), entry.part
     return _turned_to(contour, best[1]), best[2]
 
 
-def _entries_on_curve(contour: Contour) -> Iterator[tuple[Contour, float]]:
+class _Entry(NamedTuple):
+    """Where a closed contour may begin: at `part` of its edge number `at`, or at a `node` of that edge, a curve."""
+
+    at: int
+    part: float = 0.0
+    node: int = 0
+
+    def begun(self, contour: Contour) -> Contour:
+        """The contour, beginning with the edge of the entry: at its part, at the node."""
+        turned = _turned_to(contour, self.at)
+        if not self.node:
+            return turned
+        before, after = split_curve(turned.edges[0], self.node)
+        return replace(contour, edges=(after, *turned.edges[1:], before), copies=1)
+
+
+def _entries_on_curve(contour: Contour) -> Iterator[_Entry]:
     """Begin a contour at nodes inside its longest curve (first, a closed one at its seam)."""
     at = max(range(len(contour.edges)), key=lambda k: contour.edges[k].length)
     edge = contour.edges[at]
     is_smooth = len(contour.edges) == 1 and abs(turn(edge.nodes[0].angle, edge.nodes[-1].angle)) < 1e-3
     inner = {len(edge.nodes) * k // 4 for k in (1, 2, 3)} - {0, len(edge.nodes) - 1}
-    turned = _turned_to(contour, at).edges
     if is_smooth or not inner:
-        yield replace(contour, edges=turned), 0.0
+        yield _Entry(at)
     for node in sorted(inner, key=lambda k: abs(2 * k - len(edge.nodes))):
-        before, after = split_curve(edge, node)
-        yield replace(contour, edges=(after, *turned[1:], before), copies=1), 0.0
+        yield _Entry(at, node=node)
 
 
 def _is_long(contour: Contour, tab: float) -> bool:
@@ -320,41 +335,42 @@ def longest_tab(contour: Contour) -> float:
     return max(max(lengths) / _ROOM, sum(lengths) / _LONG)
 
 
-def _entries(contour: Contour, tab: float, widest: float) -> Iterator[tuple[Contour, float]]:
+def _entries(contour: Contour, tab: float, widest: float) -> Iterator[_Entry]:
     """Where a closed contour may begin: in its longest lines, else in its longest arcs, else on a curve.
 
     The tab lies before the entry, on the same edge where there is one that is long enough. `widest`: the largest R.
     Copies of a tooth are entered where one of them begins: there the next one goes on.
     """
     if contour.copies > 1 and not tab:
-        yield contour, 0.0
+        yield _Entry(0)
+    lengths = [edge.length for edge in contour.edges]
     ranked = sorted(
         (at for at, edge in enumerate(contour.edges) if not edge.nodes),
-        key=lambda at: (not contour.edges[at].is_line, -contour.edges[at].length),
+        key=lambda at: (not contour.edges[at].is_line, -lengths[at]),
     )
-    fitting = [at for at in ranked if contour.edges[at].length > _ROOM * tab]
+    fitting = [at for at in ranked if lengths[at] > _ROOM * tab]
     # (a short edge may not be there any more beside the contour)
-    sure = [at for at in fitting if contour.edges[at].length > _SURE * widest]
+    sure = [at for at in fitting if lengths[at] > _SURE * widest]
     yield from _on_edges(contour, sure[:_TRIED], tab)
-    if any(edge.nodes and edge.length > _ROOM * tab for edge in contour.edges):
+    if any(edge.nodes and length > _ROOM * tab for edge, length in zip(contour.edges, lengths, strict=True)):
         yield from _entries_on_curve(contour)
     yield from _on_edges(contour, [at for at in fitting if at not in sure][:_TRIED], tab)
     if not fitting and _is_long(contour, tab):
         for at in ranked[:_TRIED]:
-            yield _turned_to(contour, at), 0.5
+            yield _Entry(at, 0.5)
         if not ranked:
             yield from _entries_on_curve(contour)
 
 
-def _on_edges(contour: Contour, edges: list[int], tab: float) -> Iterator[tuple[Contour, float]]:
+def _on_edges(contour: Contour, edges: list[int], tab: float) -> Iterator[_Entry]:
     """Entries in the middle of edges and aside from it, behind a tab."""
     for at in edges:
-        edge, turned = contour.edges[at], _turned_to(contour, at)
+        edge = contour.edges[at]
         aside = tab / 2 / edge.length
         for part in (0.0, 0.25, 0.5, 0.75) if edge.is_circle else (0.5, 0.3, 0.7):
             part += aside
             if edge.is_circle or part - 2 * aside > 0.05 and part < 0.95:
-                yield turned, part % 1
+                yield _Entry(at, part % 1)
 
 
 @dataclass(frozen=True)
@@ -370,12 +386,35 @@ class Method:
     is_arc: bool = False
 
 
-#: What waits for the answers to its looks before it goes on.
-_Looking = Generator[Sequence[Look], list[float], T]
+class _Choice:
+    """A closed contour whose entry is chosen. `entry`: the one that is tried next, None when all were; `room`: that of
+    the best one so far, which `made` has; `reach`: how far the start hole is to be from the contour."""
+
+    def __init__(self, made: PlannedContour, is_outside: bool, reach: float, entries: Iterator[_Entry]) -> None:
+        self.made = made
+        self.is_outside = is_outside
+        self.is_right = is_outside == (made.contour.area > 0)
+        self.reach = reach
+        self.entries = entries
+        self.entry = next(entries, None)
+        self.room = -inf
+        self.found: tuple[_Entry, float, XY, XY] | None = None
+
+    def take(self, part: float, start: XY, tab_hole: XY, room: float, is_enough: bool) -> None:
+        """Keep what was found for the entry if it is the best one, and go on to the next one if it is not enough."""
+        if room > self.room:
+            self.room, self.found = room, (self.entry, part, start, tab_hole)
+        self.entry = None if is_enough else next(self.entries, None)
+
+    def planned(self) -> PlannedContour:
+        """The contour as it is entered best."""
+        entry, part, start, tab_hole = self.found
+        contour = entry.begun(self.made.contour)
+        return replace(self.made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=self.room)
 
 
 class _Planner:
-    """Plans contours, each by itself; knows what lies around them."""
+    """Plans contours, each by itself; knows what lies around them. All contours look around together."""
 
     def __init__(self, contours: list[Contour], method: Method) -> None:
         self.field = Field(contours)
@@ -383,57 +422,123 @@ class _Planner:
         self.widest = method.offset + max(method.passes) if method.side != "on" else 0.0
 
     def plan(
-        self, number: int, contour: Contour, sign: float, depth: int, given: XY | None
-    ) -> _Looking[PlannedContour]:
-        """Plan a contour."""
-        method = self.method
-        passes = tuple(sign * (method.offset + more) for more in method.passes)
-        offset = passes[-1]
-        if not contour.is_closed:
-            start = given or contour.edges[0].start
-            return PlannedContour(contour, start, 0.0, offset, depth, passes, number=number)
-        is_ccw = contour.area > 0
-        is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
-        tab = method.tab if is_outside else 0.0
-        is_short = tab >= longest_tab(contour)
-        tab = 0.0 if is_short else tab
-        made = PlannedContour(
-            contour, (0.0, 0.0), 0.0, offset, depth, passes, tab, is_arc=method.is_arc, number=number, is_short=is_short
-        )
-        if given is not None:
-            contour, part = _entry_near(contour, given, max(passes, key=abs))
-            if tab:
-                contour, part = self._tab_before(contour, part)
-            hole = yield from self._tab_hole(contour, part, given, made, is_outside == is_ccw)
-            return replace(made, contour=contour, start=given, part=part, tab_hole=hole)
-        return (yield from self._chosen(made, is_outside, is_ccw))
+        self, ready: Sequence[tuple[Contour, float]], depths: Sequence[int], given: dict[int, XY]
+    ) -> list[PlannedContour]:
+        """Plan contours, each with the sign of R; `given`: the start holes that some of them have."""
+        done: dict[int, PlannedContour] = {}
+        choices: list[_Choice] = []
+        for number, ((contour, sign), depth) in enumerate(zip(ready, depths, strict=True)):
+            method = self.method
+            passes = tuple(sign * (method.offset + more) for more in method.passes)
+            start, offset = given.get(number), passes[-1]
+            if not contour.is_closed:
+                start = start or contour.edges[0].start
+                done[number] = PlannedContour(contour, start, 0.0, offset, depth, passes, number=number)
+                continue
+            is_ccw = contour.area > 0
+            is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
+            tab = method.tab if is_outside else 0.0
+            is_short = tab > 0 and tab >= longest_tab(contour)
+            made = PlannedContour(
+                contour,
+                start or (0.0, 0.0),
+                0.0,
+                offset,
+                depth,
+                passes,
+                0.0 if is_short else tab,
+                is_arc=method.is_arc,
+                number=number,
+                is_short=is_short,
+            )
+            if start is not None:
+                done[number] = self._entered(made, is_outside == is_ccw)
+                continue
+            choices.append(self._choice(made, is_outside))
+        self._choose(choices)
+        # (an arc takes more room than a line)
+        cramped = [at for at, one in enumerate(choices) if one.made.is_arc and one.room < _ROOMY * self.widest]
+        for at in cramped:
+            made = replace(choices[at].made, is_arc=False, is_cramped=True)
+            choices[at] = self._choice(made, choices[at].is_outside)
+        self._choose([choices[at] for at in cramped])
+        done |= {choice.made.number: choice.planned() for choice in choices}
+        return [done[number] for number in range(len(done))]
 
-    def _chosen(self, made: PlannedContour, is_outside: bool, is_ccw: bool) -> _Looking[PlannedContour]:
-        """Choose the entry with the most room: the first one with enough, else the best one."""
+    def _choice(self, made: PlannedContour, is_outside: bool) -> _Choice:
         reach = self.method.lead + max(map(abs, made.passes))
-        best: tuple[float, Contour, XY, float, XY] | None = None
-        for contour, part in _entries(made.contour, made.tab, self.widest):
-            edge = contour.edges[0]
-            if edge.is_circle and not is_outside and not made.is_arc and (yield from self._is_clear_from_centre(edge)):
-                # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
-                part = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
-                start = edge.centre
-            else:
-                start = yield from self._hole(edge, part, is_outside == is_ccw, reach, made.is_arc)
-            tab_hole = yield from self._tab_hole(contour, part, start, made, is_outside == is_ccw)
-            # How far the nearest contour is from the start holes.
-            around = 2 * distance(start, edge.at(part)) + 1e-3
-            room = min((yield [Look(hole, around) for hole in ((start, tab_hole) if made.tab else (start,))]))
-            if best is None or room > best[0]:
-                best = room, contour, start, part, tab_hole
-            if room >= _ENOUGH * reach or start == edge.centre:
-                break
-        assert best is not None, "a contour that is long enough has an entry"
-        room, contour, start, part, tab_hole = best
-        if made.is_arc and room < _ROOMY * self.widest:
-            # (an arc takes more room than a line)
-            return (yield from self._chosen(replace(made, is_arc=False, is_cramped=True), is_outside, is_ccw))
-        return replace(made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=room)
+        return _Choice(made, is_outside, reach, _entries(made.contour, made.tab, self.widest))
+
+    def _entered(self, made: PlannedContour, is_right: bool) -> PlannedContour:
+        """A contour with its start hole, and where it is entered from there."""
+        contour, part = _entry_near(made.contour, made.start, max(made.passes, key=abs))
+        if not made.tab:
+            return replace(made, contour=contour, part=part)
+        contour, part = self._tab_before(contour, part)
+        end, reach = _before_tab(contour, part, made.tab), distance(made.start, contour.edges[0].at(part))
+        one = (np.array([what]) for what in (is_right, reach, made.is_arc))
+        ((x, y),) = self._tab_holes([end], *one).tolist()
+        return replace(made, contour=contour, part=part, tab_hole=(x, y))
+
+    def _choose(self, choices: Sequence[_Choice]) -> None:
+        """Choose the entry with the most room: the first one with enough, else the best one."""
+        edges = [choice.made.contour.edges for choice in choices]
+        first = np.cumsum([0, *map(len, edges)])
+        rows = rows_of([edge for some in edges for edge in some])
+        while len(some := np.flatnonzero([choice.entry is not None for choice in choices])):
+            tried = [choices[at] for at in some.tolist()]
+            at = np.array([choice.entry.at for choice in tried])
+            parts = np.array([choice.entry.part for choice in tried])
+            self._try(tried, rows[first[some] + at], parts)
+
+    def _try(self, choices: Sequence[_Choice], rows: Floats, parts: Floats) -> None:
+        """Try the next entries of contours, at parts of the edges in some rows: find start holes, and how far the
+        nearest contour is from these."""
+        places, ways = _places(rows, parts)
+        for at, choice in enumerate(choices):
+            if choice.made.contour.edges[choice.entry.at].nodes:
+                edge = choice.entry.begun(choice.made.contour).edges[0]
+                places[at], ways[at] = edge.at(0.0), edge.direction()
+        is_right = np.array([choice.is_right for choice in choices])
+        reach = np.array([choice.reach for choice in choices])
+        is_arc = np.array([choice.made.is_arc for choice in choices])
+        is_inside = np.array([not choice.is_outside for choice in choices])
+        # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
+        circles = np.flatnonzero(_are_circles(rows) & is_inside & ~is_arc)
+        central = circles[self._is_clear_from_centre(rows[circles])]
+        for at in central.tolist():
+            edge = choices[at].made.contour.edges[choices[at].entry.at]
+            parts[at] = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
+            places[at] = edge.at(float(parts[at]))
+        starts = rows[:, 4:6].copy()
+        others = np.delete(np.arange(len(choices)), central)
+        starts[others] = self._holes(*(some[others] for some in (places, ways, rows, is_right, reach, is_arc)))
+        far = hypots(*(starts - places).T)
+        # How far the nearest contour is from the start holes.
+        around = 2 * far + 1e-3
+        room = self.field.near(starts, around)
+        tab_holes = np.zeros((len(choices), 2))
+        tabs = [at for at, choice in enumerate(choices) if choice.made.tab]
+        if tabs:
+            begun = [(choices[at].made, choices[at].entry, float(parts[at])) for at in tabs]
+            ends = [_before_tab(entry.begun(made.contour), part, made.tab) for made, entry, part in begun]
+            # The start hole at the other side of the tab is as far from the contour as the first one.
+            tab_holes[tabs] = self._tab_holes(ends, is_right[tabs], far[tabs], is_arc[tabs])
+            room[tabs] = np.minimum(room[tabs], self.field.near(tab_holes[tabs], around[tabs]))
+        is_centre = (rows[:, 8] != 0) & (starts == rows[:, 4:6]).all(1)
+        is_enough = (room >= _ENOUGH * reach) | is_centre
+        found = (some.tolist() for some in (parts, starts, tab_holes, room, is_enough))
+        for choice, part, start, tab_hole, space, enough in zip(choices, *found, strict=True):
+            choice.take(part, tuple(start), tuple(tab_hole), space, enough)
+
+    def _tab_holes(self, edges: Sequence[Edge], is_right: Flags, reach: Floats, is_arc: Flags) -> Floats:
+        """The start holes at the other sides of tabs, which begin where some edges end."""
+        rows = rows_of(edges)
+        places, ways = _places(rows, np.ones(len(edges)))
+        for at, edge in enumerate(edges):
+            if edge.nodes:
+                places[at], ways[at] = edge.at(1.0), edge.direction(1.0)
+        return self._holes(places, ways, rows, is_right, reach, is_arc)
 
     def _tab_before(self, contour: Contour, part: float) -> tuple[Contour, float]:
         edge = contour.edges[0]
@@ -450,54 +555,69 @@ class _Planner:
             )
         return contour, min(0.95, max(part, aside + 0.05))
 
-    def _hole(
-        self, edge: Edge, part: float, is_right: bool, reach: float, is_arc: bool, at_end: bool = False
-    ) -> _Looking[XY]:
-        """A start hole square to the entry, on the wire's side: `reach` away, or in the middle of the room there is."""
-        entry = edge.at(part)
-        way = edge.direction(1.0 if at_end else part)
-        square = way - pi / 2 if is_right else way + pi / 2
+    def _holes(
+        self, places: Floats, ways: Floats, rows: Floats, is_right: Flags, reach: Floats, is_arc: Flags
+    ) -> Floats:
+        """Start holes square to the ways at places on edges (in rows), on the wire's side: `reach` away, or in the
+        middle of the room there is."""
+        square = headings(np.where(is_right, ways - pi / 2, ways + pi / 2))
         # An arc's own chords lie up to 0.1 % of its radius inside of it.
-        least = 1e-3 * (1 + edge.radius) if edge.centre is not None else 1e-3
-        (ahead,) = yield [Look(entry, 2 * reach + least, square, least)]
-        reach = yield from self._clear(entry, square, min(reach, ahead / 2))
-        hole = polar(entry, reach, square)
-        if edge.is_circle and distance(hole, edge.centre) < _BESIDE * edge.radius:
-            # (from the centre the ROM would go to the +X side)
-            reach *= 1 - _BESIDE
-            hole = polar(entry, reach, square)
-        while is_arc and reach > _LEAST_ARC:
+        least = np.where(rows[:, 8] != 0, 1e-3 * (1 + rows[:, 6]), 1e-3)
+        reach = np.minimum(reach, self.field.ahead(places, square, 2 * reach + least, least) / 2)
+        reach = self._clear(places, square, reach)
+        central = hypots(*(places + reach[:, None] * square - rows[:, 4:6]).T) < _BESIDE * rows[:, 6]
+        # (from the centre the ROM would go to the +X side)
+        reach[central & _are_circles(rows)] *= 1 - _BESIDE
+        tight = np.flatnonzero(is_arc & (reach > _LEAST_ARC))
+        while len(tight):
             # (the quarters of the circle to the contour and from it must be free)
-            (near,) = yield [Look(hole, reach)]
-            if near >= _ROUND * reach:
-                break
-            reach *= 0.8
-            hole = polar(entry, reach, square)
-        return hole
+            near = self.field.near(places[tight] + reach[tight, None] * square[tight], reach[tight])
+            tight = tight[near < _ROUND * reach[tight]]
+            reach[tight] *= 0.8
+            tight = tight[reach[tight] > _LEAST_ARC]
+        return places + reach[:, None] * square
 
-    def _is_clear_from_centre(self, circle: Edge) -> _Looking[bool]:
-        """Whether the wire gets from a circle's centre to its +X side and cuts nothing that lies in the circle."""
-        (x, y), r = circle.centre, self.widest
+    def _is_clear_from_centre(self, circles: Floats) -> Flags:
+        """Whether the wire gets from circles' centres to their +X sides and cuts nothing that lies in the circle."""
+        r, radius = self.widest, circles[:, 6]
+        ways, wide = np.tile((1.0, 0.0), (len(circles), 1)), np.full(len(circles), max(_ROUND * r, 1e-3))
         # (not as far as the circle itself)
-        ahead = Look((x, y), max(0.0, _ROUND * circle.radius - r), 0.0, 0.0, max(_ROUND * r, 1e-3))
-        return (yield [ahead]) == [inf]
+        reach = np.maximum(0.0, _ROUND * radius - r)
+        return self.field.before(circles[:, 4:6], ways, reach, np.zeros(len(circles)), wide) == inf
 
-    def _clear(self, entry: XY, square: float, reach: float) -> _Looking[float]:
-        """How far the wire gets away from an entry: all the way it stays R off what it does not cut there."""
+    def _clear(self, places: Floats, square: Floats, reach: Floats) -> Floats:
+        """How far the wire gets away from entries: all the way it stays R off what it does not cut there."""
         r = self.widest
-        if reach <= r or not r:
-            return reach
-        (far,) = yield [Look(entry, reach, square, r, _ROUND * r)]
+        some = np.flatnonzero(reach > r) if r else np.empty(0, int)
+        least, wide = np.full(len(some), r), np.full(len(some), _ROUND * r)
+        far = self.field.before(places[some], square[some], reach[some], least, wide)
         # (halfway to where it is no longer free)
-        return reach if far == inf else (r + far) / 2
+        found = reach.copy()
+        found[some] = np.where(far == inf, reach[some], (r + far) / 2)
+        return found
 
-    def _tab_hole(self, contour: Contour, part: float, start: XY, made: PlannedContour, is_right: bool) -> _Looking[XY]:
-        """The start hole at the other side of the tab, as far from the contour as the first one."""
-        if not made.tab:
-            return 0.0, 0.0
-        main, _ = split_at_end(chain_from(contour, part), made.tab)
-        reach = distance(start, contour.edges[0].at(part))
-        return (yield from self._hole(main[-1], 1.0, is_right, reach, made.is_arc, True))
+
+def _are_circles(rows: Floats) -> Flags:
+    """Which of the edges in rows are whole circles, as `Piece.is_circle` has it."""
+    return np.abs(rows[:, 8]) > 2 * pi - 1e-9
+
+
+def _places(rows: Floats, parts: Floats) -> tuple[Floats, Floats]:
+    """The places at parts of the lengths of lines and arcs (n, 2), and the direction angles there: as `Piece.at` and
+    `Piece.direction` have them."""
+    sides = rows[:, 2:4] - rows[:, 0:2]
+    places, ways = rows[:, 0:2] + parts[:, None] * sides, directions(sides)
+    arcs = np.flatnonzero(rows[:, 8])
+    radius, first, sweep = rows[arcs, 6:].T
+    angles = first + parts[arcs] * sweep
+    places[arcs] = rows[arcs, 4:6] + radius[:, None] * headings(angles)
+    ways[arcs] = angles + np.copysign(pi / 2, sweep)
+    return places, ways
+
+
+def _before_tab(contour: Contour, part: float, tab: float) -> Edge:
+    """The edge that ends where the tab begins, of a contour that is entered at `part` of its first edge."""
+    return split_at_end(chain_from(contour, part), tab)[0][-1]
 
 
 def _part_at(edge: Edge, place: XY) -> float:
@@ -528,8 +648,7 @@ def plan(
     depths = planner.field.depths()
     ready = [_oriented(one, side, depth, reverse) for one, depth in zip(contours, depths, strict=True)]
     given = _given_starts(planner.field, depths, list(starts))
-    tasks = [planner.plan(at, contour, sign, depths[at], given.get(at)) for at, (contour, sign) in enumerate(ready)]
-    return _ordered(in_step(tasks, planner.field))
+    return _ordered(planner.plan(ready, depths, given))
 
 
 def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
