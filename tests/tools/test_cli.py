@@ -106,6 +106,16 @@ def test_help_loads_no_command() -> None:
     assert done.stdout == "['skg.errors', 'skg.cli']\n"
 
 
+def test_cut_starts_without_the_reference() -> None:
+    """`skg cut` of a drawing loads neither the interpreter nor what draws sheets: half a second."""
+    text = (
+        "import sys; import skg.commands.cut, skg.cutting.job, skg.drawing.entities, skg.drawing.svg; "
+        "print([name for name in ('matplotlib', 'lark', 'mpmath', 'skg.ref') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
 @pytest.mark.parametrize("command", ["run", "sim", "check", "gcode", "tape"])
 def test_small_commands_start_fast(command: str) -> None:
     """They load no library that takes a tenth of a second and more."""

@@ -9,7 +9,6 @@ from math import ceil, cos, inf, pi, sin, sqrt
 
 from skg.drawing.contour import CurveNode, Edge
 from skg.plane import XY, cross, distance, dot, minus, turn
-from skg.ref.fit import FLAT, STRAIGHT
 
 #: A curve's point at a parameter, and the direction angle of its tangent there (radians).
 At = Callable[[float], XY]
@@ -20,8 +19,9 @@ _BEND = 1.2
 _SPARE = 0.9
 #: The chords between samples are about this far from the curve, mm; a span has no more samples than the second.
 _NEAR, _MOST = 5e-5, 4096
-#: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm.
-_FLAT, _STRAIGHT = float(FLAT), float(STRAIGHT)
+#: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm
+#: (language.md, section 5).
+_FLAT, _STRAIGHT = 0.002, 50_000.0
 
 
 def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
