@@ -410,7 +410,7 @@ static int run_part(session *s, const char *answers)
     }
 }
 
-/* LOAD has asked an empty reader for so long that the operator should know. Ends with an exit code when he cannot break
+/* LOAD, or DRIVE, has asked an empty reader for so long that the operator should know. Ends with an exit code when he cannot break
  * it off; else 0. */
 static int watch_reader(const session *s, bool *told)
 {
@@ -419,7 +419,7 @@ static int watch_reader(const session *s, bool *told)
         return report_reader();
     }
     if (empty && !*told) {
-        remark("the reader is empty (--tape FILE puts a tape in); ctrl-C breaks LOAD off");
+        remark("the reader is empty (--tape FILE puts a tape in); ctrl-C breaks off");
     }
     *told = empty;
     return 0;

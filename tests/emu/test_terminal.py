@@ -219,7 +219,7 @@ def test_reset_signal_at_a_pipe() -> None:
 def test_load_says_that_the_reader_is_empty(screen: Screen) -> None:
     """It waits as long as it takes, as the board does; ctrl-C breaks it off."""
     screen.keys(b"LOAD\r")
-    screen.expect(b"skg80: the reader is empty (--tape FILE puts a tape in); ctrl-C breaks LOAD off\r\n")
+    screen.expect(b"skg80: the reader is empty (--tape FILE puts a tape in); ctrl-C breaks off\r\n")
     screen.keys(b"\x03")
     screen.expect(b"ERR 10\r\n>")
 
