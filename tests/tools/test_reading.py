@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import time
 from itertools import pairwise
 from math import cos, hypot, pi, radians, sin
@@ -793,14 +794,33 @@ def test_command(run: Run, tmp_path: Path) -> None:
     with pytest.raises(UserError) as refused:
         run("from-dxf", part, "--offset", "0.1")
     assert str(refused.value) == (
-        f"{part}: 1 open contour, the first end at (0, 0), 14.1421 mm from that at (10, 10): "
-        "a larger --tolerance joins ends, --open cut or leave tells what to do"
+        f"{part}: 1 open contour, the first end at (0, 0), 14.1421 mm from that at (10, 10); "
+        "wider than the shortest edge, so --tolerance is no help: close it in the drawing, "
+        "or --open cut or leave tells what becomes of it"
     )
     counts = [
         run("from-dxf", part, "--offset", "0.1", "--open", word).stdout.count("FROM")
         for word in ("cut", "leave", "all")
     ]
     assert counts == [2, 1, 2]
+
+
+def test_told_tolerance_closes_the_gap() -> None:
+    """The tolerance that a report or a refusal tells closes the contour, and loses no edge; else none is told."""
+    drawn = [line(0, 0.3, 0, 10), line(0, 10, 20, 10), line(20, 10, 20, 0), line(20, 0, 0, 0)]
+    told = {}
+    for shortest in (0.2, 1):
+        data = raw(*drawn, *square(5, 5, shortest))
+        with pytest.raises(UserError) as refused:
+            read(data, "part.dxf", Wishes(open="refuse"))
+        report = "\n".join(read(data, "part.dxf").report.lines())
+        told[shortest] = {
+            *re.findall(r"--tolerance ([\d.]+)", report),
+            *re.findall(r"--tolerance ([\d.]+)", str(refused.value)),
+        }
+    assert not told[0.2] and len(told[1]) == 1
+    closed = read(data, "part.dxf", Wishes(tolerance=float(*told[1]), open="refuse")).report
+    assert (closed.closed, closed.open, closed.layers[0].cut) == (2, 0, 8)
 
 
 def test_near_is_distance() -> None:

@@ -56,11 +56,20 @@ class LayerSum:
 @dataclass(frozen=True)
 class OpenEnd:
     """An end of an open contour: its place and that of the nearest other end (in the file's units), the gap between
-    them in mm; without another end None and infinity. A tolerance of the gap's width closes it."""
+    them in mm; without another end None and infinity. A tolerance of the gap's width closes it, `can_join`: without
+    making one point of any edge."""
 
     place: XY
     other: XY | None
     gap: float
+    can_join: bool = False
+
+    @property
+    def advice(self) -> str:
+        """How the gap is closed."""
+        if self.can_join:
+            return f"--tolerance {above(self.gap)} joins them"
+        return "wider than the shortest edge, so --tolerance is no help: close it in the drawing"
 
 
 @dataclass(frozen=True)
@@ -112,7 +121,7 @@ class Account:
         for end in self.open_ends[:_PLACES]:
             line = f"open end at {shown(end.place)}"
             if end.other is not None:
-                line += f", {short(end.gap)} mm from {shown(end.other)}; --tolerance {_above(end.gap)} joins them"
+                line += f", {short(end.gap)} mm from {shown(end.other)}; {end.advice}"
             found.append(line)
         found += _more(self.open_ends, "open end")
         for entity in self.not_understood[:_PLACES]:
@@ -154,7 +163,7 @@ def listed(kinds: dict[str, int]) -> str:
     return ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
 
 
-def _above(gap: float) -> str:
+def above(gap: float) -> str:
     """A tolerance that a gap is surely within."""
     return f"{gap * 1.01 + 1e-4:.4g}"
 

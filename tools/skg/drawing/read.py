@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from math import floor, inf
 from typing import TYPE_CHECKING
 
-from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, counted, listed, said, short, shown
+from skg.drawing.account import Account, Content, LayerSum, OpenEnd, Overlap, above, counted, listed, said, short, shown
 from skg.drawing.chain import chain, merged
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.wishes import OPEN, UNITS, Wishes
@@ -115,7 +115,7 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
     for run in rest:
         fates.of_edges(run.edges, JUNCTION)
     opened = [one for one in kept if not one.is_closed]
-    report.open_ends = _open_ends(opened, report.factor)
+    report.open_ends = _open_ends(opened, content.edges, wishes.tolerance, report.factor)
     if opened and wishes.open == "refuse":
         raise UserError(_refusal(report))
     if wishes.open == "leave":
@@ -304,7 +304,7 @@ def _no_outline(report: Account) -> str:
 
 def _refusal(report: Account) -> str:
     count = counted(len(report.open_ends) // 2, "open contour")
-    return f"{count}, {_first_gap(report)}: a larger --tolerance joins ends, --open cut or leave tells what to do"
+    return f"{count}, {_first_gap(report)}, or --open cut or leave tells what becomes of it"
 
 
 def _first_gap(report: Account) -> str:
@@ -313,20 +313,27 @@ def _first_gap(report: Account) -> str:
     message = f"the first end at {shown(nearest.place)}"
     if nearest.other is None:
         return message
-    return f"{message}, {short(nearest.gap)} mm from that at {shown(nearest.other)}"
+    return f"{message}, {short(nearest.gap)} mm from that at {shown(nearest.other)}; {nearest.advice}"
 
 
-def _open_ends(contours: list[Contour], factor: float) -> list[OpenEnd]:
-    """Ends of open contours, each with the nearest other one."""
+def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> list[OpenEnd]:
+    """Ends of open contours, each with the nearest other one; `edges`: all of the drawing."""
     from skg.drawing.touching import nearest
 
     ends = [place for one in contours for place in (one.edges[0].start, one.edges[-1].end)]
+    if not ends:
+        return []
+    # (an edge that is shorter than the tolerance is lost)
+    wide = (distance(edge.start, edge.end) for edge in edges)
+    shortest = min((chord for chord in wide if chord > tolerance), default=inf)
     found = []
     for place, other in zip(ends, nearest(ends), strict=True):
         if other is None:
             found.append(OpenEnd(in_file(place, factor), None, inf))
-        else:
-            found.append(OpenEnd(in_file(place, factor), in_file(other, factor), distance(place, other)))
+            continue
+        gap = distance(place, other)
+        can_join = float(above(gap)) < shortest
+        found.append(OpenEnd(in_file(place, factor), in_file(other, factor), gap, can_join))
     return found
 
 
