@@ -265,3 +265,36 @@ def test_meaning_of_errors() -> None:
     assert len(rows) == len(ERRORS) == 10
     for number, meaning in ERRORS.items():
         assert number == 10 or rows[f"{number:02d}"].startswith(meaning)
+
+
+#: Lines without numbers in front of one with a number; whether their last leg is cut.
+MIXED = {
+    "CUT (0,0),(5,0),(5,5)\n\n10 A=1\n": "of line 1 is given up by line 3,",
+    "10 A=1\nFROM (1,1)\ncut (0,0),(5,0)\nCUT (5,5)": "of line 3 is given up by RUN,",
+    "FIT (0,0),0\nFIT (5,0)\nFIT (5,5)\r\n10 A=1\n": "of line 1 is given up by line 4,",
+    "CUT (0,0),(5,0),(5,5)\nFROM (0,0)\n10 A=1\n": "",
+    "CUT (0,0),(5,0),(5,5)\nEND\n10 A=1\n": "",
+    "CUT (0,0),(5,0),(5,5),(0,0)\nBACK\n10 A=1\n": "",
+    "10 CUT (0,0),(5,0),(5,5)\n": "",
+    "CUT (0,0),(5,0),(5,5)\n": "",
+}
+
+
+@pytest.mark.parametrize("program", MIXED)
+def test_a_route_that_is_given_up_is_said(program: str) -> None:
+    """What is said is so: the board's tape does, or does not, come to the last point."""
+    from skg.machine.feeding import feed, given_up
+
+    fed = feed(program)
+    assert fed.error is None
+    assert (b"B0B5000B5000GYL2" in fed.tape) == (not MIXED[program])
+    assert (MIXED[program] in given_up(program)) if MIXED[program] else not given_up(program)
+
+
+def test_every_command_says_what_is_given_up(run_program: Program, tmp_path: Path) -> None:
+    part = tmp_path / "part.skg"
+    part.write_text(next(iter(MIXED)))
+    for words in (["run"], ["ref"], ["sim"], ["gcode"], ["plot", "-o", tmp_path / "part.svg"]):
+        done = run_program(*words, part)
+        assert done.returncode == 0
+        assert done.stderr.count("given up by line 3") == 1, words

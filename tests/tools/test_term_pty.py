@@ -194,6 +194,16 @@ def test_a_route_left_open_is_ended(tmp_path: Path) -> None:
     assert (done.returncode, tape) == (0, b"B5000B0B5000GXL1\r\nB0B5000B5000GYL2\r\nDD\r\n")
 
 
+def test_a_route_that_is_given_up_is_said(tmp_path: Path) -> None:
+    """A line with a number drops it: with its place in the file, empty lines counted."""
+    part = tmp_path / "part.skg"
+    part.write_text("\nCUT O,(5,0),(5,5)\n\n10 A=1\n")
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        done, tape = run_to_tape(machine, part)
+    assert (done.returncode, tape) == (0, b"B5000B0B5000GXL1\r\nDD\r\n")
+    assert b"part.skg: take care: the route of line 2 is given up by line 4" in done.stderr
+
+
 def test_the_words_of_an_error_are_none(tmp_path: Path) -> None:
     """PRINT writes them, in a program, in a line without a number and between the questions of INPUT: all is sent."""
     part, words = tmp_path / "part.skg", 'PRINT "ERR 05 LINE 20"'

@@ -49,7 +49,7 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     """
     from skg.drawing.milling import is_milling
     from skg.drawing.source import checked_program, program_text
-    from skg.machine.feeding import as_run
+    from skg.machine.feeding import as_run, given_up
     from skg.ref import mill as milling
     from skg.ref import run
     from skg.rivals.languages import is_rival
@@ -66,5 +66,7 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     click.echo(result.paper, err=True, nl=False)
     if result.error and not (mill or grbl) and is_milling(program):
         click.echo(f"skg: {part}: a milling program: --mill runs it", err=True)
+    if lost := given_up(program):
+        click.echo(f"skg: {part}: {lost}", err=True)
     write_bytes(output, result.tape)
     sys.exit(0 if result.error is None else 1)

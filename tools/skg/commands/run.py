@@ -14,7 +14,7 @@ from skg.drawing.source import checked_program
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, without_mark, write_bytes
 from skg.machine.board import Board, BoardStopped
-from skg.machine.feeding import MEMORY_FULL, rest_of, too_large
+from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
 from skg.machine.roms import ROMS, known_rom
 from skg.rivals.languages import is_rival, translated
 from skg.tape.text import parse
@@ -95,6 +95,8 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
         remark(f"{part}: {stopped}")
         code = STOPPED.get(stopped.reason, ERR)
     write_bytes(output, tape)
+    if lost := given_up(text):
+        remark(f"{part}: {lost}")
     known = known_rom(rom)
     if output != "-" and code == 0 and known not in (None, MILL_ROM):
         # (a tape of several runs is none to the other commands)

@@ -18,7 +18,7 @@ from skg.errors import UserError
 from skg.files import read_ascii, read_bytes
 from skg.kinds import GCODE, PROGRAM, refuse_others
 from skg.machine.board import BoardStopped, find_error
-from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, least_ram, too_large
+from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, given_up, least_ram, too_large
 from skg.machine.roms import rom_path
 from skg.piece import Piece
 from skg.plane import XY
@@ -95,6 +95,7 @@ def iso_text(name: str, skg80: str | None = None) -> str | None:
         return None
     by = "the mill ROM" if skg80 is None else "the reference" if skg80 == "reference" else f"{skg80}, the mill ROM"
     print(f"skg: {name}: a milling program, run by {by}", file=sys.stderr, flush=True)
+    _say_given_up(name, text)
     return _tape_of(name, text, skg80, mills=True).decode("ascii")
 
 
@@ -138,10 +139,16 @@ def checked_program(text: str, name: str) -> str:
 def _run(name: str, skg80: str | None, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
     """Run a program for wire: the tape's bytes, where the wire starts (mm), the nominal contour."""
     text = program_text(name)
+    _say_given_up(name, text)
     result = _reference(name, text)
     start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
     data = result.tape if skg80 == "reference" else _tape_of(name, text, skg80)
     return data, start, _nominal(result) if with_contour else ()
+
+
+def _say_given_up(name: str, text: str) -> None:
+    if lost := given_up(text):
+        print(f"skg: {name}: {lost}", file=sys.stderr, flush=True)
 
 
 def _tape_of(name: str, text: str, skg80: str | None, mills: bool = False) -> bytes:

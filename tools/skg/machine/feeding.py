@@ -62,6 +62,26 @@ def as_run(program: str) -> tuple[str, bool]:
     return (f"{program.partition(TAPE_END)[0]}\nEND\n" if rest == "END" else program), rest == "RUN"
 
 
+def given_up(program: str) -> str:
+    """What to say of a program whose lines without numbers begin a route that a numbered one, or RUN, gives up without
+    a block (language.md, section 3); empty where there is none."""
+    opened, mixed = 0, any(map(is_numbered, lines_of(program)))
+    lines = re.split(r"\r\n|[\r\n]", program.partition(TAPE_END)[0]) if mixed else []
+    for number, line in enumerate([*lines, "RUN"], 1):
+        bare = _bare(line)
+        if opened and (is_numbered(line) or bare == "RUN"):
+            by = f"line {number}" if number <= len(lines) else "RUN"
+            return (
+                f"take care: the route of line {opened} is given up by {by}, the rest of it is not cut: lines without "
+                "numbers end a route with BACK, FROM or END before one with a number comes"
+            )
+        if bare.startswith(("CUT", "FIT")):
+            opened = opened or number
+        elif bare.startswith(("BACK", "FROM", "END", "NEW")):
+            opened = 0
+    return ""
+
+
 def without_numbers(program: str) -> list[str] | None:
     """A numbered program as lines that are carried out as they come; None where it jumps, asks or has DATA."""
     stored: dict[int, str] = {}

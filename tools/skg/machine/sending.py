@@ -17,7 +17,7 @@ from tqdm import tqdm
 
 from skg.errors import UserError
 from skg.machine.board import ERRORS, ErrorLine, is_printed
-from skg.machine.feeding import MEMORY_FULL, is_end, is_numbered, least_ram, without_numbers
+from skg.machine.feeding import MEMORY_FULL, given_up, is_end, is_numbered, least_ram, without_numbers
 from skg.machine.teletype import Port, Teletype
 
 #: Characters that the board takes in a line (language.md, section 3).
@@ -188,6 +188,9 @@ def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: boo
     """
     program = "\n".join(line.text for line in lines)
     stored = any(is_numbered(line.text) for line in lines)
+    texts = {line.number: line.text for line in lines}
+    if lost := given_up("\n".join(texts.get(at, "") for at in range(1, max(texts, default=0) + 1))):
+        typist.teletype.say(f"{name}: {lost}")
     if stored and unnumbered:
         lines, stored = _plain(program, name), False
     if stored and typist.paced and not _store(typist, lines, name, program):
