@@ -179,6 +179,20 @@ def test_what_is_too_small_may_be_left(run: Run, tmp_path: Path) -> None:
     assert "3 contours: 3 closed" in words
 
 
+def test_a_cusp(run: Run, tmp_path: Path) -> None:
+    """Both ends of a slot are half circles that bulge into it: the wire goes past the corners, and that is said."""
+    page = drawing()
+    polygon([(-5, -5), (30, -5), (30, 10), (-5, 10)], page)
+    page.modelspace().add_lwpolyline([(0, 0), (20, 0, -1), (20, 4), (0, 4, -1)], format="xyb", close=True)
+    cuts, words = cut(run, page, tmp_path, "--offset", 0.1, "--passes", "0.06,0")
+    assert "too narrow for the wire" in words
+    for places, r in zip(cuts, (0.16, 0.1), strict=False):
+        room = Polygon([(0, r), (20, r), (20, 4 - r), (0, 4 - r)])
+        for x in (0, 20):
+            room = room.difference(Point(x, 2).buffer(2 + r, quad_segs=4000))
+        assert apart(LineString(places[1:-1]), room.exterior) < LIMIT
+
+
 def test_an_outline_that_is_too_short_for_the_tab(run: Run, tmp_path: Path) -> None:
     """Refused by name with the longest tab that fits, which does fit; asked for it, left out, and the others cut."""
     page = drawing()

@@ -37,6 +37,8 @@ LIMIT = 0.003
 _USUAL = 0.0008
 #: At a sharp corner, outside, the wire is no further from it than so often what it is where two lines meet.
 _TIP = 2.0
+#: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
+_INSIDE, _NOISE = 1e-3, 1e-9
 #: The wire's path is looked at in no more places than this.
 _MOST_PLACES = 400_000
 
@@ -308,6 +310,24 @@ def _in_tabs(contours: Pieces, routes: list[PlannedContour]) -> np.ndarray:
     return found
 
 
+def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.ndarray:
+    """Whether the wire can be aside of places of contours: nothing of their own is nearer, and it would not be past
+    another piece (in a cusp, where one goes back along the other)."""
+    # (of an end a hair within the piece: there it is told which of two is nearer)
+    margin = _INSIDE / np.maximum(contours.length[which], 2 * _INSIDE)
+    part = np.clip(part, margin, 1 - margin)
+    places = contours.at(which, part) + aside[:, None] * contours.normal(which, part)
+    near = contours.nearest(places, contours.owner[which], float(np.abs(aside).max(initial=0.0)))
+    free = near.own > np.abs(aside) - LIMIT / 10
+    others = np.flatnonzero(free & (near.own_at >= 0) & (near.own_at != which))
+    piece = near.own_at[others]
+    # (what is nearest to a place beyond a piece's end tells nothing)
+    is_beside = np.abs(contours.from_carrier(places[others], piece) - near.own[others]) < _NOISE
+    is_past = contours.right_of(places[others], piece) * aside[others] < -_NOISE
+    free[others[is_beside & is_past]] = False
+    return free
+
+
 def _reached(
     path: _Path, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
 ) -> tuple[list[Misfit], float]:
@@ -323,9 +343,7 @@ def _reached(
         for number, r in enumerate(offsets.T):
             aside = r[owners]
             places = on + aside[:, None] * square
-            free = np.ones(len(places), bool)
-            if widest:
-                free = contours.nearest(places, owners, widest).own > np.abs(aside) - LIMIT / 10
+            free = _free(contours, which, part, aside) if widest else np.ones(len(places), bool)
             if number + 1 < offsets.shape[1]:
                 free &= ~in_tabs[which]
             places = places[free]

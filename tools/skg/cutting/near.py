@@ -121,12 +121,16 @@ class Pieces:
 
     def from_carrier(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from the whole line or circle that its piece lies on."""
+        return np.abs(self.right_of(places, which))
+
+    def right_of(self, places: Floats, which: Whole) -> Floats:
+        """How far each place is to the right of the whole line or circle of its piece, negative to the left."""
         to = places - self.start[which]
         way = self.end[which] - self.start[which]
         length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
-        line = np.abs(to[:, 0] * way[:, 1] - to[:, 1] * way[:, 0]) / length
+        line = (to[:, 1] * -way[:, 0] + to[:, 0] * way[:, 1]) / length
         about = places - self.centre[which]
-        arc = np.abs(np.hypot(about[:, 0], about[:, 1]) - self.radius[which])
+        arc = (np.hypot(about[:, 0], about[:, 1]) - self.radius[which]) * np.sign(self.sweep[which])
         return np.where(self.is_arc[which], arc, line)
 
     def nearest(self, places: Floats, owners: Whole, reach: float) -> Nearest:
