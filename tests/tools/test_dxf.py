@@ -103,13 +103,7 @@ def points_along(edges: list[Edge]) -> Iterator[XY]:
 def off(points: Iterable[XY], edges: list[Edge]) -> np.ndarray:
     """Distance of each point from the nearest edge, µm."""
     found = np.full(len(points := np.array(list(points))), np.inf)
-    chords = [
-        (p, q)
-        for edge in edges
-        if edge.centre is None
-        for p, q in pairwise(edge.samples or (edge.start, edge.end))
-        if p != q
-    ]
+    chords = [(p, q) for edge in edges if edge.centre is None for p, q in pairwise(edge.points()) if p != q]
     for p, q in np.array(chords).reshape(-1, 2, 2):
         way, to = q - p, points - p
         part = np.clip(to @ way / (way @ way), 0, 1)

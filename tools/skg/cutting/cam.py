@@ -76,6 +76,10 @@ class Cam:
         x, y = pitch + self.roller / 2 * out, self.roller / 2 * along
         return x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)
 
+    def places(self, angles: list[float]) -> list[XY]:
+        """The profile's places at angles of the cam."""
+        return [self.place(angle) for angle in angles]
+
     def heading(self, angle: float) -> float:
         """The direction of the profile there, radians: the roller's path runs the same way."""
         height, slope, _ = self.height(angle)
@@ -97,7 +101,7 @@ class Cam:
                 edges.append(Edge(self.place(low), self.place(high), (0.0, 0.0), high - low))
             else:
                 parts = [low + (high - low) * k / 4 for k in range(5)]
-                edges.append(curve_edge(self.place, self.heading, parts, TOLERANCE))
+                edges.append(curve_edge(self.places, self.heading, parts, TOLERANCE))
         return [Contour(tuple(edges), True)]
 
     def _refuse_undercut(self) -> None:

@@ -121,7 +121,7 @@ def drawn(route: PlannedContour) -> Iterator[Piece]:
     """A contour as lines and arcs, in its direction."""
     for edge in (edge for part in _parts(route) for edge in part):
         if edge.nodes:
-            yield from (Piece(p, q) for p, q in pairwise(edge.samples) if p != q)
+            yield from (Piece(p, q) for p, q in pairwise(edge.points()) if p != q)
         else:
             yield edge
 
@@ -133,7 +133,7 @@ def _parts(route: PlannedContour) -> tuple[tuple[Edge, ...], ...]:
 
 def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
     """Lines and arcs, and the samples of curves."""
-    return (np.array(edge.samples) if edge.nodes else edge for edge in edges)
+    return (edge.samples if edge.nodes else edge for edge in edges)
 
 
 def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:

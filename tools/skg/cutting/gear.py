@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import acos, asin, atan2, cos, hypot, pi, radians, sin, sqrt, tan
 
+import numpy as np
+
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.curve import curve_edge
 from skg.errors import UserError
@@ -154,7 +156,7 @@ def _flank(gear: Gear, low: float, high: float) -> Edge:
         return turned(roll) + atan2(roll, 1)
 
     first, last = (sqrt(max(0.0, (radius / rb) ** 2 - 1)) for radius in (low, high))
-    return curve_edge(place, heading, [first, last], TOLERANCE)
+    return curve_edge(lambda rolls: [*map(place, rolls)], heading, [first, last], TOLERANCE)
 
 
 def _arc(start: XY, end: XY, centre: XY, sense: int) -> Edge:
@@ -165,7 +167,7 @@ def _arc(start: XY, end: XY, centre: XY, sense: int) -> Edge:
 
 def _moved(edge: Edge, move: Callable[[XY], XY], turn: Callable[[float], float], sense: int) -> Edge:
     nodes = tuple(replace(node, point=move(node.point), angle=turn(node.angle)) for node in edge.nodes)
-    samples = tuple(map(move, edge.samples))
+    samples = np.array([*map(move, edge.points())]) if edge.nodes else edge.samples
     centre = edge.centre and move(edge.centre)
     return replace(
         edge,

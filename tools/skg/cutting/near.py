@@ -40,25 +40,40 @@ class Pieces:
     """
 
     def __init__(self, pieces: Iterable[tuple[Piece | Floats, int]]) -> None:
-        self._keep(_table(pieces))
+        parts = list(_parts(pieces))
+        self._room(sum(len(start) for start, *_ in parts))
+        first = 0
+        for start, end, owner, rounds in parts:
+            some = slice(first, first + len(start))
+            self.start[some], self.end[some], self.owner[some] = start, end, owner
+            if rounds is None:
+                self.is_chord[some] = True
+            elif rounds.any():
+                self.centre[some], self.radius[some] = rounds[:, 0:2], rounds[:, 2]
+                self.first[some], self.sweep[some] = rounds[:, 3], rounds[:, 4]
+            first = some.stop
+        self._measure()
 
     @classmethod
     def of_tape(cls, laid: Laid, owners: Whole) -> Pieces:
         """The blocks of a tape, mm."""
         found = cls.__new__(cls)
         is_arc = ~laid.is_line
-        table = np.zeros((len(laid), 11))
-        table[:, 0:2], table[:, 2:4], table[:, 9] = laid.starts / 1000, laid.ends / 1000, owners
-        table[is_arc, 4:6], table[is_arc, 8] = laid.centres[is_arc] / 1000, laid.sweeps[is_arc]
-        out = table[is_arc, 0:2] - table[is_arc, 4:6]
-        table[is_arc, 6], table[is_arc, 7] = hypots(*out.T), directions(out)
-        found._keep(table)
+        found._room(len(laid))
+        found.start[:], found.end[:], found.owner[:] = laid.starts / 1000, laid.ends / 1000, owners
+        found.centre[is_arc], found.sweep[is_arc] = laid.centres[is_arc] / 1000, laid.sweeps[is_arc]
+        out = found.start[is_arc] - found.centre[is_arc]
+        found.radius[is_arc], found.first[is_arc] = hypots(*out.T), directions(out)
+        found._measure()
         return found
 
-    def _keep(self, table: Floats) -> None:
-        self.start, self.end, self.centre = table[:, 0:2], table[:, 2:4], table[:, 4:6]
-        self.radius, self.first, self.sweep = table[:, 6], table[:, 7], table[:, 8]
-        self.owner, self.is_chord = table[:, 9].astype(np.int64), table[:, 10] > 0
+    def _room(self, count: int) -> None:
+        """Arrays of zeros for so many pieces (zeros that nobody writes to take no memory)."""
+        self.start, self.end, self.centre = np.zeros((3, count, 2))
+        self.radius, self.first, self.sweep = np.zeros((3, count))
+        self.owner, self.is_chord = np.zeros(count, np.int64), np.zeros(count, bool)
+
+    def _measure(self) -> None:
         self.is_arc = self.radius > 0
         way = self.end - self.start
         self.length = np.where(self.is_arc, self.radius * np.abs(self.sweep), np.hypot(way[:, 0], way[:, 1]))
@@ -84,17 +99,18 @@ class Pieces:
     def batches(self, spacing: float, least: int) -> Iterator[tuple[Whole, Floats]]:
         """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
         an arc one for every 15 degrees besides. Some pieces after the other."""
-        spaces = self._spaces(spacing, least)
-        ends = np.cumsum(spaces + 1)
-        total = int(ends[-1]) if len(ends) else 0
-        cuts = np.unique(np.searchsorted(ends, np.arange(0, total + _PAIRS, _PAIRS), "right"))
-        for begin, end in pairwise(cuts.tolist()):
-            yield _spread(spaces, begin, end)
+        for low in range(0, len(self.length), _PAIRS):
+            spaces = self._spaces(slice(low, low + _PAIRS), spacing, least)
+            ends = np.cumsum(spaces + 1)
+            cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1] + _PAIRS, _PAIRS), "right"))
+            for begin, end in pairwise(cuts.tolist()):
+                which, part = _spread(spaces, begin, end)
+                yield low + which, part
 
-    def _spaces(self, spacing: float, least: int) -> Whole:
-        """In how many spaces places divide each piece."""
-        turns = np.ceil(np.abs(self.sweep) / (pi / 12)) * self.is_arc
-        return np.maximum(np.maximum(np.ceil(self.length / spacing), turns), least).astype(np.int64)
+    def _spaces(self, some: slice, spacing: float, least: int) -> Whole:
+        """In how many spaces places divide each of some pieces."""
+        turns = np.ceil(np.abs(self.sweep[some]) / (pi / 12)) * self.is_arc[some]
+        return np.maximum(np.maximum(np.ceil(self.length[some] / spacing), turns), least).astype(np.int64)
 
     def from_place(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from its piece."""
@@ -175,14 +191,16 @@ class _Grid:
         self.cell = cell
         #: A piece is nowhere further from a place that was laid out.
         self.apart = cell / 8
-        self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - 2 * pieces.radius.max() - 2 * cell
+        beside = 2 * pieces.radius.max() + 2 * cell
+        self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - beside
+        #: So many rows, no piece is in the last one.
+        self.width = int(self._cells(np.maximum(pieces.start.max(0), pieces.end.max(0)) + beside)[1]) + 2
         found = []
         for which, part in pieces.batches(2 * self.apart, 1):
             column, row = self._cells(pieces.at(which, part))
-            found.append(_once(which, column, row))
-        which, column, row = np.concatenate(found, 1)
-        self.width = int(row.max()) + 2
-        keys = column * self.width + row
+            found.append(_once(which, column * self.width + row))
+        which, keys = (np.concatenate([some[at] for some in found]) for at in (0, 1))
+        found.clear()
         order = np.lexsort((which, keys))
         self.keys, self.which = _once(keys[order], which[order])
 
@@ -208,19 +226,30 @@ class _Grid:
         return self.which[np.repeat(first, counts) + offset]
 
 
-def _table(pieces: Iterable[tuple[Piece | Floats, int]]) -> Floats:
-    """The rows of pieces and owners."""
-    tables = [np.empty((0, 11))]
+#: Pieces that follow each other: starts, ends, whose they are; centre, radius, first angle and sweep, None of chords.
+_Part = tuple[Floats, Floats, Whole | int, Floats | None]
+
+
+def _parts(pieces: Iterable[tuple[Piece | Floats, int]]) -> Iterator[_Part]:
     rows: list[tuple[float, ...]] = []
     for piece, owner in pieces:
         if isinstance(piece, Piece):
             rows.append(_row(piece, owner))
         if rows and (len(rows) == _PLACES or not isinstance(piece, Piece)):
-            tables.append(np.array(rows))
+            yield _of_rows(rows)
             rows.clear()
         if not isinstance(piece, Piece):
-            tables.append(_chords(piece, owner))
-    return np.concatenate([*tables, np.array(rows, float).reshape(-1, 11)])
+            is_there = (piece[:-1] != piece[1:]).any(1)
+            # (where all are, nothing is copied)
+            starts, ends = (piece[:-1], piece[1:]) if is_there.all() else (piece[:-1][is_there], piece[1:][is_there])
+            yield starts, ends, owner, None
+    if rows:
+        yield _of_rows(rows)
+
+
+def _of_rows(rows: list[tuple[float, ...]]) -> _Part:
+    table = np.array(rows)
+    return table[:, 0:2], table[:, 2:4], table[:, 4].astype(np.int64), table[:, 5:]
 
 
 def _once(*rows: Whole) -> Whole:
@@ -250,14 +279,7 @@ def _spread(spaces: Whole, begin: int, end: int) -> tuple[Whole, Floats]:
     return which, (np.arange(len(which)) - first) / spaces[which]
 
 
-def _chords(places: Floats, owner: int) -> Floats:
-    """The rows of a path of chords."""
-    found = np.zeros((len(places) - 1, 11))
-    found[:, 0:2], found[:, 2:4], found[:, 9:] = places[:-1], places[1:], (owner, 1.0)
-    return found[(places[:-1] != places[1:]).any(1)]
-
-
 def _row(piece: Piece, owner: int) -> tuple[float, ...]:
     if piece.centre is None:
-        return (*piece.start, *piece.end, 0.0, 0.0, 0.0, 0.0, 0.0, owner, 0.0)
-    return (*piece.start, *piece.end, *piece.centre, piece.radius, piece.angles[0], piece.sweep, owner, 0.0)
+        return (*piece.start, *piece.end, owner, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return (*piece.start, *piece.end, owner, *piece.centre, piece.radius, piece.angles[0], piece.sweep)

@@ -17,6 +17,7 @@ from matplotlib.transforms import Affine2D
 from skg.cutting.check import drawn
 from skg.cutting.job import Job, kind
 from skg.drawing.account import short, shown
+from skg.drawing.contour import Places
 from skg.drawing.page import as_it_stands, save
 from skg.drawing.plot import outline
 from skg.plane import XY, distance
@@ -323,7 +324,7 @@ class SetupSheet:
         save(self.figure, output, form, 200)
 
 
-def _way(samples: tuple[XY, ...]) -> float:
+def _way(samples: Places) -> float:
     """The direction in the middle of a curve."""
     at = min(len(samples) - 2, int(0.5 * (len(samples) - 1)))
     (x, y), (u, v) = samples[at], samples[at + 1]

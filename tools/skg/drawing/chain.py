@@ -18,8 +18,9 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from math import acos, asin, atan2, ceil, copysign, hypot, pi
+
+import numpy as np
 
 from skg.drawing.contour import Contour, CurveNode, Edge
 from skg.plane import XY, distance, dot, minus, turn
@@ -87,7 +88,9 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
         return edge
     if edge.nodes:
         nodes = (CurveNode(start, edge.nodes[0].angle), *edge.nodes[1:-1], CurveNode(end, edge.nodes[-1].angle))
-        return replace(edge, start=start, end=end, nodes=nodes, samples=(start, *edge.samples[1:-1], end))
+        samples = edge.samples.copy()
+        samples[0], samples[-1] = start, end
+        return replace(edge, start=start, end=end, nodes=nodes, samples=samples)
     if edge.centre is None or edge.is_circle:
         return replace(edge, start=start, end=end)
     off = max(abs(distance(point, edge.centre) - edge.radius) for point in (start, end))
@@ -108,8 +111,8 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
     nodes = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
     nodes[0], nodes[-1] = CurveNode(start, nodes[0].angle), CurveNode(end, nodes[-1].angle)
     fine = max(pieces, ceil(abs(edge.sweep) / 2 / acos(max(0.5, 1 - _CHORD / edge.radius))))
-    samples = (start, *(edge.at(k / fine) for k in range(1, fine)), end)
-    return Edge(start, end, nodes=tuple(nodes), samples=samples, entity=edge.entity)
+    samples = [start, *(edge.at(k / fine) for k in range(1, fine)), end]
+    return Edge(start, end, nodes=tuple(nodes), samples=np.array(samples), entity=edge.entity)
 
 
 def _same(one: Edge, other: Edge, tolerance: float) -> bool:
@@ -355,12 +358,12 @@ class _Graph:
             return edge.direction()
         if edge.centre is not None:
             return edge.direction() + copysign(asin(min(1.0, reach / (2 * edge.radius))), edge.sweep)
-        before, after = next(
-            ((p, q) for p, q in pairwise(edge.samples) if distance(q, edge.start) >= reach), edge.samples[-2:]
-        )
-        near, far = (distance(place, edge.start) for place in (before, after))
-        part = (reach - near) / (far - near) if far > near else 0.0
-        x, y = (p + part * (q - p) - o for p, q, o in zip(before, after, edge.start, strict=True))
+        samples = edge.samples
+        far = np.hypot(*(samples - edge.start).T)
+        # (the first sample that is as far away, else the last one)
+        at = 1 + int(np.argmax(far[1:] >= reach)) if far[1:].max() >= reach else len(far) - 1
+        part = (reach - far[at - 1]) / (far[at] - far[at - 1]) if far[at] > far[at - 1] else 0.0
+        x, y = samples[at - 1] + part * (samples[at] - samples[at - 1]) - edge.start
         return atan2(y, x)
 
     def boundary(self, block: set[int]) -> list[_Step] | None:

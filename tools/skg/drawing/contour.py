@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
-from math import cos, pi, sin
+from functools import cached_property
+from math import cos, hypot, pi, sin
+
+import numpy as np
+from numpy.typing import NDArray
 
 from skg.piece import Piece
-from skg.plane import XY, cross, distance, shifted
+from skg.plane import XY, cross, shifted
+
+#: Places (m, 2), mm.
+Places = NDArray[np.float64]
+#: An edge that is no curve has no samples.
+_NONE: Places = np.empty((0, 2))
 
 
 @dataclass(frozen=True)
@@ -20,14 +28,16 @@ class CurveNode:
 
 @dataclass(frozen=True)
 class Edge(Piece):
-    """A line, an arc, or a curve: `nodes` from start to end, `samples` close to each other on the true curve.
+    """A line, an arc, or a curve: `nodes` from start to end, `samples` close to each other on the true curve (an array
+    that nobody writes to).
 
     Of a curve `at` gives a sample and `direction` the one at an end; `nearest` is for lines and arcs. `entity`: the
     number of the entity of the drawing that it comes from, -1 for none.
     """
 
     nodes: tuple[CurveNode, ...] = ()
-    samples: tuple[XY, ...] = field(default=(), repr=False)
+    # (curves with the same nodes are the same)
+    samples: Places = field(default_factory=lambda: _NONE, repr=False, compare=False)
     entity: int = -1
 
     @property
@@ -38,7 +48,15 @@ class Edge(Piece):
     @property
     def length(self) -> float:
         """Length."""
-        return sum(distance(p, q) for p, q in pairwise(self.samples)) if self.nodes else super().length
+        return self._curve_length if self.nodes else super().length
+
+    @cached_property
+    def _curve_length(self) -> float:
+        return sum(self.steps())
+
+    def steps(self) -> list[float]:
+        """The lengths of a curve's chords."""
+        return list(map(hypot, *np.diff(self.samples, axis=0).T.tolist()))
 
     def reversed(self) -> Edge:
         """The same edge, run through backwards."""
@@ -53,12 +71,15 @@ class Edge(Piece):
             end=shifted(self.end, by),
             centre=self.centre and shifted(self.centre, by),
             nodes=tuple(CurveNode(shifted(node.point, by), node.angle) for node in self.nodes),
-            samples=tuple(shifted(place, by) for place in self.samples),
+            samples=self.samples + by,
         )
 
     def at(self, part: float) -> XY:
         """The place at `part` of the length."""
-        return self.samples[int(part * (len(self.samples) - 1))] if self.nodes else super().at(part)
+        if self.nodes:
+            x, y = self.samples[int(part * (len(self.samples) - 1))].tolist()
+            return x, y
+        return super().at(part)
 
     def direction(self, part: float = 0.0) -> float:
         """Direction angle of travel at `part` of the length, radians."""
@@ -76,7 +97,7 @@ class Edge(Piece):
     def points(self) -> list[XY]:
         """Points along the edge, both ends included: a chord is never further than 0.1 % of a radius away."""
         if self.nodes:
-            return list(self.samples)
+            return list(map(tuple, self.samples.tolist()))
         if self.centre is None:
             return [self.start, self.end]
         pieces = self.chords
@@ -85,16 +106,24 @@ class Edge(Piece):
         return [self.start, *[(x + radius * cos(angle), y + radius * sin(angle)) for angle in angles], self.end]
 
     def extremes(self) -> list[XY]:
-        """The ends, and where it is farthest left, right, up or down (of a curve all samples)."""
-        return list(self.samples) if self.nodes else super().extremes()
+        """The ends, and where it is farthest left, right, up or down."""
+        if not self.nodes:
+            return super().extremes()
+        farthest = [*self.samples.argmin(0), *self.samples.argmax(0)]
+        return [self.start, self.end, *map(tuple, self.samples[farthest].tolist())]
 
     @property
     def area(self) -> float:
         """Signed area that the edge runs around as seen from the origin: positive counter-clockwise."""
         if self.nodes:
-            return sum(cross(p, q) for p, q in pairwise(self.samples)) / 2
+            return self._curve_area
         segment = self.radius**2 * (self.sweep - sin(self.sweep)) if self.centre is not None else 0.0
         return (cross(self.start, self.end) + segment) / 2
+
+    @cached_property
+    def _curve_area(self) -> float:
+        (x, y), (u, v) = self.samples[:-1].T, self.samples[1:].T
+        return sum((x * v - y * u).tolist()) / 2
 
 
 def part_of(edge: Edge, first: float, last: float) -> Edge:

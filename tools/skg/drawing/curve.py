@@ -5,13 +5,15 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
-from math import ceil, cos, inf, pi, sin, sqrt
+from math import ceil, cos, hypot, inf, pi, sin, sqrt
 
-from skg.drawing.contour import CurveNode, Edge
-from skg.plane import XY, cross, distance, dot, minus, turn
+import numpy as np
 
-#: A curve's point at a parameter, and the direction angle of its tangent there (radians).
-At = Callable[[float], XY]
+from skg.drawing.contour import CurveNode, Edge, Places
+from skg.plane import XY, distance, dot, minus, turn
+
+#: A curve's points at parameters, and the direction angle of its tangent at one (radians).
+At = Callable[[list[float]], list[XY]]
 Heading = Callable[[float], float]
 #: One biarc bends by no more than this, radians.
 _BEND = 1.2
@@ -37,30 +39,36 @@ def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
     return tuple((p + d * a + q - d * b) / 2 for p, a, q, b in zip(one.point, t, other.point, u, strict=True))
 
 
-def _off_arc(point: XY, start: XY, angle: float, end: XY) -> tuple[float, float]:
-    """Distance of a point from the arc that leaves `start` in direction `angle` for `end`: from the arc itself, and as
-    FIT cuts it, a flat or a very large one as the line of its chord (language.md, section 5)."""
+def _off_arc(points: list[XY], start: XY, angle: float, end: XY) -> tuple[float, float]:
+    """Largest distance of points from the arc that leaves `start` in direction `angle` for `end`: from the arc itself,
+    and as FIT cuts it, a flat or a very large one as the line of its chord (language.md, section 5)."""
+    if not points:
+        return 0.0, 0.0
     normal = -sin(angle), cos(angle)
-    w = minus(end, start)
-    height = dot(normal, w)
-    square = dot(w, w)
-    off_chord = abs(cross(w, minus(point, start))) / sqrt(square)
-    if abs(height) < 1e-9:
+    (x, y), (u, v) = start, minus(end, start)
+    height = dot(normal, (u, v))
+    square = dot((u, v), (u, v))
+    radius = square / (2 * height) if abs(height) >= 1e-9 else inf
+    off_chord = 0.0
+    if is_line := abs(height) <= _FLAT or abs(radius) >= _STRAIGHT:
+        off_chord = max([abs(u * (q - y) - v * (p - x)) for p, q in points]) / sqrt(square)
+    if radius == inf:
         return off_chord, off_chord
-    radius = square / (2 * height)
-    centre = start[0] + radius * normal[0], start[1] + radius * normal[1]
-    off = abs(distance(point, centre) - abs(radius))
-    return off, off_chord if abs(height) <= _FLAT or abs(radius) >= _STRAIGHT else off
+    x, y, far = x + radius * normal[0], y + radius * normal[1], abs(radius)
+    off = max([abs(hypot(p - x, q - y) - far) for p, q in points])
+    return off, off_chord if is_line else off
 
 
-def _off(at: At, heading: Heading, low: float, high: float, breaks: Sequence[float]) -> tuple[float, float]:
+def _off(
+    at: At, heading: Heading, one: CurveNode, low: float, high: float, breaks: Sequence[float]
+) -> tuple[float, float]:
     """How far the curve leaves the biarc between two parameters, and what FIT cuts of it; infinity where there is no
-    good one. It is tried at eleven places, and at three between two breaks."""
-    one, other = (CurveNode(at(t), heading(t)) for t in (low, high))
+    good one. It is tried at eleven places, and at three between two breaks. `one`: the node at `low`."""
+    other = CurveNode(*at([high]), heading(high))
     if distance(one.point, other.point) < 1e-6:
         # A stretch without any length is one place; else the curve comes back to where it was.
-        is_place = all(distance(at(low + k / 8 * (high - low)), one.point) < 1e-6 for k in range(1, 8))
-        return (0.0, 0.0) if is_place else (inf, inf)
+        between = at([low + k / 8 * (high - low) for k in range(1, 8)])
+        return (0.0, 0.0) if all(distance(place, one.point) < 1e-6 for place in between) else (inf, inf)
     if abs(turn(one.angle, other.angle)) > _BEND:
         return inf, inf
     joint = biarc_joint(one, other)
@@ -72,16 +80,14 @@ def _off(at: At, heading: Heading, low: float, high: float, breaks: Sequence[flo
     inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
     if len(inner) > 2:
         tried += [p + k / 4 * (q - p) for p, q in pairwise(inner) for k in range(1, 5)][:-1]
-    worst = as_cut = 0.0
-    for t in tried:
-        point = at(t)
-        if dot(minus(point, one.point), chord) < middle:
-            off = _off_arc(point, one.point, one.angle, joint)
-        else:
-            # Seen from its end the second arc leaves along the reversed tangent.
-            off = _off_arc(point, other.point, other.angle + pi, joint)
-        worst, as_cut = max(worst, off[0]), max(as_cut, off[1])
-    return worst, as_cut
+    (x, y), (u, v) = one.point, chord
+    parts: tuple[list[XY], list[XY]] = [], []
+    for p, q in at(tried):
+        parts[(p - x) * u + (q - y) * v >= middle].append((p, q))
+    first = _off_arc(parts[0], one.point, one.angle, joint)
+    # Seen from its end the second arc leaves along the reversed tangent.
+    second = _off_arc(parts[1], other.point, other.angle + pi, joint)
+    return max(first[0], second[0]), max(first[1], second[1])
 
 
 def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Edge:
@@ -91,35 +97,40 @@ def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: flo
     smooth as a polynomial of low degree.
     """
     found = list(_stations(at, heading, breaks, tolerance))
-    nodes = tuple(CurveNode(at(t), heading(t)) for t in found)
-    samples: list[XY] = []
+    nodes = tuple(CurveNode(place, heading(t)) for place, t in zip(at(found), found, strict=True))
+    samples: list[Places] = []
     for (one, other), (low, high) in zip(pairwise(nodes), pairwise(found), strict=True):
         bend = abs(turn(one.angle, other.angle)) + 0.01
         inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
         for begin, end in pairwise(inner):
-            samples += _samples(at, begin, end, bend)[:-1]
-    return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=(*samples, nodes[-1].point))
+            samples.append(_samples(at, begin, end, bend)[:-1])
+    samples.append(np.array([nodes[-1].point]))
+    return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=np.concatenate(samples))
 
 
-def _samples(at: At, low: float, high: float, bend: float) -> list[XY]:
+def _samples(at: At, low: float, high: float, bend: float) -> Places:
     """Places along a span that bends by an angle, or a part of it without a break in it, both ends included: so many
     that the chords between them are near the curve."""
     # n chords of a span of length l that bends by θ are lθ/8n² away from it, where it is run through evenly.
-    pieces = ceil(sqrt(distance(at(low), at(high)) * bend / 8 / _NEAR) / 2) + 1
-    places = [at(low + k / pieces * (high - low)) for k in range(pieces + 1)]
+    pieces = ceil(sqrt(distance(*at([low, high])) * bend / 8 / _NEAR) / 2) + 1
+    places = np.array(at([low + k / pieces * (high - low) for k in range(pieces + 1)]))
     while True:
-        between = [at(low + (k + 0.5) / pieces * (high - low)) for k in range(pieces)]
-        off = max(_off_chord(place, p, q) for place, (p, q) in zip(between, pairwise(places), strict=True))
-        places = [place for pair in zip(places, between, strict=False) for place in pair] + places[-1:]
+        between = np.array(at([low + (k + 0.5) / pieces * (high - low) for k in range(pieces)]))
+        off = _off_chords(between, places)
         pieces *= 2
+        both = np.empty((pieces + 1, 2))
+        both[::2], both[1::2] = places, between
+        places = both
         if off <= 4 * _NEAR or pieces > _MOST:
             return places
 
 
-def _off_chord(place: XY, p: XY, q: XY) -> float:
-    """Distance of a place from the line through p and q."""
-    length = distance(p, q)
-    return abs(cross(minus(q, p), minus(place, p))) / length if length > 0 else distance(place, p)
+def _off_chords(between: Places, places: Places) -> float:
+    """Largest distance of places from the lines that join those before and behind them."""
+    (u, v), (p, q) = (places[1:] - places[:-1]).T, (between - places[:-1]).T
+    length = np.hypot(u, v)
+    stands = length == 0
+    return float(np.where(stands, np.hypot(p, q), np.abs(u * q - v * p) / (length + stands)).max())
 
 
 def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Iterator[float]:
@@ -135,12 +146,13 @@ def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: floa
     tolerance *= _SPARE
     yield now
     while now < end:
+        node = CurveNode(*at([now]), heading(now))
         good, bad = 0.0, inf
         for _ in range(16):
             step = min(step, end - now)
             if step < least:
                 break
-            off = _off(at, heading, now, now + step, breaks)[0]
+            off = _off(at, heading, node, now, now + step, breaks)[0]
             if off <= tolerance:
                 good = step
                 if now + step >= end or off > 0.6 * tolerance:
@@ -152,7 +164,7 @@ def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: floa
             if step <= 1.05 * good:
                 break
         step = good or least
-        while step > least and _off(at, heading, now, now + step, breaks)[1] > tolerance:
+        while step > least and _off(at, heading, node, now, now + step, breaks)[1] > tolerance:
             step *= 0.8
         if now + step < end < now + 1.4 * step:
             step = (end - now) / 2

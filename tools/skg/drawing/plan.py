@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import cos, inf, pi, sin
 from typing import NamedTuple
 
@@ -234,7 +233,7 @@ def split_at_end(edges: tuple[Edge, ...], length: float) -> tuple[tuple[Edge, ..
         part = 1 - left / last.length
         part = min(1 - _INSIDE, max(_INSIDE, part)) if tail else part
         return (*before, part_of(last, 0, part)), (part_of(last, part, 1), *tail)
-    lengths = np.cumsum([0.0, *(distance(p, q) for p, q in pairwise(last.samples))])
+    lengths = np.cumsum([0.0, *last.steps()])
     near = [node_sample(last, at) for at in range(len(last.nodes))]
     at = max((at for at in range(1, len(near) - 1) if lengths[-1] - lengths[near[at]] >= left), default=0)
     if not at:
@@ -245,8 +244,7 @@ def split_at_end(edges: tuple[Edge, ...], length: float) -> tuple[tuple[Edge, ..
 
 def node_sample(edge: Edge, at: int) -> int:
     """The number of the sample at a curve's node."""
-    samples = np.asarray(edge.samples)
-    return int(np.argmin(((samples - edge.nodes[at].point) ** 2).sum(1)))
+    return int(np.argmin(((edge.samples - edge.nodes[at].point) ** 2).sum(1)))
 
 
 def split_curve(edge: Edge, at: int) -> tuple[Edge, Edge]:

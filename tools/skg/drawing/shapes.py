@@ -8,9 +8,10 @@ from dataclasses import replace
 from itertools import accumulate, pairwise
 from math import atan2, cos, hypot, isfinite, pi, sin
 
+import numpy as np
 from ezdxf.math import BSpline
 
-from skg.drawing.contour import Edge
+from skg.drawing.contour import Edge, Places
 from skg.drawing.curve import curve_edge
 from skg.plane import XY, cross, distance, dot, minus, polar, turn
 
@@ -40,24 +41,26 @@ def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float
     """
     last = first + sweep
     is_full = sweep > 2 * pi - 1e-9
+    (x, y), (p, q), (r, s) = centre, u, v
 
-    def at(t: float) -> XY:
-        return centre[0] + cos(t) * u[0] + sin(t) * v[0], centre[1] + cos(t) * u[1] + sin(t) * v[1]
+    def at(angles: list[float]) -> list[XY]:
+        turned = [(cos(t), sin(t)) for t in angles]
+        return [(x + c * p + d * r, y + c * q + d * s) for c, d in turned]
 
     def heading(t: float) -> float:
-        return atan2(cos(t) * v[1] - sin(t) * u[1], cos(t) * v[0] - sin(t) * u[0])
+        c, d = cos(t), sin(t)
+        return atan2(c * s - d * q, c * r - d * p)
 
     size = max(hypot(*u), hypot(*v))
-    start = at(first)
+    start, end = at([first, last])
     if abs(cross(u, v)) <= 1e-9 * size**2:
         # Seen from its side it is a line.
-        reach = [at(t) for t in (first, last)]
-        return Edge(*reach) if sweep <= pi else Edge(start, start)
+        return Edge(start, end) if sweep <= pi else Edge(start, start)
     sense = 1 if cross(u, v) > 0 else -1
     # (what is longer than a tape is refused for its size)
     is_arc = size < _LARGEST or size * sweep > 2 * _LARGEST
     if abs(dot(u, v)) <= 1e-9 * size**2 and abs(hypot(*u) - hypot(*v)) <= 1e-9 * size and is_arc:
-        return Edge(start, start if is_full else at(last), centre, sense * (2 * pi if is_full else sweep))
+        return Edge(start, start if is_full else end, centre, sense * (2 * pi if is_full else sweep))
     edge = curve_edge(at, heading, [first, last], tolerance)
     return replace(edge, end=edge.start) if is_full else edge
 
@@ -74,9 +77,8 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
     # (a new one each time that the spline is asked for it)
     evaluator = tool.evaluator
 
-    def at(t: float) -> XY:
-        point = evaluator.point(t)
-        return point.x, point.y
+    def at(parameters: list[float]) -> list[XY]:
+        return [(point.x, point.y) for point in evaluator.points(parameters)]
 
     # Between knots a spline is smooth; at a knot it may have a corner, where it is cut in two.
     stations = [low]
@@ -86,7 +88,7 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
     stations[-1] = high
     spans, lengths = [], []
     for span in pairwise(stations):
-        places = [at(span[0] + k / 8 * (span[1] - span[0])) for k in range(9)]
+        places = at([span[0] + k / 8 * (span[1] - span[0]) for k in range(9)])
         length = sum(distance(p, q) for p, q in pairwise(places))
         if length > 1e-9 * size:
             # (else it stands still, its controls are one place)
@@ -120,11 +122,17 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
         aside = max(1e-6 * (last - first), 1e-15 * max(abs(low), abs(high)))
         return last - aside if is_last else first + aside
 
-    def place(way: float) -> tuple[float, int]:
-        """The parameter, and the number of its span."""
-        k = min(max(bisect_right(ways, way) - 1, 0), len(spans) - 1)
-        first, last = spans[k]
-        return first + (way - ways[k]) / (ways[k + 1] - ways[k]) * (last - first), k
+    # Each span: where it begins along the curve, how long it is there, and the same of its parameters.
+    there = ((begin, end - begin) for begin, end in pairwise(ways))
+    table = [(*one, first, last - first) for one, (first, last) in zip(there, spans, strict=True)]
+
+    def span_of(way: float) -> int:
+        return bisect_right(ways, way, 1, len(spans)) - 1
+
+    def parameters(wanted: list[float]) -> list[float]:
+        """The parameters at some ways along the curve."""
+        found = ((way, *table[span_of(way)]) for way in wanted)
+        return [first + (way - begin) / length * more for way, begin, length, first, more in found]
 
     corners = [0]
     for k in range(1, len(spans)):
@@ -138,11 +146,11 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
         def inner(
             way: float, first: int = first, last: int = behind - 1, begin: float = begin, end: float = end
         ) -> float:
-            t, k = place(way)
-            k = min(max(k, first), last)
+            (t,) = parameters([way])
+            k = min(max(span_of(way), first), last)
             return heading(min(max(t, begin), end), k)
 
-        found = curve_edge(lambda way: at(place(way)[0]), inner, ways[first : behind + 1], tolerance)
+        found = curve_edge(lambda wanted: at(parameters(wanted)), inner, ways[first : behind + 1], tolerance)
         yield from map(simplest, _without_nooks(found))
 
 
@@ -154,7 +162,7 @@ def _without_nooks(edge: Edge) -> Iterator[Edge]:
         one, other = nodes[last - 1], nodes[last]
         if distance(one.point, other.point) >= _NOOK or abs(turn(one.angle, other.angle)) <= _NOOK_TURN:
             continue
-        ends = begun + samples[begun:].index(one.point)
+        ends = _sample_at(samples, begun, one.point)
         if last - 1 > first:
             yield replace(
                 edge,
@@ -165,9 +173,14 @@ def _without_nooks(edge: Edge) -> Iterator[Edge]:
             )
         if one.point != other.point:
             yield Edge(one.point, other.point)
-        first, begun = last, ends + samples[ends:].index(other.point)
+        first, begun = last, _sample_at(samples, ends, other.point)
     if first < len(nodes) - 1:
         yield replace(edge, start=nodes[first].point, nodes=nodes[first:], samples=samples[begun:])
+
+
+def _sample_at(samples: Places, begin: int, place: XY) -> int:
+    """The first sample from number `begin` on that is a place."""
+    return begin + int(np.argmax((samples[begin:] == place).all(1)))
 
 
 def simplest(edge: Edge) -> Edge:
@@ -178,10 +191,10 @@ def simplest(edge: Edge) -> Edge:
     length = distance(start, end)
     if length > _SAME and abs(edge.length - length) < _SAME:
         way = minus(end, start)
-        off = max(abs(cross(way, minus(sample, start))) for sample in samples) / length
+        off = np.abs((way[0], -way[1]) @ (samples - start).T[::-1]).max() / length
         return Edge(start, end) if off < _SAME else edge
     # The circle through three samples.
-    p, q, r = samples[0], samples[len(samples) // 3], samples[2 * len(samples) // 3]
+    p, q, r = samples[[0, len(samples) // 3, 2 * len(samples) // 3]].tolist()
     one, other = minus(q, p), minus(r, p)
     area = 2 * cross(one, other)
     if abs(area) < _SAME:
@@ -190,9 +203,10 @@ def simplest(edge: Edge) -> Edge:
     x = (other[1] * squares[0] - one[1] * squares[1]) / area
     y = (one[0] * squares[1] - other[0] * squares[0]) / area
     centre, radius = (p[0] + x, p[1] + y), hypot(x, y)
-    if radius > _LARGEST or any(abs(distance(sample, centre) - radius) > _SAME for sample in samples):
+    about = samples - centre
+    if radius > _LARGEST or (np.abs(np.hypot(*about.T) - radius) > _SAME).any():
         return edge
-    angles = [atan2(*reversed(minus(sample, centre))) for sample in samples]
+    angles = [atan2(v, u) for u, v in about.tolist()]
     sweep = sum(turn(a, b) for a, b in pairwise(angles))
     if abs(sweep) > 2 * pi - 1e-6:
         return Edge(start, start, centre, 2 * pi if sweep > 0 else -2 * pi) if abs(sweep) < 2 * pi + 1e-6 else edge

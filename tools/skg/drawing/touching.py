@@ -71,7 +71,7 @@ def lines_of(contours: list[Contour]) -> NDArray[Any]:
 def _points(edge: Edge) -> NDArray[np.float64]:
     """Points along an edge, both ends included."""
     if edge.nodes:
-        return np.array(edge.samples)
+        return edge.samples
     if edge.centre is None:
         return np.array([edge.start, edge.end])
     step = 2 * acos(max(0.5, 1 - _CHORD / edge.radius))
