@@ -213,9 +213,9 @@ class SetupSheet:
         places = np.array([self.on_paper(route.start) for route in self.job.routes])
         radii = [self._radius(at, places) for at in range(len(places))]
         for (x, y), radius in zip(places, radii, strict=True):
-            self.axes.add_patch(
-                Circle((x, y), radius, fill=False, edgecolor=_MARK, linewidth=min(0.7, radius), zorder=5, gid="hole")
-            )
+            mark = Circle((x, y), radius, fill=False, edgecolor=_MARK, linewidth=min(0.7, radius), zorder=5, gid="hole")
+            # (add_patch would look for its bounds)
+            self.axes.add_artist(mark)
             self.taken.take((x - radius, y - radius), (x + radius, y + radius))
         left_out = 0
         for at, ((x, y), radius) in enumerate(zip(places, radii, strict=True)):
