@@ -618,8 +618,9 @@ def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
         except _Misread as error:
             reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
     if not reader.ended:
-        reader.line += 1
-        reader.warn(1, "expected M02 or M30, found the end of the program", is_guess=True)
+        # (with nothing in front of it, it is no program)
+        missing = "expected M02 or M30, found the end of the program"
+        reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not items, is_guess=bool(items)))
     guesses = tuple(str(finding) for finding in reader.findings if finding.is_guess)
     program = GcodeProgram(name, tuple(items), reader.home, tuple(reader.depths), tuple(reader.travels), guesses)
     return program, reader.findings
