@@ -201,3 +201,28 @@ def test_depths_of_what_crosses() -> None:
     reliefs = [Contour((Edge((x + 1, y), (x + 1, y), (x, y), 2 * pi),), True) for x, y in [(15, 14), (25, 14), *window]]
     shapes = [ring([(float(x), float(y)) for x, y in corners]) for corners in (plate, window)]
     assert Field([*reliefs, *shapes]).depths() == [1] * 6 + [0, 1]
+
+
+@pytest.mark.parametrize("is_turned", [False, True])
+def test_depths_of_crossed_slots(is_turned: bool) -> None:
+    """Slots that cross in a plate are openings, also where one lies in the other by half, and two as large ones; what
+    lies in a window by itself, or crosses another such, is none."""
+
+    def box(x: int, y: int, width: int, height: int) -> Contour:
+        corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+        return ring([(float(v), float(u)) if is_turned else (float(u), float(v)) for u, v in corners])
+
+    plate, window = box(0, 0, 60, 40), box(2, 20, 30, 18)
+    slots = [
+        box(5, 8, 16, 4),
+        box(12, 6, 4, 7),
+        box(40, 10, 8, 6),
+        box(41, 9, 6, 8),
+        box(35, 20, 4, 10),
+        box(33, 22, 8, 5),
+    ]
+    inner = [box(4, 22, 20, 8), box(8, 26, 5, 10)]
+    depths = Field([plate, window, *slots, *inner]).depths()
+    assert depths[:2] == [0, 1]
+    assert all(depth % 2 for depth in depths[2:8]), depths
+    assert depths[8] == 2

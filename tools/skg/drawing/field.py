@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from math import cos, inf, sin
 
 import numpy as np
@@ -21,8 +21,9 @@ _RUN = 32
 _HAIR = 1e-9
 #: So many pairs of a place and a chord are looked at together.
 _PAIRS = 100_000
-#: Where a contour is looked across for places in it, parts of its height: no corners lie there but by chance.
-_ACROSS = 0.2873, 0.7127
+#: Where a contour is looked across for places in it, parts of its height and of the width there: no corners lie there
+#: but by chance.
+_ACROSS, _NEAR_ENDS = (0.2873, 0.25), (0.0731, 0.05)
 #: So many arcs become chords together.
 _ARCS = 1000
 #: So many boxes are asked for the places in them together.
@@ -117,12 +118,21 @@ class Field:
         (Its corners may lie on its neighbours, and a smaller one that lies in it may hold the place.) One that crosses
         others takes something away where it does: it is looked at where an odd number of them lies around it.
         """
-        sizes, (owners, places) = self._sizes(), self._inner()
         found = [0] * len(self.contours)
-        for at, others in zip(owners, self.around(places, owners), strict=True):
-            depth = sum(sizes[other] >= sizes[at] for other in others)
+        for at, depth in self._depths_in(_ACROSS):
             found[at] = max(found[at], depth, key=lambda one: (one % 2, one))
+        # (a slot that another one crosses in its middle shows at its ends what it is)
+        within = {at: depth for at, depth in enumerate(found) if depth and depth % 2 == 0}
+        for at, depth in self._depths_in(_NEAR_ENDS) if within else ():
+            if depth % 2 and depth < within.get(at, 0):
+                found[at] = depth
         return found
+
+    def _depths_in(self, where: tuple[float, float]) -> Iterator[tuple[int, int]]:
+        """The numbers of contours, and how many as large closed ones lie around a place in each."""
+        sizes, (owners, places) = self._sizes(), self._inner(*where)
+        for at, others in zip(owners, self.around(places, owners), strict=True):
+            yield at, sum(sizes[other] >= sizes[at] for other in others)
 
     def _sizes(self) -> Floats:
         """The areas of all contours, mm²."""
@@ -132,9 +142,9 @@ class Field:
         # (each begins at 0, 0: what comes to it from the one before is nothing)
         return np.abs(np.add.reduceat(turned, self._first[:-1])) / 2 if len(x) else x
 
-    def _inner(self) -> tuple[list[int], list[XY]]:
-        """Four places inside each closed contour: in the quarters of the widest stretches across it, at some heights.
-        An open one's start. Whose the places are comes first."""
+    def _inner(self, height: float, aside: float) -> tuple[list[int], list[XY]]:
+        """Four places inside each closed contour: a part of its height from its ends, and in the widest stretch across
+        it there a part of that from its ends. An open one's start. Whose the places are comes first."""
         counts = np.diff(self._first)
         closed = np.array([contour.is_closed for contour in self.contours], bool)
         owner = np.repeat(np.arange(len(counts)), counts)[:-1]
@@ -144,7 +154,7 @@ class Field:
         is_chord[self._first[1:-1] - 1] = False
         low, high = (of.reduceat(self._points[:, 1], self._first[:-1]) for of in (np.minimum, np.maximum))
         owners, places = [], []
-        for part in _ACROSS:
+        for part in (height, 1 - height):
             y = low + part * (high - low)
             across = np.flatnonzero(is_chord & ((y1 > y[owner]) != (y2 > y[owner])))
             of, up = owner[across], y[owner[across]]
@@ -155,9 +165,9 @@ class Field:
             order = np.lexsort((-wide, of))
             numbers, first = np.unique(of[order], return_index=True)
             widest = order[first]
-            for aside in (0.25, 0.75):
+            for along in (aside, 1 - aside):
                 owners.append(numbers)
-                places.append(np.column_stack((x[2 * widest] + aside * wide[widest], y[numbers])))
+                places.append(np.column_stack((x[2 * widest] + along * wide[widest], y[numbers])))
         whose = np.concatenate(owners)
         without = np.setdiff1d(np.arange(len(counts)), whose)
         starts = [self.contours[at].edges[0].start for at in without.tolist()]
