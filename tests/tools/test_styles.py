@@ -28,7 +28,7 @@ SAME = {
     "published": (
         "B 9900B 0B 9900 GX L3 B 0B 70100B 70100 GY L2 B 55000B 0B 55000 GX L3 B 50100B 100B 100000 GY NR1"
         "B 54900B 0B 54900 GX L3",
-        "blanks, no DD at the end",
+        "blanks, several blocks in a line, no DD at the end",
     ),
     "numbered": (
         "N 1: B 9900 B 0 B 9900 GX L3\nN 2: B 0 B 70100 B 70100 GY L2\nN 3: B 55000 B 0 B 55000 GX L3\n"
@@ -215,7 +215,9 @@ def test_every_tool_reads_it_and_says_so(run: Run, tmp_path: Path, words: list[s
     other.write_text(SAME["published"][0])
     ones, others = (run(words[0], path, *words[1:]) for path in (own, other))
     assert others.exit_code == 0
-    assert f"skg: {other}: written in another style: blanks, no DD at the end\n" in others.stderr
+    assert (
+        f"skg: {other}: written in another style: blanks, several blocks in a line, no DD at the end\n" in others.stderr
+    )
     texts = [result.stdout.replace(str(other), str(own)) for result in (ones, others)]
     if words == ["dxf"]:
         texts = [text.rpartition("\nENTITIES\n")[2].partition("\nOBJECTS\n")[0] for text in texts]
@@ -245,3 +247,9 @@ def test_written_in_a_style(run: Run, tmp_path: Path) -> None:
     assert run("tape", path, "--style", "joined").stdout == SAME["published"][0].replace("NR1B", "NR1 B") + " DD "
     assert run("tape", path, "--style", "numbered").stdout.splitlines()[3] == "N   4: B 50100 B 100 B 100000 GY NR1"
     assert run("tape", path, "--style", "padded").stdout.splitlines()[0] == "B009900B000000B009900GXL3"
+
+
+@pytest.mark.parametrize(("text", "noted"), [("{}{}DD", True), ("{}\n{}DD", False), ("{}\r\n{}\r\nDD\r\n", False)])
+def test_blocks_without_line_ends_are_noted(text: str, noted: bool) -> None:
+    tape = tapes.parse(text.format("B9900B0B9900GXL3", "B0B70100B70100GYL2").encode(), "part.3b")
+    assert (len(tape.blocks), any("several blocks in a line" in note for note in tape.notes)) == (2, noted)

@@ -84,11 +84,12 @@ class _StyleReader:
         self.seen["comments"] += bare != self.text
         self.seen["blank tape or rubouts between blocks"] += "\0" in bare or "\x7f" in bare
         at = self._header(bare)
-        end = None
+        end, behind = None, 0
         while (at := _BLANK.match(bare, at).end()) < len(bare):
             if block := _BLOCK.match(bare, at):
                 self._block(block)
-                at = block.end()
+                self._note(not re.search(r"[\r\n]", bare[behind:at]) and behind > 0, "several blocks in a line")
+                at = behind = block.end()
             elif word := _WORD.match(bare, at):
                 at = word.end()
                 self._number(word)
