@@ -185,6 +185,23 @@ def test_wrong_tapes_are_found() -> None:
         check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), routes, True)
 
 
+def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> None:
+    """Lenses one after the other: the controller's own places wander from the tape's; without drift none do."""
+    page, tape = drawing(), tmp_path / "part.3b"
+    for column in range(6):
+        ends = [(10.3 * column, 0.7 * column, 0.51), (10.3 * column + 6.37, 0.7 * column + 3.11, 0.43)]
+        page.modelspace().add_lwpolyline(ends, format="xyb", close=True)
+    words = ["cut", saved(page, tmp_path), "-o", tape, "--offset", 0.1]
+    standard = run(*words, "--rom", "standard")
+    said = re.search(r"the misses of arcs add up on the machine, to ([\d.]+) µm", standard.stderr)
+    assert standard.exit_code == 0 and said, standard.stderr
+    contours = tapes.read(str(tape)).stretches()[::2]
+    assert len(contours) == 6
+    gone = [sum(run_block(block).move[axis] for contour in contours for block in contour) for axis in (0, 1)]
+    assert 1 <= hypot(*gone) <= float(said[1]) + 0.005
+    assert "add up" not in run(*words).stderr
+
+
 def test_the_controllers_steps_count() -> None:
     """What is compared with 3 µm is where the controller goes, and it is what is said: on a slant it steps aside."""
     from skg.cutting.check import check

@@ -25,7 +25,7 @@ from skg.errors import UserError
 from skg.piece import Piece
 from skg.plane import XY
 from skg.tape.block import Tape, micrometres
-from skg.tape.columns import columns_of
+from skg.tape.columns import columns_of, hypots
 from skg.tape.controller import trace_array
 from skg.tape.laid import Laid
 from skg.tape.moves import closed_moves
@@ -69,18 +69,21 @@ class Threading:
 
 @dataclass(frozen=True)
 class Checked:
-    """A tape as it was followed: its cuts, the largest distance from the drawing (mm), what is wrong."""
+    """A tape as it was followed: its cuts, the largest distance from the drawing (mm), how far the misses of blocks
+    have put the controller beside where the tape has them begin (mm, 0 without drift), what is wrong."""
 
     cuts: list[Threading]
     off: float
+    drift: float
     faults: list[Misfit]
     crossings: list[Crossing]
 
 
-def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> list[Threading]:
-    """Follow a tape from the first start hole with the controller; `is_without_drift`: blocks start where it stands.
+def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> tuple[list[Threading], float]:
+    """Follow a tape from the first start hole with the controller: its cuts, and its largest drift, mm.
 
-    A tape whose stops are not those of the routes is a `UserError`.
+    `is_without_drift`: blocks start where the controller stands; else its misses add up beside what is compared. A tape
+    whose stops are not those of the routes is a `UserError`.
     """
     owners = [at for at, route in enumerate(routes) for first, run in enumerate(route.runs()) if not first or run.stop]
     if len(tape.bounds) != 2 * len(owners) - 1:
@@ -88,7 +91,9 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     columns = columns_of(tape)
     walked = walk(tape, np.arange(len(columns)))
     home = [micrometres(ordinate) for ordinate in routes[0].start]
-    places = np.cumsum([home, *(walked.moves if is_without_drift else closed_moves(tape))], axis=0)
+    moves = walked.moves if is_without_drift else closed_moves(tape)
+    places = np.cumsum([home, *moves], axis=0)
+    drift = float(hypots(*np.cumsum(walked.moves - moves, axis=0).T).max(initial=0.0)) / 1000
     laid = Laid.between(tape.blocks, columns, places)
     lengths = laid.lengths()
     cuts = []
@@ -96,19 +101,19 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
         gap = tuple((places[last] - places[first]).tolist())
         off, length = walked.off_curve[first:last], float(lengths[first:last].sum()) / 1000
         cuts.append(Threading(owner, laid[first:last], off, length, gap))
-    return cuts
+    return cuts, drift
 
 
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
     """Follow a tape and compare it with the routes that it should cut."""
-    cuts = follow(tape, routes, is_without_drift)
+    cuts, drift = follow(tape, routes, is_without_drift)
     contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
     path = _Path(cuts)
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
     faults, crossings, worst = _beside(path, contours, routes, offsets, widest)
     more, far = _reached(path, contours, _in_tabs(contours, routes), offsets, widest)
-    return Checked(cuts, max(worst, far), faults + more, crossings)
+    return Checked(cuts, max(worst, far), drift, faults + more, crossings)
 
 
 def _offsets(routes: list[PlannedContour]) -> Floats:

@@ -356,6 +356,11 @@ def report(job: Job, factor: float) -> list[str]:
         f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
         + _closing(job.checked.cuts, routes),
     ]
+    if drift := job.checked.drift:
+        lines.append(
+            f"take care: the misses of arcs add up on the machine, to {1000 * drift:.2f} µm beside that: "
+            "--rom no-drift makes a tape without"
+        )
     lines += [f"take care, left out: {one.name}: {one.why}" for one in job.left[:_PLACES]]
     if len(job.left) > _PLACES:
         lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} without room for the wire")
