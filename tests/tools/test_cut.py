@@ -340,6 +340,15 @@ def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
     assert feed(text, "no-drift", 2).tape == tape.read_bytes()
 
 
+@pytest.mark.parametrize("option", ["--sheet", "--program"])
+def test_no_tape_where_what_goes_with_it_cannot_be_written(run: Run, tmp_path: Path, option: str) -> None:
+    """A sheet or a program in a directory that is not there: no tape either."""
+    tape, other = tmp_path / "part.3b", tmp_path / "none" / "part.svg"
+    with pytest.raises(FileNotFoundError):
+        run("cut", BRACKET, "-o", tape, option, other)
+    assert not tape.exists()
+
+
 def test_numbers_taken_off() -> None:
     """A stored program's lines as lines that are carried out; one that jumps cannot be taken so."""
     program = "20 CUT (0,0),(5,0),(5,5)\n10 FROM (0,-3)\n30 BACK\n40 END\n"

@@ -75,7 +75,8 @@ def _list_3b(name: str, data: bytes, tape: Tape, findings: list[Finding], list_a
                 # No tape at all: every line is a finding.
                 click.echo(str(error))
                 return
-    _list(name, findings, f"{len(tape.blocks)} blocks", list_all)
+    blocks = len(tape.blocks)
+    _list(name, findings, f"{blocks} block{'s' * (blocks != 1)}", list_all)
     if b"\x1a" in data[len(without_filling(data)) :]:
         click.echo(f"skg: {name}: ends with ctrl-Zs, as a file of CP/M does; they are not on the tape", err=True)
     for note in notes:

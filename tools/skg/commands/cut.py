@@ -160,7 +160,6 @@ def command(
         raise UserError(f"{file}: {error}") from None
     if job.left:
         reading = read(data, file, wishes, {one.number for one in job.left})
-    write_bytes(output, job.data)
     if program:
         write_bytes(program, job.program.encode("ascii"))
     if sheet:
@@ -168,6 +167,7 @@ def command(
 
         names = (Path(path).name if path != "-" else "-" for path in (file, output))
         write_sheet(job, Facts(*names, wire, gap, reading.report.units), sheet, form)
+    write_bytes(output, job.data)  # last: no tape where something else could not be written
     if not quiet:
         lines = [*reading.report.lines(), *report(job, factor)]
         if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
