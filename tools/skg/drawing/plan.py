@@ -349,10 +349,11 @@ def _entries(contour: Contour, tab: float, widest: float) -> Iterator[_Entry]:
     fitting = [at for at in ranked if lengths[at] > _ROOM * tab]
     # (a short edge may not be there any more beside the contour)
     sure = [at for at in fitting if lengths[at] > _SURE * widest]
+    unsure = [at for at in fitting if lengths[at] <= _SURE * widest]
     yield from _on_edges(contour, sure[:_TRIED], tab)
     if any(edge.nodes and length > _ROOM * tab for edge, length in zip(contour.edges, lengths, strict=True)):
         yield from _entries_on_curve(contour)
-    yield from _on_edges(contour, [at for at in fitting if at not in sure][:_TRIED], tab)
+    yield from _on_edges(contour, unsure[:_TRIED], tab)
     if not fitting and _is_long(contour, tab):
         for at in ranked[:_TRIED]:
             yield _Entry(at, 0.5)
