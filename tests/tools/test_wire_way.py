@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import atan, cos, pi, sin
+from math import atan, cos, pi, radians, sin, tan
 from pathlib import Path
 
 import pytest
@@ -288,3 +288,23 @@ def test_a_way_that_is_entered_at_a_narrow_end(run: Run, tmp_path: Path) -> None
     (found,), _ = cut(run, page, tmp_path, "--offset", 0.2, "--side", "inside", "--start", "6.8,5")
     assert apart(LineString(found[1:-1]), parallel(Polygon(places), 0.2, "inside")) < LIMIT
     assert found[0] == pytest.approx(found[-1], abs=1e-9)
+
+
+def test_the_wire_passes_short_bows_in_a_row() -> None:
+    """Bows of some 15 µm round a corner off: where the wire's corners swap places it does not go around one of them."""
+    micrometres = [(0, 0), (10000, 0), (9994, 9976), (9993, 9980), (9980, 9991), (9963, 9998), (9962, 9999), (0, 10000)]
+    bows = [0, 0, 30, 0, 60, 30, 0, 0]
+    places = [(x / 1000, y / 1000) for x, y in micrometres]
+    edges = []
+    for (x, y), (u, v), bow in zip(places, [*places[1:], places[0]], bows, strict=True):
+        if not bow:
+            edges.append(Edge((x, y), (u, v)))
+            continue
+        up = 1 / (2 * tan(radians(bow) / 2))
+        centre = (x + u) / 2 - up * (v - y), (y + v) / 2 + up * (u - x)
+        edges.append(Edge((x, y), (u, v), centre, radians(bow)))
+    way = wire_way(Contour(tuple(edges), True), 0.1)
+    cut = LineString([edge.at(k / 20) for edge in way for k in range(21)])
+    wanted = Polygon([edge.at(k / 20) for edge in edges for k in range(20)]).buffer(0.1, quad_segs=200).exterior
+    assert cut.hausdorff_distance(wanted) < LIMIT
+    assert cut.length == pytest.approx(wanted.length, abs=0.01)

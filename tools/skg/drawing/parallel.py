@@ -90,8 +90,9 @@ class _Beside:
             return Edge(start, end, entity=self.edge.entity)
         first, last = (atan2(*reversed(minus(place, self.centre))) for place in (start, end))
         sweep = self.sense * (self.sense * (last - first) % (2 * pi))
-        if abs(sweep) > 2 * pi - 1e-3:
-            # (a corner that rounding put before the one before it)
+        most = abs(self.edge.sweep) if self.centre == self.edge.centre else pi
+        if abs(sweep) > pi + most / 2:
+            # (a corner that rounding, or a very short edge, put before the one before it)
             sweep -= self.sense * 2 * pi
         if self.radius * (1 - cos(min(pi, abs(sweep)) / 2)) < _FLAT:
             return Edge(start, end, entity=self.edge.entity)
