@@ -12,6 +12,9 @@ from ezdxf.layouts import Modelspace
 from shapely.geometry import LinearRing, LineString
 from toolhelp import Run
 
+from skg.drawing import curve
+from skg.ref import fit
+
 
 def standing_still(space: Modelspace) -> LinearRing:
     """Cubic Béziers, the first and the last one with all their controls in one place: where the spline begins."""
@@ -61,3 +64,8 @@ def test_curve(run: Run, tmp_path: Path, shape: Callable[[Modelspace], LinearRin
     start = program.read_text().split("FROM (")[1].split(")")[0].split(",")
     (places,) = stretches(tape.read_bytes(), (float(start[0]), float(start[1])))
     assert apart(LineString(places[1:-1]), wanted) < LIMIT + 0.004 * (shape is bent)
+
+
+def test_flat_arcs_are_those_of_fit() -> None:
+    """What is a line to the reference's FIT is one where a drawing's curves are made into nodes."""
+    assert (float(fit.FLAT), float(fit.STRAIGHT)) == (curve.FLAT, curve.STRAIGHT)

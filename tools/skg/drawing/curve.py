@@ -23,7 +23,7 @@ _SPARE = 0.9
 _NEAR, _MOST = 5e-5, 4096
 #: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm
 #: (language.md, section 5).
-_FLAT, _STRAIGHT = 0.002, 50_000.0
+FLAT, STRAIGHT = 0.002, 50_000.0
 
 
 def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
@@ -50,7 +50,7 @@ def _off_arc(points: list[XY], start: XY, angle: float, end: XY) -> tuple[float,
     square = dot((u, v), (u, v))
     radius = square / (2 * height) if abs(height) >= 1e-9 else inf
     off_chord = 0.0
-    if is_line := abs(height) <= _FLAT or abs(radius) >= _STRAIGHT:
+    if is_line := abs(height) <= FLAT or abs(radius) >= STRAIGHT:
         off_chord = max([abs(u * (q - y) - v * (p - x)) for p, q in points]) / sqrt(square)
     if radius == inf:
         return off_chord, off_chord
