@@ -473,7 +473,7 @@ DIRS3:  SBB     M
         RC
         ORA     C
         RZ                      ; a line along an axis
-        CALL    SDRI7
+        CALL    SDRI7           ; (no block is in hand; what DERR does of it again changes nothing)
 ; (fall into DERR)
 
 ; DERR - the line is none: that counts when the block in hand has been followed

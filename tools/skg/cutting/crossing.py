@@ -8,7 +8,7 @@ from math import acos
 import numpy as np
 import shapely
 
-from skg.cutting.near import Floats, Pieces, Whole
+from skg.cutting.near import Floats, Pieces, Whole, spread
 from skg.plane import XY
 
 #: The chords that stand for an arc leave it by no more than this, mm.
@@ -61,6 +61,5 @@ def _lines(pieces: Pieces, which: Whole) -> np.ndarray:
         piece = which[at]
         step = 2 * acos(max(0.9, 1 - _CHORD / pieces.radius[piece]))
         spaces[at] = max(2, int(abs(pieces.sweep[piece]) / step) + 1)
-    of = np.repeat(np.arange(len(which)), spaces + 1)
-    number = np.arange(len(of)) - np.repeat(np.cumsum(spaces + 1) - spaces - 1, spaces + 1)
-    return shapely.linestrings(pieces.at(which[of], number / spaces[of]), indices=of)
+    of, part = spread(spaces, 0, len(spaces))
+    return shapely.linestrings(pieces.at(which[of], part), indices=of)

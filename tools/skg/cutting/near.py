@@ -9,7 +9,7 @@ from math import pi
 
 import numpy as np
 
-from skg.drawing.field import Floats, Whole
+from skg.drawing.field import Floats, Whole, rows_of
 from skg.piece import Piece
 from skg.tape.columns import directions, hypots
 from skg.tape.laid import Laid
@@ -104,7 +104,7 @@ class Pieces:
             ends = np.cumsum(spaces + 1)
             cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1] + _PAIRS, _PAIRS), "right"))
             for begin, end in pairwise(cuts.tolist()):
-                which, part = _spread(spaces, begin, end)
+                which, part = spread(spaces, begin, end)
                 yield low + which, part
 
     def _spaces(self, some: slice, spacing: float, least: int) -> Whole:
@@ -231,25 +231,25 @@ _Part = tuple[Floats, Floats, Whole | int, Floats | None]
 
 
 def _parts(pieces: Iterable[tuple[Piece | Floats, int]]) -> Iterator[_Part]:
-    rows: list[tuple[float, ...]] = []
+    some: list[tuple[Piece, int]] = []
     for piece, owner in pieces:
         if isinstance(piece, Piece):
-            rows.append(_row(piece, owner))
-        if rows and (len(rows) == _PLACES or not isinstance(piece, Piece)):
-            yield _of_rows(rows)
-            rows.clear()
+            some.append((piece, owner))
+        if some and (len(some) == _PLACES or not isinstance(piece, Piece)):
+            yield _lines_and_arcs(some)
+            some.clear()
         if not isinstance(piece, Piece):
             is_there = (piece[:-1] != piece[1:]).any(1)
             # (where all are, nothing is copied)
             starts, ends = (piece[:-1], piece[1:]) if is_there.all() else (piece[:-1][is_there], piece[1:][is_there])
             yield starts, ends, owner, None
-    if rows:
-        yield _of_rows(rows)
+    if some:
+        yield _lines_and_arcs(some)
 
 
-def _of_rows(rows: list[tuple[float, ...]]) -> _Part:
-    table = np.array(rows)
-    return table[:, 0:2], table[:, 2:4], table[:, 4].astype(np.int64), table[:, 5:]
+def _lines_and_arcs(some: list[tuple[Piece, int]]) -> _Part:
+    rows = rows_of([piece for piece, _ in some])
+    return rows[:, 0:2], rows[:, 2:4], np.array([owner for _, owner in some], np.int64), rows[:, 4:]
 
 
 def _once(*rows: Whole) -> Whole:
@@ -271,15 +271,9 @@ def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at:
     at[place[is_least]] = which[is_least]
 
 
-def _spread(spaces: Whole, begin: int, end: int) -> tuple[Whole, Floats]:
+def spread(spaces: Whole, begin: int, end: int) -> tuple[Whole, Floats]:
     """The pieces from one number up to another, each as often as it has places, and the parts where these are."""
     count = spaces[begin:end]
     which = np.repeat(np.arange(begin, end), count + 1)
     first = np.repeat(np.cumsum(count + 1) - count - 1, count + 1)
     return which, (np.arange(len(which)) - first) / spaces[which]
-
-
-def _row(piece: Piece, owner: int) -> tuple[float, ...]:
-    if piece.centre is None:
-        return (*piece.start, *piece.end, owner, 0.0, 0.0, 0.0, 0.0, 0.0)
-    return (*piece.start, *piece.end, owner, *piece.centre, piece.radius, piece.angles[0], piece.sweep)

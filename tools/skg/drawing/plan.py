@@ -426,8 +426,8 @@ class _Planner:
         """Plan contours, each with the sign of R; `given`: the start holes that some of them have."""
         done: dict[int, PlannedContour] = {}
         choices: list[_Choice] = []
+        method = self.method
         for number, ((contour, sign), depth) in enumerate(zip(ready, depths, strict=True)):
-            method = self.method
             passes = tuple(sign * (method.offset + more) for more in method.passes)
             start, offset = given.get(number), passes[-1]
             if not contour.is_closed:
