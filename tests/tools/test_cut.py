@@ -22,7 +22,8 @@ from toolhelp import Run
 
 from skg import tape as tapes
 from skg.errors import UserError
-from skg.machine.feeding import feed, rest_of, without_numbers
+from skg.machine import feeding
+from skg.machine.feeding import feed, feed_routes, rest_of, without_numbers
 from skg.plane import XY
 from skg.tape.controller import run_block
 
@@ -350,6 +351,41 @@ def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
     text = program.read_text()
     assert rest_of(text) == "" and text.count("BACK") == 250
     assert feed(text, "no-drift", 2).tape == tape.read_bytes()
+
+
+#: Routes as a program without line numbers has them, each from its start hole at (x, 0) on: closed ones,
+#: open ones, whose last block comes with what follows them, and one with a stop.
+ROUTES = [
+    "R=.1\nFROM ({x},0)\nCUT ({x},1),({y},1),({y},2.013),({x},2)\nBACK\nR=0\n",
+    "FROM ({x},0)\nCUT ({x},0),({y},.5)\n",
+    "R=.1\nFROM ({x},0)\nCUT ({x},0):.7777\nBACK\nR=0\n",
+    "FROM ({x},0)\nCUT ({x},0),({y},0):1.0007\n",
+    "FROM ({x},0)\nCUT ({x},1),({y},1),({x},2)\nBACK\nREM STOP\nFROM ({x},.5)\nCUT ({x},3),({y},3),({y},4)\nBACK\n",
+]
+
+
+@pytest.mark.parametrize("rom", ["no-drift", "standard"])
+def test_boards_that_share_a_program(rom: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A long program, taken by twenty boards, gives the tape of one; of an error it tells the same."""
+    monkeypatch.setattr(feeding, "_SHARE", 200)
+    routes = [ROUTES[at * at % 7 % 5].format(x=at * 1.3337, y=at * 1.3337 + 1) for at in range(60)]
+    parts = ["REM PART\n", *routes, "END\n"]
+    assert len([*feeding._shares(parts)]) > 15
+    alone = feed("".join(parts), rom)
+    assert alone.error is None and alone.tape.count(b"D\r\n") > 100
+    monkeypatch.setattr(feeding, "feed", None)
+    assert feed_routes(parts, rom, 8).tape == alone.tape
+    parts[31] = "FROM (0,0)\nCUT (0,0),(5,5):1\nBACK\n"
+    assert feed_routes(parts, rom, 8).error == feed("".join(parts), rom).error == (6, None)
+
+
+def test_routes_that_lean_on_those_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where boards that share a program do not agree, one makes all of it."""
+    monkeypatch.setattr(feeding, "_SHARE", 100)
+    routes = [f"FROM ({at},0)\nCUT ({at},1),({at}.5,1),({at},2)\nBACK\n" for at in range(9)]
+    parts = ["R=.05\n", *routes, "END\n"]
+    assert len([*feeding._shares(parts)]) > 2
+    assert feed_routes(parts, "no-drift", 8).tape == feed("".join(parts), "no-drift").tape
 
 
 @pytest.mark.parametrize("option", ["--sheet", "--program"])

@@ -14,7 +14,7 @@ from skg.drawing.plan import PlannedContour, longest_tab
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
 from skg.machine.board import ErrorLine
-from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines
+from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes
 from skg.plane import XY
 from skg.tape import text as tapes
 from skg.tape.block import Tape
@@ -261,8 +261,8 @@ def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
         fed = feed(text, settings.rom, settings.ram_kib)
         if fed.error is None or fed.error.number != MEMORY_FULL:
             return text, True, fed
-    text = "".join(map(_text, program.unnumbered()))
-    return text, False, feed(text, settings.rom, settings.ram_kib)
+    parts = list(map(_text, program.unnumbered()))
+    return "".join(parts), False, feed_routes(parts, settings.rom, settings.ram_kib)
 
 
 def _text(statements: list[Step]) -> str:

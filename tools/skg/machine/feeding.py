@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from skg.errors import UserError
@@ -14,6 +15,9 @@ MOST_CYCLES = 10**12
 #: RAM that a board may have, KiB.
 LEAST_RAM, MOST_RAM = 2, 56
 MEMORY_FULL = 9
+#: Of a program that several boards share each takes about so many characters at a time, and two of them take a route
+#: of so many.
+_SHARE, _TWICE = 50_000, 5_000
 #: Ctrl-Z: nothing follows on a tape of program lines.
 TAPE_END = "\x1a"
 #: A line's number: blanks mean nothing, inside it too.
@@ -127,6 +131,48 @@ def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fe
             break
         done += 1
     return Fed(board.tape, error, board.machine.cycles), done
+
+
+def feed_routes(parts: Sequence[str], rom: str | bytes, ram_kib: int) -> Fed:
+    """What `feed` makes of a program without line numbers, by as many boards at once as there are processors.
+
+    `parts`: the title, the routes, each from its FROM on, the END. A route leaves nothing behind for the next one but
+    the place where the wire is. So each board begins with the last route of the one before it; where these two tapes
+    differ, one board takes all.
+    """
+    from concurrent.futures import ThreadPoolExecutor  # (slow to import, and needed here alone)
+
+    with ThreadPoolExecutor(os.cpu_count()) as boards:
+        shares = list(boards.map(lambda some: _feed_share(some, rom, ram_kib), _shares(parts)))
+    tape, cycles = b"", sum(one.cycles for _, one in shares)
+    for begun, share in shares:
+        if share.error:
+            return Fed(tape, share.error, cycles)
+        if not tape.endswith(begun):
+            return feed("".join(parts), rom, ram_kib)
+        tape += share.tape[len(begun) :]
+    return Fed(tape, None, cycles)
+
+
+def _shares(parts: Sequence[str]) -> Iterator[Sequence[str]]:
+    """Parts of a program that follow each other, with the last one of those before."""
+    first = length = 0
+    for at, part in enumerate(parts):
+        length += len(part)
+        if at + 1 == len(parts) or length > _SHARE and len(part) <= _TWICE:
+            yield parts[first : at + 1]
+            first, length = at, len(part)
+
+
+def _feed_share(parts: Sequence[str], rom: str | bytes, ram_kib: int) -> tuple[bytes, Fed]:
+    """LOAD the first of some parts, then the others: what is punched up to there, and what becomes of all."""
+    board = Board(rom, ram_kib, max_cycles=MOST_CYCLES)
+    # (LOAD would wait for what follows a tape without this end)
+    board.load(parts[0] + TAPE_END)
+    begun = board.tape
+    if not board.error:
+        board.load("".join(parts[1:]) + TAPE_END)
+    return begun, Fed(board.tape, board.error, board.machine.cycles)
 
 
 def least_ram(program: str, rom: str | bytes = "standard") -> int | None:
