@@ -1,7 +1,7 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
 ; Uses:   cut decimal float io io_6850 io_port io_punch monitor reset start tape value
-; Room:   699 bytes
+; Room:   700 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
@@ -33,6 +33,7 @@ DMOST   EQU 6           ; numbers are below 6 * 2^24
 ; Cells that RUN, NEW and a reset clear: those in front of N, and TOL's, which this image goes without
 DPARS   EQU RUNCEL      ; -> place in DLINE; low byte 0: a line begins
 DSTATE  EQU DPARS+2     ; bit 0: not cutting
+DCHAR   EQU DPARS+3     ; the reader's character that is being seen to; 0: none
 DCOUNT  EQU MTO         ; -> the count's N; high byte 0: no block is in hand
 DHIGH   EQU MTO+2       ; bit 7: the feed clock has not fallen behind the last step
 
@@ -61,11 +62,10 @@ DMODE   EQU DN1+27      ; 0FEH: RUN drives, 0: it does not
 ;! DX & 0FFH == 0 and DFIRST < FSP -- DLINE sees by the low address that a number, and the last one, has been read
 ;! DN1/100H == DU2/100H -- the loop changes L alone
 ;! DU2-DU1 == 9 and DR2-DR1 == 9 and DN2-DN1 == 9 and DR1-DN1 == 4 and DU1-DR1 == 4 -- DLOOP walks along a record
-;! DN2 == DU1+1 and DQUAD == DTURN+1 and DFIRST == DKIND+1 -- DLINE and DIRS take two cells at once
-;! DMODE < CLOSED and DSTATE < MNEXT and DHIGH < MTO+5 -- nobody else's cells
+;! DN2 == DU1+1 and DQUAD == DTURN+1 and DFIRST == DKIND+1 and DCHAR == DSTATE+1 -- two cells are taken at once
+;! DMODE < CLOSED and DCHAR < MNEXT and DHIGH < MTO+5 -- nobody else's cells
 ;! (DSYN1&0FFH)*(DSYN2&0FFH)*(DSYN3&0FFH)*(DSYN4&0FFH)*(DSYN5&0FFH) != 0 -- DPUSH takes 0 for a line's beginning
-;! (DSYN6&0FFH)*(DSYN7&0FFH)*(DSYN8&0FFH)*((DSYN7-DSYN8)&0FFH) != 0 -- the same; SDRIV knows DSYN7 by its low byte
-;! DSYN7-DSYN1 < 100H -- SDRIV, the same
+;! (DSYN6&0FFH)*(DSYN7&0FFH)*(DSYN8&0FFH) != 0 -- the same
 
 ; DLOOP - steps, until there is something else to see to
 ; In:  B C D E = F, H = DN1/256
@@ -172,11 +172,13 @@ SDRIV:  DB      PEEK
         LDA     DCOUNT+1
         ORA     A
         CNZ     DKEY            ; the block that was stopped
-        LDA     DPARS
-        CPI     DSYN7&255
-        CZ      DLIN6           ; a whole line has been read ahead: the character behind it does not come again
+        LDA     DCHAR
+        ORA     A
+        CNZ     DPUSH           ; the stop came first: this character waited for the block's end
 SDRI1:  LXI     H,SDRI1         ; every character returns there
         PUSH    H
+        XRA     A
+        STA     DCHAR
         CALL    DSTEP
         CZ      BREAK
         IN      TTYST
@@ -185,6 +187,7 @@ SDRI1:  LXI     H,SDRI1         ; every character returns there
         CALL    BDREAD
         ANI     7FH
         RZ
+        STA     DCHAR
         DB      PUTC
 ; (fall into DPUSH)
 
@@ -200,11 +203,17 @@ DPUSH:  SUI     CZERO
         CMP     M
         INX     H
         JNC     DERR
+        ORA     A
         PCHL
+
+; DNEXZ - DNEXT where Z is set, else the character is wrong
+DNEXZ:  JNZ     DERR
+; (fall into DNEXT)
 
 ; DNEXT - DLINE comes back with the next character, one of so many from a first one on: that, less '0', and how
 ;         many stand behind the call
-; In:  nothing on the stack but who called DPUSH   Out: A = character, counted from that first one   Clobbers all
+; In:  nothing on the stack but who called DPUSH   Out: A = character, counted from that first one, S and Z of it
+; Clobbers all
 DNEXT:  POP     H
         SHLD    DPARS
         RET
@@ -220,8 +229,7 @@ DLINE:  ORA     A
         CALL    RTDON1          ; (clears)
         SHLD    DNUMP
 DLIN1:  CPI     CLTB-CZERO
-        JNZ     DERR
-        CALL    DNEXT
+        CALL    DNEXZ
 DSYN1:  DB      0,10
 DLIN2:  LHLD    DNUMP
         LXI     D,10
@@ -251,28 +259,25 @@ DSYN2:  DB      0,CLTG-CZERO+1
         MOV     A,B
         JNZ     DLIN1
         CPI     CLTG-CZERO
-        JNZ     DERR
-        CALL    DNEXT
+        CALL    DNEXZ
 DSYN3:  DB      CLTY-1-CZERO,2
         STA     DAXIS
         CALL    DNEXT
 DSYN4:  DB      CLTL-CZERO,CLTS-CLTL+1
-        RRC                     ; L 0, N 1, S 83H
+        RRC                     ; L 0, N 1, S 83H (Z stays)
         STA     DKIND
-        ORA     A
         JZ      DLIN5
         DCR     A
         JZ      DLIN4
         CPI     82H
-        JNZ     DERR
-DLIN4:  CALL    DNEXT
+DLIN4:  CALL    DNEXZ
 DSYN5:  DB      CLTR-CZERO,1
 DLIN5:  CALL    DNEXT
 DSYN6:  DB      1,4
         STA     DFIRST
         CALL    DNEXT
 DSYN7:  DB      DBELOW,100H-DBELOW
-DLIN6:  CALL    DFIN            ; (SDRIV comes in here)
+        CALL    DFIN
         LHLD    DKIND           ; and DFIRST
         SHLD    DTURN           ; and DQUAD
         LDA     DAXIS
@@ -293,14 +298,14 @@ DLIN6:  CALL    DFIN            ; (SDRIV comes in here)
         MOV     L,C
         MVI     B,4
         STC
-DLIN7:  DCX     D               ; N = -J
+DLIN6:  DCX     D               ; N = -J
         LDAX    D
         CMA
         ACI     0
         MOV     M,A
         DCX     H
         DCR     B
-        JNZ     DLIN7
+        JNZ     DLIN6
         RC                      ; J = 0 is no block
         INX     H
         SHLD    DCOUNT
@@ -392,7 +397,6 @@ DTWI1:  DCX     D
 ; DSTOP - the line begins with D: the end of the tape, or off, and a key comes before the next block
 DSTOP:  CALL    DNEXT
 DSYN8:  DB      CLTD-CZERO,DBELOW+CLTD-CZERO+8 ; all but '0' to 'C'
-        ORA     A
         JZ      DEND
         JP      DERR
         CALL    DFIN
@@ -500,7 +504,9 @@ SDRI7:  XRA     A               ; (DIRS comes in here)
 ; DENDS - the rest of the block in hand; the tape ends, the machine is off
 ; Clobbers all
 DENDS:  CALL    DFIN
-        STA     DSTATE
+        MOV     H,A
+        MOV     L,A
+        SHLD    DSTATE          ; and DCHAR
 ; (fall into BDOFF)
 
 ; BDOFF - after an error and at a program tape's end: no more lines from the reader; the machine is off
