@@ -30,7 +30,7 @@ def test_random_tapes(tmp_path: Path) -> None:
     kinds, steps = set(), 0
     for seed in range(30):
         text = random_tape(seed)
-        port = b"".join(drive_steps(Tape("", tuple(map(item, text.split()[:-1])))))
+        port = b"".join(drive_steps(Tape.of("", map(item, text.split()[:-1]))))
         assert port == follow(text), text
         kinds |= {line.split("G")[1] for line in text.split() if line[0] == "B"}
         steps += len(port)

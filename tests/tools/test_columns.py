@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+import tracemalloc
+from dataclasses import replace
 from itertools import accumulate
 
 import pytest
@@ -18,6 +20,7 @@ from skg.tape.block import CODES
 from skg.tape.columns import Columns, columns_of
 from skg.tape.controller import run_block
 from skg.tape.laid import Laid, place
+from skg.tape.packed import Blocks
 from skg.tape.placed import Placed, stop_places
 from skg.tape.simulation import simulate
 from skg.tape.walk import machine_moves, walk
@@ -49,6 +52,32 @@ def test_columns_say_what_blocks_say(several: list[Block]) -> None:
     assert columns[1:].ends.tolist() == columns.ends[1:].tolist()
 
 
+@given(st.lists(blocks(), max_size=8), st.slices(8), st.slices(4))
+def test_packed_blocks_are_the_blocks(several: list[Block], part: slice, of_it: slice) -> None:
+    """Whole, in part and joined; their columns too, and their numbers."""
+    several = [replace(block, number=at) for at, block in enumerate(several, 5)]
+    packed, numbers = Blocks.of(several), [block.number for block in several]
+    joined = Blocks.joined([packed[part], packed])
+    for one, wanted in (
+        (packed, several), (packed[part], several[part]), (packed[part][of_it], several[part][of_it]),
+        (joined, several[part] + several),
+    ):  # fmt: skip
+        assert list(one) == wanted == [one[at] for at in range(len(one))]
+        assert Columns.of(one).moves.tolist() == Columns.of(wanted).moves.tolist()
+        assert Columns.of(one).turns.tolist() == Columns.of(wanted).turns.tolist()
+    assert [block.number for block in packed] == numbers and [block.number for block in packed[part]] == numbers[part]
+
+
+def test_a_block_of_a_tape_takes_little_room() -> None:
+    """A million blocks, each a `Block`, took 300 megabytes."""
+    data = f"{TURN * 2000}DD\r\n".encode()
+    tracemalloc.start()
+    tape = tapes.parse(data)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(tape.blocks) == 10_000 and peak < 40 * 10_000 + len(data)
+
+
 def turns(count: int) -> Tape:
     return tapes.parse(f"{TURN * count}DD\r\n".encode())
 
@@ -75,7 +104,7 @@ def test_followed_together_as_one_by_one() -> None:
 def test_a_block_that_never_ends_is_named() -> None:
     items = [line_block(5, 5), Stop(1), Block(1, 0, 4, "Y", "NR1", 2)]
     with pytest.raises(UserError, match="block 2: B1B0B4GYNR1 never ends"):
-        simulate(Tape("-", tuple(items), drift=False))
+        simulate(Tape.of("-", items, drift=False))
 
 
 def test_laid_as_placed() -> None:

@@ -356,8 +356,8 @@ def test_any_tape_draws(items: list[Block]) -> None:
 @settings(max_examples=30)
 def test_written_as_drawn(items: list[Block | Stop], polylines: bool) -> None:
     """What is written piece by piece is the drawing that ezdxf makes entity by entity, and ezdxf finds it sound."""
-    tape = tapes.Tape(
-        "-", tuple(replace(item, number=at) if isinstance(item, Block) else item for at, item in enumerate(items, 1))
+    tape = tapes.Tape.of(
+        "-", (replace(item, number=at) if isinstance(item, Block) else item for at, item in enumerate(items, 1))
     )
     routes = place(tape, positions="programmed")
     text = StringIO()

@@ -94,13 +94,13 @@ SAME |= {
 def test_the_same_tape(text: str, noted: str, encoding: str) -> None:
     tape = tapes.parse(text.encode(encoding))
     assert [str(block) for block in tape.blocks] == BLOCKS
-    assert tape.stops == []
+    assert tape.stops == ()
     assert tape.notes == (f"written in another style: {noted}",)
 
 
 def test_own_style_is_not_noted() -> None:
     assert tapes.parse(CAD_TAPE).notes == read_any(CAD_TAPE).notes == ()
-    assert read_any(CAD_TAPE).items == tapes.parse(CAD_TAPE).items
+    assert list(read_any(CAD_TAPE).items) == list(tapes.parse(CAD_TAPE).items)
 
 
 @pytest.mark.parametrize(("text", "blocks_", "stops"), [
@@ -124,7 +124,7 @@ def test_words_that_end_a_tape(word: str, between: str) -> None:
     text = f"B5B0B5GXL1{between}B0B5B5GYL2{between}{word}"
     tape = tapes.parse(f"{text}\n%\n".encode())
     name = word.upper().removeprefix("N3 ").replace(" ", "")
-    assert len(tape.blocks) == 2 and tape.stops == []
+    assert len(tape.blocks) == 2 and tape.stops == ()
     assert f"{name} for the end, 1 more line after the end" in tape.notes[0] and "no DD" not in tape.notes[0]
     with pytest.raises(UserError, match=f"expected nothing after {name}, found a block"):
         tapes.parse(f"{text} B5B0B5GXL3 DD".encode())

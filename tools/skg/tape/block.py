@@ -7,8 +7,10 @@ always see the same points.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import zip_longest
 from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
 
 #: No x, y or J has more digits.
@@ -258,14 +260,14 @@ class Block:
 
 @dataclass(frozen=True)
 class Stop:
-    """A `D`: the controller stops after block number `after`."""
+    """A `D`: the controller stops after so many blocks."""
 
     after: int
 
 
 @dataclass(frozen=True)
 class Tape:
-    """A tape: blocks and stops in order; `name` is where it came from.
+    """A tape: its blocks, and its stops in order; `name` is where it came from.
 
     `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so, in words (empty:
     it was made just now). `notes`: what there is to say of how it was read. `start`: where the wire starts on the
@@ -273,32 +275,42 @@ class Tape:
     """
 
     name: str
-    items: tuple[Block | Stop, ...]
+    blocks: Sequence[Block]
+    stops: tuple[Stop, ...] = ()
     drift: bool | None = None
     drift_by: str = ""
     notes: tuple[str, ...] = ()
     start: tuple[float, float] | None = None
     kept: dict[str, object] = field(default_factory=dict, compare=False, repr=False)
 
-    @cached_property
-    def blocks(self) -> list[Block]:
-        """The blocks alone, in order."""
-        return [item for item in self.items if isinstance(item, Block)]
+    @classmethod
+    def of(cls, name: str, items: Iterable[Block | Stop], **said: object) -> Tape:
+        """The tape of blocks and stops one after the other; `said` are other fields."""
+        blocks: list[Block] = []
+        stops: list[Stop] = []
+        for item in items:
+            if isinstance(item, Stop):
+                stops.append(Stop(len(blocks)))
+            else:
+                blocks.append(item)
+        return cls(name, tuple(blocks), tuple(stops), **said)
 
-    @cached_property
-    def stops(self) -> list[Stop]:
-        """The stops alone, in order."""
-        return [item for item in self.items if isinstance(item, Stop)]
+    @property
+    def items(self) -> Iterator[Block | Stop]:
+        """Blocks and stops, one after the other."""
+        for stop, (first, last) in zip_longest(self.stops, self.bounds):
+            yield from self.blocks[first:last]
+            if stop:
+                yield stop
 
     @cached_property
     def bounds(self) -> list[tuple[int, int]]:
         """For each of `stretches` which of all blocks it is: the first, and the one behind the last, from 0."""
-        stops = [at for at, item in enumerate(self.items) if isinstance(item, Stop)]
-        ends = [at - stops_before for stops_before, at in enumerate([*stops, len(self.items)])]
+        ends = [*(stop.after for stop in self.stops), len(self.blocks)]
         return list(zip([0, *ends], ends, strict=False))
 
-    def stretches(self) -> list[list[Block]]:
-        """Return the blocks between stops; an empty list where two stops follow each other."""
+    def stretches(self) -> list[Sequence[Block]]:
+        """Return the blocks between stops; none where two stops follow each other."""
         return [self.blocks[first:last] for first, last in self.bounds]
 
     def positioning(self) -> list[bool]:

@@ -14,7 +14,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from skg.tape.block import Block, Tape
+from skg.tape.block import CODES, Block, Tape
+from skg.tape.packed import Blocks
 
 Numbers = NDArray[np.int64]
 Reals = NDArray[np.float64]
@@ -23,6 +24,10 @@ _Found = TypeVar("_Found")
 #: Squares of larger numbers are not sure to fit in 64 bits: they are reckoned with Python's own.
 _FITS = 10**9
 _SIGNS_X, _SIGNS_Y = np.array([0, 1, -1, -1, 1]), np.array([0, 1, 1, -1, -1])
+#: What each of `CODES` says.
+_SENSES, _QUADRANTS = np.array(
+    [(one.sense, one.quadrant) for one in (Block(0, 0, 0, "X", code) for code in CODES)], np.int8
+).T
 
 
 def _roots(squares: Numbers) -> Numbers:
@@ -62,14 +67,17 @@ class Columns:
     @classmethod
     def of(cls, blocks: Iterable[Block]) -> Columns:
         """The columns of blocks."""
-        blocks = list(blocks)
-        lengths = [[block.x for block in blocks], [block.y for block in blocks], [block.j for block in blocks]]
-        kind = object if blocks and max(map(max, lengths)) >= _FITS else np.int64
-        codes = [block.code for block in blocks]
-        known = {code: (Block(0, 0, 0, "X", code).sense, Block(0, 0, 0, "X", code).quadrant) for code in set(codes)}
-        named = np.array([known[code] for code in codes], np.int64).reshape(-1, 2)
-        counts_y = np.array([block.axis == "Y" for block in blocks], bool)
-        return cls(*(np.array(column, kind) for column in lengths), counts_y, named[:, 0], named[:, 1])
+        if isinstance(blocks, Blocks):
+            columns = (np.frombuffer(column, column.typecode)[blocks.slice] for column in blocks.columns)
+            *lengths, axes, codes, _ = columns
+        else:
+            blocks = list(blocks)
+            each = [(block.x, block.y, block.j, block.axis == "Y", CODES.index(block.code)) for block in blocks]
+            *lengths, axes, codes = np.array(each, object).reshape(-1, 5).T
+        kind = np.int64 if all(length.max(initial=0) < _FITS for length in lengths) else object
+        x, y, j = (length.astype(kind, copy=False) for length in lengths)
+        codes = codes.astype(np.uint8, copy=False)
+        return cls(x, y, j, axes.astype(bool), _SENSES[codes], _QUADRANTS[codes])
 
     def __len__(self) -> int:
         return len(self.x)

@@ -288,7 +288,7 @@ class GcodeProgram:
             at = _grid(item.end)
         if moved_from is not None:
             items += _between(moved_from, at)
-        return Tape(self.name, tuple(_counted(items)), drift=True)
+        return Tape.of(self.name, _counted(items), drift=True)
 
 
 def _counted_holes(number: int) -> str:

@@ -14,6 +14,7 @@ from skg.plane import XY
 from skg.tape.block import Block, Tape
 from skg.tape.columns import Columns, Flags, Reals, columns_of, directions, hypots
 from skg.tape.moves import closed_moves
+from skg.tape.packed import Blocks
 from skg.tape.placed import Placed, PlacedRoute
 from skg.tape.positions import decide
 from skg.tape.walk import machine_moves
@@ -84,8 +85,12 @@ class Laid(Sequence[Placed]):
     @classmethod
     def joined(cls, parts: Sequence[Laid]) -> Laid:
         """The blocks of several, at least one, one after the other."""
+        blocks = [one.blocks for one in parts]
+        is_packed = all(isinstance(one, Blocks) for one in blocks)
         columns = zip(*((one.starts, one.ends, one.centres, one.sweeps, one.is_line) for one in parts), strict=True)
-        return cls(list(chain.from_iterable(one.blocks for one in parts)), *map(np.concatenate, columns))
+        return cls(
+            Blocks.joined(blocks) if is_packed else list(chain.from_iterable(blocks)), *map(np.concatenate, columns)
+        )
 
     def lengths(self) -> Reals:
         """Lengths of the lines and arcs, µm."""

@@ -103,7 +103,7 @@ class _StyleReader:
                 raise self.error(at, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, at)}")
         self._trailer(bare, at, end)
         place = (float(start[1]), float(start[2])) if start else None
-        return Tape(self.name, tuple(self.items), notes=self._notes(), start=place)
+        return Tape.of(self.name, self.items, notes=self._notes(), start=place)
 
     def _note(self, is_so: bool, what: str) -> None:
         self.seen[what] += is_so

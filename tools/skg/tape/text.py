@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from itertools import chain, repeat
+from io import BytesIO
 
 from skg.errors import UserError
 from skg.files import read_bytes, without_filling
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
+from skg.tape.packed import Blocks
 from skg.tape.styles import read_any, to_style
 
 #: How the name of a file ends that holds a tape without drift.
@@ -80,15 +81,16 @@ class _Unexpected(Exception):
 def parse_block(text: str, number: int = 0) -> Block:
     """Read one block without its line end; raises `UserError` with the column of what does not fit."""
     try:
-        return _parse(text, number)
+        return Block(*_parse(text), number)
     except _Unexpected as error:
         raise UserError(str(Finding(number, error.at + 1, str(error)))) from None
 
 
-def _parse(text: str, number: int) -> Block:
+def _parse(text: str) -> tuple[int, int, int, str, str]:
+    """x, y, J, count direction and code of a block."""
     if block := _BLOCK.fullmatch(text):
         x, y, j, axis, code = block.groups()
-        return Block(int(x), int(y), int(j), axis, code, number)
+        return int(x), int(y), int(j), axis, code
     # Something is wrong: where, and what was expected?
     scanner = _Scanner(text)
     values = []
@@ -100,7 +102,7 @@ def _parse(text: str, number: int) -> Block:
     code = scanner.take(*CODES, expected="L1…L4, NR1…NR4 or SR1…SR4")
     if scanner.at < len(text):
         raise _Unexpected(scanner.at, f"expected the end of the block, found {scanner.found()}")
-    return Block(*values, axis, code, number)
+    return *values, axis, code
 
 
 def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, list[Finding]]:
@@ -110,41 +112,36 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     (see `Block.problems`, which goes by `positions`) are in it. NULs before the first block and after `DD` are blank
     tape, ctrl-Zs at the end CP/M's.
     """
-    text = without_filling(data).decode("latin-1").lstrip("\0")
-    items: list[Block | Stop] = []
+    blocks, stops = Blocks(), []
     findings: list[Finding] = []
     number, ended, bare = 0, False, 0
-    lines = text.split("\n")
-    tail = lines.pop()
-    last = [(tail, False)] if tail.strip("\0") else []
-    for raw, whole in chain(zip(lines, repeat(True)), last):
+    for raw in BytesIO(without_filling(data).lstrip(b"\0")):
+        whole, text = raw.endswith(b"\n"), raw.decode("latin-1").removesuffix("\n")
+        if not whole and not text.strip("\0"):
+            break
+        line = text.removesuffix("\r")
         if ended:
-            rest = raw.removesuffix("\r").strip("\0")
+            rest = line.strip("\0")
             if rest:
                 found = _Scanner(rest).found()
                 findings.append(Finding(number, 1, f"expected nothing after DD, found {found}"))
             continue
-        line = raw.removesuffix("\r")
-        if line == raw and not bare:
+        if line == text and not bare:
             bare = number + 1
         if not whole:
             findings.append(Finding(number + 1, len(line) + 1, "expected CR LF, found the end of the tape"))
         if line == "D":
-            items.append(Stop(number))
+            stops.append(Stop(len(blocks)))
             continue
         if line == "DD":
             ended = True
             continue
         number += 1
         try:
-            block = _parse(line, number)
+            blocks.add(*_parse(line), number)
         except _Unexpected as error:
             findings.append(Finding(number, error.at + 1, str(error)))
-            continue
-        items.append(block)
-    # (a hundred megabytes, of a long tape)
-    del text, lines
-    tape = Tape(name, tuple(items))
+    tape = Tape(name, blocks, tuple(stops))
     # (of a block there is either this or what could not be read)
     findings[:0] = [
         Finding(one.number, 1, text) for one in _doubtful(tape, positions) for text in one.problems(positions)
@@ -157,9 +154,9 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     return tape, findings
 
 
-def _doubtful(tape: Tape, positions: str) -> list[Block]:
+def _doubtful(tape: Tape, positions: str) -> Iterable[Block]:
     """The blocks of a tape but for those of which one can tell quickly, all at once, that nothing is wrong."""
-    if len(tape.items) < _MANY or positions == "machine":
+    if len(tape.blocks) < _MANY or positions == "machine":
         return tape.blocks
     import numpy as np
 

@@ -1,0 +1,82 @@
+"""The blocks of a tape in little room: a tape may have a million of them."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Iterable, Iterator, Sequence
+from typing import overload
+
+from skg.tape.block import CODES, Block
+
+_AXES = "XY"
+_AXIS_NUMBERS = {axis: number for number, axis in enumerate(_AXES)}
+_CODE_NUMBERS = {code: number for number, code in enumerate(CODES)}
+
+
+class Blocks(Sequence[Block]):
+    """Blocks in the order of the tape, packed: each becomes a `Block` when it is asked for.
+
+    `columns` are those of x, y, J (µm, 64 bits), the count direction (1: Y), the place of the code among `CODES`, and
+    the block's number; a part of the blocks has the same columns as all, and other `rows`.
+    """
+
+    def __init__(self) -> None:
+        self.columns = tuple(array(kind) for kind in "qqqBBi")
+        self._part: range | None = None
+
+    @classmethod
+    def of(cls, blocks: Iterable[Block]) -> Blocks:
+        """Pack blocks."""
+        found = cls()
+        for block in blocks:
+            found.add(block.x, block.y, block.j, block.axis, block.code, block.number)
+        return found
+
+    def add(self, x: int, y: int, j: int, axis: str, code: str, number: int) -> None:
+        """Add a block behind all others, as `Block` has it; a number of more than 64 bits is an `OverflowError`."""
+        row = (x, y, j, _AXIS_NUMBERS[axis], _CODE_NUMBERS[code], number)
+        for column, value in zip(self.columns, row, strict=True):
+            column.append(value)
+
+    @classmethod
+    def joined(cls, parts: Iterable[Blocks]) -> Blocks:
+        """The blocks of several, one after the other."""
+        found = cls()
+        for part in parts:
+            for column, more in zip(found.columns, part.columns, strict=True):
+                column.extend(more[part.slice])
+        return found
+
+    @property
+    def rows(self) -> range:
+        """Which rows of the columns these blocks are."""
+        return range(len(self.columns[0])) if self._part is None else self._part
+
+    @property
+    def slice(self) -> slice:
+        """The same, to cut a column with."""
+        rows = self.rows
+        # (a range that runs down to row 0 stops at -1, which a slice would take for the last row)
+        return slice(rows.start, rows.stop if rows.stop >= 0 else None, rows.step) if rows else slice(0)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    @overload
+    def __getitem__(self, at: int) -> Block: ...
+    @overload
+    def __getitem__(self, at: slice) -> Blocks: ...
+    def __getitem__(self, at: int | slice) -> Block | Blocks:
+        if isinstance(at, slice):
+            part = Blocks.__new__(Blocks)
+            part.columns, part._part = self.columns, self.rows[at]
+            return part
+        row = self.rows[at]
+        return _block(*(column[row] for column in self.columns))
+
+    def __iter__(self) -> Iterator[Block]:
+        return map(_block, *(memoryview(column)[self.slice] for column in self.columns))
+
+
+def _block(x: int, y: int, j: int, axis: int, code: int, number: int) -> Block:
+    return Block(x, y, j, _AXES[axis], CODES[code], number)
