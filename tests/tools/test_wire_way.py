@@ -75,6 +75,14 @@ def arch(space: Modelspace) -> Polygon:
     return Polygon([*curve, *corners])
 
 
+def keyhole(space: Modelspace) -> Polygon:
+    """A circle of 330 degrees, and a slot with a chamfer that is smaller than R."""
+    x, y = 5 * cos(radians(15)), 5 * sin(radians(15))
+    corners = [(x, y, tan(radians(330 / 4))), (x, -y, 0), (8.97, -y, 0), (9, 0.03 - y, 0), (9, y, 0)]
+    space.add_lwpolyline(corners, "xyb", close=True)
+    return rough(corners)
+
+
 def parallel(shape: Polygon, offset: float, side: str, style: str = "round") -> LinearRing:
     """The wire's way as shapely has it, around sharp corners or up to where their lines meet."""
     if side == "inside":
@@ -93,7 +101,7 @@ def cut(run: Run, page: object, folder: Path, *words: object) -> tuple[list[list
 
 
 @pytest.mark.parametrize("side", ["inside", "outside"])
-@pytest.mark.parametrize(("shape", "offset"), [(steps, 0.1), (petals, 0.9), (arch, 0.15)])
+@pytest.mark.parametrize(("shape", "offset"), [(steps, 0.1), (petals, 0.9), (arch, 0.15), (keyhole, 0.1)])
 def test_past_what_is_too_small(
     run: Run,
     tmp_path: Path,

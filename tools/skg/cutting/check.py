@@ -20,7 +20,7 @@ import numpy as np
 from skg.cutting.crossing import Crossing, crossings
 from skg.cutting.near import Floats, Nearest, Pieces, Whole
 from skg.drawing.contour import Edge
-from skg.drawing.plan import Lead, PlannedContour, split_at_end
+from skg.drawing.planned import Lead, PlannedContour, split_at_end
 from skg.errors import UserError
 from skg.piece import Piece
 from skg.plane import XY

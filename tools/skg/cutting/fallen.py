@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from skg.drawing.account import counted, shown
-from skg.drawing.plan import PlannedContour
+from skg.drawing.planned import PlannedContour
 from skg.drawing.touching import lines_of
 from skg.plane import XY
 

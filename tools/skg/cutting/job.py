@@ -9,8 +9,9 @@ from math import floor, inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
 from skg.drawing.account import counted, short, shown
+from skg.drawing.entry import longest_tab
 from skg.drawing.parallel import NoRoom, uncut, widest
-from skg.drawing.plan import PlannedContour, longest_tab
+from skg.drawing.planned import PlannedContour
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
 from skg.machine.board import ErrorLine

@@ -14,7 +14,7 @@ from math import degrees, pi, tan
 from typing import NamedTuple
 
 from skg.drawing.contour import Edge
-from skg.drawing.plan import Lead, PlannedContour, Way
+from skg.drawing.planned import Lead, PlannedContour, Way
 from skg.errors import UserError
 from skg.plane import XY, distance, polar, turn
 
