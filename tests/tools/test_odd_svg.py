@@ -64,10 +64,43 @@ def boxes(reading: Reading) -> list[Box]:
         ('<circle cx="50" cy="50" r="10%"/>', [(40, 40, 60, 60)]),
         ('<ellipse cx="50" cy="50" rx="10"/>', [(40, 40, 60, 60)]),
         ('<rect x="1cm" y="10" width="10" height="5pt"/>', [(37.795276, 83.333333, 47.795276, 90)]),
+        # One word alone is that side, the other one is the middle.
+        ('<rect width="5" height="10" style="transform:scale(2);transform-origin:bottom"/>', [(-50, 180, -40, 200)]),
+        ('<rect width="5" height="10" style="transform:scale(2);transform-origin:right"/>', [(-100, 130, -90, 150)]),
+        # A radius below 0 is not told: the corner is as round as the other one says.
+        ('<rect x="10" y="10" width="20" height="10" rx="5" ry="-9"/><circle cx="20" cy="15" r="1"/>',
+         [(10, 80, 30, 90), (19, 84, 21, 86)]),
+        ('<ellipse cx="50" cy="50" rx="-7" ry="10"/>', [(40, 40, 60, 60)]),
+        # A drawing that is used keeps its own place; a symbol may be turned.
+        ('<defs><svg id="s" x="40" y="40" width="80" height="80"><rect width="5" height="5"/></svg></defs>'
+         '<use href="#s" x="3" height="100"/>', [(43, 55, 48, 60)]),
+        ('<symbol id="s" transform="scale(2)"><rect width="5" height="5"/></symbol><use href="#s" x="20"/>',
+         [(20, 90, 30, 100)]),
+        # The form may be told as properties: a style sheet goes before attributes.
+        ('<style>rect{width:20px} #a{height:9px}</style><rect id="a" width="5" style="x:3px;y:1px"/>',
+         [(3, 90, 23, 99)]),
+        ("""<path style="d:path('M 5 5 h 10 v 10 z')"/>""", [(5, 85, 15, 95)]),
     ],
 )  # fmt: skip
 def test_places(content: str, expected: list[Box]) -> None:
     assert boxes(reading_of(page(content))) == pytest.approx(expected, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("smooth", "same"),
+    [
+        ("C 10 0 20 0 20 10 S 30 20 30 10", "C 10 0 20 0 20 10 C 20 20 30 20 30 10"),
+        ("Q 20 0 30 10 T 50 10", "Q 20 0 30 10 Q 40 20 50 10"),
+        # Behind a curve of another kind they begin as behind a line.
+        ("C 10 0 20 0 20 10 T 30 12 T 40 10", "C 10 0 20 0 20 10 Q 20 10 30 12 Q 40 14 40 10"),
+        ("Q 20 0 30 10 S 40 20 50 10", "Q 20 0 30 10 C 30 10 40 20 50 10"),
+        ("H 20 S 40 20 50 10", "H 20 C 20 10 40 20 50 10"),
+    ],
+)
+def test_smooth_curves(smooth: str, same: str) -> None:
+    one, other = (reading_of(page(f'<path d="M 10 10 {data} V 60 z"/>')).contours for data in (smooth, same))
+    assert [edge.nodes for edge in one[0].edges] == [edge.nodes for edge in other[0].edges]
+    assert any(edge.nodes for edge in one[0].edges)
 
 
 @pytest.mark.parametrize(
@@ -107,7 +140,20 @@ def test_pages(size: str, expected: Box) -> None:
         ("<switch><rect systemLanguage='de' width='5' height='5'/><g/></switch>", "not displayed"),
         ("<use href='#nothing'/>", "what it shows, #nothing, is not in the file"),
         ("<g id='g'><use href='#g'/></g>", "what it shows, #g, is part of itself"),
-        ("<path d='M0 0 L 5 5 Q 3 X 4'/>", "cannot be read (ValueError)"),
+        ("<path d='M0 0 L 5 5 Q 3 X 4'/>", "cannot be read (its path data, at X 4)"),
+        ("<path d='M0 0 L 5 5 Q 3 4'/>", "cannot be read (its path data)"),
+        ("<path d='M0 0 H 5 V 5 z # M1 1 H 2 V 2 z'/>", "cannot be read (its path data, at # M1 1 H 2)"),
+        ("<path d='L 5 5 H 9 z'/>", "cannot be read (its path data, at L 5 5 H 9 )"),
+        ("<polygon points='0,0 5,0 5;5'/>", "cannot be read (its points)"),
+        ("<polyline points='0 0 5 0 5'/>", "cannot be read (its points)"),
+        ("<rect width='2em' height='5'/>", "cannot be read (its length 2em)"),
+        ("<rect width='calc(9px + 1mm)' height='5'/>", "cannot be read (its length calc(9px + 1mm))"),
+        ("<rect width='5' height='5' fill-opacity='0'/>", "drawn with neither line nor area"),
+        ("<g fill='#fff0'><rect width='5' height='5' stroke='red' stroke-width='0'/></g>",
+         "drawn with neither line nor area"),
+        ("<g fill='none' stroke-opacity='0%'><rect width='5' height='5' stroke='red'/></g>",
+         "drawn with neither line nor area"),
+        ("<rect width='5' height='5' fill='rgba(9,9,9,0.0)'/>", "drawn with neither line nor area"),
         ("<rect width='5' height='5' transform='matrix(1 2)'/>", "cannot be read (tuple index out of range)"),
         (
             "<rect width='5' height='5' transform='scale(2)' style='transform-origin:1px 1px;transform-box:fill-box'/>",
@@ -115,7 +161,7 @@ def test_pages(size: str, expected: Box) -> None:
         ),
         ("<text>a</text>", "text, convert it to paths"),
     ],
-)
+)  # fmt: skip
 def test_what_is_not_shown_is_left(content: str, why: str) -> None:
     reading = reading_of(page(PART + content))
     assert boxes(reading) == [WHERE]
@@ -152,6 +198,26 @@ def test_what_is_guessed_is_said(content: str, note: str) -> None:
     assert note in reading.report.notes
     content = '<g stroke="red" stroke-width="0.9" stroke-dasharray="none">%s</g>'
     assert reading_of(page(content % PART)).report.notes == []
+
+
+@pytest.mark.parametrize(
+    ("before", "content"),
+    [('<?xml-stylesheet type="text/css" href="more.css"?>', ""), ("", '<style>@import url("more.css");</style>')],
+)
+def test_style_sheets_in_other_files_are_said(before: str, content: str) -> None:
+    reading = reading_of(before.encode() + page(content + PART))
+    assert reading.report.notes == ["the style sheet more.css is in another file: passed over"]
+    assert boxes(reading) == [WHERE]
+
+
+def test_parts_of_a_page_without_a_size_are_left() -> None:
+    content = '<rect width="50%" height="9"/><svg viewBox="0 0 1 1"><rect width="1" height="1"/></svg>' + PART
+    reading = reading_of(page(content, ""))
+    assert len(reading.contours) == 1
+    assert left(reading) == {
+        "cannot be read (its length 50%, of a frame without a size)": 1,
+        "cannot be read (a view box in a frame without a size)": 1,
+    }
 
 
 @pytest.mark.parametrize(

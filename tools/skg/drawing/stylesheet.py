@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from xml.etree.ElementTree import Element
 
 #: What is drawn at the ends and corners of lines, such as heads of arrows.
 _MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
 #: Attributes that mean what the property of that name means.
 _PROPERTIES = (
-    "display", "visibility", "opacity", "fill", "stroke", "stroke-width", "stroke-dasharray", "clip-path", "mask",
-    "transform", "transform-origin", "transform-box", *_MARKERS,
+    "display", "visibility", "opacity", "fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width",
+    "stroke-dasharray", "clip-path", "mask", "transform", "transform-origin", "transform-box", *_MARKERS,
 )  # fmt: skip
+#: Lengths of an element's form, which may be told as properties, too; they are not handed down.
+_GEOMETRY = frozenset(("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "d"))
+#: Colours that are not seen, and parts of one that are nothing.
+_CLEAR = re.compile(r"none|transparent|(?:rgba?|hsla?)\(.*[,/]\s*0*\.?0*%?\s*\)|#[0-9a-f]{3}0|#[0-9a-f]{6}00")
+_NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
 #: Rules that hold under a condition: what stands before their braces, and in them.
 _CONDITIONAL = re.compile(r"@(media|supports|container|layer)\b([^{};]*)\{((?:[^{}]*\{[^{}]*\})*[^{}]*)\}")
 #: A selector's parts: a name, classes and ids.
@@ -22,11 +27,14 @@ _COMPOUND = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
 @dataclass(frozen=True)
 class Style:
     """How an element is drawn, with what it has from those around it: fill, stroke, its width and dashes, visibility.
-    `origin` and `box`: what its transform turns about, and whose sides percentages there are of."""
+    `origin` and `box`: what its transform turns about, and whose sides percentages there are of. `geometry`: lengths of
+    its form that are told as properties, not as attributes."""
 
     fill: str = "black"
     stroke: str = "none"
     stroke_width: float = 1.0
+    is_fill_clear: bool = False
+    is_stroke_clear: bool = False
     is_dashed: bool = False
     is_hidden: bool = False
     display: str = ""
@@ -36,11 +44,12 @@ class Style:
     is_clear: bool = False
     is_clipped: bool = False
     markers: tuple[str, ...] = ("none",) * len(_MARKERS)
+    geometry: dict[str, str] = field(default_factory=dict)
 
     @property
     def is_painted(self) -> bool:
         """Whether it has a line or an area."""
-        return self.fill not in ("none", "transparent") or self.stroke not in ("none", "transparent")
+        return self._has_area or self.width > 0
 
     @property
     def has_markers(self) -> bool:
@@ -50,7 +59,11 @@ class Style:
     @property
     def width(self) -> float:
         """How wide its line is, in its own pixels; 0 without one."""
-        return self.stroke_width if self.stroke not in ("none", "transparent") else 0.0
+        return 0.0 if self.is_stroke_clear or _is_clear(self.stroke) else self.stroke_width
+
+    @property
+    def _has_area(self) -> bool:
+        return not self.is_fill_clear and not _is_clear(self.fill)
 
 
 class StyleSheet:
@@ -61,7 +74,10 @@ class StyleSheet:
         self.rules: list[tuple[tuple[int, int, int, int], list[str], dict[str, str]]] = []
         #: Selectors and conditions of rules that would show something otherwise, but are not understood.
         self.missed: list[str] = []
-        text = re.sub(r"/\*.*?\*/|<!--|-->|@[\w-]+[^{};]*;", "", text, flags=re.DOTALL)
+        text = re.sub(r"/\*.*?\*/|<!--|-->", "", text, flags=re.DOTALL)
+        #: Style sheets in other files.
+        self.imported: list[str] = re.findall(r"""@import\s+(?:url\()?\s*["']?([^"')\s;]+)""", text)
+        text = re.sub(r"@[\w-]+[^{};]*;", "", text, flags=re.DOTALL)
         text = _CONDITIONAL.sub(self._under_condition, text)
         for selectors, declarations in re.findall(r"([^{}]+)\{([^{}]*)\}", text):
             for selector in selectors.split(","):
@@ -71,7 +87,7 @@ class StyleSheet:
                     names = sum(part[0] not in "*.#" for part in parts)
                     weight = marks.count("#"), marks.count("."), names, len(self.rules)
                     self.rules.append((weight, parts, _declared(declarations)))
-                elif parts and _declared(declarations).keys() & set(_PROPERTIES):
+                elif parts and _declared(declarations).keys() & {*_PROPERTIES, *_GEOMETRY}:
                     self.missed.append(" ".join(parts))
         self.rules.sort(key=lambda rule: rule[0])
 
@@ -85,11 +101,12 @@ class StyleSheet:
 
     def style(self, element: Element, around: tuple[Element, ...], outer: Style) -> Style:
         """How an element is drawn; `around`: those that it stands in, `outer`: how the last of these is drawn."""
-        told = {name: element.get(name, "").strip() for name in _PROPERTIES}
+        declared: dict[str, str] = {}
         for _, parts, declarations in self.rules:
             if _fits(parts, element, around):
-                told |= declarations
-        told |= _declared(element.get("style", ""))
+                declared |= declarations
+        declared |= _declared(element.get("style", ""))
+        told = {name: element.get(name, "").strip() for name in _PROPERTIES} | declared
         told = {name: value for name, value in told.items() if value and value != "inherit"}
         visibility = told.get("visibility")
         dashes = told.get("stroke-dasharray")
@@ -99,16 +116,29 @@ class StyleSheet:
             fill=told.get("fill", outer.fill).lower(),
             stroke=told.get("stroke", outer.stroke).lower(),
             stroke_width=float(width[0]) if width else outer.stroke_width,
+            is_fill_clear=_is_nothing(told.get("fill-opacity"), outer.is_fill_clear),
+            is_stroke_clear=_is_nothing(told.get("stroke-opacity"), outer.is_stroke_clear),
             is_dashed=bool(re.search("[1-9]", dashes)) if dashes else outer.is_dashed,
             is_hidden=visibility in ("hidden", "collapse") if visibility else outer.is_hidden,
             display=told.get("display", ""),
             transform=told.get("transform", "").replace("none", ""),
             origin=told.get("transform-origin", ""),
             box=told.get("transform-box", ""),
-            is_clear=re.fullmatch(r"0*\.?0*%?", told.get("opacity", "1")) is not None,
+            is_clear=_is_nothing(told.get("opacity"), False),
             markers=_markers(told, outer.markers),
+            geometry={name: value for name, value in declared.items() if name in _GEOMETRY},
             is_clipped=any(told.get(name, "none") != "none" for name in ("clip-path", "mask")),
         )
+
+
+def _is_clear(colour: str) -> bool:
+    """Whether nothing is seen of a line or an area of this colour."""
+    return _CLEAR.fullmatch(colour) is not None
+
+
+def _is_nothing(opacity: str | None, outer: bool) -> bool:
+    """Whether an opacity is that of nothing; `outer`: where it is not told."""
+    return outer if opacity is None else _NOTHING.fullmatch(opacity) is not None
 
 
 def _markers(told: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:

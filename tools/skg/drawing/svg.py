@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import gzip
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from math import atan2, hypot, pi, sqrt
 from xml.etree import ElementTree
@@ -42,6 +42,9 @@ _LINK = "{http://www.w3.org/1999/xlink}href"
 _SIDES = {"left": "0", "top": "0", "center": "50%", "right": "100%", "bottom": "100%"}
 #: Groups within groups within groups; more shapes than this in all are no drawing.
 _DEPTH, _MOST = 300, 1_000_000
+#: A number, and what stands in no path data.
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_NO_PATH = re.compile(r"(?:[^\s,\d.eE+MmZzLlHhVvCcSsQqTtAa-]|[eE](?![+-]?\d)).*")
 #: A line that is wider than this is said, mm.
 _WIDE = 1.0
 #: Why a shape is left that has neither a stroke nor a fill.
@@ -89,7 +92,6 @@ class SvgFile:
             raise UserError(f"not an SVG drawing that can be read ({error})") from None
         if _name(self.root) != "svg":
             raise UserError(f"not an SVG drawing, its root is {_name(self.root)}")
-        self.units = self._units()
         self.guess, self.guessed = PX, "96 px are an inch"
         if b"Adobe Illustrator" in data[:2000]:
             self.guess, self.guessed = 25.4 / 72, "Illustrator has 72 px in an inch"
@@ -99,9 +101,11 @@ class SvgFile:
         self.sheet = StyleSheet(
             "".join(element.text or "" for element in self.root.iter() if _name(element) == "style")
         )
+        self.elsewhere = _elsewhere(data, self.sheet)
         box = _view_box(self.root)
-        sides = [_length(self.root.get(side, ""), None) for side in ("width", "height")]
-        width, height = sides
+        self.style = self.sheet.style(self.root, (), Style())
+        self.units = self._units()
+        width, height = (_page_side(self._side(side)) for side in ("width", "height"))
         # (a page that tells one side or none has that of its view box)
         if box and width is None:
             width = box[2] * (height / box[3] if height else 1.0)
@@ -111,17 +115,21 @@ class SvgFile:
         size = width or 0.0, self.height
         self.view = _View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size)
 
+    def _side(self, name: str) -> str:
+        """The page's width or height, as it is written."""
+        return self.style.geometry.get(name, self.root.get(name, ""))
+
     def _units(self) -> tuple[str, float] | None:
         for side in ("width", "height"):
-            unit = re.fullmatch(r"\s*[\d.eE+-]+\s*([a-zA-Z]+)\s*", self.root.get(side, ""))
+            unit = re.fullmatch(r"\s*[\d.eE+-]+\s*([a-zA-Z]+)\s*", self._side(side))
             if unit and unit[1].lower() in UNITS:
                 return unit[1].lower().replace("in", "inch"), UNITS[unit[1].lower()]
         return None
 
     def drawn(self) -> Iterator[_Drawn]:
         """All that is drawn, and what is left of it, in the order of the file."""
-        style = self.sheet.style(self.root, (), Style())
-        view = replace(self.view, style=style, hidden="not displayed" if style.display == "none" else "")
+        hidden = "not displayed" if self.style.display == "none" else ""
+        view = replace(self.view, style=self.style, hidden=hidden)
         yield from self._children(self.root, view, (self.root,), ())
 
     def _children(
@@ -154,8 +162,13 @@ class SvgFile:
         try:
             if style.transform:
                 view = replace(view, matrix=_transform(style, view.size) * view.matrix)
-            if name in ("use", "svg"):
-                at = [_length(element.get(side, "0"), size) for side, size in zip("xy", view.size, strict=True)]
+            if name == "use":
+                shown = self._shown(element, view, around, used)
+            elif name == "svg":
+                inner = _framed(element, element, view, _corner(element, view))
+                shown = self._children(element, inner, (*around, element), used)
+            else:
+                shown = self._children(element, view, (*around, element), used)
         except _UNREADABLE as error:
             yield _Drawn(element, view, f"cannot be read ({str(error) or type(error).__name__})")
             return
@@ -163,44 +176,45 @@ class SvgFile:
             yield _Drawn(element, view, hidden or _NOTES[name])
         elif name in _SHAPES:
             yield _Drawn(element, view, hidden)
-        elif name == "use":
-            yield from self._used(element, view, (at[0] or 0.0, at[1] or 0.0), around, used)
-        elif name == "svg":
-            yield from self._children(
-                element, _framed(element, element, view, (at[0] or 0.0, at[1] or 0.0)), (*around, element), used
-            )
         else:
-            yield from self._children(element, view, (*around, element), used)
+            yield from shown
 
-    def _used(
+    def _shown(
         self,
         element: ElementTree.Element,
         view: _View,
-        at: XY,
         around: tuple[ElementTree.Element, ...],
         used: tuple[str, ...],
-    ) -> Iterator[_Drawn]:
+    ) -> Iterable[_Drawn]:
         """What a `use` shows."""
         link = (element.get("href") or element.get(_LINK) or "").strip()
         target = self.ids.get(link.removeprefix("#")) if link.startswith("#") else None
         if target is None or link in used:
             why = "is part of itself" if target is not None else "is not in the file"
-            yield _Drawn(element, view, view.hidden or f"what it shows, {link or 'nothing'}, {why}")
-            return
+            return [_Drawn(element, view, view.hidden or f"what it shows, {link or 'nothing'}, {why}")]
         name = _name(target)
+        moved = replace(view, matrix=svgelements.Matrix.translate(*_corner(element, view)) * view.matrix)
         around, used = (*around, element), (*used, link)
         if name in ("symbol", "svg"):
             style = self.sheet.style(target, around, view.style)
-            framed = _framed(target, element, replace(view, style=style), at)
-            yield from self._children(target, framed, (*around, target), used)
-        elif name in (*_GROUPS, *_SHAPES, *_NOTES, "use"):
-            moved = replace(view, matrix=svgelements.Matrix.translate(*at) * view.matrix)
-            yield from self._one(target, name, moved, around, used)
+            matrix = _transform(style, view.size) * moved.matrix if style.transform else moved.matrix
+            inner = replace(moved, style=style, matrix=matrix)
+            at = _corner(target, inner) if name == "svg" else (0.0, 0.0)
+            return self._children(target, _framed(target, element, inner, at), (*around, target), used)
+        if name in (*_GROUPS, *_SHAPES, *_NOTES, "use"):
+            return self._one(target, name, moved, around, used)
+        return []
 
 
 def _name(element: ElementTree.Element) -> str:
     """An element's name without its name space; nothing for a comment."""
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+
+
+def _elsewhere(data: bytes, sheet: StyleSheet) -> list[str]:
+    """The names of style sheets that are not in the file."""
+    links = re.findall(rb"""<\?xml-stylesheet\b[^>]*?\bhref\s*=\s*["']([^"']*)""", data[:20000])
+    return [*(link.decode("utf-8", "replace") for link in links if not link.startswith(b"#")), *sheet.imported]
 
 
 def _switched(group: ElementTree.Element) -> ElementTree.Element | None:
@@ -214,22 +228,48 @@ def _switched(group: ElementTree.Element) -> ElementTree.Element | None:
 
 
 def _length(text: str, whole: float | None) -> float | None:
-    """A length in pixels; `whole` is that of 100 %. None where there is none, or nothing that it is a part of."""
-    found = re.fullmatch(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*|%)\s*", text)
-    if found is None:
+    """A length in pixels; `whole` is that of 100 %. None where there is none, or nothing that it is a part of; one in
+    units of a font or of a window, or a sum, is a `ValueError`."""
+    text = text.strip()
+    if text in ("", "auto"):
         return None
-    value, unit = float(found[1]), found[2].lower()
+    found = re.fullmatch(rf"({_NUMBER})\s*([a-zA-Z]*|%)", text)
+    unit = found[2].lower() if found else None
+    if found is None or unit not in ("", "px", "%", *UNITS):
+        raise ValueError(f"its length {text}")
     if unit == "%":
-        return None if whole is None else value / 100 * whole
-    return value * (UNITS[unit] / PX if unit in UNITS else 16.0 if unit == "em" else 1.0)
+        if whole == 0:
+            raise ValueError(f"its length {text}, of a frame without a size")
+        return None if whole is None else float(found[1]) / 100 * whole
+    return float(found[1]) * (UNITS[unit] / PX if unit in UNITS else 1.0)
+
+
+def _page_side(text: str) -> float | None:
+    """The page's width or height, pixels; None where it is that of a window."""
+    try:
+        return _length(text, None)
+    except ValueError:
+        return None
+
+
+def _told(element: ElementTree.Element, view: _View, name: str) -> str:
+    """A length of an element's form as it is written: in a style sheet, else as an attribute."""
+    return view.style.geometry.get(name, element.get(name, ""))
+
+
+def _corner(element: ElementTree.Element, view: _View) -> XY:
+    """x and y of an element, in pixels."""
+    x, y = (_length(_told(element, view, side), whole) for side, whole in zip("xy", view.size, strict=True))
+    return x or 0.0, y or 0.0
 
 
 def _transform(style: Style, size: XY) -> svgelements.Matrix:
     """An element's transform, which turns about its origin; `size`: that of the view box."""
     words = style.origin.split()[:2] or ["0", "0"]
-    if words[0] in ("top", "bottom") or words[-1] in ("left", "right"):
+    words = [*words, "center"][:2]
+    if words[0] in ("top", "bottom") or words[1] in ("left", "right"):
         words.reverse()
-    whole = [_length(_SIDES.get(word, word), side) for word, side in zip((words + ["center"])[:2], size, strict=True)]
+    whole = [_length(_SIDES.get(word, word), side) for word, side in zip(words, size, strict=True)]
     if None in whole or style.box not in ("", "view-box"):
         raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
     x, y = whole
@@ -268,10 +308,12 @@ def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: _View,
     """The view within a nested drawing or a symbol; `outer`, which may be what uses it, tells the frame's size."""
     sides = []
     for side, whole in zip(("width", "height"), view.size, strict=True):
-        told = outer.get(side) or inner.get(side) or "100%"
-        length = _length(told, whole)
+        # (what a `use` tells as attributes goes before the drawing's own; a style sheet before both)
+        length = _length(view.style.geometry.get(side) or outer.get(side) or inner.get(side, ""), whole)
         sides.append(whole if length is None else length)
     box = _view_box(inner)
+    if box and not all(sides):
+        raise ValueError("a view box in a frame without a size")
     matrix = _fitted(inner, at, (sides[0], sides[1])) * view.matrix
     return replace(view, matrix=matrix, size=(box[2], box[3]) if box else (sides[0], sides[1]))
 
@@ -282,15 +324,19 @@ def _outline(element: ElementTree.Element, view: _View) -> svgelements.Path:
     wholes = {**dict.fromkeys(("x", "cx", "rx", "x1", "x2", "width"), width), "r": hypot(*view.size) / sqrt(2)}
 
     def given(name: str) -> float | None:
-        return _length(element.get(name, ""), wholes.get(name, height))
+        return _length(_told(element, view, name), wholes.get(name, height))
+
+    def radii() -> tuple[float | None, float | None]:
+        """rx and ry; one that is not told, or below 0, is the other."""
+        rx, ry = (None if length is None or length < 0 else length for length in map(given, ("rx", "ry")))
+        return ry if rx is None else rx, rx if ry is None else ry
 
     def of(name: str) -> float:
         return given(name) or 0.0
 
     match _name(element):
         case "rect":
-            rx, ry = given("rx"), given("ry")
-            rx, ry = ry if rx is None else rx, rx if ry is None else ry
+            rx, ry = radii()
             found = svgelements.Path()
             if of("width") > 0 and of("height") > 0:
                 corner = min(rx or 0.0, of("width") / 2), min(ry or 0.0, of("height") / 2)
@@ -298,18 +344,54 @@ def _outline(element: ElementTree.Element, view: _View) -> svgelements.Path:
         case "circle":
             found = _around((of("cx"), of("cy")), of("r"), of("r"))
         case "ellipse":
-            rx, ry = given("rx"), given("ry")
-            rx, ry = ry if rx is None else rx, rx if ry is None else ry
+            rx, ry = radii()
             found = _around((of("cx"), of("cy")), rx or 0.0, ry or 0.0)
         case "line":
             found = svgelements.Path(svgelements.SimpleLine(of("x1"), of("y1"), of("x2"), of("y2")))
         case "polyline":
-            found = svgelements.Path(svgelements.Polyline(element.get("points", "")))
+            found = svgelements.Path(svgelements.Polyline(_points(element)))
         case "polygon":
-            found = svgelements.Path(svgelements.Polygon(element.get("points", "")))
+            found = svgelements.Path(svgelements.Polygon(_points(element)))
         case _:
-            found = svgelements.Path(element.get("d", ""))
+            path = re.fullmatch(r"""path\(\s*["'](.*)["']\s*\)""", told := _told(element, view, "d"), re.DOTALL)
+            found = _path(path[1] if path else told)
     return (found * view.matrix).reify()
+
+
+class _Path(svgelements.Path):
+    """A path whose smooth curves go on from one of their own kind alone; behind another they begin as a line would."""
+
+    def smooth_quad(self, *points: svgelements.Point, **options: bool) -> svgelements.Path:
+        """T of the path data."""
+        if isinstance(self[-1], svgelements.QuadraticBezier):
+            return super().smooth_quad(*points, **options)
+        return self.quad(self.current_point, *points, **options)
+
+    def smooth_cubic(self, *points: svgelements.Point, **options: bool) -> svgelements.Path:
+        """S of the path data."""
+        if isinstance(self[-1], svgelements.CubicBezier):
+            return super().smooth_cubic(*points, **options)
+        return self.cubic(self.current_point, *points, **options)
+
+
+def _path(data: str) -> svgelements.Path:
+    """Path data; what does not begin with a move, or does not end as it should, is a `ValueError`."""
+    wrong = _NO_PATH.search(data)
+    if wrong or data.strip() and data.strip()[0] not in "Mm":
+        raise ValueError(f"its path data, at {(wrong[0] if wrong else data.strip())[:10]}")
+    try:
+        return _Path(data)
+    except _UNREADABLE:
+        raise ValueError("its path data") from None
+
+
+def _points(element: ElementTree.Element) -> list[float]:
+    """The points of a polyline or polygon."""
+    numbers = element.get("points", "").replace(",", " ")
+    found = [float(number) for number in re.findall(_NUMBER, numbers)]
+    if re.sub(_NUMBER, "", numbers).strip() or len(found) % 2:
+        raise ValueError("its points")
+    return found
 
 
 def _around(centre: XY, rx: float, ry: float) -> svgelements.Path:
@@ -375,6 +457,8 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
             marked.append(account)
         if edges and style.width * sqrt(abs(one.view.matrix.determinant)) * px > _WIDE:
             wide.append(account)
+    for name in file.elsewhere:
+        content.notes.append(f"the style sheet {name} is in another file: passed over")
     if missed := file.sheet.missed:
         content.notes.append(
             f"{counted(len(missed), 'rule', 'rules')} of the style sheet not understood, as {missed[0]}: passed over"
