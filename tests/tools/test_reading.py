@@ -513,6 +513,22 @@ def test_units() -> None:
         read(raw(*square(0, 0, 9e4)), "a.dxf", Wishes(units="m"))
 
 
+def test_told_units_of_an_odd_size_are_doubted() -> None:
+    """A file that says inch and is in mm, or the other way round: read as it says, with a word."""
+
+    def notes(units: int, side: float, wishes: Wishes | None = None) -> list[str]:
+        data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{units}\n")
+        return read(data, "a.dxf", wishes).report.notes
+
+    doubt = "take care: 2387.6 x 2387.6 mm is an odd size; it would be 94 x 94 mm in mm, 940 x 940 mm in cm: "
+    assert notes(1, 94) == [doubt + "--units says so"]
+    doubt = "take care: 2.5 x 2.5 mm is an odd size; it would be 63.5 x 63.5 mm in inch, 25 x 25 mm in cm: "
+    assert notes(4, 2.5) == [doubt + "--units says so"]
+    for units, side in ((1, 30), (4, 40), (4, 2000), (5, 60)):
+        assert notes(units, side) == []
+    assert notes(1, 94, Wishes(units="inch")) == []
+
+
 def test_paper_space_alone() -> None:
     """What is in paper space is cut where the model space has nothing to cut, with a word; else it is left."""
     paper = [f"{one} 67 1" for one in square(0, 0, 20)]

@@ -30,6 +30,8 @@ __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
 #: A drawing that does not tell its units is in mm when its larger side has this many, mm.
 USUAL = 3.0, 10_000.0
+#: A larger part hardly lies on a wire machine, mm.
+LARGE = 1000.0
 #: No drawing that is cut has a larger side, mm.
 FARTHEST = 50_000.0
 #: Who says what units a drawing is in.
@@ -370,13 +372,17 @@ def _check_size(report: Account) -> None:
             f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; "
             f"give --units{_in_other_units(report)}"
         )
+    other = _in_other_units(report, LARGE)
+    if report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE:
+        # (programs write the units that they were last set to)
+        report.notes.append(f"take care: {width} x {height} mm is an odd size{other}: --units says so")
 
 
-def _in_other_units(report: Account) -> str:
-    """The size that a drawing has in units that make it a usual one."""
+def _in_other_units(report: Account, most: float = USUAL[1]) -> str:
+    """The size that a drawing has in units that make it a usual one, of `most` mm."""
     found = []
     for name in ("mm", "inch", "cm"):
         width, height = (side / report.factor * UNITS[name] for side in report.size)
-        if name != report.units and USUAL[0] <= max(width, height) <= USUAL[1]:
+        if name != report.units and USUAL[0] <= max(width, height) <= most:
             found.append(f"{short(width)} x {short(height)} mm in {name}")
     return f"; it would be {', '.join(found)}" if found else ""
