@@ -318,6 +318,46 @@ def _bottoms(told: str) -> list[int]:
     return [4 if float(y) > 9.5 else min(3, int(float(x) / 4.15)) for x, y in holes]
 
 
+def test_what_is_cut_on_its_line_is_said(run: Run, tmp_path: Path) -> None:
+    """Of an open contour no side is the part: where its wire comes into a part, that is said, quietly too."""
+    page = drawing()
+    polygon([(0, 0), (20, 0), (20, 15), (0, 15)], page)
+    page.modelspace().add_line((-5, 15.15), (30, 15.15))
+    page.modelspace().add_line((30.1, 20), (30.1, 10))
+    words = ["cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.2, "--open", "cut"]
+    told = run(*words).stderr
+    assert "take care: the wire's middle runs on 2 open contours" in told, told
+    assert re.findall(r"contour (\d) comes (\S+) mm.* into contour (\d)", told) == [
+        ("1", "0.2", "2"),
+        ("2", "0.05", "1"),
+    ]
+    quiet = run(*words, "--quiet").stderr.splitlines()
+    assert quiet and set(quiet) == {
+        line for line in told.splitlines() if line.startswith(("take care: the w", "take care: the c"))
+    }
+    page.modelspace().delete_entity(page.modelspace()[0])
+    told = run("cut", saved(page, tmp_path), *words[2:]).stderr
+    assert "the wire's middle runs on the contours: they are open" in told and "take care: the c" not in told, told
+
+
+@pytest.mark.parametrize(
+    ("words", "advice"),
+    [
+        (["--rom", "standard"], "--rom no-drift is nearer"),
+        (["--offset", 0.2], "another --offset, --start or --side may do, or draw the line from (0, 0) to (20, 3) anew"),
+        ([], "draw the line from (0, 0) to (20, 3) anew, 20.2237 long, or what meets it"),
+    ],
+)
+def test_what_to_do_where_the_wire_is_off_is_said(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[object], advice: str
+) -> None:
+    monkeypatch.setattr("skg.cutting.check.LIMIT", 0.0008)
+    page = drawing()
+    polygon([(0, 0), (20, 3), (20, 15), (0, 15)], page)
+    told = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", *words)
+    assert "µm off the drawing at" in told and advice in told, told
+
+
 @pytest.mark.parametrize("turn", [0.0, 0.25, 0.5, 0.75])
 @pytest.mark.parametrize("offset", [0.0, 0.02])
 def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) -> None:

@@ -205,8 +205,8 @@ def test_depths_of_what_crosses() -> None:
 
 @pytest.mark.parametrize("is_turned", [False, True])
 def test_depths_of_crossed_slots(is_turned: bool) -> None:
-    """Slots that cross in a plate are openings, also where one lies in the other by half, and two as large ones; what
-    lies in a window by itself, or crosses another such, is none."""
+    """Slots that cross in a plate are openings, also where one lies in the other by half, and two as large ones, and
+    one that two others cover; what lies in a window by itself, or crosses another such, is none."""
 
     def box(x: int, y: int, width: int, height: int) -> Contour:
         corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
@@ -220,9 +220,12 @@ def test_depths_of_crossed_slots(is_turned: bool) -> None:
         box(41, 9, 6, 8),
         box(35, 20, 4, 10),
         box(33, 22, 8, 5),
+        box(40, 28, 12, 6),
+        box(34, 24, 12, 14),
+        box(45, 23, 12, 14),
     ]
     inner = [box(4, 22, 20, 8), box(8, 26, 5, 10)]
     depths = Field([plate, window, *slots, *inner]).depths()
     assert depths[:2] == [0, 1]
-    assert all(depth % 2 for depth in depths[2:8]), depths
-    assert depths[8] == 2
+    assert all(depth % 2 for depth in depths[2:11]), depths
+    assert depths[11] == 2

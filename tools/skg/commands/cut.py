@@ -101,7 +101,7 @@ class Passes(click.ParamType):
     type=FiniteRange(0, min_open=True),
     help="Feed, for the time.",
 )
-@click.option("--quiet", is_flag=True, help="No report.")
+@click.option("--quiet", is_flag=True, help="No report but what to take care of.")
 def command(
     file: str,
     output: str,
@@ -168,14 +168,17 @@ def command(
         names = (Path(path).name if path != "-" else "-" for path in (file, output))
         write_sheet(job, Facts(*names, wire, gap, reading.report.units), sheet, form)
     write_bytes(output, job.data)  # last: no tape where something else could not be written
-    if not quiet:
-        lines = [*reading.report.lines(), *report(job, factor)]
-        if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
-            from skg.cutting.fallen import said
+    lines = [*reading.report.lines(), *report(job, factor, distance)]
+    if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
+        from skg.cutting.fallen import said
 
-            lines += said(job.routes, factor)
-        for line in [*lines, *unmarked(output, job.tape, rom)]:
-            click.echo(line, err=True)
+        lines += said(job.routes, factor)
+    if quiet:
+        lines = [line for line in lines if line.startswith(("take care", "not cut"))]
+    else:
+        lines += unmarked(output, job.tape, rom)
+    for line in lines:
+        click.echo(line, err=True)
 
 
 def _offset(wire: float | None, gap: float, offset: float | None) -> float:

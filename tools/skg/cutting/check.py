@@ -207,6 +207,10 @@ def _beside(
     near_others: list[tuple[Whole, Whole]] = []
     worst = 0.0
     is_open = np.array([not route.contour.is_closed for route in routes])
+    least = np.abs(offsets).min(1)
+    # What is cut on its line takes as much away on each side as the wire beside the other contours.
+    is_on = is_open & (least == 0)
+    least[is_on] = least.max()
 
     @cache
     def leads() -> Pieces:
@@ -249,13 +253,16 @@ def _beside(
         for owner, at in _first_of_each(owners, (total > LIMIT) | into):
             misses = abs(wanted[at].min() - near.own[at]) if into[at] else total[at]
             faults.setdefault(owner, Misfit(owner, _xy(places[at]), float(misses), bool(into[at])))
-        close = np.flatnonzero(near.other < wanted.min(1) + slack)
+        close = np.flatnonzero(near.other < least[owners] + slack)
         near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
         worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
     empty = np.empty(0, np.int64)
     some, others = (np.concatenate(found) for found in zip((empty, empty), *near_others, strict=True))
-    least = np.abs(offsets).min(1)
-    return list(faults.values()), crossings(wire, np.unique(some), contours, others, least, LIMIT), worst
+    if is_on[wire.owner[some]].any():
+        # (the nearest one may be an open one, too: there is no side that it could be spoiled on)
+        others = np.concatenate((others, np.flatnonzero(~is_open)))
+    found = crossings(wire, np.unique(some), contours, others, least, LIMIT)
+    return list(faults.values()), [one for one in found if not (is_on[one.route] and is_on[one.other])], worst
 
 
 def _first_of_each(owners: Whole, mask: np.ndarray) -> Iterator[tuple[int, int]]:

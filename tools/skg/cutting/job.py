@@ -9,6 +9,7 @@ from math import floor, inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
 from skg.drawing.account import counted, short, shown
+from skg.drawing.contour import Edge
 from skg.drawing.entry import longest_tab
 from skg.drawing.parallel import NoRoom, uncut, widest
 from skg.drawing.planned import PlannedContour
@@ -16,7 +17,7 @@ from skg.drawing.write import Program, Step
 from skg.errors import UserError
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes
-from skg.plane import XY
+from skg.plane import XY, distance
 from skg.tape import text as tapes
 from skg.tape.block import Tape
 from skg.tape.simulation import duration
@@ -324,11 +325,12 @@ def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, setti
                 f"take a smaller one or a thinner wire{_or_leave(settings)}"
             )
         place, off = _in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
-        if fault.off < inf:
-            raise UserError(
-                f"{named}: the wire would be {off} at {place}, more than {1000 * LIMIT:g}: nothing was written"
-            )
-        raise UserError(f"{named}: the wire would not be beside the drawing at {place}: nothing was written")
+        where = (
+            f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
+        )
+        raise UserError(
+            f"{named}: the wire would be {where}: nothing was written; {_advice(fault, route, factor, settings)}"
+        )
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
@@ -338,8 +340,25 @@ def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, setti
             )
 
 
-def report(job: Job, factor: float) -> list[str]:
-    """What a person must know about a tape, line by line."""
+def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Settings) -> str:
+    """What a person can do about a wire that is off the drawing."""
+    if not settings.is_without_drift:
+        return "--rom no-drift is nearer"
+    edge = min(route.contour.edges, key=lambda edge: _far(edge, fault.place))
+    ends = " to ".join(_in_file(end, factor) for end in (edge.start, edge.end))
+    what = "curve" if edge.nodes else "arc" if edge.centre else "line"
+    others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
+    return f"{others}draw the {what} from {ends} anew, {short(edge.length / factor)} long, or what meets it"
+
+
+def _far(edge: Edge, place: XY) -> float:
+    """How far a place is from an edge, mm; of a curve from its samples."""
+    places = edge.points() if edge.nodes else [edge.at(edge.nearest(place))]
+    return min(distance(one, place) for one in places)
+
+
+def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
+    """What a person must know about a tape, line by line. `offset`: what was asked for, mm."""
     settings, routes = job.settings, job.routes
     kinds = Counter(kind(route) for route in routes)
     order = ", ".join(counted(count, one) for one, count in kinds.items())
@@ -349,7 +368,7 @@ def report(job: Job, factor: float) -> list[str]:
         + ", ".join(_in_file(hole, factor) for hole in holes[:_PLACES])
         + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
     ]
-    lines += _offsets(routes)
+    lines += _offsets(routes, offset)
     lines += [
         f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {settings.feed:g} mm/min; "
         f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}",
@@ -381,10 +400,12 @@ def report(job: Job, factor: float) -> list[str]:
     return lines
 
 
-def _offsets(routes: list[PlannedContour]) -> list[str]:
+def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
     passes = next((route.passes for route in routes if any(route.passes)), ())
+    on = sum(not any(route.passes) for route in routes)
     if not passes:
-        return ["the wire's middle runs on the contours: no --offset"]
+        why = "they are open" if offset and not any(route.contour.is_closed for route in routes) else "--side on"
+        return [f"the wire's middle runs on the contours: {why if offset else 'no --offset'}"]
     lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours"]
     if len(passes) > 1:
         lines[0] += f" in {len(passes)} passes, every second one backwards"
@@ -395,6 +416,10 @@ def _offsets(routes: list[PlannedContour]) -> list[str]:
                 f"take care: {counted(len(outer), 'part')} free after the first pass "
                 f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
             )
+    if on:
+        lines.append(
+            f"take care: the wire's middle runs on {counted(on, 'open contour')}, no side of them is the part's"
+        )
     return lines
 
 

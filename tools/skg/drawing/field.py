@@ -119,22 +119,28 @@ class Field:
         others takes something away where it does: it is looked at where an odd number of them lies around it.
         """
         found = [0] * len(self.contours)
-        for at, depth in self._depths_in(_ACROSS, range(len(found))):
-            found[at] = max(found[at], depth, key=lambda one: (one % 2, one))
+        for at, around in self._around_in(_ACROSS, range(len(found))):
+            found[at] = max(found[at], len(around), key=lambda one: (one % 2, one))
         # (a slot that another one crosses in its middle shows at its ends what it is)
         within = {at: depth for at, depth in enumerate(found) if depth and depth % 2 == 0}
-        for at, depth in self._depths_in(_NEAR_ENDS, within) if within else ():
-            if depth % 2 and depth < within[at]:
-                found[at] = depth
+        holding: dict[int, set[int]] = {}
+        for at, around in self._around_in(_NEAR_ENDS, within) if within else ():
+            holding[at] = holding.get(at, around) & around
+            if len(around) % 2 and len(around) < within[at]:
+                found[at] = len(around)
+        # (one that several others cover would be no part if it were one: these are cut across it)
+        for at, around in holding.items():
+            if len(around) % 2 and found[at] % 2 == 0:
+                found[at] = len(around)
         return found
 
-    def _depths_in(self, where: tuple[float, float], some: Collection[int]) -> Iterator[tuple[int, int]]:
-        """The numbers of some contours, and how many as large closed ones lie around a place in each."""
+    def _around_in(self, where: tuple[float, float], some: Collection[int]) -> Iterator[tuple[int, set[int]]]:
+        """The numbers of some contours, and which as large closed ones lie around a place in each."""
         sizes, inner = self._sizes(), zip(*self._inner(*where), strict=True)
         asked = [(at, place) for at, place in inner if at in some]
         owners, places = [at for at, _ in asked], [place for _, place in asked]
         for at, others in zip(owners, self.around(places, owners), strict=True):
-            yield at, sum(sizes[other] >= sizes[at] for other in others)
+            yield at, {other for other in others if sizes[other] >= sizes[at]}
 
     def _sizes(self) -> Floats:
         """The areas of all contours, mm²."""
