@@ -212,7 +212,9 @@ def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> No
     assert len(contours) == 6
     gone = [sum(run_block(block).move[axis] for contour in contours for block in contour) for axis in (0, 1)]
     assert 1 <= hypot(*gone) <= float(said[1]) + 0.005
-    assert "add up" not in run(*words).stderr
+    assert "end where they begin" not in standard.stderr
+    without = run(*words).stderr
+    assert "add up" not in without and "6 closed contours end where they begin" in without
 
 
 def test_the_controllers_steps_count() -> None:
@@ -338,6 +340,43 @@ def test_what_is_cut_on_its_line_is_said(run: Run, tmp_path: Path) -> None:
     page.modelspace().delete_entity(page.modelspace()[0])
     told = run("cut", saved(page, tmp_path), *words[2:]).stderr
     assert "the wire's middle runs on the contours: they are open" in told and "take care: the c" not in told, told
+
+
+@pytest.mark.parametrize(("offset", "step"), [(0.1, 0.02), (0.1, 0.05), (0.2, 0.05), (2, 1)])
+def test_nothing_is_left_beside_a_step(run: Run, tmp_path: Path, offset: float, step: float) -> None:
+    """Beside a step lower than R the wire comes nearer to the corner than where the edges' parallels meet."""
+    page, tape = drawing(), tmp_path / "part.3b"
+    shape = polygon([(0, 0), (20, 0), (20, 5), (8, 5), (8, 5 + step), (0, 5 + step)], page)
+    run("cut", saved(page, tmp_path), "-o", tape, "--offset", offset, "--start", "-5,2")
+    (path,) = map(LineString, stretches(tape.read_bytes(), (-5, 2)))
+    wanted = shape.buffer(offset, quad_segs=400).exterior
+    places = shapely.points(shapely.get_coordinates(shape.exterior.segmentize(0.003)))
+    assert (shapely.distance(places, path) <= shapely.distance(places, wanted) + LIMIT).all()
+
+
+@pytest.mark.parametrize(
+    ("starts", "words", "why"),
+    [
+        (["3,3"], [], "(3, 3) lies outside the contour from (5.000, 5.000), which is cut from inside"),
+        (["6,6", "3,3"], [], "(3, 3) lies inside the contour from (0.000, 0.000), which is cut from outside"),
+        (["6,6", "-0.05,3"], [], "(-0.05, 3) is less than 0.1 mm beside the contour from (0.000, 0.000)"),
+        (["6,6", "3,3"], ["--side", "inside"], ""),
+        (["5,5", "3,0"], ["--side", "on"], ""),
+        (["6,6", "-0.1,3"], ["--passes", "0.05,0"], ""),
+    ],
+)
+def test_a_start_hole_in_the_part_is_refused(
+    run: Run, tmp_path: Path, starts: list[str], words: list[str], why: str
+) -> None:
+    page = drawing()
+    for low, high in ((0, 20), (5, 12)):
+        polygon([(low, low), (high, low), (high, high), (low, high)], page)
+    holes = [word for start in starts for word in ("--start", start)]
+    words = ["cut", str(saved(page, tmp_path)), "-o", str(tmp_path / "part.3b"), "--offset", "0.1", *holes, *words]
+    if why:
+        assert f"part.dxf: the start hole {why}" in run_failing(run, *words)
+    else:
+        assert "2 closed contours end where they begin" in run(*words).stderr
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
+from itertools import chain, pairwise
 from math import cos, hypot, sin
 
 import numpy as np
@@ -23,7 +23,7 @@ from skg.drawing.contour import Edge
 from skg.drawing.planned import Lead, PlannedContour, split_at_end
 from skg.errors import UserError
 from skg.piece import Piece
-from skg.plane import XY
+from skg.plane import XY, cross
 from skg.tape.block import Tape, micrometres
 from skg.tape.columns import columns_of, hypots
 from skg.tape.controller import trace_array
@@ -39,6 +39,8 @@ _USUAL = 0.0008
 _TIP = 2.0
 #: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
 _INSIDE, _NOISE = 1e-3, 1e-9
+#: Where the sine of the wire's turn is less, it leaves nothing in an inner corner.
+_TURN = 0.1
 #: The wire's path is looked at in no more places than this.
 _MOST_PLACES = 400_000
 
@@ -340,13 +342,35 @@ def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.nda
     return free
 
 
+def _by_inner_corners(wire: Pieces, contours: Pieces, widest: float) -> tuple[Whole, Floats]:
+    """Places of contours, by pieces and parts, a little to both sides of where the wire is beside them in its inner
+    corners: it may turn off too early there, before a step that is lower than R."""
+    before = np.flatnonzero(wire.owner[1:] == wire.owner[:-1])
+    # (a wire that turns by less leaves nothing)
+    ways = [wire.normal(at, np.full(len(at), end)) for at, end in ((before, 1.0), (before + 1, 0.0))]
+    before = before[np.abs(cross(ways[0].T, ways[1].T)) > _TURN]
+    near = contours.nearest(wire.end[before], wire.owner[before], widest + 2 * LIMIT)
+    is_there = (near.own_at >= 0) & ~contours.is_chord[near.own_at]
+    before, which = before[is_there], near.own_at[is_there]
+    part = contours.part(wire.end[before], which)
+    away = wire.end[before] - contours.at(which, part)
+    one, other = (wire.normal(at, np.full(len(at), end)) for at, end in ((before, 1.0), (before + 1, 0.0)))
+    # (the wire's way is square to its normal)
+    is_inner = cross((other - one).T, away.T) > 0
+    which, part, aside = which[is_inner], part[is_inner], 2 * LIMIT / contours.length[which[is_inner]]
+    part = np.concatenate((part - aside, part + aside))
+    is_on = (part > 0) & (part < 1)
+    return np.tile(which, 2)[is_on], part[is_on]
+
+
 def _reached(
     path: _Path, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
 ) -> tuple[list[Misfit], float]:
     """Whether the wire has been beside every place of the contours that it can reach."""
     faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
-    for which, part in contours.batches(_spacing(contours, widest), 2):
+    places = contours.batches(_spacing(contours, widest), 2)
+    for which, part in chain(places, [_by_inner_corners(path.pieces, contours, widest)] if widest else []):
         # (a chord of a curve is square to it in its middle alone)
         true = ~contours.is_chord[which] | (part > 0) & (part < 1)
         which, part = which[true], part[true]

@@ -9,7 +9,6 @@ from math import floor, inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
 from skg.drawing.account import counted, short, shown
-from skg.drawing.contour import Edge
 from skg.drawing.entry import longest_tab
 from skg.drawing.parallel import NoRoom, uncut, widest
 from skg.drawing.planned import PlannedContour
@@ -17,7 +16,7 @@ from skg.drawing.write import Program, Step
 from skg.errors import UserError
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes
-from skg.plane import XY, distance
+from skg.plane import XY
 from skg.tape import text as tapes
 from skg.tape.block import Tape
 from skg.tape.simulation import duration
@@ -344,17 +343,11 @@ def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Setti
     """What a person can do about a wire that is off the drawing."""
     if not settings.is_without_drift:
         return "--rom no-drift is nearer"
-    edge = min(route.contour.edges, key=lambda edge: _far(edge, fault.place))
+    edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
     ends = " to ".join(_in_file(end, factor) for end in (edge.start, edge.end))
     what = "curve" if edge.nodes else "arc" if edge.centre else "line"
     others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
     return f"{others}draw the {what} from {ends} anew, {short(edge.length / factor)} long, or what meets it"
-
-
-def _far(edge: Edge, place: XY) -> float:
-    """How far a place is from an edge, mm; of a curve from its samples."""
-    places = edge.points() if edge.nodes else [edge.at(edge.nearest(place))]
-    return min(distance(one, place) for one in places)
 
 
 def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
@@ -374,7 +367,7 @@ def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
         f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}",
         _how(job),
         f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
-        + _closing(job.checked.cuts, routes),
+        + (_closing(job.checked.cuts, routes) if not job.checked.drift else ""),
     ]
     if drift := job.checked.drift:
         lines.append(

@@ -96,6 +96,15 @@ class Pieces:
         out = np.stack((np.cos(angle), np.sin(angle)), 1) * np.sign(self.sweep[which])[:, None]
         return np.where(self.is_arc[which, None], out, line)
 
+    def part(self, places: Floats, which: Whole) -> Floats:
+        """The part of the length of each place's piece where that is nearest (of an arc: the circle)."""
+        to, way = places - self.start[which], self.end[which] - self.start[which]
+        line = np.clip((to * way).sum(1) / np.maximum((way**2).sum(1), 1e-300), 0, 1)
+        about = places - self.centre[which]
+        ahead = (np.arctan2(about[:, 1], about[:, 0]) - self.first[which]) * np.sign(self.sweep[which])
+        arc = np.mod(ahead, 2 * pi) / np.maximum(np.abs(self.sweep[which]), 1e-300)
+        return np.where(self.is_arc[which], arc, line)
+
     def batches(self, spacing: float, least: int) -> Iterator[tuple[Whole, Floats]]:
         """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
         an arc one for every 15 degrees besides. Some pieces after the other."""

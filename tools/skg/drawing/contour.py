@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skg.piece import Piece
-from skg.plane import XY, cross, shifted
+from skg.plane import XY, cross, distance, shifted
 
 #: Places (m, 2), mm.
 Places = NDArray[np.float64]
@@ -57,6 +57,11 @@ class Edge(Piece):
     def steps(self) -> list[float]:
         """The lengths of a curve's chords."""
         return list(map(hypot, *np.diff(self.samples, axis=0).T.tolist()))
+
+    def far(self, place: XY) -> float:
+        """How far a place is from it; of a curve from its samples."""
+        places = self.points() if self.nodes else [self.at(self.nearest(place))]
+        return min(distance(one, place) for one in places)
 
     def reversed(self) -> Edge:
         """The same edge, run through backwards."""

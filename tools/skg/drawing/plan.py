@@ -26,6 +26,8 @@ _ENOUGH = 0.5
 _ROOMY = 1.5
 #: A start hole that is not a circle's centre is further from that than this part of the radius.
 _BESIDE = 0.1
+#: A start hole that is given may be nearer to a contour than R by this, mm.
+_NEAR = 1e-3
 #: A lead that is an arc is no smaller, mm; chords of a contour lie inside of it by the rest of this, of the radius.
 _LEAST_ARC, _ROUND = 0.05, 0.998
 
@@ -109,6 +111,8 @@ class _Planner:
                 is_short=is_short,
             )
             if start is not None:
+                if sign:
+                    self._refuse_misplaced(made, is_outside)
                 done[number] = self._entered(made, is_outside == is_ccw)
                 continue
             choices.append(self._choice(made, is_outside))
@@ -125,6 +129,23 @@ class _Planner:
     def _choice(self, made: PlannedContour, is_outside: bool) -> _Choice:
         reach = self.method.lead + max(map(abs, made.passes))
         return _Choice(made, is_outside, reach, entries_of(made.contour, made.tab, self.widest))
+
+    def _refuse_misplaced(self, made: PlannedContour, is_outside: bool) -> None:
+        """Refuse a start hole that is given in the part, or so near to it that the wire would come into it there."""
+        (x, y), contour = made.start, made.contour
+        is_in = made.number in self.field.around([made.start])[0]
+        least = min(map(abs, made.passes))
+        if is_in == is_outside:
+            what = f"lies {'inside' if is_in else 'outside'}"
+        elif min(edge.far(made.start) for edge in contour.edges) < least - _NEAR:
+            what = f"is less than {least:g} mm beside"
+        else:
+            return
+        u, v = contour.edges[0].start
+        raise UserError(
+            f"the start hole ({x:g}, {y:g}) {what} the contour from ({u:.3f}, {v:.3f}), which is cut from "
+            f"{'outside' if is_outside else 'inside'} (mm): give another one, or another --side"
+        )
 
     def _entered(self, made: PlannedContour, is_right: bool) -> PlannedContour:
         """A contour with its start hole, and where it is entered from there."""
