@@ -12,6 +12,7 @@ from math import cos, hypot, pi, sin
 from pathlib import Path
 from xml.etree import ElementTree
 
+import ezdxf
 import pytest
 import shapely
 from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretches
@@ -340,6 +341,18 @@ def test_what_is_cut_on_its_line_is_said(run: Run, tmp_path: Path) -> None:
     page.modelspace().delete_entity(page.modelspace()[0])
     told = run("cut", saved(page, tmp_path), *words[2:]).stderr
     assert "the wire's middle runs on the contours: they are open" in told and "take care: the c" not in told, told
+
+
+def test_what_is_left_out_of_a_drawing_that_says_metres(run: Run, tmp_path: Path) -> None:
+    """In metres its gaps would be wider, and its contours fewer: those left out are counted as it is read in mm."""
+    page = drawing()
+    page.units = ezdxf.units.M
+    polygon([(0, 0), (60, 0), (60, 40), (0, 40)], page)
+    corners = [(20, 20), (20.1, 20), (20.1, 20.1), (20.003, 20.1), (20, 20.003)]
+    for one, other in pairwise(corners):
+        page.modelspace().add_line(one, other)
+    told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--small", "leave").stderr
+    assert "take care, left out: opening from (20" in told and "1 outline; 1 start hole" in told, told
 
 
 @pytest.mark.parametrize(("offset", "step"), [(0.1, 0.02), (0.1, 0.05), (0.2, 0.05), (2, 1)])

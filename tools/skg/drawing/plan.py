@@ -111,7 +111,7 @@ class _Planner:
                 is_short=is_short,
             )
             if start is not None:
-                if sign:
+                if any(passes):
                     self._refuse_misplaced(made, is_outside)
                 done[number] = self._entered(made, is_outside == is_ccw)
                 continue

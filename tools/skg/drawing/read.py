@@ -116,6 +116,14 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
             fates.of_edges(one.edges, DASHED)
     for run in rest:
         fates.of_edges(run.edges, JUNCTION)
+    if kept and report.units == "m" and report.units_from == TOLD:
+        # (what a program writes that was not told any units; in mm more ends meet, and the small ones are counted so)
+        _measure(kept, report)
+        if max(report.size) > USUAL[1]:
+            width, height = (short(side / UNITS["m"]) for side in report.size)
+            found = _read(data, name, replace(wishes, units="mm"), small)
+            found.report.units_from = f"the file says m, but {width} x {height} m is no part; --units says otherwise"
+            return found
     opened = [one for one in kept if not one.is_closed]
     report.open_ends = _open_ends(opened, content.edges, wishes.tolerance, report.factor)
     if opened and wishes.open == "refuse":
@@ -134,12 +142,6 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
     _measure(kept, report)
     contours = [replace(merged(one), layers=fates.layers(one)) for one in cut]
     _count(contours, report)
-    if report.units == "m" and report.units_from == TOLD and max(report.size) > USUAL[1]:
-        # (what a program writes that was not told any units)
-        width, height = (short(side / UNITS["m"]) for side in report.size)
-        found = _read(data, name, replace(wishes, units="mm"), small)
-        found.report.units_from = f"the file says m, but {width} x {height} m is no part; --units says otherwise"
-        return found
     _check_size(report)
     if max(map(abs, (*report.low, *report.high))) < FARTHEST:
         return Reading(contours, content.starts, report)
