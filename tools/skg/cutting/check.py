@@ -39,6 +39,8 @@ _USUAL = 0.0008
 _TIP = 2.0
 #: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
 _INSIDE, _NOISE = 1e-3, 1e-9
+#: A slot of lines and arcs that is narrower than two R by less than twice this is wide enough, mm.
+_TIGHT = 1e-5
 #: Where the sine of the wire's turn is less, it leaves nothing in an inner corner.
 _TURN = 0.1
 #: The wire's path is looked at in no more places than this.
@@ -332,7 +334,8 @@ def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.nda
     part = np.clip(part, margin, 1 - margin)
     places = contours.at(which, part) + aside[:, None] * contours.normal(which, part)
     near = contours.nearest(places, contours.owner[which], float(np.abs(aside).max(initial=0.0)))
-    free = near.own > np.abs(aside) - LIMIT / 10
+    # (chords lie a little inside of their curve; of lines it would be 30 um where two all but parallel ones meet)
+    free = near.own > np.abs(aside) - np.where(contours.is_chord[which], LIMIT / 10, _TIGHT)
     others = np.flatnonzero(free & (near.own_at >= 0) & (near.own_at != which))
     piece = near.own_at[others]
     # (what is nearest to a place beyond a piece's end tells nothing)
