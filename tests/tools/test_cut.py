@@ -272,7 +272,10 @@ def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_fr
 
 
 def test_a_part_that_falls_into_pieces_is_said(run: Run, tmp_path: Path) -> None:
-    """A window from edge to edge, two that are one there, a square whose corners reach the edges; none does so else."""
+    """A window from edge to edge, two that are one there, a square whose corners reach the edges; none does so else.
+
+    The first part lies in the window of another one.
+    """
     windows = [
         ([[(5, 0), (10, 0), (10, 10), (5, 10)]], 2),
         ([[(5, 0), (10, 0), (10, 5), (5, 5)], [(4, 5), (11, 5), (11, 10), (4, 10)]], 2),
@@ -285,6 +288,9 @@ def test_a_part_that_falls_into_pieces_is_said(run: Run, tmp_path: Path) -> None
         polygon([(0, 0), (20, 0), (20, 10), (0, 10)], page)
         for some in corners:
             polygon(some, page)
+        if corners == windows[0][0]:
+            polygon([(-2, -2), (22, -2), (22, 12), (-2, 12)], page)
+            polygon([(-4, -4), (24, -4), (24, 14), (-4, 14)], page)
         told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.05).stderr
         found = re.search(r"the part of contour (\d) falls into (\d) pieces", told)
         assert (found and found.groups()) == ((str(len(corners) + 1), str(pieces)) if pieces else None), told
@@ -676,6 +682,12 @@ def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
         assert not [1 for k, box in enumerate(here) for other in tree.query(box, "intersects") if other != k]
     tree = shapely.STRtree(part)
     assert not len(tree.query(boxes, "intersects")[0]) and not len(tree.query(marks, "intersects")[0])
+    # The table and the block of facts: on the page, and no word on another one.
+    words = [text for text in sheet.axes.texts if text not in texts]
+    boxes = [shapely.box(*to_page.transform_bbox(text.get_window_extent(renderer)).extents) for text in words]
+    tree = shapely.STRtree(boxes)
+    assert not [words[k] for k, box in enumerate(boxes) if list(tree.query(box, "intersects")) != [k]]
+    assert all(shapely.box(0, 0, *sheet.page).contains(box) for box in boxes)
     text = (tmp_path / "sheet.svg").read_text()
     for word in (
         "part.dxf",

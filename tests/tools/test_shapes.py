@@ -180,7 +180,7 @@ def test_cam(run: Run, tmp_path: Path, law: str, roller: float) -> None:
         (["gear", "--module", 2, "--teeth", 20, "--fillet", 1], "does not fit"),
         (["gear", "--module", 1, "--teeth", 20, "--offset", 1.2], "offset"),
         (["cam", "--base", 4, "--lift", 12, "--rise", 40, "--roller", 20, "--law", "harmonic"], "more tightly"),
-        (["cam", "--base", 5, "--lift", 2, "--rise", 300], "more than a turn"),
+        (["cam", "--base", 5, "--lift", 2, "--rise", 300, "--dwell", 10, "--fall", 60], "370 degrees, more"),
     ],
 )
 def test_what_cannot_be_cut(run: Run, words: list[object], message: str) -> None:

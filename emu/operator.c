@@ -1,0 +1,266 @@
+#include "operator.h"
+
+#include "complain.h"
+#include "output.h"
+
+#include <string.h>
+
+enum {
+    PATIENCE = 20000000,            /* cycles that a silent machine may wait for a key nobody will press */
+    READER_PATIENCE = 6000000,      /* cycles; LOAD gives up after 4,000,000, unless nothing has come yet */
+    MACHINE_PATIENCE = 10000,       /* cycles that the board asks for the machine's answer before time stands still */
+    SLICE_MS = 5,                   /* real time is kept, and the keyboard looked at, so often */
+    UNPACED_SLICE = 1000000         /* cycles, when no time is kept */
+};
+
+/* Runs one slice of time, or less when the board asks for something or --max-cycles are used up. */
+static board_reason run_slice(session *s)
+{
+    i8080 *c = &s->board->cpu;
+    uint64_t slice = s->pacer.hz > 0 ? (uint64_t)(s->pacer.hz * SLICE_MS / 1000) + 1 : UNPACED_SLICE;
+    uint64_t rest = s->o.max_cycles - c->cycles;
+    uint64_t cycles = slice < rest ? slice : rest;
+    board_reason reason = s->debug ? debug_run(s->debug, cycles) : board_run(s->board, cycles);
+    pacer_wait(&s->pacer, c->cycles);
+    if (reason == BOARD_PROMPT && !s->prompted) {
+        s->prompted = true;
+        memset(s->written, 0, sizeof s->written); /* the size of the RAM was found by writing to it */
+    }
+    if (reason == BOARD_PROMPT) {
+        output_draw_meanwhile(s);
+    }
+    return reason;
+}
+
+/* Has the operator left, by ctrl-] or the debugger's `quit`? */
+static bool left(const session *s)
+{
+    return s->terminal.left || (s->debug && debug_left(s->debug));
+}
+
+/* A port was read that nobody serves. */
+static int report_nobody(const session *s)
+{
+    const board *b = s->board;
+    if (b->nobody_chip) {
+        return complain(EXIT_USAGE, "port %02X is read, and its %s was never readied: is this ROM for --board %s?",
+                        b->nobody_port, b->kind == BOARD_6850 ? "6850" : "8251",
+                        b->kind == BOARD_6850 ? "8251" : "6850");
+    }
+    return complain(EXIT_USAGE, "port %02X is read, and nobody serves it%s", b->nobody_port,
+                    b->punch_tty ? " with --punch-tty: is this ROM for a punch and reader of their own?" : "");
+}
+
+/* What ended the machine's work without an answer from the operator. */
+static int report(const session *s, board_reason reason)
+{
+    const i8080 *c = &s->board->cpu;
+    switch (reason) {
+    case BOARD_HALT:
+        return complain(EXIT_ERR, "the machine halted at %04X", (c->pc - 1) & 0xffff);
+    case BOARD_BREAK:
+        return complain(EXIT_USAGE, "the machine runs into %04X, where the ROM image has nothing", c->pc);
+    case BOARD_NOBODY:
+        return report_nobody(s);
+    default:
+        return complain(EXIT_CYCLES, "not done after %llu cycles", (unsigned long long)s->o.max_cycles);
+    }
+}
+
+static int report_reader(void)
+{
+    return complain(EXIT_ERR, "LOAD waits for a tape, and the reader is empty");
+}
+
+/* The machine asks for a key, and nobody will press one. */
+static int report_wait(const session *s)
+{
+    const board *b = s->board;
+    bool unread = b->tape.first != b->tape.end && !b->punch_tty;
+    return complain(EXIT_ERR, "the machine waits for a key at `%s`%s", b->line,
+                    unread ? ", its tape unread: is this ROM for --punch-tty?" : "");
+}
+
+/* The board waits for the machine's answer: it has asked the reader for a while, and that is empty. */
+static bool asks_machine(const session *s)
+{
+    return s->o.punch_pty && board_reader_silence(s->board) > MACHINE_PATIENCE;
+}
+
+/* Lets the machine run until it asks the operator something, has lost output or used up all cycles. BOARD_WAIT only when
+ * it says nothing for too long. */
+static board_reason until_asked(session *s)
+{
+    i8080 *c = &s->board->cpu;
+    uint64_t printed = s->printed, since = c->cycles;
+    while (c->cycles < s->o.max_cycles) {
+        board_reason reason = run_slice(s);
+        if (!output_flush(s) || left(s)) {
+            return reason;
+        }
+        if (s->printed != printed || reason == BOARD_CYCLES) {
+            printed = s->printed;
+            since = c->cycles;
+        }
+        if (s->running && asks_machine(s)) {
+            if (!terminal_feed(&s->line, s->board, -1)) {
+                return BOARD_CYCLES;
+            }
+            since = c->cycles;
+        } else if (board_reader_silence(s->board) > READER_PATIENCE) {
+            return BOARD_WAIT;
+        }
+        if (reason != BOARD_CYCLES && (reason != BOARD_WAIT || c->cycles - since > PATIENCE)) {
+            return reason;
+        }
+    }
+    return BOARD_CYCLES;
+}
+
+/* Types a line; false without memory. */
+static bool type_line(session *s, const char *line, size_t length)
+{
+    return board_type(s->board, (const uint8_t *)line, length) && board_type(s->board, (const uint8_t *)"\r", 1);
+}
+
+int operator_part(session *s, const char *answers)
+{
+    const char *const commands[] = { "LOAD", s->o.drives ? "DRIVE 1" : s->rest, "RUN" };
+    const size_t count = s->o.drives ? 3 : s->rest ? 2 : 1;
+    size_t given = 0;
+    uint64_t at_stop = 0; /* characters on the paper when a stop's key was pressed */
+    for (;;) {
+        board_reason reason = until_asked(s);
+        if (s->failed) {
+            return output_failure(s);
+        }
+        if (left(s)) {
+            return 0;
+        }
+        switch (reason) {
+        case BOARD_PROMPT:
+            /* (PRINT may write the same words: the prompt does not follow them) */
+            if (s->below_error) {
+                return EXIT_ERR;
+            }
+            if (given == count) {
+                return 0;
+            }
+            if (!type_line(s, commands[given], strlen(commands[given]))) {
+                return complain(EXIT_ERR, "out of memory");
+            }
+            if (given++ == 0) {
+                board_reader(s->board, true);
+            }
+            s->running = given == count;
+            break;
+        case BOARD_INPUT: {
+            if (!*answers) {
+                return complain(EXIT_ERR, "INPUT asks, and --input has no line left");
+            }
+            size_t length = strcspn(answers, "\r\n");
+            if (!type_line(s, answers, length)) {
+                return complain(EXIT_ERR, "out of memory");
+            }
+            answers += length;
+            answers += *answers == '\r';
+            answers += *answers == '\n';
+            break;
+        }
+        case BOARD_WAIT:
+            /* (at a stop, when something has happened since the last one) */
+            if (s->running && s->o.drives && s->printed != at_stop) {
+                at_stop = s->printed;
+                if (!type_line(s, "", 0)) {
+                    return complain(EXIT_ERR, "out of memory");
+                }
+                break;
+            }
+            return board_reader_silence(s->board) ? report_reader() : report_wait(s);
+        default:
+            return report(s, reason);
+        }
+    }
+}
+
+/* LOAD, or DRIVE, has asked an empty reader for so long that the operator should know. Ends with an exit code when he cannot break
+ * it off; else 0. */
+static int watch_reader(const session *s, bool *told)
+{
+    bool empty = board_reader_silence(s->board) > READER_PATIENCE && !s->o.punch_pty;
+    if (empty && s->terminal.ended) {
+        return report_reader();
+    }
+    if (empty && !*told) {
+        remark("the reader is empty (--tape FILE puts a tape in); ctrl-C breaks off");
+    }
+    *told = empty;
+    return 0;
+}
+
+int operator_terminal(session *s)
+{
+    i8080 *c = &s->board->cpu;
+    terminal *t = &s->terminal;
+    uint64_t since_end = 0;
+    bool told = false;
+    for (;;) {
+        board_reason reason = run_slice(s);
+        int wait = 0;
+        if (!output_flush(s)) {
+            return output_failure(s);
+        }
+        if (left(s)) {
+            return 0;
+        }
+        switch (reason) {
+        case BOARD_PROMPT:
+            if (t->ended) {
+                return 0;
+            }
+            wait = -1;
+            break;
+        case BOARD_INPUT:
+            if (t->ended) {
+                return complain(EXIT_ERR, "INPUT asks, and the input has ended");
+            }
+            wait = -1;
+            break;
+        case BOARD_WAIT:
+            wait = SLICE_MS; /* it may be counting the time until something comes */
+            break;
+        case BOARD_CYCLES:
+            break;
+        default:
+            return report(s, reason);
+        }
+        if (c->cycles >= s->o.max_cycles) {
+            return report(s, BOARD_CYCLES);
+        }
+        int code = watch_reader(s, &told);
+        if (code) {
+            return code;
+        }
+        if (reason != BOARD_WAIT || !t->ended) {
+            since_end = c->cycles;
+        } else if (c->cycles - since_end > PATIENCE) {
+            return complain(EXIT_ERR, "the input ended in the middle of `%s`", s->board->line);
+        }
+        bool idle = told || asks_machine(s);
+        if (!terminal_listen(t, s->board, idle && !wait ? SLICE_MS : wait)
+            || (asks_machine(s) && !terminal_feed(&s->line, s->board, 0))) {
+            return complain(EXIT_ERR, "out of memory");
+        }
+        if (t->reset) {
+            t->reset = false;
+            board_reset(s->board);
+        }
+        if (t->stop) {
+            t->stop = false;
+            debug_stop(s->debug);
+        }
+        if (wait) {
+            pacer_start(&s->pacer, s->pacer.hz, c->cycles);
+        }
+    }
+}

@@ -1,0 +1,174 @@
+#include "output.h"
+
+#include "complain.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void put(session *s, uint8_t c, FILE *file)
+{
+    if (putc(c, file) == EOF) {
+        s->failed = errno;
+    }
+}
+
+/* ERR nn, or ERR nn LINE n, and nothing else (language.md, section 6). */
+static bool is_error(const char *line)
+{
+    static const char words[] = "ERR ", where[] = " LINE ";
+    size_t at = sizeof words - 1;
+    if (strncmp(line, words, at) || !isdigit((unsigned char)line[at]) || !isdigit((unsigned char)line[at + 1])) {
+        return false;
+    }
+    line += at + 2;
+    at = sizeof where - 1;
+    return !*line || (!strncmp(line, where, at) && line[at] && !line[at + strspn(line + at, "0123456789")]);
+}
+
+/* Keeps the paper's present line, and whether the one above is an error's. */
+static void follow(session *s, uint8_t c)
+{
+    if (c == '\r' || c == '\n') {
+        if (s->line_length) {
+            s->printing[s->line_length < ERROR_LINE ? s->line_length : ERROR_LINE] = '\0';
+            s->below_error = s->line_length <= ERROR_LINE && is_error(s->printing);
+        }
+        s->line_length = 0;
+    } else if (c >= ' ') {
+        if (s->line_length < ERROR_LINE) {
+            s->printing[s->line_length] = (char)c;
+        }
+        s->line_length++;
+    }
+}
+
+void output_print(void *user, uint8_t c)
+{
+    session *s = user;
+    s->printed++;
+    follow(s, c);
+    if (s->paper) {
+        put(s, c, s->paper);
+    } else {
+        terminal_print(&s->terminal, c);
+    }
+}
+
+void output_punch(void *user, uint8_t byte)
+{
+    session *s = user;
+    if (s->punch) {
+        put(s, byte, s->punch);
+    }
+    if (s->o.punch_pty) {
+        terminal_print(&s->line, byte);
+        s->failed = s->line.deaf ? ETIMEDOUT : s->failed;
+    }
+}
+
+void output_step(void *user, uint8_t value, uint64_t cycles)
+{
+    session *s = user;
+    (void)cycles;
+    if (s->steps) {
+        put(s, value, s->steps);
+    }
+    if (s->drawn && !drawn_step(s->drawn, value)) {
+        s->failed = ENOMEM;
+    }
+}
+
+void output_draw(session *s)
+{
+    if (!s->picture) {
+        return;
+    }
+    rewind(s->picture);
+    /* (an earlier one may be longer) */
+    if ((s->steps_drawn && ftruncate(fileno(s->picture), 0)) || !drawn_write(s->drawn, s->picture)) {
+        s->failed = errno;
+    }
+    s->steps_drawn = s->board->drive.steps;
+}
+
+void output_draw_meanwhile(session *s)
+{
+    struct stat file;
+    if (s->steps_drawn != s->board->drive.steps && s->picture && !fstat(fileno(s->picture), &file)
+        && S_ISREG(file.st_mode)) {
+        output_draw(s);
+    }
+}
+
+bool output_flush(session *s)
+{
+    FILE *const files[] = { s->paper, s->punch, s->steps, s->terminal.copy };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        if (files[i] && fflush(files[i])) {
+            s->failed = errno;
+        }
+    }
+    s->failed = s->failed ? s->failed : s->terminal.failed;
+    s->failed = s->failed || !s->debug ? s->failed : debug_failure(s->debug);
+    return !s->failed;
+}
+
+int output_failure(const session *s)
+{
+    if (s->line.deaf) {
+        return complain(EXIT_USAGE, "%s: nobody reads what is punched", s->line.name);
+    }
+    return complain(EXIT_USAGE, "cannot write: %s", strerror(s->failed));
+}
+
+void output_counts(uint64_t cycles, uint64_t instructions)
+{
+    fprintf(stderr, "cycles        %llu\ninstructions  %llu\nseconds       %.6f at %d MHz\n",
+            (unsigned long long)cycles, (unsigned long long)instructions, (double)cycles / BOARD_HZ,
+            BOARD_HZ / 1000000);
+}
+
+/* The largest piece of RAM that was not written since the first prompt: what program and variables left between them. */
+static void print_untouched(const session *s, unsigned end)
+{
+    unsigned first = end, length = 0;
+    for (unsigned at = BOARD_RAM_START, run = 0; at < end; at++) {
+        run = s->written[at] ? 0 : run + 1;
+        if (run > length) {
+            length = run;
+            first = at + 1 - run;
+        }
+    }
+    fprintf(stderr, "RAM           2000 to %04X, untouched %04X to %04X: %u bytes\n", end - 1, first,
+            first + length - 1, length);
+}
+
+void output_stats(const session *s)
+{
+    const i8080 *c = &s->board->cpu;
+    complain_end_line();
+    output_counts(c->cycles, c->instructions);
+    print_untouched(s, BOARD_RAM_START + s->o.ram_kib * 1024);
+    fprintf(stderr, "stack         down to %04X\n", c->lowest_sp);
+    const drive *d = &s->board->drive;
+    if (d->gaps) {
+        fprintf(stderr, "drive         %llu steps, from one to the next %.1f cycles, at most %llu\n",
+                (unsigned long long)d->steps, (double)d->gap_cycles / (double)d->gaps,
+                (unsigned long long)d->longest_gap);
+    }
+}
+
+void output_drive(const session *s)
+{
+    const drive *d = &s->board->drive;
+    if (!d->steps && s->o.drives) {
+        remark("the drive was told no step");
+    }
+    if (d->hasty) {
+        remark("of the drive's steps %llu came together with their direction, or it changed under the pulse",
+               (unsigned long long)d->hasty);
+    }
+}

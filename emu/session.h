@@ -1,0 +1,44 @@
+/* One run of skg80: everything that it holds open
+ *
+ * `main` sets it up, `output` takes what the board prints, punches and steps, `operator` does the operator's work.
+ */
+#ifndef SESSION_H
+#define SESSION_H
+
+#include "board.h"
+#include "debug.h"
+#include "drawn.h"
+#include "options.h"
+#include "symbols.h"
+#include "terminal.h"
+
+#include <stdio.h>
+
+enum {
+    ERROR_LINE = 16                 /* characters of the longest line with ERR: a line number has 4 */
+};
+
+typedef struct {
+    options o;
+    board *board;
+    debug *debug;                   /* NULL: nobody looks */
+    symbols *names;
+    terminal terminal;
+    terminal line;                  /* the machine's, with --punch-pty */
+    bool running;                   /* the part has been loaded and RUN or END typed */
+    pacer pacer;
+    FILE *paper, *punch, *steps;    /* NULL: nowhere */
+    FILE *picture;                  /* of the drive; NULL: none */
+    drawn *drawn;                   /* what goes onto it, */
+    uint64_t steps_drawn;           /* and how many steps are there already */
+    uint64_t printed;               /* characters on the paper */
+    char printing[ERROR_LINE + 1];  /* how the present line of it begins */
+    size_t line_length;             /* and how long it is */
+    bool below_error;               /* the line above is one with ERR */
+    const char *rest;               /* what is to be typed when the part is loaded; NULL: nothing */
+    int failed;                     /* errno of output that was lost; 0: none */
+    bool prompted;                  /* the machine has come to its first prompt */
+    uint8_t written[I8080_SPACE];   /* since then (--stats) */
+} session;
+
+#endif
