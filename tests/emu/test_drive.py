@@ -14,7 +14,10 @@ from asm8080 import assemble
 from emuhelp import ROM_SIZE, Skg80, complaint
 
 from skg.machine import Machine
+from skg.tape.drive import drive_steps
+from skg.tape.text import parse
 
+ROMS = Path(__file__).parents[2] / "roms"
 Rom = Callable[[str], Path]
 
 X_STEP, X_MINUS, Y_STEP, Y_MINUS, CUTTING = 1, 2, 4, 8, 0x80
@@ -340,6 +343,16 @@ def test_a_rom_without_a_drive_is_noticed(skg80: Skg80, tmp_path: Path, part: Ca
     assert b">DRIVE 1\r\n" in done.stderr
     assert b"skg80: the drive was told no step\n" in done.stderr
     assert not list(ElementTree.parse(tmp_path / "d.svg").iter("{http://www.w3.org/2000/svg}path"))
+
+
+def test_a_part_is_followed_past_its_stops(skg80: Skg80, tmp_path: Path, part: Callable[[str], Path]) -> None:
+    """The operator types DRIVE 1 before RUN, and presses a key at each D: the steps of the whole tape are made."""
+    path = part("10 FROM (0,0)\n20 CUT (0,0),(1,0)\n30 FROM (2,1)\n40 CUT (2,1),(2,0)\n\x1a")
+    done = skg80("--rom", ROMS / "skg-drive.bin", "--steps", tmp_path / "steps", path)
+    assert done.returncode == 0, done.stderr
+    tape = parse(done.stdout, "tape")
+    assert len(tape.stops) == 2
+    assert (tmp_path / "steps").read_bytes() == b"".join(drive_steps(tape))
 
 
 def test_hasty_steps_are_said(skg80: Skg80, rom_of: Rom) -> None:
