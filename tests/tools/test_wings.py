@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
@@ -73,6 +74,17 @@ def test_what_is_imported_is_there() -> None:
 def test_every_folder_is_a_wing() -> None:
     folders = {path.parent.name for path in SOURCES if path.parent.parent == ROOT / "skg"}
     assert folders == set(ALLOWED) - {COMMON}
+
+
+def test_hacking_tells_the_wings() -> None:
+    """The table of HACKING.md: each wing, and on which others it leans."""
+    rows = re.findall(r"^\| `(\w+)` \|.*\| (.*?) ?\|$", (ROOT.parent / "HACKING.md").read_text(), re.M)
+    assert len(rows) == len(ALLOWED) - 1
+    for name, leans in rows:
+        others = ALLOWED[name] - {COMMON}
+        if leans.startswith("all but "):
+            others = set(ALLOWED) - {COMMON, name} - others
+        assert set(re.findall(r"`(\w+)`", leans)) == others, name
 
 
 def test_wings_lean_on_those_below() -> None:

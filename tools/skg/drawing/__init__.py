@@ -1,1 +1,1 @@
-"""Drawings: from DXF to programs, from tapes to DXF and to pictures."""
+"""Drawings: DXF and SVG read, planned, and written as programs; tapes drawn, as DXF and as pictures."""

@@ -358,7 +358,7 @@ def _outline(element: ElementTree.Element, view: _View) -> svgelements.Path:
     return (found * view.matrix).reify()
 
 
-class _Path(svgelements.Path):
+class _PathData(svgelements.Path):
     """A path whose smooth curves go on from one of their own kind alone; behind another they begin as a line would."""
 
     def smooth_quad(self, *points: svgelements.Point, **options: bool) -> svgelements.Path:
@@ -380,7 +380,7 @@ def _path(data: str) -> svgelements.Path:
     if wrong or data.strip() and data.strip()[0] not in "Mm":
         raise ValueError(f"its path data, at {(wrong[0] if wrong else data.strip())[:10]}")
     try:
-        return _Path(data)
+        return _PathData(data)
     except _UNREADABLE:
         raise ValueError("its path data") from None
 
