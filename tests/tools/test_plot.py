@@ -18,6 +18,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
+from skg.drawing.page import as_it_stands
 from skg.drawing.plot import FEW, Picture, Sheet
 from skg.tape.laid import place
 from skg.tape.placed import Placed, stop_places
@@ -270,6 +271,12 @@ def test_block_numbers_never_pile_up() -> None:
     digits = [box.padded(-0.6, (6 - box.height) / 2) for box in boxes]
     assert min(box.height for box in digits) > 5.9
     assert not any(one.overlaps(other) for at, one in enumerate(digits) for other in digits[:at])
+
+
+def test_other_fonts_for_other_letters_alone() -> None:
+    """A title in letters that matplotlib's own font has is in that font; for others the installed ones are named."""
+    assert "fontfamily" not in as_it_stands("Größe 5 µm, Ø 3")
+    assert as_it_stands("零件 5")["fontfamily"][0] == "DejaVu Sans"
 
 
 if __name__ == "__main__":
