@@ -210,6 +210,11 @@ def test_style_sheets_in_other_files_are_said(before: str, content: str) -> None
     assert boxes(reading) == [WHERE]
 
 
+def test_a_page_that_is_transformed_itself_is_said() -> None:
+    reading = reading_of(page(PART, 'width="100mm" height="100mm" viewBox="0 0 100 100" transform="scale(4)"'))
+    assert reading.report.notes == ["the page itself is transformed (scale(4)): passed over"]
+
+
 def test_parts_of_a_page_without_a_size_are_left() -> None:
     content = '<rect width="50%" height="9"/><svg viewBox="0 0 1 1"><rect width="1" height="1"/></svg>' + PART
     reading = reading_of(page(content, ""))

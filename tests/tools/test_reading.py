@@ -551,10 +551,14 @@ def test_widths_are_said() -> None:
 
 
 def test_arcs_from_an_angle_to_the_same() -> None:
-    """One program's full circle is another one's nothing: it is said what was taken."""
+    """One program's full circle or ellipse is another one's nothing: it is said what was taken."""
     reading = checked(raw("ARC 8 A 10 0 20 0 40 5 50 270.0 51 270.0", "ARC 8 A 10 20 20 0 40 5 50 0 51 360"))
     assert [contour.is_closed for contour in reading.contours] == [True, True]
-    note = "1 arc on layer A from an angle to the same angle, as at (0, -5): a full circle is cut"
+    note = "1 arc on layer A from an angle to the same angle, as at (0, -5): a full turn is cut"
+    assert reading.report.notes == [note]
+    reading = checked(raw("ELLIPSE 8 A 10 0 20 0 30 0 11 5 21 0 31 0 40 0.5 41 0.0 42 0.0"))
+    assert [contour.is_closed for contour in reading.contours] == [True]
+    note = "1 arc on layer A from an angle to the same angle, as at (5, 0): a full turn is cut"
     assert reading.report.notes == [note]
 
 

@@ -39,6 +39,8 @@ _DEPTH = 32
 _MOST = 1_000_000
 #: A vertex of a polyline that is not on it, but pulls at it.
 _FRAME = 16
+#: The codes of the angles that an arc begins and ends at.
+_ANGLES = {"ARC": (50, 51), "ELLIPSE": (41, 42)}
 #: What an entity that cannot be read may raise.
 UNREADABLE = (DXFError, ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError, AssertionError)
 
@@ -144,7 +146,7 @@ class _Collector:
                         self.thick.append(account)
                     if _is_wide(record):
                         self.wide.append(account)
-                    if record.kind == "ARC" and record.value(50).strip() == record.value(51).strip():
+                    if _is_whole(record):
                         self.whole.append(account)
                 return
         except NotFlat as error:
@@ -360,6 +362,14 @@ def _ocs(entity: DXFGraphic) -> OCS | None:
     return None if Vec3(entity.dxf.extrusion).is_null else entity.ocs()
 
 
+def _is_whole(record: Record) -> bool:
+    """Whether an arc ends at the angle that it begins at."""
+    if record.kind not in _ANGLES:
+        return False
+    first, last = (record.value(code).strip() for code in _ANGLES[record.kind])
+    return first == last
+
+
 def _is_wide(record: Record) -> bool:
     """Whether a polyline is drawn with a width."""
     widths = [value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43)]
@@ -397,7 +407,7 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
         for record in file.paper:
             collector.account(record, record.layer).left = "in paper space"
     file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "the middle is cut")
-    file.notes += said(collector.whole, ("arc", "arcs"), "from an angle to the same angle", "a full circle is cut")
+    file.notes += said(collector.whole, ("arc", "arcs"), "from an angle to the same angle", "a full turn is cut")
     file.notes += said(
         collector.through, ("spline", "splines"), "through points alone", "between them the curve is guessed"
     )

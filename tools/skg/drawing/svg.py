@@ -457,6 +457,8 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
             marked.append(account)
         if edges and style.width * sqrt(abs(one.view.matrix.determinant)) * px > _WIDE:
             wide.append(account)
+    if file.style.transform:
+        content.notes.append(f"the page itself is transformed ({file.style.transform}): passed over")
     for name in file.elsewhere:
         content.notes.append(f"the style sheet {name} is in another file: passed over")
     if missed := file.sheet.missed:
