@@ -144,7 +144,8 @@ class Field:
 
     def _sizes(self) -> Floats:
         """The areas of all contours, mm²."""
-        x, y = (self._points - self._points[np.repeat(self._first[:-1], np.diff(self._first))]).T
+        counts = np.diff(self._first)
+        x, y = (column - np.repeat(column[self._first[:-1]], counts) for column in self._points.T)
         turned = np.zeros(len(x))
         turned[1:] = x[:-1] * y[1:] - x[1:] * y[:-1]
         # (each begins at 0, 0: what comes to it from the one before is nothing)

@@ -10,7 +10,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from skg.drawing.contour import Contour, Edge
+from skg.drawing.contour import Contour
+from skg.drawing.field import rows_of
 from skg.plane import XY
 
 #: The chords that stand for an arc here leave it by no more than this, mm.
@@ -62,24 +63,32 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
 
 
 def lines_of(contours: list[Contour]) -> NDArray[Any]:
-    """Contours as shapely's lines."""
-    found = [np.vstack([_points(edge) for edge in contour.edges]) for contour in contours]
-    numbers = np.repeat(np.arange(len(found)), [len(points) for points in found])
-    return shapely.linestrings(np.vstack(found), indices=numbers)
+    """Contours as shapely's lines: the points along each of their edges, both ends included."""
+    edges = [edge for contour in contours for edge in contour.edges]
+    rows = rows_of(edges)
+    arcs = np.flatnonzero(rows[:, 8])
+    chords = np.array([_chords(radius, sweep) for *_, radius, _, sweep in rows[arcs].tolist()], np.int64)
+    counts = np.array([len(edge.samples) or 2 for edge in edges], np.int64)
+    counts[arcs] = chords + 1
+    first = np.cumsum(counts) - counts
+    found = np.empty((int(counts.sum()), 2))
+    for many in np.unique(chords).tolist():
+        some = arcs[chords == many]
+        x, y, radius, begin, sweep = rows[some, 4:].T[:, :, None]
+        angles = np.linspace(begin[:, 0], (begin + sweep)[:, 0], many + 1, axis=1)
+        places = first[some, None] + np.arange(many + 1)
+        found[places, 0], found[places, 1] = x + radius * np.cos(angles), y + radius * np.sin(angles)
+    found[first], found[first + counts - 1] = rows[:, 0:2], rows[:, 2:4]
+    for at, edge in enumerate(edges):
+        if edge.nodes:
+            found[first[at] : first[at] + counts[at]] = edge.samples
+    owners = np.repeat(np.arange(len(contours)), [len(contour.edges) for contour in contours])
+    return shapely.linestrings(found, indices=np.repeat(owners, counts))
 
 
-def _points(edge: Edge) -> NDArray[np.float64]:
-    """Points along an edge, both ends included."""
-    if edge.nodes:
-        return edge.samples
-    if edge.centre is None:
-        return np.array([edge.start, edge.end])
-    step = 2 * acos(max(0.5, 1 - _CHORD / edge.radius))
-    first, last = edge.angles
-    angles = np.linspace(first, last, max(2, ceil(abs(edge.sweep) / step)) + 1)
-    found = np.array(edge.centre) + edge.radius * np.column_stack((np.cos(angles), np.sin(angles)))
-    found[0], found[-1] = edge.start, edge.end
-    return found
+def _chords(radius: float, sweep: float) -> int:
+    """How many chords stand for an arc."""
+    return max(2, ceil(abs(sweep) / (2 * acos(max(0.5, 1 - _CHORD / radius)))))
 
 
 def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
