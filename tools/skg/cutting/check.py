@@ -137,7 +137,7 @@ def drawn(route: PlannedContour) -> Iterator[Piece]:
 
 def _parts(route: PlannedContour) -> tuple[tuple[Edge, ...], ...]:
     """A contour's edges up to its tab, and those of the tab."""
-    return split_at_end(route.chain(), route.tab) if route.tab else (route.chain(),)
+    return split_at_end(route.chain, route.tab) if route.tab else (route.chain,)
 
 
 def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:

@@ -168,7 +168,7 @@ class SetupSheet:
         for p, q in zip(holes, holes[1:], strict=False):
             self.axes.plot(*zip(p, q, strict=True), color=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1)
         for route in self.job.routes:
-            edges = route.chain()
+            edges = route.chain
             edge = max(edges[: max(1, len(edges))], key=lambda edge: edge.length)
             size = min(_ARROW, edge.length * self.scale / 4)
             if size > 0.3:

@@ -155,7 +155,7 @@ class Contour:
         """Points along the contour, see `Edge.points`."""
         return [point for edge in self.edges for point in edge.points()[:-1]] + [self.edges[-1].end]
 
-    @property
+    @cached_property
     def area(self) -> float:
         """Signed area: positive when a closed contour runs counter-clockwise."""
         return sum(edge.area for edge in self.edges)

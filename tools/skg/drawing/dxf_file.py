@@ -195,19 +195,20 @@ def _records(groups: Iterable[Group]) -> Iterator[Record]:
 
 def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
     """The groups of a text file."""
-    lines = re.split("\r*\n|\r", text)
+    text = text.replace("\r\n", "\n")
+    lines = re.split("\r*\n|\r", text) if "\r" in text else text.split("\n")
     first = 0
     while first < len(lines) and not lines[first].strip():
         first += 1
     value = ""
-    has_commas = False
+    may_have_commas, has_commas = "," in text, False
     for at in range(first, len(lines) - 1, 2):
         try:
             code = int(lines[at])
         except ValueError:
             raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
         value = lines[at + 1]
-        if "," in value and _is_real(code) and _COMMA.fullmatch(value):
+        if may_have_commas and "," in value and _is_real(code) and _COMMA.fullmatch(value):
             value = value.replace(",", ".")
             if not has_commas:
                 notes.append("numbers are written with commas: read as decimal points")

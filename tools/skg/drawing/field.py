@@ -252,11 +252,22 @@ def points_of(contours: Sequence[Contour]) -> tuple[Floats, Whole]:
 def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> None:
     """Put the points of arcs behind their first ones, which are at some places."""
     inner = pieces - 1
-    x, y, radius, first, sweep = np.repeat(rows_of(arcs)[:, 4:], inner, axis=0).T
-    number = np.arange(inner.sum()) - np.repeat(np.cumsum(inner) - inner, inner) + 1
-    across, up = headings(first + number / np.repeat(pieces, inner) * sweep).T
-    places = np.repeat(at, inner) + number
+    rows = rows_of(arcs)
+    # (arcs that differ in place and size alone, as most holes do, have the same directions from their centres)
+    kinds, kind = np.unique(np.column_stack((rows[:, 7:9], pieces)), axis=0, return_inverse=True)
+    many = kinds[:, 2].astype(int) - 1
+    first, sweep, chords = np.repeat(kinds, many, axis=0).T
+    ways = headings(first + (_numbers(many) + 1) / chords * sweep)
+    number = _numbers(inner)
+    across, up = _columns(ways, np.repeat((np.cumsum(many) - many)[kind], inner) + number)
+    x, y, radius = (np.repeat(column, inner) for column in rows[:, 4:7].T)
+    places = np.repeat(at, inner) + number + 1
     found[places, 0], found[places, 1] = x + radius * across, y + radius * up
+
+
+def _numbers(counts: Whole) -> Whole:
+    """0, 1, 2 and so on, up to each of some counts in turn."""
+    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def rows_of(pieces: Sequence[Piece]) -> Floats:

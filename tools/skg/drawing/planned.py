@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, inf, pi, sin
 
 import numpy as np
@@ -105,13 +106,14 @@ class PlannedContour:
         """Whether it is cut from inside: what falls out is the slug."""
         return self.contour.is_closed and self.depth % 2 == 1
 
+    @cached_property
     def chain(self) -> tuple[Edge, ...]:
         """The edges from the entry on; a closed contour's come back to it."""
         return chain_from(self.contour, self.part)
 
     def runs(self) -> Iterator[Way]:
         """Every way of the wire, in order."""
-        edges = self.chain()
+        edges = self.chain
         passes = self.passes or (self.offset,)
         if not self.contour.is_closed:
             yield Way(edges, passes[-1])
