@@ -112,7 +112,7 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
     """Follow a tape and compare it with the routes that it should cut."""
     cuts, drift = follow(tape, routes, is_without_drift)
     contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
-    path = _Path(cuts)
+    path = _WirePath(cuts)
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
     faults, crossings, worst = _beside(path, contours, routes, offsets, widest)
@@ -178,7 +178,7 @@ def _spacing(pieces: Pieces, widest: float) -> float:
     return max(widest / 2, float(pieces.length.sum()) / _MOST_PLACES) if widest else np.inf
 
 
-class _Path:
+class _WirePath:
     """The wire's path: the pieces of all cuts, and how far the controller's steps go aside of each.
 
     What is compared with the drawing is where the controller goes. A piece and the largest of its steps tell that at
@@ -203,7 +203,7 @@ class _Path:
 
 
 def _beside(
-    path: _Path, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
+    path: _WirePath, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
 ) -> tuple[list[Misfit], list[Crossing], float]:
     """Whether every place of the wire lies as far beside its contour as it should."""
     wire = path.pieces
@@ -367,7 +367,7 @@ def _by_inner_corners(wire: Pieces, contours: Pieces, widest: float) -> tuple[Wh
 
 
 def _reached(
-    path: _Path, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
+    path: _WirePath, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
 ) -> tuple[list[Misfit], float]:
     """Whether the wire has been beside every place of the contours that it can reach."""
     faults: dict[tuple[int, int], Misfit] = {}
