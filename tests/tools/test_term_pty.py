@@ -204,6 +204,19 @@ def test_a_route_that_is_given_up_is_said(tmp_path: Path) -> None:
     assert b"part.skg: take care: the route of line 2 is given up by line 4" in done.stderr
 
 
+@pytest.mark.parametrize(("more", "is_said"), [("10 A=1\n", True), ("10 A=1\nFROM O\nCUT O,(5,0)\n", True),
+                                               ("BACK\n10 A=1\nFROM O\nCUT O,(5,0)\n", False)])  # fmt: skip
+def test_so_is_one_that_is_given_up_by_what_is_only_sent(tmp_path: Path, more: str, is_said: bool) -> None:
+    """Without --run, too; but nobody says RUN then, and a route that is open at the end may go on."""
+    part = tmp_path / "part.skg"
+    part.write_text(f"CUT O,(5,0),(5,5)\n{more}")
+    with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
+        done = term(machine.link, "--send", part, "--batch", "--record", tmp_path / "part.3b")
+    assert done.returncode == 0, done.stderr
+    assert (b"part.skg: take care: the route of line 1 is given up by line 2" in done.stderr) == is_said
+    assert done.stderr.count(b"given up") == is_said
+
+
 def test_the_words_of_an_error_are_none(tmp_path: Path) -> None:
     """PRINT writes them, in a program, in a line without a number and between the questions of INPUT: all is sent."""
     part, words = tmp_path / "part.skg", 'PRINT "ERR 05 LINE 20"'

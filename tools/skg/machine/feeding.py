@@ -66,12 +66,12 @@ def as_run(program: str) -> tuple[str, bool]:
     return (f"{program.partition(TAPE_END)[0]}\nEND\n" if rest == "END" else program), rest == "RUN"
 
 
-def given_up(program: str) -> str:
+def given_up(program: str, is_run: bool = True) -> str:
     """What to say of a program whose lines without numbers begin a route that a numbered one, or RUN, gives up without
-    a block (language.md, section 3); empty where there is none."""
+    a block (language.md, section 3); empty where there is none. `is_run`: RUN comes behind its last line."""
     opened, mixed = 0, any(map(is_numbered, lines_of(program)))
     lines = re.split(r"\r\n|[\r\n]", program.partition(TAPE_END)[0]) if mixed else []
-    for number, line in enumerate([*lines, "RUN"], 1):
+    for number, line in enumerate([*lines, "RUN"] if is_run else lines, 1):
         bare = _bare(line)
         if opened and (is_numbered(line) or bare == "RUN"):
             by = f"line {number}" if number <= len(lines) else "RUN"

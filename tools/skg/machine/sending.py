@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -166,11 +166,12 @@ class Typist:
             self.port.write(data[at : at + 1])
 
 
-def send(typist: Typist, lines: Iterable[TypedLine], name: str) -> None:
+def send(typist: Typist, lines: Sequence[TypedLine], name: str) -> None:
     """Type the lines of a file; the first that is answered with ERR is `Stopped`."""
+    _say_given_up(typist, lines, name, is_run=False)
     try:
         typist.begin()
-        _type_all(typist, list(lines), name)
+        _type_all(typist, lines, name)
     except _Refused as refused:
         more = ""
         if refused.error.number == MEMORY_FULL and is_numbered(refused.line.text):
@@ -188,9 +189,7 @@ def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: boo
     """
     program = "\n".join(line.text for line in lines)
     stored = any(is_numbered(line.text) for line in lines)
-    texts = {line.number: line.text for line in lines}
-    if lost := given_up("\n".join(texts.get(at, "") for at in range(1, max(texts, default=0) + 1))):
-        typist.teletype.say(f"{name}: {lost}")
+    _say_given_up(typist, lines, name, is_run=True)
     if stored and unnumbered:
         lines, stored = _plain(program, name), False
     if stored and typist.paced and not _store(typist, lines, name, program):
@@ -214,6 +213,12 @@ def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: boo
         if refused.error.number == MEMORY_FULL:
             more = f": {_too_large(program)}"
         raise Stopped(_refusal(refused, name, typist.paced) + more) from None
+
+
+def _say_given_up(typist: Typist, lines: Sequence[TypedLine], name: str, is_run: bool) -> None:
+    texts = {line.number: line.text for line in lines}
+    if lost := given_up("\n".join(texts.get(at, "") for at in range(1, max(texts, default=0) + 1)), is_run):
+        typist.teletype.say(f"{name}: {lost}")
 
 
 def finish(typist: Typist, quiet: float, needs_tape: bool) -> None:
@@ -261,7 +266,7 @@ def _clear(typist: Typist) -> None:
         raise Stopped("the board was in a program that asks: broken off, try again")
 
 
-def _type_all(typist: Typist, lines: list[TypedLine], name: str) -> None:
+def _type_all(typist: Typist, lines: Sequence[TypedLine], name: str) -> None:
     teletype = typist.teletype
     with tqdm(
         total=sum(len(line.text) for line in lines),
