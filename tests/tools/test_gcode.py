@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from itertools import groupby
 from math import hypot, pi
 from pathlib import Path
@@ -181,6 +182,82 @@ def test_what_is_guessed_is_said(run_program: Run, text: str, tape: str, said: l
     assert result.stderr.splitlines() == [f"skg: -: {line}" for line in said]
 
 
+#: What of G1 to G3 is no cut: the tape, and what is said.
+IDLE = {
+    # Lasers: S0 and M5 between cuts; S counts in its line, and stays; a dwell's and a fan's S is not the beam's.
+    "M4 S0\nG0 X1\nG1 X2 S500 F100\nX3 S0\nX4 S300\nM5\nG1 X0\nM2":
+        ("B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 D B4000B0B4000GXL3 DD", "2 of 4", "M5 or S0"),
+    "S9 M3\nG1 X1 F100\nG4 S0\nM106 S0\nX2\nM5 X3\nM4 X4\nM2":
+        ("B1000B0B1000GXL1 B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD", "1 of 4", "M5 or S0"),
+    "G1 X1 F100\nM3\nX2\nG2 X4 I1 S0\nG1 X5 S1\nM2":
+        ("B1000B0B1000GXL1 D B2000B0B2000GXL1 D B1000B0B1000GXL1 DD", "2 of 4", "M5 or S0"),
+    "M106 S255\nG1 X1 F100\nM107\nX2\nM106\nX3\nM106 S0\nX4\nM2":
+        ("B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD", "2 of 4", "M107 or S0"),
+    "M3\nM42 P6 S0\nG1 X1 F100\nM42 P6 S9\nX2\nM2": ("B1000B0B1000GXL1 B1000B0B1000GXL1 DD", "", ""),
+    "M42 P6 S0\nG1 X1 F100\nM42 P6 S9\nX2\nM2": ("B1000B0B1000GXL1 DD", "1 of 2", "M42 S0"),
+    # A fan beside a spindle is a fan; a spindle that nothing turns on, or that nobody has cut without, is none.
+    "M3\nM107\nG1 X1 F100\nM106\nX2\nM2": ("B1000B0B1000GXL1 B1000B0B1000GXL1 DD", "", ""),
+    "M5\nG1 X1 F100\nM107\nX2\nM2": ("B1000B0B1000GXL1 B1000B0B1000GXL1 DD", "", ""),
+    # Pens and cutters: G1 where the rapids are; a way up cuts; up and down without any rapid.
+    "G0 X1 Z5\nG1 Z0 F100\nX2\nX3 Z5\nX4\nZ0\nX5\nM2":
+        ("B1000B0B1000GXL1 B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD", "1 of 4", "up, Z5"),
+    "G1 Z5 F100\nX1\nZ0\nX2\nZ5\nX3\nZ0\nX4\nM2":
+        ("B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD", "2 of 4", "up, Z5"),
+    # Not so: passes, deeper and deeper; a laser's, whose rapids are where it cuts; a pocket with rapids in it.
+    "G1 Z3 F100\nX1\nZ0\nX0\nM2": ("B1000B0B1000GXL1 B1000B0B1000GXL3 DD", "", ""),
+    "G1 Z-1 F100\nX1\nZ-2\nX0\nZ-1\nX1\nM2": ("B1000B0B1000GXL1 B1000B0B1000GXL3 B1000B0B1000GXL1 DD", "", ""),
+    "G0 Z0\nX1\nG1 X2 F100\nG0 Z-1\nX1\nG1 X2\nM2":
+        ("B1000B0B1000GXL1 D B1000B0B1000GXL3 D B1000B0B1000GXL1 DD", "", ""),
+    "G0 Z5\nX1\nG1 Z-1 F100\nX2\nZ-2\nX1\nG0 Z-1\nX3\nG1 Z-3\nX4\nG0 Z5\nG1 X5\nM2":
+        ("B1000B0B1000GXL1 B1000B0B1000GXL3 D B2000B0B2000GXL1 D B1000B0B1000GXL1 B1000B0B1000GXL1 DD", "", ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", IDLE)
+def test_what_does_not_cut(text: str) -> None:
+    tape, counted, why = IDLE[text]
+    program = gcode.read(f"G21 G90\n{text}")
+    assert tapes.to_bytes(program.tape().items).decode().split() == tape.split()
+    said = f"{counted} moves with G1 to G3 do not cut: the "
+    said += f"tool is {why}" if "up" in why else f"beam is off ({why})"
+    assert program.notes == ((said,) if counted else ())
+
+
+def test_a_beam_that_is_never_on_is_none() -> None:
+    """Spindles that are turned on by hand, and posts that write S0 for them: cuts all the same, and said."""
+    program = gcode.read("G21 G90\nS0 M3\nG1 X1 F5\nX2\nM2")
+    assert tapes.to_bytes(program.tape().items).decode().split() == ["B1000B0B1000GXL1"] * 2 + ["DD"]
+    said = "each G1 finds the beam off (M5 or S0), as if nothing were cut: taken for cuts all the same"
+    assert program.guesses == (f"line 2, column 1: {said}",)
+
+
+def test_what_does_not_cut_in_pictures(run: Run, tmp_path: Path) -> None:
+    """Dashed in a picture, on the layer MOVES of a drawing, arcs too; check says it, and finds nothing wrong."""
+    tape, picture, drawing = (tmp_path / name for name in ("part.nc", "part.svg", "part.dxf"))
+    tape.write_text("G21 G90\nM4 S0\nG0 X1\nG1 X9 S5 F60\nG3 X9 Y4 J2 S0\nG1 X1 S5\nM5\nG1 X0 Y0\nM2\n")
+    note = f"skg: {tape}: 2 of 4 moves with G1 to G3 do not cut: the beam is off (M5 or S0)\n"
+    made = run("plot", tape, "-o", picture)
+    assert (made.exit_code, made.stderr) == (0, note)
+    assert picture.read_text().count("stroke-dasharray") >= 1
+    assert run("dxf", tape, "-o", drawing).stderr == note
+    entities = re.findall(r"^  0\n(LINE|ARC)\n(?:.*\n)*?  8\n(\w+)\n", drawing.read_text(), re.M)
+    assert sorted(entities) == [("ARC", "MOVES"), ("LINE", "MOVES"), ("LINE", "WIRE"), ("LINE", "WIRE")]
+    checked = run("check", tape)
+    assert (checked.exit_code, checked.stdout) == (0, f"{tape}: 9 lines, nothing wrong\n")
+    assert checked.stderr == note
+
+
+@pytest.mark.parametrize(("text", "wanted"), [
+    # As CAM packages begin and end: Z home in the beginning, all of it in the end.
+    ("G28 G91 Z0\nG90\nG0 X1 Y1\nG0 Z5\nG1 Z-1 F5\nX2\nG0 Z5\nG28 G91 Z0\nG28\nM30", "B1000B0B1000GXL1 DD"),
+    ("G53 G0 Z0\nG0 X1 Y1 Z5\nG1 Z-1 F5\nX2\nG53 G0 Z0\nG53 G0 X0 Y0\nM30", "B1000B0B1000GXL1 DD"),
+    # From a place of the machine's own a rapid goes on.
+    ("G1 X1 F5\nG28 X0 Y0\nG0 X3 Y0\nG1 X4\nM2", "B1000B0B1000GXL1 D B2000B0B2000GXL1 D B1000B0B1000GXL1 DD"),
+])  # fmt: skip
+def test_home(text: str, wanted: str) -> None:
+    assert back(f"G21 G90\n{text}").decode().split() == wanted.split()
+
+
 def test_a_place_is_named_anew() -> None:
     """G92 in mid-program moves no tool: what is drawn goes on from where it was; a word left out keeps its place."""
     program = gcode.read("G21 G90 F5\nG1 X10\nY10\nG92 X0 Y0\nX5\nG92 X0\nX-1 Y1\nG91\nX1\nG90\nX0 Y0\nM2")
@@ -216,6 +293,11 @@ def test_holes_and_stops() -> None:
     ("G21 G91 G1 X123456.789\nM02", "line 1: B123456789B0B123456789GXL1 has a number of more than 8 digits"),
     ("G1 Xµ", "-: byte 5 is not ASCII"),
     ("G21 G90\nG1 X1 F5\nG4 X2\nM2", "-: line 3, column 4: X in a line with G4: a time, or a place to go to?"),
+    ("G21 G90\nG28 X0 Y0\nG1 X1 Y1 F5\nM2",
+     "-: line 3, column 4: from a place of the machine's own, expected a rapid to X and Y"),
+    ("G21 G90\nG30\nG0 X1\nM2", "-: line 3, column 4: from a place of the machine's own, expected a rapid to X and Y"),
+    ("G21 G90 G1 F5\nG53 X1\nM2", "-: line 2, column 5: G53 in a line that cuts"),
+    ("M3 M5\nM2", "-: line 1, column 4: M3 and M5 in one line"),
     ("G21 G90\nG0 G1 X1\nM2", "-: line 2, column 4: G0 and G1 in one line"),
     ("G21 G90 G91\nM2", "-: line 1, column 9: G90 and G91 in one line"),
     ("G21 G90\nG0 X1\nG80\nX2\nM2", "-: line 4, column 1: a place to go to, and no G00…G03 behind G80"),
@@ -249,6 +331,9 @@ def test_bad_options(run_program: Run, cad_tape: Path, options: list[str], messa
     (f"%\n{OURS}%\n", ["line 1, column 1: GRBL does not know %", "line 10, column 1: GRBL does not know %"]),
     (OURS.replace("N8", f"(x{'x' * 70})"), ["line 8, column 71: a line of 76 characters, GRBL takes 70"]),
     (OURS.replace("N8M30\n", ""), ["line 8, column 1: expected M02 or M30, found the end of the program"]),
+    (OURS.replace("N8M30\n", "").replace("N2", "M3"),
+     ["line 8, column 1: expected M02 or M30, found the end of the program, with beam or spindle on"]),
+    (f"$32 = 1\n{OURS}M5\n", ["line 1, column 1: a setting of GRBL's: no other control knows $"]),
     ("G21G90\nG1X9000Y0F5\nG3X9000Y0.001I-9000J0\nM2",
      ["line 3, column 3: an arc so flat that LinuxCNC and GRBL take it for a full circle"]),
     ("G21G90\nG1X?F5\nG7\nM2", ["line 2, column 3: expected a word such as G01 or X-9900, found 'X'",
