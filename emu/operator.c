@@ -87,6 +87,12 @@ static bool asks_machine(const session *s)
     return s->o.punch_pty && board_reader_silence(s->board) > MACHINE_PATIENCE;
 }
 
+/* What the machine has said by now is in the reader, where a block that goes out finds it: it is no answer to that block. */
+static bool hear_machine(session *s)
+{
+    return !s->o.punch_pty || terminal_feed(&s->line, s->board, 0);
+}
+
 /* Lets the machine run until it asks the operator something, has lost output or used up all cycles. BOARD_WAIT only when
  * it says nothing for too long. */
 static board_reason until_asked(session *s)
@@ -94,6 +100,9 @@ static board_reason until_asked(session *s)
     i8080 *c = &s->board->cpu;
     uint64_t printed = s->printed, since = c->cycles;
     while (c->cycles < s->o.max_cycles) {
+        if (s->running && !hear_machine(s)) {
+            return BOARD_CYCLES;
+        }
         board_reason reason = run_slice(s);
         if (!output_flush(s) || left(s)) {
             return reason;
@@ -205,6 +214,9 @@ int operator_terminal(session *s)
     uint64_t since_end = 0;
     bool told = false;
     for (;;) {
+        if (!hear_machine(s)) {
+            return complain(EXIT_ERR, "out of memory");
+        }
         board_reason reason = run_slice(s);
         int wait = 0;
         if (!output_flush(s)) {
@@ -247,8 +259,7 @@ int operator_terminal(session *s)
             return complain(EXIT_ERR, "the input ended in the middle of `%s`", s->board->line);
         }
         bool idle = told || asks_machine(s);
-        if (!terminal_listen(t, s->board, idle && !wait ? SLICE_MS : wait)
-            || (asks_machine(s) && !terminal_feed(&s->line, s->board, 0))) {
+        if (!terminal_listen(t, s->board, idle && !wait ? SLICE_MS : wait)) {
             return complain(EXIT_ERR, "out of memory");
         }
         if (t->reset) {

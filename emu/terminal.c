@@ -279,7 +279,7 @@ bool terminal_listen(terminal *t, board *b, int milliseconds)
 bool terminal_feed(terminal *t, board *b, int milliseconds)
 {
     struct pollfd line = { .fd = t->in, .events = POLLIN };
-    uint8_t bytes[256];
+    uint8_t bytes[4096];        /* all that a line holds */
     if (poll(&line, 1, milliseconds) <= 0) {
         return true;
     }

@@ -169,16 +169,21 @@ def test_silence_waits(part: Path) -> None:
     assert machine.raw == mill.run(PART, line_end="\n").tape
 
 
-def test_ctrl_c_ends_the_wait() -> None:
-    """What was said before the tape is no answer."""
+@pytest.mark.parametrize(
+    "before", [GREETING + OK, b"error:9\r\nALARM:1\r\n", b"error:9\r\n" * 300], ids=["ok", "error", "much"]
+)
+def test_ctrl_c_ends_the_wait(before: bytes) -> None:
+    """What was said before the tape is no answer: an `ok` to what a pendant sent, to the M0 of the last run."""
     with terminal("--rom", ROMS / "skg-grbl.bin") as (teletype, line):
         until(teletype, b">")
         for text in PART.splitlines():
             os.write(teletype, text.encode() + b"\r")
             until(teletype, b">")
-        os.write(line, GREETING + OK)
+        os.write(line, before)
         os.write(teletype, b"RUN\r")
         assert until(line, b"\n") == b"N1G17G21G90G94\n"
+        assert select.select([line, teletype], [], [], 0.3)[0] in ([], [teletype])
+        assert not select.select([line], [], [], 0)[0]
         os.write(line, OK)
         assert until(line, b"\n") == b"N2G0Z3\n"
         os.write(teletype, b"\x03")
