@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 static const char USAGE[] =
@@ -117,6 +118,13 @@ static bool decimal_number(const char *text, double least, double most, double *
     char *end;
     *value = strtod(text, &end);
     return end != text && !*end && *value >= least && *value <= most;
+}
+
+/* Does a file's name promise no other kind of picture? */
+static bool may_be_svg(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return !dot || !strcasecmp(dot, ".svg");
 }
 
 /* The step at which the drive is to stop: N, or N,stay. */
@@ -238,6 +246,10 @@ int options_read(int argc, char **argv, options *o)
             o->punch_pty = true;
             break;
         case DRIVE:
+            if (!may_be_svg(optarg)) {
+                return complain(EXIT_USAGE, "--drive %s: what it draws is SVG: expected a name that ends in .svg",
+                                optarg);
+            }
             o->drive = optarg;
             break;
         case STEPS:

@@ -317,6 +317,7 @@ def test_stop_and_feed_options(skg80: Skg80, tmp_path: Path, rom_of: Rom) -> Non
         (["--feed", "50Hz"], "--feed 50Hz: not 0.01 to 1000000"),
         (["--feed", "nan"], "--feed nan: not 0.01 to 1000000"),
         (["--drive"], "--drive needs a value"),
+        (["--drive", "a.svg/x.png"], "--drive a.svg/x.png: what it draws is SVG: expected a name that ends in .svg"),
         (["--drive", "x", "--steps", "x"], "x: one file for two purposes"),
         (["--drive", "/nowhere/x.svg"], "/nowhere/x.svg: No such file or directory"),
         (["--com", "x", "--steps", "y"], "--com goes with --stats and --max-cycles alone"),
