@@ -251,7 +251,8 @@ def test_what_does_not_cut_in_pictures(run: Run, tmp_path: Path) -> None:
     # As CAM packages begin and end: Z home in the beginning, all of it in the end.
     ("G28 G91 Z0\nG90\nG0 X1 Y1\nG0 Z5\nG1 Z-1 F5\nX2\nG0 Z5\nG28 G91 Z0\nG28\nM30", "B1000B0B1000GXL1 DD"),
     ("G53 G0 Z0\nG0 X1 Y1 Z5\nG1 Z-1 F5\nX2\nG53 G0 Z0\nG53 G0 X0 Y0\nM30", "B1000B0B1000GXL1 DD"),
-    # From a place of the machine's own a rapid goes on.
+    # From a place of the machine's own a rapid goes on; or it is named, before anything is cut.
+    ("G28\nG92 X1 Y1\nG1 X2 F5\nM2", "B1000B0B1000GXL1 DD"),
     ("G1 X1 F5\nG28 X0 Y0\nG0 X3 Y0\nG1 X4\nM2", "B1000B0B1000GXL1 D B2000B0B2000GXL1 D B1000B0B1000GXL1 DD"),
 ])  # fmt: skip
 def test_home(text: str, wanted: str) -> None:
@@ -296,6 +297,7 @@ def test_holes_and_stops() -> None:
     ("G21 G90\nG28 X0 Y0\nG1 X1 Y1 F5\nM2",
      "-: line 3, column 4: from a place of the machine's own, expected a rapid to X and Y"),
     ("G21 G90\nG30\nG0 X1\nM2", "-: line 3, column 4: from a place of the machine's own, expected a rapid to X and Y"),
+    ("G21 G90 G1 X1 F5\nG28\nG92 X0 Y0\nM2", "-: line 3, column 5: G92 at a place of the machine's own"),
     ("G21 G90 G1 F5\nG53 X1\nM2", "-: line 2, column 5: G53 in a line that cuts"),
     ("M3 M5\nM2", "-: line 1, column 4: M3 and M5 in one line"),
     ("G21 G90\nG0 G1 X1\nM2", "-: line 2, column 4: G0 and G1 in one line"),

@@ -531,6 +531,10 @@ class _Reader:
         named = {letter: self.value(values, letter, here[letter] - self.origin[letter]) for letter in "XY"}
         if "Z" in values:
             self.height = self.value(values, "Z", Decimal(0))
+        if self.is_away and {"X", "Y"} <= values.keys():
+            if self.begun:
+                raise _Misread(min(word.column for word in values.values()), "G92 at a place of the machine's own")
+            self.is_away = False
         if self.begun:
             self.origin = {letter: here[letter] - named[letter] for letter in "XY"}
         else:
