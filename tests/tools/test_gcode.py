@@ -9,7 +9,7 @@ from math import hypot, pi
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from test_tape import blocks
 from toolhelp import CAD_TAPE, Run
@@ -100,6 +100,8 @@ def laid(tape: Tape) -> list[PlacedRoute]:
 
 
 @given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0)))), st.booleans())
+@example([Block(0, 1, 2, "X", "NR2", 0), Block(0, 1, 1, "Y", "L2", 0)], False)
+@example([Block(0, 2000001, 8000002, "X", "SR1", 0)], False)
 def test_round_trip(items: list[Block | Stop], mills: bool) -> None:
     tape = tapes.parse(tapes.to_bytes(items))
     text = gcode.write(tape, heights=(-1000, 5000) if mills else None, positions="programmed")
@@ -112,7 +114,13 @@ def test_round_trip(items: list[Block | Stop], mills: bool) -> None:
         in_a_row = [[one for one, _ in groupby(place for route in routes for place in route)] for routes in cuts]
         assert in_a_row[0] == in_a_row[1]
         return
-    if not any(map(is_changed, tape.blocks)):
+    # (an arc of 1 µm whose end gave one, so that the route closes, may end at its centre: a line)
+    ends_inside = any(
+        not placed.is_line and placed.centre in (placed.start, placed.end)
+        for route in laid(tape)
+        for placed in route.blocks
+    )
+    if not ends_inside and not any(map(is_changed, tape.blocks)):
         assert tapes.to_bytes(again.items) == tapes.to_bytes(items)
     assert len(again.stops) == len(tape.stops)
     assert vertices(laid(again)) == vertices(laid(tape))

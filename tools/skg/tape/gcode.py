@@ -138,7 +138,8 @@ def write(
 
 
 def _cut(writer: _GcodeWriter, placed: Placed, feed: str) -> None:
-    """A block that cuts; an arc so flat that a control might take it for a full circle as a line (milling.md)."""
+    """A block that cuts; as a line an arc with an end at its centre, or so flat that a control might take it for a full
+    circle (milling.md)."""
     end, turns = _grid(placed.end), abs(placed.sweep)
     if not placed.is_line and turns > 2 * pi - 1e-9:
         # Round once, and the few µm by which a block goes on.
@@ -147,7 +148,7 @@ def _cut(writer: _GcodeWriter, placed: Placed, feed: str) -> None:
         return
     (dx, dy), (x, y) = _minus(end, writer.at), placed.block.start
     is_flat = turns <= pi and (dx * dx + dy * dy) ** 2 <= 4 * (x * x + y * y)
-    if placed.is_line or is_flat:
+    if placed.is_line or is_flat or _grid(placed.centre) in (writer.at, end):
         writer.line(end, feed)
     else:
         writer.arc(end, _grid(placed.centre), placed.block.sense, feed)
@@ -687,7 +688,7 @@ class _Reader:
             raise _Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
         sense = 1 if self.motion == 3 else -1
         cross, dot = sense * (xs * to_end[1] - ys * to_end[0]), xs * to_end[0] + ys * to_end[1]
-        if start != end and dot > 0 and abs(cross) < LEAST_SWEEP * dot:
+        if start != end and 0 <= cross < LEAST_SWEEP * dot:
             self.warn(column, "an arc so flat that LinuxCNC and GRBL take it for a full circle")
         yield from self.lay(arc_block((xs, ys), to_end, sense), start, end, cuts)
 
