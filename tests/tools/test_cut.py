@@ -646,9 +646,12 @@ def test_a_tab_goes_around_corners(run: Run, tmp_path: Path) -> None:
     assert "too short for the tab, at most 6.265 mm fits" in message
 
 
-@pytest.mark.parametrize(("size", "columns"), [(1.0, 1), (500.0, 11)])
-def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
-    """Numbers do not touch each other, the part or another hole's mark; marks are smaller than what they mark."""
+@pytest.mark.parametrize(("size", "columns", "kinds"), [
+    (1.0, 1, ["outline", "opening"]), (500.0, 11, ["outline", "opening"]), (100.0, 23, ["outline"]),
+])  # fmt: skip
+def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> None:
+    """Numbers do not touch each other, other texts, the part or another hole's mark; marks are smaller than what they
+    mark."""
     from skg.cutting.job import Settings, make
     from skg.cutting.sheet import Facts, SetupSheet
     from skg.drawing.contour import Contour, Edge
@@ -660,7 +663,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
             tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)),
             True,
         )
-    ]
+    ] * (len(kinds) - 1)
     for at in range(columns**2):
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
@@ -671,10 +674,19 @@ def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
     sheet.save(str(tmp_path / "sheet.svg"), "svg")
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
     to_page = sheet.axes.transData.inverted()
-    texts = [text for text in sheet.axes.texts if text.get_gid() == "number"]
-    assert sorted(int(text.get_text()) for text in texts) == list(range(1, len(contours) + 1))
-    boxes = [shapely.box(*to_page.transform_bbox(text.get_window_extent(renderer)).extents) for text in texts]
+    boxes, others = [], []
+    for text in sheet.axes.texts:
+        box = shapely.box(*to_page.transform_bbox(text.get_window_extent(renderer)).extents)
+        (boxes if text.get_gid() == "number" else others).append(box)
+    numbers = [int(text.get_text()) for text in sheet.axes.texts if text.get_gid() == "number"]
+    assert numbers == sorted(set(numbers)) and set(numbers) <= set(range(1, len(contours) + 1))
+    left_out = next((text.get_text() for text in sheet.axes.texts if "without room" in text.get_text()), "0 ")
+    assert len(numbers) + int(left_out.split()[0]) == len(contours) and len(numbers) >= min(len(contours), 122)
+    assert len(others) > 5 * len(sheet.job.routes[:300])
+    assert not len(shapely.STRtree(others).query(boxes, "intersects")[0])
     marks = [Point(patch.center).buffer(patch.radius) for patch in sheet.axes.patches if patch.get_gid() == "hole"]
+    for many in (one for one in sheet.axes.collections if one.get_gid() == "holes"):
+        marks += [shapely.Polygon(path.to_polygons()[0]) for path in many.get_paths()]
     part = [LineString([sheet.on_paper(point) for point in one.contour.points()]) for one in job.routes]
     assert len(marks) == len(part) == len(contours)
     for here in (boxes, marks):
@@ -694,8 +706,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int) -> None:
         "part.3b",
         f"{job.cut_length:.1f} mm",
         "0.18 mm, gap 0.01 mm",
-        "opening",
-        "outline",
+        *kinds,
     ):
         assert word in text
 

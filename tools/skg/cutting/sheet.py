@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import date
 from math import ceil, cos, pi, sin
 from unicodedata import east_asian_width
 
 import numpy as np
+import shapely
 from matplotlib import path as paths
+from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.transforms import Affine2D
@@ -17,10 +19,11 @@ from matplotlib.transforms import Affine2D
 from skg.cutting.check import drawn
 from skg.cutting.job import Job, kind
 from skg.drawing.account import short, shown
-from skg.drawing.contour import Places
+from skg.drawing.contour import Edge, Places
 from skg.drawing.page import as_it_stands, save
-from skg.drawing.plot import outline
+from skg.drawing.plot import FEW, outlines
 from skg.plane import XY, distance
+from skg.tape.laid import Laid
 from skg.tape.simulation import duration
 
 #: The page lies on its side: A4, and A3 where A4 has no room for the table; mm.
@@ -41,6 +44,10 @@ _MOST_NUMBERS = 1000
 #: Numbers are looked for room on a grid of this, mm, no further from their holes than the second.
 _GRID, _FAR = 0.4, 14.0
 _FONT = 6.0
+#: Ways from a hole to its number, in the order in which they are tried.
+_AROUND_A_HOLE = np.array([(cos(pi / 4 + turn * pi / 6), sin(pi / 4 + turn * pi / 6)) for turn in range(12)])
+#: So many straight lines are laid on the grid at once.
+_LINES = 100_000
 #: A fact at the foot of the page, and how small its letters may be.
 _FACT, _SMALL = 6.5, 4.0
 #: A point of a font in mm; how wide a character is, in font sizes.
@@ -70,16 +77,25 @@ class _Taken:
         at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
         self.cells[at[:, 0], at[:, 1]] = True
 
-    def _box(self, low: XY, high: XY) -> tuple[slice, slice]:
-        return tuple(slice(max(0, int(a / _GRID)), max(0, int(b / _GRID) + 1)) for a, b in zip(low, high, strict=True))
+    def _corners(self, places: np.ndarray, behind: int) -> np.ndarray:
+        """The cells of places, or those `behind` them, as ends of slices."""
+        return np.clip((places / _GRID).astype(int) + behind, 0, self.cells.shape)
 
-    def is_free(self, low: XY, high: XY) -> bool:
-        """Whether nothing is in a box."""
-        return not self.cells[self._box(low, high)].any()
+    def are_free(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """In which of some boxes, near to each other, nothing is; their lower and upper corners (n × 2)."""
+        low, high = self._corners(low, 0), self._corners(high, 1)
+        first, last = low.min(axis=0), high.max(axis=0)
+        window = self.cells[first[0] : last[0], first[1] : last[1]]
+        # How many cells are taken below and left of each: four of these sums tell how many in a box.
+        sums = np.zeros((window.shape[0] + 1, window.shape[1] + 1), int)
+        sums[1:, 1:] = window.cumsum(axis=0, dtype=int).cumsum(axis=1)
+        (left, bottom), (right, top) = (low - first).T, (high - first).T
+        return sums[right, top] - sums[left, top] - sums[right, bottom] + sums[left, bottom] == 0
 
     def take(self, low: XY, high: XY) -> None:
         """Take a box."""
-        self.cells[self._box(low, high)] = True
+        (left, bottom), (right, top) = self._corners(np.array(low), 0), self._corners(np.array(high), 1)
+        self.cells[left:right, bottom:top] = True
 
 
 class SetupSheet:
@@ -112,9 +128,9 @@ class SetupSheet:
 
     def _place(self) -> None:
         """Where the part lies on the page, and its scale."""
-        outlines = [outline(piece) for route in self.job.routes for piece in drawn(route)]
-        self.curve = paths.Path.make_compound_path(*outlines)
-        points = np.array([point for route in self.job.routes for piece in drawn(route) for point in piece.extremes()])
+        pieces = [piece for route in self.job.routes for piece in drawn(route)]
+        self.curve = outlines(pieces)
+        points = np.array([point for piece in pieces for point in piece.extremes()])
         # (a bound of -1e-17 is 0)
         self.low, self.high = (tuple(np.round(bound, 6) + 0.0) for bound in (points.min(0), points.max(0)))
         holes = np.array([route.start for route in self.job.routes] + [self.low, self.high])
@@ -130,56 +146,68 @@ class SetupSheet:
         self.shift = tuple(m - self.scale * (a + b) / 2 for m, a, b in zip(middle, low, high, strict=True))
 
     def on_paper(self, place: XY) -> XY:
-        """A place of the part on the page, mm."""
+        """A place of the part on the page, mm; numbers, or columns of them."""
         return place[0] * self.scale + self.shift[0], place[1] * self.scale + self.shift[1]
+
+    def _all_on_paper(self, places: Iterable[XY]) -> np.ndarray:
+        """Places of the part on the page (n × 2), mm."""
+        return np.column_stack(self.on_paper(np.array(list(places), float).reshape(-1, 2).T))
 
     def _patch(self, curve: paths.Path, unit: float, **look: object) -> None:
         to_page = Affine2D().scale(unit * self.scale).translate(*self.shift)
         # (add_patch would look for the bounds of every curve)
         self.axes.add_artist(PathPatch(curve, fill=False, transform=to_page + self.axes.transData, **look))
 
+    def _lines(self, places: np.ndarray, **look: object) -> None:
+        """Draw lines through as many places of the page each (n × places × 2), all as one curve."""
+        codes = [paths.Path.MOVETO, *[paths.Path.LINETO] * (places.shape[1] - 1)]
+        curve = paths.Path(places.reshape(-1, 2), np.tile(codes, len(places)))
+        self.axes.add_artist(PathPatch(curve, fill=False, joinstyle="round", **look))
+
     def _part(self) -> None:
         self._patch(self.curve, 1.0, edgecolor=_INK, linewidth=0.7, zorder=3, gid="part")
-        for route in self.job.routes:
-            for edge in route.contour.edges:
-                points = np.array([self.on_paper(point) for point in edge.points()])
-                self._take_line(points)
+        lines = [edge.points() for route in self.job.routes for edge in route.contour.edges]
+        starts = self._all_on_paper(place for points in lines for place in points[:-1])
+        self._take_lines(starts, self._all_on_paper(place for points in lines for place in points[1:]))
 
-    def _take_line(self, points: np.ndarray) -> None:
-        way = points[1:] - points[:-1]
-        count = (np.hypot(*way.T) / _GRID * 1.5).astype(int) + 2
-        which = np.repeat(np.arange(len(way)), count)
-        part = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
-        self.taken.along(points[which] + part[:, None] * way[which])
+    def _take_lines(self, starts: np.ndarray, ends: np.ndarray) -> None:
+        """Take what straight lines between places of the page (n × 2) pass."""
+        for first in range(0, len(starts), _LINES):
+            begin, way = (part[first : first + _LINES] for part in (starts, ends - starts))
+            count = (np.hypot(*way.T) / _GRID * 1.5).astype(int) + 2
+            which = np.repeat(np.arange(len(way)), count)
+            part = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
+            self.taken.along(begin[which] + part[:, None] * way[which])
 
     def _wire(self) -> None:
         """The wire's path, the moves between start holes, an arrow on each contour."""
-        curves = [outline(piece) for cut in self.job.checked.cuts for piece in cut.pieces]
-        if curves:
-            self._patch(
-                paths.Path.make_compound_path(*curves), 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire"
-            )
-        for cut in self.job.checked.cuts:
+        cuts = [cut.pieces for cut in self.job.checked.cuts if len(cut.pieces)]
+        if cuts:
+            self._patch(outlines(Laid.joined(cuts)), 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire")
             # (what lies beside the contours: leads)
-            for piece in (*cut.pieces[:1], *cut.pieces[-1:]):
-                ends = [self.on_paper((x / 1000, y / 1000)) for x, y in (piece.start, piece.end)]
-                self._take_line(np.array(ends))
-        holes = [self.on_paper(route.start) for route in self.job.routes]
-        for p, q in zip(holes, holes[1:], strict=False):
-            self.axes.plot(*zip(p, q, strict=True), color=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1)
-        for route in self.job.routes:
-            edges = route.chain
-            edge = max(edges[: max(1, len(edges))], key=lambda edge: edge.length)
-            size = min(_ARROW, edge.length * self.scale / 4)
-            if size > 0.3:
-                self._arrow(edge.at(0.5), edge.direction(0.5) if not edge.nodes else _way(edge.samples), size)
+            starts, ends = (
+                self._all_on_paper(np.concatenate([places[[0, -1]] for places in side]) / 1000)
+                for side in ([cut.starts for cut in cuts], [cut.ends for cut in cuts])
+            )
+            self._take_lines(starts, ends)
+        holes = self._all_on_paper(route.start for route in self.job.routes)
+        moves = np.stack([holes[:-1], holes[1:]], axis=1)
+        self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
+        arrows = [arrow for route in self.job.routes if (arrow := self._arrow(route.chain))]
+        if arrows:
+            self._lines(np.array(arrows), edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
 
-    def _arrow(self, place: XY, way: float, size: float) -> None:
-        """An arrow beside a contour shows the way and covers nothing: it is open and thin."""
-        x, y = self.on_paper(place)
-        head = [(x - size * cos(way + turn), y - size * sin(way + turn)) for turn in (0.4, -0.4)]
-        points = [head[0], (x, y), head[1]]
-        self.axes.plot(*zip(*points, strict=True), color=_WIRE, linewidth=0.7, zorder=4, gid="arrow")
+    def _arrow(self, edges: Sequence[Edge]) -> list[XY]:
+        """An arrow on the longest edge of a contour shows the way and covers nothing: it is open and thin. None where
+        it would be too small."""
+        edge = max(edges, key=lambda edge: edge.length)
+        size = min(_ARROW, edge.length * self.scale / 4)
+        if size <= 0.3:
+            return []
+        x, y = self.on_paper(edge.at(0.5))
+        way = edge.direction(0.5) if not edge.nodes else _way(edge.samples)
+        ends = [(x - size * cos(way + turn), y - size * sin(way + turn)) for turn in (0.4, -0.4)]
+        return [ends[0], (x, y), ends[1]]
 
     def _dimensions(self) -> None:
         """Width and height of the part, and where its lower left corner lies on the drawing."""
@@ -190,11 +218,15 @@ class SetupSheet:
         width, height = self.high[0] - self.low[0], self.high[1] - self.low[1]
         self._dimension((left, under), (right, under), (left, bottom), (right, bottom), f"{short(width)}")
         self._dimension((beside, bottom), (beside, top), (left, bottom), (left, top), f"{short(height)}")
-        self._text((left, under - 5.2), f"lower left corner at {shown(self.low)}", 5, _GREY)
+        corner, size = f"lower left corner at {shown(self.low)}", 5
+        half = self._half_a_box(corner, size)
+        self._text((left, under - 5.2), corner, size, _GREY)
+        self.taken.take((left, under - 5.2 - half[1]), (left + 2 * half[0], under - 5.2 + 2 * half[1]))
 
     def _dimension(self, one: XY, other: XY, from_one: XY, from_other: XY, text: str) -> None:
         for p, q in ((one, other), (one, from_one), (other, from_other)):
             self.axes.plot(*zip(p, q, strict=True), color=_GREY, linewidth=0.35, zorder=1)
+            self._take_lines(np.array([p]), np.array([q]))
         length, is_flat = distance(one, other), one[1] == other[1]
         size = min(1.6, length / 3)
         for tip, way in ((one, 0.0), (other, pi)):
@@ -204,55 +236,66 @@ class SetupSheet:
         middle = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
         place = (middle[0], middle[1] - 2.4) if is_flat else (middle[0] - 2, middle[1])
         self._text(place, text, 7, _INK, ha="center", va="center", rotation=0 if is_flat else 90)
+        half = self._half_a_box(text, 7)[:: 1 if is_flat else -1]
+        self.taken.take(place - half, place + half)
+
+    @staticmethod
+    def _half_a_box(text: str, size: float) -> np.ndarray:
+        """Half the width and half the height of a text, mm."""
+        return np.array([(len(text) * _WIDE * 1.1 + 0.2) * size * _POINT / 2, 0.65 * size * _POINT])
 
     def _text(self, place: XY, text: str, size: float, colour: str, **how: object) -> None:
         self.axes.text(*place, **as_it_stands(text), fontsize=size, color=colour, **how)
 
     def _holes(self) -> int:
         """Mark and number the start holes; returns how many numbers found no room."""
-        places = np.array([self.on_paper(route.start) for route in self.job.routes])
-        radii = [self._radius(at, places) for at in range(len(places))]
-        for (x, y), radius in zip(places, radii, strict=True):
-            mark = Circle((x, y), radius, fill=False, edgecolor=_MARK, linewidth=min(0.7, radius), zorder=5, gid="hole")
-            # (add_patch would look for its bounds)
-            self.axes.add_artist(mark)
-            self.taken.take((x - radius, y - radius), (x + radius, y + radius))
-        left_out = 0
-        for at, ((x, y), radius) in enumerate(zip(places, radii, strict=True)):
-            left_out += at >= _MOST_NUMBERS or not self._number(str(at + 1), (float(x), float(y)), radius)
-        return left_out
+        places = self._all_on_paper(route.start for route in self.job.routes)
+        radii = self._radii(places).tolist()
+        widths = [min(0.7, radius) for radius in radii]
+        for place, radius in zip(places, radii, strict=True):
+            self.taken.take(place - radius, place + radius)
+        if len(places) > FEW:
+            curves = [paths.Path.circle(place, radius) for place, radius in zip(places, radii, strict=True)]
+            look = {"facecolor": "none", "edgecolor": _MARK, "zorder": 5, "gid": "holes"}
+            self.axes.add_artist(PathCollection(curves, linewidths=widths, **look))
+        else:
+            for place, radius, width in zip(places, radii, widths, strict=True):
+                mark = Circle(place, radius, fill=False, edgecolor=_MARK, linewidth=width, zorder=5, gid="hole")
+                # (add_patch would look for its bounds)
+                self.axes.add_artist(mark)
+        looked_for = zip(places[:_MOST_NUMBERS].tolist(), radii, strict=False)
+        found = [self._number(str(at), hole, radius) for at, (hole, radius) in enumerate(looked_for, 1)]
+        return len(places) - sum(found)
 
-    def _radius(self, at: int, places: np.ndarray) -> float:
-        """A mark covers neither its contour nor the next mark."""
-        route = self.job.routes[at]
-        radius = min(
-            _HOLE, 0.5 * route.room * self.scale, 0.5 * distance(route.start, route.entry) * self.scale or _HOLE
+    def _radii(self, places: np.ndarray) -> np.ndarray:
+        """The radii of the marks at these places: a mark covers neither its contour nor the next mark."""
+        routes = self.job.routes
+        rooms = np.array([route.room for route in routes]) * self.scale
+        leads = np.array([distance(route.start, route.entry) for route in routes]) * self.scale
+        points, apart = shapely.points(places), np.full(len(places), np.inf)
+        (which, _), found = shapely.STRtree(points).query_nearest(
+            points, exclusive=True, return_distance=True, all_matches=False
         )
-        if len(places) > 1:
-            apart = np.hypot(*(places - places[at]).T)
-            apart[at] = np.inf
-            radius = min(radius, 0.4 * float(apart.min()) or radius)
-        return max(radius, 0.1)
+        apart[which] = found
+        limits = [0.5 * rooms, np.where(leads > 0, 0.5 * leads, _HOLE), 0.4 * apart]
+        return np.clip(np.min(limits, axis=0), 0.1, _HOLE)
 
     def _number(self, text: str, hole: XY, radius: float) -> bool:
         """Write a number where there is room near its hole, with a line to it from further away."""
+        rings = np.arange(radius + 0.5, _FAR, 0.8)
         for size in (_FONT, 4.5):
-            wide, high = (len(text) * _WIDE * 1.1 + 0.2) * size * _POINT / 2, 0.65 * size * _POINT
-            for ring in np.arange(radius + 0.5, _FAR, 0.8):
-                for turn in range(12):
-                    way = pi / 4 + turn * pi / 6
-                    x = hole[0] + (ring + wide) * cos(way)
-                    y = hole[1] + (ring + high) * sin(way)
-                    low, top = (x - wide, y - high), (x + wide, y + high)
-                    if not self.taken.is_free(low, top):
-                        continue
-                    if ring > radius + 2.2:
-                        end = hole[0] + radius * cos(way), hole[1] + radius * sin(way)
-                        begin = hole[0] + ring * cos(way), hole[1] + ring * sin(way)
-                        self.axes.plot(*zip(end, begin, strict=True), color=_MARK, linewidth=0.25, zorder=4)
-                    self.taken.take(low, top)
-                    self._text((x, y), text, size, _MARK, ha="center", va="center", gid="number", zorder=6)
-                    return True
+            half = self._half_a_box(text, size)
+            middles = (hole + (rings[:, None, None] + half) * _AROUND_A_HOLE).reshape(-1, 2)
+            free = np.flatnonzero(self.taken.are_free(middles - half, middles + half))
+            if len(free):
+                ring, middle = rings[free[0] // len(_AROUND_A_HOLE)], middles[free[0]]
+                if ring > radius + 2.2:
+                    way = _AROUND_A_HOLE[free[0] % len(_AROUND_A_HOLE)]
+                    ends = np.array([[hole + radius * way, hole + ring * way]])
+                    self._lines(ends, edgecolor=_MARK, linewidth=0.25, capstyle="projecting", zorder=4)
+                self.taken.take(middle - half, middle + half)
+                self._text(middle, text, size, _MARK, ha="center", va="center", gid="number", zorder=6)
+                return True
         return False
 
     def _table(self) -> None:

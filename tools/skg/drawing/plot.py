@@ -113,9 +113,9 @@ def _path(pieces: Sequence[Piece], scale: float = 1.0, begins: Sequence[int] = (
     return Outline(vertices, codes)
 
 
-def outline(piece: Piece, scale: float = 1.0) -> Outline:
-    """A line or an arc, mm; `scale` is a millimetre over the piece's unit."""
-    return _path([piece], scale)
+def outlines(pieces: Sequence[Piece]) -> Outline:
+    """Lines and arcs, at least one, each by itself, in their own unit."""
+    return _path(pieces, begins=range(len(pieces)))
 
 
 class _TakenBoxes:
