@@ -180,6 +180,7 @@ def test_cam(run: Run, tmp_path: Path, law: str, roller: float) -> None:
     ("words", "message"),
     [
         (["gear", "--module", 2, "--teeth", 8, "--shift", 1], "come to a point"),
+        (["gear", "--module", 1000, "--teeth", 1000], "the tip circle has a radius of 501 m, a tape ends at 100 m"),
         (["gear", "--module", 2, "--teeth", 20, "--bore", 40], "the bore reaches 20 mm"),
         (["gear", "--module", 2, "--teeth", 20, "--fillet", 1], "does not fit"),
         (["gear", "--module", 1, "--teeth", 20, "--offset", 1.2], "offset"),

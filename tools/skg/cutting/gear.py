@@ -12,9 +12,12 @@ from skg.drawing.contour import Contour, Edge
 from skg.drawing.curve import curve_edge
 from skg.errors import UserError
 from skg.plane import XY, polar
+from skg.tape.block import MAX_DIGITS
 
 #: What FIT may be off the involute between its nodes, mm.
 TOLERANCE = 0.0002
+#: The number of a block that is one more than the largest, mm.
+_TOO_LARGE = 10.0 ** (MAX_DIGITS - 3)
 
 
 def involute(angle: float) -> float:
@@ -72,6 +75,9 @@ class Gear:
         return [self._outline(), *([self._bore()] if self.bore else [])]
 
     def _refuse(self) -> None:
+        if self.tip_radius >= _TOO_LARGE:
+            # (which its tip circle's blocks would have in them)
+            raise UserError(f"the tip circle has a radius of {self.tip_radius / 1000:g} m, a tape ends at 100 m")
         if self.root_radius <= 0:
             raise UserError(f"{self.teeth} teeth leave no room inside the root circle: more teeth, or a larger --shift")
         if self.half_angle(self.tip_radius) <= 0:
