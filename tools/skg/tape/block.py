@@ -293,7 +293,7 @@ class Tape:
                 stops.append(Stop(len(blocks)))
             else:
                 blocks.append(item)
-        return cls(name, tuple(blocks), tuple(stops), **said)
+        return cls(name, blocks, tuple(stops), **said)
 
     @property
     def items(self) -> Iterator[Block | Stop]:
