@@ -16,10 +16,10 @@ import numpy as np
 
 from skg.plane import XY, distance, dot, minus, shifted
 from skg.tape.block import Tape
-from skg.tape.columns import Numbers, columns_of, hypots
-from skg.tape.laid import AT_ONCE, Laid, lay
+from skg.tape.columns import Columns, Flags, Numbers, columns_of, hypots
+from skg.tape.laid import AT_ONCE, Laid, lay, routes_of
 from skg.tape.placed import PlacedRoute
-from skg.tape.roundings import VARIANCE, MayEnd, Misses, Vector, closes, gap_of, unrounded_moves, whole_ends
+from skg.tape.roundings import LEAST, VARIANCE, MayEnd, Misses, Vector, closes, gap_of, unrounded_moves, whole_ends
 from skg.tape.walk import machine_moves
 
 #: Arcs of a larger sweep (radians) were drawn as arcs; those of fitted curves are shorter.
@@ -40,20 +40,20 @@ class Radii:
 
 def estimate(tape: Tape, start: tuple[int, int], without_drift: bool) -> list[PlacedRoute]:
     """Lay a tape out from `start` with its joints where the drawing most likely had them."""
+    if without_drift:
+        return _from_machine(tape, start)
     columns = columns_of(tape)
-    # A circle, or an arc that is too long to be part of a fitted curve.
-    drawn = np.flatnonzero(abs(columns.sweeps) > _DRAWN)
-    if not without_drift:
-        radii = _same_radii(drawn, hypots(columns.x[drawn], columns.y[drawn]), len(columns))
-        return lay(tape, start, lambda part, at: _from_programmed(tape, part, at, radii))
-    none = Radii(np.zeros(len(columns)), np.zeros(len(columns), int))
-    first = lay(tape, start, lambda part, at: _from_machine(tape, part, at, none))
-    arms = np.concatenate([np.zeros((0, 2)), *(route.blocks.starts - route.blocks.centres for route in first)])[drawn]
-    radii = _same_radii(drawn, hypots(*arms.T), len(columns))
-    return lay(tape, start, lambda part, at: _from_machine(tape, part, at, radii))
+    drawn = _drawn(columns)
+    radii = _same_radii(drawn, hypots(columns.x[drawn], columns.y[drawn]), len(columns))
+    return lay(tape, start, lambda part, at: _from_programmed(tape, part, at, radii))
 
 
 # Arcs -----------------------------------------------------------------------------------------------------
+
+
+def _drawn(columns: Columns) -> Numbers:
+    """Which blocks are circles, or arcs that are too long to be part of a fitted curve."""
+    return np.flatnonzero(abs(columns.sweeps) > _DRAWN)
 
 
 def _same_radii(rows: Numbers, radii: Vector, count: int) -> Radii:
@@ -85,12 +85,11 @@ def _between(start: XY, end: XY, centre: XY) -> XY:
     return centre[0] + part * dx, centre[1] + part * dy
 
 
-def _placed(tape: Tape, part: slice, joints: Vector, centres: Vector) -> Laid:
-    """Blocks between their joints, arcs about the centres moved between them."""
-    columns = columns_of(tape)[part]
-    rows = np.flatnonzero(columns.is_arc & (joints[1:] != joints[:-1]).any(axis=1))
-    centres[rows] = np.column_stack(_between(joints[rows].T, joints[rows + 1].T, centres[rows].T))
-    return Laid.between(tape.blocks[part], columns, joints, centres)
+def _moved(is_arc: Flags, starts: Vector, ends: Vector, centres: Vector) -> Vector:
+    """Centres (n × 2), those of arcs moved between their joints."""
+    found, rows = centres.copy(), np.flatnonzero(is_arc & (ends != starts).any(axis=1))
+    found[rows] = np.column_stack(_between(starts[rows].T, ends[rows].T, centres[rows].T))
+    return found
 
 
 # A tape with drift ----------------------------------------------------------------------------------------
@@ -129,7 +128,9 @@ def _from_programmed(tape: Tape, part: slice, at: XY, radii: Radii) -> tuple[Lai
     moves = unrounded_moves(columns) - misses.of(roundings)
     rounded = np.concatenate([[at], at + np.cumsum(moves, axis=0)])
     centres = rounded[:-1] - columns.starts - roundings[misses.centres.start : misses.centres.stop]
-    return _placed(tape, part, rounded - roundings[misses.joints], centres), tuple(rounded[-1].tolist())
+    joints = rounded - roundings[misses.joints]
+    centres = _moved(columns.is_arc, joints[:-1], joints[1:], centres)
+    return Laid.between(tape.blocks[part], columns, joints, centres), tuple(rounded[-1].tolist())
 
 
 def _shift(roundings: array[float], one: int, other: int, by: float, way: XY) -> None:
@@ -142,46 +143,68 @@ def _shift(roundings: array[float], one: int, other: int, by: float, way: XY) ->
 # A tape without drift -------------------------------------------------------------------------------------
 
 
-def _from_machine(tape: Tape, part: slice, at: XY, radii: Radii) -> tuple[Laid, XY]:
-    """Lay out a route whose blocks start where the controller stands: an arc meant to end at the rounded place that
-    its centre was moved for, a line and a circle do end there."""
-    columns = columns_of(tape)[part]
-    stands = np.concatenate([[at], machine_moves(tape)[part]]).cumsum(axis=0)
-    joints, centres = stands.astype(float), (stands[:-1] - columns.starts).astype(float)
-    for first in range(0, len(columns), AT_ONCE):
-        rows = first + np.flatnonzero(~columns.is_line[first : first + AT_ONCE])
+def _from_machine(tape: Tape, start: XY) -> list[PlacedRoute]:
+    """Lay out a tape whose blocks start where the controller stands: an arc meant to end at the rounded place that its
+    centre was moved for, a line and a circle do end there."""
+    columns = columns_of(tape)
+    stands = np.concatenate([[start], machine_moves(tape)]).cumsum(axis=0).astype(float)
+    # A route begins where the controller stands, not where the block before was meant to end: it has one joint more.
+    routes = np.repeat(np.arange(len(tape.bounds)), [last - first for first, last in tape.bounds])
+    begins = np.arange(len(columns)) + routes
+    joints, centres = np.zeros((len(columns) + len(tape.bounds), 2)), stands[:-1] - columns.starts
+    joints[begins], joints[begins + 1] = stands[:-1], stands[1:]
+    arcs = np.flatnonzero(columns.is_arc)
+    for first in range(0, len(arcs), AT_ONCE):
+        rows = arcs[first : first + AT_ONCE]
+        joints[begins[rows] + 1] = centres[rows] + whole_ends(tape, rows).means()
+    drawn = _drawn(columns)
+    sides = joints[begins[drawn]], joints[begins[drawn] + 1]
+    arms = sides[0] - _moved(columns.is_arc[drawn], *sides, centres[drawn])
+    radii = _same_radii(drawn, hypots(*arms.T), len(columns))
+    _meet_radii(tape, radii, begins, joints, centres)
+    starts, ends = joints[begins], joints[begins + 1]
+    centres = _moved(columns.is_arc, starts, ends, centres)
+    return routes_of(tape, Laid.apart(tape.blocks, columns, starts, ends, centres))
+
+
+def _meet_radii(tape: Tape, radii: Radii, begins: Numbers, joints: Vector, centres: Vector) -> None:
+    """Move the joints of arcs, and joint and centre of circles, that have a radius together with others; `begins`: the
+    joint where a block begins, the next one is that where it ends."""
+    columns, shared = columns_of(tape), np.flatnonzero(radii.counts)
+    for first in range(0, len(shared), AT_ONCE):
+        rows = shared[first : first + AT_ONCE]
         some = columns[rows]
-        tells = rows, some.is_arc, abs(some.sweeps) / 2, some.starts, radii.means[part][rows], radii.counts[part][rows]
-        ends = whole_ends(tape, part.start + rows).each()
-        told = zip(*(column.tolist() for column in tells), strict=True)
-        for end, (k, is_arc, half, start, radius, count) in zip(ends, told, strict=True):
+        tells = (rows, begins[rows], some.is_arc, abs(some.sweeps) / 2, some.starts, centres[rows])
+        told = zip(*(column.tolist() for column in (*tells, radii.means[rows], radii.counts[rows])), strict=True)
+        for end, (k, joint, is_arc, half, start, centre, radius, count) in zip(
+            whole_ends(tape, rows).each(), told, strict=True
+        ):
             if is_arc:
-                centre = centres[k].tolist()
-                joints[k + 1] = shifted(centre, _meant(end, minus(joints[k].tolist(), centre), half, radius, count))
-            elif count:
+                begin = minus(joints[joint].tolist(), centre)
+                joints[joint + 1] = shifted(centre, _meant(end, begin, half, radius, count))
+            else:
                 # A circle among circles of its size: half of what its radius is off is due to the start, half to the
                 # centre, see `_from_programmed`.
                 own = hypot(*start)
                 off = (own - radius) / 2 / own * np.array(start)
-                joints[k] = joints[k + 1] = stands[k] - off
+                joints[joint] = joints[joint + 1] = centres[k] + start - off
                 centres[k] += off
-    return _placed(tape, part, joints, centres), tuple(stands[-1].tolist())
 
 
 def _meant(end: MayEnd, start: XY, half: float, radius: float, count: int) -> XY:
     """The mean of the rounded ends that an arc may have been meant to have, about its moved centre.
 
-    Each weighs as the likelihood that the centre was rounded so far along the chord and, where the arc's radius is
+    Each weighs as the likelihood that the centre was rounded so far along the chord and, since the arc's radius is
     known (with how many arcs have it), that it was rounded to what `start` (the joint, about the centre) and end
     make of it. `half` is half the sweep.
     """
     total = mean = 0.0
     for beside, weight in zip(end.beside, end.likelihoods, strict=True):
-        if count and weight:
+        if weight:
             # The centre's two roundings count as cos half, the chord's two as half of sin half.
             variance = VARIANCE * (2 * cos(half) ** 2 + sin(half) ** 2 / 2 + 1 / count)
             off = distance(start, _between(start, end.at(beside), (0.0, 0.0))) - radius
             weight *= exp(-(off**2) / 2 / variance)
         total += weight
         mean += weight * beside
-    return end.at(mean / total) if total > 1e-9 else end.machine
+    return end.at(mean / total) if total > LEAST else end.machine

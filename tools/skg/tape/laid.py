@@ -42,7 +42,13 @@ class Laid(Sequence[Placed]):
         cls, blocks: Sequence[Block], columns: Columns, places: NDArray, centres: NDArray | None = None
     ) -> Laid:
         """Blocks that end where the next one begins, at n + 1 places; as `Placed.between` of each."""
-        starts, ends = places[:-1], places[1:]
+        return cls.apart(blocks, columns, places[:-1], places[1:], centres)
+
+    @classmethod
+    def apart(
+        cls, blocks: Sequence[Block], columns: Columns, starts: NDArray, ends: NDArray, centres: NDArray | None = None
+    ) -> Laid:
+        """Blocks between starts and ends (n × 2 each); as `Placed.between` of each."""
         if centres is None:
             centres = starts - columns.starts
         sweeps, rows = columns.sweeps.copy(), np.flatnonzero(columns.is_arc)
@@ -118,7 +124,11 @@ def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") 
     is_machine = decide(tape, positions).positions == "machine"
     moves = machine_moves(tape) if is_machine else closed_moves(tape)
     places = np.concatenate([[start], moves]).cumsum(axis=0)
-    laid = Laid.between(tape.blocks, columns_of(tape), places)
+    return routes_of(tape, Laid.between(tape.blocks, columns_of(tape), places))
+
+
+def routes_of(tape: Tape, laid: Laid) -> list[PlacedRoute]:
+    """The routes of a tape, all of whose blocks are laid out."""
     bounds = zip(tape.bounds, tape.positioning(), strict=True)
     return [PlacedRoute(laid[first:last], is_move) for (first, last), is_move in bounds if first < last]
 

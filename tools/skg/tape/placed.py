@@ -76,12 +76,13 @@ class PlacedRoute:
             return None
         (dx, dy), arcs = lead.block.move, 0
         for at, placed in enumerate(self.blocks[first + 1 :], first + 1):
-            arcs += not placed.is_line
+            if not placed.is_line:
+                arcs += 1
+                continue
             ex, ey = placed.block.move
             # Each arc between them may have ended beside its place; two lines alone enclose nothing.
             if (
-                placed.is_line
-                and at > first + 1
+                at > first + 1
                 and max(abs(dx + ex), abs(dy + ey)) <= 1
                 and _apart(placed.start, lead.end) <= 2 * (arcs + 1)
             ):

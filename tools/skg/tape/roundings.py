@@ -20,6 +20,8 @@ from skg.tape.walk import machine_moves
 
 #: Variance of an error spread evenly over ±½.
 VARIANCE = 1 / 12
+#: An arc whose whole ends are less likely than this, all of them together, is not known to have been meant for any.
+LEAST = 1e-9
 #: A route is meant to close when it does so to this many standard deviations.
 _CLOSES = 4
 
@@ -121,6 +123,17 @@ class WholeEnds:
     is_on_circle: Flags
     likelihoods: Vector
     across: Numbers
+
+    def means(self) -> Vector:
+        """The mean of each arc's whole ends by their likelihoods (n × 2); where none is likely, the machine's end."""
+        total = mean = np.zeros(len(self.along))
+        for beside, weight in zip(self.beside.T.astype(float), self.likelihoods.T, strict=True):
+            total = total + weight
+            mean = mean + weight * beside
+        tells, found = np.flatnonzero(total > LEAST), self.machine.astype(float)
+        across = self.across[tells]
+        found[tells, across], found[tells, 1 - across] = mean[tells] / total[tells], self.along[tells]
+        return found
 
     def each(self) -> Iterator[MayEnd]:
         """One arc after the other."""
