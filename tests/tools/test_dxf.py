@@ -389,7 +389,7 @@ def test_memory_of_a_long_tape() -> None:
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert len(route.blocks) == 10_000
-    assert peak < 800 * len(route.blocks)
+    assert peak < 400 * len(route.blocks)
 
 
 @pytest.mark.parametrize("block", ["B1B0B1GXNR1", "B1B1B1GXSR1", "B2B1B3GYNR1", "B2B2B1GYSR3"])

@@ -103,7 +103,7 @@ def _from_programmed(tape: Tape, part: slice, at: XY, radii: Radii) -> tuple[Lai
     is_closed = len(columns) > 1 and closes(gap, spread)
     misses = Misses(columns, is_closed)
     # (a list of lists would take a kilobyte for each block)
-    pulls = [array("d", pull.tobytes()) for pull in misses.pulls()]
+    pulls = [array("d", pull.tobytes()) for pull in misses.pulls()] if is_closed else []
     known = array("d", misses.none().tobytes())
     rows = np.flatnonzero(radii.counts[part])
     own, joints, starts = hypots(columns.x[rows], columns.y[rows]), misses.joints[rows], columns.starts[rows]

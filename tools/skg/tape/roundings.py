@@ -71,7 +71,7 @@ class Misses:
 
     def pulls(self) -> Vector:
         """How much each rounding adds to the sum of all e on each axis (2 × roundings × 2)."""
-        found = np.array([self.none(), self.none()])
+        found = np.zeros((2, 2 * self.count + 1, 2))
         np.add.at(found, (self.axes[:, None], self.places), self.ways)
         return found
 
