@@ -151,7 +151,7 @@ def _from_machine(tape: Tape, start: XY) -> list[PlacedRoute]:
     # A route begins where the controller stands, not where the block before was meant to end: it has one joint more.
     routes = np.repeat(np.arange(len(tape.bounds)), [last - first for first, last in tape.bounds])
     begins = np.arange(len(columns)) + routes
-    joints, centres = np.zeros((len(columns) + len(tape.bounds), 2)), stands[:-1] - columns.starts
+    joints, centres = np.zeros((len(columns) + len(tape.bounds), 2)), (stands[:-1] - columns.starts).astype(float)
     joints[begins], joints[begins + 1] = stands[:-1], stands[1:]
     arcs = np.flatnonzero(columns.is_arc)
     for first in range(0, len(arcs), AT_ONCE):
