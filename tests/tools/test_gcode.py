@@ -15,8 +15,9 @@ from test_tape import blocks
 from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
+from skg.errors import UserError
 from skg.ref import mill
-from skg.tape import Block, Stop, Tape, gcode
+from skg.tape import Block, Stop, Tape, gcode, gcode_reader
 from skg.tape.laid import place
 from skg.tape.placed import PlacedRoute
 
@@ -45,7 +46,7 @@ N8M30
 
 
 def back(text: str) -> bytes:
-    return tapes.to_bytes(gcode.read(text).tape().items)
+    return tapes.to_bytes(gcode_reader.read(text).tape().items)
 
 
 def test_cad_pair(run: Run, cad_tape: Path, tmp_path: Path) -> None:
@@ -105,7 +106,7 @@ def laid(tape: Tape) -> list[PlacedRoute]:
 def test_round_trip(items: list[Block | Stop], mills: bool) -> None:
     tape = tapes.parse(tapes.to_bytes(items))
     text = gcode.write(tape, heights=(-1000, 5000) if mills else None, positions="programmed")
-    program, findings = gcode.scan(text)
+    program, findings = gcode_reader.scan(text)
     assert findings == []
     again = program.tape()
     if mills:
@@ -132,7 +133,7 @@ def test_examples_there_and_back(path: Path, run: Run, tmp_path: Path) -> None:
     iso = tmp_path / "part.nc"
     assert run("gcode", path, "--feed", "60", "--positions", "programmed", "-o", iso).exit_code == 0
     assert run("check", iso).output == f"{iso}: {len(iso.read_text().splitlines())} lines, nothing wrong\n"
-    assert vertices(laid(gcode.read(iso.read_text()).tape())) == vertices(laid(tape))
+    assert vertices(laid(gcode_reader.read(iso.read_text()).tape())) == vertices(laid(tape))
 
 
 def test_absolute_and_modal() -> None:
@@ -224,7 +225,7 @@ IDLE = {
 @pytest.mark.parametrize("text", IDLE)
 def test_what_does_not_cut(text: str) -> None:
     tape, counted, why = IDLE[text]
-    program = gcode.read(f"G21 G90\n{text}")
+    program = gcode_reader.read(f"G21 G90\n{text}")
     assert tapes.to_bytes(program.tape().items).decode().split() == tape.split()
     said = f"{counted} moves with G1 to G3 do not cut: the "
     said += f"tool is {why}" if "up" in why else f"beam is off ({why})"
@@ -233,7 +234,7 @@ def test_what_does_not_cut(text: str) -> None:
 
 def test_a_beam_that_is_never_on_is_none() -> None:
     """Spindles that are turned on by hand, and posts that write S0 for them: cuts all the same, and said."""
-    program = gcode.read("G21 G90\nS0 M3\nG1 X1 F5\nX2\nM2")
+    program = gcode_reader.read("G21 G90\nS0 M3\nG1 X1 F5\nX2\nM2")
     assert tapes.to_bytes(program.tape().items).decode().split() == ["B1000B0B1000GXL1"] * 2 + ["DD"]
     said = "each G1 finds the beam off (M5 or S0), as if nothing were cut: taken for cuts all the same"
     assert program.guesses == (f"line 2, column 1: {said}",)
@@ -269,13 +270,15 @@ def test_home(text: str, wanted: str) -> None:
 
 def test_a_place_is_named_anew() -> None:
     """G92 in mid-program moves no tool: what is drawn goes on from where it was; a word left out keeps its place."""
-    program = gcode.read("G21 G90 F5\nG1 X10\nY10\nG92 X0 Y0\nX5\nG92 X0\nX-1 Y1\nG91\nX1\nG90\nX0 Y0\nM2")
+    program = gcode_reader.read("G21 G90 F5\nG1 X10\nY10\nG92 X0 Y0\nX5\nG92 X0\nX-1 Y1\nG91\nX1\nG90\nX0 Y0\nM2")
     wanted = [(10, 0), (10, 10), (15, 10), (14, 11), (15, 11), (15, 10)]
     assert [placed.end for placed in program.items] == [(1000 * x, 1000 * y) for x, y in wanted]
 
 
 def test_holes_and_stops() -> None:
-    program = gcode.read("G21 G90 G0 Z5\nX1 Y1\nG1 Z-1 F5\nG0 Z5\nX2\nG1 Z-1\nG1 X3\nG0 Z5\nX4\nG1 Z-1\nG0 Z5\nM0\nM2")
+    program = gcode_reader.read(
+        "G21 G90 G0 Z5\nX1 Y1\nG1 Z-1 F5\nG0 Z5\nX2\nG1 Z-1\nG1 X3\nG0 Z5\nX4\nG1 Z-1\nG0 Z5\nM0\nM2"
+    )
     assert program.holes == [(1000, 1000), (4000, 1000)]
     assert program.stop_places == [(4000, 1000)]
     assert program.home == (1000, 1000)
@@ -377,18 +380,18 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
     assert run("dxf", tape, "-o", drawing).exit_code == 0
     circles = [line for line in drawing.read_text().splitlines() if line == "CIRCLE"]
     assert len(circles) == 1
-    with pytest.raises(gcode.UserError, match="a tape has no nominal contour"):
+    with pytest.raises(UserError, match="a tape has no nominal contour"):
         run("plot", tape, "-o", picture, "--show-offset")
 
 
 @given(st.text(alphabet="GXYZIJMNF0123 .-\n()%", max_size=60))
 def test_any_text(text: str) -> None:
-    program, findings = gcode.scan(text + "\nM02")
+    program, findings = gcode_reader.scan(text + "\nM02")
     for placed in program.items:
         if hasattr(placed, "end"):
             assert hypot(*placed.end) < float("inf")
     try:
         assert back(text + "\nM02").endswith(b"DD\r\n")
-    except gcode.UserError:
+    except UserError:
         return
     assert all(not finding.is_fatal for finding in findings)

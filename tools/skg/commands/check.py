@@ -13,7 +13,7 @@ from skg.drawing.source import iso_text, tape_bytes
 from skg.errors import UserError
 from skg.files import without_filling
 from skg.kinds import TAPE, kind_of
-from skg.tape import gcode
+from skg.tape import gcode_reader
 from skg.tape.block import Tape
 from skg.tape.styles import read_any
 from skg.tape.text import Finding, scan
@@ -34,11 +34,11 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     A program (.skg, .xy, .tkh) is run first, a milling program by the mill ROM.
     TAPE - is the standard input.
     """
-    found: list[tuple[str, Finding | gcode.GcodeFinding]] = []
+    found: list[tuple[str, Finding | gcode_reader.GcodeFinding]] = []
     for name in tapes_:
         text = iso_text(name)
         if text is not None:
-            program, findings = gcode.scan(text, name)
+            program, findings = gcode_reader.scan(text, name)
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)
             for note in program.notes:
@@ -55,7 +55,7 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
         raise SystemExit(1)
 
 
-def _list(name: str, findings: Sequence[Finding | gcode.GcodeFinding], size: str, list_all: bool) -> None:
+def _list(name: str, findings: Sequence[Finding | gcode_reader.GcodeFinding], size: str, list_all: bool) -> None:
     """Write the findings of a tape, or that there is none."""
     if not findings:
         click.echo(f"{name}: {size}, nothing wrong")

@@ -25,8 +25,9 @@ from skg.plane import XY
 from skg.rivals.languages import is_program, is_rival, translated
 from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
-from skg.tape.gcode import GcodeProgram, is_gcode
-from skg.tape.gcode import read as read_gcode
+from skg.tape.gcode import is_gcode
+from skg.tape.gcode_program import GcodeProgram
+from skg.tape.gcode_reader import read as read_gcode
 from skg.tape.placed import PlacedRoute, stop_places
 from skg.tape.positions import decide
 

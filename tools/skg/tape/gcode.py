@@ -1,23 +1,15 @@
-"""ISO G-code: one writer and one reader.
-
-Written is the dialect of the milling ROM (milling.md, section "The tape"), which LinuxCNC and GRBL take as it is.
-Read are that and what CAD packages write: absolute or relative places, numbers in millimetres or inches as G21 and G20
-say; without them a number with a decimal point is millimetres and a whole one micrometres, as a CAD package has it
-beside its 3B tapes. What G1 to G3 go through with the beam off (M5, S0) or the tool up is no cut but a move.
-"""
+"""ISO G-code as it is written: the dialect of the milling ROM (milling.md, section "The tape"), which LinuxCNC and GRBL
+take as it is. `skg.tape.gcode_reader` reads it, and others' dialects."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
-from decimal import ROUND_HALF_UP, Decimal
-from math import hypot, pi
+from decimal import Decimal
+from math import pi
 
-from skg.errors import UserError
-from skg.tape.block import Block, Stop, Tape, arc_block, line_block
-from skg.tape.placed import Placed, PlacedRoute
+from skg.tape.block import Tape
+from skg.tape.placed import Placed
 
+#: A place, or a cutting and a travel height, µm.
 Spot = tuple[int, int]
 
 #: How a file's name ends that holds G-code.
@@ -25,21 +17,11 @@ ENDINGS = (".nc", ".ngc", ".gcode", ".tap", ".iso")
 #: What stands in front of everything: plane XY, millimetres, absolute places, feed in mm/min.
 PREAMBLE = "G17G21G90G94"
 LAST_NUMBER = 9999
-#: GRBL takes no line that is longer.
-LONGEST = 70
-#: An arc's end may lie so far off the circle through its start, µm: for a 3B block (each of the two is rounded, and so
-#: is the centre), and for a control, which also lets pass a thousandth of the radius, up to half a millimetre.
-OFF_BLOCK, OFF_CONTROL, OFF_MOST = 2, 5, 500
-#: Controls take an arc of less than so many radians for a full circle.
-LEAST_SWEEP = 1e-6
 
 
 def is_gcode(name: str) -> bool:
     """Whether a file holds G-code, by its name."""
     return name.lower().endswith(ENDINGS)
-
-
-# Writing ------------------------------------------------------------------------------------------------------------
 
 
 class _GcodeWriter:
@@ -62,7 +44,7 @@ class _GcodeWriter:
 
     def to_height(self, g: int, height: int, feed: str = "") -> None:
         if height != self.height:
-            self.block(f"G{g}Z{_millimetres(height)}{self._fed(feed)}")
+            self.block(f"G{g}Z{millimetres(height)}{self._fed(feed)}")
             self.height = height
 
     def line(self, end: Spot, feed: str) -> None:
@@ -82,14 +64,15 @@ class _GcodeWriter:
         return f"F{feed}"
 
 
-def _millimetres(micrometres: int) -> str:
+def millimetres(micrometres: int) -> str:
+    """Whole µm as a word of a tape has them: millimetres without zeros behind."""
     whole, rest = divmod(abs(micrometres), 1000)
     sign = "-" if micrometres < 0 else ""
     return f"{sign}{whole}.{rest:03}".rstrip("0") if rest else f"{sign}{whole}"
 
 
 def _pair(letters: str, values: Spot) -> str:
-    return "".join(f"{letter}{_millimetres(value)}" for letter, value in zip(letters, values, strict=True))
+    return "".join(f"{letter}{millimetres(value)}" for letter, value in zip(letters, values, strict=True))
 
 
 def decimal(value: float) -> str:
@@ -126,7 +109,7 @@ def write(
             if is_move:
                 if heights:
                     writer.to_height(0, heights[1])
-                writer.rapid(_grid(placed.end))
+                writer.rapid(grid(placed.end))
                 continue
             if heights:
                 writer.to_height(1, heights[0], down)
@@ -140,641 +123,25 @@ def write(
 def _cut(writer: _GcodeWriter, placed: Placed, feed: str) -> None:
     """A block that cuts; as a line an arc with an end at its centre, or so flat that a control might take it for a full
     circle (milling.md)."""
-    end, turns = _grid(placed.end), abs(placed.sweep)
+    end, turns = grid(placed.end), abs(placed.sweep)
     if not placed.is_line and turns > 2 * pi - 1e-9:
         # Round once, and the few µm by which a block goes on.
-        writer.arc(writer.at, _grid(placed.centre), placed.block.sense, feed)
+        writer.arc(writer.at, grid(placed.centre), placed.block.sense, feed)
         writer.line(end, feed)
         return
-    (dx, dy), (x, y) = _minus(end, writer.at), placed.block.start
+    (dx, dy), (x, y) = minus(end, writer.at), placed.block.start
     is_flat = turns <= pi and (dx * dx + dy * dy) ** 2 <= 4 * (x * x + y * y)
-    if placed.is_line or is_flat or _grid(placed.centre) in (writer.at, end):
+    if placed.is_line or is_flat or grid(placed.centre) in (writer.at, end):
         writer.line(end, feed)
     else:
-        writer.arc(end, _grid(placed.centre), placed.block.sense, feed)
+        writer.arc(end, grid(placed.centre), placed.block.sense, feed)
 
 
-def _grid(place: tuple[float, float]) -> Spot:
+def grid(place: tuple[float, float]) -> Spot:
+    """A place in whole µm."""
     return round(place[0]), round(place[1])
 
 
-# Reading ------------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class GcodeFinding:
-    """Something wrong in G-code: line and column, from 1, and what.
-
-    `is_fatal`: it cannot be read further. `is_guess`: it is read as the message says, and might mean something else.
-    """
-
-    line: int
-    column: int
-    message: str
-    is_fatal: bool = field(default=True, repr=False)
-    is_guess: bool = field(default=False, repr=False)
-
-    def __str__(self) -> str:
-        return f"line {self.line}, column {self.column}: {self.message}"
-
-
-@dataclass(frozen=True)
-class Drilled:
-    """A hole: down and up again at a place, µm; its depth, if the program's heights are known."""
-
-    place: Spot
-    depth: Decimal | None = None
-
-
-@dataclass(frozen=True)
-class Move:
-    """A move in the plane that does not cut: a rapid; any with the beam off or the tool up."""
-
-    placed: Placed
-
-
-@dataclass(frozen=True)
-class GcodeProgram:
-    """What G-code does in the plane, in order: cuts, moves, holes, stops; `home` (µm) is where it begins.
-
-    `depths` and `travels`: the heights (µm) at which it cuts and at which it is moved, each once, in the order in which
-    they come; empty where no height is known. `guesses`: how it is read where it does not say. `notes`: what of G1 to
-    G3 is no cut, and why.
-    """
-
-    name: str
-    items: tuple[Placed | Move | Drilled | Stop, ...]
-    home: Spot = (0, 0)
-    depths: tuple[Decimal, ...] = ()
-    travels: tuple[Decimal, ...] = ()
-    guesses: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
-
-    @property
-    def holes(self) -> list[Spot]:
-        """Where it drills, each place once."""
-        return list(dict.fromkeys(item.place for item in self.items if isinstance(item, Drilled)))
-
-    @property
-    def stop_places(self) -> list[Spot]:
-        """Where it stops, each place once."""
-        at, found = self.home, []
-        for item in self.items:
-            if isinstance(item, Stop):
-                found.append(at)
-            else:
-                at = item.place if isinstance(item, Drilled) else _grid(_placed(item).end)
-        return list(dict.fromkeys(found))
-
-    def routes(self) -> list[PlacedRoute]:
-        """What is cut and how it is moved between, as `skg.tape.placed.place` has it."""
-        found: list[tuple[bool, list[Placed]]] = []
-        for item in self.items:
-            if isinstance(item, Stop | Drilled):
-                found.append((False, []))
-                continue
-            is_move = isinstance(item, Move)
-            if not found or found[-1][0] != is_move:
-                found.append((is_move, []))
-            found[-1][1].append(_placed(item))
-        return [PlacedRoute(tuple(blocks), is_move) for is_move, blocks in found if blocks]
-
-    def heights(self) -> str:
-        """What there is to say of the heights of cuts, holes and moves; empty where none is known."""
-        holes = [item.depth for item in self.items if isinstance(item, Drilled)]
-        deep = list(dict.fromkeys(depth for depth in holes if depth is not None))
-        said = [
-            f"cuts at {_several(self.depths)}" if self.depths else "",
-            f"{_counted_holes(len(holes))} down to {_several(deep)}" if deep else "",
-            f"travels at {_several(self.travels)}" if self.travels else "",
-        ]
-        return ", ".join(filter(None, said))
-
-    def left_out(self) -> tuple[str, ...]:
-        """What a 3B tape of the same path has no word for, to be said."""
-        holes = sum(isinstance(item, Drilled) for item in self.items)
-        said = [
-            _counted_holes(holes) if holes else "",
-            f"the heights of its cuts, {_several(self.depths)}" if self.depths else "",
-        ]
-        return (f"left out, as 3B has no word for it: {' and '.join(filter(None, said))}",) if any(said) else ()
-
-    def tape(self) -> Tape:
-        """The 3B tape of the same path: a move goes straight, between two stops; holes have no blocks.
-
-        An arc whose end is farther off its circle than a block can be is a `UserError`.
-        """
-        items: list[Block | Stop] = []
-        at, moved_from = self.home, None
-        for item in self.items:
-            if isinstance(item, Drilled):
-                continue
-            if isinstance(item, Move):
-                if moved_from is None:
-                    moved_from = at
-                    if not items or isinstance(items[-1], Block):
-                        items.append(Stop(len(items)))
-                at = _grid(item.placed.end)
-                continue
-            if moved_from is not None:
-                items += _between(moved_from, at)
-                if not isinstance(item, Stop):
-                    items.append(Stop(len(items)))
-                moved_from = None
-            if isinstance(item, Stop):
-                items.append(item)
-                continue
-            off = 0 if item.is_line else abs(hypot(*_minus(item.end, item.centre)) - item.radius)
-            if off > OFF_BLOCK:
-                raise UserError(f"{self.name}: block {item.block.number}: the arc's end is {off:.0f} µm off its circle")
-            items.append(item.block)
-            at = _grid(item.end)
-        if moved_from is not None:
-            items += _between(moved_from, at)
-        return Tape.of(self.name, _counted(items), drift=True)
-
-
-def _counted_holes(number: int) -> str:
-    return f"{number} hole{'s' * (number > 1)}"
-
-
-def _several(heights: Sequence[Decimal]) -> str:
-    """Some heights, or the first and the last of many."""
-    words = [f"Z{_millimetres(_rounded_one(height))}" for height in heights]
-    return ", ".join(words) if len(words) <= 3 else f"{words[0]} … {words[-1]} ({len(words)} heights)"
-
-
-def _between(start: Spot, end: Spot) -> list[Block]:
-    return [] if start == end else [line_block(*_minus(end, start))]
-
-
-def _minus(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
+def minus(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
+    """The way from the other place to the one."""
     return one[0] - other[0], one[1] - other[1]
-
-
-def _placed(item: Placed | Move) -> Placed:
-    return item.placed if isinstance(item, Move) else item
-
-
-def _counted(items: Iterable[Block | Stop]) -> Iterator[Block | Stop]:
-    """Blocks and stops with the numbers that they have on a tape."""
-    number = 0
-    for item in items:
-        if isinstance(item, Stop):
-            yield Stop(number)
-        else:
-            number += 1
-            yield Block(item.x, item.y, item.j, item.axis, item.code, number)
-
-
-class _Misread(Exception):
-    def __init__(self, column: int, message: str) -> None:
-        super().__init__(message)
-        self.column = column
-
-
-@dataclass(frozen=True)
-class _Word:
-    letter: str
-    number: Decimal
-    is_decimal: bool
-    column: int
-
-
-_WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
-_SPACE = re.compile(r"(?:\s|\([^()]*\)|;.*)*")
-#: A setting of GRBL's own.
-_SETTING = re.compile(r"\$\d+\s*=\s*[\d.]+;?")
-#: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
-#: modes, work offsets (one of them, see there); sub-programs are no part of a path.
-_SILENT = "FSTPHDL"
-_MODES = {
-    Decimal(n) for n in ("4", "8", "9", "17", "40", "43", "49", "50", "61", "64", "69", "80", "91.1", "94", "97", "98")
-}
-_OFFSETS = {Decimal(n) for n in range(54, 60)}
-_CALLS = {96, 97, 98, 99}
-#: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
-_MOTIONS = set(map(Decimal, range(4)))
-_GROUPS = [_MOTIONS, *(set(map(Decimal, group.split())) for group in ("20 21", "90 91", "43 49", "61 64")), _OFFSETS]
-#: Words that are places, and what G4 has besides P on some controls.
-_PLACES = "XYZIJR"
-_DWELL, _NO_MOTION = Decimal(4), Decimal(80)
-#: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
-_HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
-#: What turns a beam (or spindle) off, for people, and the M words that turn it on and off: those of controls; those of
-#: a fan's output and of any pin, to which small lasers are connected on boards for printers.
-_BEAM, _FAN, _PIN = "M5 or S0", "M107 or S0", "M42 S0"
-_SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set())}
-_TURNS = set.union(*_SWITCHES[_BEAM])
-#: An S in a line with an M word that is none of these is that word's.
-_PLAIN = {*range(10), 30, 48, 49}
-_KNOWN = "G00…G03, G17, G20, G21, G40, G90, G91, G92 or one that does not move"
-#: µm in a number of each unit; None: by the decimal point.
-_INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
-
-
-@dataclass(frozen=True)
-class _Idle:
-    """Where G1 to G3 do not cut: while the beam that is switched by `beam` (one of `_SWITCHES`, empty: none) is off;
-    at the height `above` (µm) and over it (None: nowhere)."""
-
-    beam: str = ""
-    above: Decimal | None = None
-
-
-class _Reader:
-    """State of a program that is being read; places and heights in µm."""
-
-    def __init__(self, idle: _Idle) -> None:
-        self.idle = idle
-        self.line = 0
-        # Beam or spindle: its S; by what turns it: in which line first, whether it is on, how many moves found it off.
-        self.power: Decimal | None = None
-        self.turned_on: dict[str, int] = {}
-        self.is_on = dict.fromkeys(_SWITCHES, False)
-        self.dark = dict.fromkeys(_SWITCHES, 0)
-        # Moves with G1 to G3, those that do not cut; their heights, how often these change, and those of the rapids.
-        self.feeds = self.idled = self.feed_changes = 0
-        self.feed_height: Decimal | None = None
-        self.feed_heights: set[Decimal] = set()
-        self.rapid_heights: set[Decimal] = set()
-        self.at = Decimal(0), Decimal(0)
-        self.height: Decimal | None = None
-        # (heights that begin with a relative one are from an unknown place)
-        self.knows_height = False
-        self.depths: dict[Decimal, None] = {}
-        self.travels: dict[Decimal, None] = {}
-        self.dipped: Spot | None = None
-        self.motion: int | None = 0
-        self.absolute: bool | None = None
-        self.unit: Decimal | None = None
-        self.offset: Decimal | None = None
-        self.ended = False
-        self.blocks = 0
-        self.begun = False
-        self.home: Spot = (0, 0)
-        self.fed = self.warned_unit = False
-        # Gone to a place of the machine's own, nobody knows where in the plane.
-        self.is_away = False
-        # Where a G92 in mid-program has moved the origin of its places to; `at` goes on from the first one.
-        self.origin = {"X": Decimal(0), "Y": Decimal(0)}
-        self.findings: list[GcodeFinding] = []
-
-    def warn(self, column: int, message: str, is_guess: bool = False) -> None:
-        """What can be read, and yet stops a control, or might be meant otherwise."""
-        self.findings.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
-
-    def words(self, text: str) -> Iterator[_Word]:
-        """Split a line into words; comments in parentheses and after `;` are nothing."""
-        text = text.upper()
-        at = _SPACE.match(text).end()
-        while at < len(text):
-            match = _WORD.match(text, at)
-            if not match:
-                raise _Misread(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
-            yield _Word(match[1], Decimal(match[2]), "." in match[2], at + 1)
-            at = _SPACE.match(text, match.end()).end()
-
-    def take(self, line: str) -> Iterator[Placed | Move | Drilled | Stop]:
-        """Carry out one line."""
-        self.line += 1
-        text = line.strip()
-        if len(text) > LONGEST:
-            self.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
-        if text == "%" or re.fullmatch(r"[Oo]\d+", text):
-            self.warn(1, f"GRBL does not know {text[0]}")
-            return
-        if _SETTING.fullmatch(text):
-            self.warn(1, "a setting of GRBL's: no other control knows $")
-            return
-        if not text:
-            return
-        values: dict[str, _Word] = {}
-        codes: list[Decimal] = []
-        turns: list[Decimal] = []
-        power: Decimal | None = None
-        is_origin, stop = False, False
-        for word in self.words(line):
-            if self.ended and (word.letter in _PLACES or word.letter == "G"):
-                raise _Misread(word.column, "expected nothing after M02")
-            if word.letter == "G":
-                for code in codes:
-                    if any({code, word.number} <= group for group in _GROUPS):
-                        raise _Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
-                codes.append(word.number)
-                is_origin |= self.preparatory(word)
-            elif word.letter == "M":
-                if word.number in _TURNS and _TURNS.intersection(turns):
-                    raise _Misread(word.column, f"M{turns[0]:f} and M{word.number:f} in one line")
-                turns.append(word.number)
-                stop |= self.miscellaneous(word)
-            elif word.letter == "S":
-                power = word.number
-            elif word.letter in _PLACES + "F":
-                if word.letter in values:
-                    raise _Misread(word.column, f"{word.letter} stands here twice")
-                values[word.letter] = word
-            elif word.letter not in "N" + _SILENT:
-                raise _Misread(word.column, f"{word.letter} is not known here, expected G, M, X, Y, Z, I, J or R")
-        if turns or power is not None:
-            self.turn(turns, power, _DWELL in codes)
-        if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
-            self.motion = None
-        feed = values.pop("F", None)
-        if feed:
-            self.fed = feed.number > 0
-            if not self.fed:
-                self.warn(feed.column, "a feed that is not more than 0")
-        places = [word for letter, word in values.items() if letter in _PLACES]
-        if _DWELL in codes and places:
-            raise _Misread(places[0].column, f"{places[0].letter} in a line with G4: a time, or a place to go to?")
-        if is_origin:
-            self.name_place(values)
-        elif _HOMES.intersection(codes) or _MACHINE in codes:
-            yield from self.go_away(values, _MACHINE not in codes)
-        elif values:
-            yield from self.move(values)
-        if stop:
-            self.begun = True
-            yield Stop(self.blocks)
-
-    def turn(self, codes: list[Decimal], power: Decimal | None, dwells: bool) -> None:
-        """Beam on or off, as the M words of a line and its S say; it counts for the move in this line, too."""
-        for name, (on, off) in _SWITCHES.items():
-            for code in (on | off).intersection(codes):
-                self.is_on[name] = code in on and (name == _BEAM or power != 0)
-        for name in filter(self.is_on.get, self.is_on):
-            self.turned_on.setdefault(name, self.line)
-        if power is not None and not dwells and _PLAIN.issuperset(codes):
-            self.power = power
-
-    def is_idle(self, height: Decimal | None) -> bool:
-        """Whether a move with G1 to G3, no lower than `height`, does not cut; counts it."""
-        self.feeds += 1
-        for name in _SWITCHES:
-            self.dark[name] += self.is_dark(name)
-        if height is not None:
-            self.feed_changes += self.feed_height not in (None, height)
-            self.feed_height = height
-            self.feed_heights.add(height)
-        is_dark = bool(self.idle.beam) and self.is_dark(self.idle.beam)
-        is_up = self.idle.above is not None and height is not None and height >= self.idle.above
-        self.idled += is_dark or is_up
-        return is_dark or is_up
-
-    def is_dark(self, beam: str) -> bool:
-        """Whether a beam is off."""
-        return not self.is_on[beam] or (beam == _BEAM and self.power == 0)
-
-    def name_place(self, values: dict[str, _Word]) -> None:
-        """G92: the tool's place has these coordinates; what is not named keeps its own."""
-        here = dict(zip("XY", self.at, strict=True))
-        named = {letter: self.value(values, letter, here[letter] - self.origin[letter]) for letter in "XY"}
-        if "Z" in values:
-            self.height = self.value(values, "Z", Decimal(0))
-        if self.is_away and {"X", "Y"} <= values.keys():
-            if self.begun:
-                raise _Misread(min(word.column for word in values.values()), "G92 at a place of the machine's own")
-            self.is_away = False
-        if self.begun:
-            self.origin = {letter: here[letter] - named[letter] for letter in "XY"}
-        else:
-            self.at = named["X"], named["Y"]
-            self.home = _rounded(self.at)
-
-    def preparatory(self, word: _Word) -> bool:
-        """Carry out a G word; True for G92."""
-        match word.number:
-            case 0 | 1 | 2 | 3:
-                self.motion = int(word.number)
-            case 90 | 91:
-                self.absolute = word.number == 90
-            case 92:
-                return True
-            case 20 | 21:
-                self.unit = _INCH if word.number == 20 else _MILLIMETRE
-            case n if n in _OFFSETS:
-                if self.offset not in (None, n):
-                    raise _Misread(
-                        word.column, f"G{n:f} after G{self.offset:f}: how far apart the two are is not known"
-                    )
-                self.offset = n
-            case n if n in _MODES or n in _HOMES or n == _MACHINE:
-                pass
-            case n:
-                raise _Misread(word.column, f"G{n:f} is not known, expected {_KNOWN}")
-        return False
-
-    def miscellaneous(self, word: _Word) -> bool:
-        """Carry out an M word; True for a stop."""
-        if word.number in (2, 30):
-            self.ended = True
-        elif word.number in _CALLS:
-            raise _Misread(word.column, f"M{word.number:f}: a sub-program is not known here")
-        return word.number in (0, 1)
-
-    def value(self, values: dict[str, _Word], letter: str, default: Decimal) -> Decimal:
-        """A word's number in µm."""
-        word = values.get(letter)
-        if word is None:
-            return default
-        if self.unit is None and not self.warned_unit:
-            self.warned_unit = True
-            self.warn(word.column, "no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm", True)
-        unit = self.unit or (_MILLIMETRE if word.is_decimal else Decimal(1))
-        return word.number * unit
-
-    def goal(self, values: dict[str, _Word], letter: str, here: Decimal) -> Decimal:
-        """Where a coordinate goes to, µm."""
-        if letter not in values:
-            return here
-        if self.absolute is None:
-            self.absolute = True
-            self.warn(values[letter].column, "no G90 or G91 yet: places are taken for absolute, as G90 says", True)
-        value = self.value(values, letter, Decimal(0))
-        return value + self.origin.get(letter, 0) if self.absolute else here + value
-
-    def move(self, values: dict[str, _Word]) -> Iterator[Placed | Move | Drilled]:
-        """What a block that moves does."""
-        column = min(word.column for word in values.values())
-        if self.motion is None:
-            raise _Misread(column, "a place to go to, and no G00…G03 behind G80")
-        feeds = self.motion > 0
-        if feeds and not self.fed:
-            self.fed = True
-            self.warn(column, "cuts, and there has been no F")
-        start, before = _rounded(self.at), self.height
-        if "Z" in values:
-            yield from self.to_height(self.goal(values, "Z", self.height or Decimal(0)), start, feeds)
-        if not values.keys() - {"Z"}:
-            return
-        goal = tuple(self.goal(values, letter, here) for letter, here in zip("XY", self.at, strict=True))
-        end = _rounded(goal)
-        if self.is_away and (feeds or not self.absolute or not values.keys() >= {"X", "Y"}):
-            raise _Misread(column, "from a place of the machine's own, expected a rapid to X and Y")
-        self.is_away = False
-        moves = start != end or self.motion >= 2
-        lowest = (self.height if before is None else min(before, self.height)) if self.knows_height else None
-        if moves and lowest is not None and not feeds:
-            self.rapid_heights.add(lowest)
-        cuts = feeds and not (moves and self.is_idle(lowest))
-        if lowest is not None and (moves or not feeds):
-            (self.depths if cuts else self.travels)[lowest if cuts else self.height] = None
-        if self.motion < 2:
-            if values.keys() & set("IJR"):
-                raise _Misread(column, "I, J and R belong to G02 and G03")
-            self.at = goal
-            if not cuts and not self.begun:
-                self.home = end
-            elif start != end:
-                yield from self.lay(line_block(*_minus(end, start)), start, end, cuts)
-            return
-        if "R" in values:
-            if values.keys() & set("IJ"):
-                raise _Misread(column, "an arc has its centre, I and J, or its radius, R, not both")
-            to_centre = self.by_radius(_minus(end, start), float(self.value(values, "R", Decimal(0))), column)
-        else:
-            to_centre = tuple(_rounded_one(self.value(values, letter, Decimal(0))) for letter in "IJ")
-        yield from self.arc(start, end, (-to_centre[0], -to_centre[1]), column, cuts)
-        self.at = goal
-
-    def go_away(self, values: dict[str, _Word], is_home: bool) -> Iterator[Drilled]:
-        """G28, G30: home, all of it or the axes that are named; G53: to a place in the machine's coordinates."""
-        if self.motion and not is_home:
-            raise _Misread(min((word.column for word in values.values()), default=1), "G53 in a line that cuts")
-        named = values.keys() or (set("XYZ") if is_home else set())
-        if "Z" in named:
-            yield from self.leave(_rounded(self.at), self.height)
-            self.height, self.knows_height = None, False
-        self.is_away |= bool(named & {"X", "Y"})
-
-    def to_height(self, height: Decimal, place: Spot, cuts: bool) -> Iterator[Drilled]:
-        """Up or down: a hole is what is entered and left again."""
-        is_down = self.height is None or height < self.height
-        before, self.height = self.height, height
-        self.knows_height |= bool(self.absolute)
-        if is_down and cuts:
-            self.dipped = place
-        elif not is_down:
-            yield from self.leave(place, before)
-
-    def leave(self, place: Spot, depth: Decimal | None) -> Iterator[Drilled]:
-        """Up from a place: has it been drilled?"""
-        if self.dipped == place:
-            self.begun = True
-            yield Drilled(place, depth if self.knows_height else None)
-        self.dipped = None
-
-    def by_radius(self, way: Spot, radius: float, column: int) -> Spot:
-        """From an arc's start to its centre, of the way to its end and its radius; below 0: more than half a turn."""
-        chord = hypot(*way)
-        if not chord:
-            raise _Misread(column, "an arc by its radius that ends where it begins")
-        if chord / 2 - abs(radius) > OFF_CONTROL:
-            raise _Misread(column, f"the arc's ends are {chord / 1000:g} mm apart, more than twice its radius")
-        aside = max(radius * radius - chord * chord / 4, 0) ** 0.5 / chord
-        if (radius > 0) != (self.motion == 3):
-            aside = -aside
-        return round(way[0] / 2 - way[1] * aside), round(way[1] / 2 + way[0] * aside)
-
-    def arc(self, start: Spot, end: Spot, from_centre: Spot, column: int, cuts: bool) -> Iterator[Placed | Move]:
-        xs, ys = from_centre
-        if (xs, ys) == (0, 0):
-            raise _Misread(column, "an arc needs its centre, I and J")
-        to_end = xs + end[0] - start[0], ys + end[1] - start[1]
-        radius = hypot(xs, ys)
-        off = abs(hypot(*to_end) - radius)
-        if off > min(max(OFF_CONTROL, radius / 1000), OFF_MOST):
-            raise _Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
-        sense = 1 if self.motion == 3 else -1
-        cross, dot = sense * (xs * to_end[1] - ys * to_end[0]), xs * to_end[0] + ys * to_end[1]
-        if start != end and 0 <= cross < LEAST_SWEEP * dot:
-            self.warn(column, "an arc so flat that LinuxCNC and GRBL take it for a full circle")
-        yield from self.lay(arc_block((xs, ys), to_end, sense), start, end, cuts)
-
-    def lay(self, block: Block, start: Spot, end: Spot, cuts: bool) -> Iterator[Placed | Move]:
-        """A block in its place."""
-        self.begun = True
-        self.dipped = None
-        if cuts:
-            self.blocks += 1
-        numbered = Block(block.x, block.y, block.j, block.axis, block.code, self.blocks)
-        placed = Placed.between(numbered, start, end)
-        yield placed if cuts else Move(placed)
-
-    def where_idle(self) -> _Idle:
-        """Where G1 to G3 do not cut in a program that has been read through.
-
-        A beam that some of them find on and others off. The height of the rapids, when all other heights are lower;
-        without rapids in the plane the upper one of two heights, above 0, when it goes up and down between them.
-        """
-        beam = next((name for name in self.is_on if name in self.turned_on), "")
-        rapids = self.rapid_heights
-        if not rapids and not beam and len(self.feed_heights) == 2 and self.feed_changes > 1:
-            rapids = {height for height in (max(self.feed_heights),) if height > 0}
-        above = max(rapids, default=None)
-        lower = {height for height in self.feed_heights if above is not None and height < above}
-        is_up = lower and len(lower) < len(self.feed_heights) and max(lower) < min(rapids)
-        return _Idle(beam if beam and 0 < self.dark[beam] < self.feeds else "", above if is_up else None)
-
-    def said_of_idle(self) -> tuple[str, ...]:
-        """What there is to say of moves with G1 to G3 that do not cut."""
-        up = "" if self.idle.above is None else f"the tool is up, {_several([self.idle.above])}"
-        why = " or ".join(filter(None, [self.idle.beam and f"the beam is off ({self.idle.beam})", up]))
-        return (f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}",) if self.idled else ()
-
-
-def _rounded_one(value: Decimal) -> int:
-    """Whole µm, halves away from zero."""
-    return int(value.quantize(Decimal(1), ROUND_HALF_UP))
-
-
-def _rounded(place: tuple[Decimal, ...]) -> Spot:
-    return _rounded_one(place[0]), _rounded_one(place[1])
-
-
-def _read_through(text: str, idle: _Idle) -> tuple[_Reader, list[Placed | Move | Drilled | Stop]]:
-    """Read a program; what cannot be read is left out."""
-    reader = _Reader(idle)
-    items: list[Placed | Move | Drilled | Stop] = []
-    for line in text.splitlines():
-        try:
-            items += reader.take(line)
-        except _Misread as error:
-            reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
-    return reader, items
-
-
-def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
-    """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
-    reader, items = _read_through(text, _Idle())
-    # (what does not cut is known when all has been read; mostly there is nothing)
-    idle = reader.where_idle()
-    if idle != _Idle():
-        again, idled = _read_through(text, idle)
-        if again.idled < again.feeds:
-            reader, items = again, idled
-    for beam, line in reader.turned_on.items():
-        if 0 < reader.dark[beam] == reader.feeds:
-            said = f"each G1 finds the beam off ({beam}), as if nothing were cut: taken for cuts all the same"
-            reader.findings.append(GcodeFinding(line, 1, said, is_fatal=False, is_guess=True))
-    if not reader.ended:
-        # (with nothing in front of it, it is no program)
-        missing = "expected M02 or M30, found the end of the program"
-        if any(reader.is_on.values()):
-            missing += ", with beam or spindle on"
-        reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not items, is_guess=bool(items)))
-    guesses = tuple(str(finding) for finding in reader.findings if finding.is_guess)
-    program = GcodeProgram(
-        name, tuple(items), reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.said_of_idle()
-    )
-    return program, reader.findings
-
-
-def read(text: str, name: str = "-") -> GcodeProgram:
-    """Return a program; what cannot be read is a `UserError` with line and column, what is guessed is among it."""
-    program, findings = scan(text, name)
-    for finding in findings:
-        if finding.is_fatal:
-            raise UserError(f"{name}: {finding}")
-    return program
