@@ -1,16 +1,15 @@
-"""From planned contours to a tape that was checked: program, board, controller, report."""
+"""From planned contours to a tape that was checked: program, board, controller; why one is refused."""
 
 from __future__ import annotations
 
-from collections import Counter
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import floor, inf
 
-from skg.cutting.check import LIMIT, Checked, Misfit, Threading, check
+from skg.cutting.check import LIMIT, Checked, Misfit, check
 from skg.drawing.account import counted, short, shown
 from skg.drawing.entry import longest_tab
-from skg.drawing.parallel import NoRoom, uncut, widest
+from skg.drawing.parallel import NoRoom, widest
 from skg.drawing.planned import PlannedContour
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
@@ -19,12 +18,7 @@ from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes
 from skg.plane import XY
 from skg.tape import text as tapes
 from skg.tape.block import Tape
-from skg.tape.simulation import duration
 
-#: Places that a line of the report names before it says how many more there are.
-_PLACES = 5
-#: So many pairs of contours it names of which one is cut into by the other's wire.
-_PAIRS = 100
 #: No contour takes fewer bytes of the board's memory: the lines of its REM, FROM and CUT.
 _LEAST_STORED = 24
 #: What the errors of a route mean (language.md, section 6), and what to do.
@@ -39,8 +33,6 @@ _MEANING = {
     9: ("the board's memory is full", "a larger --ram"),
     10: ("a move is too long for a tape", "is the drawing in the right --units? a tape ends at 100 m"),
 }
-
-
 #: Of a contour with more edges than this the largest offset that fits is not looked for.
 _MANY = 2000
 
@@ -200,7 +192,7 @@ def _helped(
                 none[at] = no_room
     if none and settings.small != "leave":
         raise UserError(_no_room(routes, none, factor, settings))
-    return _without(found, {at: f"{no_room} {_in_file(no_room.place, factor)}" for at, no_room in none.items()}, factor)
+    return _without(found, {at: f"{no_room} {in_file(no_room.place, factor)}" for at, no_room in none.items()}, factor)
 
 
 def _without(
@@ -216,7 +208,7 @@ def _no_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: floa
     fits = {at: _fits(routes[at], no_room) for at, no_room in none.items()}
     at = min(fits, key=lambda one: (fits[one] is None, fits[one]))
     route, fit = routes[at], fits[at]
-    message = f"{_named(route, at, factor)}: {none[at]} {_in_file(none[at].place, factor)}"
+    message = f"{_named(route, at, factor)}: {none[at]} {in_file(none[at].place, factor)}"
     if none[at].is_crossing:
         message += ", there is no way beside it for the wire"
         help_ = "mend it in the drawing"
@@ -282,10 +274,11 @@ def _located(program: Program, error: ErrorLine, factor: float, settings: Settin
     _, done = feed_lines([_text([one]) for one in routes[at]], settings.rom, settings.ram_kib)
     route = program.routes[at]
     places = [one.place for one in routes[at][: done + 1] if one.place] or [route.entry]
-    return f"{_named(route, at, factor)}, near {_in_file(places[-1], factor)}: {message}"
+    return f"{_named(route, at, factor)}, near {in_file(places[-1], factor)}: {message}"
 
 
-def _in_file(place: XY, factor: float) -> str:
+def in_file(place: XY, factor: float) -> str:
+    """A place as the drawing's file has it; `factor`: mm in a unit of the file."""
     return shown((place[0] / factor, place[1] / factor))
 
 
@@ -298,7 +291,7 @@ def kind(route: PlannedContour) -> str:
 
 def _called(route: PlannedContour, factor: float) -> str:
     layers = f", layer {', '.join(route.contour.layers)}" if route.contour.layers else ""
-    return f"{kind(route)} from {_in_file(route.contour.edges[0].start, factor)}{layers}"
+    return f"{kind(route)} from {in_file(route.contour.edges[0].start, factor)}{layers}"
 
 
 def _named(route: PlannedContour, number: int, factor: float) -> str:
@@ -307,7 +300,7 @@ def _named(route: PlannedContour, number: int, factor: float) -> str:
 
 def _why(fault: Misfit, factor: float) -> str:
     """Why there is no room for the wire; empty when it is something else that is wrong."""
-    place = _in_file(fault.place, factor)
+    place = in_file(fault.place, factor)
     if fault.is_into:
         return f"the wire would cut {short(fault.off)} mm into it at {place}"
     return f"the wire does not come to {place}" if fault.is_missed else ""
@@ -323,7 +316,7 @@ def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, setti
                 f"{named}: {why}, {short(max(map(abs, route.passes)))} mm beside it: there is no room for this offset, "
                 f"take a smaller one or a thinner wire{_or_leave(settings)}"
             )
-        place, off = _in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
+        place, off = in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
         where = (
             f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
         )
@@ -344,108 +337,7 @@ def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Setti
     if not settings.is_without_drift:
         return "--rom no-drift is nearer"
     edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
-    ends = " to ".join(_in_file(end, factor) for end in (edge.start, edge.end))
+    ends = " to ".join(in_file(end, factor) for end in (edge.start, edge.end))
     what = "curve" if edge.nodes else "arc" if edge.centre else "line"
     others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
     return f"{others}draw the {what} from {ends} anew, {short(edge.length / factor)} long, or what meets it"
-
-
-def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
-    """What a person must know about a tape, line by line. `offset`: what was asked for, mm."""
-    settings, routes = job.settings, job.routes
-    kinds = Counter(kind(route) for route in routes)
-    order = ", ".join(counted(count, one) for one, count in kinds.items())
-    holes = [route.start for route in routes]
-    lines = [
-        f"cut in this order: {order}; {counted(len(holes), 'start hole')}: "
-        + ", ".join(_in_file(hole, factor) for hole in holes[:_PLACES])
-        + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
-    ]
-    lines += _offsets(routes, offset)
-    lines += [
-        f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {settings.feed:g} mm/min; "
-        f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}",
-        _how(job),
-        f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
-        + (_closing(job.checked.cuts, routes) if not job.checked.drift else ""),
-    ]
-    if drift := job.checked.drift:
-        lines.append(
-            f"take care: the misses of arcs add up on the machine, to {1000 * drift:.2f} µm beside that: "
-            "--rom no-drift makes a tape without"
-        )
-    lines += [f"take care, left out: {one.name}: {one.why}" for one in job.left[:_PLACES]]
-    if len(job.left) > _PLACES:
-        lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} without room for the wire")
-    lines += _corners(routes, factor)
-    for crossing in job.checked.crossings[:_PLACES]:
-        lines.append(
-            f"take care: the cut of contour {crossing.route + 1} comes {short(crossing.depth)} mm"
-            f"{' or more' * crossing.is_through} into contour {crossing.other + 1} at "
-            f"{_in_file(crossing.place, factor)}"
-        )
-    if more := job.checked.crossings[_PLACES:]:
-        lines.append(
-            f"take care: {counted(len(more), 'more cut')} into other contours: "
-            + ", ".join(f"{one.route + 1} into {one.other + 1}" for one in more[:_PAIRS])
-            + " …" * (len(more) > _PAIRS)
-        )
-    return lines
-
-
-def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
-    passes = next((route.passes for route in routes if any(route.passes)), ())
-    on = sum(not any(route.passes) for route in routes)
-    if not passes:
-        why = "they are open" if offset and not any(route.contour.is_closed for route in routes) else "--side on"
-        return [f"the wire's middle runs on the contours: {why if offset else 'no --offset'}"]
-    lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours"]
-    if len(passes) > 1:
-        lines[0] += f" in {len(passes)} passes, every second one backwards"
-        free = [at + 1 for at, route in enumerate(routes) if route.contour.is_closed and not route.tab]
-        outer = [at for at in free if not routes[at - 1].is_opening]
-        if outer:
-            lines.append(
-                f"take care: {counted(len(outer), 'part')} free after the first pass "
-                f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
-            )
-    if on:
-        lines.append(
-            f"take care: the wire's middle runs on {counted(on, 'open contour')}, no side of them is the part's"
-        )
-    return lines
-
-
-def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
-    """Contours that the wire cannot follow everywhere."""
-    lines = []
-    for at, route in enumerate(routes):
-        if route.is_cramped:
-            lines.append(f"contour {at + 1} has no room for a lead along an arc: it is straight")
-        if not route.traced:
-            continue
-        off, place = uncut(route.contour, route.traced[-1], route.passes[-1])
-        if off > LIMIT:
-            lines.append(
-                f"take care: contour {at + 1} has corners that are too narrow for the wire, as at "
-                f"{_in_file(place, factor)}: it stays {short(off)} mm off"
-            )
-    more = len(lines) - _PLACES
-    return lines[:_PLACES] + [f"and {counted(more, 'more such contour')}"] * (more > 0)
-
-
-def _how(job: Job) -> str:
-    how = (
-        "a stored program"
-        if job.is_stored
-        else "lines without numbers, carried out as they are loaded: stored it would not fit"
-    )
-    return f"made by the {job.settings.rom} ROM with {job.settings.ram_kib} KiB of RAM from {how}"
-
-
-def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> str:
-    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tab}
-    if not closed:
-        return ""
-    end = "ends where it begins" if len(closed) == 1 else "end where they begin"
-    return f"; {counted(len(closed), 'closed contour')} {end}"

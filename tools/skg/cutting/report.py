@@ -1,0 +1,118 @@
+"""What a person must know about a tape that has been made and checked."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from skg.cutting.check import LIMIT, Threading
+from skg.cutting.job import Job, in_file, kind
+from skg.drawing.account import counted, short
+from skg.drawing.parallel import uncut
+from skg.drawing.planned import PlannedContour
+from skg.tape.simulation import duration
+
+#: Places that a line of the report names before it says how many more there are.
+_PLACES = 5
+#: So many pairs of contours it names of which one is cut into by the other's wire.
+_PAIRS = 100
+
+
+def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
+    """What a person must know about a tape, line by line. `offset`: what was asked for, mm."""
+    settings, routes = job.settings, job.routes
+    kinds = Counter(kind(route) for route in routes)
+    order = ", ".join(counted(count, one) for one, count in kinds.items())
+    holes = [route.start for route in routes]
+    lines = [
+        f"cut in this order: {order}; {counted(len(holes), 'start hole')}: "
+        + ", ".join(in_file(hole, factor) for hole in holes[:_PLACES])
+        + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
+    ]
+    lines += _offsets(routes, offset)
+    lines += [
+        f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {settings.feed:g} mm/min; "
+        f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}",
+        _how(job),
+        f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
+        + (_closing(job.checked.cuts, routes) if not job.checked.drift else ""),
+    ]
+    if drift := job.checked.drift:
+        lines.append(
+            f"take care: the misses of arcs add up on the machine, to {1000 * drift:.2f} µm beside that: "
+            "--rom no-drift makes a tape without"
+        )
+    lines += [f"take care, left out: {one.name}: {one.why}" for one in job.left[:_PLACES]]
+    if len(job.left) > _PLACES:
+        lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} without room for the wire")
+    lines += _corners(routes, factor)
+    for crossing in job.checked.crossings[:_PLACES]:
+        lines.append(
+            f"take care: the cut of contour {crossing.route + 1} comes {short(crossing.depth)} mm"
+            f"{' or more' * crossing.is_through} into contour {crossing.other + 1} at "
+            f"{in_file(crossing.place, factor)}"
+        )
+    if more := job.checked.crossings[_PLACES:]:
+        lines.append(
+            f"take care: {counted(len(more), 'more cut')} into other contours: "
+            + ", ".join(f"{one.route + 1} into {one.other + 1}" for one in more[:_PAIRS])
+            + " …" * (len(more) > _PAIRS)
+        )
+    return lines
+
+
+def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
+    passes = next((route.passes for route in routes if any(route.passes)), ())
+    on = sum(not any(route.passes) for route in routes)
+    if not passes:
+        why = "they are open" if offset and not any(route.contour.is_closed for route in routes) else "--side on"
+        return [f"the wire's middle runs on the contours: {why if offset else 'no --offset'}"]
+    lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours"]
+    if len(passes) > 1:
+        lines[0] += f" in {len(passes)} passes, every second one backwards"
+        free = [at + 1 for at, route in enumerate(routes) if route.contour.is_closed and not route.tab]
+        outer = [at for at in free if not routes[at - 1].is_opening]
+        if outer:
+            lines.append(
+                f"take care: {counted(len(outer), 'part')} free after the first pass "
+                f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
+            )
+    if on:
+        lines.append(
+            f"take care: the wire's middle runs on {counted(on, 'open contour')}, no side of them is the part's"
+        )
+    return lines
+
+
+def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
+    """Contours that the wire cannot follow everywhere."""
+    lines = []
+    for at, route in enumerate(routes):
+        if route.is_cramped:
+            lines.append(f"contour {at + 1} has no room for a lead along an arc: it is straight")
+        if not route.traced:
+            continue
+        off, place = uncut(route.contour, route.traced[-1], route.passes[-1])
+        if off > LIMIT:
+            lines.append(
+                f"take care: contour {at + 1} has corners that are too narrow for the wire, as at "
+                f"{in_file(place, factor)}: it stays {short(off)} mm off"
+            )
+    more = len(lines) - _PLACES
+    return lines[:_PLACES] + [f"and {counted(more, 'more such contour')}"] * (more > 0)
+
+
+def _how(job: Job) -> str:
+    how = (
+        "a stored program"
+        if job.is_stored
+        else "lines without numbers, carried out as they are loaded: stored it would not fit"
+    )
+    return f"made by the {job.settings.rom} ROM with {job.settings.ram_kib} KiB of RAM from {how}"
+
+
+def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> str:
+    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tab}
+    if not closed:
+        return ""
+    end = "ends where it begins" if len(closed) == 1 else "end where they begin"
+    return f"; {counted(len(closed), 'closed contour')} {end}"
