@@ -2,7 +2,7 @@
 
 The opcode table and the walk through the image are the test's own: from the restarts, along every jump and
 call, over the data that stands behind RST 1, RST 4, RST 5 (the calculator's byte-code) and calls of PUTSI
-and of the drive's DNEXT.
+and of the drive's DNEXT and DNEXZ.
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ class Walk:
                 waiting += self.calculator(at + length)
             elif name == "CALL" and target == self.names["PUTSI"]:
                 waiting.append(1 + next(n for n in range(at + 3, len(self.image)) if self.image[n] & 0x80))
-            elif name == "CALL" and target == self.names.get("DNEXT"):
+            elif name == "CALL" and target in map(self.names.get, ("DNEXT", "DNEXZ")):
                 waiting.append(at + 5)
             elif name not in ("JMP", "RET", "PCHL", "RST 1", "HLT"):
                 waiting.append(at + length)
