@@ -226,6 +226,7 @@ IDLE = {
 def test_what_does_not_cut(text: str) -> None:
     tape, counted, why = IDLE[text]
     program = gcode_reader.read(f"G21 G90\n{text}")
+    assert gcode_reader.look(f"G21 G90\n{text}")[1] == program.notes
     assert tapes.to_bytes(program.tape().items).decode().split() == tape.split()
     said = f"{counted} moves with G1 to G3 do not cut: the "
     said += f"tool is {why}" if "up" in why else f"beam is off ({why})"
@@ -387,6 +388,7 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
 @given(st.text(alphabet="GXYZIJMNF0123 .-\n()%", max_size=60))
 def test_any_text(text: str) -> None:
     program, findings = gcode_reader.scan(text + "\nM02")
+    assert gcode_reader.look(text + "\nM02") == (findings, program.notes)
     for placed in program.items:
         if hasattr(placed, "end"):
             assert hypot(*placed.end) < float("inf")

@@ -38,10 +38,10 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     for name in tapes_:
         text = iso_text(name)
         if text is not None:
-            program, findings = gcode_reader.scan(text, name)
+            findings, notes = gcode_reader.look(text)
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)
-            for note in program.notes:
+            for note in notes:
                 click.echo(f"skg: {name}: {note}", err=True)
         else:
             data = tape_bytes(name)

@@ -446,25 +446,27 @@ def _rounded(place: tuple[Decimal, ...]) -> Spot:
     return rounded_one(place[0]), rounded_one(place[1])
 
 
-def _read_through(text: str, idle: _Idle) -> tuple[_Reader, list[Placed | Move | Drilled | Stop]]:
-    """Read a program; what cannot be read is left out."""
+def _read_through(text: str, idle: _Idle, keeps: bool) -> tuple[_Reader, list[Placed | Move | Drilled | Stop]]:
+    """Read a program; what cannot be read is left out. Unless `keeps`, nothing of what it does is kept."""
     reader = _Reader(idle)
     items: list[Placed | Move | Drilled | Stop] = []
     for line in text.splitlines():
         try:
-            items += reader.take(line)
+            for item in reader.take(line):
+                if keeps:
+                    items.append(item)
         except _Misread as error:
             reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
     return reader, items
 
 
-def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
-    """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
-    reader, items = _read_through(text, _Idle())
+def _read_all(text: str, keeps: bool) -> tuple[_Reader, list[Placed | Move | Drilled | Stop]]:
+    """The same, where it is known what does not cut; and what is wrong with the program as a whole."""
+    reader, items = _read_through(text, _Idle(), keeps)
     # (what does not cut is known when all has been read; mostly there is nothing)
     idle = reader.where_idle()
     if idle != _Idle():
-        again, idled = _read_through(text, idle)
+        again, idled = _read_through(text, idle, keeps)
         if again.idled < again.feeds:
             reader, items = again, idled
     for beam, line in reader.turned_on.items():
@@ -476,7 +478,20 @@ def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
         missing = "expected M02 or M30, found the end of the program"
         if any(reader.is_on.values()):
             missing += ", with beam or spindle on"
-        reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not items, is_guess=bool(items)))
+        is_program = reader.begun
+        reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not is_program, is_guess=is_program))
+    return reader, items
+
+
+def look(text: str) -> tuple[list[GcodeFinding], tuple[str, ...]]:
+    """Everything that is wrong with a program, and its notes, as `GcodeProgram` has them."""
+    reader, _ = _read_all(text, keeps=False)
+    return reader.findings, reader.said_of_idle()
+
+
+def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
+    """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
+    reader, items = _read_all(text, keeps=True)
     guesses = tuple(str(finding) for finding in reader.findings if finding.is_guess)
     program = GcodeProgram(
         name, tuple(items), reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.said_of_idle()
