@@ -350,14 +350,14 @@ def _by_inner_corners(wire: Pieces, contours: Pieces, widest: float) -> tuple[Wh
     corners: it may turn off too early there, before a step that is lower than R."""
     before = np.flatnonzero(wire.owner[1:] == wire.owner[:-1])
     # (a wire that turns by less leaves nothing)
-    ways = [wire.normal(at, np.full(len(at), end)) for at, end in ((before, 1.0), (before + 1, 0.0))]
-    before = before[np.abs(cross(ways[0].T, ways[1].T)) > _TURN]
+    one, other = (wire.normal(at, np.full(len(at), end)) for at, end in ((before, 1.0), (before + 1, 0.0)))
+    turns = np.abs(cross(one.T, other.T)) > _TURN
+    before, one, other = before[turns], one[turns], other[turns]
     near = contours.nearest(wire.end[before], wire.owner[before], widest + 2 * LIMIT)
     is_there = (near.own_at >= 0) & ~contours.is_chord[near.own_at]
-    before, which = before[is_there], near.own_at[is_there]
+    before, one, other, which = before[is_there], one[is_there], other[is_there], near.own_at[is_there]
     part = contours.part(wire.end[before], which)
     away = wire.end[before] - contours.at(which, part)
-    one, other = (wire.normal(at, np.full(len(at), end)) for at, end in ((before, 1.0), (before + 1, 0.0)))
     # (the wire's way is square to its normal)
     is_inner = cross((other - one).T, away.T) > 0
     which, part, aside = which[is_inner], part[is_inner], 2 * LIMIT / contours.length[which[is_inner]]
