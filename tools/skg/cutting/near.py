@@ -11,7 +11,7 @@ import numpy as np
 
 from skg.drawing.field import Floats, Whole, rows_of
 from skg.piece import Piece
-from skg.tape.columns import directions, hypots
+from skg.tape.columns import directions, hypots, numbers_up_to
 from skg.tape.laid import Laid
 
 #: Pairs of a place and a piece that are looked at together, and so many places: more do not fit into a fast memory.
@@ -224,15 +224,14 @@ class _Grid:
         top = np.minimum(top, self.width - 1)
         columns = np.where(top >= bottom, np.maximum(high - low + 1, 0), 0)
         place = np.repeat(np.arange(len(places)), columns)
-        column = low[place] + np.arange(len(place)) - np.repeat(np.cumsum(columns) - columns, columns)
+        column = low[place] + numbers_up_to(columns)
         first = np.searchsorted(self.keys, column * self.width + bottom[place])
         counts = np.searchsorted(self.keys, column * self.width + top[place], "right") - first
         return place, first, counts
 
     def pieces(self, first: Whole, counts: Whole) -> Whole:
         """The pieces that stand there."""
-        offset = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-        return self.which[np.repeat(first, counts) + offset]
+        return self.which[np.repeat(first, counts) + numbers_up_to(counts)]
 
 
 #: Pieces that follow each other: starts, ends, whose they are; centre, radius, first angle and sweep, None of chords.
@@ -284,5 +283,4 @@ def spread(spaces: Whole, begin: int, end: int) -> tuple[Whole, Floats]:
     """The pieces from one number up to another, each as often as it has places, and the parts where these are."""
     count = spaces[begin:end]
     which = np.repeat(np.arange(begin, end), count + 1)
-    first = np.repeat(np.cumsum(count + 1) - count - 1, count + 1)
-    return which, (np.arange(len(which)) - first) / spaces[which]
+    return which, numbers_up_to(count + 1) / spaces[which]

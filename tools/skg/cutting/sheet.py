@@ -23,6 +23,7 @@ from skg.drawing.contour import Edge, Places
 from skg.drawing.page import as_it_stands, save
 from skg.drawing.plot import FEW, outlines
 from skg.plane import XY, distance
+from skg.tape.columns import numbers_up_to
 from skg.tape.laid import Laid
 from skg.tape.simulation import duration
 
@@ -176,7 +177,7 @@ class SetupSheet:
             begin, way = (part[first : first + _LINES] for part in (starts, ends - starts))
             count = (np.hypot(*way.T) / _GRID * 1.5).astype(int) + 2
             which = np.repeat(np.arange(len(way)), count)
-            part = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
+            part = numbers_up_to(count) / (count[which] - 1)
             self.taken.along(begin[which] + part[:, None] * way[which])
 
     def _wire(self) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from skg.drawing.contour import Contour, Edge
 from skg.piece import Piece
 from skg.plane import XY, distance
-from skg.tape.columns import Flags, directions, hypots
+from skg.tape.columns import Flags, directions, hypots, numbers_up_to
 
 #: So many chords that follow each other are looked for together.
 _RUN = 32
@@ -257,17 +257,12 @@ def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> 
     kinds, kind = np.unique(np.column_stack((rows[:, 7:9], pieces)), axis=0, return_inverse=True)
     many = kinds[:, 2].astype(int) - 1
     first, sweep, chords = np.repeat(kinds, many, axis=0).T
-    ways = headings(first + (_numbers(many) + 1) / chords * sweep)
-    number = _numbers(inner)
+    ways = headings(first + (numbers_up_to(many) + 1) / chords * sweep)
+    number = numbers_up_to(inner)
     across, up = _columns(ways, np.repeat((np.cumsum(many) - many)[kind], inner) + number)
     x, y, radius = (np.repeat(column, inner) for column in rows[:, 4:7].T)
     places = np.repeat(at, inner) + number + 1
     found[places, 0], found[places, 1] = x + radius * across, y + radius * up
-
-
-def _numbers(counts: Whole) -> Whole:
-    """0, 1, 2 and so on, up to each of some counts in turn."""
-    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def rows_of(pieces: Sequence[Piece]) -> Floats:

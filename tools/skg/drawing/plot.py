@@ -22,6 +22,7 @@ from skg.drawing.page import as_it_stands, save
 from skg.errors import UserError
 from skg.piece import Piece
 from skg.plane import XY, minus
+from skg.tape.columns import numbers_up_to
 from skg.tape.laid import Laid
 from skg.tape.placed import PlacedRoute
 
@@ -91,7 +92,7 @@ def _path(pieces: Sequence[Piece], scale: float = 1.0, begins: Sequence[int] = (
     codes = np.full(first[-1], Outline.LINETO)
     if arcs.any():
         of = np.repeat(np.arange(len(sweeps)), curves)
-        at = np.arange(len(of)) - np.repeat(np.cumsum(curves) - curves, curves)
+        at = numbers_up_to(curves)
         arms = starts[arcs] - centres
         radii, angles, steps = np.hypot(*arms.T), np.arctan2(arms[:, 1], arms[:, 0]), sweeps / curves
         # The control points of an arc as L. Maisonobe has them, "Drawing an elliptical arc".

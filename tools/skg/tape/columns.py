@@ -50,6 +50,11 @@ def directions(ways: NDArray) -> Reals:
     return np.fromiter(map(atan2, ways[:, 1].tolist(), ways[:, 0].tolist()), float, len(ways))
 
 
+def numbers_up_to(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """0, 1, 2 and so on, up to each of some counts in turn."""
+    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
 def hypots(x: NDArray, y: NDArray) -> Reals:
     """Lengths of ways, as math.hypot has them."""
     return np.fromiter(map(hypot, x.tolist(), y.tolist()), float, len(x))
