@@ -562,6 +562,18 @@ def test_arcs_from_an_angle_to_the_same() -> None:
     assert reading.report.notes == [note]
 
 
+def test_arcs_of_next_to_nothing() -> None:
+    """What a fillet between lines that go straight on leaves is no circle; whole turns that were rounded are."""
+    ends = "ARC 8 A 10 0 20 0 40 {} 50 {} 51 {}".format
+    reading = checked(raw(*square(9, 9, 5), ends(1, 174.9999996, "175.0000024"), ends(3, 0, "0.000000001")))
+    assert [contour.edges[0].is_circle for contour in reading.contours] == [False]
+    assert left(reading) == {"shorter than the tolerance": 2}
+    for last in ("360", "359.9999999", "360.0000001", "0.00000000000001"):
+        reading = checked(raw(ends(5, 0, last)))
+        assert reading.contours[0].edges[0].is_circle
+        assert len(reading.report.notes) == (last[:2] == "0.")
+
+
 def test_only_unseen_layers() -> None:
     frozen = "0\nLAYER\n2\nPART\n70\n1\n62\n7\n"
     with pytest.raises(UserError, match="4 LINE: the layer is frozen.*: --layer PART takes what is on that layer"):

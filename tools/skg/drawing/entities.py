@@ -31,8 +31,9 @@ NOTES = frozenset(
 )
 #: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
 _LEVEL = 1e-3
-#: Angles are whole turns apart when they miss it by no more than this part of one.
-_WHOLE = 1e-8
+#: Angles are whole turns apart when they miss it by no more than this part of one; those that are the same angle but
+#: for a float's rounding by no more than that: what is longer than nothing is drawn so (where two fillets meet).
+_WHOLE, _NONE = 1e-8, 1e-13
 #: Blocks within blocks within blocks.
 _DEPTH = 32
 #: More entities than this in all are no drawing, but blocks that hold copies of copies.
@@ -363,11 +364,11 @@ def _ocs(entity: DXFGraphic) -> OCS | None:
 
 
 def _is_whole(record: Record) -> bool:
-    """Whether an arc ends at the angle that it begins at."""
+    """Whether an arc that is read ends at the angle that it begins at."""
     if record.kind not in _ANGLES:
         return False
-    first, last = (record.value(code).strip() for code in _ANGLES[record.kind])
-    return first == last
+    first, last = (float(record.value(code, "nan")) for code in _ANGLES[record.kind])
+    return abs(last - first) < 1e-11
 
 
 def _is_wide(record: Record) -> bool:
@@ -379,7 +380,8 @@ def _is_wide(record: Record) -> bool:
 def _sweep(first: float, last: float) -> float:
     """From one angle on to the other, radians; whole turns, as files round them, are one."""
     turns = (last - first) / (2 * pi)
-    return 2 * pi if abs(turns - round(turns)) < _WHOLE else (last - first) % (2 * pi)
+    is_little = _NONE < turns < _WHOLE
+    return 2 * pi if abs(turns - round(turns)) < _WHOLE and not is_little else (last - first) % (2 * pi)
 
 
 def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:
