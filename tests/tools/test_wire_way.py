@@ -119,6 +119,17 @@ def test_past_what_is_too_small(
     assert ("too narrow for the wire" in words) == (side == "inside" or shape is steps)
 
 
+def test_a_start_hole_that_is_chosen_is_where_the_wire_comes_to(run: Run, tmp_path: Path) -> None:
+    """A window with a crooked tail that is too narrow, and has its longest edges: the wire is threaded in its head."""
+    page = drawing()
+    tail = [(x, 0.8 * (x % 2)) for x in range(2, 12)]
+    corners = [*tail, *((x, y + 0.15) for x, y in reversed(tail)), *((2, 0.7), (1.5, 0.9), (1.2, 0.5), (1.5, -0.4))]
+    wanted = polygon([*corners, (2, -0.5)], page)
+    (places,), words = cut(run, page, tmp_path, "--offset", 0.1, "--side", "inside")
+    assert apart(LineString(places[1:-1]), parallel(wanted, 0.1, "inside")) < LIMIT
+    assert "too narrow for the wire" in words
+
+
 def test_passes_and_tab(run: Run, tmp_path: Path) -> None:
     """Each pass has its own way; the tab is cut off on the way of the last."""
     page = drawing()

@@ -306,6 +306,16 @@ def uncut(contour: Contour, way: tuple[Edge, ...], r: float) -> tuple[float, XY]
     return float(off[worst]), places[worst]
 
 
+def roomy_place(way: tuple[Edge, ...], place: XY) -> XY:
+    """A place that a closed way goes around: the given one, else the one that is farthest from the way."""
+    corners = [corner for edge in way for corner in _chords(edge)]
+    area = shapely.Polygon(corners if len(corners) > 2 else [])
+    if area.is_empty or area.contains(shapely.Point(place)):
+        return place
+    x, y = shapely.get_coordinates(shapely.maximum_inscribed_circle(area))[0].tolist()
+    return x, y
+
+
 def part_between(way: tuple[Edge, ...], first: XY, last: XY | None = None) -> tuple[Edge, ...]:
     """A closed way from the place on it nearest to `first` on: to the one nearest to `last`, or back to where it began
     (then it begins within an edge)."""

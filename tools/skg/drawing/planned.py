@@ -10,7 +10,7 @@ from math import cos, inf, pi, sin
 import numpy as np
 
 from skg.drawing.contour import Contour, Edge, part_of
-from skg.drawing.parallel import part_between, wire_way
+from skg.drawing.parallel import part_between, roomy_place, wire_way
 from skg.plane import XY, distance, minus, polar, turn
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
@@ -78,6 +78,7 @@ class PlannedContour:
     backwards. `tab`: the length before the entry that stays until the last cut, mm; `tab_hole`: the other start hole.
     `number`: its place among the contours that were planned, from 0. `room`: from the start hole to what is nearest.
     `traced`: the wire's own way in each pass, where the contour has edges that it cannot follow; see `with_wire_ways`.
+    `is_moved`: they are entered where they are nearest to the start hole.
     `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
     """
 
@@ -93,6 +94,7 @@ class PlannedContour:
     number: int = 0
     room: float = inf
     traced: tuple[tuple[Edge, ...], ...] = ()
+    is_moved: bool = False
     is_cramped: bool = False
     is_short: bool = False
 
@@ -148,7 +150,15 @@ class PlannedContour:
 
     def with_wire_ways(self) -> PlannedContour:
         """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.drawing.parallel)."""
-        return replace(self, traced=tuple(wire_way(self.contour, r) for r in self.passes))
+        traced = tuple(wire_way(self.contour, r) for r in self.passes)
+        found = replace(self, traced=traced)
+        widest = max(self.passes, key=abs)
+        is_outside = (self.contour.area > 0) == (widest > 0)
+        if is_outside or self.room == inf:
+            return found
+        # (a start hole that was chosen, square to the contour, may be where the wire does not come to)
+        place = roomy_place(traced[self.passes.index(widest)], self.start)
+        return found if place == self.start else replace(found, start=place, is_moved=True)
 
     def _way(self, at: int, run: Way) -> Way:
         """A run of a pass along the wire's own way, if there are such."""
@@ -161,7 +171,7 @@ class PlannedContour:
                 (run.edges[-1].end, run.edges[-1].direction(1.0)),
             )
         )
-        edges = part_between(self.traced[at], first, None if run.is_closed else last)
+        edges = part_between(self.traced[at], self.start if self.is_moved else first, None if run.is_closed else last)
         into, out = run.into, run.out
         if into and out:
             into = replace(into, entry=edges[0].start, is_arc=into.is_arc and distance(edges[0].start, first) < _SQUARE)
