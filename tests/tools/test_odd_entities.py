@@ -125,6 +125,16 @@ def test_lines_that_are_drawn_through_are_cut() -> None:
     assert not notes(reading, "dashes")
 
 
+def test_an_outline_that_dashes_start_from() -> None:
+    """Lines that lie behind the part begin at its corners: they are no part of the outline, on whatever layer."""
+    behind = [f"{one} 6 CENTER" for one in (line(0, 0, 0, -5), line(0, -5, 10, -5), line(10, -5, 10, 0))]
+    reading = checked(raw(*square(0, 0, 10), *behind, layers=TYPES))
+    assert max(y for edge in reading.contours[0].edges for _, y in edge.extremes()) == 10
+    assert min(y for edge in reading.contours[0].edges for _, y in edge.extremes()) == 0
+    assert len(reading.contours) == 1
+    assert len(reading.report.rest) == 3
+
+
 def test_a_drawing_in_dashes_is_cut() -> None:
     """Where no outline is drawn through, dashes mean nothing; they are said, as a dashed opening is."""
     reading = checked(types(*square(0, 0, 10, "AXES"), AXIS))

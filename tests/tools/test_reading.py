@@ -361,9 +361,46 @@ def test_hatching_centre_lines_and_frames() -> None:
     assert [contour.layers for contour in reading.contours] == [("PART",), ("PART",)]
     assert left(reading) == {JUNCTION: 6}
     text = "\n".join(reading.report.lines())
-    assert "not cut, it belongs to no closed outline: 3 LINE on layer HATCH at (3, 0), (6, 0), (9, 0)" in text
+    assert (
+        "not cut, it belongs to no closed outline (--open all cuts it): 3 LINE on layer HATCH at (3, 0), (6, 0), (9, 0)"
+        in text
+    )
     assert "1 LINE on layer LEADER at (40, 40)" in text
     assert len(checked(data, open="all").contours) == 8
+
+
+def test_an_outline_that_is_left_is_said() -> None:
+    """Its ends lie on a circle that was drawn for half of one: the openings alone are no part."""
+    outline = [line(0, 0, 40, 0), line(40, 0, 40, 9), line(40, 11, 40, 20), line(40, 20, 0, 20), line(0, 20, 0, 0)]
+    circles = [f"CIRCLE 8 0 10 {x} 20 10 40 1" for x in (10, 30, 40)]
+    said = "take care: what is left from (40, 9) to (40, 11) reaches around all that is cut: is it the outline"
+    assert any(note.startswith(said) for note in checked(raw(*outline, *circles)).report.notes)
+    for closed in (line(40, 9, 40, 11), line(20, 0, 20, 9)):
+        assert not any("around all" in note for note in checked(raw(*square(0, 0, 40), *circles, closed)).report.notes)
+
+
+def test_outlines_of_one_layer() -> None:
+    """What is closed on its own layer is the outline, not what lines of another layer make of it."""
+    rounded = [
+        line(1, 0, 9, 0),
+        line(9, 0, 9, 9),
+        line(9, 9, 0, 9),
+        line(0, 9, 0, 1),
+        "ARC 8 0 10 1 20 1 40 1 50 180 51 270",
+    ]
+    corner = [line(1, 0, 0, 0, "REF"), line(0, 0, 0, 1, "REF"), line(9, 9, 4, 4, "BEND")]
+    reading = checked(raw(*corner, *rounded))
+    assert length(reading.contours) == pytest.approx(4 * 9 - 2 + pi / 2)
+    assert {layer.layer: (layer.cut, layer.left) for layer in reading.report.layers} == {
+        "0": (5, 0), "REF": (0, 2), "BEND": (0, 1)
+    }  # fmt: skip
+    # Two rings of two layers that share a corner or two, and what makes a ring of both.
+    reading = checked(raw(*square(0, 0, 10, "A"), *square(10, 10, 10, "B"), line(10, 0, 20, 10, "C")))
+    assert [contour.layers for contour in reading.contours] == [("A",), ("B",)]
+    assert left(reading) == {JUNCTION: 1}
+    # An outline that is drawn on two layers is one.
+    half, other = square(0, 0, 10)[:2], square(0, 0, 10, "B")[2:]
+    assert length(checked(raw(*half, *other, line(0, 0, 10, 10, "C"))).contours) == pytest.approx(40)
 
 
 @pytest.mark.parametrize(

@@ -127,7 +127,7 @@ class Account:
         for entity in self.not_understood[:_PLACES]:
             found.append(f"not cut: {entity.kind} on layer {entity.layer} at {shown(entity.place)}: {entity.left}")
         found += _more(self.not_understood, "entity not understood", "entities not understood")
-        found += _places("not cut, it belongs to no closed outline:", self.rest)
+        found += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
         for what in ("drawn twice", "overlap", "cross", "touch"):
             found += _overlaps(what, [overlap for overlap in self.overlaps if overlap.what == what])
         return found + self.notes

@@ -4,10 +4,12 @@ An entity that closes by itself (a circle, a closed polyline) is a contour, what
 lines of a graph whose corners are places where ends meet. A corner of two edges is a corner of a contour; where more
 meet, the closed outlines are found so:
 
-1. what hangs on a junction and ends free is no outline, nor is what alone joins two parts of the drawing (a bridge);
-2. what then is left falls into blocks that hang together at single corners: a block that is a ring is an outline;
-3. of a block with junctions the boundary around all of it is an outline, followed from its lowest place on;
-4. what lies within that is looked at once more, and rings are outlines unless they turn off at a junction where
+1. a ring of edges of one layer and type of line that meet no others of these is an outline, whatever else meets it
+   (lines to measure to, lines to bend along);
+2. of the others what hangs on a junction and ends free is no outline, nor is what alone joins two parts (a bridge);
+3. what then is left falls into blocks that hang together at single corners: a block that is a ring is an outline;
+4. of a block with junctions the boundary around all of it is an outline, followed from its lowest place on;
+5. what lies within that is looked at once more, and rings are outlines unless they turn off at a junction where
    another edge goes straight on (cells between crossing lines).
 
 The rest is handed back, nothing is dropped.
@@ -16,7 +18,7 @@ The rest is handed back, nothing is dropped.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import acos, asin, atan2, ceil, copysign, hypot, pi
 
@@ -35,6 +37,10 @@ _STRAIGHT_ON = 0.02
 _CHORD = 1e-4
 #: An arc whose ends were moved may leave the drawn one by this, mm; else it is bent at its ends alone.
 _BENT = 1e-3
+
+
+#: Of each entity how it is drawn: its layer, its type of line.
+Styles = Sequence[Hashable]
 
 
 @dataclass
@@ -124,8 +130,11 @@ def _same(one: Edge, other: Edge, tolerance: float) -> bool:
     return False
 
 
-def chain(edges: Iterable[Edge], tolerance: float) -> Chains:
-    """Return what edges make whose ends within `tolerance` (mm) of each other join."""
+def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chains:
+    """Return what edges make whose ends within `tolerance` (mm) of each other join.
+
+    `styles`: of each entity how it is drawn; empty where all are drawn alike.
+    """
     found = Chains()
     loose: list[Edge] = []
     groups: dict[int, list[Edge]] = defaultdict(list)
@@ -138,7 +147,7 @@ def chain(edges: Iterable[Edge], tolerance: float) -> Chains:
             continue
         found.short += short
         found.contours.append(Contour(tuple(kept), True))
-    _Graph(loose, tolerance, found).chain()
+    _Graph(loose, tolerance, found).chain(styles)
     found.contours.sort(key=lambda contour: min(edge.entity for edge in contour.edges))
     return found
 
@@ -208,15 +217,17 @@ class _Graph:
         first, last = self.ends[at]
         return last if first == corner else first
 
-    def chain(self) -> None:
-        """Find all contours."""
-        for part in self.parts():
+    def chain(self, styles: Styles) -> None:
+        """Find all contours; `styles`: see `chain`."""
+        for part in self.parts(range(len(self.edges))):
             degrees = self.degrees(part)
             if max(degrees.values()) <= 2:
                 (run,) = self.runs(part)
                 self.found.contours.append(self.contour(run, 1 not in degrees.values()))
                 continue
-            rings, rest = self.outlines(part)
+            own = list(self.rings_of_styles(part, styles)) if styles else []
+            rings, rest = self.outlines(part.difference(*own))
+            rings += [ring for one in own for ring in self.runs(one)]
             self.found.contours += [self.contour(ring, True) for ring in rings]
             self.found.rest += [self.contour(run, self.is_closed(run)) for run in self.runs(rest)]
 
@@ -238,21 +249,30 @@ class _Graph:
         """How many of some edges meet at each corner."""
         return Counter(corner for at in part for corner in self.ends[at])
 
-    def parts(self) -> Iterator[set[int]]:
-        """Edges that hang together."""
+    def parts(self, some: Collection[int]) -> Iterator[set[int]]:
+        """Those of some edges that hang together."""
         seen: set[int] = set()
-        for begin in range(len(self.edges)):
+        for begin in some:
             if begin in seen:
                 continue
             part, open_ones = {begin}, [begin]
             while open_ones:
                 for corner in self.ends[open_ones.pop()]:
                     for at in self.at[corner]:
-                        if at not in part:
+                        if at not in part and at in some:
                             part.add(at)
                             open_ones.append(at)
             seen |= part
             yield part
+
+    def rings_of_styles(self, part: set[int], styles: Styles) -> Iterator[set[int]]:
+        """The rings of edges that meet no others drawn as they are; none where all are drawn alike."""
+        found: dict[Hashable, set[int]] = defaultdict(set)
+        for at in part:
+            found[styles[self.edges[at].entity]].add(at)
+        if len(found) > 1:
+            for some in found.values():
+                yield from filter(self.is_ring, self.parts(some))
 
     def runs(self, part: Iterable[int]) -> Iterator[list[_Step]]:
         """Edges that follow each other, from where none or more than one other edge meets them to the next such

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import shapely
 
-from skg.drawing.chain import Chains, chain
+from skg.drawing.chain import Chains, Styles, chain
 from skg.drawing.contour import Contour, Edge, part_of
 from skg.plane import XY
 
@@ -34,8 +34,11 @@ class Overrun:
     corner: XY
 
 
-def without_overruns(chains: Chains, tolerance: float) -> tuple[Chains, list[Overrun]]:
-    """The chains without what runs past corners, and these pieces; as they were where no outline closes for that."""
+def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> tuple[Chains, list[Overrun]]:
+    """The chains without what runs past corners, and these pieces; as they were where no outline closes for that.
+
+    `styles`: see `chain`.
+    """
     opened = [at for at, contour in enumerate(chains.contours) if not contour.is_closed]
     found = {at: chains.contours[at] for at in opened}
     cuts: list[Overrun] = []
@@ -47,7 +50,7 @@ def without_overruns(chains: Chains, tolerance: float) -> tuple[Chains, list[Ove
             cuts += [Overrun(piece, corner)] * (piece is not None)
     if not cuts:
         return chains, []
-    again = chain((edge for contour in found.values() for edge in contour.edges), tolerance)
+    again = chain((edge for contour in found.values() for edge in contour.edges), tolerance, styles)
     if not any(contour.is_closed for contour in again.contours):
         return chains, []
     closed = [contour for contour in chains.contours if contour.is_closed]

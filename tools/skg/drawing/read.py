@@ -76,10 +76,11 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
     content, report = _content(data, name, wishes)
     if not content.edges:
         raise UserError(_nothing(content, wishes))
-    chains = chain(content.edges, wishes.tolerance)
+    styles = [(entity.layer, entity.dashes) for entity in content.entities]
+    chains = chain(content.edges, wishes.tolerance, styles)
     fates = _Fates(content, report.factor)
     if wishes.open != "all":
-        chains, cuts = without_overruns(chains, wishes.tolerance)
+        chains, cuts = without_overruns(chains, wishes.tolerance, styles)
         fates.of_pieces([one.piece for one in cuts], PAST)
         report.notes += _past(cuts, content, report.factor)
     fates.of_edges(chains.short, SHORT)
@@ -116,6 +117,7 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
             fates.of_edges(one.edges, DASHED)
     for run in rest:
         fates.of_edges(run.edges, JUNCTION)
+    report.notes += _around(rest, kept, report.factor)
     if kept and report.units == "m" and report.units_from == TOLD:
         # (what a program writes that was not told any units; in mm more ends meet, and the small ones are counted so)
         _measure(kept, report)
@@ -266,6 +268,24 @@ def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]
             f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
             f"{shown(in_file(some[0].corner, factor))}: cut to the corner; --open all cuts all that is drawn"
         )
+
+
+def _around(rest: list[Contour], kept: list[Contour], factor: float) -> Iterator[str]:
+    """What is said when something that is left reaches around all contours that are cut, and is larger than each."""
+    boxes = [_box(contour) for contour in kept]
+    for run in rest if len(kept) > 1 else ():
+        left, low, right, high = _box(run)
+        if all(
+            left <= (x + far_x) / 2 <= right and low <= (y + far_y) / 2 <= high
+            and far_x - x < right - left and far_y - y < high - low
+            for x, y, far_x, far_y in boxes
+        ):  # fmt: skip
+            ends = (shown(in_file(end, factor)) for end in (run.edges[0].start, run.edges[-1].end))
+            yield (
+                f"take care: what is left from {' to '.join(ends)} reaches around all that is cut: "
+                "is it the outline, which should close there?"
+            )
+            return
 
 
 def _axes(contours: list[Contour], found: Relations, fates: _Fates) -> set[int]:
