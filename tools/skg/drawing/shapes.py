@@ -71,87 +71,117 @@ def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
         controls = [(point.x, point.y) for point in tool.control_points]
         yield from (Edge(p, q) for p, q in pairwise(controls))
         return
-    knots = list(tool.knots())
-    low, high = knots[tool.degree], knots[len(tool.control_points)]
-    size = sum(p.distance(q) for p, q in pairwise(tool.control_points))
-    # (a new one each time that the spline is asked for it)
-    evaluator = tool.evaluator
+    spline = _Spline(tool)
+    for first, behind in spline.smooth_runs():
+        yield from map(simplest, _without_nooks(spline.curve(first, behind, tolerance)))
 
-    def at(parameters: list[float]) -> list[XY]:
-        return [(point.x, point.y) for point in evaluator.points(parameters)]
 
-    # Between knots a spline is smooth; at a knot it may have a corner, where it is cut in two.
-    stations = [low]
-    for knot in sorted(knots):
-        if stations[-1] < knot <= high and knot - stations[-1] > 1e-13 * (high - low):
-            stations.append(knot)
-    stations[-1] = high
-    spans, lengths = [], []
-    for span in pairwise(stations):
-        places = at([span[0] + k / 8 * (span[1] - span[0]) for k in range(9)])
-        length = sum(distance(p, q) for p, q in pairwise(places))
-        if length > 1e-9 * size:
-            # (else it stands still, its controls are one place)
-            spans.append(span)
-            lengths.append(length)
-    if not spans:
-        return
-    parts = [last - first for first, last in spans]
-    if min(parts) < _NARROW * (high - low):
-        # Rounded knots lie next to each other, maybe with much of the curve between them: it is run through by length.
-        parts = [max(_SAME, length) for length in lengths]
-    ways = [0.0, *accumulate(parts)]
+class _Spline:
+    """A spline that is run through evenly: by its own parameter, or by `way`, a measure that grows along it.
 
-    def heading(t: float, k: int) -> float:
-        """The direction in span number k."""
-        first, last = spans[k]
-        way = evaluator.derivative(t, 1)[1]
+    Between knots it is smooth, at a knot it may have a corner. `spans` are the stretches between its knots, by their
+    first and last parameter; span number k begins at `ways[k]` along the curve and has the length `lengths[k]` (mm).
+    """
+
+    def __init__(self, tool: BSpline) -> None:
+        # (a new one each time that the spline is asked for it)
+        self.evaluator = tool.evaluator
+        self.spans: list[tuple[float, float]] = []
+        self.lengths: list[float] = []
+        stations = _stations(tool)
+        size = sum(p.distance(q) for p, q in pairwise(tool.control_points))
+        for first, last in pairwise(stations):
+            places = self.places([first + k / 8 * (last - first) for k in range(9)])
+            length = sum(distance(p, q) for p, q in pairwise(places))
+            if length > 1e-9 * size:
+                # (else it stands still, its controls are one place)
+                self.spans.append((first, last))
+                self.lengths.append(length)
+        low, high = stations[0], stations[-1]
+        self.least = 1e-15 * max(abs(low), abs(high))
+        parts = [last - first for first, last in self.spans]
+        if min(parts, default=0.0) < _NARROW * (high - low):
+            # Rounded knots lie next to each other, maybe with much of the curve between them: by length, then.
+            parts = [max(_SAME, length) for length in self.lengths]
+        self.ways = [0.0, *accumulate(parts)]
+        # Each span: where it begins along the curve, how long it is there, and the same of its parameters.
+        there = ((begin, end - begin) for begin, end in pairwise(self.ways))
+        self._table = [(*one, first, last - first) for one, (first, last) in zip(there, self.spans, strict=True)]
+
+    def places(self, parameters: list[float]) -> list[XY]:
+        """The places at some parameters."""
+        return [(point.x, point.y) for point in self.evaluator.points(parameters)]
+
+    def heading(self, t: float, k: int) -> float:
+        """The direction (radians) at parameter t in span number k."""
+        first, last = self.spans[k]
+        way = self.evaluator.derivative(t, 1)[1]
         beside = 1e-5 * (last - first)
-        while way.magnitude * (last - first) < _SLOW * lengths[k] and beside < last - first:
+        while way.magnitude * (last - first) < _SLOW * self.lengths[k] and beside < last - first:
             # Controls that coincide, or nearly: the direction is that of a chord.
-            chord = evaluator.point(min(last, t + beside)) - evaluator.point(max(first, t - beside))
-            if chord.magnitude > 0.01 * _SLOW * lengths[k]:
+            chord = self.evaluator.point(min(last, t + beside)) - self.evaluator.point(max(first, t - beside))
+            if chord.magnitude > 0.01 * _SLOW * self.lengths[k]:
                 way = chord
                 break
             beside *= 2
         return atan2(way.y, way.x)
 
-    def edge_of(k: int, is_last: bool) -> float:
-        """Just behind the beginning of a span, or just before its end."""
-        first, last = spans[k]
-        aside = max(1e-6 * (last - first), 1e-15 * max(abs(low), abs(high)))
-        return last - aside if is_last else first + aside
+    def behind_begin(self, k: int) -> float:
+        """The parameter just behind the beginning of span number k."""
+        first, last = self.spans[k]
+        return first + max(1e-6 * (last - first), self.least)
 
-    # Each span: where it begins along the curve, how long it is there, and the same of its parameters.
-    there = ((begin, end - begin) for begin, end in pairwise(ways))
-    table = [(*one, first, last - first) for one, (first, last) in zip(there, spans, strict=True)]
+    def before_end(self, k: int) -> float:
+        """The parameter just before the end of span number k."""
+        first, last = self.spans[k]
+        return last - max(1e-6 * (last - first), self.least)
 
-    def span_of(way: float) -> int:
-        return bisect_right(ways, way, 1, len(spans)) - 1
+    def smooth_runs(self) -> Iterator[tuple[int, int]]:
+        """The runs of spans without a corner between them: the first span, and the one behind the last."""
+        if self.spans:
+            yield from pairwise([0, *filter(self.has_corner, range(1, len(self.spans))), len(self.spans)])
 
-    def parameters(wanted: list[float]) -> list[float]:
+    def has_corner(self, k: int) -> bool:
+        """Whether the direction jumps where span number k begins."""
+        before, after = self.heading(self.before_end(k - 1), k - 1), self.heading(self.behind_begin(k), k)
+        return abs(turn(before, after)) > _CORNER
+
+    def span_at(self, way: float) -> int:
+        """The span at a way along the curve."""
+        return bisect_right(self.ways, way, 1, len(self.spans)) - 1
+
+    def parameters(self, ways: list[float]) -> list[float]:
         """The parameters at some ways along the curve."""
-        found = ((way, *table[span_of(way)]) for way in wanted)
+        found = ((way, *self._table[self.span_at(way)]) for way in ways)
         return [first + (way - begin) / length * more for way, begin, length, first, more in found]
 
-    corners = [0]
-    for k in range(1, len(spans)):
-        if abs(turn(heading(edge_of(k - 1, True), k - 1), heading(edge_of(k, False), k))) > _CORNER:
-            corners.append(k)
-    for first, behind in pairwise([*corners, len(spans)]):
-        # At a corner the tangent is that of this piece, not of its neighbour.
-        begin = edge_of(first, False) if first else spans[first][0]
-        end = edge_of(behind - 1, True) if behind < len(spans) else spans[-1][1]
+    def curve(self, first: int, behind: int, tolerance: float) -> Edge:
+        """The spans from number `first` to the one before `behind`, which have no corner, as a curve for FIT."""
+        last = behind - 1
+        # At a corner the tangent is that of this run, not of its neighbour.
+        begin = self.behind_begin(first) if first else self.spans[first][0]
+        end = self.before_end(last) if behind < len(self.spans) else self.spans[last][1]
 
-        def inner(
-            way: float, first: int = first, last: int = behind - 1, begin: float = begin, end: float = end
-        ) -> float:
-            (t,) = parameters([way])
-            k = min(max(span_of(way), first), last)
-            return heading(min(max(t, begin), end), k)
+        def at(ways: list[float]) -> list[XY]:
+            return self.places(self.parameters(ways))
 
-        found = curve_edge(lambda wanted: at(parameters(wanted)), inner, ways[first : behind + 1], tolerance)
-        yield from map(simplest, _without_nooks(found))
+        def heading(way: float) -> float:
+            (t,) = self.parameters([way])
+            return self.heading(min(max(t, begin), end), min(max(self.span_at(way), first), last))
+
+        return curve_edge(at, heading, self.ways[first : behind + 1], tolerance)
+
+
+def _stations(tool: BSpline) -> list[float]:
+    """The knots between which a spline is drawn, those that are one in floats as one."""
+    knots = list(tool.knots())
+    low, high = knots[tool.degree], knots[len(tool.control_points)]
+    stations = [low]
+    for knot in sorted(knots):
+        if stations[-1] < knot <= high and knot - stations[-1] > 1e-13 * (high - low):
+            stations.append(knot)
+    stations[-1] = high
+    return stations
 
 
 def _without_nooks(edge: Edge) -> Iterator[Edge]:
