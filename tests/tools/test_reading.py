@@ -379,6 +379,27 @@ def test_an_outline_that_is_left_is_said() -> None:
         assert not any("around all" in note for note in checked(raw(*square(0, 0, 40), *circles, closed)).report.notes)
 
 
+def test_a_gap_in_what_is_left_is_said() -> None:
+    """An outline that is open by a few micrometres, with a line that hangs on it: a wider tolerance closes it."""
+    outline = [
+        line(0, 0, 40, 0),
+        line(40, 0, 40, 20),
+        line(40, 20, 20, 20),
+        line(20, 20.0125, 0, 20),
+        line(0, 20, 0, 0),
+    ]
+    drawing = raw(*outline, line(40, 20, 50, 30), "CIRCLE 8 0 10 10 20 10 40 5")
+    reading = checked(drawing)
+    assert left(reading) == {JUNCTION: 6}
+    notes = "\n".join(reading.report.notes)
+    assert "2 ends of what is left up to 0.0125 mm from the next one, as at (20, 20" in notes
+    wider = re.search(r"--tolerance ([0-9.]+) joins them", notes)
+    assert wider
+    again = checked(drawing, tolerance=float(wider[1]))
+    assert left(again) == {JUNCTION: 1}
+    assert not again.report.notes
+
+
 def test_outlines_of_one_layer() -> None:
     """What is closed on its own layer is the outline, not what lines of another layer make of it."""
     rounded = [

@@ -36,6 +36,8 @@ LARGE = 1000.0
 FARTHEST = 50_000.0
 #: Who says what units a drawing is in.
 TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
+#: Ends of what is left that are no further apart may be meant to meet, mm.
+_GAP = 0.1
 #: What fills an area, without lines around it.
 AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 #: Why an edge is not cut.
@@ -118,6 +120,7 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
     for run in rest:
         fates.of_edges(run.edges, JUNCTION)
     report.notes += _around(rest, kept, report.factor)
+    report.notes += _gaps(rest, content.edges, wishes.tolerance, report.factor)
     if kept and report.units == "m" and report.units_from == TOLD:
         # (what a program writes that was not told any units; in mm more ends meet, and the small ones are counted so)
         _measure(kept, report)
@@ -288,6 +291,27 @@ def _around(rest: list[Contour], kept: list[Contour], factor: float) -> Iterator
             return
 
 
+def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> Iterator[str]:
+    """What is said of free ends in what is left that lie so near to a corner there that an outline may be open."""
+    from skg.drawing.touching import nearest
+
+    count = Counter(end for one in rest for edge in one.edges for end in (edge.start, edge.end))
+    corners = list(count)
+    near = [
+        (distance(place, other), place)
+        for place, other in zip(corners, nearest(corners), strict=True)
+        if count[place] == 1 and other is not None
+    ]
+    shortest = _shortest(edges, tolerance)
+    gaps = sorted((gap, place) for gap, place in near if gap <= _GAP and float(above(gap)) < shortest)
+    if gaps:
+        widest, place = gaps[-1]
+        yield (
+            f"{counted(len(gaps), 'end')} of what is left up to {short(widest)} mm from the next one, as at "
+            f"{shown(in_file(place, factor))}: --tolerance {above(widest)} joins them"
+        )
+
+
 def _axes(contours: list[Contour], found: Relations, fates: _Fates) -> set[int]:
     """The closed contours drawn with dashes that cross others, which are not: circles that holes lie on."""
     pairs = [(one, at) for what, one, at, _ in found.meetings if what == "cross" and at < len(contours)]
@@ -347,9 +371,7 @@ def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float, fac
     ends = [place for one in contours for place in (one.edges[0].start, one.edges[-1].end)]
     if not ends:
         return []
-    # (an edge that is shorter than the tolerance is lost)
-    wide = (distance(edge.start, edge.end) for edge in edges)
-    shortest = min((chord for chord in wide if chord > tolerance), default=inf)
+    shortest = _shortest(edges, tolerance)
     found = []
     for place, other in zip(ends, nearest(ends), strict=True):
         if other is None:
@@ -359,6 +381,12 @@ def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float, fac
         can_join = float(above(gap)) < shortest
         found.append(OpenEnd(in_file(place, factor), in_file(other, factor), gap, can_join))
     return found
+
+
+def _shortest(edges: list[Edge], tolerance: float) -> float:
+    """How wide a tolerance may be that makes one point of no edge; those shorter than `tolerance` are lost already."""
+    wide = (distance(edge.start, edge.end) for edge in edges)
+    return min((chord for chord in wide if chord > tolerance), default=inf)
 
 
 def _box(contour: Contour) -> tuple[float, float, float, float]:
