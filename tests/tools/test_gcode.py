@@ -273,7 +273,7 @@ def test_a_place_is_named_anew() -> None:
     """G92 in mid-program moves no tool: what is drawn goes on from where it was; a word left out keeps its place."""
     program = gcode_reader.read("G21 G90 F5\nG1 X10\nY10\nG92 X0 Y0\nX5\nG92 X0\nX-1 Y1\nG91\nX1\nG90\nX0 Y0\nM2")
     wanted = [(10, 0), (10, 10), (15, 10), (14, 11), (15, 11), (15, 10)]
-    assert [placed.end for placed in program.items] == [(1000 * x, 1000 * y) for x, y in wanted]
+    assert [placed.end for placed in program.path.laid()] == [(1000 * x, 1000 * y) for x, y in wanted]
 
 
 def test_holes_and_stops() -> None:
@@ -304,6 +304,7 @@ def test_holes_and_stops() -> None:
     ("G21 G91\nG3 X.005 Y.005 I.1\nM02", "-: block 1: the arc's end is 5 µm off its circle"),
     ("G91\nG1 X5 Y5 I100\nM02", "-: line 2, column 4: I, J and R belong to G02 and G03"),
     ("G21 G91 G1 X123456.789\nM02", "line 1: B123456789B0B123456789GXL1 has a number of more than 8 digits"),
+    (f"G21 G90\nG1 X{'9' * 32} F5\nM02", "-: line 2, column 4: X has more than 8 digits in front of its point"),
     ("G1 Xµ", "-: byte 5 is not ASCII"),
     ("G21 G90\nG1 X1 F5\nG4 X2\nM2", "-: line 3, column 4: X in a line with G4: a time, or a place to go to?"),
     ("G21 G90\nG28 X0 Y0\nG1 X1 Y1 F5\nM2",
@@ -389,9 +390,7 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
 def test_any_text(text: str) -> None:
     program, findings = gcode_reader.scan(text + "\nM02")
     assert gcode_reader.look(text + "\nM02") == (findings, program.notes)
-    for placed in program.items:
-        if hasattr(placed, "end"):
-            assert hypot(*placed.end) < float("inf")
+    assert all(hypot(*placed.end) < float("inf") for placed in program.path.laid())
     try:
         assert back(text + "\nM02").endswith(b"DD\r\n")
     except UserError:

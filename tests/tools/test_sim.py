@@ -190,6 +190,14 @@ def test_circle_too_small_to_count() -> None:
         run_block(block)
 
 
+@pytest.mark.filterwarnings("error")
+def test_far_off_a_short_line() -> None:
+    """A line that is shorter than the drift in front of it."""
+    tape = tapes.parse(b"B3850B4602B17082GXSR2\r\nB0B1B1GYL2\r\nDD\r\n")
+    report = simulate(tape, positions="programmed")
+    assert (report.largest_drift, report.off_path) == (2, pytest.approx(2, abs=1))
+
+
 def test_cad_tape(run: Run, cad_tape: Path) -> None:
     report = simulate(tapes.read(str(cad_tape)), feed=10)
     assert report.programmed_gap == (-220000, 70100)

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from array import array
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
-from math import hypot
+from typing import TYPE_CHECKING
 
 from skg.errors import UserError
 from skg.tape.block import Block, Stop, Tape, line_block
-from skg.tape.gcode import Spot, grid, millimetres, minus
-from skg.tape.placed import Placed, PlacedRoute
+from skg.tape.gcode import Spot, millimetres, minus
+from skg.tape.packed import Blocks
+from skg.tape.placed import PlacedRoute
+
+if TYPE_CHECKING:
+    from skg.tape.laid import Laid
 
 #: The end of a 3B block's arc may lie so far off the circle through its start, µm: both are rounded, and so is the
 #: centre.
@@ -26,15 +31,76 @@ class Drilled:
 
 
 @dataclass(frozen=True)
-class Move:
-    """A move in the plane that does not cut: a rapid; any with the beam off or the tool up."""
+class Run:
+    """Blocks in the plane, one after the other: the first, and the one behind the last, from 0.
 
-    placed: Placed
+    `is_move`: they do not cut: rapids; any with the beam off or the tool up.
+    """
+
+    first: int
+    last: int
+    is_move: bool
+
+
+class Path:
+    """What G-code does in the plane, in order: cuts, moves, holes, stops. Packed: it may have a million blocks."""
+
+    def __init__(self) -> None:
+        #: The blocks of cuts and moves; a cut's number counts the cuts.
+        self.blocks = Blocks()
+        #: Of each block whether it is a move.
+        self.moves = bytearray()
+        # x and y of each block's start, and of its end, µm; each mark behind so many blocks.
+        self._places = array("q")
+        self._marks: list[tuple[int, Drilled | Stop]] = []
+
+    def lay(self, block: Block, number: int, start: Spot, end: Spot, is_move: bool) -> None:
+        """Add a block behind all others."""
+        self.blocks.add(block.x, block.y, block.j, block.axis, block.code, number)
+        self._places.extend((*start, *end))
+        self.moves.append(is_move)
+
+    def mark(self, mark: Drilled | Stop) -> None:
+        """Add a hole or a stop."""
+        self._marks.append((len(self.moves), mark))
+
+    @property
+    def marks(self) -> list[Drilled | Stop]:
+        """Holes and stops."""
+        return [mark for _, mark in self._marks]
+
+    def end(self, block: int) -> Spot:
+        """Where a block ends."""
+        x, y = self._places[4 * block + 2 : 4 * block + 4]
+        return x, y
+
+    def parts(self) -> Iterator[Run | Drilled | Stop]:
+        """Cuts and moves in runs, as long as they can be, holes and stops."""
+        first = 0
+        for last, mark in [*self._marks, (len(self.moves), None)]:
+            while first < last:
+                is_move = self.moves[first]
+                change = self.moves.find(1 - is_move, first, last)
+                yield Run(first, last if change < 0 else change, bool(is_move))
+                first = last if change < 0 else change
+            if mark:
+                yield mark
+
+    def laid(self) -> Laid:
+        """All blocks in their places."""
+        # (these load numpy)
+        import numpy as np
+
+        from skg.tape.columns import Columns
+        from skg.tape.laid import Laid
+
+        places = np.array(self._places, np.int64).reshape(-1, 4)
+        return Laid.apart(self.blocks, Columns.of(self.blocks), places[:, :2], places[:, 2:])
 
 
 @dataclass(frozen=True)
 class GcodeProgram:
-    """What G-code does in the plane, in order: cuts, moves, holes, stops; `home` (µm) is where it begins.
+    """What G-code does in the plane; `home` (µm) is where it begins.
 
     `depths` and `travels`: the heights (µm) at which it cuts and at which it is moved, each once, in the order in which
     they come; empty where no height is known. `guesses`: how it is read where it does not say. `notes`: what of G1 to
@@ -42,7 +108,7 @@ class GcodeProgram:
     """
 
     name: str
-    items: tuple[Placed | Move | Drilled | Stop, ...]
+    path: Path
     home: Spot = (0, 0)
     depths: tuple[Decimal, ...] = ()
     travels: tuple[Decimal, ...] = ()
@@ -52,36 +118,32 @@ class GcodeProgram:
     @property
     def holes(self) -> list[Spot]:
         """Where it drills, each place once."""
-        return list(dict.fromkeys(item.place for item in self.items if isinstance(item, Drilled)))
+        return list(dict.fromkeys(hole.place for hole in self._drilled))
 
     @property
     def stop_places(self) -> list[Spot]:
         """Where it stops, each place once."""
         at, found = self.home, []
-        for item in self.items:
-            if isinstance(item, Stop):
+        for part in self.path.parts():
+            if isinstance(part, Stop):
                 found.append(at)
             else:
-                at = item.place if isinstance(item, Drilled) else grid(_placed(item).end)
+                at = part.place if isinstance(part, Drilled) else self.path.end(part.last - 1)
         return list(dict.fromkeys(found))
+
+    @property
+    def _drilled(self) -> list[Drilled]:
+        return [mark for mark in self.path.marks if isinstance(mark, Drilled)]
 
     def routes(self) -> list[PlacedRoute]:
         """What is cut and how it is moved between, as `skg.tape.placed.place` has it."""
-        found: list[tuple[bool, list[Placed]]] = []
-        for item in self.items:
-            if isinstance(item, Stop | Drilled):
-                found.append((False, []))
-                continue
-            is_move = isinstance(item, Move)
-            if not found or found[-1][0] != is_move:
-                found.append((is_move, []))
-            found[-1][1].append(_placed(item))
-        return [PlacedRoute(tuple(blocks), is_move) for is_move, blocks in found if blocks]
+        laid, parts = self.path.laid(), self.path.parts()
+        return [PlacedRoute(laid[part.first : part.last], part.is_move) for part in parts if isinstance(part, Run)]
 
     def heights(self) -> str:
         """What there is to say of the heights of cuts, holes and moves; empty where none is known."""
-        holes = [item.depth for item in self.items if isinstance(item, Drilled)]
-        deep = list(dict.fromkeys(depth for depth in holes if depth is not None))
+        holes = self._drilled
+        deep = list(dict.fromkeys(hole.depth for hole in holes if hole.depth is not None))
         said = [
             f"cuts at {several(self.depths)}" if self.depths else "",
             f"{_counted_holes(len(holes))} down to {several(deep)}" if deep else "",
@@ -91,7 +153,7 @@ class GcodeProgram:
 
     def left_out(self) -> tuple[str, ...]:
         """What a 3B tape of the same path has no word for, to be said."""
-        holes = sum(isinstance(item, Drilled) for item in self.items)
+        holes = len(self._drilled)
         said = [
             _counted_holes(holes) if holes else "",
             f"the heights of its cuts, {several(self.depths)}" if self.depths else "",
@@ -103,34 +165,44 @@ class GcodeProgram:
 
         An arc whose end is farther off its circle than a block can be is a `UserError`.
         """
-        items: list[Block | Stop] = []
+        self._look_at_ends()
+        blocks, stops = Blocks(), []
         at, moved_from = self.home, None
-        for item in self.items:
-            if isinstance(item, Drilled):
+        for part in self.path.parts():
+            if isinstance(part, Drilled):
                 continue
-            if isinstance(item, Move):
+            if isinstance(part, Run) and part.is_move:
                 if moved_from is None:
                     moved_from = at
-                    if not items or isinstance(items[-1], Block):
-                        items.append(Stop(len(items)))
-                at = grid(item.placed.end)
+                    if not stops or stops[-1].after < len(blocks):
+                        stops.append(Stop(len(blocks)))
+                at = self.path.end(part.last - 1)
                 continue
             if moved_from is not None:
-                items += _between(moved_from, at)
-                if not isinstance(item, Stop):
-                    items.append(Stop(len(items)))
+                blocks.extend(_between(moved_from, at))
+                if isinstance(part, Run):
+                    stops.append(Stop(len(blocks)))
                 moved_from = None
-            if isinstance(item, Stop):
-                items.append(item)
-                continue
-            off = 0 if item.is_line else abs(hypot(*minus(item.end, item.centre)) - item.radius)
-            if off > OFF_BLOCK:
-                raise UserError(f"{self.name}: block {item.block.number}: the arc's end is {off:.0f} µm off its circle")
-            items.append(item.block)
-            at = grid(item.end)
+            if isinstance(part, Run):
+                blocks.extend(self.path.blocks[part.first : part.last])
+                at = self.path.end(part.last - 1)
+            else:
+                stops.append(Stop(len(blocks)))
         if moved_from is not None:
-            items += _between(moved_from, at)
-        return Tape.of(self.name, _counted(items), drift=True)
+            blocks.extend(_between(moved_from, at))
+        return Tape(self.name, blocks.numbered(), tuple(stops), drift=True)
+
+    def _look_at_ends(self) -> None:
+        """Refuse the first arc that is cut and whose end is too far off its circle."""
+        import numpy as np
+
+        from skg.tape.columns import hypots
+
+        laid = self.path.laid()
+        off = abs(hypots(*(laid.ends - laid.centres).T) - hypots(*(laid.starts - laid.centres).T))
+        for at in np.flatnonzero(~laid.is_line & (off > OFF_BLOCK) & (np.array(self.path.moves) == 0)).tolist():
+            number = self.path.blocks[at].number
+            raise UserError(f"{self.name}: block {number}: the arc's end is {off[at]:.0f} µm off its circle")
 
 
 def _counted_holes(number: int) -> str:
@@ -143,23 +215,8 @@ def several(heights: Sequence[Decimal]) -> str:
     return ", ".join(words) if len(words) <= 3 else f"{words[0]} … {words[-1]} ({len(words)} heights)"
 
 
-def _between(start: Spot, end: Spot) -> list[Block]:
-    return [] if start == end else [line_block(*minus(end, start))]
-
-
-def _placed(item: Placed | Move) -> Placed:
-    return item.placed if isinstance(item, Move) else item
-
-
-def _counted(items: Iterable[Block | Stop]) -> Iterator[Block | Stop]:
-    """Blocks and stops with the numbers that they have on a tape."""
-    number = 0
-    for item in items:
-        if isinstance(item, Stop):
-            yield Stop(number)
-        else:
-            number += 1
-            yield Block(item.x, item.y, item.j, item.axis, item.code, number)
+def _between(start: Spot, end: Spot) -> Blocks:
+    return Blocks.of([] if start == end else [line_block(*minus(end, start))])
 
 
 def rounded_one(value: Decimal) -> int:

@@ -12,12 +12,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
 from math import hypot
+from typing import NamedTuple
 
 from skg.errors import UserError
-from skg.tape.block import Block, Stop, arc_block, line_block
+from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
-from skg.tape.gcode_program import Drilled, GcodeProgram, Move, rounded_one, several
-from skg.tape.placed import Placed
+from skg.tape.gcode_program import Drilled, GcodeProgram, Path, rounded_one, several
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
@@ -51,18 +51,19 @@ class _Misread(Exception):
         self.column = column
 
 
-@dataclass(frozen=True)
-class _Word:
+class _Word(NamedTuple):
     letter: str
     number: Decimal
     is_decimal: bool
     column: int
 
 
-_WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))")
 _SPACE = re.compile(r"(?:\s|\([^()]*\)|;.*)*")
+_WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))" + _SPACE.pattern)
 #: A setting of GRBL's own.
 _SETTING = re.compile(r"\$\d+\s*=\s*[\d.]+;?")
+#: What begins and ends a file for some controls.
+_MARK = re.compile(r"%|[Oo]\d+")
 #: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
 #: modes, work offsets (one of them, see there); sub-programs are no part of a path.
 _SILENT = "FSTPHDL"
@@ -76,6 +77,7 @@ _MOTIONS = set(map(Decimal, range(4)))
 _GROUPS = [_MOTIONS, *(set(map(Decimal, group.split())) for group in ("20 21", "90 91", "43 49", "61 64")), _OFFSETS]
 #: Words that are places, and what G4 has besides P on some controls.
 _PLACES = "XYZIJR"
+_VALUES = _PLACES + "F"
 _DWELL, _NO_MOTION = Decimal(4), Decimal(80)
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 _HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
@@ -101,10 +103,10 @@ class _Idle:
 
 
 class _Reader:
-    """State of a program that is being read; places and heights in µm."""
+    """State of a program that is being read; places and heights in µm. What it does goes to `path`, if there is one."""
 
-    def __init__(self, idle: _Idle) -> None:
-        self.idle = idle
+    def __init__(self, idle: _Idle, path: Path | None) -> None:
+        self.idle, self.path = idle, path
         self.line = 0
         # Beam or spindle: its S; by what turns it: in which line first, whether it is on, how many moves found it off.
         self.power: Decimal | None = None
@@ -151,15 +153,15 @@ class _Reader:
             if not match:
                 raise _Misread(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
             yield _Word(match[1], Decimal(match[2]), "." in match[2], at + 1)
-            at = _SPACE.match(text, match.end()).end()
+            at = match.end()
 
-    def take(self, line: str) -> Iterator[Placed | Move | Drilled | Stop]:
+    def take(self, line: str) -> None:
         """Carry out one line."""
         self.line += 1
         text = line.strip()
         if len(text) > LONGEST:
             self.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
-        if text == "%" or re.fullmatch(r"[Oo]\d+", text):
+        if _MARK.fullmatch(text):
             self.warn(1, f"GRBL does not know {text[0]}")
             return
         if _SETTING.fullmatch(text):
@@ -173,27 +175,28 @@ class _Reader:
         power: Decimal | None = None
         is_origin, stop = False, False
         for word in self.words(line):
-            if self.ended and (word.letter in _PLACES or word.letter == "G"):
+            letter = word.letter
+            if self.ended and (letter in _PLACES or letter == "G"):
                 raise _Misread(word.column, "expected nothing after M02")
-            if word.letter == "G":
+            if letter in _VALUES:
+                if letter in values:
+                    raise _Misread(word.column, f"{letter} stands here twice")
+                values[letter] = word
+            elif letter == "G":
                 for code in codes:
                     if any({code, word.number} <= group for group in _GROUPS):
                         raise _Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
                 codes.append(word.number)
                 is_origin |= self.preparatory(word)
-            elif word.letter == "M":
+            elif letter == "M":
                 if word.number in _TURNS and _TURNS.intersection(turns):
                     raise _Misread(word.column, f"M{turns[0]:f} and M{word.number:f} in one line")
                 turns.append(word.number)
                 stop |= self.miscellaneous(word)
-            elif word.letter == "S":
+            elif letter == "S":
                 power = word.number
-            elif word.letter in _PLACES + "F":
-                if word.letter in values:
-                    raise _Misread(word.column, f"{word.letter} stands here twice")
-                values[word.letter] = word
-            elif word.letter not in "N" + _SILENT:
-                raise _Misread(word.column, f"{word.letter} is not known here, expected G, M, X, Y, Z, I, J or R")
+            elif letter != "N" and letter not in _SILENT:
+                raise _Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
         if turns or power is not None:
             self.turn(turns, power, _DWELL in codes)
         if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
@@ -203,18 +206,23 @@ class _Reader:
             self.fed = feed.number > 0
             if not self.fed:
                 self.warn(feed.column, "a feed that is not more than 0")
-        places = [word for letter, word in values.items() if letter in _PLACES]
-        if _DWELL in codes and places:
-            raise _Misread(places[0].column, f"{places[0].letter} in a line with G4: a time, or a place to go to?")
+        if values and _DWELL in codes:
+            place = next(iter(values.values()))
+            raise _Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
         if is_origin:
             self.name_place(values)
-        elif _HOMES.intersection(codes) or _MACHINE in codes:
-            yield from self.go_away(values, _MACHINE not in codes)
+        elif codes and (_HOMES.intersection(codes) or _MACHINE in codes):
+            self.go_away(values, _MACHINE not in codes)
         elif values:
-            yield from self.move(values)
+            self.move(values)
         if stop:
-            self.begun = True
-            yield Stop(self.blocks)
+            self.mark(Stop(self.blocks))
+
+    def mark(self, mark: Drilled | Stop) -> None:
+        """A hole or a stop."""
+        self.begun = True
+        if self.path is not None:
+            self.path.mark(mark)
 
     def turn(self, codes: list[Decimal], power: Decimal | None, dwells: bool) -> None:
         """Beam on or off, as the M words of a line and its S say; it counts for the move in this line, too."""
@@ -299,6 +307,8 @@ class _Reader:
         if self.unit is None and not self.warned_unit:
             self.warned_unit = True
             self.warn(word.column, "no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm", True)
+        if word.number.adjusted() >= MAX_DIGITS:
+            raise _Misread(word.column, f"{letter} has more than {MAX_DIGITS} digits in front of its point")
         unit = self.unit or (_MILLIMETRE if word.is_decimal else Decimal(1))
         return word.number * unit
 
@@ -312,9 +322,9 @@ class _Reader:
         value = self.value(values, letter, Decimal(0))
         return value + self.origin.get(letter, 0) if self.absolute else here + value
 
-    def move(self, values: dict[str, _Word]) -> Iterator[Placed | Move | Drilled]:
+    def move(self, values: dict[str, _Word]) -> None:
         """What a block that moves does."""
-        column = min(word.column for word in values.values())
+        column = next(iter(values.values())).column
         if self.motion is None:
             raise _Misread(column, "a place to go to, and no G00…G03 behind G80")
         feeds = self.motion > 0
@@ -323,10 +333,10 @@ class _Reader:
             self.warn(column, "cuts, and there has been no F")
         start, before = _rounded(self.at), self.height
         if "Z" in values:
-            yield from self.to_height(self.goal(values, "Z", self.height or Decimal(0)), start, feeds)
-        if not values.keys() - {"Z"}:
+            self.to_height(self.goal(values, "Z", self.height or Decimal(0)), start, feeds)
+        if values.keys() == {"Z"}:
             return
-        goal = tuple(self.goal(values, letter, here) for letter, here in zip("XY", self.at, strict=True))
+        goal = self.goal(values, "X", self.at[0]), self.goal(values, "Y", self.at[1])
         end = _rounded(goal)
         if self.is_away and (feeds or not self.absolute or not values.keys() >= {"X", "Y"}):
             raise _Misread(column, "from a place of the machine's own, expected a rapid to X and Y")
@@ -345,7 +355,7 @@ class _Reader:
             if not cuts and not self.begun:
                 self.home = end
             elif start != end:
-                yield from self.lay(line_block(*minus(end, start)), start, end, cuts)
+                self.lay(line_block(*minus(end, start)), start, end, cuts)
             return
         if "R" in values:
             if values.keys() & set("IJ"):
@@ -353,20 +363,20 @@ class _Reader:
             to_centre = self.by_radius(minus(end, start), float(self.value(values, "R", Decimal(0))), column)
         else:
             to_centre = tuple(rounded_one(self.value(values, letter, Decimal(0))) for letter in "IJ")
-        yield from self.arc(start, end, (-to_centre[0], -to_centre[1]), column, cuts)
+        self.arc(start, end, (-to_centre[0], -to_centre[1]), column, cuts)
         self.at = goal
 
-    def go_away(self, values: dict[str, _Word], is_home: bool) -> Iterator[Drilled]:
+    def go_away(self, values: dict[str, _Word], is_home: bool) -> None:
         """G28, G30: home, all of it or the axes that are named; G53: to a place in the machine's coordinates."""
         if self.motion and not is_home:
             raise _Misread(min((word.column for word in values.values()), default=1), "G53 in a line that cuts")
         named = values.keys() or (set("XYZ") if is_home else set())
         if "Z" in named:
-            yield from self.leave(_rounded(self.at), self.height)
+            self.leave(_rounded(self.at), self.height)
             self.height, self.knows_height = None, False
         self.is_away |= bool(named & {"X", "Y"})
 
-    def to_height(self, height: Decimal, place: Spot, cuts: bool) -> Iterator[Drilled]:
+    def to_height(self, height: Decimal, place: Spot, cuts: bool) -> None:
         """Up or down: a hole is what is entered and left again."""
         is_down = self.height is None or height < self.height
         before, self.height = self.height, height
@@ -374,13 +384,12 @@ class _Reader:
         if is_down and cuts:
             self.dipped = place
         elif not is_down:
-            yield from self.leave(place, before)
+            self.leave(place, before)
 
-    def leave(self, place: Spot, depth: Decimal | None) -> Iterator[Drilled]:
+    def leave(self, place: Spot, depth: Decimal | None) -> None:
         """Up from a place: has it been drilled?"""
         if self.dipped == place:
-            self.begun = True
-            yield Drilled(place, depth if self.knows_height else None)
+            self.mark(Drilled(place, depth if self.knows_height else None))
         self.dipped = None
 
     def by_radius(self, way: Spot, radius: float, column: int) -> Spot:
@@ -395,7 +404,7 @@ class _Reader:
             aside = -aside
         return round(way[0] / 2 - way[1] * aside), round(way[1] / 2 + way[0] * aside)
 
-    def arc(self, start: Spot, end: Spot, from_centre: Spot, column: int, cuts: bool) -> Iterator[Placed | Move]:
+    def arc(self, start: Spot, end: Spot, from_centre: Spot, column: int, cuts: bool) -> None:
         xs, ys = from_centre
         if (xs, ys) == (0, 0):
             raise _Misread(column, "an arc needs its centre, I and J")
@@ -408,17 +417,16 @@ class _Reader:
         cross, dot = sense * (xs * to_end[1] - ys * to_end[0]), xs * to_end[0] + ys * to_end[1]
         if start != end and 0 <= cross < LEAST_SWEEP * dot:
             self.warn(column, "an arc so flat that LinuxCNC and GRBL take it for a full circle")
-        yield from self.lay(arc_block((xs, ys), to_end, sense), start, end, cuts)
+        self.lay(arc_block((xs, ys), to_end, sense), start, end, cuts)
 
-    def lay(self, block: Block, start: Spot, end: Spot, cuts: bool) -> Iterator[Placed | Move]:
+    def lay(self, block: Block, start: Spot, end: Spot, cuts: bool) -> None:
         """A block in its place."""
         self.begun = True
         self.dipped = None
         if cuts:
             self.blocks += 1
-        numbered = Block(block.x, block.y, block.j, block.axis, block.code, self.blocks)
-        placed = Placed.between(numbered, start, end)
-        yield placed if cuts else Move(placed)
+        if self.path is not None:
+            self.path.lay(block, self.blocks, start, end, not cuts)
 
     def where_idle(self) -> _Idle:
         """Where G1 to G3 do not cut in a program that has been read through.
@@ -446,29 +454,26 @@ def _rounded(place: tuple[Decimal, ...]) -> Spot:
     return rounded_one(place[0]), rounded_one(place[1])
 
 
-def _read_through(text: str, idle: _Idle, keeps: bool) -> tuple[_Reader, list[Placed | Move | Drilled | Stop]]:
+def _read_through(text: str, idle: _Idle, keeps: bool) -> _Reader:
     """Read a program; what cannot be read is left out. Unless `keeps`, nothing of what it does is kept."""
-    reader = _Reader(idle)
-    items: list[Placed | Move | Drilled | Stop] = []
+    reader = _Reader(idle, Path() if keeps else None)
     for line in text.splitlines():
         try:
-            for item in reader.take(line):
-                if keeps:
-                    items.append(item)
+            reader.take(line)
         except _Misread as error:
             reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
-    return reader, items
+    return reader
 
 
-def _read_all(text: str, keeps: bool) -> tuple[_Reader, list[Placed | Move | Drilled | Stop]]:
+def _read_all(text: str, keeps: bool) -> _Reader:
     """The same, where it is known what does not cut; and what is wrong with the program as a whole."""
-    reader, items = _read_through(text, _Idle(), keeps)
+    reader = _read_through(text, _Idle(), keeps)
     # (what does not cut is known when all has been read; mostly there is nothing)
     idle = reader.where_idle()
     if idle != _Idle():
-        again, idled = _read_through(text, idle, keeps)
+        again = _read_through(text, idle, keeps)
         if again.idled < again.feeds:
-            reader, items = again, idled
+            reader = again
     for beam, line in reader.turned_on.items():
         if 0 < reader.dark[beam] == reader.feeds:
             said = f"each G1 finds the beam off ({beam}), as if nothing were cut: taken for cuts all the same"
@@ -480,21 +485,21 @@ def _read_all(text: str, keeps: bool) -> tuple[_Reader, list[Placed | Move | Dri
             missing += ", with beam or spindle on"
         is_program = reader.begun
         reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not is_program, is_guess=is_program))
-    return reader, items
+    return reader
 
 
 def look(text: str) -> tuple[list[GcodeFinding], tuple[str, ...]]:
     """Everything that is wrong with a program, and its notes, as `GcodeProgram` has them."""
-    reader, _ = _read_all(text, keeps=False)
+    reader = _read_all(text, keeps=False)
     return reader.findings, reader.said_of_idle()
 
 
 def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
     """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
-    reader, items = _read_all(text, keeps=True)
+    reader = _read_all(text, keeps=True)
     guesses = tuple(str(finding) for finding in reader.findings if finding.is_guess)
     program = GcodeProgram(
-        name, tuple(items), reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.said_of_idle()
+        name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.said_of_idle()
     )
     return program, reader.findings
 

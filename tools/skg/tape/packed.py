@@ -43,8 +43,18 @@ class Blocks(Sequence[Block]):
         """The blocks of several, one after the other."""
         found = cls()
         for part in parts:
-            for column, more in zip(found.columns, part.columns, strict=True):
-                column.extend(more[part.slice])
+            found.extend(part)
+        return found
+
+    def extend(self, more: Blocks) -> None:
+        """Add other blocks behind all of these."""
+        for column, theirs in zip(self.columns, more.columns, strict=True):
+            column.extend(theirs[more.slice])
+
+    def numbered(self) -> Blocks:
+        """The same blocks, with the numbers that they have on a tape."""
+        found = Blocks.joined([self])
+        found.columns[-1][:] = array(found.columns[-1].typecode, range(1, len(found) + 1))
         return found
 
     @property

@@ -30,8 +30,9 @@ class Walk:
 def _distances(columns: Columns, highest: Numbers, lowest: Numbers) -> Reals:
     """Turn extremes of F into the largest distances from the curves, µm."""
     radii, squares = hypots(columns.x, columns.y), columns.squares
-    outside = np.sqrt((squares + highest).astype(float)) - radii
-    inside = radii - np.sqrt(np.maximum(0, squares + lowest).astype(float))
+    # (a line far off its path has an F far below 0, and no squares that are those of arcs)
+    farthest, nearest = (np.sqrt(np.maximum(0, squares + f).astype(float)) for f in (highest, lowest))
+    outside, inside = farthest - radii, radii - nearest
     return np.where(columns.is_line, np.maximum(highest, -lowest) / radii, np.maximum(outside, inside))
 
 
