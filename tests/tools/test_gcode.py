@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import tracemalloc
 from itertools import groupby
 from math import hypot, pi
 from pathlib import Path
@@ -384,6 +385,17 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
     assert len(circles) == 1
     with pytest.raises(UserError, match="a tape has no nominal contour"):
         run("plot", tape, "-o", picture, "--show-offset")
+
+
+def test_a_line_takes_little_room() -> None:
+    """A million lines, each a `Placed` with its `Block`, took more than a gigabyte."""
+    text = "G21 G90 F5\n" + "G1 X1\nG3 X0 I-.5\nG0 X0 Y0\n" * 4000 + "M2"
+    tracemalloc.start()
+    program = gcode_reader.read(text)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(program.path.moves) == 8000 and peak < 150 * 8000 + 4 * len(text)
+    assert len(program.tape().blocks) == 8000 and not program.tape().stops
 
 
 @given(st.text(alphabet="GXYZIJMNF0123 .-\n()%", max_size=60))

@@ -92,6 +92,19 @@ def _umask() -> int:
 
 
 @contextmanager
+def binary_output(path: str) -> Iterator[BinaryIO]:
+    """A file to write, piece by piece."""
+    if path != "-":
+        with _new_file(path) as stream:
+            yield stream
+        return
+    if sys.stdout is None:
+        raise UserError("standard output: closed")
+    yield sys.stdout.buffer
+    sys.stdout.buffer.flush()
+
+
+@contextmanager
 def text_output(path: str) -> Iterator[TextIO]:
     """A file to write ASCII text to, piece by piece."""
     if path != "-":
@@ -110,11 +123,5 @@ def text_output(path: str) -> Iterator[TextIO]:
 
 def write_bytes(path: str, data: bytes) -> None:
     """Write a file."""
-    if path != "-":
-        with _new_file(path) as stream:
-            stream.write(data)
-        return
-    if sys.stdout is None:
-        raise UserError("standard output: closed")
-    sys.stdout.buffer.write(data)
-    sys.stdout.buffer.flush()
+    with binary_output(path) as stream:
+        stream.write(data)

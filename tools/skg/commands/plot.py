@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -20,6 +21,9 @@ from skg.errors import UserError
 from skg.plane import XY
 from skg.tape.block import micrometres
 from skg.tape.placed import stop_places
+
+if TYPE_CHECKING:
+    from skg.drawing.plot import Sheet
 
 
 @click.command(name="plot")
@@ -66,27 +70,14 @@ def command(
     A program is run first, by the ROM (a milling program by the mill ROM) or by what --skg80 names. FILE - is a tape
     on the standard input.
     """
-    from skg.drawing.plot import COLOURS, Picture, Sheet
-    from skg.drawing.source import contour_of, iso_program, load
-    from skg.tape.laid import place
+    from skg.drawing.plot import COLOURS, Picture
 
     form = picture_format(output, form, ", or --format")
-    sheets = []
-    stops: list[list[XY]] = []
-    for at, name in enumerate(files):
-        if program := iso_program(name, skg80):
-            contour = contour_of(name) if show_offset else ()
-            sheets.append(Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)))
-            stops.append(program.stop_places)
-            if heights := program.heights():
-                click.echo(f"skg: {name}: {heights}", err=True)
-            continue
-        made = load(name, skg80, show_offset)
-        x, y = start[at] if at < len(start) else made.start
-        home = micrometres(x), micrometres(y)
-        routes = place(made.tape, home, decided(made.tape, positions))
-        sheets.append(Sheet(Path(name).name, routes, made.contour))
-        stops.append(stop_places(made.tape, routes, home))
+    laid = [
+        _laid(name, start[at] if at < len(start) else None, positions, skg80, show_offset)
+        for at, name in enumerate(files)
+    ]
+    sheets, stops = [sheet for sheet, _ in laid], [places for _, places in laid]
     if not any(sheet.routes for sheet in sheets):
         raise UserError(f"{files[0]}: nothing to draw, the tape has no blocks")
     picture = Picture(sheets, scale, title)
@@ -98,3 +89,21 @@ def command(
     if len(sheets) > 1:
         picture.legend([sheet.name for sheet in sheets])
     picture.save(output, form)
+
+
+def _laid(name: str, start: XY | None, positions: str, skg80: str | None, show_offset: bool) -> tuple[Sheet, list[XY]]:
+    """What there is to draw of a file, and where it stops, µm. (Of a tape no more is kept: it may be long.)"""
+    from skg.drawing.plot import Sheet
+    from skg.drawing.source import contour_of, iso_program, load
+    from skg.tape.laid import place
+
+    if program := iso_program(name, skg80):
+        contour = contour_of(name) if show_offset else ()
+        if heights := program.heights():
+            click.echo(f"skg: {name}: {heights}", err=True)
+        return Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)), program.stop_places
+    made = load(name, skg80, show_offset)
+    x, y = start or made.start
+    home = micrometres(x), micrometres(y)
+    routes = place(made.tape, home, decided(made.tape, positions))
+    return Sheet(Path(name).name, routes, made.contour), stop_places(made.tape, routes, home)

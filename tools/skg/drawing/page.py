@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import warnings
 from functools import cache
 
@@ -10,7 +9,7 @@ import matplotlib as mpl
 from matplotlib import font_manager
 from matplotlib.figure import Figure
 
-from skg.files import write_bytes
+from skg.files import binary_output
 
 #: The font that matplotlib brings along, and others that have what it has not, where they are installed.
 _FONT = "DejaVu Sans"
@@ -48,10 +47,8 @@ def _installed() -> tuple[str, ...]:
 
 def save(figure: Figure, output: str, form: str, dpi: int, metadata: dict[str, str | None] | None = None) -> None:
     """Write a page as "svg", "png" or "pdf"; text in an SVG stays text."""
-    picture = io.BytesIO()
     settings = {"svg.hashsalt": "skg", "svg.fonttype": "none", "path.simplify": False}
-    with mpl.rc_context(settings), warnings.catch_warnings():
+    with binary_output(output) as stream, mpl.rc_context(settings), warnings.catch_warnings():
         # (a letter that no font has is an empty box)
         warnings.filterwarnings("ignore", "Glyph")
-        figure.savefig(picture, format=form, dpi=dpi, metadata=metadata, facecolor="white")
-    write_bytes(output, picture.getvalue())
+        figure.savefig(stream, format=form, dpi=dpi, metadata=metadata, facecolor="white")

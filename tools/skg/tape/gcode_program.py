@@ -31,7 +31,7 @@ class Drilled:
 
 
 @dataclass(frozen=True)
-class Run:
+class GcodeRun:
     """Blocks in the plane, one after the other: the first, and the one behind the last, from 0.
 
     `is_move`: they do not cut: rapids; any with the beam off or the tool up.
@@ -42,7 +42,7 @@ class Run:
     is_move: bool
 
 
-class Path:
+class GcodePath:
     """What G-code does in the plane, in order: cuts, moves, holes, stops. Packed: it may have a million blocks."""
 
     def __init__(self) -> None:
@@ -74,14 +74,14 @@ class Path:
         x, y = self._places[4 * block + 2 : 4 * block + 4]
         return x, y
 
-    def parts(self) -> Iterator[Run | Drilled | Stop]:
+    def parts(self) -> Iterator[GcodeRun | Drilled | Stop]:
         """Cuts and moves in runs, as long as they can be, holes and stops."""
         first = 0
         for last, mark in [*self._marks, (len(self.moves), None)]:
             while first < last:
                 is_move = self.moves[first]
                 change = self.moves.find(1 - is_move, first, last)
-                yield Run(first, last if change < 0 else change, bool(is_move))
+                yield GcodeRun(first, last if change < 0 else change, bool(is_move))
                 first = last if change < 0 else change
             if mark:
                 yield mark
@@ -108,7 +108,7 @@ class GcodeProgram:
     """
 
     name: str
-    path: Path
+    path: GcodePath
     home: Spot = (0, 0)
     depths: tuple[Decimal, ...] = ()
     travels: tuple[Decimal, ...] = ()
@@ -138,7 +138,7 @@ class GcodeProgram:
     def routes(self) -> list[PlacedRoute]:
         """What is cut and how it is moved between, as `skg.tape.placed.place` has it."""
         laid, parts = self.path.laid(), self.path.parts()
-        return [PlacedRoute(laid[part.first : part.last], part.is_move) for part in parts if isinstance(part, Run)]
+        return [PlacedRoute(laid[part.first : part.last], part.is_move) for part in parts if isinstance(part, GcodeRun)]
 
     def heights(self) -> str:
         """What there is to say of the heights of cuts, holes and moves; empty where none is known."""
@@ -171,7 +171,7 @@ class GcodeProgram:
         for part in self.path.parts():
             if isinstance(part, Drilled):
                 continue
-            if isinstance(part, Run) and part.is_move:
+            if isinstance(part, GcodeRun) and part.is_move:
                 if moved_from is None:
                     moved_from = at
                     if not stops or stops[-1].after < len(blocks):
@@ -180,10 +180,10 @@ class GcodeProgram:
                 continue
             if moved_from is not None:
                 blocks.extend(_between(moved_from, at))
-                if isinstance(part, Run):
+                if isinstance(part, GcodeRun):
                     stops.append(Stop(len(blocks)))
                 moved_from = None
-            if isinstance(part, Run):
+            if isinstance(part, GcodeRun):
                 blocks.extend(self.path.blocks[part.first : part.last])
                 at = self.path.end(part.last - 1)
             else:

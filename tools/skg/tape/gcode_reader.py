@@ -17,7 +17,7 @@ from typing import NamedTuple
 from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
-from skg.tape.gcode_program import Drilled, GcodeProgram, Path, rounded_one, several
+from skg.tape.gcode_program import Drilled, GcodeProgram, GcodePath, rounded_one, several
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
@@ -105,7 +105,7 @@ class _Idle:
 class _Reader:
     """State of a program that is being read; places and heights in µm. What it does goes to `path`, if there is one."""
 
-    def __init__(self, idle: _Idle, path: Path | None) -> None:
+    def __init__(self, idle: _Idle, path: GcodePath | None) -> None:
         self.idle, self.path = idle, path
         self.line = 0
         # Beam or spindle: its S; by what turns it: in which line first, whether it is on, how many moves found it off.
@@ -456,7 +456,7 @@ def _rounded(place: tuple[Decimal, ...]) -> Spot:
 
 def _read_through(text: str, idle: _Idle, keeps: bool) -> _Reader:
     """Read a program; what cannot be read is left out. Unless `keeps`, nothing of what it does is kept."""
-    reader = _Reader(idle, Path() if keeps else None)
+    reader = _Reader(idle, GcodePath() if keeps else None)
     for line in text.splitlines():
         try:
             reader.take(line)
