@@ -17,7 +17,7 @@ from typing import NamedTuple
 from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
-from skg.tape.gcode_program import Drilled, GcodeProgram, GcodePath, rounded_one, several
+from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one, several
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
