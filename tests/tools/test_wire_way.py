@@ -122,12 +122,38 @@ def test_past_what_is_too_small(
 def test_a_start_hole_that_is_chosen_is_where_the_wire_comes_to(run: Run, tmp_path: Path) -> None:
     """A window with a crooked tail that is too narrow, and has its longest edges: the wire is threaded in its head."""
     page = drawing()
-    tail = [(x, 0.8 * (x % 2)) for x in range(2, 12)]
-    corners = [*tail, *((x, y + 0.15) for x, y in reversed(tail)), *((2, 0.7), (1.5, 0.9), (1.2, 0.5), (1.5, -0.4))]
-    wanted = polygon([*corners, (2, -0.5)], page)
+    tail = [(0.3 + 0.15 * k, 0.1 * (k % 2)) for k in range(10)]
+    head = [(0.5 * cos(angle / 20) - 0.2, 0.5 * sin(angle / 20) + 0.1) for angle in range(4, 122)]
+    wanted = polygon([*tail, *((x, y + 0.15) for x, y in reversed(tail)), *head], page)
     (places,), words = cut(run, page, tmp_path, "--offset", 0.1, "--side", "inside")
     assert apart(LineString(places[1:-1]), parallel(wanted, 0.1, "inside")) < LIMIT
     assert "too narrow for the wire" in words
+
+
+@pytest.mark.parametrize(("side", "tip"), [("outside", 20), ("inside", 60)])
+def test_a_slot_that_is_too_narrow_is_no_corner(run: Run, tmp_path: Path, side: str, tip: int) -> None:
+    """A blind slot of 1 mm, in an outline or from a window: a wider wire would leave it out; half of that cuts it."""
+    page = drawing()
+    slot = [(40, 15), (tip, 15), (tip, 16), (40, 16)]
+    polygon([(0, 0), (40, 0), *slot, (40, 30), (0, 30)], page)
+    words = run_failing(run, "cut", saved(page, tmp_path), "--offset", 0.51, "--side", side)
+    assert f"the wire does not come to ({(40 + tip) // 2}, 1" in words and "at most 0.5 mm fits" in words
+    (places,), words = cut(run, page, tmp_path, "--offset", 0.45, "--side", side)
+    assert LineString(places).distance(Point(tip + (0.45 if side == "outside" else -0.45), 15.5)) < 0.05 + LIMIT
+
+
+def test_the_wire_ends_where_a_slot_of_curves_narrows(run: Run, tmp_path: Path) -> None:
+    """Two splines that come nearer by some um in a mm: where they are less than 2 R apart is not looked at."""
+    page = drawing()
+    space = page.modelspace()
+    side = [(3, -0.506), (2, -0.504), (1, -0.501), (0, -0.498)]
+    for sign in (1, -1):
+        space.add_open_spline([(x, sign * y, 0) for x, y in side])
+    for places in [[(0, -0.498), (0, 0.498)], [(3, 0.506), (3, 4), (-4, 4), (-4, -4), (3, -4), (3, -0.506)]]:
+        for p, q in zip(places, places[1:], strict=False):
+            space.add_line(p, q)
+    _, words = cut(run, page, tmp_path, "--offset", 0.5)
+    assert "too narrow for the wire, as at (0, " in words
 
 
 def test_passes_and_tab(run: Run, tmp_path: Path) -> None:

@@ -338,6 +338,11 @@ def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.nda
     free = near.own > np.abs(aside) - np.where(contours.is_chord[which], LIMIT / 10, _TIGHT)
     others = np.flatnonzero(free & (near.own_at >= 0) & (near.own_at != which))
     piece = near.own_at[others]
+    # (nor may what is across a slot be any nearer, which becomes too narrow all but unnoticed)
+    is_across = (
+        contours.normal(piece, contours.part(places[others], piece)) * contours.normal(which[others], part[others])
+    ).sum(1) < 0
+    free[others[is_across & (near.own[others] < np.abs(aside[others]) - _TIGHT)]] = False
     # (what is nearest to a place beyond a piece's end tells nothing)
     is_beside = np.abs(contours.from_carrier(places[others], piece) - near.own[others]) < _NOISE
     is_past = contours.right_of(places[others], piece) * aside[others] < -_NOISE

@@ -8,10 +8,10 @@ then works out their parallels and where these meet.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import acos, atan2, ceil, cos, floor, hypot, pi, sin
+from math import acos, atan2, ceil, cos, floor, hypot, pi, sin, sqrt
 
 import numpy as np
 import shapely
@@ -52,10 +52,14 @@ class NoRoom(Exception):
         self.is_crossing = is_crossing
 
 
+#: A line is no corner when it is longer than so many R, an arc or curve (a fillet of half a turn has pi) than so many;
+#: the wire is beside an edge when a place of it is no further from the wire than R and this, mm.
+_SLOT, _BEND, _OFF = 2.0, 4.0, 0.003
 #: Why it does not.
-_NONE, _NECK, _CROSSES = (
+_NONE, _NECK, _SLOTTED, _CROSSES = (
     "the wire has no room at",
     "the wire does not get through at",
+    "the wire does not come to",
     "it crosses or touches itself at",
 )
 
@@ -129,7 +133,7 @@ def _tangent(start: XY, angle: float, end: XY, entity: int) -> Edge:
 def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
     """Return the way of the wire along a closed contour, in its direction, R (mm) to the right of it.
 
-    Where it does not get everywhere, or nowhere at all, it raises `NoRoom`.
+    Where it does not get everywhere but to corners, or nowhere at all, it raises `NoRoom`.
     """
     edges = _lines_and_arcs(contour)
     if len(edges) == 1:
@@ -149,6 +153,7 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
         ]
         short = min(range(len(way)), key=lambda k: way[k].length)
         if way[short].length >= _LEAST:
+            _refuse_slots(contour, way, r)
             return tuple(way)
         del runs[short]
     raise NoRoom(contour.edges[0].start, _NONE)
@@ -297,13 +302,35 @@ def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
     return place[0] - aside[0] / 2, place[1] - aside[1] / 2
 
 
-def uncut(contour: Contour, way: tuple[Edge, ...], r: float) -> tuple[float, XY]:
+def uncut(contour: Contour, way: Sequence[Edge], r: float) -> tuple[float, XY]:
     """How far (mm) the wire, R beside a contour, stays off it at most, and where: in corners that it cannot follow."""
-    path = shapely.LineString([place for edge in way for place in (*_chords(edge), edge.end)])
     places = contour.points()
-    off = shapely.distance(shapely.points(places), path) - abs(r)
+    off = shapely.distance(shapely.points(places), _path(way)) - abs(r)
     worst = int(np.argmax(off))
     return float(off[worst]), places[worst]
+
+
+def _path(way: Sequence[Edge]) -> shapely.LineString:
+    """A way as chords."""
+    return shapely.LineString([place for edge in way for place in (*_chords(edge), edge.end)])
+
+
+def _refuse_slots(contour: Contour, way: Sequence[Edge], r: float) -> None:
+    """Raise `NoRoom` where the wire passes over more than a corner: it is nowhere beside an edge that is too long."""
+    path = _path(way)
+    # (around an edge's end it is R away from that, and so much further in by all that it may be off)
+    ends = sqrt(3 * abs(r) * _OFF)
+    for edge in contour.edges:
+        if edge.length <= (_SLOT if edge.is_line else _BEND) * abs(r):
+            continue
+        if edge.nodes:
+            apart = [np.hypot(*(edge.samples - end).T) > ends for end in (edge.start, edge.end)]
+            places = edge.samples[apart[0] & apart[1]]
+        else:
+            inner = part_of(edge, ends / edge.length, 1 - ends / edge.length)
+            places = np.array([*_chords(inner), inner.end])
+        if len(places) > 1 and shapely.distance(path, shapely.LineString(places)) > abs(r) + _OFF:
+            raise NoRoom(edge.at(0.5), _SLOTTED)
 
 
 def roomy_place(way: tuple[Edge, ...], place: XY) -> XY:
