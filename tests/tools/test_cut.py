@@ -8,7 +8,7 @@ import sys
 import time
 import warnings
 from itertools import pairwise
-from math import cos, hypot, pi, sin
+from math import asin, cos, degrees, hypot, pi, sin
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -423,6 +423,27 @@ def test_what_to_do_where_the_wire_is_off_is_said(
     polygon([(0, 0), (20, 3), (20, 15), (0, 15)], page)
     told = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", *words)
     assert "µm off the drawing at" in told and advice in told, told
+
+
+@pytest.mark.parametrize(("x", "y"), [(10.8125, 46.1875), (18.5, 38.75)])
+def test_an_arc_that_a_controller_leaves_is_cut_along_chords(run: Run, tmp_path: Path, x: float, y: float) -> None:
+    """Two half circles whose centres are 2 µm apart, on places of half a micrometre: a block of an arc would end 3.5 µm
+    off; the circle beside them is cut as arcs."""
+    page = drawing()
+    radius, aside = 0.9375, 0.001
+    lean = degrees(asin(aside / radius))
+    page.modelspace().add_arc((x, y + aside), radius, -lean, 180 + lean)
+    page.modelspace().add_arc((x, y - aside), radius, 180 - lean, lean)
+    page.modelspace().add_circle((x + 20, y), 3)
+    told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--program", tmp_path / "part.skg").stderr
+    assert "contour 1 is cut along chords: a controller would leave one of its arcs too far" in told
+    assert "contour 2 is cut along" not in told
+    start = re.search(r"FROM \(([\d.]+),([\d.]+)\)", (tmp_path / "part.skg").read_text())
+    assert start
+    way, _ = stretches((tmp_path / "part.3b").read_bytes(), (float(start[1]), float(start[2])))
+    ring = shapely.Point(x, y).buffer(radius, quad_segs=400).exterior
+    assert max(ring.distance(shapely.Point(place)) for place in way[1:-1]) < LIMIT
+    assert way[1] == pytest.approx(way[-2], abs=1e-9)
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.25, 0.5, 0.75])

@@ -36,7 +36,7 @@ def write_shape(
         job = make(plan(contours(), [], offset or 0.0, "auto", tab=tab), name, 1.0, Settings())
     except UserError as error:
         raise UserError(f"{name}: {error}") from None
-    if any(route.traced for route in job.routes):
+    if any(route.traced and any(route.passes) for route in job.routes):
         raise UserError(f"{name}: it has bends that are too narrow for an offset of {offset:g} mm: a smaller --offset")
     write_bytes(output, job.program.encode("ascii"))
     if tape:

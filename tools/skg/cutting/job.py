@@ -130,6 +130,8 @@ def make(
         if helped == routes and settings.small == "leave":
             no_room = {fault.route: why for fault in checked.faults if (why := _why(fault, factor))}
             helped, more = _without(routes, no_room, factor)
+        if helped == routes:
+            helped = _in_chords(routes, checked.faults)
         if helped != routes:
             return make(helped, title, factor, settings, fillets, left + more)
     _refuse(checked, routes, factor, settings)
@@ -193,6 +195,20 @@ def _helped(
     if none and settings.small != "leave":
         raise UserError(_no_room(routes, none, factor, settings))
     return _without(found, {at: f"{no_room} {in_file(no_room.place, factor)}" for at, no_room in none.items()}, factor)
+
+
+def _in_chords(routes: list[PlannedContour], faults: list[Misfit]) -> list[PlannedContour]:
+    """The routes, those without an offset that the controller is a little off cut along chords of their arcs; the same
+    routes where there are none of these."""
+    off = {fault.route for fault in faults if fault.off < inf and not fault.is_into and not fault.is_missed}
+    return [
+        route.in_chords() if at in off and not any(route.passes) and not route.traced and _has_arcs(route) else route
+        for at, route in enumerate(routes)
+    ]
+
+
+def _has_arcs(route: PlannedContour) -> bool:
+    return any(edge.centre is not None for edge in route.contour.edges)
 
 
 def _without(

@@ -91,6 +91,9 @@ def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
             lines.append(f"contour {at + 1} has no room for a lead along an arc: it is straight")
         if not route.traced:
             continue
+        if not any(route.passes):
+            lines.append(f"contour {at + 1} is cut along chords: a controller would leave one of its arcs too far")
+            continue
         off, place = uncut(route.contour, route.traced[-1], route.passes[-1])
         if off > LIMIT:
             lines.append(

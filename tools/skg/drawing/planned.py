@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import cos, inf, pi, sin
+from itertools import pairwise
+from math import acos, ceil, cos, inf, pi, sin
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from skg.plane import XY, distance, minus, polar, turn
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
+#: The chords that an arc is cut along, where it cannot be cut as one, are this near to it, mm.
+_FLAT = 3e-4
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
 #: entry for a lead that is an arc.
 _SQUARE = 1e-6
@@ -77,7 +80,8 @@ class PlannedContour:
     around it. `passes`: R of each pass, as if all were cut in the contour's direction; every second one is cut
     backwards. `tab`: the length before the entry that stays until the last cut, mm; `tab_hole`: the other start hole.
     `number`: its place among the contours that were planned, from 0. `room`: from the start hole to what is nearest.
-    `traced`: the wire's own way in each pass, where the contour has edges that it cannot follow; see `with_wire_ways`.
+    `traced`: the wire's own way in each pass, where the contour has edges that it cannot follow, or the controller does
+    not; see `with_wire_ways` and `in_chords`.
     `is_moved`: they are entered where they are nearest to the start hole.
     `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
     """
@@ -160,6 +164,12 @@ class PlannedContour:
         place = roomy_place(traced[self.passes.index(widest)], self.start)
         return found if place == self.start else replace(found, start=place, is_moved=True)
 
+    def in_chords(self) -> PlannedContour:
+        """The same without an offset, cut along chords of its arcs: a controller may end an arc too early or too late
+        by more than may be, a line never."""
+        edges = tuple(chord for edge in self.contour.edges for chord in _chords(edge))
+        return replace(self, traced=(edges,) * len(self.passes))
+
     def _way(self, at: int, run: Way) -> Way:
         """A run of a pass along the wire's own way, if there are such."""
         if not self.traced:
@@ -181,6 +191,15 @@ class PlannedContour:
     def one_by_one(self) -> PlannedContour:
         """The same, every copy with edges of its own in the program."""
         return replace(self, contour=replace(self.contour, copies=1))
+
+
+def _chords(edge: Edge) -> list[Edge]:
+    """An arc as chords; lines and curves are what they are."""
+    if edge.centre is None:
+        return [edge]
+    pieces = max(2, ceil(abs(edge.sweep) / (2 * acos(max(0.5, 1 - _FLAT / edge.radius)))))
+    places = [edge.start, *(edge.at(k / pieces) for k in range(1, pieces)), edge.end]
+    return [Edge(start, end, entity=edge.entity) for start, end in pairwise(places)]
 
 
 def _backwards(run: Way) -> Way:
