@@ -54,6 +54,16 @@ def boxes(reading: Reading) -> list[Box]:
         ("<style>g .q{transform:translate(9px)} #a{transform:translate(7px)}</style>"
          "<g><rect id='a' class='q' width='5' height='5' style='transform:translate(30px,0)'/></g>",
          [(30, 95, 35, 100)]),
+        # What stands in another, and what stands right in it, which is to be found from the inside out.
+        ("<style>g > .q{transform:translate(9px)} svg > g .q{transform:translate(20px)}</style>"
+         "<a><g><a><rect class='q' width='5' height='5'/></a></g></a>", [(0, 95, 5, 100)]),
+        ("<style>svg > g a > .q{transform:translate(9px)}</style>"
+         "<g><a><g><a><rect class='q' width='5' height='5'/></a></g></a></g>", [(9, 95, 14, 100)]),
+        # What is important goes before the element's own style, and that before what is not.
+        ("<style>.q{transform:translate(9px) ! important} #a{transform:translate(3px)}</style>"
+         "<rect id='a' class='q' width='5' height='5' style='transform:translate(30px,0)'/>", [(9, 95, 14, 100)]),
+        ("<style>.q{transform:translate(9px)!important}</style>"
+         "<rect class='q' width='5' height='5' style='transform:translate(30px,0)!IMPORTANT'/>", [(30, 95, 35, 100)]),
         # A transform turns about its origin: lengths, parts of the view box, sides.
         ('<rect width="5" height="10" transform="rotate(90)" transform-origin="20 30"/>', [(40, 85, 50, 90)]),
         ('<rect width="5" height="10" style="transform:rotate(90deg);transform-origin:20% 30px"/>', [(40, 85, 50, 90)]),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 #: What is drawn at the ends and corners of lines, such as heads of arrows.
@@ -22,6 +23,8 @@ _NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
 _CONDITIONAL = re.compile(r"@(media|supports|container|layer)\b([^{};]*)\{((?:[^{}]*\{[^{}]*\})*[^{}]*)\}")
 #: A selector's parts: a name, classes and ids.
 _COMPOUND = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
+#: A selector: such parts, one in another.
+_SELECTOR = re.compile(r"PART(?: (?:> )?PART)*".replace("PART", r"(?:(?:\*|[\w-]+)(?:[.#][\w-]+)*|(?:[.#][\w-]+)+)"))
 
 
 @dataclass(frozen=True)
@@ -70,8 +73,8 @@ class StyleSheet:
     """The rules of a drawing's style sheets: those whose selectors are names, classes, ids and what these stand in."""
 
     def __init__(self, text: str) -> None:
-        #: Weight, selector (parts from the outside in), declarations.
-        self.rules: list[tuple[tuple[int, int, int, int], list[str], dict[str, str]]] = []
+        #: Weight, selector (parts from the outside in, ">" where one stands right in the one before), declarations.
+        self.rules: list[tuple[tuple[int, int, int, int], list[str], _Declared]] = []
         #: Selectors and conditions of rules that would show something otherwise, but are not understood.
         self.missed: list[str] = []
         text = re.sub(r"/\*.*?\*/|<!--|-->", "", text, flags=re.DOTALL)
@@ -81,13 +84,14 @@ class StyleSheet:
         text = _CONDITIONAL.sub(self._under_condition, text)
         for selectors, declarations in re.findall(r"([^{}]+)\{([^{}]*)\}", text):
             for selector in selectors.split(","):
-                parts = selector.replace(">", " ").split()
-                if parts and all(_COMPOUND.fullmatch(part) for part in parts):
+                parts = selector.replace(">", " > ").split()
+                declared = _declared(declarations)
+                if _SELECTOR.fullmatch(" ".join(parts)):
                     marks = "".join(parts)
-                    names = sum(part[0] not in "*.#" for part in parts)
+                    names = sum(part[0] not in "*.#>" for part in parts)
                     weight = marks.count("#"), marks.count("."), names, len(self.rules)
-                    self.rules.append((weight, parts, _declared(declarations)))
-                elif parts and _declared(declarations).keys() & {*_PROPERTIES, *_GEOMETRY}:
+                    self.rules.append((weight, parts, declared))
+                elif parts and (declared.usual.keys() | declared.important.keys()) & {*_PROPERTIES, *_GEOMETRY}:
                     self.missed.append(" ".join(parts))
         self.rules.sort(key=lambda rule: rule[0])
 
@@ -101,11 +105,14 @@ class StyleSheet:
 
     def style(self, element: Element, around: tuple[Element, ...], outer: Style) -> Style:
         """How an element is drawn; `around`: those that it stands in, `outer`: how the last of these is drawn."""
+        elements = (*around, element)
+        found = [declarations for _, parts, declarations in self.rules if _fits(parts, elements)]
+        found.append(_declared(element.get("style", "")))
         declared: dict[str, str] = {}
-        for _, parts, declarations in self.rules:
-            if _fits(parts, element, around):
-                declared |= declarations
-        declared |= _declared(element.get("style", ""))
+        for one in found:
+            declared |= one.usual
+        for one in found:
+            declared |= one.important
         told = {name: element.get(name, "").strip() for name in _PROPERTIES} | declared
         told = {name: value for name, value in told.items() if value and value != "inherit"}
         visibility = told.get("visibility")
@@ -146,26 +153,35 @@ def _markers(told: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(told.get(name, told.get("marker", old)) for name, old in zip(_MARKERS, outer, strict=True))
 
 
-def _declared(text: str) -> dict[str, str]:
-    """Declarations by the names of their properties."""
-    found = {}
+class _Declared(NamedTuple):
+    """Declarations by the names of their properties; what is `important` goes before all that is not."""
+
+    usual: dict[str, str]
+    important: dict[str, str]
+
+
+def _declared(text: str) -> _Declared:
+    """The declarations in a text."""
+    found = _Declared({}, {})
     for declaration in text.split(";"):
         name, colon, value = declaration.partition(":")
+        value, mark, important = value.partition("!")
         if colon:
-            found[name.strip().lower()] = value.replace("!important", "").strip()
+            some = found.important if mark and important.strip().lower() == "important" else found.usual
+            some[name.strip().lower()] = value.strip()
     return found
 
 
-def _fits(parts: list[str], element: Element, around: tuple[Element, ...]) -> bool:
-    """Whether a selector means an element."""
+def _fits(parts: list[str], elements: tuple[Element, ...]) -> bool:
+    """Whether a selector means the last of some elements, each of which stands in the one before."""
     *outer, last = parts
-    if not _is(last, element):
+    if not elements or not _is(last, elements[-1]):
         return False
-    waiting = list(outer)
-    for one in reversed(around):
-        if waiting and _is(waiting[-1], one):
-            waiting.pop()
-    return not waiting
+    if not outer:
+        return True
+    if outer[-1] == ">":
+        return _fits(outer[:-1], elements[:-1])
+    return any(_fits(outer, elements[:at]) for at in range(len(elements) - 1, 0, -1))
 
 
 def _is(part: str, element: Element) -> bool:
