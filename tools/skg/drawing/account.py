@@ -111,6 +111,14 @@ class Account:
         """Width and height of all contours, mm."""
         return self.high[0] - self.low[0], self.high[1] - self.low[1]
 
+    def first_gap(self) -> str:
+        """The narrowest gap between open ends."""
+        nearest = min(self.open_ends, key=lambda end: end.gap)
+        message = f"the first end at {shown(nearest.place)}"
+        if nearest.other is None:
+            return message
+        return f"{message}, {short(nearest.gap)} mm from that at {shown(nearest.other)}; {nearest.advice}"
+
     def lines(self) -> list[str]:
         """The report as lines of text, without the file's name."""
         width, height = self.size
@@ -131,6 +139,11 @@ class Account:
         for what in ("drawn twice", "overlap", "cross", "touch"):
             found += _overlaps(what, [overlap for overlap in self.overlaps if overlap.what == what])
         return found + self.notes
+
+
+def in_file(place: XY, factor: float) -> XY:
+    """A place (mm) in the file's own units."""
+    return place[0] / factor, place[1] / factor
 
 
 def short(value: float) -> str:
