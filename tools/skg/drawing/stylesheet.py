@@ -12,7 +12,7 @@ _MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
 #: Attributes that mean what the property of that name means.
 _PROPERTIES = (
     "display", "visibility", "opacity", "fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width",
-    "stroke-dasharray", "clip-path", "mask", "transform", "transform-origin", "transform-box", *_MARKERS,
+    "stroke-dasharray", "clip-path", "mask", "overflow", "transform", "transform-origin", "transform-box", *_MARKERS,
 )  # fmt: skip
 #: Lengths of an element's form, which may be told as properties, too; they are not handed down.
 _GEOMETRY = frozenset(("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "d"))
@@ -46,6 +46,7 @@ class Style:
     box: str = ""
     is_clear: bool = False
     is_clipped: bool = False
+    is_overflowing: bool = False
     markers: tuple[str, ...] = ("none",) * len(_MARKERS)
     geometry: dict[str, str] = field(default_factory=dict)
 
@@ -134,6 +135,7 @@ class StyleSheet:
             is_clear=_is_nothing(told.get("opacity"), False),
             markers=_markers(told, outer.markers),
             geometry={name: value for name, value in declared.items() if name in _GEOMETRY},
+            is_overflowing=told.get("overflow", "").startswith("visible"),
             is_clipped=any(told.get(name, "none") != "none" for name in ("clip-path", "mask")),
         )
 

@@ -47,6 +47,8 @@ _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _NO_PATH = re.compile(r"(?:[^\s,\d.eE+MmZzLlHhVvCcSsQqTtAa-]|[eE](?![+-]?\d)).*")
 #: A line that is wider than this is said, mm.
 _WIDE = 1.0
+#: What is outside a frame by no more than this part of its larger side is within.
+_NEAR_FRAME = 1e-3
 #: Why a shape is left that has neither a stroke nor a fill.
 _UNPAINTED = "drawn with neither line nor area"
 #: What a shape that cannot be read may raise.
@@ -59,9 +61,30 @@ def is_svg(data: bytes, name: str) -> bool:
 
 
 @dataclass(frozen=True)
+class _Frame:
+    """The page, or what a nested drawing is seen through: corner and size, `matrix` from where it stands to pixels."""
+
+    matrix: svgelements.Matrix
+    at: XY
+    size: XY
+
+    def holds(self, places: list[XY]) -> bool:
+        """Whether all of some places, in pixels, lie in it, or hardly outside."""
+        if not self.matrix.determinant:
+            return True
+        back, near = ~self.matrix, _NEAR_FRAME * max(self.size)
+        return all(
+            -near <= ordinate - low <= side + near
+            for place in places
+            for ordinate, low, side in zip(back.point_in_matrix_space(place), self.at, self.size, strict=True)
+        )
+
+
+@dataclass(frozen=True)
 class _View:
     """Where an element stands. `matrix`: from its coordinates to pixels; `size`: that of the view box, for
-    percentages; `hidden`: why nothing of it is seen; `is_clipped`: whether only a part of it may be seen."""
+    percentages; `hidden`: why nothing of it is seen; `is_clipped`: whether only a part of it may be seen; `frames`: of
+    the nested drawings around it."""
 
     matrix: svgelements.Matrix
     size: XY
@@ -69,6 +92,7 @@ class _View:
     style: Style = Style()
     hidden: str = ""
     is_clipped: bool = False
+    frames: tuple[_Frame, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -111,6 +135,7 @@ class SvgFile:
             width = box[2] * (height / box[3] if height else 1.0)
         if box and height is None:
             height = box[3] * (width or 0.0) / box[2]
+        self.page = _Frame(svgelements.Matrix(), (0.0, 0.0), (width, height)) if width and height else None
         self.height = height or 0.0
         size = width or 0.0, self.height
         self.view = _View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size)
@@ -315,7 +340,10 @@ def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: _View,
     if box and not all(sides):
         raise ValueError("a view box in a frame without a size")
     matrix = _fitted(inner, at, (sides[0], sides[1])) * view.matrix
-    return replace(view, matrix=matrix, size=(box[2], box[3]) if box else (sides[0], sides[1]))
+    frames = view.frames
+    if all(sides) and not view.style.is_overflowing:
+        frames = (*frames, _Frame(view.matrix, at, (sides[0], sides[1])))
+    return replace(view, matrix=matrix, frames=frames, size=(box[2], box[3]) if box else (sides[0], sides[1]))
 
 
 def _outline(element: ElementTree.Element, view: _View) -> svgelements.Path:
@@ -405,6 +433,7 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
     content = Content()
     unpainted: list[tuple[Entity, list[Edge]]] = []
     clipped: list[Entity] = []
+    outside: list[Entity] = []
     wide: list[Entity] = []
     marked: list[Entity] = []
     found: list[_Drawn] = []
@@ -451,8 +480,11 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
             continue
         content.edges += edges
         account.dashes = "stroke-dasharray" if style.is_dashed else ""
-        if edges and one.view.is_clipped:
+        places = [(x / px, file.height - y / px) for edge in edges for x, y in edge.extremes()]
+        if edges and (one.view.is_clipped or not all(frame.holds(places) for frame in one.view.frames)):
             clipped.append(account)
+        if file.page and not file.page.holds(places):
+            outside.append(account)
         if edges and style.has_markers and kind in _MARKED:
             marked.append(account)
         if edges and style.width * sqrt(abs(one.view.matrix.determinant)) * px > _WIDE:
@@ -472,6 +504,7 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
             content.edges += edges
         content.notes += said((account for account, _ in unpainted), some, _UNPAINTED, "cut, there is nothing else")
     content.notes += said(clipped, some, "clipped or masked", "cut whole")
+    content.notes += said(outside, some, "outside the page, or partly", "cut whole")
     content.notes += said(wide, some, f"drawn with a line wider than {_WIDE:g} mm", "the middle is cut")
     content.notes += said(marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
     return content
