@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Sequence
-from math import cos, inf, sin
+from math import cos, inf, pi, sin
 
 import numpy as np
 import shapely
@@ -276,6 +276,21 @@ def rows_of(pieces: Sequence[Piece]) -> Floats:
     out = found[arcs, 0:2] - found[arcs, 4:6]
     found[arcs, 6], found[arcs, 7] = hypots(*out.T), directions(out)
     return found
+
+
+def boxes_of(edges: Sequence[Edge]) -> Floats:
+    """The boxes around edges as rows (n, 4): smallest x and y, largest x and y."""
+    rows = rows_of(edges)
+    low, high = np.minimum(rows[:, 0:2], rows[:, 2:4]), np.maximum(rows[:, 0:2], rows[:, 2:4])
+    centres, (radius, first, sweep) = rows[:, 4:6], rows[:, 6:].T
+    begin = np.minimum(first, first + sweep)
+    for angle, axis, ends, way in ((0, 0, high, 1), (pi / 2, 1, high, 1), (pi, 0, low, -1), (-pi / 2, 1, low, -1)):
+        is_there = (sweep != 0) & (np.mod(angle - begin, 2 * pi) <= np.abs(sweep))
+        ends[is_there, axis] = (centres[:, axis] + way * radius)[is_there]
+    for at, edge in enumerate(edges):
+        if edge.nodes:
+            low[at], high[at] = edge.samples.min(0), edge.samples.max(0)
+    return np.column_stack((low, high))
 
 
 def headings(angles: Floats) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from math import acos, ceil
 from typing import Any
@@ -11,7 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from skg.drawing.contour import Contour
-from skg.drawing.field import rows_of
+from skg.drawing.field import Floats, Whole, boxes_of, rows_of
 from skg.plane import XY
 
 #: The chords that stand for an arc here leave it by no more than this, mm.
@@ -20,6 +21,10 @@ _CHORD = 5e-4
 _ALONG = 0.03
 #: So many pairs of contours that meet are looked at.
 _MOST = 300
+#: What is within a reach may seem to lie this much farther away, mm.
+_HAIR = 1e-9
+#: So many contours become lines together.
+_LINES = 1000
 
 
 @dataclass
@@ -37,9 +42,14 @@ class Relations:
 def relations(contours: list[Contour], tolerance: float) -> Relations:
     """Find which contours meet: are nowhere further apart than `tolerance`, mm."""
     found = Relations()
-    lines = lines_of(contours)
     is_closed = np.array([contour.is_closed for contour in contours], bool)
-    one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=tolerance + 2 * _CHORD)
+    # (the chords of 20,000 circles would take 100 MB: most drawings have few contours that come near to others)
+    near = _near_others(contours, tolerance + 2 * _CHORD)
+    lines = np.full(len(contours), None)
+    lines[near] = lines_of([contours[at] for at in near.tolist()])
+    one, other = near[
+        shapely.STRtree(lines[near]).query(lines[near], predicate="dwithin", distance=tolerance + 2 * _CHORD)
+    ]
     one, other = one[one < other], other[one < other]
     repeats = _repeats(lines[one], lines[other], tolerance) & (is_closed[one] == is_closed[other])
     found.repeated = sorted(set(other[repeats].tolist()))
@@ -53,13 +63,44 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
         elif is_closed[at] and is_closed[second]:
             what, place = _meeting(lines[at], lines[second], tolerance)
             found.meetings.append((what, at, second, place))
-    for at in np.flatnonzero(~shapely.is_simple(lines) & is_closed).tolist():
+    for at, place in _crossing_themselves(contours):
         if at not in gone:
-            reason = shapely.is_valid_reason(shapely.Polygon(lines[at].coords))
-            place = reason.partition("[")[2].rstrip("]").split()
-            where = (float(place[0]), float(place[1])) if len(place) == 2 else contours[at].edges[0].start
-            found.meetings.append(("cross", at, at, where))
+            found.meetings.append(("cross", at, at, place))
     return found
+
+
+def _near_others(contours: list[Contour], reach: float) -> Whole:
+    """The contours that come near to others: an edge's box lies within reach of that of another contour's edge."""
+    boxes = boxes_of([edge for contour in contours for edge in contour.edges])
+    counts = np.array([len(contour.edges) for contour in contours], np.int64)
+    first = np.cumsum(counts) - counts
+    around = np.column_stack((np.minimum.reduceat(boxes[:, :2], first), np.maximum.reduceat(boxes[:, 2:], first)))
+    numbers = np.arange(len(contours))
+    owners = np.repeat(numbers, counts)
+    # (the box around a frame is near to all that is in it, those around its edges are not)
+    edges = np.flatnonzero(np.isin(owners, _near_boxes(around, numbers, reach)))
+    return _near_boxes(boxes[edges], owners[edges], reach)
+
+
+def _near_boxes(boxes: Floats, owners: Whole, reach: float) -> Whole:
+    """The owners of boxes that lie within reach of another owner's."""
+    grown = boxes + (reach + _HAIR) * np.array((-1, -1, 1, 1))
+    one, other = shapely.STRtree(shapely.box(*boxes.T)).query(shapely.box(*grown.T))
+    return np.unique(owners[one[owners[one] != owners[other]]])
+
+
+def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:
+    """The closed contours that cross themselves, and where; one that is a circle does not."""
+    is_circle = [len(one.edges) == 1 and one.edges[0].is_circle for one in contours]
+    some = [at for at, one in enumerate(contours) if one.is_closed and not is_circle[at]]
+    for first in range(0, len(some), _LINES):
+        numbers = some[first : first + _LINES]
+        lines = lines_of([contours[at] for at in numbers])
+        for one in np.flatnonzero(~shapely.is_simple(lines)).tolist():
+            at = numbers[one]
+            reason = shapely.is_valid_reason(shapely.Polygon(lines[one].coords))
+            place = reason.partition("[")[2].rstrip("]").split()
+            yield at, (float(place[0]), float(place[1])) if len(place) == 2 else contours[at].edges[0].start
 
 
 def lines_of(contours: list[Contour]) -> NDArray[Any]:
