@@ -61,30 +61,49 @@ class Misfit:
 
 @dataclass(frozen=True)
 class Threading:
-    """One stretch of cutting, from where the wire is threaded: its pieces (µm), how far the controller's steps go aside
-    of each (µm), and whose it is. `length`: what the wire travels, mm."""
+    """One stretch of cutting, from where the wire is threaded: whose it is, and which blocks of the tape. `length`: what
+    the wire travels, mm; `gap`: from where it begins to where it ends, µm."""
 
     route: int
-    pieces: Laid
-    off_curve: Floats
+    blocks: slice
     length: float
     gap: tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Checked:
-    """A tape as it was followed: its cuts, the largest distance from the drawing (mm), how far the misses of blocks
-    have put the controller beside where the tape has them begin (mm, 0 without drift), what is wrong."""
+class Followed:
+    """Where the controller goes: a tape's blocks in their places (µm), how far its steps go aside of each (µm), the
+    cuts among them, how far the misses of blocks have put it beside where the tape has them begin (mm, 0 without
+    drift)."""
 
+    laid: Laid
+    off_curve: Floats
     cuts: list[Threading]
-    off: float
     drift: float
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A tape as it was followed: the largest distance from the drawing (mm), what is wrong."""
+
+    followed: Followed
+    off: float
     faults: list[Misfit]
     crossings: list[Crossing]
 
+    @property
+    def cuts(self) -> list[Threading]:
+        """Its cuts."""
+        return self.followed.cuts
 
-def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> tuple[list[Threading], float]:
-    """Follow a tape from the first start hole with the controller: its cuts, and its largest drift, mm.
+    @property
+    def drift(self) -> float:
+        """Its drift, mm."""
+        return self.followed.drift
+
+
+def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Followed:
+    """Follow a tape from the first start hole with the controller.
 
     `is_without_drift`: blocks start where the controller stands; else its misses add up beside what is compared. A tape
     whose stops are not those of the routes is a `UserError`.
@@ -99,25 +118,26 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     places = np.cumsum([home, *moves], axis=0)
     drift = float(hypots(*np.cumsum(walked.moves - moves, axis=0).T).max(initial=0.0)) / 1000
     laid = Laid.between(tape.blocks, columns, places)
+    firsts, lasts = np.array(tape.bounds[::2]).T
+    gaps = (places[lasts] - places[firsts]).tolist()
     lengths = laid.lengths()
-    cuts = []
-    for owner, (first, last) in zip(owners, tape.bounds[::2], strict=True):
-        gap = tuple((places[last] - places[first]).tolist())
-        off, length = walked.off_curve[first:last], float(lengths[first:last].sum()) / 1000
-        cuts.append(Threading(owner, laid[first:last], off, length, gap))
-    return cuts, drift
+    cuts = [
+        Threading(owner, slice(first, last), float(lengths[first:last].sum()) / 1000, tuple(gap))
+        for owner, (first, last), gap in zip(owners, tape.bounds[::2], gaps, strict=True)
+    ]
+    return Followed(laid, walked.off_curve, cuts, drift)
 
 
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
     """Follow a tape and compare it with the routes that it should cut."""
-    cuts, drift = follow(tape, routes, is_without_drift)
+    followed = follow(tape, routes, is_without_drift)
     contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
-    path = _WirePath(cuts)
+    path = _WirePath(followed)
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
     faults, crossings, worst = _beside(path, contours, routes, offsets, widest)
     more, far = _reached(path, contours, _in_tabs(contours, routes), offsets, widest)
-    return Checked(cuts, max(worst, far), drift, faults + more, crossings)
+    return Checked(followed, max(worst, far), faults + more, crossings)
 
 
 def _offsets(routes: list[PlannedContour]) -> Floats:
@@ -185,11 +205,14 @@ class _WirePath:
     most; where this is too much, its steps are looked at one by one.
     """
 
-    def __init__(self, cuts: list[Threading]) -> None:
-        self.placed = Laid.joined([cut.pieces for cut in cuts])
-        owners = np.repeat([cut.route for cut in cuts], [len(cut.pieces) for cut in cuts])
-        self.pieces = Pieces.of_tape(self.placed, owners)
-        self.aside = np.concatenate([cut.off_curve for cut in cuts]) / 1000
+    def __init__(self, followed: Followed) -> None:
+        cuts = followed.cuts
+        self.laid = followed.laid
+        #: Which of the blocks they are.
+        self.rows = np.concatenate([np.arange(cut.blocks.start, cut.blocks.stop) for cut in cuts])
+        owners = np.repeat([cut.route for cut in cuts], [cut.blocks.stop - cut.blocks.start for cut in cuts])
+        self.pieces = Pieces.of_tape(self.laid, self.rows, owners)
+        self.aside = followed.off_curve[self.rows] / 1000
 
     def doubtful(self, off: Floats, total: Floats) -> Whole:
         """Which of some places, as far off as this without the steps and with them, are too far off by these alone."""
@@ -197,7 +220,7 @@ class _WirePath:
 
     def steps(self, at: int) -> Floats:
         """The controller's places on a piece, mm (m, 2)."""
-        piece = self.placed[at]
+        piece = self.laid[int(self.rows[at])]
         found = np.frombuffer(trace_array(piece.block), np.int64).reshape(-1, 2)
         return (found - piece.block.start + piece.start) / 1000
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import tee
 from math import floor, inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, check
@@ -270,8 +271,9 @@ def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
         fed = feed(text, settings.rom, settings.ram_kib)
         if fed.error is None or fed.error.number != MEMORY_FULL:
             return text, True, fed
-    parts = list(map(_text, program.unnumbered()))
-    return "".join(parts), False, feed_routes(parts, settings.rom, settings.ram_kib)
+    parts, written = tee(map(_text, program.unnumbered()))
+    fed = feed_routes(parts, settings.rom, settings.ram_kib)
+    return "".join(written), False, fed
 
 
 def _text(statements: list[Step]) -> str:

@@ -55,13 +55,13 @@ class Pieces:
         self._measure()
 
     @classmethod
-    def of_tape(cls, laid: Laid, owners: Whole) -> Pieces:
-        """The blocks of a tape, mm."""
+    def of_tape(cls, laid: Laid, rows: Whole, owners: Whole) -> Pieces:
+        """Some of the blocks of a tape, mm."""
         found = cls.__new__(cls)
-        is_arc = ~laid.is_line
-        found._room(len(laid))
-        found.start[:], found.end[:], found.owner[:] = laid.starts / 1000, laid.ends / 1000, owners
-        found.centre[is_arc], found.sweep[is_arc] = laid.centres[is_arc] / 1000, laid.sweeps[is_arc]
+        is_arc = ~laid.is_line[rows]
+        found._room(len(rows))
+        found.start[:], found.end[:], found.owner[:] = laid.starts[rows] / 1000, laid.ends[rows] / 1000, owners
+        found.centre[is_arc], found.sweep[is_arc] = laid.centres[rows][is_arc] / 1000, laid.sweeps[rows][is_arc]
         out = found.start[is_arc] - found.centre[is_arc]
         found.radius[is_arc], found.first[is_arc] = hypots(*out.T), directions(out)
         found._measure()

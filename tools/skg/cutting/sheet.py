@@ -182,7 +182,8 @@ class SetupSheet:
 
     def _wire(self) -> None:
         """The wire's path, the moves between start holes, an arrow on each contour."""
-        cuts = [cut.pieces for cut in self.job.checked.cuts if len(cut.pieces)]
+        laid = self.job.checked.followed.laid
+        cuts = [some for cut in self.job.checked.cuts if len(some := laid[cut.blocks])]
         if cuts:
             self._patch(outlines(Laid.joined(cuts)), 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire")
             # (what lies beside the contours: leads)

@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import tee
 
 from skg.errors import UserError
 from skg.machine.board import Board, BoardStopped, ErrorLine, find_error
@@ -133,7 +134,7 @@ def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fe
     return Fed(board.tape, error, board.machine.cycles), done
 
 
-def feed_routes(parts: Sequence[str], rom: str | bytes, ram_kib: int) -> Fed:
+def feed_routes(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> Fed:
     """What `feed` makes of a program without line numbers, by as many boards at once as there are processors.
 
     `parts`: the title, the routes, each from its FROM on, the END. A route leaves nothing behind for the next one but
@@ -143,25 +144,30 @@ def feed_routes(parts: Sequence[str], rom: str | bytes, ram_kib: int) -> Fed:
     from concurrent.futures import ThreadPoolExecutor  # (slow to import, and needed here alone)
 
     with ThreadPoolExecutor(os.cpu_count()) as boards:
+        # (the first boards run while the rest of the program is still being written)
+        parts, written = tee(parts)
         shares = list(boards.map(lambda some: _feed_share(some, rom, ram_kib), _shares(parts)))
     tape, cycles = b"", sum(one.cycles for _, one in shares)
     for begun, share in shares:
         if share.error:
             return Fed(tape, share.error, cycles)
         if not tape.endswith(begun):
-            return feed("".join(parts), rom, ram_kib)
+            return feed("".join(written), rom, ram_kib)
         tape += share.tape[len(begun) :]
     return Fed(tape, None, cycles)
 
 
-def _shares(parts: Sequence[str]) -> Iterator[Sequence[str]]:
+def _shares(parts: Iterable[str]) -> Iterator[Sequence[str]]:
     """Parts of a program that follow each other, with the last one of those before."""
-    first = length = 0
-    for at, part in enumerate(parts):
+    share: list[str] = []
+    length = 0
+    for part in parts:
+        if length > _SHARE and len(share[-1]) <= _TWICE:
+            yield share
+            share, length = share[-1:], len(share[-1])
+        share.append(part)
         length += len(part)
-        if at + 1 == len(parts) or length > _SHARE and len(part) <= _TWICE:
-            yield parts[first : at + 1]
-            first, length = at, len(part)
+    yield share
 
 
 def _feed_share(parts: Sequence[str], rom: str | bytes, ram_kib: int) -> tuple[bytes, Fed]:

@@ -157,20 +157,21 @@ class Columns:
 
     @cached_property
     def is_plainly_sound(self) -> Flags:
-        """Whether `Block.problems` finds nothing on a tape with drift. Some sound arcs are left out: full circles, and
-        those whose ends are sound on a tape without drift alone."""
+        """Whether `Block.problems` finds nothing on a tape with drift. Some sound arcs are left out: those that are sound
+        on a tape without drift alone."""
         is_odd, longer = self.quadrant % 2 == 1, np.maximum(self.x, self.y)
         counts_y = np.where(self.x == self.y, is_odd, self.y > self.x)
         is_line = (
             self.is_line & (np.where(is_odd, self.x, self.y) > 0) & (self.j == longer) & (self.counts_y == counts_y)
         )
         shrinks = np.where(is_odd == (self.sense > 0), self.x, self.y)
+        is_circle = self.is_full_circle & (shrinks > 0) & (self.j == 4 * self.radii)
         is_arc = self.is_arc & (shrinks > 0) & (self.j > 0) & (self.j <= 4 * self.radii)
         rows = np.flatnonzero(is_arc)
         arcs = self[rows]
         along = arcs._counted[:, 0]
         is_arc[rows] = along <= round_roots(np.maximum(0, arcs.squares - along * along)) + 3
-        return np.array(is_line | is_arc, bool)
+        return np.array(is_line | is_arc | is_circle, bool)
 
     @cached_property
     def ends(self) -> Numbers:
