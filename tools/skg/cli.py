@@ -116,6 +116,8 @@ def main() -> None:
         _leave(1)
     except OSError as error:
         _fail(f"{error.filename or 'standard output'}: {error.strerror}")
+    # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
+    gc.freeze()
     sys.exit(code)
 
 

@@ -170,7 +170,8 @@ def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
     for run in route.runs():
         leads = [run.into, run.out] if run.into else [_plain_lead(route, run.edges[0])]
         for lead in leads:
-            for is_in in (True, False):
+            # (a straight one is the same way in and out)
+            for is_in in (True, False)[: 1 + lead.is_arc]:
                 yield from _one_lead(lead, run.offset, is_in)
 
 

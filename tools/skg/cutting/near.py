@@ -81,20 +81,27 @@ class Pieces:
 
     def at(self, which: Whole, part: Floats) -> Floats:
         """The places at parts of the lengths of pieces."""
-        start, end = self.start[which], self.end[which]
-        line = start + part[:, None] * (end - start)
-        angle = self.first[which] + part * self.sweep[which]
-        arc = self.centre[which] + self.radius[which, None] * np.stack((np.cos(angle), np.sin(angle)), 1)
-        return np.where(self.is_arc[which, None], arc, line)
+        start = self.start[which]
+        found = start + part[:, None] * (self.end[which] - start)
+        arcs = np.flatnonzero(self.is_arc[which])
+        arc = which[arcs]
+        found[arcs] = self.centre[arc] + self.radius[arc, None] * self._out(arc, part[arcs])
+        return found
 
     def normal(self, which: Whole, part: Floats) -> Floats:
         """Unit vectors to the right of travel at parts of the lengths of pieces."""
         way = self.end[which] - self.start[which]
         length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
-        line = np.stack((way[:, 1], -way[:, 0]), 1) / length[:, None]
-        angle = self.first[which] + part * self.sweep[which]
-        out = np.stack((np.cos(angle), np.sin(angle)), 1) * np.sign(self.sweep[which])[:, None]
-        return np.where(self.is_arc[which, None], out, line)
+        found = np.stack((way[:, 1], -way[:, 0]), 1) / length[:, None]
+        arcs = np.flatnonzero(self.is_arc[which])
+        arc = which[arcs]
+        found[arcs] = self._out(arc, part[arcs]) * np.sign(self.sweep[arc])[:, None]
+        return found
+
+    def _out(self, arcs: Whole, part: Floats) -> Floats:
+        """Unit vectors from the centres of arcs to parts of their lengths."""
+        angle = self.first[arcs] + part * self.sweep[arcs]
+        return np.stack((np.cos(angle), np.sin(angle)), 1)
 
     def part(self, places: Floats, which: Whole) -> Floats:
         """The part of the length of each place's piece where that is nearest (of an arc: the circle)."""
