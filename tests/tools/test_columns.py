@@ -7,6 +7,7 @@ import tracemalloc
 from dataclasses import replace
 from itertools import accumulate
 
+import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -82,8 +83,10 @@ def turns(count: int) -> Tape:
     return tapes.parse(f"{TURN * count}DD\r\n".encode())
 
 
-def test_followed_together_as_one_by_one() -> None:
-    """Each block has the drift that those before it have left."""
+@pytest.mark.parametrize("together", [10_000, 2])
+def test_followed_together_as_one_by_one(together: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each block has the drift that those before it have left, or none: some at once, or all."""
+    monkeypatch.setattr("skg.tape.walk._CHUNK", together)
     tape, drift = tapes.parse(CAD_TAPE), (0, 0)
     should = columns_of(tape).moves
     found = walk(tape, range(len(should)), should)
@@ -101,10 +104,13 @@ def test_followed_together_as_one_by_one() -> None:
     assert drift != (0, 0)
 
 
-def test_a_block_that_never_ends_is_named() -> None:
+def test_a_block_that_never_ends_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     items = [line_block(5, 5), Stop(1), Block(1, 0, 4, "Y", "NR1", 2)]
     with pytest.raises(UserError, match="block 2: B1B0B4GYNR1 never ends"):
         simulate(Tape.of("-", items, drift=False))
+    monkeypatch.setattr("skg.tape.walk._CHUNK", 1)
+    with pytest.raises(UserError, match="block 2: B1B0B4GYNR1 never ends"):
+        walk(Tape.of("-", items), np.array([0, 1]))
 
 
 def test_laid_as_placed() -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,6 +42,16 @@ def expected_steps(columns: Columns) -> Numbers:
     return np.where(columns.is_line, columns.x + columns.y, 2 * columns.j)
 
 
+def _parts(steps: Numbers) -> Iterator[slice]:
+    """The blocks that are followed at once: so many, or of so many steps."""
+    first, behind = 0, np.cumsum(steps)
+    while first < len(steps):
+        most = int(np.searchsorted(behind, behind[first] + CHUNK))
+        last = max(first + 1, min(first + _CHUNK, most, len(steps)))
+        yield slice(first, last)
+        first = last
+
+
 def walk(
     tape: Tape,
     rows: Numbers,
@@ -57,12 +68,11 @@ def walk(
     given = [getattr(columns, name) for name in ("sense", "quadrant", "x", "y", "j", "counts_y")]
     moves, steps = np.zeros((len(rows), 2), np.int64), np.zeros(len(rows), np.int64)
     extremes = np.zeros((len(rows), 4), np.int64)
-    drift, behind = np.zeros(2, np.int64), np.cumsum(expected_steps(columns))
-    first = 0
-    while first < len(rows):
-        most = np.searchsorted(behind, behind[first] + CHUNK)
-        part = slice(first, max(first + 1, min(first + _CHUNK, int(most))))
-        states = np.zeros((part.stop - first, len(_FIELDS)), np.int64)
+    drift = np.zeros(2, np.int64)
+
+    def follow(part: slice) -> int:
+        """Follow some of the blocks; returns the number of steps."""
+        states = np.zeros((part.stop - part.start, len(_FIELDS)), np.int64)
         for at, column in enumerate(given):
             states[:, at] = column[part]
         states[0, 6:8] = drift
@@ -70,14 +80,25 @@ def walk(
         address = None if wanted is None else ctypes.c_void_p(wanted.ctypes.data)
         done = library().skgsim_walk(ctypes.c_void_p(states.ctypes.data), len(states), address)
         if done < len(states):
-            raise stalled(tape.blocks[int(rows[first + done])])
+            raise stalled(tape.blocks[int(rows[part.start + done])])
         moves[part] = states[:, _FIELDS.index("px") : _FIELDS.index("py") + 1]
         steps[part] = states[:, _FIELDS.index("steps")]
         extremes[part] = states[:, _FIELDS.index("f_max") :]
         if wanted is not None:
-            drift += (moves[part] - wanted).sum(axis=0)
-        progress(int(steps[part].sum()))
-        first = part.stop
+            drift[:] += (moves[part] - wanted).sum(axis=0)
+        return int(steps[part].sum())
+
+    parts = list(_parts(expected_steps(columns)))
+    if should is None and len(parts) > 1:
+        from concurrent.futures import ThreadPoolExecutor  # (slow to import, and needed here alone)
+
+        # (no block waits for the one before it)
+        with ThreadPoolExecutor(os.cpu_count()) as threads:
+            for count in threads.map(follow, parts):
+                progress(count)
+    else:
+        for part in parts:
+            progress(follow(part))
     return Walk(moves, steps, _distances(columns, *extremes[:, :2].T), _distances(columns, *extremes[:, 2:].T))
 
 
