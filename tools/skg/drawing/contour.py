@@ -160,11 +160,6 @@ class Contour:
         """Signed area: positive when a closed contour runs counter-clockwise."""
         return sum(edge.area for edge in self.edges)
 
-    def box(self) -> tuple[float, float, float, float]:
-        """Smallest x and y, largest x and y, mm."""
-        xs, ys = zip(*(place for edge in self.edges for place in edge.extremes()), strict=True)
-        return min(xs), min(ys), max(xs), max(ys)
-
     def reversed(self) -> Contour:
         """The same contour, run through backwards."""
         return replace(self, edges=tuple(edge.reversed() for edge in reversed(self.edges)), copies=1)

@@ -278,8 +278,16 @@ def rows_of(pieces: Sequence[Piece]) -> Floats:
     return found
 
 
-def boxes_of(edges: Sequence[Edge]) -> Floats:
-    """The boxes around edges as rows (n, 4): smallest x and y, largest x and y."""
+def boxes_of(contours: Sequence[Contour]) -> tuple[Floats, Floats]:
+    """The boxes around contours, and around all their edges, as rows (n, 4): smallest x and y, largest x and y."""
+    boxes = _boxes_of_edges([edge for contour in contours for edge in contour.edges])
+    counts = np.array([len(contour.edges) for contour in contours], np.int64)
+    first = np.cumsum(counts) - counts
+    around = np.minimum.reduceat(boxes[:, :2], first), np.maximum.reduceat(boxes[:, 2:], first)
+    return np.column_stack(around), boxes
+
+
+def _boxes_of_edges(edges: Sequence[Edge]) -> Floats:
     rows = rows_of(edges)
     low, high = np.minimum(rows[:, 0:2], rows[:, 2:4]), np.maximum(rows[:, 0:2], rows[:, 2:4])
     centres, (radius, first, sweep) = rows[:, 4:6], rows[:, 6:].T
@@ -289,7 +297,7 @@ def boxes_of(edges: Sequence[Edge]) -> Floats:
         ends[is_there, axis] = (centres[:, axis] + way * radius)[is_there]
     for at, edge in enumerate(edges):
         if edge.nodes:
-            low[at], high[at] = edge.samples.min(0), edge.samples.max(0)
+            low[at], high[at] = np.minimum(low[at], edge.samples.min(0)), np.maximum(high[at], edge.samples.max(0))
     return np.column_stack((low, high))
 
 

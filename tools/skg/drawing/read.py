@@ -173,9 +173,10 @@ def _no_outline(report: Account) -> str:
 
 def _measure(contours: list[Contour], report: Account) -> None:
     """The box around the contours."""
-    boxes = [contour.box() for contour in contours]
-    report.low = min(box[0] for box in boxes), min(box[1] for box in boxes)
-    report.high = max(box[2] for box in boxes), max(box[3] for box in boxes)
+    from skg.drawing.field import boxes_of
+
+    boxes, _ = boxes_of(contours)
+    report.low, report.high = (tuple(place.tolist()) for place in (boxes[:, :2].min(0), boxes[:, 2:].max(0)))
 
 
 def _count(contours: list[Contour], report: Account) -> None:

@@ -21,6 +21,7 @@ from skg.drawing.account import (
 )
 from skg.drawing.chain import Chains, chain
 from skg.drawing.contour import Contour, Edge
+from skg.drawing.field import boxes_of
 from skg.drawing.overrun import Overrun, without_overruns
 from skg.drawing.touching import Relations, nearest, relations
 from skg.drawing.wishes import Wishes
@@ -212,9 +213,9 @@ def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]
 
 def _around(rest: list[Contour], kept: list[Contour], factor: float) -> Iterator[str]:
     """What is said when something that is left reaches around all contours that are cut, and is larger than each."""
-    boxes = [contour.box() for contour in kept]
-    for run in rest if len(kept) > 1 else ():
-        left, low, right, high = run.box()
+    boxes = boxes_of(kept)[0].tolist() if rest and len(kept) > 1 else ()
+    for run in rest if boxes else ():
+        ((left, low, right, high),) = boxes_of([run])[0].tolist()
         if all(
             left <= (x + far_x) / 2 <= right and low <= (y + far_y) / 2 <= high
             and far_x - x < right - left and far_y - y < high - low

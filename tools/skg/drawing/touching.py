@@ -71,12 +71,9 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
 
 def _near_others(contours: list[Contour], reach: float) -> Whole:
     """The contours that come near to others: an edge's box lies within reach of that of another contour's edge."""
-    boxes = boxes_of([edge for contour in contours for edge in contour.edges])
-    counts = np.array([len(contour.edges) for contour in contours], np.int64)
-    first = np.cumsum(counts) - counts
-    around = np.column_stack((np.minimum.reduceat(boxes[:, :2], first), np.maximum.reduceat(boxes[:, 2:], first)))
+    around, boxes = boxes_of(contours)
     numbers = np.arange(len(contours))
-    owners = np.repeat(numbers, counts)
+    owners = np.repeat(numbers, [len(contour.edges) for contour in contours])
     # (the box around a frame is near to all that is in it, those around its edges are not)
     edges = np.flatnonzero(np.isin(owners, _near_boxes(around, numbers, reach)))
     return _near_boxes(boxes[edges], owners[edges], reach)
