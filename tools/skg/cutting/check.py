@@ -61,8 +61,8 @@ class Misfit:
 
 @dataclass(frozen=True)
 class Threading:
-    """One stretch of cutting, from where the wire is threaded: whose it is, and which blocks of the tape. `length`: what
-    the wire travels, mm; `gap`: from where it begins to where it ends, µm."""
+    """One stretch of cutting, from where the wire is threaded: whose it is, which blocks of the tape, what the wire
+    travels (mm), and how far from its beginning it ends (µm)."""
 
     route: int
     blocks: slice

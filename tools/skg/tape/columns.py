@@ -157,8 +157,8 @@ class Columns:
 
     @cached_property
     def is_plainly_sound(self) -> Flags:
-        """Whether `Block.problems` finds nothing on a tape with drift. Some sound arcs are left out: those that are sound
-        on a tape without drift alone."""
+        """Whether `Block.problems` finds nothing on a tape with drift. Arcs that are sound on one without drift alone
+        are left out."""
         is_odd, longer = self.quadrant % 2 == 1, np.maximum(self.x, self.y)
         counts_y = np.where(self.x == self.y, is_odd, self.y > self.x)
         is_line = (
