@@ -620,6 +620,23 @@ def test_arcs_from_an_angle_to_the_same() -> None:
     assert reading.report.notes == [note]
 
 
+def test_arcs_of_nothing_between_lines() -> None:
+    """What a program leaves of a fillet of no turn lies where two lines meet; a circle on a line's end stands alone."""
+    corner = [
+        "ARC 8 0 10 10 20 2 40 2 50 270 51 270",
+        line(0, 0, 10, 0),
+        line(10, 0, 20, 0),
+        line(20, 0, 0, 9),
+        line(0, 9, 0, 0),
+    ]
+    reading = checked(raw(*corner, "ARC 8 0 10 50 20 2 40 2 50 90 51 90", line(50, 4, 60, 4)), open="all")
+    assert left(reading) == {"it ends where it begins, between two other lines": 1}
+    assert sum(contour.edges[0].is_circle for contour in reading.contours) == 1
+    assert "1 arc on layer 0 from an angle to the same angle, as at (50, 4): a full turn is cut" in reading.report.notes
+    twice = checked(raw(*["ARC 8 0 10 50 20 2 40 2 50 90 51 90"] * 2))
+    assert left(twice) == {"drawn twice": 1}
+
+
 def test_arcs_of_next_to_nothing() -> None:
     """What a fillet between lines that go straight on leaves is no circle; whole turns that were rounded are."""
     ends = "ARC 8 A 10 0 20 0 40 {} 50 {} 51 {}".format

@@ -9,6 +9,7 @@ from itertools import pairwise
 from math import pi, radians
 
 import ezdxf
+import numpy as np
 from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic
 from ezdxf.lldxf.const import DXFError
@@ -61,7 +62,7 @@ class _Collector:
         self.matrix: Matrix44 | None = None
         self.known: dict[int, DXFGraphic] = {}
         self.wide: list[Entity] = []
-        self.whole: list[Entity] = []
+        self.whole: list[int] = []
         self.thick: list[Entity] = []
         self.through: list[Entity] = []
         self.dashes_around = ""
@@ -148,7 +149,7 @@ class _Collector:
                     if _is_wide(record):
                         self.wide.append(account)
                     if _is_whole(record):
-                        self.whole.append(account)
+                        self.whole.append(self.number)
                 return
         except NotFlat as error:
             account.left = str(error)
@@ -371,6 +372,22 @@ def _is_whole(record: Record) -> bool:
     return abs(last - first) < 1e-11
 
 
+def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
+    """Those of some arcs, by their numbers, that are circles: each ends at the angle that it begins at. One that lies
+    between the ends of two other lines is what is left of a fillet, and has no length."""
+    if not whole:
+        return []
+    some = set(whole)
+    begins = {edge.entity: edge.start for edge in content.edges if edge.entity in some}
+    places = np.array([end for edge in content.edges if edge.start != edge.end for end in (edge.start, edge.end)])
+    ends = {at: np.hypot(*(places.reshape(-1, 2) - begin).T) <= tolerance for at, begin in begins.items()}
+    gone = {at for at, near in ends.items() if near.sum() >= 2}
+    for at in gone:
+        content.entities[at].left = "it ends where it begins, between two other lines"
+    content.edges = [edge for edge in content.edges if edge.entity not in gone]
+    return [at for at in whole if at not in gone]
+
+
 def _is_wide(record: Record) -> bool:
     """Whether a polyline is drawn with a width."""
     widths = [value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43)]
@@ -409,7 +426,8 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
         for record in file.paper:
             collector.account(record, record.layer).left = "in paper space"
     file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "the middle is cut")
-    file.notes += said(collector.whole, ("arc", "arcs"), "from an angle to the same angle", "a full turn is cut")
+    whole = [collector.content.entities[at] for at in _circles(collector.content, collector.whole, wishes.tolerance)]
+    file.notes += said(whole, ("arc", "arcs"), "from an angle to the same angle", "a full turn is cut")
     file.notes += said(
         collector.through, ("spline", "splines"), "through points alone", "between them the curve is guessed"
     )
