@@ -430,84 +430,118 @@ def _around(centre: XY, rx: float, ry: float) -> svgelements.Path:
 def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
     """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
     edge. `px`: mm in one pixel; `factor`: mm in the units of the page."""
-    content = Content()
-    unpainted: list[tuple[Entity, list[Edge]]] = []
-    clipped: list[Entity] = []
-    outside: list[Entity] = []
-    wide: list[Entity] = []
-    marked: list[Entity] = []
-    found: list[_Drawn] = []
+    drawn: list[_Drawn] = []
     for one in file.drawn():
-        found.append(one)
-        if len(found) > _MOST:
+        drawn.append(one)
+        if len(drawn) > _MOST:
             raise UserError(f"more than {_MOST:,} shapes, expected a drawing")
-    wishes.check_layers(one.view.layer for one in found)
-    for one in found:
-        kind, layer, style = _name(one.element), one.view.layer, one.view.style
-        account = Entity(kind, layer, (0.0, 0.0), wishes.unwanted(layer) or one.left)
-        content.entities.append(account)
+    wishes.check_layers(one.view.layer for one in drawn)
+    collector = _SvgCollector(file, px, factor, wishes)
+    for one in drawn:
+        collector.take(one)
+    return collector.content()
+
+
+class _SvgCollector:
+    """Accounts for what is drawn, one by one, and keeps the edges of what is to be cut."""
+
+    def __init__(self, file: SvgFile, px: float, factor: float, wishes: Wishes) -> None:
+        self.file = file
+        self.px = px
+        self.factor = factor
+        self.wishes = wishes
+        self.shapes = _Shapes(file.height, px, wishes.fit_tolerance)
+        self.found = Content()
+        # What is said of shapes, and those without a line or an area, which are cut where there is nothing else.
+        self.clipped: list[Entity] = []
+        self.outside: list[Entity] = []
+        self.wide: list[Entity] = []
+        self.marked: list[Entity] = []
+        self.unpainted: list[tuple[Entity, list[Edge]]] = []
+
+    def take(self, one: _Drawn) -> None:
+        """Account for one element that is drawn."""
+        kind, layer = _name(one.element), one.view.layer
+        account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or one.left)
+        self.found.entities.append(account)
         if kind not in _SHAPES or one.left.startswith("cannot"):
             account.is_odd = not one.view.hidden and kind not in _NOTES
-            continue
-        reader = _Shapes(file.height, px, wishes.fit_tolerance)
+            return
         try:
             outline = _outline(one.element, one.view)
-            is_round = kind in ("circle", "ellipse")
-            entity = len(content.entities) - 1
-            edges = [replace(edge, entity=entity) for edge in reader.edges(outline, is_round)]
+            edges = self._edges(outline, kind)
         except _UNREADABLE as error:
             account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"
             account.is_odd = not one.view.hidden
-            continue
+            return
         if edges:
             x, y = edges[0].start
-            account.place = x / factor, y / factor
-        account.left = account.left or ("invisible" if style.is_hidden else "")
+            account.place = x / self.factor, y / self.factor
+        account.left = account.left or ("invisible" if one.view.style.is_hidden else "")
         if account.left:
-            continue
-        if wishes.is_start(layer):
-            account.left = "a start hole" if kind == "circle" else "nothing to cut"
-            if kind == "circle" and edges:
-                middle = outline.bbox()
-                content.starts.append(
-                    reader.point(svgelements.Point((middle[0] + middle[2]) / 2, (middle[1] + middle[3]) / 2))
-                )
-            continue
-        account.left = "" if edges else "it has no length"
-        if edges and not style.is_painted:
+            return
+        if self.wishes.is_start(layer):
+            self._start(account, outline, bool(edges))
+        elif not edges:
+            account.left = "it has no length"
+        elif not one.view.style.is_painted:
             account.left = _UNPAINTED
-            unpainted.append((account, edges))
-            continue
-        content.edges += edges
+            self.unpainted.append((account, edges))
+        else:
+            self._cut(account, one.view, edges)
+
+    def _edges(self, outline: svgelements.Path, kind: str) -> list[Edge]:
+        """A shape's edges, with the number of its entity."""
+        entity = len(self.found.entities) - 1
+        return [replace(edge, entity=entity) for edge in self.shapes.edges(outline, kind in ("circle", "ellipse"))]
+
+    def _start(self, account: Entity, outline: svgelements.Path, has_edges: bool) -> None:
+        """A shape on the layer of start holes: a circle is one, about its middle."""
+        account.left = "a start hole" if account.kind == "circle" else "nothing to cut"
+        if account.kind == "circle" and has_edges:
+            low_x, low_y, high_x, high_y = outline.bbox()
+            middle = svgelements.Point((low_x + high_x) / 2, (low_y + high_y) / 2)
+            self.found.starts.append(self.shapes.point(middle))
+
+    def _cut(self, account: Entity, view: _View, edges: list[Edge]) -> None:
+        """A shape that is cut; how it is drawn may have to be said."""
+        self.found.edges += edges
+        style = view.style
         account.dashes = "stroke-dasharray" if style.is_dashed else ""
-        places = [(x / px, file.height - y / px) for edge in edges for x, y in edge.extremes()]
-        if edges and (one.view.is_clipped or not all(frame.holds(places) for frame in one.view.frames)):
-            clipped.append(account)
-        if file.page and not file.page.holds(places):
-            outside.append(account)
-        if edges and style.has_markers and kind in _MARKED:
-            marked.append(account)
-        if edges and style.width * sqrt(abs(one.view.matrix.determinant)) * px > _WIDE:
-            wide.append(account)
-    if file.style.transform:
-        content.notes.append(f"the page itself is transformed ({file.style.transform}): passed over")
-    for name in file.elsewhere:
-        content.notes.append(f"the style sheet {name} is in another file: passed over")
-    if missed := file.sheet.missed:
-        content.notes.append(
-            f"{counted(len(missed), 'rule', 'rules')} of the style sheet not understood, as {missed[0]}: passed over"
-        )
-    some = ("shape", "shapes")
-    if not content.edges:
-        for account, edges in unpainted:
-            account.left = ""
-            content.edges += edges
-        content.notes += said((account for account, _ in unpainted), some, _UNPAINTED, "cut, there is nothing else")
-    content.notes += said(clipped, some, "clipped or masked", "cut whole")
-    content.notes += said(outside, some, "outside the page, or partly", "cut whole")
-    content.notes += said(wide, some, f"drawn with a line wider than {_WIDE:g} mm", "the middle is cut")
-    content.notes += said(marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
-    return content
+        places = [(x / self.px, self.file.height - y / self.px) for edge in edges for x, y in edge.extremes()]
+        if view.is_clipped or not all(frame.holds(places) for frame in view.frames):
+            self.clipped.append(account)
+        if self.file.page and not self.file.page.holds(places):
+            self.outside.append(account)
+        if style.has_markers and account.kind in _MARKED:
+            self.marked.append(account)
+        if style.width * sqrt(abs(view.matrix.determinant)) * self.px > _WIDE:
+            self.wide.append(account)
+
+    def content(self) -> Content:
+        """All that was found, with what is to be said of it."""
+        found, some = self.found, ("shape", "shapes")
+        found.notes += self._of_page()
+        if not found.edges:
+            for account, edges in self.unpainted:
+                account.left = ""
+                found.edges += edges
+            found.notes += said((one for one, _ in self.unpainted), some, _UNPAINTED, "cut, there is nothing else")
+        found.notes += said(self.clipped, some, "clipped or masked", "cut whole")
+        found.notes += said(self.outside, some, "outside the page, or partly", "cut whole")
+        found.notes += said(self.wide, some, f"drawn with a line wider than {_WIDE:g} mm", "the middle is cut")
+        found.notes += said(self.marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
+        return found
+
+    def _of_page(self) -> Iterator[str]:
+        """What of the page as a whole is passed over."""
+        if self.file.style.transform:
+            yield f"the page itself is transformed ({self.file.style.transform}): passed over"
+        for name in self.file.elsewhere:
+            yield f"the style sheet {name} is in another file: passed over"
+        if missed := self.file.sheet.missed:
+            count = counted(len(missed), "rule", "rules")
+            yield f"{count} of the style sheet not understood, as {missed[0]}: passed over"
 
 
 class _Shapes:
