@@ -88,6 +88,18 @@ def types(*entities: str) -> bytes:
     return raw(*entities, layers=TYPES + LAYERS)
 
 
+def test_solids_are_named() -> None:
+    """What has no lines of its own is listed, with what a person can do; a region may be exploded."""
+    solids = [f"{kind} 8 0 100 AcDbModelerGeometry 70 1" for kind in ("3DSOLID", "EXTRUDEDSURFACE", "REGION")]
+    said = "a solid, not lines: draw its outline in the CAD program"
+    reasons = [(one.kind, one.left) for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
+    assert reasons == [
+        ("3DSOLID", said),
+        ("EXTRUDEDSURFACE", said),
+        ("REGION", "not understood, explode it in the CAD program"),
+    ]
+
+
 def test_axes_within_an_outline_are_left() -> None:
     """By the layer's line type, or the entity's own; --open all and --layer cut them."""
     own = line(3, 3, 7, 3) + " 6 Center"

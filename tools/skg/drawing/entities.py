@@ -30,6 +30,15 @@ NOTES = frozenset(
     HATCH MPOLYGON SOLID TRACE VIEWPORT IMAGE PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY WIPEOUT OLEFRAME OLE2FRAME
     ACAD_TABLE RTEXT ARCALIGNEDTEXT POINT LIGHT CAMERA SECTION SUN GEODATA SHAPE RAY XLINE""".split()  # noqa: SIM905
 )
+#: Kinds that have no lines to cut, or none that are understood, and what a person can do.
+_NO_LINES = {
+    **dict.fromkeys(("3DFACE", "MESH"), "a face, not lines: draw its outline in the CAD program"),
+    **dict.fromkeys(
+        ("3DSOLID", "BODY", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE"),
+        "a solid, not lines: draw its outline in the CAD program",
+    ),
+    **dict.fromkeys(("REGION", "ACAD_PROXY_ENTITY", "PROXY"), "not understood, explode it in the CAD program"),
+}
 #: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
 _LEVEL = 1e-3
 #: Angles are whole turns apart when they miss it by no more than this part of one; those that are the same angle but
@@ -221,6 +230,8 @@ class _Collector:
             first, last = map(radians, given[4:] or (0.0, 360.0))
             sweep = _sweep(first, last) if record.kind == "ARC" else 2 * pi
             return self.arc(Vec3(given[:3]), given[3], first, sweep)
+        if record.kind in _NO_LINES:
+            raise NotFlat(_NO_LINES[record.kind])
         return self.edges(self.entity(record))
 
     def edges(self, entity: DXFGraphic) -> Iterable[Edge]:
@@ -255,10 +266,6 @@ class _Collector:
                 return self.multiline(entity)
             case "POLYLINE":
                 raise NotFlat("a mesh, expected a flat drawing")
-            case "3DFACE" | "MESH":
-                raise NotFlat("a face, not lines: draw its outline in the CAD program")
-            case "REGION" | "BODY" | "3DSOLID" | "SURFACE" | "ACAD_PROXY_ENTITY" | "PROXY":
-                raise NotFlat("not understood, explode it in the CAD program")
             case _:
                 raise NotFlat("not understood")
 
