@@ -353,3 +353,12 @@ def test_the_wire_passes_short_bows_in_a_row() -> None:
     wanted = Polygon([edge.at(k / 20) for edge in edges for k in range(20)]).buffer(0.1, quad_segs=200).exterior
     assert cut.hausdorff_distance(wanted) < LIMIT
     assert cut.length == pytest.approx(wanted.length, abs=0.01)
+
+
+def test_around_a_needle_s_tip_the_wire_may_be_far(run: Run, tmp_path: Path) -> None:
+    """Outside of a corner of 3 degrees the wire goes on to where its lines meet, 40 R away: that is no fault of it."""
+    page = drawing()
+    wanted = polygon([(0, 0), (30, 0), (30, 1.5)], page)
+    (places,), words = cut(run, page, tmp_path, "--offset", 0.1)
+    assert apart(LineString(places[1:-1]), parallel(wanted, 0.1, "outside", "mitre")) < LIMIT
+    assert min(places)[0] < -3.9

@@ -16,6 +16,7 @@ from itertools import chain, pairwise
 from math import cos, hypot, sin
 
 import numpy as np
+import shapely
 
 from skg.cutting.crossing import Crossing, crossings
 from skg.cutting.near import Floats, Nearest, Pieces, Whole
@@ -37,6 +38,8 @@ LIMIT = 0.003
 _USUAL = 0.0008
 #: At a sharp corner, outside, the wire is no further from it than so often what it is where two lines meet.
 _TIP = 2.0
+#: No corner is so sharp that the wire is looked for further from it than about so often R.
+_FAR = 1000
 #: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
 _INSIDE, _NOISE = 1e-3, 1e-9
 #: A slot of lines and arcs that is narrower than two R by less than twice this is wide enough, mm.
@@ -259,9 +262,8 @@ def _beside(
         doubtful = np.flatnonzero((off > _USUAL) & ~into)
         off[doubtful] = np.minimum(off[doubtful], off_leads(places[doubtful], owners[doubtful]))
         doubtful = doubtful[off[doubtful] > _USUAL]
-        off[doubtful] = np.minimum(
-            off[doubtful], _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful])
-        )
+        corners = _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful], near.own_at[doubtful])
+        off[doubtful] = np.minimum(off[doubtful], corners)
         return off, into
 
     spacing = _spacing(wire, widest)
@@ -308,35 +310,61 @@ def _far(places: Floats, others: Floats) -> Floats:
     return np.hypot(*(places - others).T)
 
 
-def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats) -> Floats:
-    """How far places outside of sharp corners are from where they should be: beside a line or circle there."""
+def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, own_at: Whole) -> Floats:
+    """How far places outside of sharp corners are from where they should be: beside a line or circle there. `own_at`:
+    the piece that is nearest to each, -1 where it is not within R."""
     off = np.full(len(places), np.inf)
     reach = max(float(wanted.max(initial=0.0)), LIMIT)
     left = np.arange(len(places))
-    for _ in range(4):
-        reach *= 6
-        near = contours.nearest(places[left], owners[left], reach)
-        found = near.own_at >= 0
+    while True:
+        found = own_at >= 0
         at, place = left[found], places[left][found]
         first = np.searchsorted(contours.owner, owners[at])
         count = np.searchsorted(contours.owner, owners[at], "right") - first
-        nearest = near.own_at[found]
+        nearest = own_at[found]
         # The corner of two pieces that a place is nearest to.
         is_behind = _far(place, contours.end[nearest]) < _far(place, contours.start[nearest])
         other = first + (nearest - first + np.where(is_behind, 1, -1)) % count
         before, after = np.where(is_behind, nearest, other), np.where(is_behind, other, nearest)
         corner = np.where(is_behind[:, None], contours.end[nearest], contours.start[nearest])
         ways = [contours.normal(piece, np.full(len(piece), end)) for piece, end in ((before, 1.0), (after, 0.0))]
-        bend = np.sqrt(np.maximum(0, (1 + (ways[0] * ways[1]).sum(1)) / 2))
+        bend = _bend(*ways)
         # Where two lines meet the wire is R / cos(bend / 2) from the corner; arcs may take it a little further.
         is_there = _far(place, corner) * bend <= _TIP * wanted[at].max(1, initial=0.0) + LIMIT
         for piece in (before, after):
             carrier = np.abs(contours.from_carrier(place, piece)[:, None] - wanted[at]).min(1)
             off[at] = np.minimum(off[at], np.where(is_there, carrier, np.inf))
         left = left[~found]
-        if not len(left):
-            break
-    return off
+        if len(left):
+            left = left[_by_tips(places[left], owners[left], contours, wanted, reach)]
+        if not len(left) or reach > _FAR * wanted.max():
+            return off
+        reach *= 6
+        own_at = contours.nearest(places[left], owners[left], reach).own_at
+
+
+def _by_tips(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, reach: float) -> Whole:
+    """Which places are so near to a sharp corner of their contour as the wire may be that goes around it there; those
+    of corners where that is not beyond a reach are left out."""
+    ends = np.flatnonzero(np.diff(contours.owner, append=-1))
+    after = np.arange(1, len(contours.owner) + 1)
+    after[ends] = np.concatenate(([0], ends[:-1] + 1))
+    every = np.arange(len(after))
+    bend = _bend(contours.normal(every, np.ones(len(every))), contours.normal(after, np.zeros(len(every))))
+    tip = (_TIP * wanted.max() + LIMIT) / np.maximum(bend, 1 / _FAR)
+    sharp = np.flatnonzero(tip > reach)
+    if not len(sharp):
+        return sharp
+    tree = shapely.STRtree(shapely.points(contours.end[sharp]))
+    place, corner = tree.query(shapely.points(places), predicate="dwithin", distance=float(tip[sharp].max()))
+    corner = sharp[corner]
+    is_near = _far(places[place], contours.end[corner]) <= tip[corner]
+    return np.unique(place[is_near & (owners[place] == contours.owner[corner])])
+
+
+def _bend(one: Floats, other: Floats) -> Floats:
+    """The cosine of half the angle between unit vectors."""
+    return np.sqrt(np.maximum(0, (1 + (one * other).sum(1)) / 2))
 
 
 def _in_tabs(contours: Pieces, routes: list[PlannedContour]) -> np.ndarray:
