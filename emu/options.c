@@ -72,6 +72,13 @@ static const char *misfit(const options *o)
     if (o->input && !o->part) {
         return "--input needs a part";
     }
+    const char *const files[] = { o->part,  o->rom, o->input, o->tape,  o->sym,
+                                  o->punch, o->tty, o->trace, o->drive, o->steps };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        if (files[i] && !strcmp(files[i], "-")) {
+            return "-: expected a file's name; /dev/stdin and /dev/stdout are the standard input and output";
+        }
+    }
     return NULL;
 }
 

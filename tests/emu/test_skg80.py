@@ -294,6 +294,15 @@ def test_closed_standard_streams(part: Part, tmp_path: Path) -> None:
         assert (done.returncode, tape.read_bytes()) == (0, b"".join(BLOCKS) + STOPS), closed
 
 
+@pytest.mark.parametrize("option", ["--punch", "--tty", "--tape", "--rom", "--steps", ""])
+def test_a_dash_is_no_file(option: str, tmp_path: Path) -> None:
+    """`--punch -` made a file of that name."""
+    done = subprocess.run([SKG80, *filter(None, [option]), "-"], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("skg80: -: expected a file's name; /dev/stdin and /dev/stdout")
+    assert not list(tmp_path.iterdir())
+
+
 def test_no_file_is_overwritten_that_is_in_use(skg80: Skg80, part: Part, tmp_path: Path) -> None:
     """The punch or the paper over the part, the answers, the ROM or the tape; both into one file."""
     text = "10 END\n"
