@@ -147,14 +147,15 @@ def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: floa
     yield now
     while now < end:
         node = CurveNode(*at([now]), heading(now))
-        good, bad = 0.0, inf
+        # The longest good step, how far FIT's cut is off there; the shortest bad one.
+        good, off_cut, bad = 0.0, inf, inf
         for _ in range(16):
             step = min(step, end - now)
             if step < least:
                 break
-            off = _off(at, heading, node, now, now + step, breaks)[0]
+            off, off_this = _off(at, heading, node, now, now + step, breaks)
             if off <= tolerance:
-                good = step
+                good, off_cut = step, off_this
                 if now + step >= end or off > 0.6 * tolerance:
                     break
             else:
@@ -164,8 +165,9 @@ def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: floa
             if step <= 1.05 * good:
                 break
         step = good or least
-        while step > least and _off(at, heading, node, now, now + step, breaks)[1] > tolerance:
+        while step > least and off_cut > tolerance:
             step *= 0.8
+            off_cut = _off(at, heading, node, now, now + step, breaks)[1]
         if now + step < end < now + 1.4 * step:
             step = (end - now) / 2
         now = end if now + step > end - least else now + step

@@ -152,8 +152,11 @@ class _Spline:
 
     def parameters(self, ways: list[float]) -> list[float]:
         """The parameters at some ways along the curve."""
-        found = ((way, *self._table[self.span_at(way)]) for way in ways)
-        return [first + (way - begin) / length * more for way, begin, length, first, more in found]
+        found = []
+        for way in ways:
+            begin, length, first, more = self._table[self.span_at(way)]
+            found.append(first + (way - begin) / length * more)
+        return found
 
     def curve(self, first: int, behind: int, tolerance: float) -> Edge:
         """The spans from number `first` to the one before `behind`, which have no corner, as a curve for FIT."""
