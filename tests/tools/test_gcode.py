@@ -387,6 +387,19 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
         run("plot", tape, "-o", picture, "--show-offset")
 
 
+@pytest.mark.parametrize(("up", "down", "said"), [
+    ("M300 S50", "M300 S30", "S50 and S30 of M300"),
+    ("M280 P0 S0", "M280 P0 S90", "S0 and S90 of M280"),
+    ("M3 S90", "M3 S20", "S90 and S20 of M3"),
+    ("G0 Z5", "G1 Z-1", ""),
+    ("M3 S90", "M3 S90", ""),
+])  # fmt: skip
+def test_a_pen_of_which_nobody_knows_when_it_is_up(up: str, down: str, said: str) -> None:
+    text = "G21 G90 F5\n" + "".join(f"{up}\nG1 X{n}\n{down}\nG1 Y{n}\n" for n in range(1, 5)) + "M5\nM2"
+    notes = " ".join(gcode_reader.read(text).notes)
+    assert ("lifts a pen" in notes) == bool(said) and said in notes
+
+
 def test_a_line_takes_little_room() -> None:
     """A million lines, each a `Placed` with its `Block`, took more than a gigabyte."""
     text = "G21 G90 F5\n" + "G1 X1\nG3 X0 I-.5\nG0 X0 Y0\n" * 4000 + "M2"

@@ -88,6 +88,10 @@ _SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set())}
 _TURNS = set.union(*_SWITCHES[_BEAM])
 #: An S in a line with an M word that is none of these is that word's.
 _PLAIN = {*range(10), 30, 48, 49}
+#: M words that turn a servo, to a place that is their S.
+_SERVOS = {280, 300}
+#: A pen's two S, both not 0, are told from two powers of a laser by how often they change.
+_CHANGES = 3
 _KNOWN = "G00…G03, G17, G20, G21, G40, G90, G91, G92 or one that does not move"
 #: µm in a number of each unit; None: by the decimal point.
 _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
@@ -113,6 +117,11 @@ class _Reader:
         self.turned_on: dict[str, int] = {}
         self.is_on = dict.fromkeys(_SWITCHES, False)
         self.dark = dict.fromkeys(_SWITCHES, 0)
+        # What may lift a pen: the S of a servo's M word, or else that of M3 and M4; how often it changes between moves.
+        self.servo: tuple[Decimal, Decimal] | None = None
+        self.lifts: dict[tuple[Decimal, Decimal | None], None] = {}
+        self.lift: tuple[Decimal, Decimal | None] | None = None
+        self.lift_changes = 0
         # Moves with G1 to G3, those that do not cut; their heights, how often these change, and those of the rapids.
         self.feeds = self.idled = self.feed_changes = 0
         self.feed_height: Decimal | None = None
@@ -231,6 +240,9 @@ class _Reader:
                 self.is_on[name] = code in on and (name == _BEAM or power != 0)
         for name in filter(self.is_on.get, self.is_on):
             self.turned_on.setdefault(name, self.line)
+        for code in _SERVOS.intersection(codes):
+            if power is not None:
+                self.servo = Decimal(code), power
         if power is not None and not dwells and _PLAIN.issuperset(codes):
             self.power = power
 
@@ -239,6 +251,11 @@ class _Reader:
         self.feeds += 1
         for name in _SWITCHES:
             self.dark[name] += self.is_dark(name)
+        lift = self.servo or (Decimal(3), self.power)
+        if lift != self.lift:
+            self.lift_changes += self.lift is not None
+            self.lift = lift
+            self.lifts[lift] = None
         if height is not None:
             self.feed_changes += self.feed_height not in (None, height)
             self.feed_height = height
@@ -447,7 +464,20 @@ class _Reader:
         """What there is to say of moves with G1 to G3 that do not cut."""
         up = "" if self.idle.above is None else f"the tool is up, {several([self.idle.above])}"
         why = " or ".join(filter(None, [self.idle.beam and f"the beam is off ({self.idle.beam})", up]))
-        return (f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}",) if self.idled else ()
+        said = f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}" if self.idled else ""
+        return tuple(filter(None, [said, self._said_of_pen()]))
+
+    def _said_of_pen(self) -> str:
+        """That there may be a pen, of which nobody knows when it is up."""
+        # (in a program with a servo the S of M3 lifts nothing)
+        turns = [lift for lift in self.lifts if lift[1] is not None and (self.servo is None or lift[0] in _SERVOS)]
+        if len(turns) != 2 or self.lift_changes < (1 if self.servo else _CHANGES):
+            return ""
+        (code, one), (_, other) = turns
+        if not self.servo and not (one and other):
+            return ""
+        said = f"moves with G1 to G3 have S{one:f} and S{other:f} of M{code:f}"
+        return f"{said}: if one of them lifts a pen, it is not known which: all are taken for cuts"
 
 
 def _rounded(place: tuple[Decimal, ...]) -> Spot:
