@@ -436,7 +436,7 @@ def test_an_arc_that_a_controller_leaves_is_cut_along_chords(run: Run, tmp_path:
     page.modelspace().add_arc((x, y - aside), radius, 180 - lean, lean)
     page.modelspace().add_circle((x + 20, y), 3)
     told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--program", tmp_path / "part.skg").stderr
-    assert "contour 1 is cut along chords: a controller would leave one of its arcs too far" in told
+    assert "contour 1 is cut along chords: a controller would leave one of its arcs or curves too far" in told
     assert "contour 2 is cut along" not in told
     start = re.search(r"FROM \(([\d.]+),([\d.]+)\)", (tmp_path / "part.skg").read_text())
     assert start
@@ -444,6 +444,21 @@ def test_an_arc_that_a_controller_leaves_is_cut_along_chords(run: Run, tmp_path:
     ring = shapely.Point(x, y).buffer(radius, quad_segs=400).exterior
     assert max(ring.distance(shapely.Point(place)) for place in way[1:-1]) < LIMIT
     assert way[1] == pytest.approx(way[-2], abs=1e-9)
+
+
+def test_a_curve_that_a_controller_leaves_is_cut_along_chords(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Less than what it needs for the arcs of FIT is enough for chords."""
+    page = drawing()
+    page.modelspace().add_ellipse((3.3, 4.4), (7.7, 2.2), 0.4)
+    part, tape = saved(page, tmp_path), tmp_path / "part.3b"
+    worst = re.search(r"at most ([\d.]+) µm off", run("cut", part, "-o", tape).stderr)
+    assert worst
+    monkeypatch.setattr("skg.cutting.check.LIMIT", float(worst[1]) / 1000 - 1e-4)
+    told = run("cut", part, "-o", tape).stderr
+    assert "contour 1 is cut along chords" in told
+    assert {block.is_line for block in tapes.parse(tape.read_bytes(), "tape").blocks} == {True}
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.25, 0.5, 0.75])

@@ -199,17 +199,17 @@ def _helped(
 
 
 def _in_chords(routes: list[PlannedContour], faults: list[Misfit]) -> list[PlannedContour]:
-    """The routes, those without an offset that the controller is a little off cut along chords of their arcs; the same
-    routes where there are none of these."""
+    """The routes; those without an offset that the controller is a little off are cut along chords of their arcs and
+    curves. The same routes where there are none of these."""
     off = {fault.route for fault in faults if fault.off < inf and not fault.is_into and not fault.is_missed}
     return [
-        route.in_chords() if at in off and not any(route.passes) and not route.traced and _has_arcs(route) else route
+        route.in_chords() if at in off and not any(route.passes) and not route.traced and _is_bent(route) else route
         for at, route in enumerate(routes)
     ]
 
 
-def _has_arcs(route: PlannedContour) -> bool:
-    return any(edge.centre is not None for edge in route.contour.edges)
+def _is_bent(route: PlannedContour) -> bool:
+    return any(not edge.is_line for edge in route.contour.edges)
 
 
 def _without(

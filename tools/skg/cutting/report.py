@@ -92,7 +92,9 @@ def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
         if not route.traced:
             continue
         if not any(route.passes):
-            lines.append(f"contour {at + 1} is cut along chords: a controller would leave one of its arcs too far")
+            lines.append(
+                f"contour {at + 1} is cut along chords: a controller would leave one of its arcs or curves too far"
+            )
             continue
         off, place = uncut(route.contour, route.traced[-1], route.passes[-1])
         if off > LIMIT:

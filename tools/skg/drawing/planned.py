@@ -9,6 +9,7 @@ from itertools import pairwise
 from math import acos, ceil, cos, inf, pi, sin
 
 import numpy as np
+import shapely
 
 from skg.drawing.contour import Contour, Edge, part_of
 from skg.drawing.parallel import part_between, roomy_place, wire_way
@@ -16,7 +17,7 @@ from skg.plane import XY, distance, minus, polar, turn
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
-#: The chords that an arc is cut along, where it cannot be cut as one, are this near to it, mm.
+#: The chords that an arc or a curve is cut along, where it cannot be cut as one, are this near to it, mm.
 _FLAT = 3e-4
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
 #: entry for a lead that is an arc.
@@ -165,8 +166,8 @@ class PlannedContour:
         return found if place == self.start else replace(found, start=place, is_moved=True)
 
     def in_chords(self) -> PlannedContour:
-        """The same without an offset, cut along chords of its arcs: a controller may end an arc too early or too late
-        by more than may be, a line never."""
+        """The same without an offset, cut along chords of its arcs and curves: a controller may end an arc too early or
+        too late by more than may be, a line never."""
         edges = tuple(chord for edge in self.contour.edges for chord in _chords(edge))
         return replace(self, traced=(edges,) * len(self.passes))
 
@@ -194,9 +195,12 @@ class PlannedContour:
 
 
 def _chords(edge: Edge) -> list[Edge]:
-    """An arc as chords; lines and curves are what they are."""
-    if edge.centre is None:
+    """An arc or a curve as chords."""
+    if edge.is_line:
         return [edge]
+    if edge.nodes:
+        line = shapely.LineString(edge.samples).simplify(_FLAT)
+        return [Edge(start, end, entity=edge.entity) for start, end in pairwise(line.coords)]
     pieces = max(2, ceil(abs(edge.sweep) / (2 * acos(max(0.5, 1 - _FLAT / edge.radius)))))
     places = [edge.start, *(edge.at(k / pieces) for k in range(1, pieces)), edge.end]
     return [Edge(start, end, entity=edge.entity) for start, end in pairwise(places)]
