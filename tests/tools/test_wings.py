@@ -71,6 +71,13 @@ def test_what_is_imported_is_there() -> None:
     assert {name for names in GRAPH.values() for name in names} <= set(MODULES)
 
 
+def test_hacking_names_the_folders_of_the_tests() -> None:
+    """Each folder that has tests is in HACKING.md's table of them, and no other."""
+    rows = re.findall(r"^\| (`tests/.*?) \|", (ROOT.parent / "HACKING.md").read_text(), re.M)
+    named = sorted(folder for row in rows for folder in re.findall(r"`tests/(\w+)`", row))
+    assert named == sorted({path.parent.name for path in (ROOT.parent / "tests").glob("*/test_*.py")})
+
+
 def test_every_folder_is_a_wing() -> None:
     folders = {path.parent.name for path in SOURCES if path.parent.parent == ROOT / "skg"}
     assert folders == set(ALLOWED) - {COMMON}
