@@ -108,6 +108,17 @@ def _refuse_onto(context: click.Context) -> None:
             raise UserError(f"{name}: to be written, and read or written by the same command")
 
 
+def answers_option(function: Callable) -> Callable:
+    """The option --input, as `answers`; None when it is not given."""
+    return click.option(
+        "--input",
+        "answers",
+        metavar="FILE",
+        type=click.Path(allow_dash=True),
+        help="What the operator answers to INPUT, one line each.",
+    )(function)
+
+
 def offset_option(text: str) -> Callable[[Callable], Callable]:
     """The option --offset, None when it is not given; `text` is its help."""
     return click.option("--offset", metavar="MM", type=FiniteRange(0, MOST_OFFSET), help=text)

@@ -6,7 +6,7 @@ import sys
 
 import click
 
-from skg.commands.options import output_option
+from skg.commands.options import answers_option, output_option
 from skg.errors import UserError
 from skg.files import read_bytes, without_mark, write_bytes
 from skg.kinds import named
@@ -24,13 +24,7 @@ def _text(name: str) -> str:
 @click.command("ref")
 @click.argument("part", type=click.Path(allow_dash=True))
 @output_option("Where the tape goes.")
-@click.option(
-    "--input",
-    "answers",
-    metavar="FILE",
-    type=click.Path(allow_dash=True),
-    help="What the operator answers to INPUT, one line each.",
-)
+@answers_option
 @click.option(
     "--drift/--no-drift",
     default=True,

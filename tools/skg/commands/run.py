@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import click
 
-from skg.commands.options import output_option, unmarked
+from skg.commands.options import answers_option, output_option, unmarked
 from skg.drawing.milling import MILL_ROM, is_milling
 from skg.drawing.source import checked_program
 from skg.errors import UserError
@@ -38,13 +38,7 @@ def _answers(name: str | None) -> Iterator[str]:
     "standard; mill, and said, for a milling program]",
 )
 @click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
-@click.option(
-    "--input",
-    "answers",
-    metavar="FILE",
-    type=click.Path(allow_dash=True),
-    help="What the operator answers to INPUT, one line each.",
-)
+@answers_option
 @click.option(
     "--max-cycles",
     metavar="N",
