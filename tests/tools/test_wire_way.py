@@ -130,6 +130,17 @@ def test_a_start_hole_that_is_chosen_is_where_the_wire_comes_to(run: Run, tmp_pa
     assert "too narrow for the wire" in words
 
 
+def test_a_start_hole_between_two_circles_moves_to_the_inner_side(run: Run, tmp_path: Path) -> None:
+    """A disc in a round window with less than R between them is left out: then the window has its start hole inside."""
+    page = drawing()
+    page.modelspace().add_lwpolyline([(-10, -10), (10, -10), (10, 10), (-10, 10)], close=True)
+    for x, radius in ((0.1, 5.08), (0.12, 5)):
+        page.modelspace().add_circle((x, 0.2), radius)
+    (places, _), words = cut(run, page, tmp_path, "--offset", 0.1, "--small", "leave")
+    assert "left out: outline from" in words
+    assert apart(LineString(places[1:-1]), Point(0.1, 0.2).buffer(4.98, quad_segs=400).exterior) < LIMIT
+
+
 @pytest.mark.parametrize(("side", "tip"), [("outside", 20), ("inside", 60)])
 def test_a_slot_that_is_too_narrow_is_no_corner(run: Run, tmp_path: Path, side: str, tip: int) -> None:
     """A blind slot of 1 mm, in an outline or from a window: a wider wire would leave it out; half of that cuts it."""

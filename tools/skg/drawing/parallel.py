@@ -334,7 +334,12 @@ def _refuse_slots(contour: Contour, way: Sequence[Edge], r: float) -> None:
 
 
 def roomy_place(way: tuple[Edge, ...], place: XY) -> XY:
-    """A place that a closed way goes around: the given one, else the one that is farthest from the way."""
+    """A place that a closed way goes around: the given one, else the one that is farthest from the way; in a circle
+    beside that, since from a centre the ROM goes to the +X side (language.md, section 4.2)."""
+    if way[0].is_circle:
+        (x, y), radius = way[0].centre, way[0].radius
+        far = distance((x, y), place)
+        return place if far < radius else (x + (place[0] - x) * radius / far / 2, y + (place[1] - y) * radius / far / 2)
     corners = [corner for edge in way for corner in _chords(edge)]
     area = shapely.Polygon(corners if len(corners) > 2 else [])
     if area.is_empty or area.contains(shapely.Point(place)):
