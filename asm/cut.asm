@@ -34,6 +34,7 @@ RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 ;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET clear two cells at once
 ;! RBFULL == CLOSED+1 and FITSM == FITN+1 -- RBNEW and FITEND clear two cells at once
 ;! MKX+PLCSIZ <= MREG+320 and RKEPT+ELSIZE <= FWORK -- copies stay in their rooms
+;! RELEMS/100H == RCORN/100H -- JOINED changes the low byte alone
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -287,7 +288,7 @@ JOINED: CALL    CORNER
         MVI     M,2
         DCR     A
         LXI     D,MKX
-        LXI     H,RCORN
+        MVI     L,RCORN&255     ; (in one page with RELEMS)
         CZ      CPYPL           ; the end of the first element is kept
 ; (fall into NTOC)
 

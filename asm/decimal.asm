@@ -1,7 +1,7 @@
 ; decimal.asm - numbers as decimal digits: read, printed
-; Offers: DECOUT DECOU1 PRDEC DECIN LEXDEC DIGIT LEXCH
+; Offers: DECOUT DECOU1 PRDEC DECIN LEXDEC TEN DIGIT LEXCH
 ; Uses:   calc consts float start
-; Room:   451 bytes
+; Room:   454 bytes
 ;
 ; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
 ; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
@@ -278,13 +278,7 @@ LEXD1:  CALL    LEXDIG
         RNC
         INX     H
         PUSH    H
-        MOV     H,D
-        MOV     L,E
-        DAD     H
-        DAD     H
-        DAD     D
-        DAD     H
-        CALL    ADDA            ; 10 * number + digit
+        CALL    TEN
         XCHG
         POP     H
         MOV     A,D
@@ -292,6 +286,16 @@ LEXD1:  CALL    LEXDIG
         JC      LEXD1
         LXI     D,DECMAX
         JMP     LEXD1
+
+; TEN - ten times a number, and a digit
+; In:  DE, A   Out: HL   Clobbers A
+TEN:    MOV     H,D
+        MOV     L,E
+        DAD     H
+        DAD     H
+        DAD     D
+        DAD     H
+        JMP     ADDA
 
 ; LEXDIG - is the next character that counts a digit?
 ; In:  HL-> text   Out: as DIGIT; HL-> it   Clobbers nothing else

@@ -1,34 +1,38 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
-; Uses:   cut decimal float io io_6850 io_port io_punch monitor reset start tape value
-; Room:   700 bytes
+; Uses:   cut decimal io io_6850 io_port io_punch monitor reset start tape value
+; Room:   706 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
 ; read and its numbers are made while the steps of the line before it are: a character each time that DLOOP has
 ; something else to see to.  At the line's end DLINE makes the rest of those steps, and sets its own block up.
 ;
-; A step goes along one of two records, one for each axis:
+; What a block needs lies in a page, and there are two: one block is followed, the other one is read and made ready.
+; A step goes along one of two records of its page, one for each axis:
 ;
-;       N       steps to go on this axis, negative, high byte first: counted up to 0
-;       R       what a step adds to F, low byte first
 ;       U       the port with this axis's pulse up
+;       R       what a step adds to F, high byte first
+;       B       the port without a pulse
+;       N       steps on this axis until DLOOP looks round, negative
 ;
-; so that the low bytes of N and R lie side by side.  Record 1 is that of the block's x: on an arc it
-; steps X and R = 2x+1, on a line Y and R = 2x (a line steps X where y is taken off F).  The record
-; that leads inside, whose step F >= 0 wants, has the sign of R changed: 1-2p on an arc, of the coordinate p
-; that shrinks; each of an arc's steps adds 2 to its own R.  So R comes from -1 to 1 where p comes
-; to 0, which is a carry out of its highest byte: there the next quadrant begins, and the records exchange
-; their roles.  The twofold F has the sign of tape-3b.md's.  A block is over when the N of the count's
-; axis has come to 0; the other one's never does.
+; Record 1 is that of the block's x: on an arc it steps X and R = 2x+1, on a line Y and R = 2x (a line steps X
+; where y is taken off F).  The record that leads inside, whose step F >= 0 wants, has the sign of R changed:
+; 1-2p on an arc, of the coordinate p that shrinks; each of an arc's steps adds 2 to its own R.  So R comes
+; from -1 to 1 where p comes to 0, which is a carry out of its highest byte: there the next quadrant begins, and the
+; records exchange their roles.  The twofold F has the sign of tape-3b.md's.
+;
+; The steps of J are handed out in slices, as the N of the count's axis: short ones while a line is being read,
+; since a character is taken between two of them.  The N of the other axis may run out when it likes.
 
 DRIVE   EQU 14H         ; the machine's port, out:
 DYSTEP  EQU 04H         ; Y step
 DSTEPS  EQU 05H         ; both step bits
 DMINUS  EQU 0AH         ; both directions
 DCUTS   EQU 80H         ; cutting
-DBELOW  EQU 0D0H        ; the lowest character, less '0'
 DMOST   EQU 6           ; numbers are below 6 * 2^24
+DSLICE  EQU 7FH         ; steps of a slice at most, less 1: all lower bits (not 0FFH: an N of 0 is a slice's end)
+DSLIC1  EQU 1           ; the same while a line is being read
 
 ; Cells that RUN, NEW and a reset clear: those in front of N, and TOL's, which this image goes without
 DPARS   EQU RUNCEL      ; -> place in DLINE; low byte 0: a line begins
@@ -38,80 +42,86 @@ DCOUNT  EQU MTO         ; -> the count's N; high byte 0: no block is in hand
 DHIGH   EQU MTO+2       ; bit 7: the feed clock has not fallen behind the last step
 
 ; Cells that float.asm leaves free
-DNUMP   EQU FWORK+12    ; -> behind the number that is read
+DNUMP   EQU FWORK+12    ; -> behind the number that is read; then -> DTURN
 DAXIS   EQU DNUMP+2     ; 0 X, 1 Y
-DKIND   EQU DNUMP+3     ; as DTURN
-DFIRST  EQU DNUMP+4     ; quadrant, from 0
 
 ; Cells of FIT's, which holds nothing back here
-DX      EQU HELD        ; the line that is read: J y x, high byte first
-DN1     EQU DX+12       ; record 1,
-DR1     EQU DN1+4
-DU1     EQU DN1+8
-DN2     EQU DN1+9       ; record 2
-DR2     EQU DN1+13
-DU2     EQU DN1+17
-DROLE   EQU DN1+18      ; bit 7: F >= 0 steps record 2
-DBASE   EQU DN1+19      ; the port without a pulse
-DINC    EQU DN1+20      ; what a step adds to its own R: 2 on an arc, else 0
-DTURN   EQU DN1+21      ; low two bits: what is added to the quadrant: 0 line, 1 counter-clockwise, 3 clockwise
-DQUAD   EQU DN1+22      ; the quadrant that the motion points into, 0 to 3
-DFDEV   EQU DN1+23      ; F
-DMODE   EQU DN1+27      ; 0FEH: RUN drives, 0: it does not
+DINC    EQU HELD        ; what a step adds to its own R: 2 on an arc, else 0
+DMODE   EQU HELD+1      ; 0FEH: RUN drives, 0: it does not
 
-;! DX & 0FFH == 0 and DFIRST < FSP -- DLINE sees by the low address that a number, and the last one, has been read
-;! DN1/100H == DU2/100H -- the loop changes L alone
-;! DU2-DU1 == 9 and DR2-DR1 == 9 and DN2-DN1 == 9 and DR1-DN1 == 4 and DU1-DR1 == 4 -- DLOOP walks along a record
-;! DN2 == DU1+1 and DQUAD == DTURN+1 and DFIRST == DKIND+1 and DCHAR == DSTATE+1 -- two cells are taken at once
-;! DMODE < CLOSED and DCHAR < MNEXT and DHIGH < MTO+5 -- nobody else's cells
+; A block: the same places in two pages, behind the registers and in HELD
+DPAGES  EQU 4           ; what the pages' numbers differ in
+DTURN   EQU HELD+48H    ; low two bits: what is added to the quadrant: 0 line, 1 counter-clockwise, 3 clockwise
+DQUAD   EQU DTURN+1     ; the quadrant that the motion points into, 0 to 3
+DROLE   EQU DTURN+2     ; -> lowest R of the record that leads inside: F >= 0 steps it
+DREST   EQU HELD+54H    ; J, high byte first; then what is left of it behind the slice
+DFDEV   EQU HELD+58H    ; F, low byte first
+DU2     EQU HELD+63H    ; record 2: the line's y
+DR2     EQU DU2+1
+DB2     EQU DU2+5
+DN2     EQU DU2+6
+DU1     EQU HELD+73H    ; record 1: the line's x
+DR1     EQU DU1+1
+DB1     EQU DU1+5
+DN1     EQU DU1+6
+DNUMS   EQU 16          ; from a number of the line to the next one, downwards
+
+;! (MREG/100H+1) ^ HELD/100H == DPAGES and (HELD/100H) & DPAGES == DPAGES -- DLINE goes from page to page
+;! DTURN&0FFH >= 320-256 and (DN1&0FFH) < 80H -- behind the registers, in front of the typed line
+;! (DREST&3)+(DR2&3)+(DR1&3) == 0 and DR1-DR2 == DNUMS and DR2-DREST == DNUMS and DREST+4-DTURN == DNUMS -- DLINE walks along numbers
+;! ((DR1+3)^(DR2+3)) == DNUMS -- DLOOP goes from one record to the other
+;! DFDEV > DREST and DFDEV+4 <= DR1 and DB2 == DR2+4 -- F is cleared with the numbers; DLIN6 takes what lies in front of R
+;! DCHAR == DSTATE+1 and DMODE < CLOSED and DCHAR < MNEXT and DHIGH < MTO+5 -- two cells are taken at once; nobody else's cells
 ;! (DSYN1&0FFH)*(DSYN2&0FFH)*(DSYN3&0FFH)*(DSYN4&0FFH)*(DSYN5&0FFH) != 0 -- DPUSH takes 0 for a line's beginning
 ;! (DSYN6&0FFH)*(DSYN7&0FFH)*(DSYN8&0FFH) != 0 -- the same
 
 ; DLOOP - steps, until there is something else to see to
-; In:  B C D E = F, H = DN1/256
-; Out: Z: the low byte of an N has run out, HL -> it; CY: the clock has not fallen behind the step; neither: it is low,
-;      or stop   Clobbers A, HL
-; Cycles: a step 293, with a carry 20 to 60 more, with a new quadrant 700
+; In:  B C D E = F, H = the block's page
+; Out: Z: an N has run out; CY: the clock has not fallen behind the step; neither: it is low, or stop   Clobbers A, L
+; Cycles: a step 293, with a carry 70 to 150 more, with a new quadrant 680
 DLOOP:  IN      DRIVE
         ANI     3
         DCR     A
         RNZ
-        MVI     L,DR2&255
-        LDA     DROLE
-        XRA     B
-        JM      DLOO1
-        MVI     L,DR1&255
-DLOO1:  MOV     A,E
+        MVI     L,DROLE&255
+        MOV     A,B
+        RAL
+        SBB     A
+        ANI     DNUMS           ; F < 0: the other record
+        XRA     M
+        MOV     L,A
+        MOV     A,E
         ADD     M
         MOV     E,A
-        INR     L
+        DCR     L
         MOV     A,D
         ADC     M
         MOV     D,A
-        INR     L
+        DCR     L
         MOV     A,C
         ADC     M
         MOV     C,A
-        INR     L
+        DCR     L
         MOV     A,B
         ADC     M
         MOV     B,A
-        INR     L
-        MOV     A,M
+        DCR     L
+        MOV     A,M             ; U
         OUT     DRIVE
         MOV     A,L
-        SUI     4
+        ADI     4
         MOV     L,A
         LDA     DINC
         ADD     M
         MOV     M,A
         CC      DCAR
-        DCR     L
-        INR     M
         IN      DRIVE
         RAR
-        LDA     DBASE
+        INR     L
+        MOV     A,M             ; B
         OUT     DRIVE
+        INR     L
+        INR     M               ; N
         RC
         JNZ     DLOOP
         RET
@@ -120,7 +130,7 @@ DLOO1:  MOV     A,E
 ; In:  HL -> lowest byte   Clobbers A
 DCAR:   PUSH    H
         MVI     A,3
-DCAR1:  INR     L
+DCAR1:  DCR     L
         INR     M
         JNZ     DCAR2
         DCR     A
@@ -140,7 +150,8 @@ PUNOFF: CALL    PAPON
 
 ; DFIN - the rest of the block in hand; a line begins
 ; Out: A = 0; ERR 10 as DSTEP   Clobbers all
-DFIN:   CALL    DSTEP
+DFIN:   MVI     C,DSLICE
+        CALL    DSTEP
         JNZ     DFIN
         STA     DPARS
         RET
@@ -179,12 +190,12 @@ SDRI1:  LXI     H,SDRI1         ; every character returns there
         PUSH    H
         XRA     A
         STA     DCHAR
+        MVI     C,DSLIC1
         CALL    DSTEP
         CZ      BREAK
         IN      TTYST
         ANI     TXRDY           ; (no step waits for the teletype)
-        RZ
-        CALL    BDREAD
+        CNZ     BDREAD
         ANI     7FH
         RZ
         STA     DCHAR
@@ -193,8 +204,7 @@ SDRI1:  LXI     H,SDRI1         ; every character returns there
 
 ; DPUSH - takes a character of a tape
 ; In:  A   Out: ERR 10   Clobbers all
-DPUSH:  SUI     CZERO
-        LHLD    DPARS
+DPUSH:  LHLD    DPARS
         INR     L
         DCR     L
         JZ      DLINE
@@ -220,183 +230,198 @@ DNEXT:  POP     H
 
 ; DLINE - takes a line, character by character; at its end the block is in hand, and its first steps are made
 ; In:  A = first character, less '0'   Out: ERR 10   Clobbers all
-DLINE:  ORA     A
-        RM                      ; between the lines
+DLINE:  SUI     CZERO
+        RC                      ; between the lines
         CPI     CLTD-CZERO
         JZ      DSTOP
-        LXI     H,DX
-        MVI     B,12
+        MOV     C,A
+        LDA     DCOUNT+1        ; the other page than that of the block in hand
+        ANI     DPAGES
+        XRI     HELD/256
+        MOV     H,A
+        MVI     L,DREST&255
+        MVI     B,DR1+4-DREST
+        MOV     A,C
         CALL    RTDON1          ; (clears)
         SHLD    DNUMP
 DLIN1:  CPI     CLTB-CZERO
         CALL    DNEXZ
-DSYN1:  DB      0,10
+DSYN1:  DB      CZERO,10
 DLIN2:  LHLD    DNUMP
-        LXI     D,10
-        MOV     C,A             ; 10x+digit, byte by byte
-        MVI     B,0
-DLIN3:  DCX     H
-        MOV     A,M
+DLIN3:  DCX     H               ; 10x+digit, byte by byte
+        MOV     E,M
+        MVI     D,0
         PUSH    H
-        CALL    FMUL2
+        CALL    TEN
+        XCHG
         POP     H
-        MOV     M,A
+        MOV     M,E
         MOV     A,L
         ANI     3
+        MOV     A,D
         JNZ     DLIN3
         MOV     A,M
         CPI     DMOST
         JNC     DERR
         CALL    DNEXT
-DSYN2:  DB      0,CLTG-CZERO+1
+DSYN2:  DB      CZERO,CLTG-CZERO+1
         CPI     10
         JC      DLIN2
         MOV     B,A
         LXI     H,DNUMP
         MOV     A,M
-        SUI     4
+        SUI     DNUMS
         MOV     M,A
+        CPI     DTURN&255
         MOV     A,B
         JNZ     DLIN1
         CPI     CLTG-CZERO
         CALL    DNEXZ
-DSYN3:  DB      CLTY-1-CZERO,2
+DSYN3:  DB      CLTY-1,2
         STA     DAXIS
         CALL    DNEXT
-DSYN4:  DB      CLTL-CZERO,CLTS-CLTL+1
+DSYN4:  DB      CLTL,CLTS-CLTL+1
         RRC                     ; L 0, N 1, S 83H (Z stays)
-        STA     DKIND
+        LHLD    DNUMP
+        MOV     M,A
         JZ      DLIN5
         DCR     A
         JZ      DLIN4
         CPI     82H
 DLIN4:  CALL    DNEXZ
-DSYN5:  DB      CLTR-CZERO,1
-DLIN5:  CALL    DNEXT
-DSYN6:  DB      1,4
-        STA     DFIRST
-        CALL    DNEXT
-DSYN7:  DB      DBELOW,100H-DBELOW
-        CALL    DFIN
-        LHLD    DKIND           ; and DFIRST
-        SHLD    DTURN           ; and DQUAD
-        LDA     DAXIS
-        XRA     L
-        RAR                     ; CY: record 1 counts
-        SBB     A
-        ANI     (DN1-DN2)&255
-        ADI     (DN2+3)&255
-        MOV     C,A             ; -> its N's low byte
-        LXI     D,DX+12
-        LXI     H,DR1
-        CALL    DTWICE
-        INX     H
-        MOV     M,A             ; N of record 2 (A is positive: the one that does not count will never run out)
-        MVI     L,DR2&255
-        CALL    DTWICE
-        STA     DN1
-        MOV     L,C
-        MVI     B,4
-        STC
-DLIN6:  DCX     D               ; N = -J
-        LDAX    D
-        CMA
-        ACI     0
+DSYN5:  DB      CLTR,1
+DLIN5:  LHLD    DNUMP
+        MOV     A,M
+        RRC                     ; CY, and bit 7: an arc
+        MVI     L,DB2&255       ; doubles x, what is 0, bit 7, and y: on an arc with 1 added to both
         MOV     M,A
-        DCX     H
+        MVI     L,(DR1+3)&255
+        MVI     B,DR1+4-DR2
+DLIN6:  MOV     A,M
+        RAL
+        MOV     M,A
+        DCR     L
         DCR     B
         JNZ     DLIN6
-        RC                      ; J = 0 is no block
+        CALL    DNEXT
+DSYN6:  DB      CZERO+1,4
+        LHLD    DNUMP
         INX     H
-        SHLD    DCOUNT
+        MOV     M,A
         CALL    DIRS
-        MOV     H,B             ; (DIRS leaves B = 0)
-        MOV     L,B
-        SHLD    DFDEV
-        SHLD    DFDEV+2
-; (fall into DSTEP)
+        CALL    DNEXT
+DSYN7:  DB      0,CZERO
+        CALL    DFIN
+        LHLD    DNUMP
+        MOV     A,M
+        ADD     A
+        ANI     2
+        STA     DINC
+        LDA     DAXIS
+        XRA     M
+        RAR                     ; CY: record 1 counts
+        SBB     A
+        ANI     DN1-DN2
+        ADI     DN2&255
+        MOV     L,A
+        MVI     M,0             ; (the first slice is to come)
+        SHLD    DCOUNT
+        RET
 
 ; DSTEP - steps of the block in hand, until there is something else to see to
+; In:  C = mask of J's low byte: what it leaves out is how long a slice may be, less 1
 ; Out: Z: no block is in hand any more, A = 0; ERR 10 when the operator or bit 1 stops it: the steps to go are typed
 ; Clobbers all
-DSTEP:  LDA     DCOUNT+1
+DSTEP:  LHLD    DCOUNT
+        MOV     A,H
         ORA     A
         RZ
-        CALL    POLL
-        JZ      DSTE3           ; a break
+        MOV     A,M
+        ORA     A
+        JNZ     DSTE3
+        XCHG                    ; the next slice: J-1 is cut at the mask, both parts are kept
+        MOV     H,D
+        MVI     L,(DREST+3)&255
+        MVI     B,4
+DSTE1:  MOV     A,M
+        DCR     M
+        ORA     A
+        JNZ     DSTE2
+        DCR     L
+        DCR     B
+        JNZ     DSTE1
+        STA     DCOUNT+1        ; there is none
+        RET
+DSTE2:  MVI     L,(DREST+3)&255
+        MOV     A,M
+        ANA     C
+        CMA
+        STAX    D
+        ANA     M
+        MOV     M,A
+DSTE3:  CALL    POLL
+        JZ      DSTE4           ; a break
         IN      DRIVE
         RAR
         RAR
-        JC      DSTE3           ; bit 1
+        JC      DSTE4           ; bit 1
         LXI     H,DHIGH
         ANA     M
         RM                      ; the clock is still high
-        LHLD    DFDEV
-        XCHG
-        LHLD    DFDEV+2
-        MOV     B,H
-        MOV     C,L
-        LDA     DBASE
+        LHLD    DCOUNT
+        DCR     L
+        MOV     A,M             ; B
         OUT     DRIVE
-        MVI     H,DN1/256
+        MVI     L,DFDEV&255
+        MOV     E,M
+        INR     L
+        MOV     D,M
+        INR     L
+        MOV     C,M
+        INR     L
+        MOV     B,M
         CALL    DLOOP
-        RAR                     ; (leaves Z alone)
+        RAR
         STA     DHIGH
-        JNZ     DSTE2
-        MVI     A,3
-DSTE1:  DCR     L
-        INR     M
-        JNZ     DSTE2
-        DCR     A
-        JNZ     DSTE1
-        STA     DCOUNT+1
+        MVI     L,DFDEV&255
+        MOV     M,E
+        INR     L
+        MOV     M,D
+        INR     L
+        MOV     M,C
+        INR     L
+        MOV     M,B
+        ORA     H               ; (not 0)
         RET
-DSTE2:  XCHG
-        SHLD    DFDEV
-        MOV     H,B
-        MOV     L,C
-        SHLD    DFDEV+2
-        RET
-DSTE3:  XRA     A
+DSTE4:  XRA     A
+        MOV     C,A             ; (no power of ten)
         MOV     M,A             ; no key is typed ahead
         OUT     DRIVE
         CALL    CRLF
         LHLD    DCOUNT
-        CALL    FLOAD           ; (the highest bit is 1 anyway)
-        XRA     A
-        SUB     E
+        MOV     A,M             ; not 0, so that one less than the steps to go is made of two parts
+        CMA
+        MVI     L,(DREST+3)&255
+        ORA     M
+        DCR     L
+        MOV     B,M
+        DCR     L
+        MOV     E,M
+        DCR     L
+        MOV     D,M
+        MOV     H,B
         MOV     L,A
-        MVI     E,0
-        MOV     A,E
-        SBB     D
-        MOV     H,A
-        MOV     A,E
-        SBB     C
-        MOV     C,E             ; (no power of ten)
-        MOV     E,A
-        MOV     A,C
-        SBB     B
-        MOV     D,A
-        CALL    DECOU1
-        DB      ERROR,ETAPE
-
-; DTWICE - R of a coordinate: doubled, and 1 on an arc
-; In:  DE -> behind its low byte, HL -> R, DTURN   Out: A = highest byte, DE -> highest byte   Clobbers B, HL
-DTWICE: LDA     DTURN
-        RRC
-        MVI     B,4
-DTWI1:  DCX     D
-        LDAX    D
-        RAL
-        MOV     M,A
         INX     H
-        DCR     B
-        JNZ     DTWI1
-        RET
+        MOV     A,H
+        ORA     L
+        JNZ     DSTE5
+        INX     D
+DSTE5:  CALL    DECOU1
+        DB      ERROR,ETAPE
 
 ; DSTOP - the line begins with D: the end of the tape, or off, and a key comes before the next block
 DSTOP:  CALL    DNEXT
-DSYN8:  DB      CLTD-CZERO,DBELOW+CLTD-CZERO+8 ; all but '0' to 'C'
+DSYN8:  DB      CLTD,CZERO-CLTD ; all but '0' to 'C'
         JZ      DEND
         JP      DERR
         CALL    DFIN
@@ -422,62 +447,70 @@ DEND:   CALL    DENDS
         JMP     ERR5            ; CR LF, and the prompt
 
 ; DIRS - directions and roles of the next quadrant; the record that leads inside changes the sign of R
-; In:  DTURN, DQUAD, DSTATE   Out: B = 0; ERR 10: an arc begins where its coordinate cannot shrink   Clobbers A, B, C, HL
-DIRS:   LHLD    DTURN           ; and DQUAD
-        MOV     A,L
-        ADD     H
+; In:  H = page: DTURN, DQUAD; DSTATE
+; Out: ERR 10: an arc begins where its coordinate cannot shrink   Clobbers A, B, C, L
+DIRS:   MVI     L,DTURN&255
+        MOV     C,M
+        INR     L
+        MOV     A,M
+        ADD     C
         ANI     3
-        STA     DQUAD
-        MOV     C,A
+        MOV     M,A
+        MOV     B,A
+        MOV     A,C
+        RRC
+        XRA     B
+        RRC
+        SBB     A
+        ANI     DNUMS
+        XRI     (DR2+3)&255
+        INR     L
+        MOV     M,A             ; DROLE
+        MOV     A,B             ; 3B+4: bit 3 is the Y direction, bit 1 the X direction
         ADD     A
-        ADD     A               ; bit 3: Y direction
-        INR     C
-        ORA     C               ; bit 1: X direction
-        ANI     DMINUS
+        ADD     B
+        ADI     DCUTS+4
+        ANI     DCUTS+DMINUS
         MOV     B,A
         LDA     DSTATE
-        INR     A
         RRC
         ANI     DCUTS
-        ORA     B
-        STA     DBASE
+        XRA     B
+        MVI     L,DB1&255
+        MOV     M,A
+        MVI     L,DB2&255
+        MOV     M,A
         MOV     B,A
-        MOV     A,L
+        MOV     A,C
         RRC
-        MOV     L,A
         SBB     A
-        MOV     H,A
         ANI     DSTEPS
         XRI     DYSTEP          ; X on an arc, Y on a line
         ORA     B
-        STA     DU1
+        MVI     L,DU1&255
+        MOV     M,A
         XRI     DSTEPS
-        STA     DU2
-        MOV     A,H
-        ANI     2
-        STA     DINC
-        MOV     B,A
-        MOV     A,L
-        XRA     C
-        MOV     C,B
-        RRC
-        STA     DROLE
-        LXI     H,DR2
-        JC      DIRS2
-        MVI     L,DR1&255
-DIRS2:  MOV     A,C
-        ORA     A
+        MVI     L,DU2&255
+        MOV     M,A
+        MOV     A,C
+        ADD     A
+        ANI     2               ; (CY clear)
+        MOV     C,A             ; 2 on an arc, else 0
+        MVI     L,DROLE&255
+        MOV     L,M
         MVI     B,4
 DIRS3:  SBB     M
         MOV     M,A
-        INR     L
+        DCR     L
         MVI     A,0
         DCR     B
         JNZ     DIRS3
         RC
         ORA     C
         RZ                      ; a line along an axis
-        CALL    SDRI7           ; (no block is in hand; what DERR does of it again changes nothing)
+        LDA     DCOUNT+1
+        CMP     H
+        CZ      SDRI7           ; it is the block in hand: there is none (what DERR does of it again changes nothing)
 ; (fall into DERR)
 
 ; DERR - the line is none: that counts when the block in hand has been followed

@@ -23,8 +23,8 @@ PARTS = [part for part in sorted((ROOT / "examples").glob("*.skg")) if "fit-tol"
 CTRL_C = 3
 #: Limits of drive.md, in cycles.
 STEP_LIMIT = 300
-#: What a gap takes whose block has been read ahead.
-GAP_LIMIT = 2300
+#: What a gap takes whose block has been read ahead; 680 of it where an arc ends on an axis.
+GAP_LIMIT = 2100
 #: An example's longest route takes a minute of the board's time; what needs more hangs.
 PATIENCE = 2_000_000_000
 
