@@ -14,9 +14,13 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from math import floor
 
+# (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
+from skg.drawing import dxf_file, entities, svg
 from skg.drawing.account import Account, Content, counted, listed, short, shown
 from skg.drawing.chain import merged
 from skg.drawing.contour import Contour
+from skg.drawing.field import boxes_of
+from skg.drawing.selection import SMALL, Selection
 from skg.drawing.wishes import OPEN, UNITS, Wishes
 from skg.errors import UserError
 from skg.plane import XY, shifted
@@ -59,8 +63,6 @@ def read(data: bytes, name: str, wishes: Wishes | None = None, small: Collection
 
 
 def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Reading:
-    from skg.drawing.selection import SMALL, Selection
-
     content, report = _content(data, name, wishes)
     if not content.edges:
         raise UserError(_nothing(content, wishes))
@@ -118,8 +120,6 @@ def layer_lines(data: bytes, name: str) -> list[str]:
 
 def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """What a file holds, and an account that has its units."""
-    from skg.drawing import dxf_file, entities, svg
-
     if svg.is_svg(data, name):
         return _svg_content(data, name, wishes)
     file = dxf_file.load(data)
@@ -133,8 +133,6 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
 
 def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
-    from skg.drawing import svg
-
     page = svg.SvgFile(data)
     told, px = page.units, svg.PX
     units = (told[0], told[1], TOLD) if told else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
@@ -173,8 +171,6 @@ def _no_outline(report: Account) -> str:
 
 def _measure(contours: list[Contour], report: Account) -> None:
     """The box around the contours."""
-    from skg.drawing.field import boxes_of
-
     boxes, _ = boxes_of(contours)
     report.low, report.high = (tuple(place.tolist()) for place in (boxes[:, :2].min(0), boxes[:, 2:].max(0)))
 
