@@ -132,8 +132,8 @@ def test_twenty_thousand_elements(tmp_path: Path) -> None:
     blocks = tape.read_bytes().count(b"B") // 3
     assert blocks == 5001 * 7 + 5000
     # (6 s where nothing else runs, 12 where eight others do; contours that all looked at all others took 30 and 660 MB)
-    assert seconds < 18
-    assert kilobytes < 300_000
+    assert seconds < 16
+    assert kilobytes < 200_000
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,8 @@ from shapely.geometry import LineString, Point, Polygon
 
 from skg.cutting.near import Pieces
 from skg.drawing.contour import Contour, Edge
-from skg.drawing.field import Field, headings, nearest_order
+from skg.drawing.field import Field, boxes_of, headings, nearest_order
+from skg.drawing.touching import _near_others, lines_of
 from skg.piece import Piece
 from skg.plane import XY, polar
 
@@ -35,6 +36,37 @@ def thrown(seed: int, count: int) -> list[Contour]:
             found.append(ring([(float(u), float(v)) for u, v in corners[: rng.choice((3, 4))]]))
     zigzag = [(0.5 * k, 20.0 + k % 2) for k in range(91)]
     return [*found, Contour(tuple(Edge(p, q) for p, q in zip(zigzag, zigzag[1:], strict=False)), False)]
+
+
+def test_boxes() -> None:
+    """Of arcs from whole eighths of a circle to others, either way round, and of what is made of several."""
+    arcs = [
+        Edge(polar((3, -1), 2, first * pi / 4), polar((3, -1), 2, (first + turn) * pi / 4), (3, -1), turn * pi / 4)
+        for first in range(-3, 5)
+        for turn in (*range(-8, 0), *range(1, 9))
+    ]
+    contours = [*(Contour((arc,), False) for arc in arcs), *thrown(1, 20)]
+    around, boxes = boxes_of(contours)
+    edges = [edge for one in contours for edge in one.edges]
+    for box, some in (
+        *zip(boxes, ([edge] for edge in edges), strict=True),
+        *zip(around, (one.edges for one in contours), strict=True),
+    ):
+        x, y = zip(*(place for edge in some for place in edge.extremes()), strict=True)
+        assert box.tolist() == pytest.approx((min(x), min(y), max(x), max(y)), abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_contours_that_come_near(seed: int) -> None:
+    """None is passed over that lies within reach of another one, to the last bit; what lies by itself in a frame is."""
+    frame = ring([(-30, -30), (90, -30), (90, 90), (-30, 90)])
+    alone, one_of_two, other = (ring([(x, 60), (x + 1, 60), (x + 1, 61)]) for x in (60, 70, 71.4))
+    contours, reach = [frame, alone, one_of_two, other, *thrown(seed, 25)], 0.5
+    lines = lines_of(contours)
+    one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach)
+    near = set(one[one != other].tolist())
+    found = set(_near_others(contours, reach).tolist())
+    assert len(near) > 10 and {2, 3} <= near <= found and not found & {0, 1}
 
 
 @pytest.mark.parametrize("seed", range(3))
