@@ -124,22 +124,10 @@ class DxfFile:
 
 def load(data: bytes) -> DxfFile:
     """Read a DXF file's bytes, text or binary; what is none is a `UserError`."""
-    if data[:4] == b"AC10" and data[4:6].isdigit():
-        raise UserError("a DWG file, expected DXF: save it as DXF")
     found = DxfFile()
-    if data.startswith(_IS_BINARY) and not data.startswith(_BINARY):
-        raise UserError("a binary DXF drawing that was changed on its way, as by a transfer as text")
-    if data.startswith(_BINARY):
-        groups = _of_binary(data)
-    elif b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
-        found_kind = kind_of(data)
-        raise UserError(f"{found_kind}, expected a drawing" if found_kind else "not a DXF drawing, it has no SECTION")
-    else:
-        groups = _of_text(_decoded(data), found.notes)
     section = ""
-    records = _records(groups)
     block: Definition | None = None
-    for record in records:
+    for record in _records(_groups(data, found.notes)):
         kind = record.kind
         if kind == "SECTION":
             section, block = record.value(2).strip().upper(), None
@@ -148,28 +136,55 @@ def load(data: bytes) -> DxfFile:
                 found.is_imperial = _variable(record.groups, "$MEASUREMENT") == "0"
         elif kind in ("ENDSEC", "EOF"):
             section = ""
-        elif section == "TABLES" and kind == "LTYPE":
-            if record.whole(73):
-                found.dashed.add(record.value(2).strip().upper())
-        elif section == "TABLES" and kind == "LAYER":
-            _layer(found, record)
-        elif section == "OBJECTS" and kind == "MLINESTYLE":
-            found.multiline_styles[record.value(2).strip().upper()] = record
         elif section == "BLOCKS":
-            if kind == "BLOCK":
-                block = _block(record)
-                found.blocks[record.value(2).strip().lower()] = block
-            elif kind == "ENDBLK":
-                block = None
-            elif block is not None:
-                _add(block.records, record)
+            block = _of_blocks(found, block, record)
         elif section == "ENTITIES":
             _add(found.paper if record.whole(67) else found.model, record)
+        else:
+            _of_tables(found, section, record)
     found.dashed_layers = {name: kind for name, kind in found.dashed_layers.items() if kind in found.dashed}
     for name, block in found.blocks.items():
         if name.startswith(("*paper_space", "$paper_space")):
             found.paper += block.records
     return found
+
+
+def _groups(data: bytes, notes: list[str]) -> Iterator[Group]:
+    """A file's groups, told by its first bytes what kind it is; what is odd about it goes to `notes`."""
+    if data[:4] == b"AC10" and data[4:6].isdigit():
+        raise UserError("a DWG file, expected DXF: save it as DXF")
+    if data.startswith(_BINARY):
+        return _of_binary(data)
+    if data.startswith(_IS_BINARY):
+        raise UserError("a binary DXF drawing that was changed on its way, as by a transfer as text")
+    if b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
+        kind = kind_of(data)
+        raise UserError(f"{kind}, expected a drawing" if kind else "not a DXF drawing, it has no SECTION")
+    return _of_text(_decoded(data), notes)
+
+
+def _of_tables(found: DxfFile, section: str, record: Record) -> None:
+    """What tables and objects tell of how lines are drawn: line types, layers, styles of multilines."""
+    match section, record.kind:
+        case "TABLES", "LTYPE":
+            if record.whole(73):
+                found.dashed.add(record.value(2).strip().upper())
+        case "TABLES", "LAYER":
+            _layer(found, record)
+        case "OBJECTS", "MLINESTYLE":
+            found.multiline_styles[record.value(2).strip().upper()] = record
+
+
+def _of_blocks(found: DxfFile, block: Definition | None, record: Record) -> Definition | None:
+    """Take one record of the section of blocks; returns the block that is open behind it."""
+    if record.kind == "ENDBLK":
+        return None
+    if record.kind == "BLOCK":
+        block = _block(record)
+        found.blocks[record.value(2).strip().lower()] = block
+    elif block is not None:
+        _add(block.records, record)
+    return block
 
 
 def _add(records: list[Record], record: Record) -> None:
