@@ -373,3 +373,16 @@ def test_around_a_needle_s_tip_the_wire_may_be_far(run: Run, tmp_path: Path) -> 
     (places,), words = cut(run, page, tmp_path, "--offset", 0.1)
     assert apart(LineString(places[1:-1]), parallel(wanted, 0.1, "outside", "mitre")) < LIMIT
     assert min(places)[0] < -3.9
+
+
+def test_what_the_wire_stays_off_is_said_beside_other_lines(run: Run, tmp_path: Path) -> None:
+    """Six windows with no room for a lead along an arc, one with a narrow corner: that is not one of "more such"."""
+    page = drawing()
+    polygon([(-2, -2), (40, -2), (40, 10), (-2, 10)], page)
+    for x in range(0, 12, 2):
+        polygon([(x, 0), (x + 0.24, 0), (x + 0.24, 5), (x, 5)], page)
+    polygon([(20, 0), (27.95, 0), (27.95, 0.05), (28, 0.05), (28, 5), (20, 5)], page)
+    _, words = cut(run, page, tmp_path, "--offset", 0.1, "--lead-shape", "arc", "--lead", 1)
+    lines = [line for line in words.splitlines() if "more such" in line or "lead along" in line or "stays" in line]
+    assert sum("lead along an arc: it is straight" in line for line in lines) == 5
+    assert "more such contour" in lines[5] and lines[6].startswith("take care: contour ")

@@ -84,24 +84,31 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
 
 
 def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
-    """Contours that the wire cannot follow everywhere."""
-    lines = []
+    """Contours that the wire cannot follow everywhere: those that it stays off most first."""
+    straight, chords, off = [], [], []
     for at, route in enumerate(routes):
         if route.is_cramped:
-            lines.append(f"contour {at + 1} has no room for a lead along an arc: it is straight")
+            straight.append(f"contour {at + 1} has no room for a lead along an arc: it is straight")
         if not route.traced:
             continue
         if not any(route.passes):
-            lines.append(
+            chords.append(
                 f"contour {at + 1} is cut along chords: a controller would leave one of its arcs or curves too far"
             )
             continue
-        off, place = uncut(route.contour, route.traced[-1], route.passes[-1])
-        if off > LIMIT:
-            lines.append(
-                f"take care: contour {at + 1} has corners that are too narrow for the wire, as at "
-                f"{in_file(place, factor)}: it stays {short(off)} mm off"
-            )
+        far, place = uncut(route.contour, route.traced[-1], route.passes[-1])
+        if far > LIMIT:
+            off.append((far, at, in_file(place, factor)))
+    narrow = [
+        f"take care: contour {at + 1} has corners that are too narrow for the wire, as at {place}: "
+        f"it stays {short(far)} mm off"
+        for far, at, place in sorted(off, key=lambda one: -one[0])
+    ]
+    return [line for lines in (straight, chords, narrow) for line in _first(lines)]
+
+
+def _first(lines: list[str]) -> list[str]:
+    """The first lines of a kind, one for each contour, and how many more there are."""
     more = len(lines) - _PLACES
     return lines[:_PLACES] + [f"and {counted(more, 'more such contour')}"] * (more > 0)
 
