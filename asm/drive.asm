@@ -6,9 +6,9 @@
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
 ; read and its numbers are made while the steps of the line before it are: a character each time that DLOOP has
-; something else to see to.  At the line's end DLINE makes the rest of those steps, and sets its own block up.
+; something else to see to.  At the line's end DLINE makes the rest of those steps; its own block is ready by then.
 ;
-; What a block needs lies in a page, and there are two: one block is followed, the other one is read and made ready.
+; What a block needs lies in a page, and there are two: one block is followed while the next one is read and made ready.
 ; A step goes along one of two records of its page, one for each axis:
 ;
 ;       U       the port with this axis's pulse up
@@ -220,16 +220,16 @@ DPUSH:  LHLD    DPARS
 DNEXZ:  JNZ     DERR
 ; (fall into DNEXT)
 
-; DNEXT - DLINE comes back with the next character, one of so many from a first one on: that, less '0', and how
-;         many stand behind the call
+; DNEXT - DLINE comes back with the next character, one of so many from a first one on: that, and how many, stand
+;         behind the call
 ; In:  nothing on the stack but who called DPUSH   Out: A = character, counted from that first one, S and Z of it
 ; Clobbers all
 DNEXT:  POP     H
         SHLD    DPARS
         RET
 
-; DLINE - takes a line, character by character; at its end the block is in hand, and its first steps are made
-; In:  A = first character, less '0'   Out: ERR 10   Clobbers all
+; DLINE - takes a line, character by character; its block is in hand then, when the one before it has been followed
+; In:  A = first character   Out: ERR 10   Clobbers all
 DLINE:  SUI     CZERO
         RC                      ; between the lines
         CPI     CLTD-CZERO
