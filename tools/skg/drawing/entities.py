@@ -10,6 +10,7 @@ from math import pi, radians
 
 import ezdxf
 import numpy as np
+import shapely
 from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic
 from ezdxf.lldxf.const import DXFError
@@ -387,8 +388,11 @@ def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
     some = set(whole)
     begins = {edge.entity: edge.start for edge in content.edges if edge.entity in some}
     places = np.array([end for edge in content.edges if edge.start != edge.end for end in (edge.start, edge.end)])
-    ends = {at: np.hypot(*(places.reshape(-1, 2) - begin).T) <= tolerance for at, begin in begins.items()}
-    gone = {at for at, near in ends.items() if near.sum() >= 2}
+    tree = shapely.STRtree(shapely.points(places.reshape(-1, 2)))
+    arcs = np.array(list(begins))
+    at = shapely.points(np.array(list(begins.values())).reshape(-1, 2))
+    near = tree.query(at, predicate="dwithin", distance=tolerance)[0]
+    gone = set(arcs[np.bincount(near, minlength=len(arcs)) >= 2].tolist())
     for at in gone:
         content.entities[at].left = "it ends where it begins, between two other lines"
     content.edges = [edge for edge in content.edges if edge.entity not in gone]
