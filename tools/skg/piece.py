@@ -7,7 +7,7 @@ reference has segments of its own, with 50 digits.)
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import atan2, ceil, copysign, pi
+from math import acos, atan2, ceil, copysign, pi
 
 from skg.plane import XY, distance, dot, minus, polar
 
@@ -91,3 +91,13 @@ class Piece:
     def reversed(self) -> Piece:
         """The same piece, run through backwards."""
         return replace(self, start=self.end, end=self.start, sweep=-self.sweep)
+
+    def parted(self, pieces: int) -> list[XY]:
+        """The places that part it into equal pieces, both ends included."""
+        return [self.start, *(self.at(k / pieces) for k in range(1, pieces)), self.end]
+
+
+def chords_of(radius: float, sweep: float, off: float, coarsest: float = 0.5) -> int:
+    """How many chords stand for an arc (its sweep in radians) and leave it by no more than `off`, in the unit of the
+    radius: two at least, and none whose half angle has a cosine below `coarsest`."""
+    return max(2, ceil(abs(sweep) / (2 * acos(max(coarsest, 1 - off / radius)))))

@@ -20,11 +20,12 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from math import acos, asin, atan2, ceil, copysign, hypot, pi
+from math import asin, atan2, copysign, hypot, pi
 
 import numpy as np
 
 from skg.drawing.contour import Contour, CurveNode, Edge
+from skg.piece import chords_of
 from skg.plane import XY, distance, dot, minus, turn
 
 #: Shorter edges of one polyline (mm) go into their neighbour: the ROM takes such places for one.
@@ -116,8 +117,8 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
     pieces = max(3, int(abs(edge.sweep) / 0.5) + 1)
     nodes = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
     nodes[0], nodes[-1] = CurveNode(start, nodes[0].angle), CurveNode(end, nodes[-1].angle)
-    fine = max(pieces, ceil(abs(edge.sweep) / 2 / acos(max(0.5, 1 - _CHORD / edge.radius))))
-    samples = [start, *(edge.at(k / fine) for k in range(1, fine)), end]
+    fine = max(pieces, chords_of(edge.radius, edge.sweep, _CHORD))
+    samples = [start, *edge.parted(fine)[1:-1], end]
     return Edge(start, end, nodes=tuple(nodes), samples=np.array(samples), entity=edge.entity)
 
 

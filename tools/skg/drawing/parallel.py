@@ -11,13 +11,14 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import acos, atan2, ceil, cos, floor, hypot, pi, sin, sqrt
+from math import atan2, cos, floor, hypot, pi, sin, sqrt
 
 import numpy as np
 import shapely
 
 from skg.drawing.contour import Contour, Edge, part_of
 from skg.drawing.curve import biarc_joint
+from skg.piece import chords_of
 from skg.plane import XY, cross, distance, dot, minus, polar, turn
 
 #: Chords that stand for arcs while the edges are looked for are this near, mm.
@@ -229,9 +230,7 @@ def _chords(edge: Edge) -> list[XY]:
     """Places along an edge, the last one left out."""
     if edge.centre is None:
         return [edge.start]
-    step = 2 * acos(max(0.9, 1 - _CHORD / edge.radius))
-    pieces = max(2, ceil(abs(edge.sweep) / step))
-    return [edge.start, *(edge.at(k / pieces) for k in range(1, pieces))]
+    return edge.parted(chords_of(edge.radius, edge.sweep, _CHORD, 0.9))[:-1]
 
 
 def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, XY]]:

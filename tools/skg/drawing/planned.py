@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from math import acos, ceil, cos, inf, pi, sin
+from math import cos, inf, pi, sin
 
 import numpy as np
 import shapely
 
 from skg.drawing.contour import Contour, Edge, part_of
 from skg.drawing.parallel import part_between, roomy_place, wire_way
+from skg.piece import chords_of
 from skg.plane import XY, distance, minus, polar, turn
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
@@ -201,8 +202,7 @@ def _chords(edge: Edge) -> list[Edge]:
     if edge.nodes:
         line = shapely.LineString(edge.samples).simplify(_FLAT)
         return [Edge(start, end, entity=edge.entity) for start, end in pairwise(line.coords)]
-    pieces = max(2, ceil(abs(edge.sweep) / (2 * acos(max(0.5, 1 - _FLAT / edge.radius)))))
-    places = [edge.start, *(edge.at(k / pieces) for k in range(1, pieces)), edge.end]
+    places = edge.parted(chords_of(edge.radius, edge.sweep, _FLAT))
     return [Edge(start, end, entity=edge.entity) for start, end in pairwise(places)]
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from math import acos, ceil
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from skg.drawing.contour import Contour
 from skg.drawing.field import Floats, Whole, boxes_of, rows_of
+from skg.piece import chords_of
 from skg.plane import XY
 
 #: The chords that stand for an arc here leave it by no more than this, mm.
@@ -105,7 +105,7 @@ def lines_of(contours: list[Contour]) -> NDArray[Any]:
     edges = [edge for contour in contours for edge in contour.edges]
     rows = rows_of(edges)
     arcs = np.flatnonzero(rows[:, 8])
-    chords = np.array([_chords(radius, sweep) for *_, radius, _, sweep in rows[arcs].tolist()], np.int64)
+    chords = np.array([chords_of(radius, sweep, _CHORD) for *_, radius, _, sweep in rows[arcs].tolist()], np.int64)
     counts = np.array([len(edge.samples) or 2 for edge in edges], np.int64)
     counts[arcs] = chords + 1
     first = np.cumsum(counts) - counts
@@ -122,11 +122,6 @@ def lines_of(contours: list[Contour]) -> NDArray[Any]:
             found[first[at] : first[at] + counts[at]] = edge.samples
     owners = np.repeat(np.arange(len(contours)), [len(contour.edges) for contour in contours])
     return shapely.linestrings(found, indices=np.repeat(owners, counts))
-
-
-def _chords(radius: float, sweep: float) -> int:
-    """How many chords stand for an arc."""
-    return max(2, ceil(abs(sweep) / (2 * acos(max(0.5, 1 - _CHORD / radius)))))
 
 
 def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
