@@ -1,7 +1,7 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
 ; Uses:   cut decimal io io_6850 io_port io_punch monitor reset start tape value
-; Room:   706 bytes
+; Room:   698 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
