@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cached_property
 from itertools import chain, pairwise
 from math import cos, hypot, sin
 
@@ -229,59 +229,74 @@ class _WirePath:
         return (found - piece.block.start + piece.start) / 1000
 
 
+class _Wanted:
+    """Where the wire of each route should be: beside its contour by one of its R, or on a way from or to a hole."""
+
+    def __init__(self, contours: Pieces, routes: list[PlannedContour], offsets: Floats) -> None:
+        self.contours = contours
+        self.routes = routes
+        #: How far beside its contour, in each of its passes.
+        self.aside = np.abs(offsets)
+        self.is_open = np.array([not route.contour.is_closed for route in routes])
+
+    @cached_property
+    def leads(self) -> Pieces:
+        """The ways between start holes and contours."""
+        return Pieces((piece, at) for at, route in enumerate(self.routes) for piece in _lead_pieces(route))
+
+    def off_leads(self, places: Floats, owners: Whole) -> Floats:
+        """How far places are from the ways of their routes."""
+        return self.leads.nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
+
+    def off_by(self, places: Floats, owners: Whole, near: Nearest) -> tuple[Floats, np.ndarray]:
+        """How far places are from where they should be, and which run into their own contour."""
+        aside = self.aside[owners]
+        off = np.abs(near.own[:, None] - aside).min(1)
+        into = near.own < aside.min(1) - LIMIT
+        # The wire of an open contour begins on it and goes aside.
+        begins = np.flatnonzero(into & self.is_open[owners])
+        into[begins] = self.off_leads(places[begins], owners[begins]) > LIMIT
+        doubtful = np.flatnonzero((off > _USUAL) & ~into)
+        off[doubtful] = np.minimum(off[doubtful], self.off_leads(places[doubtful], owners[doubtful]))
+        doubtful = doubtful[off[doubtful] > _USUAL]
+        corners = _off_corners(
+            places[doubtful], owners[doubtful], self.contours, aside[doubtful], near.own_at[doubtful]
+        )
+        off[doubtful] = np.minimum(off[doubtful], corners)
+        return off, into
+
+    def off_steps(self, steps: Floats, owner: int, widest: float) -> float:
+        """How far the controller's steps on a piece of a route's wire are from where they should be, at most."""
+        owners = np.full(len(steps), owner)
+        return float(self.off_by(steps, owners, self.contours.nearest(steps, owners, widest + 2 * LIMIT))[0].max())
+
+
 def _beside(
     path: _WirePath, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
 ) -> tuple[list[Misfit], list[Crossing], float]:
     """Whether every place of the wire lies as far beside its contour as it should."""
     wire = path.pieces
+    wanted = _Wanted(contours, routes, offsets)
     faults: dict[int, Misfit] = {}
     near_others: list[tuple[Whole, Whole]] = []
     worst = 0.0
-    is_open = np.array([not route.contour.is_closed for route in routes])
-    least = np.abs(offsets).min(1)
+    is_open = wanted.is_open
+    least = wanted.aside.min(1)
     # What is cut on its line takes as much away on each side as the wire beside the other contours.
     is_on = is_open & (least == 0)
     least[is_on] = least.max()
-
-    @cache
-    def leads() -> Pieces:
-        """The ways between start holes and contours."""
-        return Pieces((piece, at) for at, route in enumerate(routes) for piece in _lead_pieces(route))
-
-    def off_leads(places: Floats, owners: Whole) -> Floats:
-        """How far places are from the ways of their routes."""
-        return leads().nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
-
-    def off_by(places: Floats, owners: Whole, wanted: Floats, near: Nearest) -> tuple[Floats, Floats]:
-        """How far places are from where they should be, and which run into their own contour."""
-        off = np.abs(near.own[:, None] - wanted).min(1)
-        into = near.own < wanted.min(1) - LIMIT
-        # The wire of an open contour begins on it and goes aside.
-        begins = np.flatnonzero(into & is_open[owners])
-        into[begins] = off_leads(places[begins], owners[begins]) > LIMIT
-        doubtful = np.flatnonzero((off > _USUAL) & ~into)
-        off[doubtful] = np.minimum(off[doubtful], off_leads(places[doubtful], owners[doubtful]))
-        doubtful = doubtful[off[doubtful] > _USUAL]
-        corners = _off_corners(places[doubtful], owners[doubtful], contours, wanted[doubtful], near.own_at[doubtful])
-        off[doubtful] = np.minimum(off[doubtful], corners)
-        return off, into
-
     spacing = _spacing(wire, widest)
     # Between two places the wire may be as much nearer to a corner.
     slack = hypot(widest, spacing / 2) - widest + LIMIT if widest else 0.0
     for which, part in wire.batches(spacing, 2):
         places, owners = wire.at(which, part), wire.owner[which]
-        wanted = np.abs(offsets)[owners]
         near = contours.nearest(places, owners, widest + slack + 2 * LIMIT)
-        off, into = off_by(places, owners, wanted, near)
+        off, into = wanted.off_by(places, owners, near)
         total = off + path.aside[which]
         for at in np.unique(which[path.doubtful(off, total)]).tolist():
-            steps = path.steps(at)
-            owner = np.full(len(steps), wire.owner[at])
-            looked = contours.nearest(steps, owner, widest + 2 * LIMIT)
-            total[which == at] = off_by(steps, owner, np.abs(offsets)[owner], looked)[0].max()
+            total[which == at] = wanted.off_steps(path.steps(at), wire.owner[at], widest)
         for owner, at in _first_of_each(owners, (total > LIMIT) | into):
-            misses = abs(wanted[at].min() - near.own[at]) if into[at] else total[at]
+            misses = abs(wanted.aside[owner].min() - near.own[at]) if into[at] else total[at]
             faults.setdefault(owner, Misfit(owner, _xy(places[at]), float(misses), bool(into[at])))
         close = np.flatnonzero(near.other < least[owners] + slack)
         near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
