@@ -17,7 +17,8 @@ from typing import NamedTuple
 from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
-from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one, several
+from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
+from skg.tape.gcode_tool import TURNS, Idle, Tool
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
@@ -81,52 +82,17 @@ _VALUES = _PLACES + "F"
 _DWELL, _NO_MOTION = Decimal(4), Decimal(80)
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 _HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
-#: What turns a beam (or spindle) off, for people, and the M words that turn it on and off: those of controls; those of
-#: a fan's output and of any pin, to which small lasers are connected on boards for printers.
-_BEAM, _FAN, _PIN = "M5 or S0", "M107 or S0", "M42 S0"
-_SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set())}
-_TURNS = set.union(*_SWITCHES[_BEAM])
-#: An S in a line with an M word that is none of these is that word's.
-_PLAIN = {*range(10), 30, 48, 49}
-#: M words that turn a servo, to a place that is their S.
-_SERVOS = {280, 300}
-#: A pen's two S, both not 0, are told from two powers of a laser by how often they change.
-_CHANGES = 3
 _KNOWN = "G00…G03, G17, G20, G21, G40, G90, G91, G92 or one that does not move"
 #: µm in a number of each unit; None: by the decimal point.
 _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
 
 
-@dataclass(frozen=True)
-class _Idle:
-    """Where G1 to G3 do not cut: while the beam that is switched by `beam` (one of `_SWITCHES`, empty: none) is off;
-    at the height `above` (µm) and over it (None: nowhere)."""
-
-    beam: str = ""
-    above: Decimal | None = None
-
-
 class _Reader:
     """State of a program that is being read; places and heights in µm. What it does goes to `path`, if there is one."""
 
-    def __init__(self, idle: _Idle, path: GcodePath | None) -> None:
-        self.idle, self.path = idle, path
+    def __init__(self, idle: Idle, path: GcodePath | None) -> None:
+        self.tool, self.path = Tool(idle), path
         self.line = 0
-        # Beam or spindle: its S; by what turns it: in which line first, whether it is on, how many moves found it off.
-        self.power: Decimal | None = None
-        self.turned_on: dict[str, int] = {}
-        self.is_on = dict.fromkeys(_SWITCHES, False)
-        self.dark = dict.fromkeys(_SWITCHES, 0)
-        # What may lift a pen: the S of a servo's M word, or else that of M3 and M4; how often it changes between moves.
-        self.servo: tuple[Decimal, Decimal] | None = None
-        self.lifts: dict[tuple[Decimal, Decimal | None], None] = {}
-        self.lift: tuple[Decimal, Decimal | None] | None = None
-        self.lift_changes = 0
-        # Moves with G1 to G3, those that do not cut; their heights, how often these change, and those of the rapids.
-        self.feeds = self.idled = self.feed_changes = 0
-        self.feed_height: Decimal | None = None
-        self.feed_heights: set[Decimal] = set()
-        self.rapid_heights: set[Decimal] = set()
         self.at = Decimal(0), Decimal(0)
         self.height: Decimal | None = None
         # (heights that begin with a relative one are from an unknown place)
@@ -198,7 +164,7 @@ class _Reader:
                 codes.append(word.number)
                 is_origin |= self.preparatory(word)
             elif letter == "M":
-                if word.number in _TURNS and _TURNS.intersection(turns):
+                if word.number in TURNS and TURNS.intersection(turns):
                     raise _Misread(word.column, f"M{turns[0]:f} and M{word.number:f} in one line")
                 turns.append(word.number)
                 stop |= self.miscellaneous(word)
@@ -207,7 +173,7 @@ class _Reader:
             elif letter != "N" and letter not in _SILENT:
                 raise _Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
         if turns or power is not None:
-            self.turn(turns, power, _DWELL in codes)
+            self.tool.turn(self.line, turns, power, _DWELL in codes)
         if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
             self.motion = None
         feed = values.pop("F", None)
@@ -232,42 +198,6 @@ class _Reader:
         self.begun = True
         if self.path is not None:
             self.path.mark(mark)
-
-    def turn(self, codes: list[Decimal], power: Decimal | None, dwells: bool) -> None:
-        """Beam on or off, as the M words of a line and its S say; it counts for the move in this line, too."""
-        for name, (on, off) in _SWITCHES.items():
-            for code in (on | off).intersection(codes):
-                self.is_on[name] = code in on and (name == _BEAM or power != 0)
-        for name in filter(self.is_on.get, self.is_on):
-            self.turned_on.setdefault(name, self.line)
-        for code in _SERVOS.intersection(codes):
-            if power is not None:
-                self.servo = Decimal(code), power
-        if power is not None and not dwells and _PLAIN.issuperset(codes):
-            self.power = power
-
-    def is_idle(self, height: Decimal | None) -> bool:
-        """Whether a move with G1 to G3, no lower than `height`, does not cut; counts it."""
-        self.feeds += 1
-        for name in _SWITCHES:
-            self.dark[name] += self.is_dark(name)
-        lift = self.servo or (Decimal(3), self.power)
-        if lift != self.lift:
-            self.lift_changes += self.lift is not None
-            self.lift = lift
-            self.lifts[lift] = None
-        if height is not None:
-            self.feed_changes += self.feed_height not in (None, height)
-            self.feed_height = height
-            self.feed_heights.add(height)
-        is_dark = bool(self.idle.beam) and self.is_dark(self.idle.beam)
-        is_up = self.idle.above is not None and height is not None and height >= self.idle.above
-        self.idled += is_dark or is_up
-        return is_dark or is_up
-
-    def is_dark(self, beam: str) -> bool:
-        """Whether a beam is off."""
-        return not self.is_on[beam] or (beam == _BEAM and self.power == 0)
 
     def name_place(self, values: dict[str, _Word]) -> None:
         """G92: the tool's place has these coordinates; what is not named keeps its own."""
@@ -361,8 +291,8 @@ class _Reader:
         moves = start != end or self.motion >= 2
         lowest = (self.height if before is None else min(before, self.height)) if self.knows_height else None
         if moves and lowest is not None and not feeds:
-            self.rapid_heights.add(lowest)
-        cuts = feeds and not (moves and self.is_idle(lowest))
+            self.tool.rapid_heights.add(lowest)
+        cuts = feeds and not (moves and self.tool.is_idle(lowest))
         if lowest is not None and (moves or not feeds):
             (self.depths if cuts else self.travels)[lowest if cuts else self.height] = None
         if self.motion < 2:
@@ -445,46 +375,12 @@ class _Reader:
         if self.path is not None:
             self.path.lay(block, self.blocks, start, end, not cuts)
 
-    def where_idle(self) -> _Idle:
-        """Where G1 to G3 do not cut in a program that has been read through.
-
-        A beam that some of them find on and others off. The height of the rapids, when all other heights are lower;
-        without rapids in the plane the upper one of two heights, above 0, when it goes up and down between them.
-        """
-        beam = next((name for name in self.is_on if name in self.turned_on), "")
-        rapids = self.rapid_heights
-        if not rapids and not beam and len(self.feed_heights) == 2 and self.feed_changes > 1:
-            rapids = {height for height in (max(self.feed_heights),) if height > 0}
-        above = max(rapids, default=None)
-        lower = {height for height in self.feed_heights if above is not None and height < above}
-        is_up = lower and len(lower) < len(self.feed_heights) and max(lower) < min(rapids)
-        return _Idle(beam if beam and 0 < self.dark[beam] < self.feeds else "", above if is_up else None)
-
-    def said_of_idle(self) -> tuple[str, ...]:
-        """What there is to say of moves with G1 to G3 that do not cut."""
-        up = "" if self.idle.above is None else f"the tool is up, {several([self.idle.above])}"
-        why = " or ".join(filter(None, [self.idle.beam and f"the beam is off ({self.idle.beam})", up]))
-        said = f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}" if self.idled else ""
-        return tuple(filter(None, [said, self._said_of_pen()]))
-
-    def _said_of_pen(self) -> str:
-        """That there may be a pen, of which nobody knows when it is up."""
-        # (in a program with a servo the S of M3 lifts nothing)
-        turns = [lift for lift in self.lifts if lift[1] is not None and (self.servo is None or lift[0] in _SERVOS)]
-        if len(turns) != 2 or self.lift_changes < (1 if self.servo else _CHANGES):
-            return ""
-        (code, one), (_, other) = turns
-        if not self.servo and not (one and other):
-            return ""
-        said = f"moves with G1 to G3 have S{one:f} and S{other:f} of M{code:f}"
-        return f"{said}: if one of them lifts a pen, it is not known which: all are taken for cuts"
-
 
 def _rounded(place: tuple[Decimal, ...]) -> Spot:
     return rounded_one(place[0]), rounded_one(place[1])
 
 
-def _read_through(text: str, idle: _Idle, keeps: bool) -> _Reader:
+def _read_through(text: str, idle: Idle, keeps: bool) -> _Reader:
     """Read a program; what cannot be read is left out. Unless `keeps`, nothing of what it does is kept."""
     reader = _Reader(idle, GcodePath() if keeps else None)
     for line in text.splitlines():
@@ -497,21 +393,20 @@ def _read_through(text: str, idle: _Idle, keeps: bool) -> _Reader:
 
 def _read_all(text: str, keeps: bool) -> _Reader:
     """The same, where it is known what does not cut; and what is wrong with the program as a whole."""
-    reader = _read_through(text, _Idle(), keeps)
+    reader = _read_through(text, Idle(), keeps)
     # (what does not cut is known when all has been read; mostly there is nothing)
-    idle = reader.where_idle()
-    if idle != _Idle():
+    idle = reader.tool.idle_in_all()
+    if idle != Idle():
         again = _read_through(text, idle, keeps)
-        if again.idled < again.feeds:
+        if again.tool.idled < again.tool.feeds:
             reader = again
-    for beam, line in reader.turned_on.items():
-        if 0 < reader.dark[beam] == reader.feeds:
-            said = f"each G1 finds the beam off ({beam}), as if nothing were cut: taken for cuts all the same"
-            reader.findings.append(GcodeFinding(line, 1, said, is_fatal=False, is_guess=True))
+    for beam, line in reader.tool.always_off.items():
+        said = f"each G1 finds the beam off ({beam}), as if nothing were cut: taken for cuts all the same"
+        reader.findings.append(GcodeFinding(line, 1, said, is_fatal=False, is_guess=True))
     if not reader.ended:
         # (with nothing in front of it, it is no program)
         missing = "expected M02 or M30, found the end of the program"
-        if any(reader.is_on.values()):
+        if any(reader.tool.is_on.values()):
             missing += ", with beam or spindle on"
         is_program = reader.begun
         reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not is_program, is_guess=is_program))
@@ -521,7 +416,7 @@ def _read_all(text: str, keeps: bool) -> _Reader:
 def look(text: str) -> tuple[list[GcodeFinding], tuple[str, ...]]:
     """Everything that is wrong with a program, and its notes, as `GcodeProgram` has them."""
     reader = _read_all(text, keeps=False)
-    return reader.findings, reader.said_of_idle()
+    return reader.findings, reader.tool.notes()
 
 
 def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
@@ -529,7 +424,7 @@ def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
     reader = _read_all(text, keeps=True)
     guesses = tuple(str(finding) for finding in reader.findings if finding.is_guess)
     program = GcodeProgram(
-        name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.said_of_idle()
+        name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.tool.notes()
     )
     return program, reader.findings
 
