@@ -312,13 +312,39 @@ def test_everyone_who_is_cut_into_is_named(run: Run, tmp_path: Path) -> None:
     for at in range(4):
         polygon([(4.15 * at, 0), (4.15 * at + 4, 0), (4.15 * at + 4, 9), (4.15 * at, 9)], page)
     polygon([(2.013, 9.196), (3, 12), (1, 12)], page)
-    told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--lead", 0.5).stderr
+    words = ["cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--lead", 0.5]
+    refused = run_failing(run, *words)
+    assert re.search(
+        r"contour \d \(outline from \(\S+, \S+\), layer 0\): its wire would come 0.1 mm or more into contour \d "
+        r"\(outline from \(\S+, \S+\), layer 0\) at \(\S+, \S+\); 7 more cuts into other contours: .* --into cut$",
+        refused.strip(),
+    ), refused
+    told = run(*words, "--into", "cut").stderr
     pairs = re.findall(r"(?:contour |, |: )(\d) (?:comes \S+ mm(?: or more)? )?into (?:contour )?(\d)", told)
     numbers = {place: str(at) for at, place in enumerate(_bottoms(told), 1)}
     strips = [numbers[at] for at in range(4)]
     neighbours = {frozenset(two) for two in pairwise(strips)} | {frozenset((strips[0], numbers[4]))}
     assert {frozenset(two) for two in pairs} == neighbours and len(pairs) == 8, told
     assert "comes 0.004 mm into" in told and told.count("comes 0.05 mm into") == 3
+
+
+@pytest.mark.parametrize("window", [[(15, 5), (25, 5), (25, 8), (15, 8)], [(15, 5), (20, 5), (20, 8), (15, 8)]])
+def test_edges_that_are_cut_away_are_not_spoiled(run: Run, tmp_path: Path, window: list[XY]) -> None:
+    """A window that reaches to the edge of the part, or past it, and into another one; then a part stands before it."""
+    page = drawing()
+    part = polygon([(0, 0), (20, 0), (20, 15), (0, 15)], page)
+    part -= polygon(window, page) | polygon([(12, 4), (16, 4), (16, 6), (12, 6)], page)
+    words = ["cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--program", tmp_path / "part.skg"]
+    told = run(*words, "--offset", 0.2).stderr
+    assert "2 openings, 1 outline" in told and "take care: the cut" not in told, told
+    start = re.search(r"FROM \((\S+),(\S+)\)", (tmp_path / "part.skg").read_text())
+    ways = list(stretches((tmp_path / "part.3b").read_bytes(), (float(start[1]), float(start[2]))))
+    assert len(ways) == 3
+    for way in ways:
+        assert LineString(way).distance(part) == pytest.approx(0.2, abs=LIMIT)
+    polygon([(20.1, 7), (23, 7), (23, 10), (20.1, 10)], page)
+    saved(page, tmp_path)
+    assert "its wire would come 0.2 mm or more into contour" in run_failing(run, *words, "--offset", 0.2)
 
 
 def _bottoms(told: str) -> list[int]:

@@ -86,6 +86,14 @@ class Passes(click.ParamType):
     "the tab.",
 )
 @click.option(
+    "--into",
+    default="refuse",
+    show_default=True,
+    type=click.Choice(("refuse", "cut")),
+    help="What becomes of closed contours whose wire would come into another one, since they cross or lie too near to "
+    "each other.",
+)
+@click.option(
     "--rom",
     default="no-drift",
     show_default=True,
@@ -122,6 +130,7 @@ def command(
     passes: tuple[float, ...] | None,
     tab: float,
     small: str,
+    into: str,
     tolerance: float,
     rom: str,
     ram: int,
@@ -143,7 +152,7 @@ def command(
     data = read_bytes(file)
     reading = read(data, file, wishes)
     factor = reading.report.factor
-    settings = Settings(rom, ram, feed, small)
+    settings = Settings(rom, ram, feed, small, into)
     try:
         routes = plan(
             reading.contours,

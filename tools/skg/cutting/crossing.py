@@ -1,4 +1,8 @@
-"""Where the wire of one contour cuts into another one, and how deep: measured between the pieces (shapely)."""
+"""Where the wire of one contour cuts into another one, and how deep: measured between the pieces (shapely).
+
+What is spoiled is an edge that the finished part has. Where a window reaches past the edge of its part, or into another
+window, that edge is cut away, whatever the wire does there.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +11,19 @@ from math import acos
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from skg.cutting.near import Floats, Pieces, Whole, spread
 from skg.plane import XY
+from skg.tape.columns import Flags
+
+Shapes = NDArray[np.object_]
 
 #: The chords that stand for an arc leave it by no more than this, mm.
 _CHORD = 2e-4
+#: Contours cross when each has more than this inside the other one and outside; what is this near to a window's edge is
+#: on it, mm.
+_HAIR = 1e-3
 
 
 @dataclass(frozen=True)
@@ -28,32 +39,65 @@ class Crossing:
 
 
 def crossings(
-    wire: Pieces, some: Whole, contours: Pieces, others: Whole, least: Floats, limit: float
+    wire: Pieces, some: Whole, contours: Pieces, others: Whole, least: Floats, limit: float, inner: Flags, outer: Flags
 ) -> list[Crossing]:
     """Return who cuts by more than `limit` into whom, each pair of routes once.
 
     `some`: the pieces of the wire that come near, `others`: the owners of the contours that they come near to.
-    `least`: how far the wire of each route must stay off what is not its own, mm.
+    `least`: how far the wire of each route must stay off what is not its own, mm. `inner`, `outer`: on which side of
+    each route's contour its wire runs; on neither of an open one.
     """
+    lines = _lines(wire, some)
+
+    def deep(near: Whole, there: Shapes) -> list[Crossing]:
+        one, other = shapely.STRtree(there).query(lines, predicate="dwithin", distance=float(least.max(initial=0.0)))
+        routes, owners = wire.owner[some[one]], contours.owner[near[other]]
+        far = shapely.distance(lines[one], there[other])
+        depth = least[routes] - far
+        deep = np.flatnonzero((routes != owners) & (depth > limit))
+        # The deepest of each pair comes first.
+        deep = deep[np.lexsort((-depth[deep], owners[deep], routes[deep]))]
+        _, first = np.unique(np.stack((routes[deep], owners[deep])), axis=1, return_index=True)
+        found = []
+        for at in deep[np.sort(first)].tolist():
+            x, y = shapely.get_coordinates(shapely.shortest_line(lines[one[at]], there[other[at]]))[1].tolist()
+            found.append(Crossing(int(routes[at]), int(owners[at]), (x, y), float(depth[at]), bool(far[at] == 0)))
+        return found
+
     near = np.flatnonzero(np.isin(contours.owner, others))
-    lines, there = _lines(wire, some), _lines(contours, near)
-    reach = float(least.max(initial=0.0))
-    one, other = shapely.STRtree(there).query(lines, predicate="dwithin", distance=reach)
-    routes, owners = wire.owner[some[one]], contours.owner[near[other]]
-    far = shapely.distance(lines[one], there[other])
-    depth = least[routes] - far
-    deep = np.flatnonzero((routes != owners) & (depth > limit))
-    # The deepest of each pair comes first.
-    deep = deep[np.lexsort((-depth[deep], owners[deep], routes[deep]))]
-    _, first = np.unique(np.stack((routes[deep], owners[deep])), axis=1, return_index=True)
-    found = []
-    for at in deep[np.sort(first)].tolist():
-        x, y = shapely.get_coordinates(shapely.shortest_line(lines[one[at]], there[other[at]]))[1].tolist()
-        found.append(Crossing(int(routes[at]), int(owners[at]), (x, y), float(depth[at]), bool(far[at] == 0)))
+    there = _lines(contours, near)
+    found = deep(near, there)
+    if not found:
+        return found
+    # (behind an edge that is cut away there may be one that is not)
+    near = np.arange(len(contours.owner))
+    there = _lines(contours, near)
+    return deep(near, there) if _cut_away(there, contours.owner, inner, outer) else found
+
+
+def _cut_away(lines: Shapes, owners: Whole, inner: Flags, outer: Flags) -> bool:
+    """Take what other contours cut away from the edges of contours, which are lines in their order; False: nothing."""
+    closed = [owner for owner in np.unique(owners).tolist() if inner[owner] or outer[owner]]
+    pieces = {owner: slice(*np.searchsorted(owners, (owner, owner + 1))) for owner in closed}
+    rings = np.array([shapely.LinearRing(shapely.get_coordinates(lines[pieces[owner]])) for owner in closed])
+    areas = [shapely.make_valid(shapely.Polygon(ring)) for ring in rings]
+    one, other = shapely.STRtree(rings).query(rings, predicate="intersects")
+    found = False
+    for a, b in zip(one.tolist(), other.tolist(), strict=True):
+        mine, its = closed[a], closed[b]
+        is_hole = inner[its]
+        if a == b or not (is_hole or inner[mine]):
+            continue
+        area = areas[b].buffer(_HAIR, join_style="mitre") if is_hole else areas[b]
+        left, within = shapely.difference(rings[a], area), shapely.intersection(rings[a], area)
+        if left.length > _HAIR and within.length > _HAIR:
+            some = pieces[mine]
+            lines[some] = (shapely.difference if is_hole else shapely.intersection)(lines[some], area)
+            found = True
     return found
 
 
-def _lines(pieces: Pieces, which: Whole) -> np.ndarray:
+def _lines(pieces: Pieces, which: Whole) -> Shapes:
     """Pieces as chords."""
     spaces = np.ones(len(which), np.int64)
     arcs = np.flatnonzero(pieces.is_arc[which])

@@ -8,6 +8,7 @@ from itertools import tee
 from math import floor, inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, check
+from skg.cutting.crossing import Crossing
 from skg.drawing.account import counted, short, shown
 from skg.drawing.entry import longest_tab
 from skg.drawing.parallel import NoRoom, widest
@@ -41,12 +42,14 @@ _MANY = 2000
 @dataclass(frozen=True)
 class Settings:
     """The board: its ROM ("no-drift", "standard") and RAM (KiB); the feed, mm/min; `small`: whether to "refuse" or to
-    "leave" contours that the wire has no room beside, empty where nobody is asked."""
+    "leave" contours that the wire has no room beside; `into`: whether to "refuse" or to "cut" those whose wire comes
+    into another closed contour. Both are empty where nobody is asked."""
 
     rom: str = "no-drift"
     ram_kib: int = 8
     feed: float = 5.0
     small: str = ""
+    into: str = ""
 
     @property
     def is_without_drift(self) -> bool:
@@ -348,6 +351,29 @@ def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, setti
                 f"{_named(route, cut.route, factor)}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
                 "controller"
             )
+    spoilt = [one for one in checked.crossings if all(routes[at].contour.is_closed for at in (one.route, one.other))]
+    if spoilt and settings.into != "cut":
+        raise UserError(_spoilt(spoilt, routes, factor, settings))
+
+
+def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float, settings: Settings) -> str:
+    """What to say of contours whose wire comes into others: of the one that comes deepest."""
+    worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
+    message = (
+        f"{_named(routes[worst.route], worst.route, factor)}: its wire would come {into(worst)} "
+        f"{_named(routes[worst.other], worst.other, factor)} at {in_file(worst.place, factor)}"
+    )
+    if len(spoilt) > 1:
+        message += f"; {counted(len(spoilt) - 1, 'more cut')} into other contours"
+    return (
+        f"{message}: these cross, or lie nearer to each other than the wire is wide; move them apart, take a thinner "
+        f"wire or some of the layers{', or cut them all the same with --into cut' * bool(settings.into)}"
+    )
+
+
+def into(crossing: Crossing) -> str:
+    """How deep a wire comes into another contour."""
+    return f"{short(crossing.depth)} mm{' or more' * crossing.is_through} into"
 
 
 def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Settings) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from skg.cutting.check import LIMIT, Threading
-from skg.cutting.job import Job, in_file, kind
+from skg.cutting.job import Job, in_file, into, kind
 from skg.drawing.account import counted, short
 from skg.drawing.parallel import uncut
 from skg.drawing.planned import PlannedContour
@@ -47,9 +47,8 @@ def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
     lines += _corners(routes, factor)
     for crossing in job.checked.crossings[:_PLACES]:
         lines.append(
-            f"take care: the cut of contour {crossing.route + 1} comes {short(crossing.depth)} mm"
-            f"{' or more' * crossing.is_through} into contour {crossing.other + 1} at "
-            f"{in_file(crossing.place, factor)}"
+            f"take care: the cut of contour {crossing.route + 1} comes {into(crossing)} contour {crossing.other + 1} "
+            f"at {in_file(crossing.place, factor)}"
         )
     if more := job.checked.crossings[_PLACES:]:
         lines.append(
