@@ -347,6 +347,16 @@ def test_edges_that_are_cut_away_are_not_spoiled(run: Run, tmp_path: Path, windo
     assert "its wire would come 0.2 mm or more into contour" in run_failing(run, *words, "--offset", 0.2)
 
 
+def test_an_opening_that_crosses_itself_and_the_edge(run: Run, tmp_path: Path) -> None:
+    """The ROM goes along it; the check must tell, whatever area such a contour has."""
+    page = drawing()
+    polygon([(0, 0), (12, 0), (12, 14), (0, 14)], page)
+    corners = [(3, 1, -1), (3, 0, 0), (6, 2, 0.41421356237), (4, 2, 0), (4, 3, 1), (3, 3, 0), (3, 2, 1)]
+    page.modelspace().add_lwpolyline(corners, "xyb", close=True)
+    told = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1)
+    assert "contour 1 (opening from (4, 2), layer 0): it crosses or touches itself at (3.4615, 0.3077)" in told, told
+
+
 def _bottoms(told: str) -> list[int]:
     """Which of the strips (4: the pin) each start hole is at."""
     holes = re.findall(r"\((\S+), (\S+)\)", told.split("start holes: ")[1].splitlines()[0])

@@ -80,7 +80,8 @@ def _cut_away(lines: Shapes, owners: Whole, inner: Flags, outer: Flags) -> bool:
     closed = [owner for owner in np.unique(owners).tolist() if inner[owner] or outer[owner]]
     pieces = {owner: slice(*np.searchsorted(owners, (owner, owner + 1))) for owner in closed}
     rings = np.array([shapely.LinearRing(shapely.get_coordinates(lines[pieces[owner]])) for owner in closed])
-    areas = [shapely.make_valid(shapely.Polygon(ring)) for ring in rings]
+    # (what has no width in one that crosses itself is no area)
+    areas = shapely.buffer(shapely.make_valid(shapely.polygons(rings)), 0)
     one, other = shapely.STRtree(rings).query(rings, predicate="intersects")
     found = False
     for a, b in zip(one.tolist(), other.tolist(), strict=True):
