@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from math import floor
 
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
-from skg.drawing import dxf_file, entities, svg
+from skg.drawing import dxf_file, entities, svg, svg_file
 from skg.drawing.account import Account, Content, counted, listed, short, shown
 from skg.drawing.chain import merged
 from skg.drawing.contour import Contour
@@ -120,7 +120,7 @@ def layer_lines(data: bytes, name: str) -> list[str]:
 
 def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """What a file holds, and an account that has its units."""
-    if svg.is_svg(data, name):
+    if svg_file.is_svg(data, name):
         return _svg_content(data, name, wishes)
     file = dxf_file.load(data)
     unknown = f"{NOT_TOLD}; its $MEASUREMENT is that of inches" if file.is_imperial else NOT_TOLD
@@ -133,13 +133,13 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
 
 def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
-    page = svg.SvgFile(data)
-    told, px = page.units, svg.PX
+    page = svg_file.SvgFile(data)
+    told, px = page.units, svg_file.PX
     units = (told[0], told[1], TOLD) if told else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
     if wishes.units:
         # Without a page in mm or inches a pixel is one of the units asked for.
         units = wishes.units, UNITS[wishes.units], ASKED
-        px = UNITS[wishes.units] * (svg.PX / told[1] if told else 1.0)
+        px = UNITS[wishes.units] * (svg_file.PX / told[1] if told else 1.0)
     elif not told:
         px = page.guess
     content = svg.collect(page, px, units[1], wishes)
