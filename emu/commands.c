@@ -81,8 +81,8 @@ static void show_stack(const debug *d)
 static void show_breaks(const debug *d)
 {
     char place[SYMBOLS_PLACE];
-    for (unsigned i = 0; i < d->break_count; i++) {
-        fprintf(stderr, "%04X %s\n", d->breaks[i], symbols_place(d->names, d->breaks[i], place));
+    for (unsigned i = 0; i < d->breaks.count; i++) {
+        fprintf(stderr, "%04X %s\n", d->breaks.at[i], symbols_place(d->names, d->breaks.at[i], place));
     }
 }
 
@@ -183,7 +183,7 @@ static void do_break(debug *d, const words *w)
     uint16_t address;
     if (!w->first) {
         show_breaks(d);
-    } else if (get_address(d, w->first, 0, &address) && !debug_break(d, w->first)) {
+    } else if (get_address(d, w->first, 0, &address) && !breaks_set(&d->breaks, address)) {
         complain_of("too many breakpoints", w->first);
     }
 }
@@ -192,19 +192,9 @@ static void do_delete(debug *d, const words *w)
 {
     uint16_t address;
     if (!w->first) {
-        d->break_count = 0;
-        return;
-    }
-    if (!get_address(d, w->first, 0, &address)) {
-        return;
-    }
-    if (!debug_is_break(d, address)) {
+        d->breaks.count = 0;
+    } else if (get_address(d, w->first, 0, &address) && !breaks_delete(&d->breaks, address)) {
         complain_of("no breakpoint there", w->first);
-    }
-    for (unsigned i = 0; i < d->break_count; i++) {
-        if (d->breaks[i] == address) {
-            d->breaks[i--] = d->breaks[--d->break_count];
-        }
     }
 }
 

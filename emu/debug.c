@@ -59,36 +59,17 @@ void debug_stop(debug *d)
     d->mode = STOPPED;
 }
 
-bool debug_is_break(const debug *d, uint16_t address)
-{
-    for (unsigned i = 0; i < d->break_count; i++) {
-        if (d->breaks[i] == address) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Is the board at a breakpoint, in machine code or in byte-code? */
 static bool at_break(const debug *d)
 {
     const i8080 *c = &d->board->cpu;
-    return debug_is_break(d, c->pc) || (trace_at_operation(c, d->calculator) && debug_is_break(d, c->bc));
+    return breaks_has(&d->breaks, c->pc) || (trace_at_operation(c, d->calculator) && breaks_has(&d->breaks, c->bc));
 }
 
 bool debug_break(debug *d, const char *place)
 {
     uint16_t address;
-    if (!symbols_address(d->names, place, &address)) {
-        return false;
-    }
-    if (!debug_is_break(d, address)) {
-        if (d->break_count == BREAKS) {
-            return false;
-        }
-        d->breaks[d->break_count++] = address;
-    }
-    return true;
+    return symbols_address(d->names, place, &address) && breaks_set(&d->breaks, address);
 }
 
 /* ---- running ---- */
@@ -141,16 +122,12 @@ static board_reason one_instruction(debug *d)
 static board_reason run_free(debug *d, uint64_t cycles)
 {
     i8080 *c = &d->board->cpu;
-    for (unsigned i = 0; i < d->break_count; i++) {
-        i8080_break(c, d->breaks[i], true);
-    }
-    if (d->break_count && d->calculator) {
+    breaks_arm(&d->breaks, c, true);
+    if (d->breaks.count && d->calculator) {
         i8080_break(c, d->calculator->next, true);
     }
     board_reason reason = board_run(d->board, cycles);
-    for (unsigned i = 0; i < d->break_count; i++) {
-        i8080_break(c, d->breaks[i], false);
-    }
+    breaks_arm(&d->breaks, c, false);
     if (d->calculator) {
         i8080_break(c, d->calculator->next, false);
     }
@@ -176,7 +153,7 @@ board_reason debug_run(debug *d, uint64_t cycles)
         board_reason reason = one_instruction(d);
         if (reason == BOARD_CYCLES && !at_break(d) && d->mode == RUNS && !d->trace && c->cycles < end) {
             reason = run_free(d, end - c->cycles);
-            bool looks = debug_is_break(d, c->pc) || trace_at_operation(c, d->calculator);
+            bool looks = breaks_has(&d->breaks, c->pc) || trace_at_operation(c, d->calculator);
             reason = reason == BOARD_BREAK && looks ? BOARD_CYCLES : reason;
         }
         if (arrived(d) || at_break(d)) {

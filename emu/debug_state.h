@@ -2,10 +2,9 @@
 #ifndef DEBUG_STATE_H
 #define DEBUG_STATE_H
 
+#include "breaks.h"
 #include "calculator.h"
 #include "debug.h"
-
-enum { BREAKS = 32 };
 
 /* What the board does until the operator is asked again. */
 typedef enum {
@@ -22,16 +21,12 @@ struct debug {
     calculator *calculator;         /* NULL: its names are not known */
     FILE *trace;
     int trace_failed;
-    uint16_t breaks[BREAKS];
-    unsigned break_count;
+    breaks breaks;
     mode mode;
     uint64_t count;                 /* of STEPS and OPERATES */
     uint16_t stack;                 /* of RETURNS */
     bool left;
 };
-
-/* Is there a breakpoint at that address? */
-bool debug_is_break(const debug *d, uint16_t address);
 
 /* Asks the operator until the board is to go on: then the mode is another than STOPPED. */
 void debug_talk(debug *d);

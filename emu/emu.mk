@@ -2,7 +2,7 @@
 EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
 EMU_PROGRAM := emu/board.c emu/drive.c emu/drawn.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c \
                emu/main.c emu/output.c emu/operator.c \
-               emu/symbols.c emu/disasm.c emu/calculator.c emu/trace.c emu/debug.c emu/commands.c
+               emu/symbols.c emu/disasm.c emu/calculator.c emu/trace.c emu/breaks.c emu/debug.c emu/commands.c
 EMU_LIBRARY := emu/board.c emu/drive.c emu/image.c emu/machine.c
 EMU_COMPARE := tests/emu/compare.c tests/emu/plain8080.c
 EMU_FUZZ    := tests/emu/fuzz.c emu/com.c $(EMU_LIBRARY)
