@@ -8,7 +8,8 @@ import pytest
 from refhelp import move
 
 from skg.ref import run
-from skg.ref.parser import Assign, Cut, From, Goto, If, Print, Simple, parse_line
+from skg.ref.parser import parse_line
+from skg.ref.statements import Assign, Cut, From, Goto, If, Print, Simple
 from skg.ref.tape import grid
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.skg"))

@@ -14,11 +14,10 @@ from skg.ref.fault import Code, Fault
 from skg.ref.geometry import negate
 from skg.ref.near import Near, Watch, watching
 from skg.ref.operations import operate
-from skg.ref.parser import (
-    LAST_SUBSCRIPT,
-    LETTERS,
-    LONGEST,
-    WIRE,
+from skg.ref.parser import LAST_SUBSCRIPT, LETTERS, LONGEST, WIRE, LineFault, parse_answer, parse_line, whole
+from skg.ref.real import ZERO, Real
+from skg.ref.route import Segment
+from skg.ref.statements import (
     Assign,
     Binary,
     Cut,
@@ -31,7 +30,6 @@ from skg.ref.parser import (
     Goto,
     If,
     Input,
-    LineFault,
     Minus,
     Name,
     Number,
@@ -44,12 +42,7 @@ from skg.ref.parser import (
     Statement,
     Sym,
     Tol,
-    parse_answer,
-    parse_line,
-    whole,
 )
-from skg.ref.real import ZERO, Real
-from skg.ref.route import Segment
 from skg.ref.tape import Punch
 from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Rotation, Value, canonical, kind
 
@@ -197,6 +190,13 @@ class Interpreter:
         self.paper.append(f"ERR {code:02d}{where}\n")
         return int(code), number
 
+    def _gosub(self, number: int) -> None:
+        if len(self.returns) == LEVELS:
+            raise Fault(Code.LINE)
+        back = self.next
+        self._jump(number)
+        self.returns.append(back)
+
     def _jump(self, number: int) -> None:
         if number not in self.program:
             raise Fault(Code.LINE)
@@ -303,11 +303,7 @@ class Interpreter:
                 if _holds(self.number(left), relation, self.number(right)):
                     self._jump(number)
             case Gosub(number):
-                if len(self.returns) == LEVELS:
-                    raise Fault(Code.LINE)
-                back = self.next
-                self._jump(number)
-                self.returns.append(back)
+                self._gosub(number)
             case Simple(word):
                 self._simple(word)
 

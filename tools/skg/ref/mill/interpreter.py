@@ -9,7 +9,7 @@ from skg.ref.fault import Code, Fault
 from skg.ref.mill.cutter import MillCutter
 from skg.ref.mill.iso import IsoPunch, decimal
 from skg.ref.mill.statements import MILL, Feed, Heights, Hole, Miscellaneous, Preparatory
-from skg.ref.parser import Expression, Statement
+from skg.ref.statements import Expression, Statement
 from skg.ref.tape import micrometres
 
 #: The largest number of an M, a G and a T word.

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from skg.ref.listing import STATEMENTS
-from skg.ref.parser import Dialect, Expression, Tree
+from skg.ref.parser import Dialect, Tree
+from skg.ref.statements import Expression
 
 
 @dataclass(frozen=True)
