@@ -16,8 +16,11 @@ _PROPERTIES = (
 )  # fmt: skip
 #: Lengths of an element's form, which may be told as properties, too; they are not handed down.
 _GEOMETRY = frozenset(("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "d"))
-#: Colours that are not seen, and parts of one that are nothing.
-_CLEAR = re.compile(r"none|transparent|(?:rgba?|hsla?)\(.*[,/]\s*0*\.?0*%?\s*\)|#[0-9a-f]{3}0|#[0-9a-f]{6}00")
+#: Colours that are not seen (the fourth of a colour's numbers is 0), and parts of one that are nothing.
+_CLEAR = re.compile(
+    r"none|transparent|#[0-9a-f]{3}0|#[0-9a-f]{6}00"
+    r"|(?:rgba?|hsla?)\((?:(?:[^,]*,){3}|[^/]*/)\s*(?:0+\.?0*|\.0+)(?:e[+-]?\d+)?%?\s*\)"
+)
 _NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
 #: Rules that hold under a condition: what stands before their braces, and in them.
 _CONDITIONAL = re.compile(r"@(media|supports|container|layer)\b([^{};]*)\{((?:[^{}]*\{[^{}]*\})*[^{}]*)\}")
