@@ -89,14 +89,14 @@ def types(*entities: str) -> bytes:
 
 
 def test_solids_are_named() -> None:
-    """What has no lines of its own is listed, with what a person can do; a region may be exploded."""
+    """What has no lines of its own is listed, with what a person can do; a region is exploded."""
     solids = [f"{kind} 8 0 100 AcDbModelerGeometry 70 1" for kind in ("3DSOLID", "EXTRUDEDSURFACE", "REGION")]
     said = "a solid, not lines: draw its outline in the CAD program"
     reasons = [(one.kind, one.left) for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
     assert reasons == [
         ("3DSOLID", said),
         ("EXTRUDEDSURFACE", said),
-        ("REGION", "not understood, explode it in the CAD program"),
+        ("REGION", "an ACIS body, which is not read: explode it into lines in the CAD program"),
     ]
 
 

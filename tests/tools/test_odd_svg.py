@@ -164,6 +164,8 @@ def test_pages(size: str, expected: Box) -> None:
         ("<g fill='none' stroke-opacity='0%'><rect width='5' height='5' stroke='red'/></g>",
          "drawn with neither line nor area"),
         ("<rect width='5' height='5' fill='rgba(9,9,9,0.0)'/>", "drawn with neither line nor area"),
+        ("<rect width='5' height='5' fill='rgb(9 9 9 / 0%)'/>", "drawn with neither line nor area"),
+        ("<rect width='5' height='5' fill='hsla(9, 9%, 9%, .0)'/>", "drawn with neither line nor area"),
         ("<rect width='5' height='5' transform='matrix(1 2)'/>", "cannot be read (tuple index out of range)"),
         (
             "<rect width='5' height='5' transform='scale(2)' style='transform-origin:1px 1px;transform-box:fill-box'/>",
@@ -235,9 +237,19 @@ def test_a_page_that_is_transformed_itself_is_said() -> None:
     assert reading.report.notes == ["the page itself is transformed (scale(4)): passed over"]
 
 
+@pytest.mark.parametrize(
+    "colour",
+    ["rgb(0,0,0)", "rgb(0%, 0%, 0%)", "rgb(255,0,0)", "rgb(9 9 0)", "hsl(9, 9%, 0%)", "rgba(0,0,0,1)", "rgb(0 0 0 / 1)",
+     "rgba(0, 0, 0, 0.5)", "#f00", "#ff0000", "#f0f8"],
+)  # fmt: skip
+def test_a_colour_whose_last_number_is_nothing_is_seen(colour: str) -> None:
+    """Only a fourth one makes it clear."""
+    assert boxes(reading_of(page(f"<g fill='none' stroke='{colour}'>{PART}</g><circle r='9'/>")))[1:] == [WHERE]
+
+
 def test_parts_of_a_page_without_a_size_are_left() -> None:
     content = '<rect width="50%" height="9"/><svg viewBox="0 0 1 1"><rect width="1" height="1"/></svg>' + PART
-    reading = reading_of(page(content, ""))
+    reading = checked(page(content, ""), units="mm")
     assert len(reading.contours) == 1
     assert left(reading) == {
         "cannot be read (its length 50%, of a frame without a size)": 1,

@@ -347,6 +347,23 @@ def test_touching_and_repeated() -> None:
     ]
 
 
+def test_what_is_drawn_on_lines_that_are_left_is_left_with_them() -> None:
+    """A line that divides a plate is drawn twice, and so is an edge: neither of the dividing lines is cut."""
+    split = [line(0, 0, 8, 0), line(8, 0, 20, 0), line(20, 0, 20, 20), line(20, 20, 8, 20), line(8, 20, 0, 20)]
+    data = raw(*split, line(0, 20, 0, 0), line(8, 0, 8, 20), line(8, 20, 8, 0), line(0, 20, 0, 0))
+    reading = checked(data)
+    assert left(reading) == {JUNCTION: 2, "drawn twice": 1}
+    assert [(one.what, one.place) for one in reading.report.overlaps] == [("drawn twice", (0, 20))]
+    # A polyline on the divider and on an edge.
+    bent = "LWPOLYLINE 8 0 90 3 70 0 10 8 20 20 10 8 20 0 10 0 20 0"
+    reading = checked(raw(*split, line(0, 20, 0, 0), line(8, 0, 8, 20), bent))
+    assert left(reading) == {JUNCTION: 1, f"{JUNCTION} and drawn twice": 1}
+    # Contours: open ones that hang on an outline.
+    hung = "LWPOLYLINE 8 0 90 3 70 0 10 20 20 5 10 30 20 5 10 30 20 9"
+    reading = checked(raw(*square(0, 0, 20), hung, hung))
+    assert left(reading) == {JUNCTION: 2} and reading.report.overlaps == []
+
+
 def test_hatching_centre_lines_and_frames() -> None:
     """Lines that end on an outline, cross it or hang on its corners are left, with their places."""
     data = raw(
@@ -564,11 +581,26 @@ def test_units() -> None:
     metres = read(raw(*square(0, 0, 60), header="9\n$INSUNITS\n70\n6\n"), "a.dxf").report
     assert metres.size == (60, 60)
     assert metres.lines()[0].startswith("60 x 60 mm, read in mm (the file says m, but 60 x 60 m is no part")
-    for side in (0.5, 2.0, 15000.0):
+    for side in (0.5, 2.0, 6.1, 15000.0):
         with pytest.raises(UserError, match=r"a.dxf: the file does not say its units, and .* odd size: give --units"):
             read(raw(*square(0, 0, side)), "a.dxf")
     with pytest.raises(UserError, match="a tape has room for 100 m"):
         read(raw(*square(0, 0, 9e4)), "a.dxf", Wishes(units="m"))
+    # Where no units make it a usual part, those are offered that a tape has room for.
+    house = raw(*square(0, 0, 2e4), header="9\n$INSUNITS\n70\n1\n")
+    with pytest.raises(UserError, match=r"508000 mm, read in inch: .*; it would be 20000 x 20000 mm in mm$"):
+        read(house, "a.dxf")
+
+
+def test_small_parts_of_unknown_units_are_doubted() -> None:
+    """Up to an inch, with a word."""
+
+    def notes(side: float, wishes: Wishes | None = None) -> list[str]:
+        return read(raw(*square(0, 0, side)), "a.dxf", wishes).report.notes
+
+    doubt = "take care: 8 x 8 mm is small, and the units are guessed; it would be 203.2 x 203.2 mm in inch"
+    assert notes(8) == [doubt + ", 80 x 80 mm in cm: --units says so"]
+    assert notes(8, Wishes(units="mm")) == [] and notes(26) == []
 
 
 def test_told_units_of_an_odd_size_are_doubted() -> None:
@@ -861,9 +893,9 @@ def test_svg_layers_and_units(run: Run, tmp_path: Path) -> None:
     assert reading.starts == [pytest.approx((20, 80))]
     assert left(reading) == {"a start hole": 1, "not displayed": 1}
     part = tmp_path / "part.svg"
-    part.write_bytes(svg(content, 'width="200" height="100"'))
+    part.write_bytes(svg(content, 'width="400" height="200" viewBox="0 0 200 100"'))
     assert "read in px (the file does not say; 96 px are an inch)" in run("from-dxf", part).stderr
-    assert "CUT (20,80):9" in run("from-dxf", part, "--units", "mm", "--layer", "cut").stdout
+    assert "CUT (40,160):18" in run("from-dxf", part, "--units", "mm", "--layer", "cut").stdout
     assert run("from-dxf", part, "--list-layers").stdout == "Cut: 1 circle\nOld: 1 circle\nSTART: 1 circle\n"
 
 

@@ -49,12 +49,13 @@ class Chains:
     """What edges make; each edge that went in is in one of these, once.
 
     `contours`: in the order of the edges, their ends moved to common corners; `rest`: runs of edges at junctions that
-    belong to no closed outline; `doubles`: drawn twice; `short`: shorter than the tolerance.
+    belong to no closed outline; `doubles`: drawn twice, with the edge that each was drawn on; `short`: shorter than the
+    tolerance.
     """
 
     contours: list[Contour] = field(default_factory=list)
     rest: list[Contour] = field(default_factory=list)
-    doubles: list[Edge] = field(default_factory=list)
+    doubles: list[tuple[Edge, Edge]] = field(default_factory=list)
     short: list[Edge] = field(default_factory=list)
 
 
@@ -122,13 +123,14 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
     return Edge(start, end, nodes=tuple(nodes), samples=np.array(samples), entity=edge.entity)
 
 
-def _same(one: Edge, other: Edge, tolerance: float) -> bool:
-    """Whether an edge was drawn twice."""
-    for way in (other, other.reversed()):
-        pairs = ((one.start, way.start), (one.end, way.end), (one.at(0.5), way.at(0.5)))
-        if all(distance(p, q) <= tolerance for p, q in pairs):
-            return True
-    return False
+def _twin(one: Edge, others: list[Edge], tolerance: float) -> Edge | None:
+    """The edge that one was drawn on, if there is any."""
+    for other in others:
+        for way in (other, other.reversed()):
+            pairs = ((one.start, way.start), (one.end, way.end), (one.at(0.5), way.at(0.5)))
+            if all(distance(p, q) <= tolerance for p, q in pairs):
+                return other
+    return None
 
 
 def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chains:
@@ -200,8 +202,8 @@ class _Graph:
             alike = known[min(first, last), max(first, last)]
             if first == last and edge.length <= 3 * tolerance:
                 found.short.append(edge)
-            elif any(_same(edge, other, tolerance) for other in alike):
-                found.doubles.append(edge)
+            elif twin := _twin(edge, alike, tolerance):
+                found.doubles.append((edge, twin))
             elif first == last:
                 alike.append(edge)
                 found.contours.append(Contour((moved(edge, edge.start, edge.start),), True))

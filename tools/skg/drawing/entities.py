@@ -38,7 +38,8 @@ _NO_LINES = {
         ("3DSOLID", "BODY", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE"),
         "a solid, not lines: draw its outline in the CAD program",
     ),
-    **dict.fromkeys(("REGION", "ACAD_PROXY_ENTITY", "PROXY"), "not understood, explode it in the CAD program"),
+    "REGION": "an ACIS body, which is not read: explode it into lines in the CAD program",
+    **dict.fromkeys(("ACAD_PROXY_ENTITY", "PROXY"), "not understood, explode it in the CAD program"),
 }
 #: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
 _LEVEL = 1e-3

@@ -27,8 +27,11 @@ from skg.plane import XY, shifted
 
 __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
-#: A drawing that does not tell its units is in mm when its larger side has this many, mm.
+#: The larger side of a usual part, mm.
 USUAL = 3.0, 10_000.0
+#: A drawing that does not tell its units is hardly in mm when its larger side is shorter than this, mm: of those that
+#: people draw so most are in inches. Up to the other it may be.
+UNTOLD, DOUBTED = 6.5, 25.4
 #: A larger part hardly lies on a wire machine, mm.
 LARGE = 1000.0
 #: No drawing that is cut has a larger side, mm.
@@ -185,7 +188,8 @@ def _count(contours: list[Contour], report: Account) -> None:
 def _check_size(report: Account) -> None:
     """Refuse an odd size that nobody vouches for, and what is too large for a tape."""
     width, height = map(short, report.size)
-    if report.units_from.startswith(NOT_TOLD) and not USUAL[0] <= max(report.size) <= USUAL[1]:
+    is_told = not report.units_from.startswith(NOT_TOLD)
+    if not is_told and not UNTOLD <= max(report.size) <= USUAL[1]:
         raise UserError(
             f"the file does not say its units, and {width} x {height} mm is an odd size: "
             f"give --units ({', '.join(UNITS)}){_in_other_units(report)}"
@@ -193,12 +197,16 @@ def _check_size(report: Account) -> None:
     if max(report.size) >= FARTHEST:
         raise UserError(
             f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; "
-            f"give --units{_in_other_units(report)}"
+            f"give --units{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
         )
     other = _in_other_units(report, LARGE)
     if report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE:
         # (programs write the units that they were last set to)
         report.notes.append(f"take care: {width} x {height} mm is an odd size{other}: --units says so")
+    if not is_told and other and max(report.size) < DOUBTED:
+        report.notes.append(
+            f"take care: {width} x {height} mm is small, and the units are guessed{other}: --units says so"
+        )
 
 
 def _in_other_units(report: Account, most: float = USUAL[1]) -> str:

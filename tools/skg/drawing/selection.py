@@ -35,6 +35,8 @@ AXIS = "drawn with dashes, across outlines: --open all cuts it"
 SMALL = "no room for the wire or the tab"
 PAST = "runs past a corner"
 OPENED = "of an open contour"
+#: What is short or drawn twice is cut with its neighbour, what runs past a corner is said by itself.
+_WITH_OTHERS = (SHORT, DOUBLE, PAST)
 #: Ends of what is left that are no further apart may be meant to meet, mm.
 _GAP = 0.1
 
@@ -47,7 +49,7 @@ class Selection:
         self.content = content
         self.wishes = wishes
         self.report = report
-        self.fates = Fates(content, report.factor)
+        self.fates = Fates(content, report.factor, wishes.tolerance)
         self.styles = [(entity.layer, entity.dashes) for entity in content.entities]
 
     def contours(self) -> list[Contour]:
@@ -83,8 +85,7 @@ class Selection:
             fates.of_pieces([one.piece for one in cuts], PAST)
             report.notes += _past(cuts, self.content, report.factor)
         fates.of_edges(chains.short, SHORT)
-        fates.of_edges(chains.doubles, DOUBLE)
-        report.overlaps += [fates.overlap(DOUBLE, edge, edge.start) for edge in chains.doubles]
+        fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
         return chains
 
     def _apart(self, chains: Chains) -> tuple[list[Contour], list[Contour]]:
@@ -92,25 +93,22 @@ class Selection:
         contours, every = chains.contours, chains.contours + chains.rest
         found = relations(every, self.wishes.tolerance)
         axes = _axes(contours, found, self.fates) if self.wishes.open != "all" and not self.wishes.layers else set()
-        for at in found.repeated:
-            self.fates.of_edges(every[at].edges, DOUBLE)
+        for at, first in found.repeated.items():
+            self.fates.doubles.append((every[at].edges, every[first].edges[0]))
         for at in sorted(axes):
             self.fates.of_edges(contours[at].edges, AXIS)
-        self._say_relations(every, len(contours), found, axes)
+        self._say_meetings(contours, found, axes)
         gone = set(found.repeated) | axes
         hanging = {at for at in found.touched if at < len(contours)} - gone
         rest = [one for at, one in enumerate(chains.rest, len(contours)) if at not in gone]
         rest += [contours[at] for at in sorted(hanging)]
         return [one for at, one in enumerate(contours) if at not in gone | hanging], rest
 
-    def _say_relations(self, contours: list[Contour], outlines: int, found: Relations, axes: set[int]) -> None:
-        """Put into the report which contours are repeated, and which of the first `outlines` meet others."""
-        repeated = [contours[at].edges[0] for at in found.repeated]
-        overlaps = [self.fates.overlap(DOUBLE, edge, edge.start) for edge in repeated]
+    def _say_meetings(self, contours: list[Contour], found: Relations, axes: set[int]) -> None:
+        """Put into the report which outlines meet others."""
         for what, one, at, place in found.meetings:
-            if at < outlines and not {one, at} & axes:
-                overlaps.append(self.fates.overlap(what, contours[at].edges[0], place))
-        self.report.overlaps += overlaps
+            if at < len(contours) and not {one, at} & axes:
+                self.report.overlaps.append(self.fates.overlap(what, contours[at].edges[0], place))
         if found.unseen:
             self.report.notes.append(f"{counted(found.unseen, 'more pair')} of contours meet")
 
@@ -131,11 +129,14 @@ class Selection:
 
 
 class Fates:
-    """What becomes of each entity's edges."""
+    """What becomes of each entity's edges. `doubles`: runs of those drawn twice, with an edge of what each was drawn
+    on: where that one is left, they are left with it."""
 
-    def __init__(self, content: Content, factor: float) -> None:
+    def __init__(self, content: Content, factor: float, tolerance: float) -> None:
         self.entities = content.entities
         self.factor = factor
+        self.tolerance = tolerance
+        self.doubles: list[tuple[tuple[Edge, ...], Edge]] = []
         self.parts = Counter(edge.entity for edge in content.edges)
         self.gone: dict[int, Counter[str]] = defaultdict(Counter)
 
@@ -164,6 +165,7 @@ class Fates:
     def account(self, contours: list[Contour], report: Account) -> None:
         """Put the sums of the layers into the report; one that does not agree is a `UserError`."""
         cut = Counter(edge.entity for contour in contours for edge in contour.edges)
+        self._account_doubles(contours, cut, report)
         sums: dict[str, LayerSum] = {}
         for at, entity in enumerate(self.entities):
             layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
@@ -174,8 +176,7 @@ class Fates:
                     f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: of its {self.parts[at]} parts "
                     f"{cut[at] + gone.total()} are accounted for; a mistake in skg, please report it"
                 )
-            # (what is short or drawn twice is cut with its neighbour, what runs past a corner is said by itself)
-            lost = [why for why in gone if not cut[at] or why not in (SHORT, DOUBLE, PAST)]
+            lost = [why for why in gone if not cut[at] or why not in _WITH_OTHERS]
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
@@ -196,6 +197,24 @@ class Fates:
                 dashed[entity.dashes].append(entity)
         for name, some in dashed.items():
             report.notes += said(some, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
+
+    def _account_doubles(self, contours: list[Contour], cut: Counter[int], report: Account) -> None:
+        """Say of what is drawn twice whether the other one is cut, and if not why."""
+        # (of most entities all is cut or nothing; of the others each edge is looked for)
+        partly = {twin.entity for _, twin in self.doubles if 0 < cut[twin.entity] < self.parts[twin.entity]}
+        middles: dict[int, list[XY]] = defaultdict(list)
+        for edge in (edge for contour in contours for edge in contour.edges if edge.entity in partly):
+            middles[edge.entity].append(edge.at(0.5))
+        overlaps = []
+        for run, twin in self.doubles:
+            at, middle = twin.entity, twin.at(0.5)
+            near = (distance(middle, place) <= 2 * self.tolerance for place in middles[at])
+            if any(near) if at in partly else cut[at]:
+                self.of_edges(run, DOUBLE)
+                overlaps.append(self.overlap(DOUBLE, run[0], run[0].start))
+            else:
+                self.of_edges(run, next((why for why in self.gone[at] if why not in _WITH_OTHERS), DOUBLE))
+        report.overlaps[:0] = overlaps
 
 
 def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]:

@@ -29,11 +29,11 @@ _LINES = 1000
 
 @dataclass
 class Relations:
-    """Contours by their numbers. `repeated`: those that are the same as an earlier one; `touched`: open ones that touch
-    or cross another one; `meetings`: what two closed ones (or one with itself) do at a place; `unseen`: how many more
-    pairs of closed ones meet."""
+    """Contours by their numbers. `repeated`: those that are the same as an earlier one, and which; `touched`: open ones
+    that touch or cross another one; `meetings`: what two closed ones (or one with itself) do at a place; `unseen`: how
+    many more pairs of closed ones meet."""
 
-    repeated: list[int] = field(default_factory=list)
+    repeated: dict[int, int] = field(default_factory=dict)
     touched: set[int] = field(default_factory=set)
     meetings: list[tuple[str, int, int, XY]] = field(default_factory=list)
     unseen: int = 0
@@ -52,7 +52,8 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
     ]
     one, other = one[one < other], other[one < other]
     repeats = _repeats(lines[one], lines[other], tolerance) & (is_closed[one] == is_closed[other])
-    found.repeated = sorted(set(other[repeats].tolist()))
+    for second, at in sorted(zip(other[repeats].tolist(), one[repeats].tolist(), strict=True)):
+        found.repeated.setdefault(second, found.repeated.get(at, at))
     gone = set(found.repeated)
     for at, second in sorted(zip(one.tolist(), other.tolist(), strict=True)):
         if at in gone or second in gone:
