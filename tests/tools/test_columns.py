@@ -104,6 +104,21 @@ def test_followed_together_as_one_by_one(together: int, monkeypatch: pytest.Monk
     assert drift != (0, 0)
 
 
+def test_blocks_that_are_alike_are_followed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no block waits for the one before it: with the same outcome and progress as all one by one."""
+    asked = []
+    monkeypatch.setattr("skg.tape.walk._parts", lambda steps: asked.append(len(steps)) or iter([slice(0, len(steps))]))
+    mixed = [tapes.parse(CAD_TAPE).blocks[at] for at in (3, 0, 3, 1, 2, 0)] + list(turns(2).blocks)
+    rows, steps = np.array([7, 0, 2, 5, 1, 3, 4, 6, 10, 12]), []
+    found = walk(Tape.of("-", mixed), rows, None, steps.append)
+    outcomes = [run_block(mixed[at]) for at in rows.tolist()]
+    assert found.moves.tolist() == [list(one.move) for one in outcomes]
+    assert found.steps.tolist() == [one.steps for one in outcomes] and sum(steps) == sum(found.steps)
+    assert found.off_curve.tolist() == pytest.approx([one.off_curve for one in outcomes], abs=1e-9)
+    assert asked == [len({(block.x, block.y, block.j, block.axis, block.code) for block in (mixed[at] for at in rows)})]
+    assert asked[0] < len(rows)
+
+
 def test_a_block_that_never_ends_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     items = [line_block(5, 5), Stop(1), Block(1, 0, 4, "Y", "NR1", 2)]
     with pytest.raises(UserError, match="block 2: B1B0B4GYNR1 never ends"):

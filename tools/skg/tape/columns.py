@@ -30,6 +30,10 @@ _SENSES, _QUADRANTS = np.array(
 ).T
 
 
+#: The columns that tell a block's way; the others follow from these.
+FIELDS = ("sense", "quadrant", "x", "y", "j", "counts_y")
+
+
 def _roots(squares: Numbers) -> Numbers:
     """Square roots of whole numbers, rounded down."""
     if squares.dtype == object:
@@ -92,6 +96,20 @@ class Columns:
         found = Columns.__new__(Columns)
         found.__dict__.update({name: column[rows] for name, column in self.__dict__.items()})
         return found
+
+    def alike(self) -> tuple[Numbers, Numbers]:
+        """Rows of which no two have the same fields, in their order, and for each row which of these it is like."""
+        fields = [getattr(self, name).astype(np.int64) for name in FIELDS]
+        order = np.lexsort(fields)
+        is_new = np.ones(len(order), bool)
+        is_new[1:] = np.any([field[order[1:]] != field[order[:-1]] for field in fields], axis=0)
+        # (of equal ones the first row comes first)
+        first = order[is_new]
+        places = np.empty(len(first), np.int64)
+        places[np.argsort(first)] = np.arange(len(first))
+        like = np.empty(len(order), np.int64)
+        like[order] = places[np.cumsum(is_new) - 1]
+        return np.sort(first), like
 
     @cached_property
     def is_line(self) -> Flags:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skg.tape.block import Tape
-from skg.tape.columns import Columns, Numbers, Reals, columns_of, hypots, kept
+from skg.tape.columns import FIELDS, Columns, Numbers, Reals, columns_of, hypots, kept
 from skg.tape.controller import CHUNK, State, library, stalled
 
 #: So many blocks are followed at once, at most.
@@ -65,13 +65,20 @@ def walk(
     that never ends is a `UserError`.
     """
     columns = columns_of(tape)[rows]
-    given = [getattr(columns, name) for name in ("sense", "quadrant", "x", "y", "j", "counts_y")]
+    if should is None:
+        # (equal blocks go equal ways: one of them is followed)
+        first, like = columns.alike()
+        rows, columns = rows[first], columns[first]
+    else:
+        like = np.arange(len(rows))
+    many = np.bincount(like, minlength=len(rows))
+    given = [getattr(columns, name) for name in FIELDS]
     moves, steps = np.zeros((len(rows), 2), np.int64), np.zeros(len(rows), np.int64)
     extremes = np.zeros((len(rows), 4), np.int64)
     drift = np.zeros(2, np.int64)
 
     def follow(part: slice) -> int:
-        """Follow some of the blocks; returns the number of steps."""
+        """Follow some of the blocks; returns the number of steps, with those of their like."""
         states = np.zeros((part.stop - part.start, len(_FIELDS)), np.int64)
         for at, column in enumerate(given):
             states[:, at] = column[part]
@@ -86,7 +93,7 @@ def walk(
         extremes[part] = states[:, _FIELDS.index("f_max") :]
         if wanted is not None:
             drift[:] += (moves[part] - wanted).sum(axis=0)
-        return int(steps[part].sum())
+        return int((steps[part] * many[part]).sum())
 
     parts = list(_parts(expected_steps(columns)))
     if should is None and len(parts) > 1:
@@ -99,7 +106,8 @@ def walk(
     else:
         for part in parts:
             progress(follow(part))
-    return Walk(moves, steps, _distances(columns, *extremes[:, :2].T), _distances(columns, *extremes[:, 2:].T))
+    off_curve, off_path = (_distances(columns, *extremes[:, some].T) for some in (slice(0, 2), slice(2, 4)))
+    return Walk(moves[like], steps[like], off_curve[like], off_path[like])
 
 
 def machine_moves(tape: Tape) -> Numbers:
