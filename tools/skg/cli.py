@@ -36,8 +36,8 @@ COMMANDS = {
 }
 
 
-#: So many new objects before garbage is looked for.
-_GARBAGE = 200_000
+#: So many new objects before garbage is looked for: 20,000 circles have 4 million, and none of it is garbage.
+_GARBAGE = 5_000_000
 
 
 class _Closed(io.TextIOBase):
