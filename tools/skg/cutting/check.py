@@ -10,6 +10,7 @@ Nothing here is computed as the ROM does it, there are no corners and no crossin
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, pairwise
@@ -138,8 +139,11 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
     path = _WirePath(followed)
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
-    faults, crossings, worst = _beside(path, contours, routes, offsets, widest)
-    more, far = _reached(path, contours, _in_tabs(contours, routes), offsets, widest)
+    with ThreadPoolExecutor(1) as other:
+        # (numpy lets both halves run at the same time)
+        beside = other.submit(_beside, path, contours, routes, offsets, widest)
+        more, far = _reached(path, contours, _in_tabs(contours, routes), offsets, widest)
+        faults, crossings, worst = beside.result()
     return Checked(followed, max(worst, far), faults + more, crossings)
 
 
