@@ -169,7 +169,25 @@ def test_absolute_and_modal() -> None:
     ("G21 G90\nG2 X10 Y0 R4.999 F5\nM2", "B5000B0B10000GYSR2 DD"),
     # G80 leaves the line's other word alone.
     ("G21 G90 G1 G80\nX10 F5\nG80 G0\nX5\nG1 X0\nM2", "B10000B0B10000GXL1 D B5000B0B5000GXL3 D B5000B0B5000GXL3 DD"),
+    # Some with a point, some without: millimetres, whatever comes first; a 0 is neither.
+    ("G90\nG1 X10 F5\nY.5\nM2", "B10000B0B10000GXL1 B0B500B500GYL2 DD"),
+    ("G90\nG1 X10 Y0.0 F5\nX10.5 Y0\nM2", "B10000B0B10000GXL1 B500B0B500GXL1 DD"),
+    ("G90\nG1 X1000 F5\nG21\nX1.5\nM2", "B1000B0B1000GXL1 B500B0B500GXL1 DD"),
+    # Drilling cycles have no blocks, as holes have none; what comes behind goes on from there.
+    ("G21 G90\nG0 X1 Y1 Z5\nG99 G81 X2 Y1 Z-1 R2 F5\nX3\nG98 Y2\nG80\nG1 X4\nM2",
+     "D B1000B1000B1000GYL1 D B1000B0B1000GXL1 DD"),
+    ("G21 G90\nG83 X1 Z-3 R1 Q.5 F5\nG0 X2\nG1 X3\nM2", "D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD"),
+    # Arcs that stand upright go there and back on a line: down into the work and up again; round once and a half.
+    ("G21 G90\nG0 X0 Y0 Z2\nG18 G2 X2 Z0 I2 K0 F5\nG1 X4\nG2 X6 Z2 K2\nG19\nG2 Y-2 Z4 K2\nM2",
+     "B2000B0B2000GXL1 B2000B0B2000GXL1 B2000B0B2000GXL1 B0B2000B2000GYL4 DD"),
+    ("G21 G91\nG18 G2 X2 R2 F5\nG19 G2 Y-1 Z-1 R-1\nG18 G3 I1 K0\nM2",
+     "B2000B0B2000GXL1 B0B1000B1000GYL2 B0B2000B2000GYL4 B2000B0B2000GXL1 B2000B0B2000GXL3 DD"),
+    # The words behind an M word of a printer's board are its own; the rest of a line to be shown is no word at all.
+    ("G21 G90\nM205 X8 Y8 E5\nM92 X80\nM204 P500 R1000 T5\nM117 Hello X5\nG1 X1 F5\nM201 X9 G1 X2\nX3 M220\nM2",
+     "B1000B0B1000GXL1 B1000B0B1000GXL1 B1000B0B1000GXL1 DD"),
     # What says nothing of the path.
+    ("%\nO0001 (PLATE)\n:17\nN1 G21 G90 G61\nG64 P.01 Q.02\n$X\n$H\n$$ (settings)\n?\nG0 X1 Y0 A0 B0.\nG1 X2 F5\n"
+     "G1 G53 Z5\nM2\n%", "B1000B0B1000GXL1 DD"),
     ("(part 7; lower side)\nO1000\nG21 G90 G54 G64 P0.01\nT2 M6\nS1200 M3\nG43 H2\nG4 P1\nG1 X10 F5\nM9\nM2",
      "B10000B0B10000GXL1 DD"),
 ])  # fmt: skip
@@ -182,6 +200,9 @@ def test_what_is_read(text: str, wanted: str) -> None:
      ["line 2, column 4: no G90 or G91 yet: places are taken for absolute, as G90 says"]),
     ("G90\nG1 X10 F5\nM2", "B10B0B10GXL1 DD",
      ["line 2, column 4: no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm"]),
+    ("G90 (für 5 µm – oder 6)\nG1 X10 Y1.5 F5\nM2", "B10000B1500B10000GXL1 DD",
+     ["line 2, column 4: no G20 or G21 yet: all numbers are taken for mm, since some have a point"]),
+    ("G21 G90\nG0 X10\nX20\nM2", "DD", ["nothing is cut: it goes everywhere with G0"]),
     ("G21 G90\nG1 X10 F5", "B10000B0B10000GXL1 DD",
      ["line 3, column 1: expected M02 or M30, found the end of the program"]),
     ("G21 G90\nG1 X10 F5\nM2", "B10000B0B10000GXL1 DD", []),
@@ -290,7 +311,19 @@ def test_holes_and_stops() -> None:
 @pytest.mark.parametrize(("text", "message"), [
     ("G91\nG01 X5 Y?\nM02", "-: line 2, column 8: expected a word such as G01 or X-9900, found 'Y'"),
     ("G05\nM02", "-: line 1, column 1: G5 is not known"),
-    ("G18\nM02", "-: line 1, column 1: G18 is not known"),
+    ("G21 G90 G18\nG3 X1 I.5 F5\nG3 X2 J.5\nM2", "-: line 3, column 7: J belongs to arcs of another plane"),
+    ("G21 G90\nG3 X1 I.5 K0 F5\nM2", "-: line 2, column 11: K belongs to arcs of another plane"),
+    ("G21 G90 G19\nG3 X1 Y1 J.5 F5\nM2", "-: line 2, column 4: an arc of G19 that leaves its plane is not known here"),
+    ("G21 G90 G18\nG3 X1 Z1 I1 F5\nM2", "-: line 2, column 4: an arc of G18 from a height that is not known"),
+    ("G21 G90 G0 Z0\nG18 G3 X1 Z1 I2 F5\nM2", "-: line 2, column 8: the arc's end is 586 µm off the circle"),
+    ("G17 G18\nM2", "-: line 1, column 5: G17 and G18 in one line"),
+    ("G21 G91\nG81 X1 Z-1 R1 L3\nM2", "-: line 2, column 5: a drilling cycle with relative places is not known here"),
+    ("G21 G90\nG81 X1 Z-1\nM2", "-: line 2, column 5: a drilling cycle needs its depth Z and the height R"),
+    ("G21 G90\nG81 X1 Z-1 R1 F5\nG80\nX2\nM2", "-: line 4, column 1: a place to go to, and no G00…G03 behind G80"),
+    ("G21 G90\nG81 X1 Z-1 R1 K2\nM2", "-: line 2, column 15: K in a drilling cycle is not known here"),
+    ("G21 G90\nG0 A5\nM2", "-: line 2, column 4: A is not known here"),
+    ("$J=X5\nM2", "-: line 1, column 1: expected a word such as G01 or X-9900, found '$'"),
+    ("G21 G90\nG0 X1\nG0 X2", "-: line 4, column 1: expected M02 or M30, found the end of the program; nothing is cut"),
     ("G54\nG55\nM02", "-: line 2, column 1: G55 after G54: how far apart the two are is not known"),
     ("G1 X1 X2\nM02", "-: line 1, column 7: X stands here twice"),
     ("G1 X1 A2\nM02", "-: line 1, column 7: A is not known here"),
@@ -301,12 +334,12 @@ def test_holes_and_stops() -> None:
     ("G21 G91\nG3 X5 R2.4\nM02", "-: line 2, column 4: the arc's ends are 5 mm apart, more than twice its radius"),
     ("G21 G91\nG3 R2.4\nM02", "-: line 2, column 4: an arc by its radius that ends where it begins"),
     ("G21 G91\nG3 X1 I2 R2\nM02", "-: line 2, column 4: an arc has its centre, I and J, or its radius, R, not both"),
-    ("G21 G91\nG1 X1 R2\nM02", "-: line 2, column 4: I, J and R belong to G02 and G03"),
+    ("G21 G91\nG1 X1 R2\nM02", "-: line 2, column 4: I, J, K and R belong to G02 and G03"),
     ("G21 G91\nG3 X.005 Y.005 I.1\nM02", "-: block 1: the arc's end is 5 µm off its circle"),
-    ("G91\nG1 X5 Y5 I100\nM02", "-: line 2, column 4: I, J and R belong to G02 and G03"),
+    ("G91\nG1 X5 Y5 I100\nM02", "-: line 2, column 4: I, J, K and R belong to G02 and G03"),
     ("G21 G91 G1 X123456.789\nM02", "line 1: B123456789B0B123456789GXL1 has a number of more than 8 digits"),
     (f"G21 G90\nG1 X{'9' * 32} F5\nM02", "-: line 2, column 4: X has more than 8 digits in front of its point"),
-    ("G1 Xµ", "-: byte 5 is not ASCII"),
+    ("G1 Xµ", "-: line 1, column 4: expected a word such as G01 or X-9900, found 'X'"),
     ("G21 G90\nG1 X1 F5\nG4 X2\nM2", "-: line 3, column 4: X in a line with G4: a time, or a place to go to?"),
     ("G21 G90\nG28 X0 Y0\nG1 X1 Y1 F5\nM2",
      "-: line 3, column 4: from a place of the machine's own, expected a rapid to X and Y"),
@@ -343,18 +376,18 @@ def test_bad_options(run_program: Run, cad_tape: Path, options: list[str], messa
     (OURS.replace("F60", "F0"), ["line 3, column 15: a feed that is not more than 0",
                                     "line 3, column 5: cuts, and there has been no F"]),
     (OURS.replace("G21", ""), [
-        "line 2, column 5: no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm"]),
+        "line 2, column 5: no G20 or G21 yet: all numbers are taken for mm, since some have a point"]),
     (f"%\n{OURS}%\n", ["line 1, column 1: GRBL does not know %", "line 10, column 1: GRBL does not know %"]),
     (OURS.replace("N8", f"(x{'x' * 70})"), ["line 8, column 71: a line of 76 characters, GRBL takes 70"]),
     (OURS.replace("N8M30\n", ""), ["line 8, column 1: expected M02 or M30, found the end of the program"]),
     (OURS.replace("N8M30\n", "").replace("N2", "M3"),
      ["line 8, column 1: expected M02 or M30, found the end of the program, with beam or spindle on"]),
-    (f"$32 = 1\n{OURS}M5\n", ["line 1, column 1: a setting of GRBL's: no other control knows $"]),
+    (f"$32 = 1\n{OURS}M5\n", ["line 1, column 1: $32 = 1 is GRBL's: no other control knows it"]),
     ("G21G90\nG1X9000Y0F5\nG3X9000Y0.001I-9000J0\nM2",
      ["line 3, column 3: an arc so flat that LinuxCNC and GRBL take it for a full circle"]),
     ("G21G90\nG1X?F5\nG7\nM2", ["line 2, column 3: expected a word such as G01 or X-9900, found 'X'",
-                                "line 3, column 1: G7 is not known, expected G00…G03, G17, G20, G21, G40, G90, G91, "
-                                "G92 or one that does not move"]),
+                                "line 3, column 1: G7 is not known, expected G00…G03, G17…G21, G40, G90, G91, G92 "
+                                "or one that does not move"]),
 ])  # fmt: skip
 def test_check(run: Run, tmp_path: Path, text: str, findings: list[str]) -> None:
     tape = tmp_path / "part.ngc"

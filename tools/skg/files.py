@@ -48,6 +48,12 @@ def read_ascii(path: str) -> str:
         raise UserError(f"{path}: {named(data)}byte {error.start + 1} is not ASCII") from None
 
 
+def in_ascii(data: bytes) -> str:
+    """Return a text with a `?` in place of each character that is not ASCII."""
+    text = data.decode("ascii" if data.isascii() else "utf-8", "replace")
+    return text if text.isascii() else text.encode("ascii", "replace").decode("ascii")
+
+
 @contextmanager
 def _new_file(path: str) -> Iterator[BinaryIO]:
     """A file to write: it takes the place of an older one when all of it is written, and not before.

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from skg.drawing.milling import MILL_ROM, is_milling
 from skg.errors import UserError
-from skg.files import read_ascii, read_bytes
+from skg.files import in_ascii, read_ascii, read_bytes, without_filling, without_mark
 from skg.kinds import GCODE, PROGRAM, refuse_others
 from skg.machine.board import BoardStopped, find_error
 from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, given_up, least_ram, too_large
@@ -106,9 +106,9 @@ def _no_contour(name: str) -> UserError:
 
 def gcode_text(name: str) -> str:
     """Return the text of a file that should be G-code; another kind of file is a `UserError`."""
-    text = read_ascii(name)
-    refuse_others(text.encode(), name, GCODE)
-    return text
+    data = read_bytes(name)
+    refuse_others(data, name, GCODE)
+    return in_ascii(without_mark(without_filling(data)))
 
 
 def tape_bytes(name: str, skg80: str | None = None) -> bytes:

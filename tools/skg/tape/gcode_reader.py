@@ -1,8 +1,8 @@
 """G-code that is read: the dialect of `skg.tape.gcode`, and what CAD packages write.
 
-Absolute or relative places, numbers in millimetres or inches as G21 and G20 say; without them a number with a decimal
-point is millimetres and a whole one micrometres, as a CAD package has it beside its 3B tapes. What G1 to G3 go through
-with the beam off (M5, S0) or the tool up is no cut but a move.
+Absolute or relative places, numbers in millimetres or inches as G21 and G20 say; without them they are millimetres
+where some have a decimal point, and micrometres where none has, as a CAD package has it beside its 3B tapes. What G1 to
+G3 go through with the beam off (M5, S0) or the tool up is no cut but a move.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
 from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
 from skg.tape.gcode_tool import TURNS, Idle, Tool
+from skg.tape.gcode_upright import AXES, PLANES, SeenFromAbove, seen_from_above
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
@@ -61,28 +62,42 @@ class _Word(NamedTuple):
 
 _SPACE = re.compile(r"(?:\s|\([^()]*\)|;.*)*")
 _WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))" + _SPACE.pattern)
-#: A setting of GRBL's own.
-_SETTING = re.compile(r"\$\d+\s*=\s*[\d.]+;?")
+#: What GRBL alone knows: settings, and what it is asked and told; `$H` sends it home.
+_SYSTEM = re.compile(r"(\$(?:\d+\s*=\s*[\d.]+|[GHICNX#$]|RST\s*=.*|SLP)?|\?)" + _SPACE.pattern, re.I)
 #: What begins and ends a file for some controls.
-_MARK = re.compile(r"%|[Oo]\d+")
+_MARK = re.compile(r"([%:O])\d*" + _SPACE.pattern, re.I)
 #: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
 #: modes, work offsets (one of them, see there); sub-programs are no part of a path.
 _SILENT = "FSTPHDL"
-_MODES = {
-    Decimal(n) for n in ("4", "8", "9", "17", "40", "43", "49", "50", "61", "64", "69", "80", "91.1", "94", "97", "98")
-}
+#: Other axes, which may stand at 0.
+_OTHERS = "ABCUVW"
+_MODES = {Decimal(n) for n in ("4", "8", "9", "40", "43", "49", "50", "61", "64", "69", "80", "91.1", "94", "97")}
 _OFFSETS = {Decimal(n) for n in range(54, 60)}
 _CALLS = {96, 97, 98, 99}
 #: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
 _MOTIONS = set(map(Decimal, range(4)))
-_GROUPS = [_MOTIONS, *(set(map(Decimal, group.split())) for group in ("20 21", "90 91", "43 49", "61 64")), _OFFSETS]
+_GROUPS = [
+    _MOTIONS,
+    *(set(map(Decimal, group.split())) for group in ("17 18 19", "20 21", "90 91", "43 49", "61 64", "98 99")),
+    _OFFSETS,
+]
 #: Words that are places, and what G4 has besides P on some controls.
-_PLACES = "XYZIJR"
+_PLACES = "XYZIJKR"
 _VALUES = _PLACES + "F"
+#: What has an arc's centre along an axis.
+_CENTRES = {"X": "I", "Y": "J", "Z": "K"}
 _DWELL, _NO_MOTION = Decimal(4), Decimal(80)
+#: How near to its corners a path may be cut: P, and Q for lines that are nearly one.
+_BLEND = Decimal(64)
+#: Cycles that drill, or bore: at each place down and up again. Their Q is the depth of a peck.
+_CYCLES = {73, 81, 82, 83, 85, 89}
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 _HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
-_KNOWN = "G00…G03, G17, G20, G21, G40, G90, G91, G92 or one that does not move"
+#: M words of boards for printers: from here on, and these; the words behind one are its own (`M92 X80`: steps). Of some
+#: the rest of the line is a text.
+_BOARDS, _BOARD = 100, {17, 18, 84, 92}
+_TEXTS = {117, 118}
+_KNOWN = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 #: µm in a number of each unit; None: by the decimal point.
 _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
 
@@ -90,8 +105,11 @@ _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
 class _Reader:
     """State of a program that is being read; places and heights in µm. What it does goes to `path`, if there is one."""
 
-    def __init__(self, idle: Idle, path: GcodePath | None) -> None:
+    def __init__(self, idle: Idle, path: GcodePath | None, untold: Decimal | None) -> None:
         self.tool, self.path = Tool(idle), path
+        # µm in a number without G20 and G21 (None: by its point); whether some have a point, and some others none.
+        self.untold = untold
+        self.has_points = self.has_wholes = False
         self.line = 0
         self.at = Decimal(0), Decimal(0)
         self.height: Decimal | None = None
@@ -101,6 +119,10 @@ class _Reader:
         self.travels: dict[Decimal, None] = {}
         self.dipped: Spot | None = None
         self.motion: int | None = 0
+        # Of a drilling cycle: its Z and R, and whether it comes up to R alone (G99).
+        self.cycle: dict[str, Decimal] = {}
+        self.is_low = False
+        self.plane = 17
         self.absolute: bool | None = None
         self.unit: Decimal | None = None
         self.offset: Decimal | None = None
@@ -108,7 +130,7 @@ class _Reader:
         self.blocks = 0
         self.begun = False
         self.home: Spot = (0, 0)
-        self.fed = self.warned_unit = False
+        self.fed = self.warned_unit = self.has_rapids = False
         # Gone to a place of the machine's own, nobody knows where in the plane.
         self.is_away = False
         # Where a G92 in mid-program has moved the origin of its places to; `at` goes on from the first one.
@@ -127,7 +149,10 @@ class _Reader:
             match = _WORD.match(text, at)
             if not match:
                 raise _Misread(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
-            yield _Word(match[1], Decimal(match[2]), "." in match[2], at + 1)
+            word = _Word(match[1], Decimal(match[2]), "." in match[2], at + 1)
+            yield word
+            if word.letter == "M" and word.number in _TEXTS:
+                return
             at = match.end()
 
     def take(self, line: str) -> None:
@@ -136,23 +161,19 @@ class _Reader:
         text = line.strip()
         if len(text) > LONGEST:
             self.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
-        if _MARK.fullmatch(text):
-            self.warn(1, f"GRBL does not know {text[0]}")
-            return
-        if _SETTING.fullmatch(text):
-            self.warn(1, "a setting of GRBL's: no other control knows $")
-            return
-        if not text:
+        if not text or self.is_apart(text):
             return
         values: dict[str, _Word] = {}
         codes: list[Decimal] = []
         turns: list[Decimal] = []
         power: Decimal | None = None
-        is_origin, stop = False, False
+        is_origin, stop, is_board = False, False, False
         for word in self.words(line):
             letter = word.letter
             if self.ended and (letter in _PLACES or letter == "G"):
                 raise _Misread(word.column, "expected nothing after M02")
+            if is_board and letter not in "GMS":
+                continue
             if letter in _VALUES:
                 if letter in values:
                     raise _Misread(word.column, f"{letter} stands here twice")
@@ -163,14 +184,18 @@ class _Reader:
                         raise _Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
                 codes.append(word.number)
                 is_origin |= self.preparatory(word)
+                is_board = False
             elif letter == "M":
                 if word.number in TURNS and TURNS.intersection(turns):
                     raise _Misread(word.column, f"M{turns[0]:f} and M{word.number:f} in one line")
                 turns.append(word.number)
                 stop |= self.miscellaneous(word)
+                is_board |= (word.number >= _BOARDS or word.number in _BOARD) and not (codes or values)
             elif letter == "S":
                 power = word.number
-            elif letter != "N" and letter not in _SILENT:
+            elif letter == "Q" and (_BLEND in codes or self.motion in _CYCLES):
+                pass
+            elif letter != "N" and letter not in _SILENT and not (letter in _OTHERS and not word.number):
                 raise _Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
         if turns or power is not None:
             self.tool.turn(self.line, turns, power, _DWELL in codes)
@@ -181,6 +206,8 @@ class _Reader:
             self.fed = feed.number > 0
             if not self.fed:
                 self.warn(feed.column, "a feed that is not more than 0")
+        if self.motion not in _CYCLES:
+            self.cycle.clear()
         if values and _DWELL in codes:
             place = next(iter(values.values()))
             raise _Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
@@ -188,10 +215,24 @@ class _Reader:
             self.name_place(values)
         elif codes and (_HOMES.intersection(codes) or _MACHINE in codes):
             self.go_away(values, _MACHINE not in codes)
+        elif values and self.motion in _CYCLES:
+            self.drill(values)
         elif values:
             self.move(values)
         if stop:
             self.mark(Stop(self.blocks))
+
+    def is_apart(self, text: str) -> bool:
+        """Whether a line is no block of words: what begins and ends a file, or is between a person and GRBL."""
+        if mark := _MARK.fullmatch(text):
+            self.warn(1, f"GRBL does not know {mark[1]}")
+        elif system := _SYSTEM.fullmatch(text):
+            self.warn(1, f"{system[1]} is GRBL's: no other control knows it")
+            if system[1].upper() == "$H":
+                self.go_away({}, is_home=True)
+        else:
+            return False
+        return True
 
     def mark(self, mark: Drilled | Stop) -> None:
         """A hole or a stop."""
@@ -218,12 +259,16 @@ class _Reader:
     def preparatory(self, word: _Word) -> bool:
         """Carry out a G word; True for G92."""
         match word.number:
-            case 0 | 1 | 2 | 3:
+            case 0 | 1 | 2 | 3 | 73 | 81 | 82 | 83 | 85 | 89:
                 self.motion = int(word.number)
+            case 98 | 99:
+                self.is_low = word.number == 99
             case 90 | 91:
                 self.absolute = word.number == 90
             case 92:
                 return True
+            case 17 | 18 | 19:
+                self.plane = int(word.number)
             case 20 | 21:
                 self.unit = _INCH if word.number == 20 else _MILLIMETRE
             case n if n in _OFFSETS:
@@ -251,12 +296,18 @@ class _Reader:
         word = values.get(letter)
         if word is None:
             return default
-        if self.unit is None and not self.warned_unit:
-            self.warned_unit = True
-            self.warn(word.column, "no G20 or G21 yet: a number with a point is taken for mm, a whole one for µm", True)
+        if self.unit is None:
+            self.has_points |= word.is_decimal
+            self.has_wholes |= bool(word.number) and not word.is_decimal
+            if not self.warned_unit:
+                self.warned_unit = True
+                how = "all numbers are taken for mm, since some have a point"
+                if self.untold is None:
+                    how = "a number with a point is taken for mm, a whole one for µm"
+                self.warn(word.column, f"no G20 or G21 yet: {how}", True)
         if word.number.adjusted() >= MAX_DIGITS:
             raise _Misread(word.column, f"{letter} has more than {MAX_DIGITS} digits in front of its point")
-        unit = self.unit or (_MILLIMETRE if word.is_decimal else Decimal(1))
+        unit = self.unit or self.untold or (_MILLIMETRE if word.is_decimal else Decimal(1))
         return word.number * unit
 
     def goal(self, values: dict[str, _Word], letter: str, here: Decimal) -> Decimal:
@@ -275,48 +326,121 @@ class _Reader:
         if self.motion is None:
             raise _Misread(column, "a place to go to, and no G00…G03 behind G80")
         feeds = self.motion > 0
-        if feeds and not self.fed:
-            self.fed = True
-            self.warn(column, "cuts, and there has been no F")
+        if feeds:
+            self.look_for_feed(column)
         start, before = _rounded(self.at), self.height
         if "Z" in values:
             self.to_height(self.goal(values, "Z", self.height or Decimal(0)), start, feeds)
         if values.keys() == {"Z"}:
             return
-        goal = self.goal(values, "X", self.at[0]), self.goal(values, "Y", self.at[1])
+        goal = self.place(values, feeds)
         end = _rounded(goal)
-        if self.is_away and (feeds or not self.absolute or not values.keys() >= {"X", "Y"}):
-            raise _Misread(column, "from a place of the machine's own, expected a rapid to X and Y")
-        self.is_away = False
         moves = start != end or self.motion >= 2
+        seen = (
+            self.upright(values, minus(end, start), before, column) if self.motion >= 2 and self.plane != 17 else None
+        )
         lowest = (self.height if before is None else min(before, self.height)) if self.knows_height else None
+        if seen and lowest is not None:
+            lowest -= round(seen.dip)
         if moves and lowest is not None and not feeds:
             self.tool.rapid_heights.add(lowest)
         cuts = feeds and not (moves and self.tool.is_idle(lowest))
         if lowest is not None and (moves or not feeds):
             (self.depths if cuts else self.travels)[lowest if cuts else self.height] = None
         if self.motion < 2:
-            if values.keys() & set("IJR"):
-                raise _Misread(column, "I, J and R belong to G02 and G03")
-            self.at = goal
-            if not cuts and not self.begun:
-                self.home = end
-            elif start != end:
-                self.lay(line_block(*minus(end, start)), start, end, cuts)
+            if values.keys() & set("IJKR"):
+                raise _Misread(column, "I, J, K and R belong to G02 and G03")
+            self.go(goal, cuts)
             return
-        if "R" in values:
-            if values.keys() & set("IJ"):
-                raise _Misread(column, "an arc has its centre, I and J, or its radius, R, not both")
-            to_centre = self.by_radius(minus(end, start), float(self.value(values, "R", Decimal(0))), column)
+        if seen:
+            at = start
+            for place in seen.places:
+                to = (start[0] + round(place), start[1]) if self.plane == 18 else (start[0], start[1] + round(place))
+                self.straight(at, to, cuts)
+                at = to
         else:
-            to_centre = tuple(rounded_one(self.value(values, letter, Decimal(0))) for letter in "IJ")
-        self.arc(start, end, (-to_centre[0], -to_centre[1]), column, cuts)
+            self.arc(start, end, self.to_centre(values, "XY", minus(end, start), column), column, cuts)
         self.at = goal
+
+    def look_for_feed(self, column: int) -> None:
+        """Say, once, that there has been no F."""
+        if not self.fed:
+            self.fed = True
+            self.warn(column, "cuts, and there has been no F")
+
+    def place(self, values: dict[str, _Word], feeds: bool) -> tuple[Decimal, Decimal]:
+        """Where a line goes to in the plane, µm."""
+        goal = self.goal(values, "X", self.at[0]), self.goal(values, "Y", self.at[1])
+        if self.is_away and (feeds or not self.absolute or not values.keys() >= {"X", "Y"}):
+            column = next(iter(values.values())).column
+            raise _Misread(column, "from a place of the machine's own, expected a rapid to X and Y")
+        self.is_away = False
+        return goal
+
+    def go(self, goal: tuple[Decimal, Decimal], cuts: bool) -> None:
+        """Straight to a place; until something has been cut that is where all begins."""
+        start, end = _rounded(self.at), _rounded(goal)
+        self.at = goal
+        self.has_rapids |= not cuts and start != end
+        if not cuts and not self.begun:
+            self.home = end
+        else:
+            self.straight(start, end, cuts)
+
+    def drill(self, values: dict[str, _Word]) -> None:
+        """A line of a drilling cycle: to a place, down and up again."""
+        for letter in values.keys() & set("IJK"):
+            raise _Misread(values[letter].column, f"{letter} in a drilling cycle is not known here")
+        column = next(iter(values.values())).column
+        if not self.absolute:
+            raise _Misread(column, "a drilling cycle with relative places is not known here, expected G90")
+        self.cycle |= {letter: self.value(values, letter, Decimal(0)) for letter in values.keys() & {"Z", "R"}}
+        if len(self.cycle) < 2:
+            raise _Misread(column, "a drilling cycle needs its depth Z and the height R")
+        self.look_for_feed(column)
+        retract = self.cycle["R"]
+        travels = max(retract, self.height) if self.knows_height and self.height is not None else retract
+        goal = self.place(values, feeds=False)
+        if _rounded(goal) != _rounded(self.at):
+            self.tool.rapid_heights.add(travels)
+        self.travels[travels] = None
+        self.go(goal, cuts=False)
+        self.dipped = None
+        self.mark(Drilled(_rounded(goal), self.cycle["Z"]))
+        self.height, self.knows_height = retract if self.is_low else travels, True
+
+    def to_centre(self, values: dict[str, _Word], plane: str, to_end: Spot, column: int) -> Spot:
+        """From an arc's start to its centre, in a plane; `to_end` is the way to its end."""
+        letters = [_CENTRES[axis] for axis in plane]
+        for letter in values.keys() & set(_CENTRES.values()) - set(letters):
+            raise _Misread(values[letter].column, f"{letter} belongs to arcs of another plane")
+        if "R" in values:
+            if values.keys() & set(letters):
+                raise _Misread(column, f"an arc has its centre, {' and '.join(letters)}, or its radius, R, not both")
+            return self.by_radius(to_end, float(self.value(values, "R", Decimal(0))), column)
+        x, y = (rounded_one(self.value(values, letter, Decimal(0))) for letter in letters)
+        if (x, y) == (0, 0):
+            raise _Misread(column, f"an arc needs its centre, {' and '.join(letters)}")
+        off = abs(hypot(to_end[0] - x, to_end[1] - y) - hypot(x, y))
+        if off > min(max(OFF_CONTROL, hypot(x, y) / 1000), OFF_MOST):
+            raise _Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
+        return x, y
+
+    def upright(self, values: dict[str, _Word], way: Spot, before: Decimal | None, column: int) -> SeenFromAbove:
+        """An arc of G18 or G19, from the height `before`, with that way in the plane."""
+        if way["XY".index(AXES[self.plane]) - 1]:
+            raise _Misread(column, f"an arc of G{self.plane} that leaves its plane is not known here")
+        if before is None and self.absolute and "Z" in values:
+            raise _Misread(column, f"an arc of G{self.plane} from a height that is not known")
+        ways = dict(zip("XY", way, strict=True), Z=rounded_one(self.height - (before or 0)) if "Z" in values else 0)
+        to_end = ways[PLANES[self.plane][0]], ways[PLANES[self.plane][1]]
+        to_centre = self.to_centre(values, PLANES[self.plane], to_end, column)
+        return seen_from_above(self.plane, 1 if self.motion == 3 else -1, to_centre, to_end)
 
     def go_away(self, values: dict[str, _Word], is_home: bool) -> None:
         """G28, G30: home, all of it or the axes that are named; G53: to a place in the machine's coordinates."""
-        if self.motion and not is_home:
-            raise _Misread(min((word.column for word in values.values()), default=1), "G53 in a line that cuts")
+        if self.motion and not is_home and values.keys() & {"X", "Y"}:
+            raise _Misread(min(word.column for word in values.values()), "G53 in a line that cuts")
         named = values.keys() or (set("XYZ") if is_home else set())
         if "Z" in named:
             self.leave(_rounded(self.at), self.height)
@@ -351,15 +475,15 @@ class _Reader:
             aside = -aside
         return round(way[0] / 2 - way[1] * aside), round(way[1] / 2 + way[0] * aside)
 
-    def arc(self, start: Spot, end: Spot, from_centre: Spot, column: int, cuts: bool) -> None:
-        xs, ys = from_centre
-        if (xs, ys) == (0, 0):
-            raise _Misread(column, "an arc needs its centre, I and J")
+    def straight(self, start: Spot, end: Spot, cuts: bool) -> None:
+        """A line in its place, unless it ends where it begins."""
+        if start != end:
+            self.lay(line_block(*minus(end, start)), start, end, cuts)
+
+    def arc(self, start: Spot, end: Spot, to_centre: Spot, column: int, cuts: bool) -> None:
+        """An arc in its place."""
+        xs, ys = -to_centre[0], -to_centre[1]
         to_end = xs + end[0] - start[0], ys + end[1] - start[1]
-        radius = hypot(xs, ys)
-        off = abs(hypot(*to_end) - radius)
-        if off > min(max(OFF_CONTROL, radius / 1000), OFF_MOST):
-            raise _Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
         sense = 1 if self.motion == 3 else -1
         cross, dot = sense * (xs * to_end[1] - ys * to_end[0]), xs * to_end[0] + ys * to_end[1]
         if start != end and 0 <= cross < LEAST_SWEEP * dot:
@@ -375,14 +499,23 @@ class _Reader:
         if self.path is not None:
             self.path.lay(block, self.blocks, start, end, not cuts)
 
+    def notes(self) -> tuple[str, ...]:
+        """What there is to say of what does not cut."""
+        return ("nothing is cut: it goes everywhere with G0",) if self.goes_only else self.tool.notes()
+
+    @property
+    def goes_only(self) -> bool:
+        """Whether there are rapids and nothing else."""
+        return self.has_rapids and not self.begun
+
 
 def _rounded(place: tuple[Decimal, ...]) -> Spot:
     return rounded_one(place[0]), rounded_one(place[1])
 
 
-def _read_through(text: str, idle: Idle, keeps: bool) -> _Reader:
+def _read_through(text: str, idle: Idle, keeps: bool, untold: Decimal | None) -> _Reader:
     """Read a program; what cannot be read is left out. Unless `keeps`, nothing of what it does is kept."""
-    reader = _Reader(idle, GcodePath() if keeps else None)
+    reader = _Reader(idle, GcodePath() if keeps else None, untold)
     for line in text.splitlines():
         try:
             reader.take(line)
@@ -393,11 +526,13 @@ def _read_through(text: str, idle: Idle, keeps: bool) -> _Reader:
 
 def _read_all(text: str, keeps: bool) -> _Reader:
     """The same, where it is known what does not cut; and what is wrong with the program as a whole."""
-    reader = _read_through(text, Idle(), keeps)
+    reader = _read_through(text, Idle(), keeps, None)
+    if reader.has_points and reader.has_wholes:
+        reader = _read_through(text, Idle(), keeps, _MILLIMETRE)
     # (what does not cut is known when all has been read; mostly there is nothing)
     idle = reader.tool.idle_in_all()
     if idle != Idle():
-        again = _read_through(text, idle, keeps)
+        again = _read_through(text, idle, keeps, reader.untold)
         if again.tool.idled < again.tool.feeds:
             reader = again
     for beam, line in reader.tool.always_off.items():
@@ -409,6 +544,8 @@ def _read_all(text: str, keeps: bool) -> _Reader:
         if any(reader.tool.is_on.values()):
             missing += ", with beam or spindle on"
         is_program = reader.begun
+        if reader.goes_only:
+            missing += "; nothing is cut: it goes everywhere with G0"
         reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not is_program, is_guess=is_program))
     return reader
 
@@ -416,7 +553,7 @@ def _read_all(text: str, keeps: bool) -> _Reader:
 def look(text: str) -> tuple[list[GcodeFinding], tuple[str, ...]]:
     """Everything that is wrong with a program, and its notes, as `GcodeProgram` has them."""
     reader = _read_all(text, keeps=False)
-    return reader.findings, reader.tool.notes()
+    return reader.findings, reader.notes()
 
 
 def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
@@ -424,7 +561,7 @@ def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
     reader = _read_all(text, keeps=True)
     guesses = tuple(str(finding) for finding in reader.findings if finding.is_guess)
     program = GcodeProgram(
-        name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.tool.notes()
+        name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.notes()
     )
     return program, reader.findings
 
