@@ -19,20 +19,20 @@ from skg.errors import UserError
 COMMANDS = {
     "cam": "Write the program that cuts a disc cam.",
     "check": "Find everything on tapes that a controller would choke on.",
-    "cut": "Cut a drawing: DXF or SVG to a checked tape.",
+    "cut": "Turn a drawing, DXF or SVG, into a checked tape.",
     "dxf": "Turn a tape or a program into a DXF drawing.",
     "from-dxf": "Write the program that cuts a DXF or SVG drawing.",
+    "gcode": "Turn a 3B tape into G-code, or back.",
     "gear": "Write the program that cuts an involute gear.",
-    "gcode": "Turn a 3B tape into ISO G-code, or back.",
-    "plot": "Draw tapes and programs to scale.",
+    "plot": "Draw tapes and programs to scale: SVG, PNG or PDF.",
     "quality": "Measure the curves of FIT against the true ones.",
     "ref": "Run a program in 50-digit arithmetic: the exact tape.",
     "run": "Run a program on the board, by the ROM itself.",
     "sim": "Follow tapes step by step as a controller does.",
     "tape": "Write a 3B tape of any style in another one.",
-    "tekhtran": "Make an SKG program of one in TEKHTRAN.",
+    "tekhtran": "Write the program that cuts a part in TEKHTRAN.",
     "term": "Be the teletype of a board on a serial port.",
-    "xy": "Make an SKG program of one in XY.",
+    "xy": "Write the program that cuts a part in XY.",
 }
 
 

@@ -15,12 +15,27 @@ MOST = 50_000.0
 
 @click.command(name="cam")
 @click.option("--base", required=True, metavar="MM", type=FiniteRange(0, MOST, min_open=True), help="Smallest radius.")
-@click.option("--lift", required=True, metavar="MM", type=FiniteRange(0, MOST, min_open=True), help="Lift.")
-@click.option("--rise", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Rise.")
 @click.option(
-    "--dwell", default=30.0, show_default=True, metavar="DEGREES", type=FiniteRange(0, 358), help="At the top."
+    "--lift",
+    required=True,
+    metavar="MM",
+    type=FiniteRange(0, MOST, min_open=True),
+    help="How far the follower is lifted.",
 )
-@click.option("--fall", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Return.")
+@click.option(
+    "--rise", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Angle of the rise."
+)
+@click.option(
+    "--dwell",
+    default=30.0,
+    show_default=True,
+    metavar="DEGREES",
+    type=FiniteRange(0, 358),
+    help="Angle of the dwell at the top.",
+)
+@click.option(
+    "--fall", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Angle of the return."
+)
 @click.option(
     "--law",
     default="cycloidal",

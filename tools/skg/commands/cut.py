@@ -54,7 +54,9 @@ class Passes(click.ParamType):
     type=FiniteRange(0, MOST_OFFSET),
     help="Spark gap on each side of the wire.",
 )
-@offset_option("The wire's distance from the contour, instead of half of --wire and --gap. Default: 0.")
+@offset_option(
+    "The wire's distance from the contour, R, instead of --wire and --gap: half the wire plus the gap. Default: 0."
+)
 @drawing_options
 @click.option(
     "--lead-shape",
@@ -100,7 +102,9 @@ class Passes(click.ParamType):
     type=RomName(("no-drift", "standard")),
     help="The ROM that makes the tape. On a standard tape the misses of the arcs add up.",
 )
-@click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
+@click.option(
+    "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB."
+)
 @click.option(
     "--feed",
     default=5.0,

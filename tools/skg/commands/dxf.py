@@ -27,7 +27,7 @@ def _differ(ones: list[PlacedRoute], others: list[PlacedRoute]) -> bool:
 @click.command(name="dxf")
 @click.argument("file", type=click.Path(allow_dash=True))
 @output_option("Drawing to write, - for the standard output.")
-@click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM, else 0,0.")
+@click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM of a program, else 0,0.")
 @click.option("--polylines", is_flag=True, help="One LWPOLYLINE with bulges for each contour.")
 @positions_option
 @click.option(
@@ -42,11 +42,13 @@ def _differ(ones: list[PlacedRoute], others: list[PlacedRoute]) -> bool:
 def command(
     file: str, output: str, start: XY | None, polylines: bool, positions: str, joints: str, skg80: str | None
 ) -> None:
-    """Turn a tape (.3b, G-code as .nc or .ngc) or a program (.skg, .xy, .tkh) into a DXF drawing of the wire's path.
+    """Turn a tape or a program into a DXF drawing of the wire's path.
 
-    Layers: WIRE what is cut, LEAD the way from the start hole to the contour, MOVES positioning, START and
-    STOPS points, of a milling tape HOLES, too. Its corners are where it has them, whatever --joints is.
-    FILE - is a tape on the standard input.
+    FILE is a tape (3B, or G-code as .nc, .ngc, .gcode, .tap, .iso) or a program (.skg, .xy, .tkh), which is run first;
+    `-`: a tape on the standard input.
+
+    Layers: WIRE is what is cut, LEAD the way from the start hole to the contour, MOVES what is no cut; START and STOPS
+    have points, and HOLES, of a milling tape. Corners of a milling tape are where it has them, whatever --joints says.
     """
     from skg.drawing.dxf import write
     from skg.drawing.source import iso_program, lay_out, load

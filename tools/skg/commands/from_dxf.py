@@ -18,7 +18,7 @@ from skg.plane import XY
 @click.argument("file", type=click.Path(allow_dash=True))
 @output_option("Program to write, - for the standard output.")
 @click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and write nothing.")
-@offset_option("R: half the wire and its spark gap. Default: 0, the wire's middle runs on the contour.")
+@offset_option("The wire's distance from the contour, R: half the wire plus the gap. Default: 0.")
 @drawing_options
 @click.option(
     "--fit-tolerance",

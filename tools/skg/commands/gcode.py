@@ -54,10 +54,10 @@ def _heights(heights: tuple[float, ...] | None) -> tuple[int, int] | None:
 
 
 @click.command(name="gcode")
-@click.argument("source", metavar="FILE", default="-", type=click.Path(allow_dash=True))
+@click.argument("source", metavar="[FILE]", default="-", type=click.Path(allow_dash=True))
 @output_option("File to write, - for the standard output.")
 @click.option("--back", is_flag=True, help="FILE is G-code, whatever its name: write a 3B tape.")
-@click.option("--start", type=Coordinates(), help="Where the wire begins, mm. Default: FROM of a program, else 0,0.")
+@click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM of a program, else 0,0.")
 @click.option(
     "--feed", type=OneOrTwo(), help="Feed in mm/min, and downwards if that is another one.  [default: 100, and said]"
 )

@@ -13,29 +13,33 @@ _MM = FiniteRange(0)
 
 @click.command(name="gear")
 @click.option("--module", required=True, metavar="MM", type=FiniteRange(0, 1000, min_open=True), help="Module.")
-@click.option("--teeth", required=True, type=click.IntRange(4, 1000), help="Number of teeth.")
+@click.option("--teeth", required=True, metavar="N", type=click.IntRange(4, 1000), help="Number of teeth.")
 @click.option(
     "--pressure-angle",
     default=20.0,
     show_default=True,
     metavar="DEGREES",
     type=FiniteRange(5, 40),
-    help="Its angle.",
+    help="Pressure angle.",
 )
-@click.option("--shift", default=0.0, show_default=True, type=FiniteRange(-1, 1), help="Profile shift, in modules.")
+@click.option(
+    "--shift", default=0.0, show_default=True, metavar="X", type=FiniteRange(-1, 1), help="Profile shift, in modules."
+)
 @click.option(
     "--clearance",
     default=0.25,
     show_default=True,
+    metavar="C",
     type=FiniteRange(0, 1),
-    help="Below the mate's tips, in modules.",
+    help="Between the root and the mate's tips, in modules.",
 )
 @click.option(
     "--fillet",
     default=0.2,
     show_default=True,
+    metavar="F",
     type=FiniteRange(0, 1),
-    help="Radius of the root, in modules; 0: none.",
+    help="Radius of the fillet at the root, in modules; 0: none.",
 )
 @click.option("--bore", default=0.0, metavar="MM", type=_MM, help="Diameter of the bore. Default: none.")
 @click.option(

@@ -81,7 +81,7 @@ def output_option(text: str, required: bool = False, in_place: bool = False) -> 
     A command that has it writes onto none of the files that it reads, unless `in_place`.
     """
     default = {"required": True} if required else {"default": "-", "show_default": True}
-    option = click.option("-o", "--output", type=click.Path(allow_dash=True), help=text, **default)
+    option = click.option("-o", "--output", metavar="FILE", type=click.Path(allow_dash=True), help=text, **default)
 
     def give(function: Callable) -> Callable:
         @wraps(function)
@@ -130,7 +130,9 @@ def drawing_options(function: Callable) -> Callable:
     from skg.drawing.wishes import OPEN, UNITS
 
     for option in (
-        click.option("--layer", "layers", multiple=True, help="Take only this layer; may be given again."),
+        click.option(
+            "--layer", "layers", multiple=True, metavar="NAME", help="Take only this layer; may be given again."
+        ),
         click.option("--units", type=click.Choice(tuple(UNITS)), help="Units of the drawing, instead of the file's."),
         click.option(
             "--tolerance",
@@ -161,7 +163,13 @@ def drawing_options(function: Callable) -> Callable:
             type=Coordinates(),
             help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
         ),
-        click.option("--start-layer", default="START", show_default=True, help="Layer of the points for start holes."),
+        click.option(
+            "--start-layer",
+            default="START",
+            show_default=True,
+            metavar="NAME",
+            help="Layer of the points for start holes.",
+        ),
         click.option(
             "--lead",
             default=LEAD,

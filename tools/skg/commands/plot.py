@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 @click.command(name="plot")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
 @output_option("Picture to write, .svg, .png or .pdf; - for the standard output.", required=True)
-@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, when the name does not tell it.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, where the name does not tell it.")
 @click.option("--blocks", is_flag=True, help="Write every block's number beside it.")
 @click.option(
     "--wire",
@@ -46,8 +46,10 @@ if TYPE_CHECKING:
     type=Coordinates(),
     help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.",
 )
-@click.option("--scale", type=FiniteRange(0, min_open=True), help="Drawing scale; default: what fits.")
-@click.option("--title", default="", help="A title above the drawing.")
+@click.option(
+    "--scale", metavar="N", type=FiniteRange(0, min_open=True), help="Drawing scale, 2 for 2:1. Default: what fits."
+)
+@click.option("--title", default="", metavar="TEXT", help="A title above the drawing.")
 @positions_option
 @skg80_option
 def command(
@@ -64,11 +66,12 @@ def command(
     positions: str,
     skg80: str | None,
 ) -> None:
-    """Draw tapes (.3b, G-code as .nc or .ngc) and programs (.skg, .xy, .tkh), several in one picture.
+    """Draw tapes and programs to scale, several in one picture.
+
+    FILE is a tape (3B, or G-code as .nc, .ngc, .gcode, .tap, .iso) or a program (.skg, .xy, .tkh), which is run first,
+    by the ROM (a milling program by the mill ROM) or by what --skg80 names; `-`: a tape on the standard input.
 
     Start holes are circles, drilled holes crosses in them, stops squares, moves that do not cut dashed.
-    A program is run first, by the ROM (a milling program by the mill ROM) or by what --skg80 names. FILE - is a tape
-    on the standard input.
     """
     from skg.drawing.plot import COLOURS, Picture
 

@@ -69,14 +69,14 @@ def saving_table(found: list[Saving]) -> str:
 def command(parts: tuple[Path, ...], tol: float | None) -> None:
     """Measure the curves that the FIT statements of PART (SKG programs) make, by the reference.
 
-    One row for each run of FIT statements: nodes, blocks, blocks that are chords of flat arcs, and before these
-    became chords the largest jump of the tangent (radians). For the examples in examples/, whose true curves are
-    known, the largest distance from it (µm): of the blocks; of the biarcs, with the nodes of the program, with twice
-    and four times as many; by how much each doubling divides it. A TOL in the program counts but for the biarcs, which
-    keep every node.
+    One row for each run of FIT statements. All rows have the nodes, the blocks, how many blocks are chords of flat
+    arcs, and the largest jump of the tangent (radians) before these became chords. Where the true curve is known, as
+    for examples/, the largest distance from it follows, in µm: of the blocks; of the biarcs with the nodes of the
+    program, with twice as many and with four times as many; and by what each doubling divides it. A TOL in the program
+    counts for the blocks; the biarcs keep every node.
 
-    With --tol, what TOL (docs/curves.md) does to the number of blocks, with the program's nodes and four times as many,
-    if these are no more than 300; a TOL in the program does not count.
+    --tol shows what TOL (docs/curves.md) does to the number of blocks, with the nodes of the program and with four
+    times as many, if these are no more than 300. A TOL in the program does not count then.
     """
     from skg.drawing.milling import is_milling
     from skg.drawing.source import program_text

@@ -23,7 +23,7 @@ def _text(name: str) -> str:
 
 @click.command("ref")
 @click.argument("part", type=click.Path(allow_dash=True))
-@output_option("Where the tape goes.")
+@output_option("Tape to write, - for the standard output.")
 @answers_option
 @click.option(
     "--drift/--no-drift",

@@ -30,14 +30,16 @@ def _answers(name: str | None) -> Iterator[str]:
 
 @click.command(name="run")
 @click.argument("part", type=click.Path(allow_dash=True))
-@output_option("Where the tape goes.")
+@output_option("Tape to write, - for the standard output.")
 @click.option(
     "--rom",
     metavar="NAME|FILE",
     help=f"The ROM: {', '.join(ROMS)}, or an image of your own, .bin or Intel .hex.  [default: "
     "standard; mill, and said, for a milling program]",
 )
-@click.option("--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="RAM, KiB.")
+@click.option(
+    "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB."
+)
 @answers_option
 @click.option(
     "--max-cycles",

@@ -16,8 +16,10 @@ def shape_options(function: Callable) -> Callable:
     """Give a command the options of `write_shape`."""
     for option in (
         click.option("--tape", metavar="FILE", type=click.Path(), help="Also write the tape, by the no-drift ROM."),
-        click.option("--tab", default=0.0, metavar="MM", type=FiniteRange(0), help="A bridge, as in `skg cut`."),
-        offset_option("R: half the wire and its spark gap. Default: 0, the wire's middle runs on the contour."),
+        click.option(
+            "--tab", default=0.0, metavar="MM", type=FiniteRange(0), help="Length of the bridge, as in `skg cut`."
+        ),
+        offset_option("The wire's distance from the contour, R: half the wire plus the gap. Default: 0."),
         output_option("Program to write, - for the standard output."),
     ):
         function = option(function)

@@ -80,8 +80,9 @@ def _xy(point: XY) -> str:
     "--feed",
     default=5.0,
     show_default=True,
+    metavar="MM/MIN",
     type=FiniteRange(0, min_open=True),
-    help="Feed in mm/min, for the time.",
+    help="Feed, for the time.",
 )
 @positions_option
 @click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
@@ -94,7 +95,7 @@ def _xy(point: XY) -> str:
     type=click.Path(allow_dash=True),
     metavar="FILE",
     help="Write each step, one byte: the value of a drive's port (docs/spec/drive.md). "
-    "-: standard output, without the report.",
+    "-: the standard output, without the report.",
 )
 @click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
 def command(

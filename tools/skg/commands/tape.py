@@ -25,8 +25,8 @@ from skg.tape.text import WITHOUT_DRIFT
 def command(file: str, output: str, style: str) -> None:
     """Read a 3B tape as anybody writes it, and write it in one style.
 
-    What was different from the punch's own style is said on standard error. A program (.skg, .xy) is run first. FILE -
-    (or none) is the standard input.
+    What was different from the punch's own style is said on standard error. A program (.skg, .xy, .tkh) is run first.
+    FILE - (or none) is the standard input.
     """
     tape = load(file).tape
     lost = tape.drift is False and output != "-" and not output.lower().endswith(WITHOUT_DRIFT)

@@ -35,13 +35,15 @@ from skg.files import read_bytes, without_mark
 )
 @click.option("--record", metavar="FILE", type=click.Path(), help="Write what is punched to this file.")
 @click.option("--punch-port", metavar="PORT", help="Where the punch is connected, if not to PORT itself.")
-@click.option("--baud", default=9600, show_default=True, type=click.IntRange(50), help="Speed of both ports.")
+@click.option(
+    "--baud", default=9600, show_default=True, metavar="N", type=click.IntRange(50), help="Speed of both ports."
+)
 @click.option(
     "--pace",
     type=click.Choice(("prompt", "none")),
     default="prompt",
     show_default=True,
-    help="Look at the echo of each line and wait for the prompt behind it, or for nothing but XOFF.",
+    help="prompt: look at the echo of each line and wait for the prompt behind it; none: wait for nothing but XOFF.",
 )
 @click.option(
     "--delay", default=0.0, metavar="SECONDS", type=FiniteRange(0), help="Also wait this long after each line."
