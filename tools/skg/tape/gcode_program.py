@@ -221,4 +221,4 @@ def _between(start: Spot, end: Spot) -> Blocks:
 
 def rounded_one(value: Decimal) -> int:
     """Whole µm, halves away from zero."""
-    return int(value.quantize(Decimal(1), ROUND_HALF_UP))
+    return int(value.to_integral_value(ROUND_HALF_UP))

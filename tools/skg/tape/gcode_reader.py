@@ -66,6 +66,8 @@ _WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))" + _SPACE.pattern)
 _SYSTEM = re.compile(r"(\$(?:\d+\s*=\s*[\d.]+|[GHICNX#$]|RST\s*=.*|SLP)?|\?)" + _SPACE.pattern, re.I)
 #: What begins and ends a file for some controls.
 _MARK = re.compile(r"([%:O])\d*" + _SPACE.pattern, re.I)
+#: How lines begin that may be no block of words.
+_APART = "%:Oo$?"
 #: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
 #: modes, work offsets (one of them, see there); sub-programs are no part of a path.
 _SILENT = "FSTPHDL"
@@ -84,8 +86,9 @@ _GROUPS = [
 #: Words that are places, and what G4 has besides P on some controls.
 _PLACES = "XYZIJKR"
 _VALUES = _PLACES + "F"
-#: What has an arc's centre along an axis.
-_CENTRES = {"X": "I", "Y": "J", "Z": "K"}
+#: What has an arc's centre in a plane, and what belongs to the others.
+_CENTRES = {"XY": "IJ", **{plane: "".join("IJK"["XYZ".index(axis)] for axis in plane) for plane in PLANES.values()}}
+_OTHER_CENTRES = {plane: {*"IJK"} - {*letters} for plane, letters in _CENTRES.items()}
 _DWELL, _NO_MOTION = Decimal(4), Decimal(80)
 #: How near to its corners a path may be cut: P, and Q for lines that are nearly one.
 _BLEND = Decimal(64)
@@ -93,6 +96,7 @@ _BLEND = Decimal(64)
 _CYCLES = {73, 81, 82, 83, 85, 89}
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 _HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
+_AWAY = {*_HOMES, _MACHINE}
 #: M words of boards for printers: from here on, and these; the words behind one are its own (`M92 X80`: steps). Of some
 #: the rest of the line is a text.
 _BOARDS, _BOARD = 100, {17, 18, 84, 92}
@@ -111,7 +115,9 @@ class _Reader:
         self.untold = untold
         self.has_points = self.has_wholes = False
         self.line = 0
+        # Where the tool is in the plane, and that in whole µm.
         self.at = Decimal(0), Decimal(0)
+        self.spot: Spot = (0, 0)
         self.height: Decimal | None = None
         # (heights that begin with a relative one are from an unknown place)
         self.knows_height = False
@@ -142,17 +148,19 @@ class _Reader:
         self.findings.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
 
     def words(self, text: str) -> Iterator[_Word]:
-        """Split a line into words; comments in parentheses and after `;` are nothing."""
+        """Split a line into words; comments in parentheses and after `;` are nothing, and N words say nothing."""
         text = text.upper()
-        at = _SPACE.match(text).end()
-        while at < len(text):
+        at, end = _SPACE.match(text).end(), len(text)
+        while at < end:
             match = _WORD.match(text, at)
             if not match:
                 raise _Misread(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
-            word = _Word(match[1], Decimal(match[2]), "." in match[2], at + 1)
-            yield word
-            if word.letter == "M" and word.number in _TEXTS:
-                return
+            letter, number = match.groups()
+            if letter != "N":
+                word = _Word(letter, Decimal(number), "." in number, at + 1)
+                yield word
+                if letter == "M" and word.number in _TEXTS:
+                    return
             at = match.end()
 
     def take(self, line: str) -> None:
@@ -161,7 +169,7 @@ class _Reader:
         text = line.strip()
         if len(text) > LONGEST:
             self.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
-        if not text or self.is_apart(text):
+        if not text or (text[0] in _APART and self.is_apart(text)):
             return
         values: dict[str, _Word] = {}
         codes: list[Decimal] = []
@@ -195,7 +203,7 @@ class _Reader:
                 power = word.number
             elif letter == "Q" and (_BLEND in codes or self.motion in _CYCLES):
                 pass
-            elif letter != "N" and letter not in _SILENT and not (letter in _OTHERS and not word.number):
+            elif letter not in _SILENT and not (letter in _OTHERS and not word.number):
                 raise _Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
         if turns or power is not None:
             self.tool.turn(self.line, turns, power, _DWELL in codes)
@@ -213,7 +221,7 @@ class _Reader:
             raise _Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
         if is_origin:
             self.name_place(values)
-        elif codes and (_HOMES.intersection(codes) or _MACHINE in codes):
+        elif not _AWAY.isdisjoint(codes):
             self.go_away(values, _MACHINE not in codes)
         elif values and self.motion in _CYCLES:
             self.drill(values)
@@ -254,7 +262,7 @@ class _Reader:
             self.origin = {letter: here[letter] - named[letter] for letter in "XY"}
         else:
             self.at = named["X"], named["Y"]
-            self.home = _rounded(self.at)
+            self.home = self.spot = _rounded(self.at)
 
     def preparatory(self, word: _Word) -> bool:
         """Carry out a G word; True for G92."""
@@ -328,7 +336,7 @@ class _Reader:
         feeds = self.motion > 0
         if feeds:
             self.look_for_feed(column)
-        start, before = _rounded(self.at), self.height
+        start, before = self.spot, self.height
         if "Z" in values:
             self.to_height(self.goal(values, "Z", self.height or Decimal(0)), start, feeds)
         if values.keys() == {"Z"}:
@@ -348,9 +356,9 @@ class _Reader:
         if lowest is not None and (moves or not feeds):
             (self.depths if cuts else self.travels)[lowest if cuts else self.height] = None
         if self.motion < 2:
-            if values.keys() & set("IJKR"):
+            if not values.keys().isdisjoint("IJKR"):
                 raise _Misread(column, "I, J, K and R belong to G02 and G03")
-            self.go(goal, cuts)
+            self.go(goal, end, cuts)
             return
         if seen:
             at = start
@@ -360,7 +368,7 @@ class _Reader:
                 at = to
         else:
             self.arc(start, end, self.to_centre(values, "XY", minus(end, start), column), column, cuts)
-        self.at = goal
+        self.at, self.spot = goal, end
 
     def look_for_feed(self, column: int) -> None:
         """Say, once, that there has been no F."""
@@ -377,10 +385,10 @@ class _Reader:
         self.is_away = False
         return goal
 
-    def go(self, goal: tuple[Decimal, Decimal], cuts: bool) -> None:
-        """Straight to a place; until something has been cut that is where all begins."""
-        start, end = _rounded(self.at), _rounded(goal)
-        self.at = goal
+    def go(self, goal: tuple[Decimal, Decimal], end: Spot, cuts: bool) -> None:
+        """Straight to a place, `end` in whole µm; until something has been cut that is where all begins."""
+        start = self.spot
+        self.at, self.spot = goal, end
         self.has_rapids |= not cuts and start != end
         if not cuts and not self.begun:
             self.home = end
@@ -401,21 +409,22 @@ class _Reader:
         retract = self.cycle["R"]
         travels = max(retract, self.height) if self.knows_height and self.height is not None else retract
         goal = self.place(values, feeds=False)
-        if _rounded(goal) != _rounded(self.at):
+        end = _rounded(goal)
+        if end != self.spot:
             self.tool.rapid_heights.add(travels)
         self.travels[travels] = None
-        self.go(goal, cuts=False)
+        self.go(goal, end, cuts=False)
         self.dipped = None
-        self.mark(Drilled(_rounded(goal), self.cycle["Z"]))
+        self.mark(Drilled(end, self.cycle["Z"]))
         self.height, self.knows_height = retract if self.is_low else travels, True
 
     def to_centre(self, values: dict[str, _Word], plane: str, to_end: Spot, column: int) -> Spot:
         """From an arc's start to its centre, in a plane; `to_end` is the way to its end."""
-        letters = [_CENTRES[axis] for axis in plane]
-        for letter in values.keys() & set(_CENTRES.values()) - set(letters):
+        letters = _CENTRES[plane]
+        for letter in values.keys() & _OTHER_CENTRES[plane]:
             raise _Misread(values[letter].column, f"{letter} belongs to arcs of another plane")
         if "R" in values:
-            if values.keys() & set(letters):
+            if not values.keys().isdisjoint(letters):
                 raise _Misread(column, f"an arc has its centre, {' and '.join(letters)}, or its radius, R, not both")
             return self.by_radius(to_end, float(self.value(values, "R", Decimal(0))), column)
         x, y = (rounded_one(self.value(values, letter, Decimal(0))) for letter in letters)
@@ -443,7 +452,7 @@ class _Reader:
             raise _Misread(min(word.column for word in values.values()), "G53 in a line that cuts")
         named = values.keys() or (set("XYZ") if is_home else set())
         if "Z" in named:
-            self.leave(_rounded(self.at), self.height)
+            self.leave(self.spot, self.height)
             self.height, self.knows_height = None, False
         self.is_away |= bool(named & {"X", "Y"})
 

@@ -19,6 +19,8 @@ _SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set())}
 TURNS = set.union(*_SWITCHES[_BEAM])
 #: An S in a line with an M word that is none of these is that word's.
 _PLAIN = {*range(10), 30, 48, 49}
+#: What turns a spindle, or moves a pen that is connected instead.
+_TURN = Decimal(3)
 #: M words that turn a servo, to a place that is their S.
 _SERVOS = {280, 300}
 #: A pen's two S, both not 0, are told from two powers of a laser by how often they change.
@@ -71,9 +73,10 @@ class Tool:
     def is_idle(self, height: Decimal | None) -> bool:
         """Whether a move with G1 to G3, no lower than `height`, does not cut; counts it."""
         self.feeds += 1
-        for name in _SWITCHES:
-            self.dark[name] += self.is_dark(name)
-        lift = self.servo or (Decimal(3), self.power)
+        for name, is_on in self.is_on.items():
+            if not is_on or (name == _BEAM and self.power == 0):
+                self.dark[name] += 1
+        lift = self.servo or (_TURN, self.power)
         if lift != self.lift:
             self.lift_changes += self.lift is not None
             self.lift = lift
