@@ -8,7 +8,7 @@ import sys
 import time
 import warnings
 from itertools import pairwise
-from math import asin, cos, degrees, hypot, pi, sin
+from math import asin, cos, degrees, hypot, pi, sin, tan
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -350,7 +350,18 @@ def test_edges_that_are_cut_away_are_not_spoiled(run: Run, tmp_path: Path, windo
 def test_an_opening_that_crosses_itself_and_the_edge(run: Run, tmp_path: Path) -> None:
     """The ROM goes along it; the check must tell, whatever area such a contour has."""
     page = drawing()
-    polygon([(0, 0), (12, 0), (12, 14), (0, 14)], page)
+    bulge = tan(pi / 8)
+    corners = [
+        (1, 0, 0),
+        (11, 0, bulge),
+        (12, 1, 0),
+        (12, 13, bulge),
+        (11, 14, 0),
+        (1, 14, bulge),
+        (0, 13, 0),
+        (0, 1, bulge),
+    ]
+    page.modelspace().add_lwpolyline(corners, "xyb", close=True)
     corners = [(3, 1, -1), (3, 0, 0), (6, 2, 0.41421356237), (4, 2, 0), (4, 3, 1), (3, 3, 0), (3, 2, 1)]
     page.modelspace().add_lwpolyline(corners, "xyb", close=True)
     told = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1)

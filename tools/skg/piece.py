@@ -94,7 +94,11 @@ class Piece:
 
     def parted(self, pieces: int) -> list[XY]:
         """The places that part it into equal pieces, both ends included."""
-        return [self.start, *(self.at(k / pieces) for k in range(1, pieces)), self.end]
+        if self.centre is None:
+            return [self.start, *(self.at(k / pieces) for k in range(1, pieces)), self.end]
+        radius, first = self.radius, self.angles[0]
+        inner = (polar(self.centre, radius, first + k / pieces * self.sweep) for k in range(1, pieces))
+        return [self.start, *inner, self.end]
 
 
 def chords_of(radius: float, sweep: float, off: float, coarsest: float = 0.5) -> int:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import tee
-from math import floor, inf
+from math import copysign, floor, inf
 
 from skg.cutting.check import LIMIT, Checked, Misfit, check
 from skg.cutting.crossing import Crossing
 from skg.drawing.account import counted, short, shown
+from skg.drawing.contour import Contour
 from skg.drawing.entry import longest_tab
-from skg.drawing.parallel import NoRoom, widest
+from skg.drawing.parallel import NoRoom, widest, wire_way
 from skg.drawing.planned import PlannedContour
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
@@ -225,9 +226,8 @@ def _without(
 
 def _no_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings) -> str:
     """What to say of contours that the wire does not get around: of the tightest one."""
-    fits = {at: _fits(routes[at], no_room) for at, no_room in none.items()}
-    at = min(fits, key=lambda one: (fits[one] is None, fits[one]))
-    route, fit = routes[at], fits[at]
+    at, fit = _tightest(routes, none)
+    route = routes[at]
     message = f"{_named(route, at, factor)}: {none[at]} {in_file(none[at].place, factor)}"
     if none[at].is_crossing:
         message += ", there is no way beside it for the wire"
@@ -253,11 +253,27 @@ def _in_passes(route: PlannedContour, fit: float) -> str:
     )
 
 
-def _fits(route: PlannedContour, no_room: NoRoom) -> float | None:
-    """How far the wire may be beside a contour to get around it, mm; None when it is not looked for."""
-    if no_room.is_crossing:
-        return 0.0
-    return widest(route.contour, max(route.passes, key=abs)) if len(route.contour.edges) <= _MANY else None
+def _tightest(routes: list[PlannedContour], none: dict[int, NoRoom]) -> tuple[int, float | None]:
+    """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
+    it, mm; None when that is not looked for."""
+    found: tuple[int, float] | None = None
+    for at, no_room in none.items():
+        if found and not found[1]:
+            break
+        if no_room.is_crossing:
+            return at, 0.0
+        route = routes[at]
+        r = max(route.passes, key=abs)
+        if len(route.contour.edges) <= _MANY and (found is None or not _fits(route.contour, copysign(found[1], r))):
+            found = at, widest(route.contour, r)
+    return found or (next(iter(none)), None)
+
+
+def _fits(contour: Contour, r: float) -> bool:
+    """Whether the wire gets around a closed contour, R (mm) to the right of it."""
+    with suppress(NoRoom):
+        return bool(wire_way(contour, r))
+    return False
 
 
 def _or_leave(settings: Settings) -> str:

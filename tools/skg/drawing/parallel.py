@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import pairwise
 from math import atan2, cos, floor, hypot, pi, sin, sqrt
 
@@ -213,8 +214,7 @@ def _area(edges: list[Edge]) -> shapely.Polygon:
 def _near(edge: Edge, r: float) -> Iterator[np.ndarray]:
     """The places within R (mm) of an edge: the corners of what lies beside it, and those of a circle about its end."""
     # (GEOS's own buffers will not do: it takes corners away that are up to 1 % of R, where many short chords meet more)
-    whole = Edge((edge.end[0] + r, edge.end[1]), (edge.end[0] + r, edge.end[1]), edge.end, 2 * pi)
-    yield np.array(_chords(whole))
+    yield edge.end + _circle(r)
     if edge.centre is None:
         aside = np.array(polar((0.0, 0.0), r, edge.direction() + pi / 2))
         yield np.array([edge.start - aside, edge.end - aside, edge.end + aside, edge.start + aside])
@@ -224,6 +224,12 @@ def _near(edge: Edge, r: float) -> Iterator[np.ndarray]:
     # (in two: of a whole circle it would touch itself)
     for half in (about[: len(about) // 2 + 1], about[len(about) // 2 :]):
         yield edge.centre + np.concatenate(((edge.radius + r) * half, inner * (half[::-1] if inner else half[:1])))
+
+
+@lru_cache(maxsize=1)
+def _circle(r: float) -> np.ndarray:
+    """Places along a circle about 0, 0, the last one left out."""
+    return np.array(_chords(Edge((r, 0.0), (r, 0.0), (0.0, 0.0), 2 * pi)))
 
 
 def _chords(edge: Edge) -> list[XY]:
