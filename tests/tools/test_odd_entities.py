@@ -100,6 +100,14 @@ def test_solids_are_named() -> None:
     ]
 
 
+def test_a_polyline_that_is_not_read_is_placed_at_its_first_corner() -> None:
+    """The place of the polyline itself is always (0, 0)."""
+    corners = "".join(f"\n0\nVERTEX\n8\n0\n10\n{x}\n20\n7\n30\n{z}\n70\n32" for x, z in ((40, 0), (60, 5), (60, 9)))
+    tilted = "POLYLINE 8 0 66 1 70 9 10 0 20 0" + corners + "\n0\nSEQEND"
+    (left,) = checked(raw(*square(0, 0, 9), tilted)).report.not_understood
+    assert (left.place, left.left) == ((40, 7), "leaves the drawing's plane, expected a flat drawing")
+
+
 def test_axes_within_an_outline_are_left() -> None:
     """By the layer's line type, or the entity's own; --open all and --layer cut them."""
     own = line(3, 3, 7, 3) + " 6 Center"

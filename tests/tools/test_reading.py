@@ -577,6 +577,11 @@ def test_units() -> None:
     assert read(raw(*square(0, 0, 2)), "a.dxf", Wishes(units="foot")).report.size == pytest.approx((609.6, 609.6))
     with pytest.raises(UserError, match=r"give --units \(.*\); it would be 50.8 x 50.8 mm in inch, 20 x 20 mm in cm"):
         read(raw(*square(0, 0, 2)), "a.dxf")
+    mile = raw(*square(0, 0, 1e-5), header="9\n$INSUNITS\n70\n3\n")
+    assert read(mile, "a.dxf").report.lines()[0] == "16.0934 x 16.0934 mm, read in mile (as the file says)"
+    nothing = "a.dxf: nothing to cut, read in mm: shorter than the tolerance; --units and --tolerance may help"
+    with pytest.raises(UserError, match=nothing):
+        read(raw(*square(0, 0, 2e-5)), "a.dxf")
     # ezdxf writes m where it is told nothing.
     metres = read(raw(*square(0, 0, 60), header="9\n$INSUNITS\n70\n6\n"), "a.dxf").report
     assert metres.size == (60, 60)
@@ -679,6 +684,9 @@ def test_arcs_of_next_to_nothing() -> None:
         reading = checked(raw(ends(5, 0, last)))
         assert reading.contours[0].edges[0].is_circle
         assert len(reading.report.notes) == (last[:2] == "0.")
+    # From just below a whole turn on: a circle or next to nothing, so that it is said.
+    reading = checked(raw(ends(5, "359.9999999999", 0)))
+    assert reading.contours[0].edges[0].is_circle and "a full turn is cut" in reading.report.notes[0]
 
 
 def test_only_unseen_layers() -> None:

@@ -33,9 +33,11 @@ logging.getLogger("ezdxf").propagate = False
 Group = tuple[int, str]
 #: $INSUNITS -> the name of the units, and mm in one.
 UNITS = {
-    1: ("inch", 25.4), 2: ("foot", 304.8), 4: ("mm", 1.0), 5: ("cm", 10.0), 6: ("m", 1000.0), 8: ("microinch", 2.54e-5),
-    9: ("mil", 0.0254), 10: ("yard", 914.4), 13: ("um", 0.001), 14: ("dm", 100.0), 16: ("hm", 1e5), 7: ("km", 1e6),
-    21: ("US survey foot", 1200 / 3937 * 1000),
+    1: ("inch", 25.4), 2: ("foot", 304.8), 3: ("mile", 1_609_344.0), 4: ("mm", 1.0), 5: ("cm", 10.0), 6: ("m", 1000.0),
+    7: ("km", 1e6), 8: ("microinch", 2.54e-5), 9: ("mil", 0.0254), 10: ("yard", 914.4), 11: ("angstrom", 1e-7),
+    12: ("nm", 1e-6), 13: ("um", 0.001), 14: ("dm", 100.0), 15: ("dam", 1e4), 16: ("hm", 1e5), 17: ("Gm", 1e12),
+    21: ("US survey foot", 1200 / 3937 * 1000), 22: ("US survey inch", 100 / 3937 * 1000),
+    23: ("US survey yard", 3600 / 3937 * 1000), 24: ("US survey mile", 6_336_000 / 3937 * 1000),
 }  # fmt: skip
 _BINARY, _IS_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00", b"AutoCAD Binary DXF"
 #: A number with a comma, as some programs write it where that is the custom.
@@ -78,6 +80,9 @@ class Record:
     @property
     def place(self) -> XY:
         """The first place that it tells, as it stands there."""
+        if self.kind == "POLYLINE" and self.parts:
+            # (its own place is no more than a height)
+            return self.parts[0].place
         try:
             return float(self.value(10, "0")), float(self.value(20, "0"))
         except ValueError:

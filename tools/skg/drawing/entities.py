@@ -52,8 +52,8 @@ _DEPTH = 32
 _MOST = 1_000_000
 #: A vertex of a polyline that is not on it, but pulls at it.
 _FRAME = 16
-#: The codes of the angles that an arc begins and ends at.
-_ANGLES = {"ARC": (50, 51), "ELLIPSE": (41, 42)}
+#: The codes of the angles that an arc begins and ends at, and a full turn.
+_ANGLES = {"ARC": (50, 51, 360.0), "ELLIPSE": (41, 42, 2 * pi)}
 #: What an entity that cannot be read may raise.
 UNREADABLE = (DXFError, ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError, AssertionError)
 
@@ -374,11 +374,12 @@ def _ocs(entity: DXFGraphic) -> OCS | None:
 
 
 def _is_whole(record: Record) -> bool:
-    """Whether an arc that is read ends at the angle that it begins at."""
+    """Whether an arc that is read as a full turn ends at the angle that it begins at, not a turn further on."""
     if record.kind not in _ANGLES:
         return False
-    first, last = (float(record.value(code, "nan")) for code in _ANGLES[record.kind])
-    return abs(last - first) < 1e-11
+    *codes, turn = _ANGLES[record.kind]
+    first, last = (float(record.value(code, "nan")) for code in codes)
+    return last - first < turn / 2 and _is_full((last - first) / turn)
 
 
 def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
@@ -408,9 +409,12 @@ def _is_wide(record: Record) -> bool:
 
 def _sweep(first: float, last: float) -> float:
     """From one angle on to the other, radians; whole turns, as files round them, are one."""
-    turns = (last - first) / (2 * pi)
-    is_little = _NONE < turns < _WHOLE
-    return 2 * pi if abs(turns - round(turns)) < _WHOLE and not is_little else (last - first) % (2 * pi)
+    return 2 * pi if _is_full((last - first) / (2 * pi)) else (last - first) % (2 * pi)
+
+
+def _is_full(turns: float) -> bool:
+    """Whether so many turns are whole ones that were rounded."""
+    return abs(turns - round(turns)) < _WHOLE and not _NONE < turns < _WHOLE
 
 
 def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:

@@ -163,6 +163,9 @@ def _nothing(content: Content, wishes: Wishes) -> str:
 
 def _no_outline(report: Account) -> str:
     """Why no contour is left."""
+    if not report.rest and not report.open_ends:
+        reasons = Counter(reason for layer in report.layers for reason in layer.why)
+        return f"nothing to cut, read in {report.units}: {', '.join(reasons)}; --units and --tolerance may help"
     if not report.rest:
         return f"no closed outline, {report.first_gap()}"
     places = ", ".join(shown(entity.place) for entity in report.rest[:3])
