@@ -179,6 +179,14 @@ def row(part: Path) -> str:
     return f"| {part.stem} | {shown} | {farthest(part, drift=True)[0]:.2f} | {farthest(part, drift=False)[0]:.2f} |"
 
 
+def test_bytes_of_the_rule() -> None:
+    """What the page says that the rule takes in the ROM; what is not used of an image is FF."""
+    standard, without = (
+        len((ROOT / f"roms/{name}.bin").read_bytes().rstrip(b"\xff")) for name in ("skg", "skg-nodrift")
+    )
+    assert f"| bytes of ROM | | {without - standard} more |" in DRIFT_PAGE.read_text()
+
+
 def test_table_of_the_manual() -> None:
     text = DRIFT_PAGE.read_text()
     assert text[text.index(TABLE_HEAD) + len(TABLE_HEAD) :].split("\n")[:-1] == list(map(row, EXAMPLES))
