@@ -235,6 +235,38 @@ def test_the_controllers_steps_count() -> None:
             assert LIMIT < found.faults[0].off < 0.0036
 
 
+@pytest.mark.parametrize(
+    ("corner", "cut_short"),
+    [
+        # R 0.6, and at R 0.1 around the corner; the same of the second pass, R 0.4, which the third one follows
+        (
+            b"B11200B0B11200GXL3 B0B11200B11200GYL4",
+            b"B10700B0B10700GXL3 B0B500B500GYL4 B500B0B500GXL3 B0B10700B10700GYL4",
+        ),
+        (
+            b"B0B10800B10800GYL2 B10800B0B10800GXL1",
+            b"B0B10500B10500GYL2 B300B0B300GXL1 B0B300B300GYL2 B10500B0B10500GXL1",
+        ),
+    ],
+)
+def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> None:
+    """A pass that goes around a corner where the last one should is found, though no part is spoiled by it."""
+    from skg.cutting.check import check
+    from skg.cutting.job import Settings, make
+    from skg.drawing.contour import Contour, Edge
+    from skg.drawing.plan import plan
+
+    corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
+    square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+    routes = plan([square], [(5.0, -3.0)], 0.1, "auto", passes=(0.5, 0.3, 0.0))
+    job = make(routes, "part", 1.0, Settings())
+    assert not job.checked.faults and len(job.checked.cuts) == 2
+    corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
+    assert job.data.count(corner) == 1
+    faults = check(tapes.parse(job.data.replace(corner, cut_short), "short"), routes, True).faults
+    assert [fault.is_into for fault in faults] == [True], faults
+
+
 def test_a_circle_too_many_is_found() -> None:
     """At a corner the wire goes on along the line or circle there, but not all around that."""
     from skg.cutting.check import check

@@ -5,12 +5,15 @@ Nothing here is computed as the ROM does it, there are no corners and no crossin
 - every place of the wire lies R beside its contour (at a sharp corner, outside: beside the line or circle there), and
   never nearer, also where another part of the contour comes by;
 - beside every place of the contour that the wire can reach it has been R away.
+
+R is that of the pass which goes there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, pairwise
@@ -39,6 +42,8 @@ LIMIT = 0.003
 _USUAL = 0.0008
 #: At a sharp corner, outside, the wire is no further from it than so often what it is where two lines meet.
 _TIP = 2.0
+#: A pass ends where a block ends that is no further from a start hole, mm.
+_HOLE = 0.002
 #: No corner is so sharp that the wire is looked for further from it than about so often R.
 _FAR = 1000
 #: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
@@ -65,10 +70,11 @@ class Misfit:
 
 @dataclass(frozen=True)
 class Threading:
-    """One stretch of cutting, from where the wire is threaded: whose it is, which blocks of the tape, what the wire
-    travels (mm), and how far from its beginning it ends (µm)."""
+    """One stretch of cutting, from where the wire is threaded: whose it is, which passes it has, which blocks of the
+    tape, what the wire travels (mm), and how far from its beginning it ends (µm)."""
 
     route: int
+    passes: tuple[int, ...]
     blocks: slice
     length: float
     gap: tuple[int, int]
@@ -112,7 +118,7 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     `is_without_drift`: blocks start where the controller stands; else its misses add up beside what is compared. A tape
     whose stops are not those of the routes is a `UserError`.
     """
-    owners = [at for at, route in enumerate(routes) for first, run in enumerate(route.runs()) if not first or run.stop]
+    owners = [(at, passes) for at, route in enumerate(routes) for passes in _between_stops(route)]
     if len(tape.bounds) != 2 * len(owners) - 1:
         raise UserError(f"the tape has {len(tape.bounds) - 1} stops, expected {2 * len(owners) - 2}")
     columns = columns_of(tape)
@@ -126,17 +132,28 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     gaps = (places[lasts] - places[firsts]).tolist()
     lengths = laid.lengths()
     cuts = [
-        Threading(owner, slice(first, last), float(lengths[first:last].sum()) / 1000, tuple(gap))
+        Threading(*owner, slice(first, last), float(lengths[first:last].sum()) / 1000, tuple(gap))
         for owner, (first, last), gap in zip(owners, tape.bounds[::2], gaps, strict=True)
     ]
     return Followed(laid, walked.off_curve, cuts, drift)
+
+
+def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
+    """The numbers of the passes that follow each other without a stop."""
+    found: list[tuple[int, ...]] = []
+    last = max(0, len(route.passes) - 1)
+    for at, run in enumerate(route.runs()):
+        if not found or run.stop:
+            found.append(())
+        found[-1] += (min(at, last),)
+    return found
 
 
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
     """Follow a tape and compare it with the routes that it should cut."""
     followed = follow(tape, routes, is_without_drift)
     contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
-    path = _WirePath(followed)
+    path = _WirePath(followed, routes)
     offsets = _offsets(routes)
     widest = float(np.abs(offsets).max(initial=0.0))
     with ThreadPoolExecutor(1) as other:
@@ -213,7 +230,7 @@ class _WirePath:
     most; where this is too much, its steps are looked at one by one.
     """
 
-    def __init__(self, followed: Followed) -> None:
+    def __init__(self, followed: Followed, routes: list[PlannedContour]) -> None:
         cuts = followed.cuts
         self.laid = followed.laid
         #: Which of the blocks they are.
@@ -221,6 +238,20 @@ class _WirePath:
         owners = np.repeat([cut.route for cut in cuts], [cut.blocks.stop - cut.blocks.start for cut in cuts])
         self.pieces = Pieces.of_tape(self.laid, self.rows, owners)
         self.aside = followed.off_curve[self.rows] / 1000
+        ends = np.cumsum([cut.blocks.stop - cut.blocks.start for cut in cuts])
+        #: Which pass each piece belongs to, -1 where that cannot be told.
+        self.passes = np.concatenate(
+            [
+                _passes(cut.passes, routes[cut.route], some)
+                for cut, some in zip(cuts, np.split(self.pieces.end, ends[:-1]), strict=True)
+            ]
+        )
+
+    def of_pass(self, number: int) -> Pieces:
+        """The pieces; those that surely belong to other passes are nobody's."""
+        found = copy(self.pieces)
+        found.owner = np.where((self.passes == number) | (self.passes < 0), self.pieces.owner, -1)
+        return found
 
     def doubtful(self, off: Floats, total: Floats) -> Whole:
         """Which of some places, as far off as this without the steps and with them, are too far off by these alone."""
@@ -252,9 +283,15 @@ class _Wanted:
         """How far places are from the ways of their routes."""
         return self.leads.nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
 
-    def off_by(self, places: Floats, owners: Whole, near: Nearest) -> tuple[Floats, np.ndarray]:
+    def beside(self, owners: Whole, passes: Whole) -> Floats:
+        """How far places are to be from their contours: in their pass, or in any (passes of -1)."""
+        found, known = self.aside[owners], passes >= 0
+        found[known] = found[known, passes[known]][:, None]
+        return found
+
+    def off_by(self, places: Floats, owners: Whole, passes: Whole, near: Nearest) -> tuple[Floats, np.ndarray]:
         """How far places are from where they should be, and which run into their own contour."""
-        aside = self.aside[owners]
+        aside = self.beside(owners, passes)
         off = np.abs(near.own[:, None] - aside).min(1)
         into = near.own < aside.min(1) - LIMIT
         # The wire of an open contour begins on it and goes aside.
@@ -269,10 +306,23 @@ class _Wanted:
         off[doubtful] = np.minimum(off[doubtful], corners)
         return off, into
 
-    def off_steps(self, steps: Floats, owner: int, widest: float) -> float:
-        """How far the controller's steps on a piece of a route's wire are from where they should be, at most."""
-        owners = np.full(len(steps), owner)
-        return float(self.off_by(steps, owners, self.contours.nearest(steps, owners, widest + 2 * LIMIT))[0].max())
+    def off_steps(self, steps: Floats, owner: int, number: int, widest: float) -> float:
+        """How far the controller's steps on a piece of a route's wire are from where they should be in a pass, at
+        most."""
+        owners, passes = np.full(len(steps), owner), np.full(len(steps), number)
+        near = self.contours.nearest(steps, owners, widest + 2 * LIMIT)
+        return float(self.off_by(steps, owners, passes, near)[0].max())
+
+
+def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
+    """Which of some passes pieces belong to that end at some places: a pass ends in a start hole."""
+    holes = np.array([route.start, route.tab_hole] if route.tab else [route.start])
+    if len(passes) == 1:
+        return np.full(len(ends), passes[0])
+    is_last = (np.hypot(*(ends[:, None] - holes).T) < _HOLE).any(0)
+    if is_last.sum() != len(passes):
+        return np.full(len(ends), -1)
+    return np.array(passes)[np.cumsum(is_last) - is_last]
 
 
 def _beside(
@@ -295,12 +345,14 @@ def _beside(
     for which, part in wire.batches(spacing, 2):
         places, owners = wire.at(which, part), wire.owner[which]
         near = contours.nearest(places, owners, widest + slack + 2 * LIMIT)
-        off, into = wanted.off_by(places, owners, near)
+        passes = path.passes[which]
+        off, into = wanted.off_by(places, owners, passes, near)
         total = off + path.aside[which]
         for at in np.unique(which[path.doubtful(off, total)]).tolist():
-            total[which == at] = wanted.off_steps(path.steps(at), wire.owner[at], widest)
+            total[which == at] = wanted.off_steps(path.steps(at), wire.owner[at], path.passes[at], widest)
         for owner, at in _first_of_each(owners, (total > LIMIT) | into):
-            misses = abs(wanted.aside[owner].min() - near.own[at]) if into[at] else total[at]
+            beside = wanted.beside(owners[[at]], passes[[at]]).min()
+            misses = abs(beside - near.own[at]) if into[at] else total[at]
             faults.setdefault(owner, Misfit(owner, _xy(places[at]), float(misses), bool(into[at])))
         close = np.flatnonzero(near.other < least[owners] + slack)
         near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
@@ -450,6 +502,7 @@ def _reached(
     """Whether the wire has been beside every place of the contours that it can reach."""
     faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
+    wires = [path.of_pass(number) for number in range(offsets.shape[1])]
     places = contours.batches(_spacing(contours, widest), 2)
     for which, part in chain(places, [_by_inner_corners(path.pieces, contours, widest)] if widest else []):
         # (a chord of a curve is square to it in its middle alone)
@@ -464,7 +517,7 @@ def _reached(
             if number + 1 < offsets.shape[1]:
                 free &= ~in_tabs[which]
             places = places[free]
-            near = path.pieces.nearest(places, owners[free], 2 * LIMIT)
+            near = wires[number].nearest(places, owners[free], 2 * LIMIT)
             off = near.own.copy()
             is_near = near.own_at >= 0
             off[is_near] += path.aside[near.own_at[is_near]]
