@@ -247,6 +247,29 @@ def test_a_colour_whose_last_number_is_nothing_is_seen(colour: str) -> None:
     assert boxes(reading_of(page(f"<g fill='none' stroke='{colour}'>{PART}</g><circle r='9'/>")))[1:] == [WHERE]
 
 
+@pytest.mark.parametrize(
+    ("style", "is_seen"),
+    [
+        ("stroke:var(--ink)", True),
+        ("stroke:var(--none)", False),
+        ("stroke:var( --more , #0000)", False),
+        ("stroke:var(--more, rgb(0,0,0))", True),
+        ("stroke:var(--more)", False),
+        ("stroke:var(--self)", False),
+        ("stroke:var(--other)", True),
+        ("stroke:red;display:var(--none)", False),
+        ("stroke:currentColor", True),
+        ("stroke:currentColor;color:var(--none, red)", False),
+        ("stroke:currentColor;color:transparent", False),
+    ],
+)
+def test_variables_and_the_present_colour(style: str, is_seen: bool) -> None:
+    """Values that a style sheet tells once, or that hold where it tells none; `color` is what currentColor means."""
+    sheet = "<style>:root{--ink:#123;--none:none;--other:var(--ink);--self:var(--self)} g{fill:none}</style>"
+    content = f"{sheet}<circle cx='60' cy='60' r='9'/><g><g style='{style}'>{PART}</g></g>"
+    assert (WHERE in boxes(reading_of(page(content)))) == is_seen
+
+
 def test_parts_of_a_page_without_a_size_are_left() -> None:
     content = '<rect width="50%" height="9"/><svg viewBox="0 0 1 1"><rect width="1" height="1"/></svg>' + PART
     reading = checked(page(content, ""), units="mm")

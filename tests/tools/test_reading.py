@@ -783,6 +783,11 @@ def test_old_files() -> None:
     reading = checked(data)
     assert reading.contours[0].is_closed
     assert "the file has no EOF at its end, it may have been cut off" in reading.report.lines()
+    # Empty lines where a group should begin are none; an empty value is one.
+    blank = raw(*square(0, 0, 9), "TEXT 8 0 10 1 20 1 1 A").replace(b"\n1\nA\n", b"\n1\n\n \n\n\n")
+    reading = checked(blank)
+    assert len(reading.contours) == 1 and left(reading) == {"nothing to cut": 1}
+    assert reading.report.notes == ["there are empty lines between the file's groups: passed over"]
 
 
 @given(st.data())

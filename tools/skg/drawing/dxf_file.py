@@ -217,17 +217,24 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
     """The groups of a text file."""
     text = text.replace("\r\n", "\n")
     lines = re.split("\r*\n|\r", text) if "\r" in text else text.split("\n")
-    first = 0
-    while first < len(lines) and not lines[first].strip():
-        first += 1
+    at = 0
+    while at < len(lines) and not lines[at].strip():
+        at += 1
     value = ""
-    may_have_commas, has_commas = "," in text, False
-    for at in range(first, len(lines) - 1, 2):
+    may_have_commas, has_commas, has_blanks = "," in text, False, False
+    while at < len(lines) - 1:
         try:
             code = int(lines[at])
         except ValueError:
-            raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
+            if lines[at].strip():
+                raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
+            if not has_blanks:
+                notes.append("there are empty lines between the file's groups: passed over")
+            has_blanks = True
+            at += 1
+            continue
         value = lines[at + 1]
+        at += 2
         if may_have_commas and "," in value and _is_real(code) and _COMMA.fullmatch(value):
             value = value.replace(",", ".")
             if not has_commas:

@@ -200,7 +200,7 @@ def _check_size(report: Account) -> None:
     if max(report.size) >= FARTHEST:
         raise UserError(
             f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; "
-            f"give --units{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
+            f"give --units, or --layer for a part{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
         )
     other = _in_other_units(report, LARGE)
     if report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE:

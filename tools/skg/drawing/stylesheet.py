@@ -22,6 +22,10 @@ _CLEAR = re.compile(
     r"|(?:rgba?|hsla?)\((?:(?:[^,]*,){3}|[^/]*/)\s*(?:0+\.?0*|\.0+)(?:e[+-]?\d+)?%?\s*\)"
 )
 _NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
+#: What stands for a value that is told elsewhere, with that where it is told nowhere.
+_VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,((?:[^()]|\([^()]*\))*))?\)")
+#: Variables told by variables.
+_DEPTH = 32
 #: Rules that hold under a condition: what stands before their braces, and in them.
 _CONDITIONAL = re.compile(r"@(media|supports|container|layer)\b([^{};]*)\{((?:[^{}]*\{[^{}]*\})*[^{}]*)\}")
 #: A selector's parts: a name, classes and ids.
@@ -33,11 +37,13 @@ _SELECTOR = re.compile(r"PART(?: (?:> )?PART)*".replace("PART", r"(?:(?:\*|[\w-]
 @dataclass(frozen=True)
 class Style:
     """How an element is drawn, with what it has from those around it: fill, stroke, its width and dashes, visibility.
-    `origin` and `box`: what its transform turns about, and whose sides percentages there are of. `geometry`: lengths of
-    its form that are told as properties, not as attributes."""
+    `variables`: values that are told once, by their names (--ink) in lower case. `origin` and `box`: what its transform
+    turns about, and whose sides percentages there are of. `geometry`: lengths of its form that are told as properties,
+    not as attributes."""
 
     fill: str = "black"
     stroke: str = "none"
+    color: str = "black"
     stroke_width: float = 1.0
     is_fill_clear: bool = False
     is_stroke_clear: bool = False
@@ -52,6 +58,7 @@ class Style:
     is_overflowing: bool = False
     markers: tuple[str, ...] = ("none",) * len(_MARKERS)
     geometry: dict[str, str] = field(default_factory=dict)
+    variables: dict[str, str] = field(default_factory=dict)
 
     @property
     def is_painted(self) -> bool:
@@ -66,11 +73,15 @@ class Style:
     @property
     def width(self) -> float:
         """How wide its line is, in its own pixels; 0 without one."""
-        return 0.0 if self.is_stroke_clear or _is_clear(self.stroke) else self.stroke_width
+        return 0.0 if self.is_stroke_clear or self._is_clear(self.stroke) else self.stroke_width
 
     @property
     def _has_area(self) -> bool:
-        return not self.is_fill_clear and not _is_clear(self.fill)
+        return not self.is_fill_clear and not self._is_clear(self.fill)
+
+    def _is_clear(self, colour: str) -> bool:
+        """Whether nothing is seen of a line or an area of this colour."""
+        return _CLEAR.fullmatch(self.color if colour == "currentcolor" else colour) is not None
 
 
 class StyleSheet:
@@ -88,7 +99,7 @@ class StyleSheet:
         text = _CONDITIONAL.sub(self._under_condition, text)
         for selectors, declarations in re.findall(r"([^{}]+)\{([^{}]*)\}", text):
             for selector in selectors.split(","):
-                parts = selector.replace(">", " > ").split()
+                parts = selector.replace(">", " > ").replace(":root", "svg").split()
                 declared = _declared(declarations)
                 if _SELECTOR.fullmatch(" ".join(parts)):
                     marks = "".join(parts)
@@ -117,7 +128,9 @@ class StyleSheet:
             declared |= one.usual
         for one in found:
             declared |= one.important
-        told = {name: element.get(name, "").strip() for name in _PROPERTIES} | declared
+        variables = outer.variables | {name: value for name, value in declared.items() if name.startswith("--")}
+        told = {name: element.get(name, "").strip() for name in (*_PROPERTIES, "color")} | declared
+        told = {name: _told(value, variables) for name, value in told.items()}
         told = {name: value for name, value in told.items() if value and value != "inherit"}
         visibility = told.get("visibility")
         dashes = told.get("stroke-dasharray")
@@ -126,6 +139,7 @@ class StyleSheet:
             outer,
             fill=told.get("fill", outer.fill).lower(),
             stroke=told.get("stroke", outer.stroke).lower(),
+            color=told.get("color", outer.color).lower(),
             stroke_width=float(width[0]) if width else outer.stroke_width,
             is_fill_clear=_is_nothing(told.get("fill-opacity"), outer.is_fill_clear),
             is_stroke_clear=_is_nothing(told.get("stroke-opacity"), outer.is_stroke_clear),
@@ -137,15 +151,24 @@ class StyleSheet:
             box=told.get("transform-box", ""),
             is_clear=_is_nothing(told.get("opacity"), False),
             markers=_markers(told, outer.markers),
-            geometry={name: value for name, value in declared.items() if name in _GEOMETRY},
+            geometry={name: told[name] for name in declared if name in _GEOMETRY and name in told},
+            variables=variables,
             is_overflowing=told.get("overflow", "").startswith("visible"),
             is_clipped=any(told.get(name, "none") != "none" for name in ("clip-path", "mask")),
         )
 
 
-def _is_clear(colour: str) -> bool:
-    """Whether nothing is seen of a line or an area of this colour."""
-    return _CLEAR.fullmatch(colour) is not None
+def _told(value: str, variables: dict[str, str]) -> str:
+    """A value with what its variables stand for; nothing where one of them is told nowhere, or by itself."""
+    for _ in range(_DEPTH):
+        found = _VARIABLE.search(value)
+        if found is None:
+            return value
+        known = variables.get(found[1].lower(), found[2])
+        if known is None:
+            return ""
+        value = f"{value[: found.start()]}{known.strip()}{value[found.end() :]}"
+    return ""
 
 
 def _is_nothing(opacity: str | None, outer: bool) -> bool:
