@@ -748,6 +748,17 @@ def test_arc_leads(run: Run, tmp_path: Path) -> None:
     assert turned < 0.002
 
 
+def test_a_straight_lead_has_its_own_reason(run: Run, tmp_path: Path) -> None:
+    """An arc was asked for: one hole is not square to any edge, the other one has too little room."""
+    page = drawing()
+    polygon([(0, 0), (20, 0), (20, 15), (0, 15)], page)
+    polygon([(4, 4), (6, 4), (6, 4.3), (4, 4.3)], page)
+    words = ["-o", tmp_path / "part.3b", "--offset", 0.1, "--lead-shape", "arc", "--start=-0.5,-3"]
+    told = run("cut", saved(page, tmp_path), *words).stderr
+    assert "contour 1 has no room for a lead along an arc: it is straight" in told, told
+    assert "contour 2 has a start hole that is not square to its edge" in told, told
+
+
 def test_a_tab_goes_around_corners(run: Run, tmp_path: Path) -> None:
     """A tab longer than every edge has several; one that is too long for the contour is refused, with its length."""
     page = drawing()

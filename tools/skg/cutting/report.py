@@ -87,7 +87,8 @@ def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
     straight, chords, off = [], [], []
     for at, route in enumerate(routes):
         if route.is_cramped:
-            straight.append(f"contour {at + 1} has no room for a lead along an arc: it is straight")
+            why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"
+            straight.append(f"contour {at + 1} {why} for a lead along an arc: it is straight")
         if not route.traced:
             continue
         if not any(route.passes):

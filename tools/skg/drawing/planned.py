@@ -110,6 +110,12 @@ class PlannedContour:
         return self.contour.edges[0].at(self.part)
 
     @property
+    def is_square(self) -> bool:
+        """Whether the start hole stands square to the entry: a lead that is an arc touches the contour only then."""
+        edge = self.chain[0]
+        return _is_square(self.start, edge.start, edge.direction())
+
+    @property
     def is_opening(self) -> bool:
         """Whether it is cut from inside: what falls out is the slug."""
         return self.contour.is_closed and self.depth % 2 == 1
@@ -140,8 +146,7 @@ class PlannedContour:
     def _lead(self, hole: XY, edge: Edge, at_end: bool = False) -> Lead:
         way = edge.direction(1.0 if at_end else 0.0)
         entry = edge.end if at_end else edge.start
-        square = abs(cos(_angle(minus(hole, entry)) - way)) < _SQUARE
-        return Lead(hole, entry, way, self.is_arc and square)
+        return Lead(hole, entry, way, self.is_arc and _is_square(hole, entry, way))
 
     def _with_tab(self, edges: tuple[Edge, ...], passes: tuple[float, ...]) -> Iterator[Way]:
         """The passes up to the tab, forth and back, then the tab."""
@@ -215,6 +220,11 @@ def _backwards(run: Way) -> Way:
 def _beside(place: XY, way: float, r: float) -> XY:
     """The place R to the right of one that is passed in a direction (radians)."""
     return place[0] + r * sin(way), place[1] - r * cos(way)
+
+
+def _is_square(hole: XY, entry: XY, way: float) -> bool:
+    """Whether a hole stands square to a place that is passed in a direction (radians)."""
+    return abs(cos(_angle(minus(hole, entry)) - way)) < _SQUARE
 
 
 def _angle(way: XY) -> float:
