@@ -354,7 +354,7 @@ class SetupSheet:
                 ("cut length", f"{job.cut_length:.1f} mm"),
                 ("time", f"{duration(job.seconds)} at {job.settings.feed:g} mm/min"),
                 ("ROM", job.settings.rom),
-                ("numbers", f"{left_out} without room, see the table" if left_out else "order of cutting"),
+                ("numbers", f"order of cutting, {left_out} in the table alone" if left_out else "order of cutting"),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)
