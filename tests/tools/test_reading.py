@@ -586,7 +586,7 @@ def test_units() -> None:
     metres = read(raw(*square(0, 0, 60), header="9\n$INSUNITS\n70\n6\n"), "a.dxf").report
     assert metres.size == (60, 60)
     assert metres.lines()[0].startswith("60 x 60 mm, read in mm (the file says m, but 60 x 60 m is no part")
-    for side in (0.5, 2.0, 6.1, 15000.0):
+    for side in (0.5, 2.0, 15000.0):
         with pytest.raises(UserError, match=r"a.dxf: the file does not say its units, and .* odd size: give --units"):
             read(raw(*square(0, 0, side)), "a.dxf")
     with pytest.raises(UserError, match="a tape has room for 100 m"):
@@ -605,7 +605,7 @@ def test_small_parts_of_unknown_units_are_doubted() -> None:
 
     doubt = "take care: 8 x 8 mm is small, and the units are guessed; it would be 203.2 x 203.2 mm in inch"
     assert notes(8) == [doubt + ", 80 x 80 mm in cm: --units says so"]
-    assert notes(8, Wishes(units="mm")) == [] and notes(26) == []
+    assert len(notes(3)) == 1 and notes(8, Wishes(units="mm")) == [] and notes(26) == []
 
 
 def test_told_units_of_an_odd_size_are_doubted() -> None:

@@ -29,9 +29,8 @@ __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
 #: The larger side of a usual part, mm.
 USUAL = 3.0, 10_000.0
-#: A drawing that does not tell its units is hardly in mm when its larger side is shorter than this, mm: of those that
-#: people draw so most are in inches. Up to the other it may be.
-UNTOLD, DOUBTED = 6.5, 25.4
+#: A drawing that does not tell its units and whose larger side is shorter than this, mm, may be in inches.
+DOUBTED = 25.4
 #: A larger part hardly lies on a wire machine, mm.
 LARGE = 1000.0
 #: No drawing that is cut has a larger side, mm.
@@ -192,7 +191,7 @@ def _check_size(report: Account) -> None:
     """Refuse an odd size that nobody vouches for, and what is too large for a tape."""
     width, height = map(short, report.size)
     is_told = not report.units_from.startswith(NOT_TOLD)
-    if not is_told and not UNTOLD <= max(report.size) <= USUAL[1]:
+    if not is_told and not USUAL[0] <= max(report.size) <= USUAL[1]:
         raise UserError(
             f"the file does not say its units, and {width} x {height} mm is an odd size: "
             f"give --units ({', '.join(UNITS)}){_in_other_units(report)}"
