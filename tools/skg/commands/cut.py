@@ -11,6 +11,7 @@ from skg.commands.options import (
     FiniteRange,
     RomName,
     drawing_options,
+    feed_option,
     offset_option,
     output_option,
     picture_format,
@@ -105,14 +106,7 @@ class Passes(click.ParamType):
 @click.option(
     "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB."
 )
-@click.option(
-    "--feed",
-    default=5.0,
-    show_default=True,
-    metavar="MM/MIN",
-    type=FiniteRange(0, min_open=True),
-    help="Feed, for the time.",
-)
+@feed_option
 @click.option("--quiet", is_flag=True, help="No report but what to take care of.")
 def command(
     file: str,

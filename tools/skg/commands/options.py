@@ -124,6 +124,18 @@ def offset_option(text: str) -> Callable[[Callable], Callable]:
     return click.option("--offset", metavar="MM", type=FiniteRange(0, MOST_OFFSET), help=text)
 
 
+def feed_option(function: Callable) -> Callable:
+    """Give a command the option --feed, of a wire."""
+    return click.option(
+        "--feed",
+        default=5.0,
+        show_default=True,
+        metavar="MM/MIN",
+        type=FiniteRange(0, min_open=True),
+        help="Feed, for the time.",
+    )(function)
+
+
 def drawing_options(function: Callable) -> Callable:
     """Give a command the options for how a drawing is read, and how its contours are entered and run through."""
     from skg.drawing.plan import LEAD, SIDES  # which loads numpy

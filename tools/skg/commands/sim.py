@@ -8,7 +8,7 @@ from itertools import chain
 
 import click
 
-from skg.commands.options import FiniteRange, decided, positions_option
+from skg.commands.options import decided, feed_option, positions_option
 from skg.drawing.source import load
 from skg.files import write_bytes
 from skg.plane import XY
@@ -76,14 +76,7 @@ def _xy(point: XY) -> str:
 
 @click.command(name="sim")
 @click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
-@click.option(
-    "--feed",
-    default=5.0,
-    show_default=True,
-    metavar="MM/MIN",
-    type=FiniteRange(0, min_open=True),
-    help="Feed, for the time.",
-)
+@feed_option
 @positions_option
 @click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
 @click.option(
