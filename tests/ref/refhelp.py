@@ -38,7 +38,7 @@ SIGNS = {1: (1, 1), 2: (-1, 1), 3: (-1, -1), 4: (1, -1)}
 
 
 def arc_end(x: int, y: int, j: int, axis: str, z: str, quadrant: int) -> tuple[int, int]:
-    """End minus start of an arc block, as a controller finds it: by walking J along the G axis.
+    """End minus start of an arc block, as a controller finds it: by walking J along the count axis.
 
     The other coordinate follows from the radius, so it may be out by a micrometre or so.
     """

@@ -168,7 +168,7 @@ def test_bytes() -> None:
     st.booleans(),
 )
 def test_a_controller_arrives_at_the_end(radius: int, a: float, sweep: float, clockwise: bool) -> None:
-    """Counting J along the G axis leads to the end of the arc again."""
+    """Counting J along the count axis leads to the end of the arc again."""
     b = a - sweep if clockwise else a + sweep
     start = (round(radius * math.cos(a)), round(radius * math.sin(a)))
     end = (round(radius * math.cos(b)), round(radius * math.sin(b)))

@@ -200,7 +200,7 @@ def test_first_on_the_way_of_equally_near() -> None:
     assert places("φD2,D3,D0,D1,←0(D6,D5);")[0] == (10, 10)
 
 
-def test_rounding() -> None:
+def test_fillet() -> None:
     found = places("φD0,2,D1,D2,3,D3,←0(D6,D0);")
     assert set(found) == {(0, 2), (2, 0), (10, 0), (10, 7), (7, 10), (0, 10)}
     assert found[0] in ((0, 2), (2, 0))
@@ -208,7 +208,7 @@ def test_rounding() -> None:
     assert set(places("φD0,D1,D2,3,D3,FS(X1),←0(D6,D0);")) >= {(10, 7), (7, 10), (3, 10), (0, 7)}
 
 
-def test_rounding_stays_with_its_point() -> None:
+def test_fillet_stays_with_its_point() -> None:
     found = places("φD6,1,×4(-D5,90),←0(D5,D6);")
     assert len(found) == 8
     assert max(abs(hypot(x - 5, y - 5) - hypot(*(p - 5 for p in found[0]))) for x, y in found) < 2e-4

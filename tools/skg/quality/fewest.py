@@ -9,7 +9,7 @@ import numpy as np
 
 from skg.quality.fitted import pieces
 from skg.quality.measure import denser, true_curve
-from skg.ref.fit import Node, circle_tangent, reflected
+from skg.ref.fit import Node, circle_tangent, mirrored
 from skg.ref.real import Real
 
 #: Directions that differ by no more than this (radians) are one.
@@ -26,9 +26,9 @@ def with_tangents(nodes: list[Node]) -> list[Node]:
     ]
     first, last = nodes[0], nodes[-1]
     if not first.tangent:
-        first = replace(first, tangent=reflected(inner[0].tangent, inner[0].point - first.point))
+        first = replace(first, tangent=mirrored(inner[0].tangent, inner[0].point - first.point))
     if not last.tangent:
-        last = replace(last, tangent=reflected(inner[-1].tangent, last.point - inner[-1].point))
+        last = replace(last, tangent=mirrored(inner[-1].tangent, last.point - inner[-1].point))
     return [first, *inner, last]
 
 

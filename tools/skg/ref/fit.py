@@ -35,7 +35,7 @@ class Node:
     offset: Real
 
 
-def reflected(t: Point, chord: Point) -> Point:
+def mirrored(t: Point, chord: Point) -> Point:
     """A direction mirrored about a chord: the other end's tangent of the circle that begins with it."""
     return chord * (2 * t.dot(chord) / chord.dot(chord)) - t
 
@@ -164,7 +164,7 @@ class FittedCurve:
                 return
             b = self.nodes[1]
             if a.tangent is None:
-                a = replace(a, tangent=reflected(b.tangent, b.point - a.point))
+                a = replace(a, tangent=mirrored(b.tangent, b.point - a.point))
             if self.tolerance:
                 self._hold(a, b)
             else:
@@ -190,7 +190,7 @@ class FittedCurve:
         elif a.tangent is None:
             tangent = unit(a.point, b.point)
         else:
-            tangent = reflected(a.tangent, b.point - a.point)
+            tangent = mirrored(a.tangent, b.point - a.point)
         self.nodes[1] = replace(b, tangent=tangent)
         return True
 
@@ -200,7 +200,7 @@ class FittedCurve:
         if same_point(middle, b.point):
             self.feed(b.point, b.offset)  # which the route drops, unless the joint is the node before as well
         else:
-            self._arc(middle, reflected(b.tangent, b.point - middle), b.point, b.offset)
+            self._arc(middle, mirrored(b.tangent, b.point - middle), b.point, b.offset)
 
     def _arc(self, p: Point, t: Point, q: Point, offset: Real) -> None:
         circle = arc(p, t, q)

@@ -37,7 +37,7 @@ from skg.rivals.statement import TextFault
 
 @dataclass(frozen=True)
 class Arc:
-    """A number in a route: the radius of a rounding or of a connecting arc (signed), and where it stands."""
+    """A number in a route: the radius of a fillet or of a connecting arc (signed), and where it stands."""
 
     radius: Real
     text: SkgText
@@ -91,11 +91,11 @@ class Stretch:
 
 @dataclass
 class Pin:
-    """A corner that a point names; its rounding, and the arc of that."""
+    """A corner that a point names; its fillet, and the arc of that."""
 
     point: ExactPoint
     text: SkgText
-    rounding: Arc | None = None
+    fillet: Arc | None = None
     arc: Stretch | None = None
 
 
@@ -137,7 +137,7 @@ def without_doubles(items: list[Hung]) -> list[Hung]:
 
 
 def mirror_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hung]:
-    """The images of items, last to first: a rounding stays with its point, a connecting arc between its circles."""
+    """The images of items, last to first: a fillet stays with its point, a connecting arc between its circles."""
     found: list[Hung] = []
     for index in reversed(range(len(items))):
         item = items[index]
@@ -264,28 +264,28 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
 
 
 def _round(parts: list[Part]) -> None:
-    """Find the arcs of all roundings, and shorten what they stand between."""
+    """Find the arcs of all fillets, and shorten what they stand between."""
     for index, pin in enumerate(parts):
-        if not isinstance(pin, Pin) or pin.rounding is None:
+        if not isinstance(pin, Pin) or pin.fillet is None:
             continue
-        at = pin.rounding.at.start_pos
-        if pin.rounding.radius <= TINY:
-            raise TextFault(at, "the radius of a rounding must be more than 0")
+        at = pin.fillet.at.start_pos
+        if pin.fillet.radius <= TINY:
+            raise TextFault(at, "the radius of a fillet must be more than 0")
         around = [part for part in parts[index + 1 :] + parts[:index] if isinstance(part, Stretch)]
         if not around or around[0].whole:
-            pin.rounding = None
+            pin.fillet = None
             continue
         before, after = around[-1], around[0]
         angle = turn(way_at(before.curve, pin.point), way_at(after.curve, pin.point))
         if abs(angle) < SAME_WAY:
-            pin.rounding = None
+            pin.fillet = None
             continue
         try:
-            pin.arc = _fillet(before.curve, after.curve, pin.rounding.radius, angle)
+            pin.arc = _fillet(before.curve, after.curve, pin.fillet.radius, angle)
         except PlaneError as error:
-            raise TextFault(at, f"the rounding does not fit: {error}") from None
+            raise TextFault(at, f"the fillet does not fit: {error}") from None
         if not before.has(pin.arc.start) or not after.has(pin.arc.end):
-            raise TextFault(at, "the rounding does not fit: it ends past its neighbours")
+            raise TextFault(at, "the fillet does not fit: it ends past its neighbours")
         before.end, after.start = pin.arc.start, pin.arc.end
 
 
@@ -306,7 +306,7 @@ def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Stretch:
 
 
 def stretches(parts: list[Part]) -> list[Stretch]:
-    """All that is travelled, the arcs of roundings too, in order."""
+    """All that is travelled, the arcs of fillets too, in order."""
     found = (part.arc if isinstance(part, Pin) else part for part in parts)
     return [stretch for stretch in found if stretch is not None and stretch.is_travelled]
 

@@ -94,7 +94,7 @@ def written(parts: list[Part], at: Entry, name: Namer) -> list[str]:
     )
     first = at.first
     if isinstance(parts[index], Pin):
-        # It begins with the arc of a rounding.
+        # It begins with the arc of a fillet.
         begin = name(None, first.start)
         circle = name(None, first.curve)
         body = [Stretch(first.curve, first.start, first.end, circle), Pin(first.end, name(None, first.end))]
@@ -137,7 +137,7 @@ def _texts(parts: list[Part], name: Namer) -> list[str]:
     for part in parts:
         if isinstance(part, Pin):
             text = _short(part.text, part.point, name)
-            found.append(f"{text},{part.rounding.text}" if part.rounding else str(text))
+            found.append(f"{text},{part.fillet.text}" if part.fillet else str(text))
         elif part.text is not None:
             found.append(str(_short(part.text, part.curve, name)))
     return found

@@ -257,10 +257,10 @@ class _Machine:
                 case "mirrored":
                     mirror = self.element(tree.children[3])
 
-                    def reflect(item: Hung, mirror: Argument = mirror) -> Hung:
+                    def mirror_item(item: Hung, mirror: Argument = mirror) -> Hung:
                         return Hung(mirrored(item.value, mirror.value), join(item.text, "/", mirror.text), item.at)
 
-                    items = mirrored_items(items, reflect)
+                    items = mirrored_items(items, mirror_item)
                 case _:
                     items, copies = self._copied(items, tree)
         return items, copies
@@ -299,5 +299,5 @@ def _with_arc(item: Hung, arc: Arc) -> Hung:
     if item.arc is not None:
         raise TextFault(arc.at.start_pos, "two numbers in a row")
     if item.is_pin and arc.radius <= TINY:
-        raise TextFault(arc.at.start_pos, "the radius of a rounding must be more than 0")
+        raise TextFault(arc.at.start_pos, "the radius of a fillet must be more than 0")
     return Hung(item.value, item.text, item.at, arc)

@@ -10,7 +10,7 @@ How the controller moves (`docs/tools.md` has the same in pictures):
   and F < 0 steps the axis that comes next counter-clockwise: +Y, −X, −Y, +X.
 - An arc starts with F = 0; F = x² + y² − xs² − ys² about its centre. F ≥ 0 steps towards the inside, F < 0
   onwards and outwards. It goes over to the next quadrant when the coordinate that shrinks has reached 0.
-- The block ends with the step that brings the count of steps on the G axis to J.
+- The block ends with the step that brings the count of steps on the count axis to J.
 """
 
 from __future__ import annotations
