@@ -240,6 +240,23 @@ def test_ends_past_corners() -> None:
     assert length(checked(raw(*PAST), open="all").contours) == pytest.approx(length(reading.contours) + 0.55)
 
 
+@pytest.mark.parametrize(("stub", "is_corner"), [(0.05, True), (0.19, True), (0.3, False)])
+def test_lines_of_their_own_past_corners(stub: float, is_corner: bool) -> None:
+    """One corner is met by a short line that ends free; the outline closes where others run past theirs."""
+    lines = [line(0, 0, 40, 0), line(40, 0, 40, 20.1), line(40.1, 20, 0, 20), line(0, 20, 0, 0)]
+    reading = checked(raw(*lines, line(40, 0, 40 + stub, 0)))
+    assert [one.is_closed for one in reading.contours] == ([True] if is_corner else [False] * len(reading.contours))
+    if is_corner:
+        assert length(reading.contours) == pytest.approx(120)
+        assert left(reading) == {"runs past a corner": 1}
+        assert f"3 ends on layer 0 past a corner by up to {max(stub, 0.1):g} mm, as at (" in "\n".join(
+            reading.report.lines()
+        )
+    # A part whose lines meet at another junction, too, is left as it was.
+    reading = checked(raw(*lines, line(40, 0, 40 + stub, 0), line(0, 20, -9, 20)))
+    assert not any(one.is_closed for one in reading.contours)
+
+
 def test_ends_past_corners_of_arcs() -> None:
     """A slot whose arcs go on behind their lines by up to 0.2 mm, and lines that go on behind an arc."""
     over = 1.8  # degrees, 0.157 mm

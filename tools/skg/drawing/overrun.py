@@ -6,7 +6,7 @@ what lies behind it is no outline. Nothing is put in: what is cut lies on what w
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,10 +28,11 @@ _CHORDS = 32
 
 @dataclass(frozen=True)
 class Overrun:
-    """A piece that runs past a corner, and the corner."""
+    """A piece that runs past a corner, and the corner. `is_whole`: it is an edge of the drawing, not a part of one."""
 
     piece: Edge
     corner: XY
+    is_whole: bool = False
 
 
 def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> tuple[Chains, list[Overrun]]:
@@ -39,9 +40,8 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
 
     `styles`: see `chain`.
     """
-    opened = [at for at, contour in enumerate(chains.contours) if not contour.is_closed]
-    found = {at: chains.contours[at] for at in opened}
-    cuts: list[Overrun] = []
+    freed, rest, cuts = _without_stubs(chains.rest)
+    found = dict(enumerate([contour for contour in chains.contours if not contour.is_closed] + freed))
     for pair in _pairs(found, tolerance):
         shorter = [_without(found[at], is_last, corner) for (at, is_last), corner in pair]
         for ((at, is_last), corner), (edge, piece) in zip(pair, shorter, strict=True):
@@ -56,11 +56,65 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
     closed = [contour for contour in chains.contours if contour.is_closed]
     merged = Chains(
         sorted(closed + again.contours, key=lambda contour: min(edge.entity for edge in contour.edges)),
-        chains.rest + again.rest,
+        rest + again.rest,
         chains.doubles + again.doubles,
         chains.short + again.short,
     )
     return merged, cuts
+
+
+def _without_stubs(rest: list[Contour]) -> tuple[list[Contour], list[Contour], list[Overrun]]:
+    """Of runs at junctions those that meet at none any more without the stubs that run past a corner by themselves;
+    the other runs; and the stubs."""
+    corners: dict[XY, list[int]] = defaultdict(list)
+    for at, run in enumerate(rest):
+        for end in _ends(run):
+            corners[end].append(at)
+    stubs: dict[int, Overrun] = {}
+    for corner, some in corners.items():
+        for at in some if len(some) > 2 else ():
+            edges, ends = rest[at].edges, _ends(rest[at])
+            free = ends[ends[0] == corner]
+            shortest = min(_last(rest[other], corner).length for other in some if other != at)
+            if len(edges) == 1 and len(corners[free]) == 1 and edges[0].length <= min(REACH, _PART * shortest):
+                stubs[at] = Overrun(edges[0], corner, is_whole=True)
+    freed: list[Contour] = []
+    kept: list[Contour] = []
+    cuts: list[Overrun] = []
+    for part in _parts(rest, corners) if stubs else ():
+        gone = part & stubs.keys()
+        meeting = Counter(end for at in part - gone for end in _ends(rest[at]))
+        is_free = gone and max(meeting.values(), default=3) <= 2
+        (freed if is_free else kept).extend(rest[at] for at in sorted(part - gone if is_free else part))
+        cuts += [stubs[at] for at in sorted(gone) if is_free]
+    return freed, kept if stubs else rest, cuts
+
+
+def _ends(run: Contour) -> tuple[XY, XY]:
+    """Where a run begins and ends."""
+    return run.edges[0].start, run.edges[-1].end
+
+
+def _last(run: Contour, corner: XY) -> Edge:
+    """The edge of a run that ends at a corner."""
+    return run.edges[0] if run.edges[0].start == corner else run.edges[-1]
+
+
+def _parts(runs: list[Contour], corners: dict[XY, list[int]]) -> list[set[int]]:
+    """The runs that hang together, by their numbers."""
+    found: list[set[int]] = []
+    seen: set[int] = set()
+    for begin in range(len(runs)):
+        part, open_ones = {begin}, [begin]
+        while open_ones and begin not in seen:
+            first, last = _ends(runs[open_ones.pop()])
+            more = {*corners[first], *corners[last]} - part
+            part |= more
+            open_ones += more
+        if begin not in seen:
+            found.append(part)
+        seen |= part
+    return found
 
 
 #: An end of a contour: the contour's number, and whether it is the end of its last edge; with the corner near it.

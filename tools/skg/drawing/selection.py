@@ -82,7 +82,8 @@ class Selection:
         chains = chain(self.content.edges, tolerance, self.styles)
         if self.wishes.open != "all":
             chains, cuts = without_overruns(chains, tolerance, self.styles)
-            fates.of_pieces([one.piece for one in cuts], PAST)
+            fates.of_pieces([one.piece for one in cuts if not one.is_whole], PAST)
+            fates.of_edges([one.piece for one in cuts if one.is_whole], PAST)
             report.notes += _past(cuts, self.content, report.factor)
         fates.of_edges(chains.short, SHORT)
         fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
