@@ -381,6 +381,19 @@ def test_what_is_drawn_on_lines_that_are_left_is_left_with_them() -> None:
     assert left(reading) == {JUNCTION: 2} and reading.report.overlaps == []
 
 
+def test_lines_on_a_contour_are_drawn_twice() -> None:
+    """On an edge of a closed polyline, over a corner, on a part of a circle; not a line that leaves it midway."""
+    plate = polygon((0, 0), (20, 0), (20, 10), (0, 10))
+    over = "LWPOLYLINE 8 0 90 3 70 0 10 15 20 0 10 20 20 0 10 20 20 8"
+    circle, arc = "CIRCLE 8 0 10 40 20 5 40 5", "ARC 8 0 10 40 20 5 40 5 50 20 51 130"
+    reading = checked(raw(plate, circle, line(0, 0, 12, 0), over, arc))
+    assert left(reading) == {"drawn twice": 3}
+    assert [one.what for one in reading.report.overlaps] == ["drawn twice"] * 3
+    bay = "LWPOLYLINE 8 0 90 4 70 0 10 3 20 0 10 5 20 0 10 9 20 4 10 14 20 0"
+    reading = checked(raw(plate, circle, line(0, 0, 20, 10), bay, "ARC 8 0 10 40 20 5.1 40 5 50 -20 51 130"))
+    assert left(reading) == {JUNCTION: 3}
+
+
 def test_hatching_centre_lines_and_frames() -> None:
     """Lines that end on an outline, cross it or hang on its corners are left, with their places."""
     data = raw(

@@ -23,7 +23,7 @@ from skg.drawing.chain import Chains, chain
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.field import boxes_of
 from skg.drawing.overrun import Overrun, without_overruns
-from skg.drawing.touching import Relations, nearest, relations
+from skg.drawing.touching import Relations, lying_on, nearest, relations
 from skg.drawing.wishes import Wishes
 from skg.errors import UserError
 from skg.plane import XY, distance
@@ -56,6 +56,9 @@ class Selection:
         """The contours that are wanted, open ones among them."""
         kept, rest = self._apart(self._chains())
         kept, rest = self._wanted(kept, rest)
+        on = lying_on(rest, kept, self.wishes.tolerance)
+        self.fates.doubles += [(rest[run].edges, kept[at].edges[0]) for run, at in on.items()]
+        rest = [one for run, one in enumerate(rest) if run not in on]
         for run in rest:
             self.fates.of_edges(run.edges, JUNCTION)
         self.report.notes += _around(rest, kept, self.report.factor)

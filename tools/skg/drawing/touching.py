@@ -149,6 +149,32 @@ def _meeting(one: shapely.LineString, other: shapely.LineString, tolerance: floa
     return what, (float(place[0]), float(place[1]))
 
 
+def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> dict[int, int]:
+    """The runs that lie on a contour, all along: their numbers, and those of the contours."""
+    if not runs or not contours:
+        return {}
+    reach = tolerance + 2 * _CHORD
+    ends = (
+        [run.edges[0].start for run in runs],
+        [run.edges[0].at(0.5) for run in runs],
+        [run.edges[-1].end for run in runs],
+    )
+    points = [shapely.points(places) for places in ends]
+    around = shapely.STRtree(shapely.box(*boxes_of(contours)[0].T))
+    some = np.unique(around.query(points[0], predicate="dwithin", distance=reach)[1])
+    lines = lines_of([contours[at] for at in some.tolist()])
+    tree = shapely.STRtree(lines)
+    near = [
+        set(zip(*tree.query(places, predicate="dwithin", distance=reach).tolist(), strict=True)) for places in points
+    ]
+    found: dict[int, int] = {}
+    for run, at in sorted(set.intersection(*near)):
+        (line,) = lines_of([runs[run]])
+        if run not in found and lines[at].buffer(reach, quad_segs=2).covers(line):
+            found[run] = int(some[at])
+    return found
+
+
 def nearest(places: list[XY]) -> list[XY | None]:
     """For each place the nearest of the others that is not the same place."""
     if not places:
