@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 from functools import cache
 from itertools import combinations
@@ -14,11 +15,12 @@ import pytest
 from skg.errors import UserError
 from skg.quality import measure as measuring
 from skg.quality.fewest import Saving, arc_distance, fewest_blocks, savings, span_blocks, with_tangents
-from skg.quality.fitted import Biarcs, FittedPiece, Run, fitted_runs, pieces, tangent_jump
+from skg.quality.fitted import Biarcs, FittedPiece, Run, _Few, fitted_runs, pieces, tangent_jump
 from skg.quality.measure import Quality, denser, distance, measure, node
 from skg.quality.true_curves import TRUE_CURVES
 from skg.ref import fit
 from skg.ref import run as reference
+from skg.ref.cutter import MOST_ITEMS
 from skg.ref.fit import MOST_PASSED, Node, within
 from skg.ref.real import ZERO, Real
 from skg.ref.values import Circle, Point
@@ -260,6 +262,23 @@ def test_command(run_program: object, tmp_path: Path) -> None:
     wrong.write_text("10 A=1/0\n")
     done = run_program("quality", wrong)
     assert (done.returncode, done.stderr) == (2, f"skg: {wrong}: the program ends in ERR 05 LINE 10\n")
+
+
+def test_a_node_takes_little_room() -> None:
+    """A million blocks took 3 GB: of routes, tape and pieces nothing is kept, of an open route what REP may ask for."""
+    peaks = []
+    for nodes in (90, 180, 360):
+        text = "10 I=0\n20 FROM (I,9)\n30 FIT (I,0)\n40 FIT (I+1,1)\n50 FIT (I+2,0)\n60 I=I+3\n"
+        tracemalloc.start()
+        runs = fitted_runs(f"{text}70 IF I<{nodes} GOTO 20\n80 END\n")
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+        assert sum(len(run.nodes) for run in runs) == nodes
+    assert peaks[2] - peaks[1] < 1500 * 180
+    few, items = _Few(), MOST_ITEMS + 3
+    for n in range(items):
+        few.append(n)
+    assert (few[0], few[-1], len(few)) == (0, items - 1, MOST_ITEMS + 1)
 
 
 def test_any_program(run_program: object, tmp_path: Path) -> None:

@@ -5,14 +5,15 @@ A curve is what one run of FIT statements makes, without R: arcs and lines (skg.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 
 from skg.errors import UserError
 from skg.ref import real
+from skg.ref.cutter import MOST_ITEMS, Cutter
 from skg.ref.fit import FittedCurve, Node
 from skg.ref.geometry import enlarged, same_point
 from skg.ref.interpreter import Interpreter
@@ -20,6 +21,7 @@ from skg.ref.mill.interpreter import MillInterpreter
 from skg.ref.mill.iso import IsoPunch
 from skg.ref.near import Watch
 from skg.ref.real import ZERO, Real
+from skg.ref.route import Route
 from skg.ref.tape import Punch
 from skg.ref.values import Circle, Point
 
@@ -73,12 +75,43 @@ class Run:
     tolerance: Real = ZERO
 
 
+class _Dropped(list):
+    """A list of what nobody asks for: it stays empty."""
+
+    def append(self, value: object) -> None:
+        """Keep nothing."""
+
+
+class _Few(list):
+    """The items of a route, as many as SYM, REP and RECUT take, and one: of all behind them only the last one."""
+
+    def append(self, value: object) -> None:
+        """Add an item behind all others, or in place of the last one."""
+        if len(self) > MOST_ITEMS:
+            self[-1] = value
+        else:
+            super().append(value)
+
+
 class Recorder(Interpreter):
-    """An interpreter that keeps every run of FIT statements."""
+    """An interpreter that keeps every run of FIT statements, and nothing else: there may be a million blocks."""
 
     def __init__(self, punch: Punch | None = None) -> None:
         self.runs: list[Run] = []
         super().__init__((), Watch(), punch or Punch())
+        self.tape.lines = _Dropped()
+
+    def _new_cutter(self) -> Cutter:
+        cutter = super()._new_cutter()
+        cutter.path, new_route = _Dropped(), cutter._new_route
+
+        def few_items() -> Route:
+            route = new_route()
+            route.items = _Few()
+            return route
+
+        cutter._new_route = few_items
+        return cutter
 
     def _fit(self, node: Point, angle: Real | None) -> None:
         if self.cutter.curve is None:
@@ -108,25 +141,34 @@ def fitted_runs(source: str, mills: bool = False) -> list[Run]:
     return machine.runs
 
 
-def pieces(nodes: Iterable[Node], tolerance: Real = ZERO, kind: type[FittedCurve] = FittedCurve) -> list[FittedPiece]:
-    """The blocks of a curve: the arcs and lines between the points that it is fed as."""
+def each_piece(
+    nodes: Iterable[Node], tolerance: Real = ZERO, kind: type[FittedCurve] = FittedCurve
+) -> Iterator[FittedPiece]:
+    """The blocks of a curve, one after the other: the arcs and lines between the points that it is fed as."""
     fed: list[Point | Circle] = []
     curve = kind(lambda value, _: fed.append(value), tolerance)
-    for node in nodes:
-        curve.add(node)
-    curve.finish()
-    made: list[FittedPiece] = []
-    start, circle = fed[0], None
-    for value in fed[1:]:
-        if isinstance(value, Circle):
-            circle = value
+    start, circle = None, None
+    for node in chain(nodes, [None]):
+        if node is None:
+            curve.finish()
         else:
-            made.append(FittedPiece(start, value, circle))
+            curve.add(node)
+        for value in fed:
+            if isinstance(value, Circle):
+                circle = value
+                continue
+            if start is not None:
+                yield FittedPiece(start, value, circle)
             start, circle = value, None
-    return made
+        fed.clear()
 
 
-def tangent_jump(curve: list[FittedPiece]) -> float:
+def pieces(nodes: Iterable[Node], tolerance: Real = ZERO, kind: type[FittedCurve] = FittedCurve) -> list[FittedPiece]:
+    """All blocks of a curve."""
+    return list(each_piece(nodes, tolerance, kind))
+
+
+def tangent_jump(curve: Iterable[FittedPiece]) -> float:
     """The largest angle (radians) between two arcs where they meet."""
-    jumps = [abs(real.mp.asin(a.heading(a.end).cross(b.heading(b.start)))) for a, b in pairwise(curve)]
+    jumps = (abs(real.mp.asin(a.heading(a.end).cross(b.heading(b.start)))) for a, b in pairwise(curve))
     return float(max(jumps, default=ZERO))
