@@ -15,12 +15,12 @@ from skg.piece import Piece
 from skg.plane import XY, distance
 from skg.tape.columns import Flags, directions, hypots, numbers_up_to
 
-#: So many chords that follow each other are looked for together.
-_RUN = 32
+#: So many chords that follow each other are looked for together; of these so many are looked at, or none of them.
+_RUN, _PIECE = 32, 8
 #: What is within a reach may seem to lie this much farther away, mm.
 _HAIR = 1e-9
-#: So many pairs of a place and a chord are looked at together.
-_PAIRS = 100_000
+#: So many pairs of a place and a chord are looked at together; those of contours of no more than so many points too.
+_PAIRS, _FEW = 100_000, 200
 #: Where a contour is looked across for places in it, parts of its height and of the width there: no corners lie there
 #: but by chance.
 _ACROSS, _NEAR_ENDS = (0.2873, 0.25), (0.0731, 0.05)
@@ -41,19 +41,19 @@ class Field:
         self.contours = contours
         self._points, counts = points_of(contours)
         self._first = np.concatenate(([0], np.cumsum(counts)))
-        # Runs of chords: from which point to which.
-        runs = np.maximum(1, -(-(counts - 1) // _RUN))
-        of, begins = np.repeat(np.arange(len(counts)), runs), np.cumsum(runs) - runs
-        self._low = self._first[of] + _RUN * (np.arange(len(of)) - begins[of])
-        self._high = np.minimum(self._low + _RUN, self._first[of + 1] - 1)
-        self._runs = shapely.STRtree(self._boxes())
+        # Runs of chords, and the pieces of these: from which point to which.
+        runs, _ = _stretches(self._first[:-1], self._first[1:] - 1, _RUN)
+        low, high = self._boxes(*runs)
+        self._runs = shapely.STRtree(shapely.box(*low.T, *high.T))
+        (self._low, self._high), self._pieces = _stretches(*runs, _PIECE)
+        self._piece_boxes = self._boxes(self._low, self._high)
 
-    def _boxes(self) -> NDArray[np.object_]:
-        """The boxes around the runs."""
-        ends = self._points[self._high]
-        low = np.minimum(np.minimum.reduceat(self._points, self._low), ends) if len(ends) else ends
-        high = np.maximum(np.maximum.reduceat(self._points, self._low), ends) if len(ends) else ends
-        return shapely.box(*low.T, *high.T)
+    def _boxes(self, first: Whole, last: Whole) -> tuple[Floats, Floats]:
+        """The boxes around stretches of points: the smallest x and y of each, and the largest (n, 2)."""
+        ends = self._points[last]
+        if not len(ends):
+            return ends, ends
+        return tuple(of(of.reduceat(self._points, first), ends) for of in (np.minimum, np.maximum))
 
     def near(self, places: Floats, reach: Floats) -> Floats:
         """How far the nearest contour is from each of n places (n, 2), mm: infinite where none is within its reach."""
@@ -95,22 +95,26 @@ class Field:
             some = slice(first, first + _BOXES)
             of, runs = self._runs.query(shapely.box(*low[some].T, *high[some].T))
             order = np.argsort(of, kind="stable")
-            of, runs = first + of[order], runs[order]
-            chords = self._high[runs] - self._low[runs]
-            total = np.concatenate(([0], np.cumsum(chords)))
-            begin = 0
-            while begin < len(of):
-                end = max(begin + 1, int(np.searchsorted(total, total[begin] + _PAIRS, "right")) - 1)
-                counts = chords[begin:end]
-                at = np.arange(counts.sum()) + np.repeat(
-                    self._low[runs[begin:end]] - np.cumsum(counts) + counts, counts
-                )
-                one = np.repeat(of[begin:end], counts)
+            of, pieces = self._near_pieces(first + of[order], runs[order], low, high)
+            chords = self._high[pieces] - self._low[pieces]
+            for part in _batches(chords):
+                counts = chords[part]
+                at = np.repeat(self._low[pieces[part]], counts) + numbers_up_to(counts)
+                one = np.repeat(of[part], counts)
                 starts = np.flatnonzero(np.diff(one, prepend=-1))
                 least = np.minimum.reduceat(measure(at, one), starts)
                 found[one[starts]] = np.minimum(found[one[starts]], least)
-                begin = end
         return found
+
+    def _near_pieces(self, of: Whole, runs: Whole, low: Floats, high: Floats) -> tuple[Whole, Whole]:
+        """Of places whose boxes, from `low` to `high`, some runs come into: the pieces of these runs that do."""
+        counts = self._pieces[runs + 1] - self._pieces[runs]
+        of, pieces = np.repeat(of, counts), np.repeat(self._pieces[runs], counts) + numbers_up_to(counts)
+        is_in = np.ones(len(of), bool)
+        for axis in (0, 1):
+            least, most = (box[:, axis][pieces] for box in self._piece_boxes)
+            is_in &= (least <= high[:, axis][of]) & (most >= low[:, axis][of])
+        return of[is_in], pieces[is_in]
 
     def depths(self) -> list[int]:
         """How many closed contours lie around each: hold a place in it, and are larger.
@@ -118,29 +122,39 @@ class Field:
         (Its corners may lie on its neighbours, and a smaller one that lies in it may hold the place.) One that crosses
         others takes something away where it does: it is looked at where an odd number of them lies around it.
         """
-        found = [0] * len(self.contours)
-        for at, around in self._around_in(_ACROSS, range(len(found))):
-            found[at] = max(found[at], len(around), key=lambda one: (one % 2, one))
+        number = len(self.contours)
+        whose, of, holding = self._around_in(_ACROSS, np.ones(number, bool))
+        depths = np.zeros(number, np.int64)
+        counts = np.bincount(of, minlength=len(whose))
+        # (an odd number goes before a larger even one)
+        np.maximum.at(depths, whose, counts + counts % 2 * number)
+        depths %= number
         # (a slot that another one crosses in its middle shows at its ends what it is)
-        within = {at: depth for at, depth in enumerate(found) if depth and depth % 2 == 0}
-        holding: dict[int, set[int]] = {}
-        for at, around in self._around_in(_NEAR_ENDS, within) if within else ():
-            holding[at] = holding.get(at, around) & around
-            if len(around) % 2 and len(around) < within[at]:
-                found[at] = len(around)
+        within = (depths > 0) & (depths % 2 == 0)
+        if not within.any():
+            return depths.tolist()
+        whose, of, holding = self._around_in(_NEAR_ENDS, within)
+        counts = np.bincount(of, minlength=len(whose))
+        fewer = np.flatnonzero((counts % 2 == 1) & (counts < depths[whose]))
+        depths[whose[fewer]] = counts[fewer]
         # (one that several others cover would be no part if it were one: these are cut across it)
-        for at, around in holding.items():
-            if len(around) % 2 and found[at] % 2 == 0:
-                found[at] = len(around)
-        return found
+        pairs, times = np.unique(whose[of] * number + holding, return_counts=True)
+        covered = pairs[times == np.bincount(whose, minlength=number)[pairs // number]] // number
+        covers = np.bincount(covered, minlength=number)
+        covered = (covers % 2 == 1) & (depths % 2 == 0)
+        depths[covered] = covers[covered]
+        return depths.tolist()
 
-    def _around_in(self, where: tuple[float, float], some: Collection[int]) -> Iterator[tuple[int, set[int]]]:
-        """The numbers of some contours, and which as large closed ones lie around a place in each."""
-        sizes, inner = self._sizes(), zip(*self._inner(*where), strict=True)
-        asked = [(at, place) for at, place in inner if at in some]
-        owners, places = [at for at, _ in asked], [place for _, place in asked]
-        for at, others in zip(owners, self.around(places, owners), strict=True):
-            yield at, {other for other in others if sizes[other] >= sizes[at]}
+    def _around_in(self, where: tuple[float, float], some: Flags) -> tuple[Whole, Whole, Whole]:
+        """The contours that each of some places lies in, which are in some of the contours: whose these places are;
+        of each pair of a place and a contour around it, as large as its own or larger, both numbers."""
+        whose, places = self._inner(*where)
+        asked = some[whose]
+        whose, places = whose[asked], places[asked]
+        sizes = self._sizes()
+        of, holding = self._holding(places, whose)
+        large = sizes[holding] >= sizes[whose[of]]
+        return whose, of[large], holding[large]
 
     def _sizes(self) -> Floats:
         """The areas of all contours, mm²."""
@@ -151,7 +165,7 @@ class Field:
         # (each begins at 0, 0: what comes to it from the one before is nothing)
         return np.abs(np.add.reduceat(turned, self._first[:-1])) / 2 if len(x) else x
 
-    def _inner(self, height: float, aside: float) -> tuple[list[int], list[XY]]:
+    def _inner(self, height: float, aside: float) -> tuple[Whole, Floats]:
         """Four places inside each closed contour: a part of its height from its ends, and in the widest stretch across
         it there a part of that from its ends. An open one's start. Whose the places are comes first."""
         counts = np.diff(self._first)
@@ -179,29 +193,54 @@ class Field:
                 places.append(np.column_stack((x[2 * widest] + along * wide[widest], y[numbers])))
         whose = np.concatenate(owners)
         without = np.setdiff1d(np.arange(len(counts)), whose)
-        starts = [self.contours[at].edges[0].start for at in without.tolist()]
-        return [*whose.tolist(), *without.tolist()], [*map(tuple, np.concatenate(places).tolist()), *starts]
+        starts = self._points[self._first[without]]
+        return np.concatenate((whose, without)), np.concatenate((*places, starts))
 
-    def around(self, places: Sequence[XY], on: Sequence[int] = ()) -> list[list[int]]:
-        """The closed contours around each of some places, by their numbers; `on`: those that the places lie on."""
+    def around(self, places: Sequence[XY]) -> list[list[int]]:
+        """The closed contours around each of some places, by their numbers."""
         found: list[list[int]] = [[] for _ in places]
+        of, holding = self._holding(np.array(places, float).reshape(-1, 2), np.full(len(places), -1))
+        for at, one in sorted(zip(of.tolist(), holding.tolist(), strict=True)):
+            found[at].append(one)
+        return found
+
+    def _holding(self, places: Floats, on: Whole) -> tuple[Whole, Whole]:
+        """The pairs of one of n places (n, 2) and a closed contour around it; `on`: the contour that each lies on."""
         closed = np.flatnonzero([contour.is_closed for contour in self.contours])
         if not len(closed) or not len(places):
-            return found
-        low = np.minimum.reduceat(self._points, self._first[:-1])[closed]
-        high = np.maximum.reduceat(self._points, self._first[:-1])[closed]
+            return np.empty(0, np.int64), np.empty(0, np.int64)
+        low, high = (of.reduceat(self._points, self._first[:-1])[closed] for of in (np.minimum, np.maximum))
         boxes, tree = shapely.box(*low.T, *high.T), shapely.STRtree(shapely.points(places))
-        given, own = np.array(places, float), np.array(on or np.full(len(places), -1))
+        found = []
         for first in range(0, len(closed), _BOXES):
-            box, within = tree.query(boxes[first : first + _BOXES])
-            others = closed[first + box]
-            others, within = (some[own[within] != others] for some in (others, within))
-            order = np.lexsort((within, others))
-            others, within = others[order], within[order]
-            numbers, begins = np.unique(others, return_index=True)
-            for at, some in zip(numbers.tolist(), np.split(within, begins[1:]), strict=len(numbers) > 0):
-                for number in some[self._holds(at, given[some])].tolist():
-                    found[number].append(at)
+            box, of = tree.query(boxes[first : first + _BOXES])
+            holding = closed[first + box]
+            of, holding = (some[on[of] != holding] for some in (of, holding))
+            is_in = self._hold(holding, places, of)
+            found.append((of[is_in], holding[is_in]))
+        return tuple(np.concatenate(some) for some in zip(*found, strict=True))
+
+    def _hold(self, contours: Whole, places: Floats, of: Whole) -> Flags:
+        """Which of pairs of a closed contour and one of some places have that place inside (`_holds`)."""
+        found = np.zeros(len(of), bool)
+        points = self._first[contours + 1] - self._first[contours]
+        few = np.flatnonzero(points <= _FEW)
+        chords = points[few] - 1
+        for part in _batches(chords):
+            some, counts = few[part], chords[part]
+            at = np.repeat(self._first[contours[some]], counts) + numbers_up_to(counts)
+            pair = np.repeat(np.arange(len(some)), counts)
+            (x, y), ys = places[of[some]].T, self._points[:, 1]
+            is_over = (ys[at] > y[pair]) != (ys[at + 1] > y[pair])
+            at, pair = at[is_over], pair[is_over]
+            (x1, y1), (x2, y2) = _columns(self._points, at), _columns(self._points, at + 1)
+            is_right = x[pair] < x1 + (y[pair] - y1) / (y2 - y1) * (x2 - x1)
+            found[some] = np.bincount(pair[is_right], minlength=len(some)) % 2 == 1
+        many = np.flatnonzero(points > _FEW)
+        many = many[np.argsort(contours[many], kind="stable")]
+        numbers, begins = np.unique(contours[many], return_index=True)
+        for at, some in zip(numbers.tolist(), np.split(many, begins[1:]), strict=len(numbers) > 0):
+            found[some] = self._holds(at, places[of[some]])
         return found
 
     def nearest(self, place: XY, without: Collection[int]) -> int:
@@ -226,6 +265,24 @@ class Field:
                 is_right = x < x1 + (y - y1) / (y2 - y1) * (x2 - x1)
             found[some] = np.count_nonzero(((y1 > y) != (y2 > y)) & is_right, axis=0) % 2
         return found
+
+
+def _stretches(first: Whole, last: Whole, size: int) -> tuple[tuple[Whole, Whole], Whole]:
+    """Chords from some points to others in stretches of so many chords: from which point to which; and the number of
+    the first one of each, with that behind the last."""
+    counts = np.maximum(1, -(-(last - first) // size))
+    begins = np.repeat(first, counts) + size * numbers_up_to(counts)
+    return (begins, np.minimum(begins + size, np.repeat(last, counts))), np.concatenate(([0], np.cumsum(counts)))
+
+
+def _batches(counts: Whole) -> Iterator[slice]:
+    """What has so many pairs each, in parts that are looked at together."""
+    total = np.concatenate(([0], np.cumsum(counts)))
+    begin = 0
+    while begin < len(counts):
+        end = max(begin + 1, int(np.searchsorted(total, total[begin] + _PAIRS, "right")) - 1)
+        yield slice(begin, end)
+        begin = end
 
 
 def points_of(contours: Sequence[Contour]) -> tuple[Floats, Whole]:
