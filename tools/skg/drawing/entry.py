@@ -113,7 +113,7 @@ def _on_edges(contour: Contour, edges: list[int], tab: float) -> Iterator[EntryA
     """Entries in the middle of edges and aside from it, behind a tab."""
     for at in edges:
         edge = contour.edges[at]
-        aside = tab / 2 / edge.length
+        aside = tab / 2 / edge.length if tab else 0.0
         for part in (0.0, 0.25, 0.5, 0.75) if edge.is_circle else (0.5, 0.3, 0.7):
             part += aside
             if edge.is_circle or part - 2 * aside > 0.05 and part < 0.95:

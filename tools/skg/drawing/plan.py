@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf, pi
+from typing import NamedTuple
 
 import numpy as np
 
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.entry import EntryAt, entries_of, entry_near, is_long, longest_tab
-from skg.drawing.field import Field, Floats, headings, nearest_order, rows_of
+from skg.drawing.field import Field, Floats, Whole, headings, nearest_order, rows_of
 from skg.drawing.planned import PlannedContour, chain_from, split_at_end
 from skg.errors import UserError
 from skg.plane import XY, distance
@@ -59,17 +60,40 @@ class _Choice:
         self.room = -inf
         self.found: tuple[EntryAt, float, XY, XY] | None = None
 
-    def take(self, part: float, start: XY, tab_hole: XY, room: float, is_enough: bool) -> None:
-        """Keep what was found for the entry if it is the best one, and go on to the next one if it is not enough."""
-        if room > self.room:
-            self.room, self.found = room, (self.entry, part, start, tab_hole)
-        self.entry = None if is_enough else next(self.entries, None)
+    def keep(self, part: float, start: XY, tab_hole: XY, room: float) -> None:
+        """Keep what was found for the entry, the best one so far."""
+        self.room, self.found = room, (self.entry, part, start, tab_hole)
+
+    def go_on(self) -> bool:
+        """Go on to the next entry; whether there is one."""
+        self.entry = next(self.entries, None)
+        return self.entry is not None
 
     def planned(self) -> PlannedContour:
         """The contour as it is entered best."""
         entry, part, start, tab_hole = self.found
         contour = entry.begun(self.made.contour)
         return replace(self.made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=self.room)
+
+
+class _Columns(NamedTuple):
+    """What is told by choices, a row for each."""
+
+    reach: Floats
+    is_right: Flags
+    is_inside: Flags
+    is_arc: Flags
+    has_tab: Flags
+
+    @classmethod
+    def of(cls, choices: Sequence[_Choice]) -> _Columns:
+        """The columns of some choices."""
+        flags = [(one.is_right, not one.is_outside, one.made.is_arc, one.made.tab > 0) for one in choices]
+        return cls(np.array([one.reach for one in choices], float), *np.array(flags, bool).reshape(-1, 4).T)
+
+    def rows(self, some: Whole) -> _Columns:
+        """Some of the rows."""
+        return _Columns(*(column[some] for column in self))
 
 
 class _Planner:
@@ -162,25 +186,37 @@ class _Planner:
         """Choose the entry with the most room: the first one with enough, else the best one."""
         edges = [choice.made.contour.edges for choice in choices]
         first = np.cumsum([0, *map(len, edges)])
-        rows = rows_of([edge for some in edges for edge in some])
-        while len(some := np.flatnonzero([choice.entry is not None for choice in choices])):
-            tried = [choices[at] for at in some.tolist()]
-            at = np.array([choice.entry.at for choice in tried])
+        edges = [edge for some in edges for edge in some]
+        rows, is_curve = rows_of(edges), np.array([bool(edge.nodes) for edge in edges], bool)
+        columns = _Columns.of(choices)
+        best = np.full(len(choices), -inf)
+        left = [at for at, choice in enumerate(choices) if choice.entry is not None]
+        while left:
+            some, tried = np.array(left), [choices[at] for at in left]
+            at = first[some] + np.array([choice.entry.at for choice in tried])
             parts = np.array([choice.entry.part for choice in tried])
-            self._try(tried, rows[first[some] + at], parts)
+            curves = np.flatnonzero(is_curve[at]).tolist()
+            *found, room, is_enough = self._try(tried, rows[at], parts, curves, columns.rows(some))
+            better = np.flatnonzero(room > best[some])
+            best[some[better]] = room[better]
+            found = (column[better].tolist() for column in (*found, room))
+            for at, part, start, tab_hole, space in zip(better.tolist(), *found, strict=True):
+                tried[at].keep(part, tuple(start), tuple(tab_hole), space)
+            left = [at for at in some[~is_enough].tolist() if choices[at].go_on()]
 
-    def _try(self, choices: Sequence[_Choice], rows: Floats, parts: Floats) -> None:
-        """Try the next entries of contours, at parts of the edges in some rows: find start holes, and how far the
-        nearest contour is from these."""
+    def _try(
+        self, choices: Sequence[_Choice], rows: Floats, parts: Floats, curves: Sequence[int], told: _Columns
+    ) -> tuple[Floats, Floats, Floats, Floats, Flags]:
+        """Try the entries of contours, at parts of the edges in some rows, some of them `curves`.
+
+        Returns the parts, the start holes and those of the tabs, how far the nearest contour is from these, and
+        whether that is enough.
+        """
         places, ways = _places(rows, parts)
-        for at, choice in enumerate(choices):
-            if choice.made.contour.edges[choice.entry.at].nodes:
-                edge = choice.entry.begun(choice.made.contour).edges[0]
-                places[at], ways[at] = edge.at(0.0), edge.direction()
-        is_right = np.array([choice.is_right for choice in choices])
-        reach = np.array([choice.reach for choice in choices])
-        is_arc = np.array([choice.made.is_arc for choice in choices])
-        is_inside = np.array([not choice.is_outside for choice in choices])
+        for at in curves:
+            edge = choices[at].entry.begun(choices[at].made.contour).edges[0]
+            places[at], ways[at] = edge.at(0.0), edge.direction()
+        reach, is_right, is_inside, is_arc, has_tab = told
         # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
         circles = np.flatnonzero(_are_circles(rows) & is_inside & ~is_arc)
         central = circles[self._is_clear_from_centre(rows[circles])]
@@ -196,18 +232,15 @@ class _Planner:
         around = 2 * far + 1e-3
         room = self.field.near(starts, around)
         tab_holes = np.zeros((len(choices), 2))
-        tabs = [at for at, choice in enumerate(choices) if choice.made.tab]
-        if tabs:
-            begun = [(choices[at].made, choices[at].entry, float(parts[at])) for at in tabs]
+        tabs = np.flatnonzero(has_tab)
+        if len(tabs):
+            begun = [(choices[at].made, choices[at].entry, float(parts[at])) for at in tabs.tolist()]
             ends = [_before_tab(entry.begun(made.contour), part, made.tab) for made, entry, part in begun]
             # The start hole at the other side of the tab is as far from the contour as the first one.
             tab_holes[tabs] = self._tab_holes(ends, is_right[tabs], far[tabs], is_arc[tabs])
             room[tabs] = np.minimum(room[tabs], self.field.near(tab_holes[tabs], around[tabs]))
         is_centre = (rows[:, 8] != 0) & (starts == rows[:, 4:6]).all(1)
-        is_enough = (room >= _ENOUGH * reach) | is_centre
-        found = (some.tolist() for some in (parts, starts, tab_holes, room, is_enough))
-        for choice, part, start, tab_hole, space, enough in zip(choices, *found, strict=True):
-            choice.take(part, tuple(start), tuple(tab_hole), space, enough)
+        return parts, starts, tab_holes, room, (room >= _ENOUGH * reach) | is_centre
 
     def _tab_holes(self, edges: Sequence[Edge], is_right: Flags, reach: Floats, is_arc: Flags) -> Floats:
         """The start holes at the other sides of tabs, which begin where some edges end."""
