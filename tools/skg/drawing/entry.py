@@ -87,6 +87,10 @@ def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]
     The tab lies before the entry, on the same edge where there is one that is long enough. `widest`: the largest R.
     Copies of a tooth are entered where one of them begins: there the next one goes on.
     """
+    if not tab and len(contour.edges) == 1 and contour.edges[0].is_circle:
+        # (there is nothing to choose from)
+        yield from _on_edges(contour, [0], tab)
+        return
     if contour.copies > 1 and not tab:
         yield EntryAt(0)
     lengths = [edge.length for edge in contour.edges]

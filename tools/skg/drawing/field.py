@@ -24,6 +24,8 @@ _PAIRS, _FEW = 100_000, 200
 #: Where a contour is looked across for places in it, parts of its height and of the width there: no corners lie there
 #: but by chance.
 _ACROSS, _NEAR_ENDS = (0.2873, 0.25), (0.0731, 0.05)
+#: So many rings of cells around a place are looked at for the one that is nearest to it, before all are.
+_RINGS = 4
 #: So many arcs become chords together.
 _ARCS = 1000
 #: So many boxes are asked for the places in them together.
@@ -425,44 +427,45 @@ def _before(
 
 def nearest_order(places: Floats, begin: XY) -> list[int]:
     """The order of places when from `begin` on the nearest one is always next; of equally near ones the first."""
-    left = set(range(len(places)))
     x, y = places.T.copy()
     xs, ys = x.tolist(), y.tolist()
-    low, size = places.min(0).tolist(), (places.max(0) - places.min(0)).tolist()
+    (left, low), size = places.min(0).tolist(), (places.max(0) - places.min(0)).tolist()
     cell = max((size[0] * size[1] / len(xs)) ** 0.5 * 1.5, max(size) / len(xs), 1e-9)
-    cells: dict[tuple[int, int], list[int]] = defaultdict(list)
     columns, rows = int(size[0] / cell), int(size[1] / cell)
-    home = [(int((p - low[0]) / cell), int((q - low[1]) / cell)) for p, q in zip(xs, ys, strict=True)]
+    # (cells by one number: what lies so many rings beside the last row is not in the next column)
+    column = rows + 1 + 2 * _RINGS
+    rings = [[i * column + j for i, j in _ring(ring)] for ring in range(_RINGS)]
+    cells: dict[int, list[int]] = defaultdict(list)
+    home = [int((p - left) / cell) * column + int((q - low) / cell) for p, q in zip(xs, ys, strict=True)]
     for at, key in enumerate(home):
         cells[key].append(at)
     order: list[int] = []
     p, q = begin
-    while left:
-        column = min(max(int((p - low[0]) // cell), 0), columns)
-        row = min(max(int((q - low[1]) // cell), 0), rows)
-        best = inf, -1
-        for ring in range(4):
-            for key in _ring(column, row, ring):
-                for at in cells.get(key, ()):
+    for _ in xs:
+        here = min(max(int((p - left) // cell), 0), columns) * column + min(max(int((q - low) // cell), 0), rows)
+        nearest, best = -1, inf
+        for number, ring in enumerate(rings):
+            for beside in ring:
+                for at in cells.get(here + beside, ()):
                     u, v = xs[at] - p, ys[at] - q
-                    best = min(best, (u * u + v * v, at))
+                    far = u * u + v * v
+                    if far < best or far == best and at < nearest:
+                        nearest, best = at, far
             # All that is in no ring yet is at least so many cells away.
-            if best[0] < (ring * cell) ** 2 * (1 - 1e-9):
+            if best < (number * cell) ** 2 * (1 - 1e-9):
                 break
         else:
-            best = 0.0, int(np.argmin((x - p) ** 2 + (y - q) ** 2))
-        at = best[1]
-        order.append(at)
-        left.discard(at)
-        cells[home[at]].remove(at)
-        p, q = xs[at], ys[at]
-        x[at] = inf
+            nearest = int(np.argmin((x - p) ** 2 + (y - q) ** 2))
+        order.append(nearest)
+        cells[home[nearest]].remove(nearest)
+        p, q = xs[nearest], ys[nearest]
+        x[nearest] = inf
     return order
 
 
-def _ring(column: int, row: int, ring: int) -> list[tuple[int, int]]:
-    """The cells so many cells around one."""
-    if not ring:
-        return [(column, row)]
-    found = [(column + i, row + j) for i in range(-ring, ring + 1) for j in (-ring, ring)]
-    return found + [(column + i, row + j) for i in (-ring, ring) for j in range(1 - ring, ring)]
+def _ring(number: int) -> list[tuple[int, int]]:
+    """Columns and rows from a cell to those that are so many cells around it."""
+    if not number:
+        return [(0, 0)]
+    found = [(i, j) for i in range(-number, number + 1) for j in (-number, number)]
+    return found + [(i, j) for i in (-number, number) for j in range(1 - number, number)]
