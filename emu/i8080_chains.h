@@ -4,6 +4,8 @@
  */
 #define EVERY_CHAIN(CHAIN2, CHAIN3) \
     CHAIN2(05, C2)        /* DCR B; JNZ                            */ \
+    CHAIN3(0A, 03, FE)    /* LDAX B; INX B; CPI                 */ \
+    CHAIN2(0A, 03)        /* LDAX B; INX B                      */ \
     CHAIN2(0B, 78)        /* DCX B; MOV A,B                        */ \
     CHAIN2(0D, C2)        /* DCR C; JNZ                            */ \
     CHAIN2(0F, 0F)        /* RRC; RRC                              */ \
@@ -13,10 +15,13 @@
     CHAIN3(13, 0D, C2)    /* INX D; DCR C; JNZ                     */ \
     CHAIN3(13, 23, 0D)    /* INX D; INX H; DCR C                   */ \
     CHAIN3(13, 23, 05)    /* INX D; INX H; DCR B                   */ \
+    CHAIN3(13, 23, 1A)    /* INX D; INX H; LDAX D               */ \
     CHAIN2(13, 23)        /* INX D; INX H                          */ \
     CHAIN2(15, C2)        /* DCR D; JNZ                            */ \
     CHAIN2(17, D2)        /* RAL; JNC                              */ \
     CHAIN2(19, EB)        /* DAD D; XCHG                           */ \
+    CHAIN3(1A, 77, 13)    /* LDAX D; MOV M,A; INX D             */ \
+    CHAIN3(1A, 13, B7)    /* LDAX D; INX D; ORA A               */ \
     CHAIN2(1A, 13)        /* LDAX D; INX D                         */ \
     CHAIN2(1A, 77)        /* LDAX D; MOV M,A                       */ \
     CHAIN2(1A, 86)        /* LDAX D; ADD M                         */ \
@@ -28,10 +33,13 @@
     CHAIN2(1B, 7A)        /* DCX D; MOV A,D                        */ \
     CHAIN2(1D, C2)        /* DCR E; JNZ                            */ \
     CHAIN2(1F, D2)        /* RAR; JNC                              */ \
+    CHAIN2(21, E5)        /* LXI H; PUSH H                      */ \
+    CHAIN2(21, 7E)        /* LXI H; MOV A,M                     */ \
     CHAIN3(23, 05, C2)    /* INX H; DCR B; JNZ                     */ \
     CHAIN3(23, 0D, C2)    /* INX H; DCR C; JNZ                     */ \
     CHAIN3(23, 13, 0D)    /* INX H; INX D; DCR C                   */ \
     CHAIN3(23, 13, 05)    /* INX H; INX D; DCR B                   */ \
+    CHAIN3(23, 1A, 77)    /* INX H; LDAX D; MOV M,A             */ \
     CHAIN2(23, 13)        /* INX H; INX D                          */ \
     CHAIN2(23, 7E)        /* INX H; MOV A,M                        */ \
     CHAIN2(23, 77)        /* INX H; MOV M,A                        */ \
@@ -44,12 +52,16 @@
     CHAIN2(23, 5E)        /* INX H; MOV E,M                        */ \
     CHAIN2(23, 73)        /* INX H; MOV M,E                        */ \
     CHAIN2(25, C2)        /* DCR H; JNZ                            */ \
+    CHAIN3(26, 5E, 23)    /* MVI H; MOV E,M; INX H              */ \
     CHAIN3(27, 77, 23)    /* DAA; MOV M,A; INX H                   */ \
+    CHAIN3(29, 17, D2)    /* DAD H; RAL; JNC                    */ \
     CHAIN2(29, 17)        /* DAD H; RAL                            */ \
     CHAIN2(29, 29)        /* DAD H; DAD H                          */ \
     CHAIN2(29, D2)        /* DAD H; JNC                            */ \
     CHAIN2(29, DA)        /* DAD H; JC                             */ \
     CHAIN2(29, 8F)        /* DAD H; ADC A                          */ \
+    CHAIN3(2A, 7D, D6)    /* LHLD; MOV A,L; SUI                 */ \
+    CHAIN2(2A, 7D)        /* LHLD; MOV A,L                      */ \
     CHAIN2(2B, 7E)        /* DCX H; MOV A,M                        */ \
     CHAIN2(2B, 46)        /* DCX H; MOV B,M                        */ \
     CHAIN2(2B, 4E)        /* DCX H; MOV C,M                        */ \
@@ -59,16 +71,24 @@
     CHAIN2(2B, 7C)        /* DCX H; MOV A,H                        */ \
     CHAIN2(2D, C2)        /* DCR L; JNZ                            */ \
     CHAIN2(3D, C2)        /* DCR A; JNZ                            */ \
+    CHAIN3(3E, CE, 57)    /* MVI A; ACI; MOV D,A                */ \
     CHAIN2(42, 4B)        /* MOV B,D; MOV C,E                      */ \
     CHAIN2(44, 4D)        /* MOV B,H; MOV C,L                      */ \
     CHAIN2(46, 23)        /* MOV B,M; INX H                        */ \
     CHAIN2(4E, 23)        /* MOV C,M; INX H                        */ \
+    CHAIN2(4F, 6F)        /* MOV C,A; MOV L,A                   */ \
     CHAIN2(50, 59)        /* MOV D,B; MOV E,C                      */ \
     CHAIN2(54, 5D)        /* MOV D,H; MOV E,L                      */ \
     CHAIN2(56, 23)        /* MOV D,M; INX H                        */ \
+    CHAIN2(56, D5)        /* MOV D,M; PUSH D                    */ \
+    CHAIN3(57, 7D, 87)    /* MOV D,A; MOV A,L; ADD A            */ \
     CHAIN2(5E, 23)        /* MOV E,M; INX H                        */ \
+    CHAIN3(5F, 87, 87)    /* MOV E,A; ADD A; ADD A              */ \
+    CHAIN2(5F, 54)        /* MOV E,A; MOV D,H                   */ \
     CHAIN2(60, 69)        /* MOV H,B; MOV L,C                      */ \
     CHAIN2(62, 6B)        /* MOV H,D; MOV L,E                      */ \
+    CHAIN3(6F, E6, 5F)    /* MOV L,A; ANI; MOV E,A              */ \
+    CHAIN2(6F, 26)        /* MOV L,A; MVI H                     */ \
     CHAIN2(70, 23)        /* MOV M,B; INX H                        */ \
     CHAIN2(71, 23)        /* MOV M,C; INX H                        */ \
     CHAIN2(72, 23)        /* MOV M,D; INX H                        */ \
@@ -101,6 +121,7 @@
     CHAIN3(79, 95, 4F)    /* MOV A,C; SUB L; MOV C,A               */ \
     CHAIN3(79, 9B, 4F)    /* MOV A,C; SBB E; MOV C,A               */ \
     CHAIN3(79, 9D, 4F)    /* MOV A,C; SBB L; MOV C,A               */ \
+    CHAIN2(79, FE)        /* MOV A,C; CPI                       */ \
     CHAIN3(7A, B3, C2)    /* MOV A,D; ORA E; JNZ                   */ \
     CHAIN3(7A, B3, CA)    /* MOV A,D; ORA E; JZ                    */ \
     CHAIN3(7A, 1F, 57)    /* MOV A,D; RAR; MOV D,A                 */ \
@@ -153,12 +174,17 @@
     CHAIN3(7D, 91, 6F)    /* MOV A,L; SUB C; MOV L,A               */ \
     CHAIN3(7D, 9B, 6F)    /* MOV A,L; SBB E; MOV L,A               */ \
     CHAIN3(7D, 99, 6F)    /* MOV A,L; SBB C; MOV L,A               */ \
+    CHAIN2(7D, 87)        /* MOV A,L; ADD A                     */ \
     CHAIN3(7E, 1F, 77)    /* MOV A,M; RAR; MOV M,A                 */ \
     CHAIN3(7E, 17, 77)    /* MOV A,M; RAL; MOV M,A                 */ \
+    CHAIN3(7E, FE, CA)    /* MOV A,M; CPI; JZ                   */ \
     CHAIN2(7E, 23)        /* MOV A,M; INX H                        */ \
     CHAIN2(7E, B7)        /* MOV A,M; ORA A                        */ \
     CHAIN2(7E, 12)        /* MOV A,M; STAX D                       */ \
+    CHAIN2(7E, FE)        /* MOV A,M; CPI                       */ \
     CHAIN2(86, 77)        /* ADD M; MOV M,A                        */ \
+    CHAIN3(87, 83, 5F)    /* ADD A; ADD E; MOV E,A              */ \
+    CHAIN2(87, D2)        /* ADD A; JNC                         */ \
     CHAIN2(8E, 27)        /* ADC M; DAA                            */ \
     CHAIN2(8E, 77)        /* ADC M; MOV M,A                        */ \
     CHAIN2(9E, 77)        /* SBB M; MOV M,A                        */ \
@@ -186,10 +212,13 @@
     CHAIN2(C1, D1)        /* POP B; POP D                          */ \
     CHAIN2(C1, E1)        /* POP B; POP H                          */ \
     CHAIN2(C1, F1)        /* POP B; POP PSW                        */ \
+    CHAIN2(C1, 0A)        /* POP B; LDAX B                      */ \
     CHAIN3(C5, D5, E5)    /* PUSH B; PUSH D; PUSH H                */ \
+    CHAIN3(C5, B7, C8)    /* PUSH B; ORA A; RZ                  */ \
     CHAIN2(C5, D5)        /* PUSH B; PUSH D                        */ \
     CHAIN2(C5, E5)        /* PUSH B; PUSH H                        */ \
     CHAIN2(C5, F5)        /* PUSH B; PUSH PSW                      */ \
+    CHAIN2(C6, 4F)        /* ADI; MOV C,A                       */ \
     CHAIN2(D1, C9)        /* POP D; RET                            */ \
     CHAIN2(D1, C1)        /* POP D; POP B                          */ \
     CHAIN2(D1, E1)        /* POP D; POP H                          */ \
@@ -197,6 +226,8 @@
     CHAIN2(D5, C5)        /* PUSH D; PUSH B                        */ \
     CHAIN2(D5, E5)        /* PUSH D; PUSH H                        */ \
     CHAIN2(D5, F5)        /* PUSH D; PUSH PSW                      */ \
+    CHAIN2(D5, FE)        /* PUSH D; CPI                        */ \
+    CHAIN2(D6, 5F)        /* SUI; MOV E,A                       */ \
     CHAIN3(E1, D1, C1)    /* POP H; POP D; POP B                   */ \
     CHAIN2(E1, C9)        /* POP H; RET                            */ \
     CHAIN2(E1, C1)        /* POP H; POP B                          */ \
@@ -206,11 +237,14 @@
     CHAIN2(E5, C5)        /* PUSH H; PUSH B                        */ \
     CHAIN2(E5, D5)        /* PUSH H; PUSH D                        */ \
     CHAIN2(E5, F5)        /* PUSH H; PUSH PSW                      */ \
+    CHAIN2(E5, CD)        /* PUSH H; CALL                       */ \
     CHAIN2(E6, CA)        /* ANI; JZ                               */ \
     CHAIN2(E6, C2)        /* ANI; JNZ                              */ \
     CHAIN2(E6, C8)        /* ANI; RZ                               */ \
     CHAIN2(E6, C0)        /* ANI; RNZ                              */ \
+    CHAIN3(EB, AE, EB)    /* XCHG; XRA M; XCHG                  */ \
     CHAIN2(EB, 29)        /* XCHG; DAD H                           */ \
+    CHAIN2(EB, 87)        /* XCHG; ADD A                        */ \
     CHAIN2(F1, C9)        /* POP PSW; RET                          */ \
     CHAIN2(F1, C1)        /* POP PSW; POP B                        */ \
     CHAIN2(F1, D1)        /* POP PSW; POP D                        */ \
@@ -223,4 +257,5 @@
     CHAIN2(FE, C8)        /* CPI; RZ                               */ \
     CHAIN2(FE, C0)        /* CPI; RNZ                              */ \
     CHAIN2(FE, DA)        /* CPI; JC                               */ \
-    CHAIN2(FE, D2)        /* CPI; JNC                              */
+    CHAIN2(FE, D2)        /* CPI; JNC                              */ \
+    CHAIN2(FE, D8)        /* CPI; RC                            */

@@ -267,6 +267,14 @@ static void map_at_random(pair *p)
     }
 }
 
+/* Bytes of an instruction within a chain, where there are no jumps and calls. */
+static uint16_t length_in_chain(uint8_t opcode)
+{
+    bool is_word = (opcode & 0xcf) == 0x01 || (opcode & 0xe7) == 0x22;     /* LXI; LHLD, SHLD, LDA, STA */
+    bool is_byte = (opcode & 0xc7) == 0x06 || (opcode & 0xc7) == 0xc6;     /* MVI; ANI and its like */
+    return is_word ? 3 : is_byte ? 2 : 1;
+}
+
 /* Some programs are noise, some mostly of instructions that go on to the next, so that they get somewhere, and of the
  * chains that the fast loop carries out as one. */
 static void write_program(pair *p)
@@ -289,7 +297,7 @@ static void write_program(pair *p)
         uint16_t at = (uint16_t)random32();
         for (unsigned k = 0; k < 3 && chain[k]; k++) {
             poke_both(p, at, chain[k]);
-            at += (chain[k] & 0xc7) == 0xc6 ? 2 : 1;        /* CPI, ANI */
+            at += length_in_chain(chain[k]);
         }
     }
 }
