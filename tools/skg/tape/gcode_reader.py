@@ -8,7 +8,6 @@ G3 go through with the beam off (M5, S0) or the tool up is no cut but a move.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
 from math import hypot
@@ -20,6 +19,7 @@ from skg.tape.gcode import Spot, minus
 from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
 from skg.tape.gcode_tool import TURNS, Idle, Tool
 from skg.tape.gcode_upright import AXES, PLANES, SeenFromAbove, seen_from_above
+from skg.tape.gcode_words import SPACE, Misread, Word, words
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
@@ -47,25 +47,10 @@ class GcodeFinding:
         return f"line {self.line}, column {self.column}: {self.message}"
 
 
-class _Misread(Exception):
-    def __init__(self, column: int, message: str) -> None:
-        super().__init__(message)
-        self.column = column
-
-
-class _Word(NamedTuple):
-    letter: str
-    number: Decimal
-    is_decimal: bool
-    column: int
-
-
-_SPACE = re.compile(r"(?:\s|\([^()]*\)|;.*)*")
-_WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))" + _SPACE.pattern)
 #: What GRBL alone knows: settings, and what it is asked and told; `$H` sends it home.
-_SYSTEM = re.compile(r"(\$(?:\d+\s*=\s*[\d.]+|[GHICNX#$]|RST\s*=.*|SLP)?|\?)" + _SPACE.pattern, re.I)
+_SYSTEM = re.compile(r"(\$(?:\d+\s*=\s*[\d.]+|[GHICNX#$]|RST\s*=.*|SLP)?|\?)" + SPACE.pattern, re.I)
 #: What begins and ends a file for some controls.
-_MARK = re.compile(r"([%:O])\d*" + _SPACE.pattern, re.I)
+_MARK = re.compile(r"([%:O])\d*" + SPACE.pattern, re.I)
 #: How lines begin that may be no block of words.
 _APART = "%:Oo$?"
 #: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
@@ -97,13 +82,22 @@ _CYCLES = {73, 81, 82, 83, 85, 89}
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 _HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
 _AWAY = {*_HOMES, _MACHINE}
-#: M words of boards for printers: from here on, and these; the words behind one are its own (`M92 X80`: steps). Of some
-#: the rest of the line is a text.
+#: M words of boards for printers: from here on, and these; the words behind one are its own (`M92 X80`: steps).
 _BOARDS, _BOARD = 100, {17, 18, 84, 92}
-_TEXTS = {117, 118}
 _KNOWN = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 #: µm in a number of each unit; None: by the decimal point.
 _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
+
+
+class _Line(NamedTuple):
+    """What the words of a line say: places and feed by their letters, the numbers of G and of M words, the S."""
+
+    values: dict[str, Word]
+    codes: list[Decimal]
+    turns: list[Decimal]
+    power: Decimal | None
+    is_origin: bool
+    is_stop: bool
 
 
 class _Reader:
@@ -147,22 +141,6 @@ class _Reader:
         """What can be read, and yet stops a control, or might be meant otherwise."""
         self.findings.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
 
-    def words(self, text: str) -> Iterator[_Word]:
-        """Split a line into words; comments in parentheses and after `;` are nothing, and N words say nothing."""
-        text = text.upper()
-        at, end = _SPACE.match(text).end(), len(text)
-        while at < end:
-            match = _WORD.match(text, at)
-            if not match:
-                raise _Misread(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
-            letter, number = match.groups()
-            if letter != "N":
-                word = _Word(letter, Decimal(number), "." in number, at + 1)
-                yield word
-                if letter == "M" and word.number in _TEXTS:
-                    return
-            at = match.end()
-
     def take(self, line: str) -> None:
         """Carry out one line."""
         self.line += 1
@@ -171,42 +149,51 @@ class _Reader:
             self.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
         if not text or (text[0] in _APART and self.is_apart(text)):
             return
-        values: dict[str, _Word] = {}
+        self.carry_out(self.gather(line))
+
+    def gather(self, text: str) -> _Line:
+        """The words of a line. G and M words hold from where they stand; the others wait for the line's end."""
+        values: dict[str, Word] = {}
         codes: list[Decimal] = []
         turns: list[Decimal] = []
         power: Decimal | None = None
-        is_origin, stop, is_board = False, False, False
-        for word in self.words(line):
+        is_origin = is_stop = is_board = False
+        for word in words(text):
             letter = word.letter
             if self.ended and (letter in _PLACES or letter == "G"):
-                raise _Misread(word.column, "expected nothing after M02")
+                raise Misread(word.column, "expected nothing after M02")
             if is_board and letter not in "GMS":
                 continue
             if letter in _VALUES:
                 if letter in values:
-                    raise _Misread(word.column, f"{letter} stands here twice")
+                    raise Misread(word.column, f"{letter} stands here twice")
                 values[letter] = word
             elif letter == "G":
                 for code in codes:
                     if any({code, word.number} <= group for group in _GROUPS):
-                        raise _Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
+                        raise Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
                 codes.append(word.number)
                 is_origin |= self.preparatory(word)
                 is_board = False
             elif letter == "M":
                 if word.number in TURNS and TURNS.intersection(turns):
-                    raise _Misread(word.column, f"M{turns[0]:f} and M{word.number:f} in one line")
+                    raise Misread(word.column, f"M{turns[0]:f} and M{word.number:f} in one line")
                 turns.append(word.number)
-                stop |= self.miscellaneous(word)
+                is_stop |= self.miscellaneous(word)
                 is_board |= (word.number >= _BOARDS or word.number in _BOARD) and not (codes or values)
             elif letter == "S":
                 power = word.number
             elif letter == "Q" and (_BLEND in codes or self.motion in _CYCLES):
                 pass
             elif letter not in _SILENT and not (letter in _OTHERS and not word.number):
-                raise _Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
-        if turns or power is not None:
-            self.tool.turn(self.line, turns, power, _DWELL in codes)
+                raise Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
+        return _Line(values, codes, turns, power, is_origin, is_stop)
+
+    def carry_out(self, line: _Line) -> None:
+        """What the words of a line do together."""
+        values, codes = line.values, line.codes
+        if line.turns or line.power is not None:
+            self.tool.turn(self.line, line.turns, line.power, _DWELL in codes)
         if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
             self.motion = None
         feed = values.pop("F", None)
@@ -218,8 +205,8 @@ class _Reader:
             self.cycle.clear()
         if values and _DWELL in codes:
             place = next(iter(values.values()))
-            raise _Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
-        if is_origin:
+            raise Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
+        if line.is_origin:
             self.name_place(values)
         elif not _AWAY.isdisjoint(codes):
             self.go_away(values, _MACHINE not in codes)
@@ -227,7 +214,7 @@ class _Reader:
             self.drill(values)
         elif values:
             self.move(values)
-        if stop:
+        if line.is_stop:
             self.mark(Stop(self.blocks))
 
     def is_apart(self, text: str) -> bool:
@@ -248,7 +235,7 @@ class _Reader:
         if self.path is not None:
             self.path.mark(mark)
 
-    def name_place(self, values: dict[str, _Word]) -> None:
+    def name_place(self, values: dict[str, Word]) -> None:
         """G92: the tool's place has these coordinates; what is not named keeps its own."""
         here = dict(zip("XY", self.at, strict=True))
         named = {letter: self.value(values, letter, here[letter] - self.origin[letter]) for letter in "XY"}
@@ -256,7 +243,7 @@ class _Reader:
             self.height = self.value(values, "Z", Decimal(0))
         if self.is_away and {"X", "Y"} <= values.keys():
             if self.begun:
-                raise _Misread(min(word.column for word in values.values()), "G92 at a place of the machine's own")
+                raise Misread(min(word.column for word in values.values()), "G92 at a place of the machine's own")
             self.is_away = False
         if self.begun:
             self.origin = {letter: here[letter] - named[letter] for letter in "XY"}
@@ -264,7 +251,7 @@ class _Reader:
             self.at = named["X"], named["Y"]
             self.home = self.spot = _rounded(self.at)
 
-    def preparatory(self, word: _Word) -> bool:
+    def preparatory(self, word: Word) -> bool:
         """Carry out a G word; True for G92."""
         match word.number:
             case 0 | 1 | 2 | 3 | 73 | 81 | 82 | 83 | 85 | 89:
@@ -281,25 +268,23 @@ class _Reader:
                 self.unit = _INCH if word.number == 20 else _MILLIMETRE
             case n if n in _OFFSETS:
                 if self.offset not in (None, n):
-                    raise _Misread(
-                        word.column, f"G{n:f} after G{self.offset:f}: how far apart the two are is not known"
-                    )
+                    raise Misread(word.column, f"G{n:f} after G{self.offset:f}: how far apart the two are is not known")
                 self.offset = n
             case n if n in _MODES or n in _HOMES or n == _MACHINE:
                 pass
             case n:
-                raise _Misread(word.column, f"G{n:f} is not known, expected {_KNOWN}")
+                raise Misread(word.column, f"G{n:f} is not known, expected {_KNOWN}")
         return False
 
-    def miscellaneous(self, word: _Word) -> bool:
+    def miscellaneous(self, word: Word) -> bool:
         """Carry out an M word; True for a stop."""
         if word.number in (2, 30):
             self.ended = True
         elif word.number in _CALLS:
-            raise _Misread(word.column, f"M{word.number:f}: a sub-program is not known here")
+            raise Misread(word.column, f"M{word.number:f}: a sub-program is not known here")
         return word.number in (0, 1)
 
-    def value(self, values: dict[str, _Word], letter: str, default: Decimal) -> Decimal:
+    def value(self, values: dict[str, Word], letter: str, default: Decimal) -> Decimal:
         """A word's number in µm."""
         word = values.get(letter)
         if word is None:
@@ -314,11 +299,11 @@ class _Reader:
                     how = "a number with a point is taken for mm, a whole one for µm"
                 self.warn(word.column, f"no G20 or G21 yet: {how}", True)
         if word.number.adjusted() >= MAX_DIGITS:
-            raise _Misread(word.column, f"{letter} has more than {MAX_DIGITS} digits in front of its point")
+            raise Misread(word.column, f"{letter} has more than {MAX_DIGITS} digits in front of its point")
         unit = self.unit or self.untold or (_MILLIMETRE if word.is_decimal else Decimal(1))
         return word.number * unit
 
-    def goal(self, values: dict[str, _Word], letter: str, here: Decimal) -> Decimal:
+    def goal(self, values: dict[str, Word], letter: str, here: Decimal) -> Decimal:
         """Where a coordinate goes to, µm."""
         if letter not in values:
             return here
@@ -328,11 +313,11 @@ class _Reader:
         value = self.value(values, letter, Decimal(0))
         return value + self.origin.get(letter, 0) if self.absolute else here + value
 
-    def move(self, values: dict[str, _Word]) -> None:
+    def move(self, values: dict[str, Word]) -> None:
         """What a block that moves does."""
         column = next(iter(values.values())).column
         if self.motion is None:
-            raise _Misread(column, "a place to go to, and no G00…G03 behind G80")
+            raise Misread(column, "a place to go to, and no G00…G03 behind G80")
         feeds = self.motion > 0
         if feeds:
             self.look_for_feed(column)
@@ -357,7 +342,7 @@ class _Reader:
             (self.depths if cuts else self.travels)[lowest if cuts else self.height] = None
         if self.motion < 2:
             if not values.keys().isdisjoint("IJKR"):
-                raise _Misread(column, "I, J, K and R belong to G02 and G03")
+                raise Misread(column, "I, J, K and R belong to G02 and G03")
             self.go(goal, end, cuts)
             return
         if seen:
@@ -376,12 +361,12 @@ class _Reader:
             self.fed = True
             self.warn(column, "cuts, and there has been no F")
 
-    def place(self, values: dict[str, _Word], feeds: bool) -> tuple[Decimal, Decimal]:
+    def place(self, values: dict[str, Word], feeds: bool) -> tuple[Decimal, Decimal]:
         """Where a line goes to in the plane, µm."""
         goal = self.goal(values, "X", self.at[0]), self.goal(values, "Y", self.at[1])
         if self.is_away and (feeds or not self.absolute or not values.keys() >= {"X", "Y"}):
             column = next(iter(values.values())).column
-            raise _Misread(column, "from a place of the machine's own, expected a rapid to X and Y")
+            raise Misread(column, "from a place of the machine's own, expected a rapid to X and Y")
         self.is_away = False
         return goal
 
@@ -395,16 +380,16 @@ class _Reader:
         else:
             self.straight(start, end, cuts)
 
-    def drill(self, values: dict[str, _Word]) -> None:
+    def drill(self, values: dict[str, Word]) -> None:
         """A line of a drilling cycle: to a place, down and up again."""
         for letter in values.keys() & set("IJK"):
-            raise _Misread(values[letter].column, f"{letter} in a drilling cycle is not known here")
+            raise Misread(values[letter].column, f"{letter} in a drilling cycle is not known here")
         column = next(iter(values.values())).column
         if not self.absolute:
-            raise _Misread(column, "a drilling cycle with relative places is not known here, expected G90")
+            raise Misread(column, "a drilling cycle with relative places is not known here, expected G90")
         self.cycle |= {letter: self.value(values, letter, Decimal(0)) for letter in values.keys() & {"Z", "R"}}
         if len(self.cycle) < 2:
-            raise _Misread(column, "a drilling cycle needs its depth Z and the height R")
+            raise Misread(column, "a drilling cycle needs its depth Z and the height R")
         self.look_for_feed(column)
         retract = self.cycle["R"]
         travels = max(retract, self.height) if self.knows_height and self.height is not None else retract
@@ -418,38 +403,38 @@ class _Reader:
         self.mark(Drilled(end, self.cycle["Z"]))
         self.height, self.knows_height = retract if self.is_low else travels, True
 
-    def to_centre(self, values: dict[str, _Word], plane: str, to_end: Spot, column: int) -> Spot:
+    def to_centre(self, values: dict[str, Word], plane: str, to_end: Spot, column: int) -> Spot:
         """From an arc's start to its centre, in a plane; `to_end` is the way to its end."""
         letters = _CENTRES[plane]
         for letter in values.keys() & _OTHER_CENTRES[plane]:
-            raise _Misread(values[letter].column, f"{letter} belongs to arcs of another plane")
+            raise Misread(values[letter].column, f"{letter} belongs to arcs of another plane")
         if "R" in values:
             if not values.keys().isdisjoint(letters):
-                raise _Misread(column, f"an arc has its centre, {' and '.join(letters)}, or its radius, R, not both")
+                raise Misread(column, f"an arc has its centre, {' and '.join(letters)}, or its radius, R, not both")
             return self.by_radius(to_end, float(self.value(values, "R", Decimal(0))), column)
         x, y = (rounded_one(self.value(values, letter, Decimal(0))) for letter in letters)
         if (x, y) == (0, 0):
-            raise _Misread(column, f"an arc needs its centre, {' and '.join(letters)}")
+            raise Misread(column, f"an arc needs its centre, {' and '.join(letters)}")
         off = abs(hypot(to_end[0] - x, to_end[1] - y) - hypot(x, y))
         if off > min(max(OFF_CONTROL, hypot(x, y) / 1000), OFF_MOST):
-            raise _Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
+            raise Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
         return x, y
 
-    def upright(self, values: dict[str, _Word], way: Spot, before: Decimal | None, column: int) -> SeenFromAbove:
+    def upright(self, values: dict[str, Word], way: Spot, before: Decimal | None, column: int) -> SeenFromAbove:
         """An arc of G18 or G19, from the height `before`, with that way in the plane."""
         if way["XY".index(AXES[self.plane]) - 1]:
-            raise _Misread(column, f"an arc of G{self.plane} that leaves its plane is not known here")
+            raise Misread(column, f"an arc of G{self.plane} that leaves its plane is not known here")
         if before is None and self.absolute and "Z" in values:
-            raise _Misread(column, f"an arc of G{self.plane} from a height that is not known")
+            raise Misread(column, f"an arc of G{self.plane} from a height that is not known")
         ways = dict(zip("XY", way, strict=True), Z=rounded_one(self.height - (before or 0)) if "Z" in values else 0)
         to_end = ways[PLANES[self.plane][0]], ways[PLANES[self.plane][1]]
         to_centre = self.to_centre(values, PLANES[self.plane], to_end, column)
         return seen_from_above(self.plane, 1 if self.motion == 3 else -1, to_centre, to_end)
 
-    def go_away(self, values: dict[str, _Word], is_home: bool) -> None:
+    def go_away(self, values: dict[str, Word], is_home: bool) -> None:
         """G28, G30: home, all of it or the axes that are named; G53: to a place in the machine's coordinates."""
         if self.motion and not is_home and values.keys() & {"X", "Y"}:
-            raise _Misread(min(word.column for word in values.values()), "G53 in a line that cuts")
+            raise Misread(min(word.column for word in values.values()), "G53 in a line that cuts")
         named = values.keys() or (set("XYZ") if is_home else set())
         if "Z" in named:
             self.leave(self.spot, self.height)
@@ -476,9 +461,9 @@ class _Reader:
         """From an arc's start to its centre, of the way to its end and its radius; below 0: more than half a turn."""
         chord = hypot(*way)
         if not chord:
-            raise _Misread(column, "an arc by its radius that ends where it begins")
+            raise Misread(column, "an arc by its radius that ends where it begins")
         if chord / 2 - abs(radius) > OFF_CONTROL:
-            raise _Misread(column, f"the arc's ends are {chord / 1000:g} mm apart, more than twice its radius")
+            raise Misread(column, f"the arc's ends are {chord / 1000:g} mm apart, more than twice its radius")
         aside = max(radius * radius - chord * chord / 4, 0) ** 0.5 / chord
         if (radius > 0) != (self.motion == 3):
             aside = -aside
@@ -528,7 +513,7 @@ def _read_through(text: str, idle: Idle, keeps: bool, untold: Decimal | None) ->
     for line in text.splitlines():
         try:
             reader.take(line)
-        except _Misread as error:
+        except Misread as error:
             reader.findings.append(GcodeFinding(reader.line, error.column, str(error)))
     return reader
 
