@@ -381,6 +381,19 @@ def test_what_is_drawn_on_lines_that_are_left_is_left_with_them() -> None:
     assert left(reading) == {JUNCTION: 2} and reading.report.overlaps == []
 
 
+def test_edges_that_parts_share_are_said() -> None:
+    """A frame in four parts, by two lines that are cut in two where they meet; an axis ends free."""
+    frame = [((0, 0), (20, 0)), ((20, 0), (40, 0)), ((40, 0), (40, 9)), ((40, 9), (40, 20)), ((40, 20), (20, 20))]
+    frame += [((20, 20), (0, 20)), ((0, 20), (0, 9)), ((0, 9), (0, 0))]
+    within = [((20, 0), (20, 9)), ((20, 9), (20, 20)), ((0, 9), (20, 9)), ((20, 9), (40, 9)), ((0, 0), (-9, -9))]
+    data = raw(*(line(*p, *q) for p, q in frame + within))
+    reading = checked(data)
+    assert left(reading) == {JUNCTION: 5}
+    said = "4 lines from edge to edge of what is cut, as at (20, 0): if parts share such edges, --open all cuts them"
+    assert reading.report.notes == [said]
+    assert checked(data, open="all").report.notes == []
+
+
 def test_lines_on_a_contour_are_drawn_twice() -> None:
     """On an edge of a closed polyline, over a corner, on a part of a circle; not a line that leaves it midway."""
     plate = polygon((0, 0), (20, 0), (20, 10), (0, 10))

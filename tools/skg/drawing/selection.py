@@ -56,7 +56,8 @@ class Selection:
         """The contours that are wanted, open ones among them."""
         kept, rest = self._apart(self._chains())
         kept, rest = self._wanted(kept, rest)
-        on = lying_on(rest, kept, self.wishes.tolerance)
+        on, between = lying_on(rest, kept, self.wishes.tolerance)
+        self.report.notes += _between([rest[run] for run in sorted(between)], self.report.factor)
         self.fates.doubles += [(rest[run].edges, kept[at].edges[0]) for run, at in on.items()]
         rest = [one for run, one in enumerate(rest) if run not in on]
         for run in rest:
@@ -231,6 +232,15 @@ def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]
         yield (
             f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
             f"{shown(in_file(some[0].corner, factor))}: cut to the corner; --open all cuts all that is drawn"
+        )
+
+
+def _between(runs: list[Contour], factor: float) -> Iterator[str]:
+    """What is said of lines that are left and divide what is cut."""
+    if runs:
+        yield (
+            f"{counted(len(runs), 'line')} from edge to edge of what is cut, as at "
+            f"{shown(in_file(runs[0].edges[0].start, factor))}: if parts share such edges, --open all cuts them"
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -149,30 +150,30 @@ def _meeting(one: shapely.LineString, other: shapely.LineString, tolerance: floa
     return what, (float(place[0]), float(place[1]))
 
 
-def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> dict[int, int]:
-    """The runs that lie on a contour, all along: their numbers, and those of the contours."""
+def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> tuple[dict[int, int], set[int]]:
+    """The runs that lie on a contour, all along: their numbers, and those of the contours; and those between contours:
+    runs that end on one, or where others end, at both ends."""
     if not runs or not contours:
-        return {}
+        return {}, set()
     reach = tolerance + 2 * _CHORD
-    ends = (
-        [run.edges[0].start for run in runs],
-        [run.edges[0].at(0.5) for run in runs],
-        [run.edges[-1].end for run in runs],
-    )
-    points = [shapely.points(places) for places in ends]
+    ends = [run.edges[0].start for run in runs], [run.edges[-1].end for run in runs]
+    places = [shapely.points(some) for some in (*ends, [run.edges[0].at(0.5) for run in runs])]
     around = shapely.STRtree(shapely.box(*boxes_of(contours)[0].T))
-    some = np.unique(around.query(points[0], predicate="dwithin", distance=reach)[1])
+    some = np.unique(around.query(np.concatenate(places), predicate="dwithin", distance=reach)[1])
     lines = lines_of([contours[at] for at in some.tolist()])
     tree = shapely.STRtree(lines)
-    near = [
-        set(zip(*tree.query(places, predicate="dwithin", distance=reach).tolist(), strict=True)) for places in points
-    ]
+    near = [set(zip(*tree.query(one, predicate="dwithin", distance=reach).tolist(), strict=True)) for one in places]
     found: dict[int, int] = {}
     for run, at in sorted(set.intersection(*near)):
         (line,) = lines_of([runs[run]])
         if run not in found and lines[at].buffer(reach, quad_segs=2).covers(line):
             found[run] = int(some[at])
-    return found
+    count = Counter(ends[0] + ends[1])
+    held = [
+        {run for run, _ in on} | {run for run, end in enumerate(side) if count[end] > 1}
+        for on, side in zip(near, ends, strict=False)
+    ]
+    return found, held[0] & held[1] - found.keys()
 
 
 def nearest(places: list[XY]) -> list[XY | None]:
