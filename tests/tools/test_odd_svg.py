@@ -172,6 +172,8 @@ def test_pages(size: str, expected: Box) -> None:
             "cannot be read (its transform-origin, 1px 1px, fill-box)",
         ),
         ("<text>a</text>", "text, convert it to paths"),
+        ("<g transform='scale(1,0)'><rect width='5' height='5'/></g>",
+         "its transform leaves no area, so that nothing is shown"),
     ],
 )  # fmt: skip
 def test_what_is_not_shown_is_left(content: str, why: str) -> None:

@@ -172,6 +172,8 @@ class _SvgCollector:
             self._start(account, outline, bool(edges))
         elif not edges:
             account.left = "it has no length"
+        elif not one.view.matrix.determinant:
+            account.left = "its transform leaves no area, so that nothing is shown"
         elif not one.view.style.is_painted:
             account.left = _UNPAINTED
             self.unpainted.append((account, edges))
