@@ -286,6 +286,8 @@ class _Wanted:
     def beside(self, owners: Whole, passes: Whole) -> Floats:
         """How far places are to be from their contours: in their pass, or in any (passes of -1)."""
         found, known = self.aside[owners], passes >= 0
+        if found.shape[1] == 1:
+            return found
         found[known] = found[known, passes[known]][:, None]
         return found
 
@@ -316,9 +318,9 @@ class _Wanted:
 
 def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
     """Which of some passes pieces belong to that end at some places: a pass ends in a start hole."""
-    holes = np.array([route.start, route.tab_hole] if route.tab else [route.start])
     if len(passes) == 1:
         return np.full(len(ends), passes[0])
+    holes = np.array([route.start, route.tab_hole] if route.tab else [route.start])
     is_last = (np.hypot(*(ends[:, None] - holes).T) < _HOLE).any(0)
     if is_last.sum() != len(passes):
         return np.full(len(ends), -1)
