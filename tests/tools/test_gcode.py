@@ -321,6 +321,8 @@ def test_holes_and_stops() -> None:
     ("G21 G90\nG81 X1 Z-1\nM2", "-: line 2, column 5: a drilling cycle needs its depth Z and the height R"),
     ("G21 G90\nG81 X1 Z-1 R1 F5\nG80\nX2\nM2", "-: line 4, column 1: a place to go to, and no G00…G03 behind G80"),
     ("G21 G90\nG81 X1 Z-1 R1 K2\nM2", "-: line 2, column 15: K in a drilling cycle is not known here"),
+    # of several that are wrong the first is named
+    ("G21 G90\nG81 X1 Z-1 R1 K2 J1 I1\nM2", "-: line 2, column 15: K in a drilling cycle is not known here"),
     ("G21 G90\nG0 A5\nM2", "-: line 2, column 4: A is not known here"),
     ("$J=X5\nM2", "-: line 1, column 1: expected a word such as G01 or X-9900, found '$'"),
     ("G21 G90\nG0 X1\nG0 X2", "-: line 4, column 1: expected M02 or M30, found the end of the program; nothing is cut"),

@@ -11,7 +11,6 @@ import re
 from dataclasses import dataclass, field
 from decimal import Decimal
 from math import hypot
-from typing import NamedTuple
 
 from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
@@ -89,17 +88,6 @@ _KNOWN = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
 
 
-class _Line(NamedTuple):
-    """What the words of a line say: places and feed by their letters, the numbers of G and of M words, the S."""
-
-    values: dict[str, Word]
-    codes: list[Decimal]
-    turns: list[Decimal]
-    power: Decimal | None
-    is_origin: bool
-    is_stop: bool
-
-
 class _Reader:
     """State of a program that is being read; places and heights in µm. What it does goes to `path`, if there is one."""
 
@@ -149,10 +137,35 @@ class _Reader:
             self.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
         if not text or (text[0] in _APART and self.is_apart(text)):
             return
-        self.carry_out(self.gather(line))
+        values, codes, turns, power, is_origin, is_stop = self.gather(line)
+        if turns or power is not None:
+            self.tool.turn(self.line, turns, power, _DWELL in codes)
+        if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
+            self.motion = None
+        feed = values.pop("F", None)
+        if feed:
+            self.fed = feed.number > 0
+            if not self.fed:
+                self.warn(feed.column, "a feed that is not more than 0")
+        if self.motion not in _CYCLES:
+            self.cycle.clear()
+        if values and _DWELL in codes:
+            place = next(iter(values.values()))
+            raise Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
+        if is_origin:
+            self.name_place(values)
+        elif not _AWAY.isdisjoint(codes):
+            self.go_away(values, _MACHINE not in codes)
+        elif values and self.motion in _CYCLES:
+            self.drill(values)
+        elif values:
+            self.move(values)
+        if is_stop:
+            self.mark(Stop(self.blocks))
 
-    def gather(self, text: str) -> _Line:
-        """The words of a line. G and M words hold from where they stand; the others wait for the line's end."""
+    def gather(self, text: str) -> tuple[dict[str, Word], list[Decimal], list[Decimal], Decimal | None, bool, bool]:
+        """The words of a line: places and feed by their letters, the numbers of G and of M words, the S; whether there
+        is a G92, and a stop. G and M words hold from where they stand; the others wait for the line's end."""
         values: dict[str, Word] = {}
         codes: list[Decimal] = []
         turns: list[Decimal] = []
@@ -187,35 +200,7 @@ class _Reader:
                 pass
             elif letter not in _SILENT and not (letter in _OTHERS and not word.number):
                 raise Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
-        return _Line(values, codes, turns, power, is_origin, is_stop)
-
-    def carry_out(self, line: _Line) -> None:
-        """What the words of a line do together."""
-        values, codes = line.values, line.codes
-        if line.turns or line.power is not None:
-            self.tool.turn(self.line, line.turns, line.power, _DWELL in codes)
-        if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
-            self.motion = None
-        feed = values.pop("F", None)
-        if feed:
-            self.fed = feed.number > 0
-            if not self.fed:
-                self.warn(feed.column, "a feed that is not more than 0")
-        if self.motion not in _CYCLES:
-            self.cycle.clear()
-        if values and _DWELL in codes:
-            place = next(iter(values.values()))
-            raise Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
-        if line.is_origin:
-            self.name_place(values)
-        elif not _AWAY.isdisjoint(codes):
-            self.go_away(values, _MACHINE not in codes)
-        elif values and self.motion in _CYCLES:
-            self.drill(values)
-        elif values:
-            self.move(values)
-        if line.is_stop:
-            self.mark(Stop(self.blocks))
+        return values, codes, turns, power, is_origin, is_stop
 
     def is_apart(self, text: str) -> bool:
         """Whether a line is no block of words: what begins and ends a file, or is between a person and GRBL."""
@@ -382,7 +367,7 @@ class _Reader:
 
     def drill(self, values: dict[str, Word]) -> None:
         """A line of a drilling cycle: to a place, down and up again."""
-        for letter in values.keys() & set("IJK"):
+        for letter in filter("IJK".__contains__, values):
             raise Misread(values[letter].column, f"{letter} in a drilling cycle is not known here")
         column = next(iter(values.values())).column
         if not self.absolute:
@@ -406,7 +391,7 @@ class _Reader:
     def to_centre(self, values: dict[str, Word], plane: str, to_end: Spot, column: int) -> Spot:
         """From an arc's start to its centre, in a plane; `to_end` is the way to its end."""
         letters = _CENTRES[plane]
-        for letter in values.keys() & _OTHER_CENTRES[plane]:
+        for letter in filter(_OTHER_CENTRES[plane].__contains__, values):
             raise Misread(values[letter].column, f"{letter} belongs to arcs of another plane")
         if "R" in values:
             if not values.keys().isdisjoint(letters):
