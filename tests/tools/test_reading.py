@@ -662,6 +662,8 @@ def test_told_units_of_an_odd_size_are_doubted() -> None:
     assert notes(1, 94) == [doubt + "--units says so"]
     doubt = "take care: 2.5 x 2.5 mm is an odd size; it would be 63.5 x 63.5 mm in inch, 25 x 25 mm in cm: "
     assert notes(4, 2.5) == [doubt + "--units says so"]
+    doubt = "take care: 38100 x 38100 mm is an odd size; it would be 1500 x 1500 mm in mm: --units says so"
+    assert notes(1, 1500) == [doubt]
     for units, side in ((1, 30), (4, 40), (4, 2000), (5, 60)):
         assert notes(units, side) == []
     assert notes(1, 94, Wishes(units="inch")) == []

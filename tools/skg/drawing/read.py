@@ -201,7 +201,7 @@ def _check_size(report: Account) -> None:
             f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; "
             f"give --units, or --layer for a part{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
         )
-    other = _in_other_units(report, LARGE)
+    other = _in_other_units(report, LARGE) or _in_other_units(report) * (max(report.size) > USUAL[1])
     if report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE:
         # (programs write the units that they were last set to)
         report.notes.append(f"take care: {width} x {height} mm is an odd size{other}: --units says so")
