@@ -176,7 +176,7 @@ def test_absolute_and_modal() -> None:
     # Drilling cycles have no blocks, as holes have none; what comes behind goes on from there.
     ("G21 G90\nG0 X1 Y1 Z5\nG99 G81 X2 Y1 Z-1 R2 F5\nX3\nG98 Y2\nG80\nG1 X4\nM2",
      "D B1000B1000B1000GYL1 D B1000B0B1000GXL1 DD"),
-    ("G21 G90\nG83 X1 Z-3 R1 Q.5 F5\nG0 X2\nG1 X3\nM2", "D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD"),
+    ("G21\nG83 X1 Z-3 R1 Q.5 F5\nG0 X2\nG1 X3\nM2", "D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD"),
     # Arcs that stand upright go there and back on a line: down into the work and up again; round once and a half.
     ("G21 G90\nG0 X0 Y0 Z2\nG18 G2 X2 Z0 I2 K0 F5\nG1 X4\nG2 X6 Z2 K2\nG19\nG2 Y-2 Z4 K2\nM2",
      "B2000B0B2000GXL1 B2000B0B2000GXL1 B2000B0B2000GXL1 B0B2000B2000GYL4 DD"),
@@ -318,6 +318,8 @@ def test_holes_and_stops() -> None:
     ("G21 G90 G0 Z0\nG18 G3 X1 Z1 I2 F5\nM2", "-: line 2, column 8: the arc's end is 586 µm off the circle"),
     ("G17 G18\nM2", "-: line 1, column 5: G17 and G18 in one line"),
     ("G21 G91\nG81 X1 Z-1 R1 L3\nM2", "-: line 2, column 5: a drilling cycle with relative places is not known here"),
+    ("G21 G90\nG81 X1 Z2 R1 F5\nM2", "-: line 2, column 5: a drilling cycle whose height R lies below its depth Z"),
+    ("G21 G90\nG1 G81 X1 Z-1 R1\nM2", "-: line 2, column 4: G1 and G81 in one line"),
     ("G21 G90\nG81 X1 Z-1\nM2", "-: line 2, column 5: a drilling cycle needs its depth Z and the height R"),
     ("G21 G90\nG81 X1 Z-1 R1 F5\nG80\nX2\nM2", "-: line 4, column 1: a place to go to, and no G00…G03 behind G80"),
     ("G21 G90\nG81 X1 Z-1 R1 K2\nM2", "-: line 2, column 15: K in a drilling cycle is not known here"),

@@ -60,10 +60,12 @@ _OTHERS = "ABCUVW"
 _MODES = {Decimal(n) for n in ("4", "8", "9", "40", "43", "49", "50", "61", "64", "69", "80", "91.1", "94", "97")}
 _OFFSETS = {Decimal(n) for n in range(54, 60)}
 _CALLS = {96, 97, 98, 99}
+#: Cycles that drill, or bore: at each place down and up again. Their Q is the depth of a peck.
+_CYCLES = {73, 81, 82, 83, 85, 89}
 #: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
 _MOTIONS = set(map(Decimal, range(4)))
 _GROUPS = [
-    _MOTIONS,
+    {*_MOTIONS, *map(Decimal, _CYCLES)},
     *(set(map(Decimal, group.split())) for group in ("17 18 19", "20 21", "90 91", "43 49", "61 64", "98 99")),
     _OFFSETS,
 ]
@@ -76,8 +78,6 @@ _OTHER_CENTRES = {plane: {*"IJK"} - {*letters} for plane, letters in _CENTRES.it
 _DWELL, _NO_MOTION = Decimal(4), Decimal(80)
 #: How near to its corners a path may be cut: P, and Q for lines that are nearly one.
 _BLEND = Decimal(64)
-#: Cycles that drill, or bore: at each place down and up again. Their Q is the depth of a peck.
-_CYCLES = {73, 81, 82, 83, 85, 89}
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 _HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
 _AWAY = {*_HOMES, _MACHINE}
@@ -370,11 +370,13 @@ class _Reader:
         for letter in filter("IJK".__contains__, values):
             raise Misread(values[letter].column, f"{letter} in a drilling cycle is not known here")
         column = next(iter(values.values())).column
-        if not self.absolute:
+        if self.absolute is False:
             raise Misread(column, "a drilling cycle with relative places is not known here, expected G90")
         self.cycle |= {letter: self.value(values, letter, Decimal(0)) for letter in values.keys() & {"Z", "R"}}
         if len(self.cycle) < 2:
             raise Misread(column, "a drilling cycle needs its depth Z and the height R")
+        if self.cycle["R"] < self.cycle["Z"]:
+            raise Misread(column, "a drilling cycle whose height R lies below its depth Z")
         self.look_for_feed(column)
         retract = self.cycle["R"]
         travels = max(retract, self.height) if self.knows_height and self.height is not None else retract
