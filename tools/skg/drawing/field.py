@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from math import cos, inf, pi, sin
 
 import numpy as np
@@ -93,7 +95,9 @@ class Field:
         aside. `measure` is given which chords and which places."""
         found = np.full(len(places), inf)
         low, high = np.minimum(places, ends) - aside[:, None], np.maximum(places, ends) + aside[:, None]
-        for first in range(0, len(places), _BOXES):
+
+        def look(first: int) -> None:
+            """Look from some of the places."""
             some = slice(first, first + _BOXES)
             of, runs = self._runs.query(shapely.box(*low[some].T, *high[some].T))
             order = np.argsort(of, kind="stable")
@@ -106,6 +110,14 @@ class Field:
                 starts = np.flatnonzero(np.diff(one, prepend=-1))
                 least = np.minimum.reduceat(measure(at, one), starts)
                 found[one[starts]] = np.minimum(found[one[starts]], least)
+
+        firsts = range(0, len(places), _BOXES)
+        if len(firsts) > 1:
+            with ThreadPoolExecutor(os.cpu_count()) as threads:
+                # (numpy lets them run at the same time)
+                list(threads.map(look, firsts))
+        else:
+            list(map(look, firsts))
         return found
 
     def _near_pieces(self, of: Whole, runs: Whole, low: Floats, high: Floats) -> tuple[Whole, Whole]:
