@@ -23,6 +23,10 @@ def ring(points: list[XY]) -> Contour:
     return Contour(tuple(Edge(p, q) for p, q in zip(points, [*points[1:], points[0]], strict=True)), True)
 
 
+def circle(x: float, y: float, radius: float) -> Contour:
+    return Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True)
+
+
 def thrown(seed: int, count: int) -> list[Contour]:
     """Rectangles and triangles on small whole numbers, which touch and repeat, circles, and a line of 90 edges."""
     rng = random.Random(seed)
@@ -30,7 +34,7 @@ def thrown(seed: int, count: int) -> list[Contour]:
     for _ in range(count):
         x, y, width, height = rng.randint(0, 40), rng.randint(0, 40), rng.randint(1, 9), rng.randint(1, 9)
         if rng.random() < 0.3:
-            found.append(Contour((Edge((x, y), (x, y), (x - width, y), 2 * pi),), True))
+            found.append(circle(x - width, y, width))
         else:
             corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
             found.append(ring([(float(u), float(v)) for u, v in corners[: rng.choice((3, 4))]]))
@@ -58,15 +62,17 @@ def test_boxes() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_contours_that_come_near(seed: int) -> None:
-    """None is passed over that lies within reach of another one, to the last bit; what lies by itself in a frame is."""
+    """None is passed over that lies within reach of another one, to the last bit; what lies by itself in a frame or a
+    circle is."""
     frame = ring([(-30, -30), (90, -30), (90, 90), (-30, 90)])
     alone, one_of_two, other = (ring([(x, 60), (x + 1, 60), (x + 1, 61)]) for x in (60, 70, 71.4))
-    contours, reach = [frame, alone, one_of_two, other, *thrown(seed, 25)], 0.5
+    circles = [circle(200, 0, 9), circle(201, 1, 7), circle(250, 0, 9), circle(250, 2.6, 6)]
+    contours, reach = [frame, alone, one_of_two, other, *circles, *thrown(seed, 25)], 0.5
     lines = lines_of(contours)
     one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=reach)
     near = set(one[one != other].tolist())
     found = set(_near_others(contours, reach).tolist())
-    assert len(near) > 10 and {2, 3} <= near <= found and not found & {0, 1}
+    assert len(near) > 10 and {2, 3, 6, 7} <= near <= found and not found & {0, 1, 4, 5}
 
 
 @pytest.mark.parametrize("seed", range(3))

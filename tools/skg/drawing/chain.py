@@ -471,4 +471,4 @@ def merged(contour: Contour) -> Contour:
         both = _merge(edges[-1], edges[0])
         if both is not None:
             edges = [both, *edges[1:-1]]
-    return replace(contour, edges=tuple(edges))
+    return contour if len(edges) == len(contour.edges) else replace(contour, edges=tuple(edges))

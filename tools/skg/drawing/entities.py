@@ -312,7 +312,7 @@ class _Collector:
         """centre + u cos t + v sin t from `first` on."""
         middle, one, other = self.points([Vec3(centre), Vec3(centre) + Vec3(u), Vec3(centre) + Vec3(v)])
         axes = [(end[0] - middle[0], end[1] - middle[1]) for end in (one, other)]
-        return [conic(middle, *axes, first, sweep, self.wishes.fit_tolerance)]
+        return [conic(middle, *axes, first, sweep, self.wishes.fit_tolerance, self.number)]
 
     def polyline(
         self, points: list[Vec3], bulges: list[float], is_closed: bool, ocs: OCS | None = None

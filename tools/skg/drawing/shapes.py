@@ -34,8 +34,8 @@ def is_number(value: float) -> bool:
     return isfinite(value) and abs(value) < 1e12
 
 
-def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float) -> Edge:
-    """The curve centre + u·cos t + v·sin t for t from `first` to `first + sweep` (radians, up to 2π).
+def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float, entity: int = -1) -> Edge:
+    """The curve centre + u·cos t + v·sin t for t from `first` to `first + sweep` (radians, up to 2π), of an entity.
 
     An arc or a circle where u and v are square to each other and of one length; else an ellipse, for FIT.
     """
@@ -55,14 +55,15 @@ def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float
     start, end = at([first, last])
     if abs(cross(u, v)) <= 1e-9 * size**2:
         # Seen from its side it is a line.
-        return Edge(start, end) if sweep <= pi else Edge(start, start)
+        return Edge(start, end if sweep <= pi else start, entity=entity)
     sense = 1 if cross(u, v) > 0 else -1
     # (what is longer than a tape is refused for its size)
     is_arc = size < _LARGEST or size * sweep > 2 * _LARGEST
     if abs(dot(u, v)) <= 1e-9 * size**2 and abs(hypot(*u) - hypot(*v)) <= 1e-9 * size and is_arc:
-        return Edge(start, start if is_full else end, centre, sense * (2 * pi if is_full else sweep))
+        signed = sense * (2 * pi if is_full else sweep)
+        return Edge(start, start if is_full else end, centre, signed, entity=entity)
     edge = curve_edge(at, heading, [first, last], tolerance)
-    return replace(edge, end=edge.start) if is_full else edge
+    return replace(edge, end=edge.start if is_full else edge.end, entity=entity)
 
 
 def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:

@@ -15,6 +15,7 @@ from skg.drawing.contour import Contour
 from skg.drawing.field import Floats, Whole, boxes_of, rows_of
 from skg.piece import chords_of
 from skg.plane import XY
+from skg.tape.columns import Flags
 
 #: The chords that stand for an arc here leave it by no more than this, mm.
 _CHORD = 5e-4
@@ -74,18 +75,27 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
 def _near_others(contours: list[Contour], reach: float) -> Whole:
     """The contours that come near to others: an edge's box lies within reach of that of another contour's edge."""
     around, boxes = boxes_of(contours)
-    numbers = np.arange(len(contours))
-    owners = np.repeat(numbers, [len(contour.edges) for contour in contours])
+    counts = np.array([len(contour.edges) for contour in contours], np.int64)
+    owners = np.repeat(np.arange(len(contours)), counts)
+    is_circle = np.array([edge.is_circle for contour in contours for edge in contour.edges], bool)
+    is_one = is_circle[np.cumsum(counts) - counts] & (counts == 1)
     # (the box around a frame is near to all that is in it, those around its edges are not)
-    edges = np.flatnonzero(np.isin(owners, _near_boxes(around, numbers, reach)))
-    return _near_boxes(boxes[edges], owners[edges], reach)
+    edges = np.flatnonzero(np.isin(owners, _near_boxes(around, np.arange(len(contours)), is_one, reach)))
+    return _near_boxes(boxes[edges], owners[edges], is_circle[edges], reach)
 
 
-def _near_boxes(boxes: Floats, owners: Whole, reach: float) -> Whole:
-    """The owners of boxes that lie within reach of another owner's."""
+def _near_boxes(boxes: Floats, owners: Whole, is_circle: Flags, reach: float) -> Whole:
+    """The owners of boxes that lie within reach of another owner's; of two around circles: where these do."""
     grown = boxes + (reach + _HAIR) * np.array((-1, -1, 1, 1))
     one, other = shapely.STRtree(shapely.box(*boxes.T)).query(shapely.box(*grown.T))
-    return np.unique(owners[one[owners[one] != owners[other]]])
+    is_other = owners[one] != owners[other]
+    one, other = one[is_other], other[is_other]
+    middle, radius = (boxes[:, 0:2] + boxes[:, 2:4]) / 2, (boxes[:, 2] - boxes[:, 0]) / 2
+    apart = np.hypot(*(middle[one] - middle[other]).T)
+    gap = np.maximum(apart - radius[one] - radius[other], np.abs(radius[one] - radius[other]) - apart)
+    # (chords of circles may be nearer to each other than the circles)
+    is_near = ~(is_circle[one] & is_circle[other]) | (gap <= reach + 2 * _CHORD)
+    return np.unique(owners[one[is_near]])
 
 
 def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:
