@@ -295,7 +295,8 @@ class _Wanted:
         """How far places are from where they should be, and which run into their own contour."""
         aside = self.beside(owners, passes)
         off = np.abs(near.own[:, None] - aside).min(1)
-        into = near.own < aside.min(1) - LIMIT
+        # (a start hole may be nearer than the first pass)
+        into = near.own < self.aside[owners].min(1) - LIMIT
         # The wire of an open contour begins on it and goes aside.
         begins = np.flatnonzero(into & self.is_open[owners])
         into[begins] = self.off_leads(places[begins], owners[begins]) > LIMIT
@@ -353,8 +354,7 @@ def _beside(
         for at in np.unique(which[path.doubtful(off, total)]).tolist():
             total[which == at] = wanted.off_steps(path.steps(at), wire.owner[at], path.passes[at], widest)
         for owner, at in _first_of_each(owners, (total > LIMIT) | into):
-            beside = wanted.beside(owners[[at]], passes[[at]]).min()
-            misses = abs(beside - near.own[at]) if into[at] else total[at]
+            misses = abs(wanted.aside[owner].min() - near.own[at]) if into[at] else total[at]
             faults.setdefault(owner, Misfit(owner, _xy(places[at]), float(misses), bool(into[at])))
         close = np.flatnonzero(near.other < least[owners] + slack)
         near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
