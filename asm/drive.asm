@@ -22,7 +22,7 @@
 ; from -1 to 1 where p comes to 0, which is a carry out of its highest byte: there the next quadrant begins, and the
 ; records exchange their roles.  The twofold F has the sign of tape-3b.md's.
 ;
-; The steps of J are handed out in slices, as the N of the count's axis: short ones while a line is being read,
+; The steps of J are handed out in slices, as the N of the count axis: short ones while a line is being read,
 ; since a character is taken between two of them.  The N of the other axis may run out when it likes.
 
 DRIVE   EQU 14H         ; the machine's port, out:
