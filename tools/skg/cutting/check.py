@@ -410,9 +410,10 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
             carrier = np.abs(contours.from_carrier(place, piece)[:, None] - wanted[at]).min(1)
             off[at] = np.minimum(off[at], np.where(is_there, carrier, np.inf))
         left = left[~found]
-        if len(left):
-            left = left[_by_tips(places[left], owners[left], contours, wanted, reach)]
         if not len(left) or reach > _FAR * wanted.max():
+            return off
+        left = left[_by_tips(places[left], owners[left], contours, wanted, reach)]
+        if not len(left):
             return off
         reach *= 6
         own_at = contours.nearest(places[left], owners[left], reach).own_at
