@@ -659,6 +659,16 @@ def rings(places: list[XY], hole: XY) -> list[LineString]:
 PASSES, OFFSETS = "0.06,0.02,0", (0.16, 0.12, 0.1)
 
 
+def test_an_open_contour_is_cut_once_beside_what_has_passes(run: Run, tmp_path: Path) -> None:
+    page = drawing()
+    polygon([(0, 0), (10, 0), (10, 10), (0, 10)], page)
+    page.modelspace().add_line((20, 0), (20, 10))
+    tape = tmp_path / "part.3b"
+    words = ["--offset", 0.1, "--passes", PASSES, "--open", "cut"]
+    assert run("cut", saved(page, tmp_path), "-o", tape, *words).exit_code == 0
+    assert tape.read_bytes().count(b"B0B10000B10000GYL") == 1
+
+
 def test_passes(run: Run, tmp_path: Path) -> None:
     """A die: each pass is shapely's offset by what is left to do, every second one the other way round."""
     page = drawing()

@@ -139,13 +139,14 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
 
 
 def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
-    """The numbers of the passes that follow each other without a stop."""
+    """The numbers of the passes that follow each other without a stop; -1: all of them in one cut."""
+    if not route.contour.is_closed:
+        return [(-1,)]
     found: list[tuple[int, ...]] = []
-    last = max(0, len(route.passes) - 1)
     for at, run in enumerate(route.runs()):
         if not found or run.stop:
             found.append(())
-        found[-1] += (min(at, last),)
+        found[-1] += (min(at, len(route.passes) - 1),)
     return found
 
 
@@ -235,17 +236,16 @@ class _WirePath:
         self.laid = followed.laid
         #: Which of the blocks they are.
         self.rows = np.concatenate([np.arange(cut.blocks.start, cut.blocks.stop) for cut in cuts])
-        owners = np.repeat([cut.route for cut in cuts], [cut.blocks.stop - cut.blocks.start for cut in cuts])
+        counts = np.array([cut.blocks.stop - cut.blocks.start for cut in cuts])
+        owners = np.repeat([cut.route for cut in cuts], counts)
         self.pieces = Pieces.of_tape(self.laid, self.rows, owners)
         self.aside = followed.off_curve[self.rows] / 1000
-        ends = np.cumsum([cut.blocks.stop - cut.blocks.start for cut in cuts])
-        #: Which pass each piece belongs to, -1 where that cannot be told.
-        self.passes = np.concatenate(
-            [
-                _passes(cut.passes, routes[cut.route], some)
-                for cut, some in zip(cuts, np.split(self.pieces.end, ends[:-1]), strict=True)
-            ]
-        )
+        #: Which pass each piece belongs to; -1: to any, or that cannot be told.
+        self.passes = np.repeat([cut.passes[0] for cut in cuts], counts)
+        for cut, end, count in zip(cuts, np.cumsum(counts).tolist(), counts.tolist(), strict=True):
+            if len(cut.passes) > 1:
+                some = slice(end - count, end)
+                self.passes[some] = _passes(cut.passes, routes[cut.route], self.pieces.end[some])
 
     def of_pass(self, number: int) -> Pieces:
         """The pieces; those that surely belong to other passes are nobody's."""
@@ -318,9 +318,7 @@ class _Wanted:
 
 
 def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
-    """Which of some passes pieces belong to that end at some places: a pass ends in a start hole."""
-    if len(passes) == 1:
-        return np.full(len(ends), passes[0])
+    """Which of several passes pieces belong to that end at some places: a pass ends in a start hole."""
     holes = np.array([route.start, route.tab_hole] if route.tab else [route.start])
     is_last = (np.hypot(*(ends[:, None] - holes).T) < _HOLE).any(0)
     if is_last.sum() != len(passes):
@@ -364,7 +362,7 @@ def _beside(
     if is_on[wire.owner[some]].any():
         # (the nearest one may be an open one, too: there is no side that it could be spoiled on)
         others = np.concatenate((others, np.flatnonzero(~is_open)))
-    is_right = np.array([max(route.passes, key=abs, default=0.0) * route.contour.area for route in routes])
+    is_right = np.array([max(route.passes, key=abs) * route.contour.area for route in routes])
     inner, outer = ~is_open & (is_right < 0), ~is_open & (is_right > 0)
     found = crossings(wire, np.unique(some), contours, others, least, LIMIT, inner, outer)
     return list(faults.values()), [one for one in found if not (is_on[one.route] and is_on[one.other])], worst
