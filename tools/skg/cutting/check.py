@@ -362,7 +362,7 @@ def _beside(
     if is_on[wire.owner[some]].any():
         # (the nearest one may be an open one, too: there is no side that it could be spoiled on)
         others = np.concatenate((others, np.flatnonzero(~is_open)))
-    is_right = np.array([max(route.passes, key=abs) * route.contour.area for route in routes])
+    is_right = np.array([route.widest * route.contour.area for route in routes])
     inner, outer = ~is_open & (is_right < 0), ~is_open & (is_right > 0)
     found = crossings(wire, np.unique(some), contours, others, least, LIMIT, inner, outer)
     return list(faults.values()), [one for one in found if not (is_on[one.route] and is_on[one.other])], worst

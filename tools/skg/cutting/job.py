@@ -233,7 +233,7 @@ def _no_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: floa
         message += ", there is no way beside it for the wire"
         help_ = "mend it in the drawing"
     else:
-        message += f", {short(max(map(abs, route.passes)))} mm beside it"
+        message += f", {short(abs(route.widest))} mm beside it"
         if fit is not None:
             message += f"; at most {short(fit)} mm fits" if fit else "; no offset fits"
             message += _in_passes(route, fit) if fit else ""
@@ -245,7 +245,7 @@ def _no_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: floa
 
 def _in_passes(route: PlannedContour, fit: float) -> str:
     """What the largest offset that fits is in the last pass, where another one has it."""
-    more = max(map(abs, route.passes)) - abs(route.passes[-1])
+    more = abs(route.widest) - abs(route.passes[-1])
     if not more:
         return ""
     return (
@@ -262,10 +262,9 @@ def _tightest(routes: list[PlannedContour], none: dict[int, NoRoom]) -> tuple[in
             break
         if no_room.is_crossing:
             return at, 0.0
-        route = routes[at]
-        r = max(route.passes, key=abs)
-        if len(route.contour.edges) <= _MANY and (found is None or not _fits(route.contour, copysign(found[1], r))):
-            found = at, widest(route.contour, r)
+        contour, r = routes[at].contour, routes[at].widest
+        if len(contour.edges) <= _MANY and (found is None or not _fits(contour, copysign(found[1], r))):
+            found = at, widest(contour, r)
     return found or (next(iter(none)), None)
 
 
@@ -350,7 +349,7 @@ def _refuse(checked: Checked, routes: list[PlannedContour], factor: float, setti
         named = _named(route, fault.route, factor)
         if why := _why(fault, factor):
             raise UserError(
-                f"{named}: {why}, {short(max(map(abs, route.passes)))} mm beside it: there is no room for this offset, "
+                f"{named}: {why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
                 f"take a smaller one or a thinner wire{_or_leave(settings)}"
             )
         place, off = in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"

@@ -105,14 +105,15 @@ def _parts(runs: list[Contour], corners: dict[XY, list[int]]) -> list[set[int]]:
     found: list[set[int]] = []
     seen: set[int] = set()
     for begin in range(len(runs)):
+        if begin in seen:
+            continue
         part, open_ones = {begin}, [begin]
-        while open_ones and begin not in seen:
+        while open_ones:
             first, last = _ends(runs[open_ones.pop()])
             more = {*corners[first], *corners[last]} - part
             part |= more
             open_ones += more
-        if begin not in seen:
-            found.append(part)
+        found.append(part)
         seen |= part
     return found
 

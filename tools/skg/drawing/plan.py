@@ -151,7 +151,7 @@ class _Planner:
         return [done[number] for number in range(len(done))]
 
     def _choice(self, made: PlannedContour, is_outside: bool) -> _Choice:
-        reach = self.method.lead + max(map(abs, made.passes))
+        reach = self.method.lead + abs(made.widest)
         return _Choice(made, is_outside, reach, entries_of(made.contour, made.tab, self.widest))
 
     def _refuse_misplaced(self, made: PlannedContour, is_outside: bool) -> None:
@@ -173,7 +173,7 @@ class _Planner:
 
     def _entered(self, made: PlannedContour, is_right: bool) -> PlannedContour:
         """A contour with its start hole, and where it is entered from there."""
-        contour, part = entry_near(made.contour, made.start, max(made.passes, key=abs))
+        contour, part = entry_near(made.contour, made.start, made.widest)
         if not made.tab:
             return replace(made, contour=contour, part=part)
         contour, part = self._tab_before(contour, part)

@@ -110,6 +110,11 @@ class PlannedContour:
         return self.contour.edges[0].at(self.part)
 
     @property
+    def widest(self) -> float:
+        """R of the pass that is furthest aside, mm."""
+        return max(self.passes, key=abs)
+
+    @property
     def is_square(self) -> bool:
         """Whether the start hole stands square to the entry: a lead that is an arc touches the contour only then."""
         edge = self.chain[0]
@@ -163,12 +168,11 @@ class PlannedContour:
         """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.drawing.parallel)."""
         traced = tuple(wire_way(self.contour, r) for r in self.passes)
         found = replace(self, traced=traced)
-        widest = max(self.passes, key=abs)
-        is_outside = (self.contour.area > 0) == (widest > 0)
+        is_outside = (self.contour.area > 0) == (self.widest > 0)
         if is_outside or self.room == inf:
             return found
         # (a start hole that was chosen, square to the contour, may be where the wire does not come to)
-        place = roomy_place(traced[self.passes.index(widest)], self.start)
+        place = roomy_place(traced[self.passes.index(self.widest)], self.start)
         return found if place == self.start else replace(found, start=place, is_moved=True)
 
     def in_chords(self) -> PlannedContour:

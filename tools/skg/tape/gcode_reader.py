@@ -62,10 +62,12 @@ _OFFSETS = {Decimal(n) for n in range(54, 60)}
 _CALLS = {96, 97, 98, 99}
 #: Cycles that drill, or bore: at each place down and up again. Their Q is the depth of a peck.
 _CYCLES = {73, 81, 82, 83, 85, 89}
-#: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
+#: G words that say what a place does; the first ones are the motions.
 _MOTIONS = set(map(Decimal, range(4)))
+_WAYS = {*_MOTIONS, *map(Decimal, _CYCLES)}
+#: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
 _GROUPS = [
-    {*_MOTIONS, *map(Decimal, _CYCLES)},
+    _WAYS,
     *(set(map(Decimal, group.split())) for group in ("17 18 19", "20 21", "90 91", "43 49", "61 64", "98 99")),
     _OFFSETS,
 ]
@@ -84,6 +86,8 @@ _AWAY = {*_HOMES, _MACHINE}
 #: M words of boards for printers: from here on, and these; the words behind one are its own (`M92 X80`: steps).
 _BOARDS, _BOARD = 100, {17, 18, 84, 92}
 _KNOWN = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
+#: What is said of a program that has rapids and nothing else.
+_GOES_ONLY = "nothing is cut: it goes everywhere with G0"
 #: µm in a number of each unit; None: by the decimal point.
 _INCH, _MILLIMETRE = Decimal(25400), Decimal(1000)
 
@@ -239,7 +243,7 @@ class _Reader:
     def preparatory(self, word: Word) -> bool:
         """Carry out a G word; True for G92."""
         match word.number:
-            case 0 | 1 | 2 | 3 | 73 | 81 | 82 | 83 | 85 | 89:
+            case n if n in _WAYS:
                 self.motion = int(word.number)
             case 98 | 99:
                 self.is_low = word.number == 99
@@ -482,7 +486,7 @@ class _Reader:
 
     def notes(self) -> tuple[str, ...]:
         """What there is to say of what does not cut."""
-        return ("nothing is cut: it goes everywhere with G0",) if self.goes_only else self.tool.notes()
+        return (_GOES_ONLY,) if self.goes_only else self.tool.notes()
 
     @property
     def goes_only(self) -> bool:
@@ -526,7 +530,7 @@ def _read_all(text: str, keeps: bool) -> _Reader:
             missing += ", with beam or spindle on"
         is_program = reader.begun
         if reader.goes_only:
-            missing += "; nothing is cut: it goes everywhere with G0"
+            missing += f"; {_GOES_ONLY}"
         reader.findings.append(GcodeFinding(reader.line + 1, 1, missing, is_fatal=not is_program, is_guess=is_program))
     return reader
 
