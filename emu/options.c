@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -127,11 +128,52 @@ static bool decimal_number(const char *text, double least, double most, double *
     return end != text && !*end && *value >= least && *value <= most;
 }
 
-/* Does a file's name promise no other kind of picture? */
-static bool may_be_svg(const char *path)
+static bool read_ram(const char *text, options *o)
 {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    uint64_t kib = 0;
+    bool fits = whole_number(text, BOARD_RAM_MIN_KIB, BOARD_RAM_MAX_KIB, &kib);
+    o->ram_kib = (unsigned)kib;
+    return fits;
+}
+
+static bool read_mhz(const char *text, options *o)
+{
+    return decimal_number(text, 0.001, 1000, &o->mhz);
+}
+
+static bool read_baud(const char *text, options *o)
+{
+    static const unsigned bauds[] = { 110, 150, 300, 600, 1200, 2400, 4800, 9600 };
+    uint64_t number;
+    if (!whole_number(text, 1, UINT32_MAX, &number)) {
+        return false;
+    }
+    for (size_t i = 0; i < sizeof bauds / sizeof *bauds; i++) {
+        if (bauds[i] == number) {
+            o->baud = bauds[i];
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool read_board(const char *text, options *o)
+{
+    o->kind = *text == '6' ? BOARD_6850 : BOARD_8251;
+    return !strcmp(text, "6850") || !strcmp(text, "8251");
+}
+
+/* The drawing's name promises no other kind of picture. */
+static bool read_drive(const char *text, options *o)
+{
+    const char *slash = strrchr(text, '/'), *dot = strrchr(slash ? slash : text, '.');
+    o->drive = text;
     return !dot || !strcasecmp(dot, ".svg");
+}
+
+static bool read_feed(const char *text, options *o)
+{
+    return decimal_number(text, 0.01, 1e6, &o->feed);
 }
 
 /* The step at which the drive is to stop: N, or N,stay. */
@@ -146,6 +188,93 @@ static bool read_stop(const char *text, options *o)
     snprintf(digits, sizeof digits, "%.*s", (int)length, text);
     o->stop_stays = text[length];
     return whole_number(digits, 1, UINT64_MAX, &o->stop_at);
+}
+
+static bool read_max_cycles(const char *text, options *o)
+{
+    return whole_number(text, 1, UINT64_MAX, &o->max_cycles);
+}
+
+static bool read_break(const char *text, options *o)
+{
+    if (o->break_count == OPTIONS_BREAKS) {
+        return false;
+    }
+    o->breaks[o->break_count++] = text;
+    return true;
+}
+
+/* An option sets a flag or a text of `options`, or its value is read and may be wrong. */
+typedef enum { FLAG, TEXT, VALUE, HELP } option_kind;
+
+typedef struct {
+    const char *name;
+    option_kind kind;
+    size_t at;                                      /* FLAG, TEXT: the member that it sets */
+    bool (*read)(const char *text, options *o);     /* VALUE */
+    const char *wrong;                              /* VALUE: what is said when `read` does not take it */
+} option_rule;
+
+// clang-format off
+#define SETS(member) offsetof(options, member), NULL, NULL
+static const option_rule RULES[] = {
+    { "rom",        TEXT,  SETS(rom) },
+    { "ram",        VALUE, 0, read_ram, "not 2 to 56" },
+    { "input",      TEXT,  SETS(input) },
+    { "punch",      TEXT,  SETS(punch) },
+    { "tty",        TEXT,  SETS(tty) },
+    { "tape",       TEXT,  SETS(tape) },
+    { "pty",        FLAG,  SETS(pty) },
+    { "mhz",        VALUE, 0, read_mhz, "not 0.001 to 1000" },
+    { "baud",       VALUE, 0, read_baud, "not 110, 150, 300, 600, 1200, 2400, 4800 or 9600" },
+    { "board",      VALUE, 0, read_board, "not 6850 or 8251" },
+    { "punch-tty",  FLAG,  SETS(punch_tty) },
+    { "punch-pty",  FLAG,  SETS(punch_pty) },
+    { "drive",      VALUE, 0, read_drive, "what it draws is SVG: expected a name that ends in .svg" },
+    { "steps",      TEXT,  SETS(steps) },
+    { "feed",       VALUE, 0, read_feed, "not 0.01 to 1000000" },
+    { "stop-at",    VALUE, 0, read_stop, "not a step's number, 1 or more, or that and `,stay`" },
+    { "stats",      FLAG,  SETS(stats) },
+    { "max-cycles", VALUE, 0, read_max_cycles, "not a number of cycles" },
+    { "com",        TEXT,  SETS(com) },
+    { "debug",      FLAG,  SETS(debug) },
+    { "break",      VALUE, 0, read_break, "more than 16" },
+    { "trace",      TEXT,  SETS(trace) },
+    { "sym",        TEXT,  SETS(sym) },
+    { "help",       HELP,  0, NULL, NULL },
+};
+#undef SETS
+// clang-format on
+enum { RULE_COUNT = sizeof RULES / sizeof *RULES };
+_Static_assert(BOARD_RAM_MIN_KIB == 2 && BOARD_RAM_MAX_KIB == 56 && OPTIONS_BREAKS == 16, "as RULES and USAGE say");
+
+/* The rules as getopt_long reads them; it answers with the rule's index + 1: 0 in optopt is no option at all. */
+static void getopt_list(struct option *list)
+{
+    for (int i = 0; i < RULE_COUNT; i++) {
+        bool has_value = RULES[i].kind == TEXT || RULES[i].kind == VALUE;
+        list[i] = (struct option){ RULES[i].name, has_value ? required_argument : no_argument, NULL, i + 1 };
+    }
+    list[RULE_COUNT] = (struct option){ NULL, 0, NULL, 0 };
+}
+
+/* Carries one option out, its value in optarg. The result is that of options_read. */
+static int take(const option_rule *rule, options *o)
+{
+    switch (rule->kind) {
+    case FLAG:
+        *(bool *)((char *)o + rule->at) = true;
+        return 0;
+    case TEXT:
+        *(const char **)((char *)o + rule->at) = optarg;
+        return 0;
+    case VALUE:
+        return rule->read(optarg, o) ? 0 : complain(EXIT_USAGE, "--%s %s: %s", rule->name, optarg, rule->wrong);
+    case HELP:
+        fputs(USAGE, stdout);
+        return fflush(stdout) ? complain(EXIT_USAGE, "cannot write: %s", strerror(errno)) : -1;
+    }
+    return 0;
 }
 
 /* What getopt_long did not like: an option that is not there, or a value where none belongs. */
@@ -163,149 +292,20 @@ static int refuse(char **argv)
 
 int options_read(int argc, char **argv, options *o)
 {
-    // clang-format off
-    enum { ROM = 1, RAM, INPUT, PUNCH, TTY, TAPE, PTY, MHZ, BAUD, BOARD, PUNCH_TTY, PUNCH_PTY, DRIVE, STEPS, FEED, STOP_AT, STATS,
-           MAX_CYCLES, COM, DEBUG, BREAK, TRACE, SYM, HELP };
-    // clang-format on
-    static const struct option list[] = {
-        { "rom", required_argument, NULL, ROM },
-        { "ram", required_argument, NULL, RAM },
-        { "input", required_argument, NULL, INPUT },
-        { "punch", required_argument, NULL, PUNCH },
-        { "tty", required_argument, NULL, TTY },
-        { "tape", required_argument, NULL, TAPE },
-        { "pty", no_argument, NULL, PTY },
-        { "mhz", required_argument, NULL, MHZ },
-        { "baud", required_argument, NULL, BAUD },
-        { "board", required_argument, NULL, BOARD },
-        { "punch-tty", no_argument, NULL, PUNCH_TTY },
-        { "punch-pty", no_argument, NULL, PUNCH_PTY },
-        { "drive", required_argument, NULL, DRIVE },
-        { "steps", required_argument, NULL, STEPS },
-        { "feed", required_argument, NULL, FEED },
-        { "stop-at", required_argument, NULL, STOP_AT },
-        { "stats", no_argument, NULL, STATS },
-        { "max-cycles", required_argument, NULL, MAX_CYCLES },
-        { "com", required_argument, NULL, COM },
-        { "debug", no_argument, NULL, DEBUG },
-        { "break", required_argument, NULL, BREAK },
-        { "trace", required_argument, NULL, TRACE },
-        { "sym", required_argument, NULL, SYM },
-        { "help", no_argument, NULL, HELP },
-        { NULL, 0, NULL, 0 },
-    };
-    static const unsigned bauds[] = { 110, 150, 300, 600, 1200, 2400, 4800, 9600 };
+    struct option list[RULE_COUNT + 1];
+    getopt_list(list);
     *o = (options){ .ram_kib = BOARD_RAM_KIB, .max_cycles = UINT64_MAX, .kind = BOARD_6850 };
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, ":", list, NULL)) != -1;) {
-        uint64_t number;
-        switch (option) {
-        case ROM:
-            o->rom = optarg;
-            break;
-        case RAM:
-            if (!whole_number(optarg, BOARD_RAM_MIN_KIB, BOARD_RAM_MAX_KIB, &number)) {
-                return complain(EXIT_USAGE, "--ram %s: not %d to %d", optarg, BOARD_RAM_MIN_KIB, BOARD_RAM_MAX_KIB);
-            }
-            o->ram_kib = (unsigned)number;
-            break;
-        case INPUT:
-            o->input = optarg;
-            break;
-        case PUNCH:
-            o->punch = optarg;
-            break;
-        case TTY:
-            o->tty = optarg;
-            break;
-        case TAPE:
-            o->tape = optarg;
-            break;
-        case PTY:
-            o->pty = true;
-            break;
-        case MHZ:
-            if (!decimal_number(optarg, 0.001, 1000, &o->mhz)) {
-                return complain(EXIT_USAGE, "--mhz %s: not 0.001 to 1000", optarg);
-            }
-            break;
-        case BAUD:
-            o->baud = 0;
-            if (whole_number(optarg, 1, UINT32_MAX, &number)) {
-                for (size_t i = 0; i < sizeof bauds / sizeof *bauds; i++) {
-                    o->baud = bauds[i] == number ? bauds[i] : o->baud;
-                }
-            }
-            if (!o->baud) {
-                return complain(EXIT_USAGE, "--baud %s: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600", optarg);
-            }
-            break;
-        case BOARD:
-            if (strcmp(optarg, "6850") && strcmp(optarg, "8251")) {
-                return complain(EXIT_USAGE, "--board %s: not 6850 or 8251", optarg);
-            }
-            o->kind = *optarg == '6' ? BOARD_6850 : BOARD_8251;
-            break;
-        case PUNCH_TTY:
-            o->punch_tty = true;
-            break;
-        case PUNCH_PTY:
-            o->punch_pty = true;
-            break;
-        case DRIVE:
-            if (!may_be_svg(optarg)) {
-                return complain(EXIT_USAGE, "--drive %s: what it draws is SVG: expected a name that ends in .svg",
-                                optarg);
-            }
-            o->drive = optarg;
-            break;
-        case STEPS:
-            o->steps = optarg;
-            break;
-        case FEED:
-            if (!decimal_number(optarg, 0.01, 1e6, &o->feed)) {
-                return complain(EXIT_USAGE, "--feed %s: not 0.01 to 1000000", optarg);
-            }
-            break;
-        case STOP_AT:
-            if (!read_stop(optarg, o)) {
-                return complain(EXIT_USAGE, "--stop-at %s: not a step's number, 1 or more, or that and `,stay`",
-                                optarg);
-            }
-            break;
-        case STATS:
-            o->stats = true;
-            break;
-        case MAX_CYCLES:
-            if (!whole_number(optarg, 1, UINT64_MAX, &o->max_cycles)) {
-                return complain(EXIT_USAGE, "--max-cycles %s: not a number of cycles", optarg);
-            }
-            break;
-        case COM:
-            o->com = optarg;
-            break;
-        case DEBUG:
-            o->debug = true;
-            break;
-        case BREAK:
-            if (o->break_count == OPTIONS_BREAKS) {
-                return complain(EXIT_USAGE, "--break %s: more than %d", optarg, OPTIONS_BREAKS);
-            }
-            o->breaks[o->break_count++] = optarg;
-            break;
-        case TRACE:
-            o->trace = optarg;
-            break;
-        case SYM:
-            o->sym = optarg;
-            break;
-        case HELP:
-            fputs(USAGE, stdout);
-            return fflush(stdout) ? complain(EXIT_USAGE, "cannot write: %s", strerror(errno)) : -1;
-        case ':':
+        if (option == ':') {
             return complain(EXIT_USAGE, "%s needs a value", argv[optind - 1]);
-        default:
+        }
+        if (option == '?') {
             return refuse(argv);
+        }
+        int done = take(&RULES[option - 1], o);
+        if (done) {
+            return done;
         }
     }
     if (argc - optind > 1) {
