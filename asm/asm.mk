@@ -1,7 +1,4 @@
-# What is committed besides the standard image (asm/images.py says what they are).
-VARIANTS := skg-8251 skg-tty skg-nodrift skg-mill skg-grbl skg-drive skg-ram skg.com skgmill.com
-
-# The ROM images are committed: only a change of asm/ needs an assembler.
+# The ROM images (asm/images.py) are committed: only a change of asm/ needs an assembler.
 asm80: asm/node_modules/.bin/asm80
 asm/node_modules/.bin/asm80: asm/package.json asm/package-lock.json
 	npm ci --prefix asm --silent --no-audit --no-fund
@@ -9,7 +6,7 @@ asm/node_modules/.bin/asm80: asm/package.json asm/package-lock.json
 
 rom: asm80
 	@$(PYTHON) asm/build.py --sym roms/skg.sym --listing build/skg.lst roms/skg
-	@for image in $(VARIANTS); do $(PYTHON) asm/build.py --image $$image roms/$$image || exit 1; done
+	@for image in $$($(PYTHON) asm/images.py); do $(PYTHON) asm/build.py --image $$image roms/$$image || exit 1; done
 
 # The standard ROM's listing alone, for who reads it and for the fuzzer.
 build/skg.lst: $(wildcard asm/*.asm asm/*.py asm/words.txt) | asm80

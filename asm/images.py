@@ -6,6 +6,8 @@ Four seams. The **board**: where things lie (`map_rom`), ports and their setting
 `io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole micrometres (`tape`, and
 `arc_3b` or `arc_nodrift`). Whether spans of a curve are **held back**: `tol`, or `notol`. Words that not every image
 has are a set in words.txt.
+
+    asm/images.py     prints the names of the variants of the standard image
 """
 
 from __future__ import annotations
@@ -63,3 +65,7 @@ IMAGES = {
     "skg.com": Image().for_cpm("type_3b"),
     "skgmill.com": MILL.for_cpm("type_nc"),
 }
+
+
+if __name__ == "__main__":
+    print(*(name for name in IMAGES if name != STANDARD), sep="\n")
