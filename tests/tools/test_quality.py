@@ -105,6 +105,21 @@ def test_pieces_are_what_is_cut(part: Path) -> None:
     assert {(c.x, c.y, c.r) for c in made} <= cut
 
 
+def test_a_curve_is_counted_while_it_is_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each arc is worked out once; given up or made of nodes alone, the curve counts the same."""
+    arcs = []
+    monkeypatch.setattr(fit, "arc", lambda *places, arc=fit.arc: arcs.append(arc(*places)) or arcs[-1])
+    text = "10 TOL 0.001\n20 FIT (I,SIN(I*I))\n30 I=I+1\n40 IF I<60 GOTO 20\n"
+    (run,) = fitted_runs("5 I=0\n" + text)
+    found = measure(Path("part"), run)
+    assert (found.nodes, found.blocks, found.flat) == (60, len(arcs), arcs.count(None))
+    assert 0 < found.flat < found.blocks < 2 * 59
+    assert found.jump == tangent_jump(pieces(run.nodes, run.tolerance, Biarcs)) <= SMOOTH
+    assert measure(Path("part"), Run(run.nodes, run.tolerance)) == found
+    typed = "TOL 0.001\n" + "".join(f"FIT ({i},SIN({i * i}))\n" for i in range(60))
+    assert measure(Path("part"), fitted_runs(typed)[0]) == found
+
+
 # The measuring -------------------------------------------------------------------------------------------
 
 

@@ -13,10 +13,12 @@ from gmpy2 import asin, atan, atan2, cos, degrees, floor, hypot, log10, radians,
 from gmpy2 import mpfr as Real
 from gmpy2 import rint as nint
 
+# fmt: off
 __all__ = [
-    *("BITS", "PI", "Real", "asin", "atan", "atan2", "cos", "degrees", "floor", "hypot", "log10", "nint"),
-    *("precision", "radians", "sin", "sqrt"),
+    "BITS", "PI", "Real", "asin", "atan", "atan2", "cos", "degrees", "floor", "hypot", "log10", "nint", "precision",
+    "radians", "sin", "sqrt",
 ]
+# fmt: on
 
 #: Bits of a mantissa: 50 digits and a little.
 BITS = 169

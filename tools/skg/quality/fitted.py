@@ -5,7 +5,7 @@ A curve is what one run of FIT statements makes, without R: arcs and lines (skg.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain, pairwise
 
@@ -54,25 +54,73 @@ class FittedPiece:
         return centre + (start - centre) * np.exp(1j * part * sweep)
 
 
+def any_arc(p: Point, t: Point, q: Point) -> Circle | None:
+    """The arc from p to q that starts in the unit direction t, however flat it is."""
+    w = q - p
+    bulge = t.cross(w)
+    r = w.dot(w) / (2 * bulge) if bulge else LARGEST
+    if abs(r) >= LARGEST:
+        return None
+    centre = p + t.left() * r
+    return Circle(centre.x, centre.y, r)
+
+
 class Biarcs(FittedCurve):
     """The curve before flat arcs become their chords."""
 
-    def _arc(self, p: Point, t: Point, q: Point, offset: Real) -> None:
-        w = q - p
-        bulge = t.cross(w)
-        r = w.dot(w) / (2 * bulge) if bulge else LARGEST
-        if abs(r) < LARGEST:
-            centre = p + t.left() * r
-            self.feed(Circle(centre.x, centre.y, r), offset)
-        self.feed(q, offset)
+    def _circle(self, p: Point, t: Point, q: Point) -> Circle | None:
+        return any_arc(p, t, q)
+
+
+class SeenCurve(FittedCurve):
+    """The curve as it is cut. Counted while it is made: blocks, those of them that are chords of flat arcs, and the
+    largest jump of the tangent before these became chords."""
+
+    def __init__(self, feed: Callable[[Point | Circle, Real], None], tolerance: Real = ZERO) -> None:
+        super().__init__(feed, tolerance)
+        self.blocks = self.flat = 0
+        self.sine = ZERO
+        self.before: Point | None = None
+        self.finished = False
+
+    def finish(self) -> None:
+        """No more nodes."""
+        super().finish()
+        self.finished = True
+
+    def _circle(self, p: Point, t: Point, q: Point) -> Circle | None:
+        circle = super()._circle(p, t, q)
+        self.blocks += 1
+        self.flat += circle is None
+        piece = FittedPiece(p, q, circle or any_arc(p, t, q))
+        if self.before is not None:
+            self.sine = max(self.sine, abs(self.before.cross(piece.heading(p))))
+        self.before = piece.heading(q)
+        return circle
+
+    @property
+    def jump(self) -> float:
+        """The largest angle (radians) between two arcs where they meet."""
+        return float(real.mp.asin(self.sine))
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run of FIT statements: its nodes, and the TOL (mm) that holds for it."""
+    """One run of FIT statements: its nodes, the TOL (mm) that holds for it, and its curve as far as it was cut."""
 
     nodes: list[Node]
     tolerance: Real = ZERO
+    cut: SeenCurve | None = None
+
+    def seen(self) -> SeenCurve:
+        """The curve, finished."""
+        if self.cut is not None and self.cut.finished:
+            return self.cut
+        curve = SeenCurve(lambda _, __: None, self.tolerance)
+        for node in self.nodes:
+            curve.add(node)
+        curve.finish()
+        return curve
 
 
 class _Dropped(list):
@@ -103,7 +151,7 @@ class Recorder(Interpreter):
 
     def _new_cutter(self) -> Cutter:
         cutter = super()._new_cutter()
-        cutter.path, new_route = _Dropped(), cutter._new_route
+        cutter.path, new_route, cutter.new_curve = _Dropped(), cutter._new_route, SeenCurve
 
         def few_items() -> Route:
             route = new_route()
@@ -114,9 +162,10 @@ class Recorder(Interpreter):
         return cutter
 
     def _fit(self, node: Point, angle: Real | None) -> None:
-        if self.cutter.curve is None:
-            self.runs.append(Run([], self.cutter.tolerance))
+        begins = self.cutter.curve is None
         super()._fit(node, angle)
+        if begins:
+            self.runs.append(Run([], self.cutter.tolerance, self.cutter.curve))
         tangent = None if angle is None else Point(real.cos(angle), real.sin(angle))
         nodes, place = self.runs[-1].nodes, enlarged(node, self.cutter.scale)
         # A node on the one before it is none (language.md, section 5).

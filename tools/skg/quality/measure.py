@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from skg.errors import UserError
-from skg.quality.fitted import Biarcs, FittedPiece, Run, each_piece, pieces, tangent_jump
+from skg.quality.fitted import Biarcs, FittedPiece, Run, pieces
 from skg.quality.true_curves import TRUE_CURVES, TrueCurve
 from skg.ref.fit import MOST_PASSED, Node
 from skg.ref.real import ZERO, Real
@@ -108,14 +108,11 @@ def measure(part: Path, run: Run) -> Quality:
     """The quality of one curve of a part."""
     nodes = run.nodes
     true = true_curve(part, nodes)
-    blocks = flat = 0
-    for piece in each_piece(nodes, run.tolerance):
-        blocks += 1
-        flat += piece.circle is None
-    jump = tangent_jump(each_piece(nodes, run.tolerance, Biarcs))
+    seen = run.seen()
+    counted = len(nodes), seen.blocks, seen.flat, seen.jump
     if true is None:
-        return Quality(part.stem, "only its nodes are known", len(nodes), blocks, flat, jump)
+        return Quality(part.stem, "only its nodes are known", *counted)
     sets = [(true.nodes, nodes)] + [denser(true, nodes, 2**n) for n in range(1, DOUBLINGS + 1)]
     biarcs = tuple(distance(pieces(n, kind=Biarcs), true, parameters) for parameters, n in sets)
     off = distance(pieces(nodes, run.tolerance), true, true.nodes)
-    return Quality(part.stem, true.name, len(nodes), blocks, flat, jump, off, biarcs)
+    return Quality(part.stem, true.name, *counted, off, biarcs)

@@ -38,6 +38,9 @@ class Closed:
 class Cutter:
     """The state between cutting statements. Places are in mm on the tape, arguments in the drawing's mm."""
 
+    #: What a run of FIT statements makes; `skg.quality` looks at it while it is made.
+    new_curve = FittedCurve
+
     def __init__(self, tape: Punch, path: list[Segment]) -> None:
         self.tape = tape
         self.path = path
@@ -104,7 +107,7 @@ class Cutter:
     def node(self, p: Point, tangent: Point | None, offset: Real) -> None:
         """FIT, `tangent` a unit vector where it is given."""
         if self.curve is None:
-            self.curve = FittedCurve(self._feed, self.tolerance)
+            self.curve = self.new_curve(self._feed, self.tolerance)
         self.curve.add(Node(enlarged(p, self.scale), tangent, offset))
 
     def tolerate(self, tolerance: Real) -> None:

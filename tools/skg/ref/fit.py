@@ -203,7 +203,10 @@ class FittedCurve:
             self._arc(middle, mirrored(b.tangent, b.point - middle), b.point, b.offset)
 
     def _arc(self, p: Point, t: Point, q: Point, offset: Real) -> None:
-        circle = arc(p, t, q)
+        circle = self._circle(p, t, q)
         if circle is not None:
             self.feed(circle, offset)
         self.feed(q, offset)
+
+    def _circle(self, p: Point, t: Point, q: Point) -> Circle | None:
+        return arc(p, t, q)

@@ -17,7 +17,6 @@ from skg.rivals.plane import (
     Real,
     mirrored,
     moved,
-    mp,
     rotated,
 )
 from skg.rivals.program import LAST_LINE, LAST_SUBSCRIPT, SkgProgram, packed, plain, too_long
