@@ -30,7 +30,7 @@ from skg.errors import UserError
 from skg.piece import Piece
 from skg.plane import XY, cross
 from skg.tape.block import Tape, micrometres
-from skg.tape.columns import columns_of, hypots
+from skg.tape.columns import columns_of, hypots, numbers_up_to
 from skg.tape.controller import trace_array
 from skg.tape.laid import Laid
 from skg.tape.moves import closed_moves
@@ -420,20 +420,23 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
 def _by_tips(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, reach: float) -> Whole:
     """Which places are so near to a sharp corner of their contour as the wire may be that goes around it there; those
     of corners where that is not beyond a reach are left out."""
-    ends = np.flatnonzero(np.diff(contours.owner, append=-1))
-    after = np.arange(1, len(contours.owner) + 1)
-    after[ends] = np.concatenate(([0], ends[:-1] + 1))
-    every = np.arange(len(after))
-    bend = _bend(contours.normal(every, np.ones(len(every))), contours.normal(after, np.zeros(len(every))))
+    # (a path may have a million corners: only those of the contours that the places are beside)
+    whose = np.unique(owners)
+    first = np.searchsorted(contours.owner, whose)
+    count = np.searchsorted(contours.owner, whose, "right") - first
+    number = numbers_up_to(count)
+    before = np.repeat(first, count) + number
+    after = np.repeat(first, count) + (number + 1) % np.repeat(count, count)
+    bend = _bend(contours.normal(before, np.ones(len(before))), contours.normal(after, np.zeros(len(after))))
     tip = (_TIP * wanted.max() + LIMIT) / np.maximum(bend, 1 / _FAR)
-    sharp = np.flatnonzero(tip > reach)
+    is_sharp = tip > reach
+    sharp, tip = before[is_sharp], tip[is_sharp]
     if not len(sharp):
         return sharp
     tree = shapely.STRtree(shapely.points(contours.end[sharp]))
-    place, corner = tree.query(shapely.points(places), predicate="dwithin", distance=float(tip[sharp].max()))
-    corner = sharp[corner]
-    is_near = _far(places[place], contours.end[corner]) <= tip[corner]
-    return np.unique(place[is_near & (owners[place] == contours.owner[corner])])
+    place, corner = tree.query(shapely.points(places), predicate="dwithin", distance=float(tip.max()))
+    is_near = _far(places[place], contours.end[sharp[corner]]) <= tip[corner]
+    return np.unique(place[is_near & (owners[place] == contours.owner[sharp[corner]])])
 
 
 def _bend(one: Floats, other: Floats) -> Floats:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
+from threading import Lock
 
 import numpy as np
 
@@ -76,8 +77,11 @@ class Pieces:
     def _measure(self) -> None:
         self.is_arc = self.radius > 0
         way = self.end - self.start
-        self.length = np.where(self.is_arc, self.radius * np.abs(self.sweep), np.hypot(way[:, 0], way[:, 1]))
+        self.length = np.hypot(way[:, 0], way[:, 1])
+        arcs = np.flatnonzero(self.is_arc)
+        self.length[arcs] = self.radius[arcs] * np.abs(self.sweep[arcs])
         self._grids: dict[float, _Grid] = {}
+        self._making = Lock()
 
     def at(self, which: Whole, part: Floats) -> Floats:
         """The places at parts of the lengths of pieces."""
@@ -177,9 +181,11 @@ class Pieces:
 
     def _grid(self, cell: float) -> _Grid:
         """The pieces laid out on cells."""
-        if cell not in self._grids:
-            self._grids[cell] = _Grid(self, cell)
-        return self._grids[cell]
+        # (who comes while another thread is making the same one waits for it)
+        with self._making:
+            if cell not in self._grids:
+                self._grids[cell] = _Grid(self, cell)
+            return self._grids[cell]
 
     def _look(self, grid: _Grid, places: Floats, owners: Whole, low: int, reach: float, found: Nearest) -> None:
         """Find what is nearest to the places from number `low` on."""
@@ -215,10 +221,14 @@ class _Grid:
         for which, part in pieces.batches(2 * self.apart, 1):
             column, row = self._cells(pieces.at(which, part))
             found.append(_once(which, column * self.width + row))
-        which, keys = (np.concatenate([some[at] for some in found]) for at in (0, 1))
+        which, keys = (np.concatenate(column) for column in zip(*found, strict=True))
         found.clear()
         order = np.lexsort((which, keys))
-        self.keys, self.which = _once(keys[order], which[order])
+        # (a path may have millions of pieces: what is done with goes at once)
+        keys = keys[order]
+        which = which[order]
+        del order
+        self.keys, self.which = _once(keys, which)
 
     def _cells(self, places: Floats) -> Whole:
         return np.floor((places - self.corner) / self.cell).astype(np.int64).T
@@ -267,12 +277,11 @@ def _lines_and_arcs(some: list[tuple[Piece, int]]) -> _Part:
     return rows[:, 0:2], rows[:, 2:4], np.array([owner for _, owner in some], np.int64), rows[:, 4:]
 
 
-def _once(*rows: Whole) -> Whole:
-    """Columns of numbers without those that are like the one before."""
-    table = np.stack(rows)
-    is_new = np.ones(table.shape[1], bool)
-    is_new[1:] = (table[:, 1:] != table[:, :-1]).any(0)
-    return table[:, is_new]
+def _once(one: Whole, other: Whole) -> tuple[Whole, Whole]:
+    """Two columns of numbers without the rows that are like the one before."""
+    is_new = np.ones(len(one), bool)
+    is_new[1:] = (one[1:] != one[:-1]) | (other[1:] != other[:-1])
+    return one[is_new], other[is_new]
 
 
 def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at: Whole) -> None:
