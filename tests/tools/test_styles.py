@@ -82,6 +82,7 @@ SAME |= {
     ),
     "counted in Chinese": ("".join(f"{k}、{block}\n" for k, block in enumerate(BLOCKS, 1)) + "DD\n", "block numbers"),
     "counted with a bracket": ("".join(f"{k}) {b}\n" for k, b in enumerate(BLOCKS, 1)) + "DD\n", "block numbers"),
+    "an old Macintosh's": ("".join(f"{block}\r" for block in BLOCKS) + "DD\r", "lines that end with CR alone"),
     "full-width": (
         "".join("".join(chr(ord(c) + 0xFEE0) for c in block) + "\u3000\n" for block in BLOCKS) + "ＤＤ\n",
         "full-width characters",
@@ -115,6 +116,19 @@ def test_stops(text: str, blocks_: int, stops: list[int]) -> None:
     tape = tapes.parse(text.encode())
     assert len(tape.blocks) == blocks_
     assert [stop.after for stop in tape.stops] == stops
+
+
+def test_a_stop_in_a_blocks_line_is_noted() -> None:
+    """4B has a D there that is no stop."""
+    tape = tapes.parse(b"B9900B0B9900GXL3D\r\nB9900B0B9900GXL1\r\nDD\r\n")
+    assert [stop.after for stop in tape.stops] == [1]
+    assert tape.notes == ("written in another style: a stop in a block's line",)
+
+
+@pytest.mark.parametrize("lost", ["N7 B5B0B5GX", "B 5 B0 B5 GX L9", "hm\nB5"])
+def test_half_a_block_behind_the_end_is_not_lost(lost: str) -> None:
+    with pytest.raises(UserError, match="line 2, column 1: expected nothing after DD, found"):
+        tapes.parse(f"N1 B5B0B5GXL1 DD\n{lost}\n".encode())
 
 
 @pytest.mark.parametrize("word", ["END", "end", "M02", "M2", "N3 M30", "M 02", "FF", "E", "MJ"])

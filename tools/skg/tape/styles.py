@@ -44,8 +44,12 @@ def read_any(data: bytes, name: str = "-") -> Tape:
     be whole; of any other it is noted where no word ends it.
     """
     refuse_others(data, name, TAPE)
-    text = re.sub("\r\n?", "\n", _decoded(without_mark(data)).strip("\0\x1a\x7f"))
-    return _StyleReader(name, text.translate(_FULL_WIDTH), text).read()
+    text = _decoded(without_mark(data)).strip("\0\x1a\x7f")
+    bare_ends = "\r" in text and "\n" not in text
+    text = re.sub("\r\n?", "\n", text)
+    return _StyleReader(
+        name, text.translate(_FULL_WIDTH), text, Counter({"lines that end with CR alone": bare_ends})
+    ).read()
 
 
 def _decoded(data: bytes) -> str:
@@ -98,6 +102,7 @@ class _StyleReader:
                     end = name
                     break
                 self._note(word[3] != "D", f"{name} for a stop")
+                self._note("\n" not in bare[behind:at] and behind > 0, "a stop in a block's line")
                 self.items.append(Stop(self.blocks))
             else:
                 raise self.error(at, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, at)}")
@@ -141,6 +146,8 @@ class _StyleReader:
         at = _BLANK.match(bare, at).end()
         if _BLOCK.search(bare, at):
             raise self.error(at, f"expected nothing after {end}, found a block")
+        if like := _LIKE_A_BLOCK.search(bare, at):
+            raise self.error(at, f"expected nothing after {end}, found {_found(bare, like.start())}")
         self._note(end not in ("DD", None), f"{end} for the end")
         lines = sum(bool(line.strip()) for line in bare[at:].split("\n"))
         if lines and not self.styled():
