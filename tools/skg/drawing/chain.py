@@ -23,6 +23,7 @@ from dataclasses import dataclass, field, replace
 from math import asin, atan2, copysign, hypot, pi
 
 import numpy as np
+import shapely
 
 from skg.drawing.contour import Contour, CurveNode, Edge
 from skg.piece import chords_of
@@ -127,10 +128,23 @@ def _twin(one: Edge, others: list[Edge], tolerance: float) -> Edge | None:
     """The edge that one was drawn on, if there is any."""
     for other in others:
         for way in (other, other.reversed()):
-            pairs = ((one.start, way.start), (one.end, way.end), (one.at(0.5), way.at(0.5)))
-            if all(distance(p, q) <= tolerance for p, q in pairs):
+            if max(distance(one.start, way.start), distance(one.end, way.end)) > tolerance:
+                continue
+            if one.nodes or other.nodes:
+                # (what is run through backwards has other samples)
+                is_on = _off(one, other) <= tolerance >= _off(other, one)
+            else:
+                is_on = distance(one.at(0.5), way.at(0.5)) <= tolerance
+            if is_on:
                 return other
     return None
+
+
+def _off(one: Edge, other: Edge) -> float:
+    """How far one edge leaves another one, at its points."""
+    if other.nodes:
+        return float(shapely.distance(shapely.points(one.points()), shapely.linestrings(other.samples)).max())
+    return max(distance(place, other.at(other.nearest(place))) for place in one.points())
 
 
 def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chains:
