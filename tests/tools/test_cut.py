@@ -178,7 +178,8 @@ def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: 
 def test_wrong_tapes_are_found() -> None:
     """The check is no yes-man: a tape for another offset, one block bent, one contour left out."""
     from skg.cutting.check import check
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan
 
@@ -221,7 +222,8 @@ def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> No
 def test_the_controllers_steps_count() -> None:
     """What is compared with 3 µm is where the controller goes, and it is what is said: on a slant it steps aside."""
     from skg.cutting.check import check
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan
 
@@ -252,7 +254,8 @@ def test_the_controllers_steps_count() -> None:
 def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> None:
     """A pass that goes around a corner where the last one should is found, though no part is spoiled by it."""
     from skg.cutting.check import check
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan
 
@@ -270,7 +273,8 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
 def test_a_circle_too_many_is_found() -> None:
     """At a corner the wire goes on along the line or circle there, but not all around that."""
     from skg.cutting.check import check
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan
 
@@ -545,7 +549,8 @@ def test_a_curve_that_a_controller_leaves_is_cut_along_chords(
 def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) -> None:
     """The start hole of an opening with less room than the lead is long is not its centre, from where the ROM would go
     to the +X side, when something lies on that way."""
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan
 
@@ -788,7 +793,8 @@ def test_a_tab_goes_around_corners(run: Run, tmp_path: Path) -> None:
 def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> None:
     """Numbers do not touch each other, other texts, the part or another hole's mark; marks are smaller than what they
     mark."""
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
     from skg.cutting.sheet import Facts, SetupSheet
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan

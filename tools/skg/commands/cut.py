@@ -141,8 +141,9 @@ def command(
     followed with the controller's simulation and compared with the drawing before it is written. The report goes to
     standard error. FILE - is the standard input.
     """
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
     from skg.cutting.report import report
+    from skg.cutting.settings import Settings
 
     distance = _offset(wire, gap, offset)
     form = picture_format(sheet, None) if sheet else ""

@@ -30,8 +30,9 @@ def write_shape(
     name: str, contours: Callable[[], list[Contour]], output: str, offset: float | None, tab: float, tape: str | None
 ) -> None:
     """Write the program that cuts contours; it is run and its tape compared with the exact curves before."""
-    from skg.cutting.job import Settings, make
+    from skg.cutting.job import make
     from skg.cutting.report import report
+    from skg.cutting.settings import Settings
     from skg.drawing.plan import plan
 
     try:

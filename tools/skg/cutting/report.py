@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 
 from skg.cutting.check import LIMIT, Threading
-from skg.cutting.job import Job, in_file, into, kind
+from skg.cutting.job import Job
+from skg.cutting.refusal import in_file, into, kind
 from skg.drawing.account import counted, short
 from skg.drawing.parallel import uncut
 from skg.drawing.planned import PlannedContour

@@ -17,7 +17,8 @@ from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.transforms import Affine2D
 
 from skg.cutting.check import drawn
-from skg.cutting.job import Job, kind
+from skg.cutting.job import Job
+from skg.cutting.refusal import kind
 from skg.drawing.account import short, shown
 from skg.drawing.contour import Edge, Places
 from skg.drawing.page import as_it_stands, save

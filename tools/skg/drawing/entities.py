@@ -125,49 +125,42 @@ class _Collector:
     def one(self, record: Record, layer: str, hidden: str) -> None:
         """Add what is no block reference."""
         account = self.account(record, layer)
-        account.left = hidden or self.unwanted(layer) or ("invisible" if record.whole(60) else "")
-        if account.left:
-            return
         is_start = self.wishes.is_start(layer)
-        if (
-            record.kind in NOTES
-            and not (is_start and record.kind == "POINT")
-            or is_start
-            and record.kind
-            not in (
-                "POINT",
-                "CIRCLE",
-            )
-        ):
+        account.left = hidden or self.unwanted(layer) or ("invisible" if record.whole(60) else "")
+        if not account.left and _is_note(record.kind, is_start):
             account.left = "nothing to cut"
+        if account.left:
             return
         known = len(self.content.edges)
         try:
             if is_start:
                 self.content.starts.append(self.start(self.entity(record)))
                 account.left = "a start hole"
-            else:
-                for edge in self.edges_of(record):
-                    self.add(edge)
-                if len(self.content.edges) == known:
-                    account.left = "it has no length"
-                else:
-                    x, y = self.content.edges[known].start
-                    account.place = x / self.factor, y / self.factor
-                    account.dashes = self.dashes(record, layer)
-                    if record.value(39).strip(" 0.+-eE"):
-                        self.thick.append(account)
-                    if _is_wide(record):
-                        self.wide.append(account)
-                    if _is_whole(record):
-                        self.whole.append(self.number)
                 return
+            for edge in self.edges_of(record):
+                self.add(edge)
+            if len(self.content.edges) > known:
+                self.describe(record, account, self.content.edges[known].start)
+            else:
+                account.left = "it has no length"
+            return
         except NotFlat as error:
             account.left = str(error)
         except UNREADABLE as error:
-            account.left = f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
-        account.is_odd = account.left != "a start hole"
+            account.left = _unread(error)
+        account.is_odd = True
         del self.content.edges[known:]
+
+    def describe(self, record: Record, account: Entity, start: XY) -> None:
+        """Note what there is to say of a record that is cut from `start` on, mm."""
+        account.place = start[0] / self.factor, start[1] / self.factor
+        account.dashes = self.dashes(record, account.layer)
+        if record.value(39).strip(" 0.+-eE"):
+            self.thick.append(account)
+        if _is_wide(record):
+            self.wide.append(account)
+        if _is_whole(record):
+            self.whole.append(self.number)
 
     def entity(self, record: Record) -> DXFGraphic:
         """ezdxf's entity of a record, made once."""
@@ -195,7 +188,7 @@ class _Collector:
         try:
             matrices = [] if reason else [self.placed(single, block.base) for single in _singles(record.entity())]
         except UNREADABLE as error:
-            reason = f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
+            reason = _unread(error)
         if reason:
             account = self.account(record, layer)
             account.left = hidden or self.unwanted(layer) or reason
@@ -366,6 +359,16 @@ class _Collector:
 def _document() -> Drawing:
     """A document for entities that ezdxf takes from no other place."""
     return ezdxf.new()
+
+
+def _is_note(kind: str, is_start: bool) -> bool:
+    """Whether there is nothing to cut in entities of a kind; on the layer of start holes: nothing that is one."""
+    return kind not in ("POINT", "CIRCLE") if is_start else kind in NOTES
+
+
+def _unread(error: Exception) -> str:
+    """Why an entity is left that cannot be read."""
+    return f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
 
 
 def _ocs(entity: DXFGraphic) -> OCS | None:

@@ -166,24 +166,31 @@ def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> 
     if not runs or not contours:
         return {}, set()
     reach = tolerance + 2 * _CHORD
-    ends = [run.edges[0].start for run in runs], [run.edges[-1].end for run in runs]
-    places = [shapely.points(some) for some in (*ends, [run.edges[0].at(0.5) for run in runs])]
+    starts, ends = [run.edges[0].start for run in runs], [run.edges[-1].end for run in runs]
+    places = [shapely.points(some) for some in (starts, ends, [run.edges[0].at(0.5) for run in runs])]
     around = shapely.STRtree(shapely.box(*boxes_of(contours)[0].T))
     some = np.unique(around.query(np.concatenate(places), predicate="dwithin", distance=reach)[1])
     lines = lines_of([contours[at] for at in some.tolist()])
     tree = shapely.STRtree(lines)
     near = [set(zip(*tree.query(one, predicate="dwithin", distance=reach).tolist(), strict=True)) for one in places]
-    found: dict[int, int] = {}
-    for run, at in sorted(set.intersection(*near)):
-        (line,) = lines_of([runs[run]])
-        if run not in found and lines[at].buffer(reach, quad_segs=2).covers(line):
-            found[run] = int(some[at])
-    count = Counter(ends[0] + ends[1])
+    covered = {run: int(some[at]) for run, at in _covered(runs, lines, set.intersection(*near), reach).items()}
+    count = Counter(starts + ends)
     held = [
         {run for run, _ in on} | {run for run, end in enumerate(side) if count[end] > 1}
-        for on, side in zip(near, ends, strict=False)
+        for on, side in zip(near, (starts, ends), strict=False)
     ]
-    return found, held[0] & held[1] - found.keys()
+    return covered, held[0] & held[1] - covered.keys()
+
+
+def _covered(runs: list[Contour], lines: NDArray[Any], pairs: set[tuple[int, int]], reach: float) -> dict[int, int]:
+    """Of pairs of a run and a line near its ends and middle: the runs that lie within reach of one all along, and the
+    first such line."""
+    found: dict[int, int] = {}
+    for run, at in sorted(pairs):
+        (line,) = lines_of([runs[run]])
+        if run not in found and lines[at].buffer(reach, quad_segs=2).covers(line):
+            found[run] = at
+    return found
 
 
 def nearest(places: list[XY]) -> list[XY | None]:

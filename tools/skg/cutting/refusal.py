@@ -1,0 +1,200 @@
+"""What is said of contours that cannot be cut, and of a tape that is not the drawing: where, why, and what helps.
+
+`factor` is mm in a unit of the drawing's file, in which places are told.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from math import copysign, floor, inf
+
+from skg.cutting.check import LIMIT, Checked, Misfit
+from skg.cutting.crossing import Crossing
+from skg.cutting.settings import Settings
+from skg.drawing.account import counted, short, shown
+from skg.drawing.contour import Contour
+from skg.drawing.parallel import NoRoom, widest, wire_way
+from skg.drawing.planned import PlannedContour
+from skg.errors import UserError
+from skg.plane import XY
+
+#: What the errors of a route mean (language.md, section 6), and what to do.
+_MEANING = {
+    5: ("a number is out of range", "is a radius or a place in the drawing absurdly small or large?"),
+    6: (
+        "the contour cannot be cut as it is drawn",
+        "with an offset a short edge or corner has vanished: try a smaller --offset, another --side or --start; "
+        "without one look for edges that nearly touch there",
+    ),
+    7: ("the offset is larger than the radius of an inner arc", "a thinner wire or a smaller --offset"),
+    9: ("the board's memory is full", "a larger --ram"),
+    10: ("a move is too long for a tape", "is the drawing in the right --units? a tape ends at 100 m"),
+}
+#: Of a contour with more edges than this the largest offset that fits is not looked for.
+_MANY = 2000
+
+
+def in_file(place: XY, factor: float) -> str:
+    """A place as the drawing's file has it; `factor`: mm in a unit of the file."""
+    return shown((place[0] / factor, place[1] / factor))
+
+
+def kind(route: PlannedContour) -> str:
+    """What a contour is."""
+    if not route.contour.is_closed:
+        return "open contour"
+    return "opening" if route.is_opening else "outline"
+
+
+def called(route: PlannedContour, factor: float) -> str:
+    """A contour by what it is, where it begins, and its layers."""
+    layers = f", layer {', '.join(route.contour.layers)}" if route.contour.layers else ""
+    return f"{kind(route)} from {in_file(route.contour.edges[0].start, factor)}{layers}"
+
+
+def named(route: PlannedContour, number: int, factor: float) -> str:
+    """A contour with its number, which is told from 1."""
+    return f"contour {number + 1} ({called(route, factor)})"
+
+
+def meaning(error: int) -> str:
+    """An error of the ROM in a route, and what to do."""
+    what, then = _MEANING.get(error, ("the board refuses it", "see language.md, section 6"))
+    return f"ERR {error:02d}, {what}: {then}"
+
+
+def too_short(fit: float) -> str:
+    """Why an outline has no room for its tab; `fit`: the longest that has, mm."""
+    return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
+
+
+def without_tab(routes: list[PlannedContour], fits: dict[int, float], factor: float, settings: Settings) -> str:
+    """What to say of outlines that have no room for their tab: of the shortest one."""
+    at = min(fits, key=lambda one: fits[one])
+    message = f"{named(routes[at], at, factor)}: {too_short(fits[at])}"
+    if len(fits) > 1:
+        message += f"; {counted(len(fits) - 1, 'more contour')} without room for the tab"
+    return f"{message}: take a shorter --tab{_or_leave(settings)}"
+
+
+def without_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings) -> str:
+    """What to say of contours that the wire does not get around: of the tightest one."""
+    at, fit = _tightest(routes, none)
+    route = routes[at]
+    message = f"{named(route, at, factor)}: {none[at]} {in_file(none[at].place, factor)}"
+    if none[at].is_crossing:
+        message += ", there is no way beside it for the wire"
+        help_ = "mend it in the drawing"
+    else:
+        message += f", {short(abs(route.widest))} mm beside it"
+        if fit is not None:
+            message += f"; at most {short(fit)} mm fits" if fit else "; no offset fits"
+            message += _in_passes(route, fit) if fit else ""
+        help_ = "take a smaller offset or a thinner wire"
+    if len(none) > 1:
+        message += f"; {counted(len(none) - 1, 'more contour')} without room for the wire"
+    return f"{message}: {help_}{_or_leave(settings)}"
+
+
+def _in_passes(route: PlannedContour, fit: float) -> str:
+    """What the largest offset that fits is in the last pass, where another one has it."""
+    more = abs(route.widest) - abs(route.passes[-1])
+    if not more:
+        return ""
+    return (
+        f" in the widest pass, {short(fit - more)} in the last" if fit > more else ", less than these passes take off"
+    )
+
+
+def _tightest(routes: list[PlannedContour], none: dict[int, NoRoom]) -> tuple[int, float | None]:
+    """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
+    it, mm; None when that is not looked for."""
+    found: tuple[int, float] | None = None
+    for at, no_room in none.items():
+        if found and not found[1]:
+            break
+        if no_room.is_crossing:
+            return at, 0.0
+        contour, r = routes[at].contour, routes[at].widest
+        if len(contour.edges) <= _MANY and (found is None or not _fits(contour, copysign(found[1], r))):
+            found = at, widest(contour, r)
+    return found or (next(iter(none)), None)
+
+
+def _fits(contour: Contour, r: float) -> bool:
+    """Whether the wire gets around a closed contour, R (mm) to the right of it."""
+    with suppress(NoRoom):
+        return bool(wire_way(contour, r))
+    return False
+
+
+def _or_leave(settings: Settings) -> str:
+    return ", or leave such contours out with --small leave" if settings.small else ""
+
+
+def why_no_room(fault: Misfit, factor: float) -> str:
+    """Why there is no room for the wire; empty when it is something else that is wrong."""
+    place = in_file(fault.place, factor)
+    if fault.is_into:
+        return f"the wire would cut {short(fault.off)} mm into it at {place}"
+    return f"the wire does not come to {place}" if fault.is_missed else ""
+
+
+def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settings: Settings) -> None:
+    """Raise what is wrong with a tape, if anything is, as a `UserError`."""
+    for fault in sorted(checked.faults, key=lambda fault: (not fault.is_into, fault.route)):
+        route = routes[fault.route]
+        name = named(route, fault.route, factor)
+        if why := why_no_room(fault, factor):
+            raise UserError(
+                f"{name}: {why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
+                f"take a smaller one or a thinner wire{_or_leave(settings)}"
+            )
+        place, off = in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
+        where = (
+            f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
+        )
+        raise UserError(
+            f"{name}: the wire would be {where}: nothing was written; {_advice(fault, route, factor, settings)}"
+        )
+    for cut in checked.cuts:
+        route = routes[cut.route]
+        if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
+            raise UserError(
+                f"{named(route, cut.route, factor)}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
+                "controller"
+            )
+    spoilt = [one for one in checked.crossings if all(routes[at].contour.is_closed for at in (one.route, one.other))]
+    if spoilt and settings.into != "cut":
+        raise UserError(_spoilt(spoilt, routes, factor, settings))
+
+
+def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float, settings: Settings) -> str:
+    """What to say of contours whose wire comes into others: of the one that comes deepest."""
+    worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
+    message = (
+        f"{named(routes[worst.route], worst.route, factor)}: its wire would come {into(worst)} "
+        f"{named(routes[worst.other], worst.other, factor)} at {in_file(worst.place, factor)}"
+    )
+    if len(spoilt) > 1:
+        message += f"; {counted(len(spoilt) - 1, 'more cut')} into other contours"
+    return (
+        f"{message}: these cross, or lie nearer to each other than the wire is wide; move them apart, take a thinner "
+        f"wire or some of the layers{', or cut them all the same with --into cut' * bool(settings.into)}"
+    )
+
+
+def into(crossing: Crossing) -> str:
+    """How deep a wire comes into another contour."""
+    return f"{short(crossing.depth)} mm{' or more' * crossing.is_through} into"
+
+
+def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Settings) -> str:
+    """What a person can do about a wire that is off the drawing."""
+    if not settings.is_without_drift:
+        return "--rom no-drift is nearer"
+    edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
+    ends = " to ".join(in_file(end, factor) for end in (edge.start, edge.end))
+    what = "curve" if edge.nodes else "arc" if edge.centre else "line"
+    others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
+    return f"{others}draw the {what} from {ends} anew, {short(edge.length / factor)} long, or what meets it"
