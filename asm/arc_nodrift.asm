@@ -75,7 +75,7 @@ ARC9:   DB      QEND
 ARCL2:  DB      QEND            ;               (ARCL is too far away)
         JMP     MOVE
 
-; AROOT - w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2
+; AROOT - w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2 (byte-code)
 ; (the root, rounded, is k or one less; k^2-a1^2 and w^2-a0^2 as products are exact while they are below 2^32, as
 ; they are for a short arc of any radius; n itself is so up to 65 mm)
 AROOT:  DB      CALC,QDUP,LA0,QADD,QSWP,LA0,QSUB,QMUL ; p = w^2-a0^2

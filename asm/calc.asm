@@ -107,7 +107,7 @@ COPY5:  LDAX    D
 ODRP:   RET
 
 ; CALC3 - an operation, or QEND (OPFN carries out an operation that way)
-; In:  A = number, BC -> byte-code that goes on behind it
+; In:  A = number, BC -> byte-code that goes on behind it   Clobbers all
 CALC3:  PUSH    B
         ORA     A
         RZ                      ; QEND: on behind it
@@ -205,6 +205,7 @@ XXCH:   LXI     D,MA
         DB      SKIP2           ; skips the MVI
 OSWP:   MVI     C,5
 ; OSWP1 - exchanges C bytes at DE and HL, the first ones first (fit.asm comes here)
+; Out: DE, HL behind them, C = 0   Clobbers A, B
 OSWP1:  LDAX    D
         MOV     B,M
         MOV     M,A

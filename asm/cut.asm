@@ -113,9 +113,9 @@ ITEM:   CALL    CHECK
         STA     RTURN
 ITEM1:  CALL    NOTURN
         CALL    SCALED
-; ITEM2 - the same for an item in the scale of the tape
+; ITEM2 - the same for an item in the scale of the tape   Clobbers all
 ITEM2:  CALL    GETR
-; ITEM3 - the same with the wire offset in NR
+; ITEM3 - the same with the offset in NR   Clobbers all
 ITEM3:  CALL    RECORD
         LDA     VKIND
         ORA     A
@@ -126,7 +126,7 @@ ITEM3:  CALL    RECORD
 ; (fall into ITELM)
 
 ; ITELM - a line or circle
-; In:  A = its kind
+; In:  A = its kind; a0 a1 a2, NR   Clobbers all
 ITELM:  CALL    PUTN
 ; (fall into ADDEL)
 
@@ -187,6 +187,7 @@ ITCHK:  LXI     H,VKIND
         DB      ERROR,ESYN
 
 ; ITFIL - a fillet radius
+; In:  a0   Out: FI; ERR 05, ERR 06   Clobbers all
 ITFIL:  CALL    POSIT
         CALL    NEEDEL          ; before or at the entry
         CALL    NOFIL           ; two in a row (leaves A = 0)
@@ -218,6 +219,7 @@ NOFIL:  LDA     RFILW
         DB      ERROR,EGEOM
 
 ; ITPNT - a point
+; In:  a0 a1, NR   Clobbers all
 ITPNT:  DB      CALC,LA0,SJX,LA1,SJY ; -
         DB      QXCH,Q0,SB2,Q0,SA2,QEND ; -     b = J
         LDA     RLASTP
@@ -261,7 +263,7 @@ ITDONE: STA     RLASTP
         STA     RFSTP
         RET
 
-; GETR - the present R, the wire offset; 0 where it was not set
+; GETR - the present R, the offset; 0 where it was not set
 ; Out: NR   Clobbers A, BC, DE, HL
 GETR:   LXI     D,NAMER
         CALL    FIND            ; when there is none: HL -> a 0 in CONTAB
@@ -381,7 +383,7 @@ PASS2:  DB      QRET
 PASS3:  DB      QEND
         JMP     NOFIL
 
-; OFFCHK - demands that the wire offset leaves a circle N its sense
+; OFFCHK - demands that the offset leaves a circle N its sense
 ; Out: ERR 07   Clobbers all
 OFFCHK: DB      CALC,QNA,LNR,QSENS,QJN ; -
         DB      OFFCH1-$
@@ -445,6 +447,7 @@ NAMED3: DB      QXCH,QNEG,QALNG,QJMP ; -        b moved along a
         DB      ATOK-$
 
 ; FIRST - N is the first element: the wire goes to it
+; In:  N, P or H   Out: C = F = N, K; it goes on to ENTER; ERR 07   Clobbers all
 FIRST:  CALL    OFFCHK
         CALL    CORDON
         LXI     H,RELEMS
@@ -614,7 +617,7 @@ SFROM:  CALL    EVPNT
         DB      CALC,SHY,SHX,QEND ; -
         JMP     REPOS
 
-; ROUTER - after an error: D when a route was open, which is forgotten
+; ROUTER - after an error: D when a route was open, which is forgotten   Clobbers all
 ROUTER: LDA     RITEMS
         PUSH    PSW
         CALL    RTNEW

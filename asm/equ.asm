@@ -92,7 +92,7 @@ EUNSET  EQU 3           ; name without a value
 EKIND   EQU 4           ; kinds cannot be combined
 ERANGE  EQU 5           ; number out of range
 EGEOM   EQU 6           ; geometry impossible
-EOFFS   EQU 7           ; wire offset larger than an inner radius
+EOFFS   EQU 7           ; offset larger than an inner radius
 EDATA   EQU 8           ; out of DATA
 EMEM    EQU 9           ; memory full
 ETAPE   EQU 10H         ; 10: block does not fit, reader ran out, operator broke in
@@ -110,7 +110,7 @@ TEOL    EQU 00H
 TFLT    EQU 01H         ; five bytes of float follow
 ; 80H...B7H: a name; letter index * 4 + subscript high bits, then subscript low byte
 TNAME   EQU 80H
-NAMER   EQU 8800H       ; the name R, the wire offset
+NAMER   EQU 8800H       ; the name R, the offset
 ; B8H...C5H: letter index of a name whose subscript is computed: tokens of an
 ; expression follow, then "]"
 TSUB    EQU 0B8H
@@ -161,7 +161,7 @@ S2U     EQU 087H        ; M7
 L2V     EQU 048H
 S2V     EQU 088H        ; M8
 L2R     EQU 049H
-S2R     EQU 089H        ; M9 and its wire offset
+S2R     EQU 089H        ; M9 and its offset
 LRA     EQU 047H
 SRA     EQU 087H        ; M7, M8, M9 too: what SYM and REP do to items
 LRX     EQU 048H
@@ -199,7 +199,7 @@ SC1     EQU 098H        ; M24
 LC2     EQU 059H
 SC2     EQU 099H        ; M25
 LCR     EQU 05AH
-SCR     EQU 09AH        ; M26 its wire offset
+SCR     EQU 09AH        ; M26 its offset
 LAX     EQU 05BH
 SAX     EQU 09BH        ; M27 where the wire entered C
 LAY     EQU 05CH
@@ -211,7 +211,7 @@ SN1     EQU 09FH        ; M31
 LN2     EQU 060H
 SN2     EQU 0A0H        ; M32
 LNR     EQU 061H
-SNR     EQU 0A1H        ; M33 its wire offset
+SNR     EQU 0A1H        ; M33 its offset
 LTO     EQU 062H
 STO     EQU 0A2H        ; M34 tolerance of FIT, mm
 LHX     EQU 063H
@@ -229,7 +229,7 @@ SF1     EQU 0A9H        ; M41
 LF2     EQU 06AH
 SF2     EQU 0AAH        ; M42
 LFR     EQU 06BH
-SFR     EQU 0ABH        ; M43 its wire offset
+SFR     EQU 0ABH        ; M43 its offset
 LGX     EQU 06CH
 SGX     EQU 0ACH        ; M44 where the route was entered
 LGY     EQU 06DH
@@ -271,7 +271,7 @@ SBY     EQU 0BBH        ; M59 block: y
 LBJ     EQU 07CH
 SBJ     EQU 0BCH        ; M60 block: J
 LQO     EQU 07DH
-SQO     EQU 0BDH        ; M61 wire offset of the first item
+SQO     EQU 0BDH        ; M61 offset of the first item
 LTL     EQU 07EH
 STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as touching, mm
 LSG     EQU 07FH

@@ -14,7 +14,7 @@
 ; a joint in the drawing's coordinates would lose the last bits of w, and r is 2r^2/w^2 times as
 ; sensitive as they.
 
-NODSIZ  EQU 25          ; bytes of a node: place, tangent, wire offset
+NODSIZ  EQU 25          ; bytes of a node: place, tangent, offset
 
 ; SFIT - statement: FIT point; FIT point, angle
 SFIT:   CALL    EVPNT
@@ -177,7 +177,7 @@ FITC1:  DB      LT0,QDBL,QDIV,SA2 ; -      r
 ; FITPNT - a point goes into the route, with the R of node 2
 ; In:  x y on the float stack   Clobbers all
 FITPNT: MVI     A,KPNT
-; FITITM - the same for a value of kind A: a2
+; FITITM - the same for a value of kind A: a2   Clobbers all
 FITITM: STA     VKIND
         DB      CALC,SA1,SA0,L2R,SNR,QEND ; -
         JMP     ITEM3

@@ -427,7 +427,7 @@ FADD2:  ADI     0FFH            ; 0 - guard, CY: borrow
         STA     SIGN
 ; (fall into FNRME)
 
-; FNRME - as FNRM, exponent in EXPO
+; FNRME - as FNRM, exponent in EXPO   Clobbers all
 FNRME:  LDA     EXPO
         MOV     H,A
 ; (fall into FNRM)
@@ -569,7 +569,7 @@ FTOI1:  CALL    FWHOLE
 ; In:  HL -> x, not 0   Out: B C D E = |x| cut off, L = 0 when that is x, SIGN
 ;      (2^32 and more: B C D E = 0, L = 1)   Clobbers A, H
 FWHOLE: MVI     A,0A0H
-; FALIGN - the same for x * 2^(A-0A0H)
+; FALIGN - the same for x * 2^(A-0A0H)   Clobbers A, H
 FALIGN: SUB     M               ; bits behind the units (too large: at least 161)
         PUSH    PSW
         INX     H

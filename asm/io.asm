@@ -72,7 +72,7 @@ PUT2D:  PUSH    PSW
         RRC
         CALL    PUT1D
         POP     PSW
-; PUT1D - the lower one alone
+; PUT1D - the lower one alone   Clobbers A
 PUT1D:  ANI     0FH
         ORI     CZERO
         DB      PUTC

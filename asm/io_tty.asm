@@ -27,6 +27,7 @@ PUNON:  MVI     A,CDC2
 ; (fall into BDPUN)
 
 ; BDPUN - punches a character (PUTC1 of io.asm calls it, were OUTSEL 1): the teletype has done so
+; Clobbers nothing
 BDPUN:  RET
 
 ; PUNOFF - punch off; the place for a break, since the block is complete

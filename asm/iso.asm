@@ -93,7 +93,7 @@ ENTER:  DB      CALC,LKX,SGX,LKY,SGY,QEND ; -
 ; MOVE - a straight cut
 ; In:  K, W   Out: A = K, W = V; ERR 03 without a feed   Clobbers all
 MOVE:   MVI     A,1
-; MOVEG - the same with A = number of G
+; MOVEG - the same with A = number of G   Clobbers all
 MOVEG:  STA     RGNUM
         DB      CALC,QVK        ; -
         DB      LVX,LWX,LVY,LWY,QWAY,QJZ ; -
@@ -170,7 +170,7 @@ GBLOCK: LDA     RGNUM
         LDA     RGNUM
         JMP     PUT1D
 
-; STOP - after an error: M0
+; STOP - after an error: M0   Clobbers all
 STOP:   MVI     B,1
 ; (fall into PUNDS)
 

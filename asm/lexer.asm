@@ -241,7 +241,7 @@ LISTOK: MOV     A,M
 ; In:  HL -> it, B = most significant digits (8 or 9)
 ; Out: HL -> behind it   Clobbers A, DE
 PRNUM:  MVI     E,0
-; PRNUM1 - the same, times 10^E (as DECOUT has it)
+; PRNUM1 - the same, times 10^E (as DECOUT has it)   Clobbers A, DE
 PRNUM1: PUSH    B
         PUSH    H
         CALL    DECOUT

@@ -6,7 +6,7 @@
 LASTW   EQU 99          ; greatest number of M, G and T
 
 ; SFREES - FREE, which has to be read in front of F, as a statement; in a program it is none
-; Out: ERR 01 in a line with a number
+; Out: ERR 01 in a line with a number   Clobbers all
 SFREES: LDA     TOKS
         DCR     A               ; TFLT?
         JNZ     SFREE

@@ -111,7 +111,8 @@ READY1: PUSH    D               ; -> behind the tokens
         JC      ERSYN
 ; (fall into STMT)
 
-; STMT - one statement
+; STMT - one statement.  Its routine is entered with TXTP behind the word, and clobbers all, too; it comes to CHKEND
+;        before it acts
 ; In:  TXTP   Clobbers all
 STMT:   CALL    CALINI
         DB      PEEK
@@ -144,7 +145,7 @@ CHKED:  LXI     H,TOKS
 
 ; SFREE - command: FREE
 SFREE:  DB      CHKEND
-; FREE - prints the bytes left, and the prompt
+; FREE - prints the bytes left, and goes to READY
 FREE:   LHLD    PEND
         XCHG
         LHLD    VBOT
@@ -364,7 +365,7 @@ READI2: CALL    NEXT1           ; TXTP = HL+1
 ; (fall into READI3)
 
 ; READI3 - ends READI and ASK; the stack keeps what it holds for ASKAGN until all is well
-; In:  on the stack: TXTP, name; a0 a1 a2, VKIND   Out: paper on
+; In:  on the stack: TXTP, name; a0 a1 a2, VKIND   Out: paper on   Clobbers all
 READI3: POP     H
         POP     D
         PUSH    D
@@ -381,7 +382,7 @@ SINPUT: CALL    GETREF
         CALL    MORE
         JMP     SINPUT
 
-; ASKAGN - after a wrong answer: what ASK needs is still on the stack
+; ASKAGN - after a wrong answer: what ASK needs is still on the stack   Out: as ASK
 ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
         CALL    PAPON
         CALL    CALINI          ; (the wrong answer's floats)

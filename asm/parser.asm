@@ -110,6 +110,7 @@ OPFN:   PUSH    PSW
 OPFN1:  DB      SA0,QRET        ; -
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
+; In:  A, a0 a1 a2, VKIND   Out: as EVAL; ERR 04   Clobbers all
 OPK:    MOV     B,A
         INR     B               ; B = 1...3
         CALL    NOTURN
@@ -123,12 +124,14 @@ OPK1:   DCR     B
         JMP     OPK1
 
 ; OPPAR - an expression in parentheses; in it the comma is an operator
+; In:  TXTP behind the first one   Out: as EVAL   Clobbers all
 OPPAR:  XRA     A
         CALL    EVALR
         DB      EXPECT,CRPAR
         RET
 
 ; OPFLT - a number of five bytes
+; In:  TXTP -> it   Out: as EVAL   Clobbers all
 OPFLT:  DB      PEEK
         XCHG
         LXI     H,MA
@@ -138,7 +141,7 @@ OPFLT:  DB      PEEK
         JMP     SETNUM
 
 ; OPNAM - value of a name
-; In:  A = its first token   Out: as EVAL; ERR 03 when it has none
+; In:  A = its first token   Out: as EVAL; ERR 03 when it has none   Clobbers all
 OPNAM:  CALL    NAME
         CALL    KINDD
         CALL    CHECK
@@ -150,6 +153,7 @@ OPNAM:  CALL    NAME
         JMP     BIN4
 
 ; OPNEG - negates an operand
+; In:  TXTP -> it   Out: as EVAL   Clobbers all
 OPNEG:  CALL    OPND
 ; (fall into NEGVAL)
 

@@ -30,7 +30,7 @@ REPOS1: CALL    STOP
         CALL    HOME
 ; (fall into STOP)
 
-; STOP - punches D: the controller stops
+; STOP - punches D: the controller stops   Clobbers A, B
 STOP:   MVI     B,1
 ; (fall into PUNDS)
 
