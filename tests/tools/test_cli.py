@@ -107,10 +107,11 @@ def test_help_loads_no_command() -> None:
 
 
 def test_cut_starts_without_the_reference() -> None:
-    """`skg cut` of a drawing loads neither the interpreter nor what draws sheets: half a second."""
+    """`skg cut` of a drawing loads neither the interpreter nor what draws sheets, nor ezdxf before an entity needs it:
+    more than half a second."""
     text = (
         "import sys; import skg.commands.cut, skg.cutting.job, skg.drawing.entities, skg.drawing.svg; "
-        "print([name for name in ('matplotlib', 'lark', 'gmpy2', 'skg.ref') if name in sys.modules])"
+        "print([name for name in ('matplotlib', 'lark', 'gmpy2', 'skg.ref', 'ezdxf') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"

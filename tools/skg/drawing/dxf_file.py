@@ -2,32 +2,19 @@
 
 ezdxf reads a file whole or not at all, and what it mends it may lose: entities whose handles repeat, all that follows a
 section without its end, a polyline without its subclass. So the file is cut into records here, and ezdxf makes an
-entity of each by itself (`Record.entity`): one that it cannot read is named, and costs no other.
+entity of one by itself (`skg.drawing.by_ezdxf`), where it is needed: one that it cannot read is named, and costs no
+other.
 """
 
 from __future__ import annotations
 
-import logging
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from ezdxf.entities import DXFEntity, factory
-from ezdxf.lldxf.const import DXFError
-from ezdxf.lldxf.extendedtags import ExtendedTags
-from ezdxf.lldxf.repair import tag_reorder_layer
-from ezdxf.lldxf.tagger import binary_tags_loader, tag_compiler
-from ezdxf.lldxf.tags import Tags
-from ezdxf.lldxf.types import DXFTag
-from ezdxf.tools.codepage import toencoding
-
 from skg.errors import UserError
 from skg.kinds import kind_of
 from skg.plane import XY
-
-# What ezdxf would say is said here, in one line.
-logging.getLogger("ezdxf").addHandler(logging.NullHandler())
-logging.getLogger("ezdxf").propagate = False
 
 #: A group: its code and its value as text.
 Group = tuple[int, str]
@@ -44,8 +31,6 @@ _BINARY, _IS_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00", b"AutoCAD Binary DXF"
 _COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
 #: Kinds that belong to the entity before them.
 _PARTS = ("VERTEX", "ATTRIB", "SEQEND")
-#: The subclass that ezdxf asks for where a file has none.
-_SUBCLASS = {"LWPOLYLINE": "AcDbPolyline", "SPLINE": "AcDbSpline", "HELIX": "AcDbSpline"}
 #: Where a block definition tells that its content is in another file.
 _EXTERNAL = 4 | 8 | 16
 
@@ -87,15 +72,6 @@ class Record:
             return float(self.value(10, "0")), float(self.value(20, "0"))
         except ValueError:
             return 0.0, 0.0
-
-    def entity(self) -> DXFEntity:
-        """Return ezdxf's entity, without a document; `DXFError` and whatever else ezdxf raises."""
-        entity = factory.load(ExtendedTags(Tags(_tags(self.groups))))
-        for part in self.parts:
-            if part.kind != "SEQEND":
-                entity.link_entity(part.entity())
-        # (only now does ezdxf see whether a polyline is a mesh)
-        return entity.cast() if self.parts and hasattr(entity, "cast") else entity
 
 
 @dataclass
@@ -253,11 +229,11 @@ def _is_real(code: int) -> bool:
 
 def _of_binary(data: bytes) -> Iterator[Group]:
     """The groups of a binary file, as text."""
+    from skg.drawing import by_ezdxf  # (slow to import, and seldom needed)
+
     try:
-        for tag in binary_tags_loader(data):
-            value = tag.value
-            yield tag.code, value.hex() if isinstance(value, bytes) else str(value)
-    except (DXFError, IndexError, ValueError) as error:
+        yield from by_ezdxf.binary_groups(data)
+    except (IndexError, ValueError) as error:
         raise UserError(f"not a binary DXF drawing that can be read ({error or type(error).__name__})") from None
 
 
@@ -270,7 +246,11 @@ def _decoded(data: bytes) -> str:
         return data.decode("utf-8")
     except UnicodeDecodeError:
         page = re.search(rb"\$DWGCODEPAGE\s+3\s+(\S+)", data)
-        encoding = toencoding(page[1].decode("ascii", "replace")) if page else "cp1252"
+        if not page:
+            return data.decode("cp1252", "replace")
+        from skg.drawing import by_ezdxf  # (as above)
+
+        encoding = by_ezdxf.encoding(page[1].decode("ascii", "replace"))
         return data.decode("cp1252" if encoding == "utf8" else encoding, "replace")
 
 
@@ -304,30 +284,3 @@ def _block(record: Record) -> Definition:
     except ValueError:
         base = 0.0, 0.0, 0.0
     return Definition(base, bool(record.whole(70) & _EXTERNAL))
-
-
-def _tags(groups: list[Group]) -> list[DXFTag]:
-    """An entity's groups as ezdxf's tags, without handles, application data and extended data."""
-    kept: list[DXFTag] = []
-    is_application, has_subclass = False, False
-    for code, value in groups:
-        if code == 102:
-            is_application = value.strip().startswith("{")
-        elif code >= 1000:
-            break
-        elif code == 100:
-            has_subclass = True
-            kept.append(DXFTag(100, value.strip()))
-        elif not is_application and (code != 5 and code != 330 or has_subclass):
-            kept.append(DXFTag(code, value))
-    kind = kept[0].value.strip().upper()
-    # (of before release 11, when a LINE had no height)
-    kind = "LINE" if kind == "3DLINE" else kind
-    kept[0] = DXFTag(0, kind)
-    if not has_subclass and kind in _SUBCLASS:
-        kept[1:1] = [DXFTag(100, "AcDbEntity"), DXFTag(100, _SUBCLASS[kind])]
-    # (the tag behind the last one makes ezdxf let go of the place or the entity before it)
-    tags = iter([*kept, DXFTag(0, "EOF")])
-    # Old programs write the places of a line as x, x, y, y.
-    *found, _ = tag_compiler(tag_reorder_layer(tags) if kind == "LINE" else tags)
-    return found

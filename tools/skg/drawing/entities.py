@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import gc
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
-from itertools import pairwise
 from math import pi, radians
+from types import ModuleType
+from typing import TYPE_CHECKING
 
-import ezdxf
 import numpy as np
 import shapely
-from ezdxf.document import Drawing
-from ezdxf.entities import DXFGraphic
-from ezdxf.lldxf.const import DXFError
-from ezdxf.math import OCS, BSpline, Matrix44, Vec3, bulge_to_arc
 
 from skg.drawing import plain
 from skg.drawing.account import Content, Entity, said
 from skg.drawing.contour import Edge
-from skg.drawing.dxf_file import DxfFile, Record
-from skg.drawing.shapes import conic, is_number, spline_edges
+from skg.drawing.dxf_file import Definition, DxfFile, Record
+from skg.drawing.placing import NotFlat, Placing, is_full, swept
+from skg.drawing.shapes import is_number
 from skg.drawing.wishes import Wishes
 from skg.errors import UserError
 from skg.plane import XY
+
+if TYPE_CHECKING:
+    from ezdxf.entities import DXFGraphic
+    from ezdxf.math import Matrix44
 
 #: Kinds that write on a drawing, or that fill what is drawn: nothing to cut.
 NOTES = frozenset(
@@ -41,36 +43,24 @@ _NO_LINES = {
     "REGION": "an ACIS body, which is not read: explode it into lines in the CAD program",
     **dict.fromkeys(("ACAD_PROXY_ENTITY", "PROXY"), "not understood, explode it in the CAD program"),
 }
-#: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
-_LEVEL = 1e-3
-#: Angles are whole turns apart when they miss it by no more than this part of one; those that are the same angle but
-#: for a float's rounding by no more than that: what is longer than nothing is drawn so (where two fillets meet).
-_WHOLE, _NONE = 1e-8, 1e-13
 #: Blocks within blocks within blocks.
 _DEPTH = 32
 #: More entities than this in all are no drawing, but blocks that hold copies of copies.
 _MOST = 1_000_000
-#: A vertex of a polyline that is not on it, but pulls at it.
-_FRAME = 16
 #: The codes of the angles that an arc begins and ends at, and a full turn.
 _ANGLES = {"ARC": (50, 51, 360.0), "ELLIPSE": (41, 42, 2 * pi)}
 #: What an entity that cannot be read may raise.
-UNREADABLE = (DXFError, ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError, AssertionError)
-
-
-class NotFlat(Exception):
-    """An entity that is not understood, or leaves the drawing's plane; the message is the reason."""
+UNREADABLE = (ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError, AssertionError)
 
 
 class _Collector:
-    """Turns records into edges. `matrix`: from where the present block's records stand to the drawing."""
+    """Turns records into edges. `placing` knows where the present block's records stand on the drawing."""
 
     def __init__(self, file: DxfFile, wishes: Wishes, factor: float) -> None:
         self.file = file
         self.wishes = wishes
-        self.factor = factor
+        self.placing = Placing(factor, wishes.fit_tolerance)
         self.content = Content()
-        self.matrix: Matrix44 | None = None
         self.known: dict[int, DXFGraphic] = {}
         self.wide: list[Entity] = []
         self.whole: list[int] = []
@@ -101,8 +91,8 @@ class _Collector:
             return 0.0, 0.0
         if record.value(230).strip().startswith("-1"):
             at = -at[0], at[1]
-        if self.matrix is not None:
-            at = self.matrix.transform(Vec3(at)).xyz[:2]
+        if self.placing.matrix is not None:
+            at = self.placing.matrix.transform(at).xyz[:2]
         return at
 
     def dashes(self, record: Record, layer: str) -> str:
@@ -117,6 +107,7 @@ class _Collector:
     def account(self, record: Record, layer: str) -> Entity:
         """Add an account of a record."""
         found = Entity(record.kind, layer, self.place(record))
+        self.placing.entity = len(self.content.entities)
         self.content.entities.append(found)
         if len(self.content.entities) > _MOST:
             raise UserError(f"more than {_MOST:,} entities, expected a drawing")
@@ -134,7 +125,7 @@ class _Collector:
         known = len(self.content.edges)
         try:
             if is_start:
-                self.content.starts.append(self.start(self.entity(record)))
+                self.content.starts.append(self.start(record))
                 account.left = "a start hole"
                 return
             for edge in self.edges_of(record):
@@ -153,21 +144,22 @@ class _Collector:
 
     def describe(self, record: Record, account: Entity, start: XY) -> None:
         """Note what there is to say of a record that is cut from `start` on, mm."""
-        account.place = start[0] / self.factor, start[1] / self.factor
+        account.place = start[0] / self.placing.factor, start[1] / self.placing.factor
         account.dashes = self.dashes(record, account.layer)
         if record.value(39).strip(" 0.+-eE"):
             self.thick.append(account)
         if _is_wide(record):
             self.wide.append(account)
         if _is_whole(record):
-            self.whole.append(self.number)
+            self.whole.append(self.placing.entity)
 
     def entity(self, record: Record) -> DXFGraphic:
         """ezdxf's entity of a record, made once."""
-        if self.matrix is None:
-            return record.entity()
+        by_ezdxf = _by_ezdxf()
+        if self.placing.matrix is None:
+            return by_ezdxf.entity(record)
         if id(record) not in self.known:
-            self.known[id(record)] = record.entity()
+            self.known[id(record)] = by_ezdxf.entity(record)
         return self.known[id(record)]
 
     def insert(self, record: Record, layer: str, hidden: str, blocks: tuple[str, ...]) -> None:
@@ -184,9 +176,9 @@ class _Collector:
         hidden = hidden or ("invisible" if record.whole(60) else "")
         if self.file.states.get(layer.lower()) == "frozen":
             hidden = hidden or self.unwanted(layer)
-        outer = self.matrix, self.dashes_around
+        outer = self.placing.matrix, self.dashes_around
         try:
-            matrices = [] if reason else [self.placed(single, block.base) for single in _singles(record.entity())]
+            matrices = [] if reason else self.matrices(record, block)
         except UNREADABLE as error:
             reason = _unread(error)
         if reason:
@@ -196,169 +188,56 @@ class _Collector:
             return
         self.dashes_around = self.dashes(record, layer)
         for matrix in matrices:
-            self.matrix = matrix
+            self.placing.matrix = matrix
             self.collect(block.records, layer, hidden, (*blocks, name.lower()))
-        self.matrix, self.dashes_around = outer
+        self.placing.matrix, self.dashes_around = outer
         self.collect((part for part in record.parts if part.kind == "ATTRIB"), layer, hidden, blocks)
 
-    def placed(self, insert: DXFGraphic, base: tuple[float, float, float]) -> Matrix44:
-        """From a block's content to the drawing, for one reference."""
-        if Vec3(insert.dxf.extrusion).is_null:
-            insert.dxf.extrusion = Vec3(0, 0, 1)
-        matrix = Matrix44.translate(*(-ordinate for ordinate in base)) @ insert.matrix44()
-        return matrix if self.matrix is None else matrix @ self.matrix
+    def matrices(self, record: Record, block: Definition) -> list[Matrix44]:
+        """From a block's content to the drawing, for each place of a reference's array."""
+        return _by_ezdxf().placed(record, block.base, self.placing.matrix)
 
-    def start(self, entity: DXFGraphic) -> XY:
+    def start(self, record: Record) -> XY:
         """A start hole: a POINT, or a CIRCLE around it."""
-        if entity.dxftype() == "POINT":
-            return self.point(entity.dxf.location)
-        return self.point(entity.ocs().to_wcs(entity.dxf.center))
+        (place,) = self.placing.points([_by_ezdxf().start(self.entity(record))])
+        return place
 
     def edges_of(self, record: Record) -> Iterable[Edge]:
         """One record's edges."""
+        placing = self.placing
         if record.kind in plain.POLYLINES and (line := plain.polyline(record)):
-            points = [Vec3(x, y, line.height) for x, y, _ in line.vertices]
-            return self.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)
+            points = [(x, y, line.height) for x, y, _ in line.vertices]
+            return placing.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)
         if record.kind in plain.KINDS and (given := plain.numbers(record)):
             if record.kind == "LINE":
-                return [Edge(*self.points([Vec3(given[:3]), Vec3(given[3:])]), entity=self.number)]
+                return [placing.line(given[:3], given[3:])]
             first, last = map(radians, given[4:] or (0.0, 360.0))
-            sweep = _sweep(first, last) if record.kind == "ARC" else 2 * pi
-            return self.arc(Vec3(given[:3]), given[3], first, sweep)
+            sweep = swept(first, last) if record.kind == "ARC" else 2 * pi
+            return placing.arc(given[:3], given[3], first, sweep)
         if record.kind in _NO_LINES:
             raise NotFlat(_NO_LINES[record.kind])
-        return self.edges(self.entity(record))
-
-    def edges(self, entity: DXFGraphic) -> Iterable[Edge]:
-        """One entity's edges."""
-        match entity.dxftype():
-            case "LINE":
-                return [Edge(*self.points([entity.dxf.start, entity.dxf.end]))]
-            case "CIRCLE":
-                return self.arc(entity.dxf.center, entity.dxf.radius, 0.0, 2 * pi, _ocs(entity))
-            case "ARC":
-                first, last = (radians(angle) for angle in (entity.dxf.start_angle, entity.dxf.end_angle))
-                return self.arc(entity.dxf.center, entity.dxf.radius, first, _sweep(first, last), _ocs(entity))
-            case "ELLIPSE":
-                first, last = entity.dxf.start_param, entity.dxf.end_param
-                axes = entity.dxf.major_axis, entity.minor_axis
-                return self.conic(entity.dxf.center, *axes, first, _sweep(first, last))
-            case "LWPOLYLINE":
-                points = [Vec3(x, y, entity.dxf.elevation) for x, y in entity.vertices()]
-                bulges = [bulge for (bulge,) in entity.get_points("b")]
-                return self.polyline(points, bulges, bool(entity.closed), _ocs(entity))
-            case "POLYLINE" if entity.is_2d_polyline or entity.is_3d_polyline:
-                vertices = [vertex for vertex in entity.vertices if not vertex.dxf.flags & _FRAME]
-                points = [Vec3(vertex.dxf.location) for vertex in vertices]
-                bulges = [vertex.dxf.bulge if entity.is_2d_polyline else 0.0 for vertex in vertices]
-                if entity.is_2d_polyline:
-                    height = Vec3(entity.dxf.elevation).z if entity.dxf.hasattr("elevation") else 0.0
-                    points = [Vec3(point.x, point.y, height) for point in points]
-                return self.polyline(points, bulges, entity.is_closed, _ocs(entity) if entity.is_2d_polyline else None)
-            case "SPLINE" | "HELIX":
-                return self.spline(entity)
-            case "MLINE":
-                return self.multiline(entity)
-            case "POLYLINE":
-                raise NotFlat("a mesh, expected a flat drawing")
-            case _:
-                raise NotFlat("not understood")
+        by_ezdxf, entity = _by_ezdxf(), self.entity(record)
+        if by_ezdxf.is_through_places(entity):
+            self.through.append(self.content.entities[-1])
+        return by_ezdxf.edges(entity, placing, self.file.multiline_styles)
 
     def add(self, edge: Edge) -> None:
         """Keep an edge unless it has no length."""
         if edge.length > 0:
-            self.content.edges.append(edge if edge.entity == self.number else replace(edge, entity=self.number))
-
-    @property
-    def number(self) -> int:
-        """The number of the present entity."""
-        return len(self.content.entities) - 1
-
-    def in_drawing(self, points: Sequence[Vec3]) -> list[Vec3]:
-        """Places of the present block on the drawing; those of different heights are refused."""
-        found = [Vec3(point) for point in points]
-        if self.matrix is not None:
-            found = list(self.matrix.transform_vertices(found))
-        heights = [point.z for point in found]
-        if heights and (max(heights) - min(heights)) * self.factor > _LEVEL:
-            raise NotFlat("leaves the drawing's plane, expected a flat drawing")
-        return found
-
-    def points(self, points: Sequence[Vec3]) -> list[XY]:
-        """Places of the present block in mm."""
-        found = [(point.x * self.factor, point.y * self.factor) for point in self.in_drawing(points)]
-        if not all(is_number(ordinate) for place in found for ordinate in place):
-            raise NotFlat("a place of it is no number")
-        return found
-
-    def point(self, point: Vec3) -> XY:
-        """One place in mm."""
-        return self.points([point])[0]
-
-    def arc(self, centre: Vec3, radius: float, first: float, sweep: float, ocs: OCS | None = None) -> list[Edge]:
-        """An arc or circle, which may stand in a coordinate system of its own."""
-        radius = abs(radius)
-        frame = [Vec3(centre), Vec3(radius, 0, 0), Vec3(0, radius, 0)]
-        return self.conic(*(frame if ocs is None else ocs.points_to_wcs(frame)), first, sweep)
-
-    def conic(self, centre: Vec3, u: Vec3, v: Vec3, first: float, sweep: float) -> list[Edge]:
-        """centre + u cos t + v sin t from `first` on."""
-        middle, one, other = self.points([Vec3(centre), Vec3(centre) + Vec3(u), Vec3(centre) + Vec3(v)])
-        axes = [(end[0] - middle[0], end[1] - middle[1]) for end in (one, other)]
-        return [conic(middle, *axes, first, sweep, self.wishes.fit_tolerance, self.number)]
-
-    def polyline(
-        self, points: list[Vec3], bulges: list[float], is_closed: bool, ocs: OCS | None = None
-    ) -> Iterator[Edge]:
-        """Lines and arcs through points; those of a flat polyline may stand in a coordinate system of its own."""
-        if is_closed and points:
-            points, bulges = [*points, points[0]], [*bulges, 0.0]
-        in_drawing = self.points(list(ocs.points_to_wcs(points)) if ocs else points)
-        for (p, q), (start, end), bulge in zip(pairwise(points), pairwise(in_drawing), bulges, strict=False):
-            if not bulge or start == end:
-                yield Edge(start, end, entity=self.number)
-                continue
-            centre, first, last, radius = bulge_to_arc(p, q, bulge)
-            frame = [Vec3(centre.x, centre.y, p.z), Vec3(radius, 0, 0), Vec3(0, radius, 0)]
-            sweep = (last - first) % (2 * pi)
-            frame = list(ocs.points_to_wcs(frame)) if ocs else frame
-            for edge in self.conic(*frame, first, sweep):
-                turned = edge if bulge > 0 else edge.reversed()
-                yield turned if turned.nodes else replace(turned, start=start, end=end)
-
-    def spline(self, entity: DXFGraphic) -> Iterator[Edge]:
-        """A spline; one that tells the places alone that it runs through is ezdxf's."""
-        if not len(entity.control_points):
-            places = [Vec3(place) for place in entity.fit_points]
-            nearest = _LEVEL / self.factor
-            entity.fit_points = [q for p, q in pairwise([None, *places]) if p is None or p.distance(q) > nearest]
-            self.through.append(self.content.entities[-1])
-        tool = entity.construction_tool()
-        controls = [Vec3(x, y) for x, y in self.points(tool.control_points)]
-        flat = BSpline(controls, tool.order, tool.knots(), tool.weights() or None)
-        return spline_edges(flat, self.wishes.fit_tolerance)
-
-    def multiline(self, entity: DXFGraphic) -> Iterator[Edge]:
-        """The lines beside each other, and the caps that the style gives them at the ends."""
-        name = entity.dxf.style_name
-        style = self.file.multiline_styles.get(name.upper())
-        if style is None:
-            raise NotFlat(f"its style {name} is not in the file")
-        # (ezdxf draws one that is in a document)
-        entity.doc = _document()
-        entity.dxf.style_handle = None
-        known = entity.doc.mline_styles.get(name) or entity.doc.mline_styles.new(name)
-        given = style.entity()
-        known.dxf.flags, known.elements = given.dxf.flags, given.elements
-        for part in entity.virtual_entities():
-            if part.dxftype() in ("LINE", "ARC"):
-                yield from self.edges(part)
+            number = self.placing.entity
+            self.content.edges.append(edge if edge.entity == number else replace(edge, entity=number))
 
 
 @cache
-def _document() -> Drawing:
-    """A document for entities that ezdxf takes from no other place."""
-    return ezdxf.new()
+def _by_ezdxf() -> ModuleType:
+    """`skg.drawing.by_ezdxf`: slow to import, and many drawings do not need it."""
+    # (what a library drops while it is loaded keeps alive all that those hold who called for it: that goes at once)
+    gc.freeze()
+    from skg.drawing import by_ezdxf
+
+    gc.collect()
+    gc.unfreeze()
+    return by_ezdxf
 
 
 def _is_note(kind: str, is_start: bool) -> bool:
@@ -371,18 +250,13 @@ def _unread(error: Exception) -> str:
     return f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
 
 
-def _ocs(entity: DXFGraphic) -> OCS | None:
-    """The coordinate system that an entity stands in, if it has one of its own."""
-    return None if Vec3(entity.dxf.extrusion).is_null else entity.ocs()
-
-
 def _is_whole(record: Record) -> bool:
     """Whether an arc that is read as a full turn ends at the angle that it begins at, not a turn further on."""
     if record.kind not in _ANGLES:
         return False
     *codes, turn = _ANGLES[record.kind]
     first, last = (float(record.value(code, "nan")) for code in codes)
-    return last - first < turn / 2 and _is_full((last - first) / turn)
+    return last - first < turn / 2 and is_full((last - first) / turn)
 
 
 def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
@@ -410,23 +284,6 @@ def _is_wide(record: Record) -> bool:
     return record.kind in ("POLYLINE", "LWPOLYLINE") and any(width.strip(" 0.+-eE") for width in widths)
 
 
-def _sweep(first: float, last: float) -> float:
-    """From one angle on to the other, radians; whole turns, as files round them, are one."""
-    return 2 * pi if _is_full((last - first) / (2 * pi)) else (last - first) % (2 * pi)
-
-
-def _is_full(turns: float) -> bool:
-    """Whether so many turns are whole ones that were rounded."""
-    return abs(turns - round(turns)) < _WHOLE and not _NONE < turns < _WHOLE
-
-
-def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:
-    """The references that one with rows and columns stands for."""
-    if insert.mcount > _MOST:
-        raise ValueError(f"{insert.mcount:,} times the block")
-    return insert.multi_insert() if insert.mcount > 1 else (insert,)
-
-
 def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     """Return the entities of a drawing, and the edges of those of its model space that are wanted, in mm.
 
@@ -435,7 +292,7 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     wishes.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
     collector = _Collector(file, wishes, factor)
     collector.collect(file.model, "", "", ())
-    collector.matrix = None
+    collector.placing.matrix = None
     if not collector.content.edges and file.paper:
         # (some programs write all that they have there)
         collector.collect(file.paper, "", "", ())

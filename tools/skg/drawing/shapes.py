@@ -7,13 +7,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import accumulate, pairwise
 from math import atan2, cos, hypot, isfinite, pi, sin
+from typing import TYPE_CHECKING
 
 import numpy as np
-from ezdxf.math import BSpline
 
 from skg.drawing.contour import Edge, Places
 from skg.drawing.curve import curve_edge
 from skg.plane import XY, cross, distance, dot, minus, polar, turn
+
+if TYPE_CHECKING:
+    from ezdxf.math import BSpline
 
 #: What is this near (mm) to a line or a circle is one.
 _SAME = 1e-6

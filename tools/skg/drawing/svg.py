@@ -12,7 +12,6 @@ from math import atan2, hypot, pi, sqrt
 from xml.etree import ElementTree
 
 import svgelements
-from ezdxf.math import BSpline, Vec3
 
 from skg.drawing.account import Content, Entity, counted, said
 from skg.drawing.contour import Edge
@@ -257,13 +256,19 @@ class _Shapes:
                 if is_round:
                     return
             elif isinstance(segment, svgelements.CubicBezier | svgelements.QuadraticBezier):
-                controls = [Vec3(*self.point(point)) for point in segment]
-                if any(control != controls[0] for control in controls):
-                    yield from spline_edges(BSpline(controls, order=len(controls)), self.tolerance)
+                yield from self.bezier([self.point(point) for point in segment])
             elif isinstance(segment, svgelements.Line | svgelements.Close) and segment.start is not None:
                 edge = Edge(self.point(segment.start), self.point(segment.end or segment.start))
                 if edge.length > 0:
                     yield edge
+
+    def bezier(self, controls: list[XY]) -> Iterator[Edge]:
+        """A Bézier curve."""
+        from ezdxf.math import BSpline, Vec3  # (slow to import, and many drawings do not need it)
+
+        controls = [Vec3(*control) for control in controls]
+        if any(control != controls[0] for control in controls):
+            yield from spline_edges(BSpline(controls, order=len(controls)), self.tolerance)
 
     def arc(self, arc: svgelements.Arc, is_round: bool) -> Iterator[Edge]:
         """An arc of an ellipse; `is_round`: all of it."""
