@@ -64,11 +64,12 @@ format: venv
 	$(VENV)/bin/clang-format -i $(C_STYLED)
 
 # A warning of the C compiler is an error here.
-lint: venv
+lint: EMU_ROWS_OF = -I. -DNAME=translation -DROWS='"build/emu/skg.rows"'
+lint: venv emu
 	$(VENV)/bin/ruff check $(RUFF)
 	$(VENV)/bin/ruff format --check $(RUFF)
 	$(VENV)/bin/clang-format --dry-run -Werror $(C_STYLED)
-	@for file in $(C_SOURCES); do $(CC) $(EMU_CFLAGS) -Werror -c -o /dev/null $$file || exit 1; done
+	@for file in $(C_SOURCES); do $(CC) $(EMU_CFLAGS) $(EMU_ROWS_OF) -Werror -c -o /dev/null $$file || exit 1; done
 	@for file in $(wildcard tools/skg/native/*.c); do $(CC) $(TOOLS_CFLAGS) -Werror -c -o /dev/null $$file || exit 1; done
 
 # Tables, sessions and pictures of the pages and the lines Offers: and Uses: of the assembly files, as they are now.

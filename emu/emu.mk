@@ -3,7 +3,10 @@ EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
 EMU_PROGRAM := emu/board.c emu/drive.c emu/drawn.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c \
                emu/main.c emu/output.c emu/operator.c \
                emu/symbols.c emu/disasm.c emu/calculator.c emu/trace.c emu/breaks.c emu/debug.c emu/commands.c
-EMU_LIBRARY := emu/board.c emu/drive.c emu/image.c emu/machine.c
+EMU_LIBRARY := emu/board.c emu/drive.c emu/image.c emu/machine.c emu/translations.c
+# The images that are translated into C for the library, and what is compiled of them.
+TRANSLATED  := skg skg-nodrift
+EMU_ROWS    := $(TRANSLATED:%=build/emu/%.o)
 EMU_COMPARE := tests/emu/compare.c tests/emu/plain8080.c
 EMU_FUZZ    := tests/emu/fuzz.c emu/com.c $(EMU_LIBRARY)
 EMU_BENCH   := tests/emu/bench.c tests/emu/plain8080.c emu/com.c emu/image.c
@@ -27,12 +30,25 @@ build/emu/i8080.o: emu/i8080.c $(EMU_HEADERS)
 build/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/emu/i8080.o
 	$(EMU_CC) -o $@ $(EMU_PROGRAM) build/emu/i8080.o $(EMU_ROM) -lm
 
-build/libskg80.so: $(EMU_LIBRARY) build/emu/i8080.o
-	$(EMU_CC) -fPIC -shared -o $@ $(EMU_LIBRARY) build/emu/i8080.o
+build/libskg80.so: $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
+	$(EMU_CC) -fPIC -shared -DWITH_TRANSLATIONS -o $@ $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
+
+# Translations: the examples show what of a ROM is instructions. (-O2 takes gcc twice as long, for nothing)
+build/emu/translate: emu/translate.c emu/board.c emu/drive.c build/emu/i8080.o
+	$(EMU_CC) -o $@ $^
+
+build/emu/%.rows: roms/%.bin build/emu/translate $(wildcard examples/*.skg)
+	@build/emu/translate $< $(filter %.skg,$^) >$@.new && mv $@.new $@
+
+$(EMU_ROWS): build/emu/%.o: build/emu/%.rows emu/i8080_translated.c $(EMU_HEADERS)
+	$(EMU_CC) -O1 -fPIC -I. -DNAME=translation_$(subst -,_,$*) -DROWS='"$<"' -c -o $@ emu/i8080_translated.c
 
 # Tests
 build/emu/compare: $(EMU_COMPARE) build/emu/i8080.o
 	$(EMU_CC) -o $@ $(EMU_COMPARE) build/emu/i8080.o
+
+build/emu/translated: tests/emu/translated.c emu/board.c emu/drive.c emu/translations.c build/emu/i8080.o $(EMU_ROWS)
+	$(EMU_CC) -DWITH_TRANSLATIONS -o $@ $^
 
 build/emu/bench: $(EMU_BENCH) build/emu/i8080.o
 	$(EMU_CC) -o $@ $(EMU_BENCH) build/emu/i8080.o
@@ -63,7 +79,8 @@ simh: venv emu altairz80
 	@command -v altairz80 >/dev/null
 	$(PY) -m pytest -q -n 2 tests/emu/test_simh.py tests/rom/test_altair.py
 
-bench-emu: build/emu/bench build/emu/mix.com
+bench-emu: venv build/emu/bench build/emu/mix.com
 	@build/emu/bench build/emu/mix.com
+	@$(PY) tests/emu/rom_speed.py
 
 .PHONY: emu altairz80 simh bench-emu

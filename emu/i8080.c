@@ -1,6 +1,6 @@
 /* Intel 8080A core. See i8080.h for the programmer's view.
  *
- * Two loops carry out the same table of instructions (i8080_ops.h):
+ * Two loops carry out the same table of instructions (i8080_ops.h, its words in i8080_words.h):
  *
  * - run_fast keeps the registers in locals and jumps from handler to handler through code[], which holds one
  *   handler address for every memory address. Most addresses start as `undecoded`; decode() puts in the handler
@@ -11,19 +11,27 @@
  *   HLT, writes to anything but plain RAM, breakpoints, watching. The fast loop leaves to it every
  *   instruction that touches one of these, before that instruction has changed anything.
  *
- * mark[] says of each byte what a write to it must not overlook: read-only, decoded as an opcode (the write
- * must undo that), breakpoint, mirrored. Zero is plain RAM, and one test of it is all that a fast write costs.
+ * A program in ROM that was translated beforehand (i8080_translated.c) is a third one: the fast loop calls it wherever PC
+ * comes to one of its entries, and goes on where it comes back.
  *
- * The fast loop counts cycles and instructions in one number, `left`: cycles left in the slice times 2^24, plus
- * the instructions done. One subtraction an instruction, and the sign says when the slice is over.
+ * mark[] says of each byte what a write to it must not overlook: read-only, decoded as an opcode (the write
+ * must undo that), breakpoint, mirrored, translated. Zero is plain RAM, and one test of it is all that a fast write costs.
  */
 #include "i8080.h"
 #include "i8080_chains.h"
-#include "i8080_ops.h"
+#include "i8080_words.h"
 
 #include <string.h>
 
-enum { MARK_NOT_RAM = 1, MARK_OPEN = 2, MARK_CODE = 4, MARK_BREAK = 8, MARK_MIRROR = 16 };
+enum {
+    MARK_NOT_RAM = 1,
+    MARK_OPEN = 2,
+    MARK_CODE = 4,
+    MARK_BREAK = 8,
+    MARK_MIRROR = 16,
+    MARK_TRANSLATED = 32,
+    MARK_ENTRY = 64             /* of the translation */
+};
 
 enum {
     CHAIN_SPAN = 7,         /* a chain's last opcode is less than so many bytes behind its first */
@@ -36,6 +44,7 @@ enum {
     HANDLE_UNDECODED = 256,     /* look at the opcode first */
     HANDLE_CAREFUL,             /* leave the instruction to run_careful */
     HANDLE_WRAP,                /* PC has run past FFFF */
+    HANDLE_TRANSLATED,          /* an entry of the translation */
     HANDLE_CHAINS               /* then the chains in their order */
 };
 
@@ -50,12 +59,30 @@ static const struct {
 enum { CHAINS = sizeof chains / sizeof *chains };
 _Static_assert(CHAINS <= 256, "first_chain[] has bytes");
 
-#define UNLIKELY(x) __builtin_expect(!!(x), 0)
-
 /* ---- memory ---- */
+
+/* All that was decoded is forgotten. */
+static void forget_all(i8080 *c)
+{
+    for (unsigned i = 0; i < I8080_SPACE + I8080_PAD; i++) {
+        c->code[i] = c->handlers[i < I8080_SPACE ? HANDLE_UNDECODED : HANDLE_WRAP];
+    }
+}
+
+static void end_translation(i8080 *c)
+{
+    for (unsigned i = 0; i < I8080_SPACE; i++) {
+        c->mark[i] &= (uint8_t)~(MARK_TRANSLATED | MARK_ENTRY);
+    }
+    c->translation = NULL;
+    forget_all(c);
+}
 
 static void forget_code(i8080 *c, unsigned address)
 {
+    if (c->mark[address] & MARK_TRANSLATED) {
+        end_translation(c);
+    }
     for (unsigned k = 0; k < CHAIN_SPAN; k++) {
         c->code[(address - k) & 0xffff] = c->handlers[HANDLE_UNDECODED];
     }
@@ -68,7 +95,7 @@ static void set_byte(i8080 *c, unsigned address, uint8_t value)
     if (address < MIRRORED) {
         c->mem[I8080_SPACE + address] = value;
     }
-    if (c->mark[address] & MARK_CODE) {
+    if (c->mark[address] & (MARK_CODE | MARK_TRANSLATED)) {
         forget_code(c, address);
     }
 }
@@ -76,6 +103,9 @@ static void set_byte(i8080 *c, unsigned address, uint8_t value)
 void i8080_map(i8080 *c, uint16_t first, uint16_t last, i8080_kind kind)
 {
     for (unsigned i = first; i <= last; i++) {
+        if (c->mark[i] & MARK_TRANSLATED) {
+            end_translation(c);
+        }
         uint8_t mark = c->mark[i] & (MARK_CODE | MARK_BREAK | MARK_MIRROR);
         if (kind == I8080_OPEN) {
             set_byte(c, i, 0xff);
@@ -114,212 +144,6 @@ void i8080_break(i8080 *c, uint16_t address, bool on)
     }
 }
 
-/* ---- registers in locals, and what the table's words mean in both loops ---- */
-
-/* f holds S, Z and P in their places, cy is 0 or 1, bit 4 of ac is AC; other bits of f and ac are noise. */
-#define REGISTERS uint64_t a, f, cy, ac, bc, de, hl, sp, pc
-#define LOAD_REGISTERS                                                                              \
-    (a = c->a, f = c->f, cy = c->f & 1, ac = c->f, bc = c->bc, de = c->de, hl = c->hl, sp = c->sp,  \
-     pc = c->pc)
-#define SAVE_REGISTERS                                                                              \
-    (c->a = (uint8_t)a, c->f = (uint8_t)GET_F, c->bc = (uint16_t)bc, c->de = (uint16_t)de,          \
-     c->hl = (uint16_t)hl, c->sp = (uint16_t)sp, c->pc = (uint16_t)pc)
-
-/* cycles and instructions as one number to subtract from `left` */
-#define COST(cycles, instructions) (((int64_t)(cycles) << 24) - (instructions))
-
-enum { FLAG_S = 0x80, FLAG_Z = 0x40, FLAG_AC = 0x10, FLAG_P = 0x04, FLAG_ONE = 0x02, FLAG_CY = 0x01 };
-
-#define GET_F ((f & (FLAG_S | FLAG_Z | FLAG_P)) | (ac & FLAG_AC) | FLAG_ONE | cy)
-#define S (f & FLAG_S)
-#define Z (f & FLAG_Z)
-#define PE (f & FLAG_P)
-#define PO (!PE)
-#define CY (cy != 0)
-
-#define GET_A a
-#define GET_B (bc >> 8)
-#define GET_C (bc & 0xff)
-#define GET_D (de >> 8)
-#define GET_E (de & 0xff)
-#define GET_H (hl >> 8)
-#define GET_L (hl & 0xff)
-#define GET_M RD(hl)
-#define GET_BC bc
-#define GET_DE de
-#define GET_HL hl
-#define GET_SP sp
-#define GET_PSW (a << 8 | GET_F)
-
-#define SET_A(v) (a = (v))
-#define SET_B(v) (bc = GET_C | (uint64_t)(v) << 8)
-#define SET_C(v) (bc = (bc & 0xff00) | (v))
-#define SET_D(v) (de = GET_E | (uint64_t)(v) << 8)
-#define SET_E(v) (de = (de & 0xff00) | (v))
-#define SET_H(v) (hl = GET_L | (uint64_t)(v) << 8)
-#define SET_L(v) (hl = (hl & 0xff00) | (v))
-#define SET_M(v) WR(hl, v)
-#define SET_BC(v) (bc = (v))
-#define SET_DE(v) (de = (v))
-#define SET_HL(v) (hl = (v))
-#define SET_SP(v) (sp = (v))
-#define SET_PSW(v) (f = (v), cy = f & 1, ac = f, a = f >> 8, f &= 0xff)
-
-#define RD(address) ((uint64_t)c->mem[address])
-#define RD16(address) ((uint64_t)(c->mem[address] | c->mem[(address) + 1] << 8))
-
-#define SZP(v) (f = c->szp[v])
-#define INR(r)                              \
-    do {                                    \
-        uint64_t x_ = GET_##r;              \
-        uint64_t t_ = (x_ + 1) & 0xff;      \
-        SET_##r(t_);                        \
-        ac = x_ ^ t_;                       \
-        SZP(t_);                            \
-    } while (0)
-#define DCR(r)                              \
-    do {                                    \
-        uint64_t x_ = GET_##r;              \
-        uint64_t t_ = (x_ - 1) & 0xff;      \
-        SET_##r(t_);                        \
-        ac = ~(x_ ^ t_);                    \
-        SZP(t_);                            \
-    } while (0)
-#define ADD_WITH(v, carry)                  \
-    do {                                    \
-        uint64_t x_ = (v);                  \
-        uint64_t t_ = a + x_ + (carry);     \
-        ac = a ^ x_ ^ t_;                   \
-        cy = t_ >> 8;                       \
-        a = t_ & 0xff;                      \
-        SZP(a);                             \
-    } while (0)
-#define ADD(v) ADD_WITH(v, 0)
-#define ADC(v) ADD_WITH(v, cy)
-#define SUB_WITH(v, borrow, result)         \
-    do {                                    \
-        uint64_t x_ = (v);                  \
-        uint64_t t_ = a - x_ - (borrow);    \
-        ac = ~(a ^ x_ ^ t_);                \
-        cy = t_ >> 63;                      \
-        result = t_ & 0xff;                 \
-        SZP(result);                        \
-    } while (0)
-#define SUB(v) SUB_WITH(v, 0, a)
-#define SBB(v) SUB_WITH(v, cy, a)
-#define CMP(v)                              \
-    do {                                    \
-        uint64_t r_;                        \
-        SUB_WITH(v, 0, r_);                 \
-    } while (0)
-#define ANA(v)                              \
-    do {                                    \
-        uint64_t x_ = (v);                  \
-        ac = (a | x_) << 1;                 \
-        a &= x_;                            \
-        cy = 0;                             \
-        SZP(a);                             \
-    } while (0)
-#define XRA(v) (a ^= (v), ac = cy = 0, SZP(a))
-#define ORA(v) (a |= (v), ac = cy = 0, SZP(a))
-#define DAD(v)                              \
-    do {                                    \
-        uint64_t t_ = hl + (v);             \
-        cy = t_ >> 16;                      \
-        hl = t_ & 0xffff;                   \
-    } while (0)
-#define RLC (cy = a >> 7, a = (a << 1 & 0xff) | cy)
-#define RRC (cy = a & 1, a = a >> 1 | cy << 7)
-#define RAL                                 \
-    do {                                    \
-        uint64_t t_ = a << 1 | cy;          \
-        cy = t_ >> 8;                       \
-        a = t_ & 0xff;                      \
-    } while (0)
-#define RAR                                 \
-    do {                                    \
-        uint64_t t_ = a | cy << 8;          \
-        cy = a & 1;                         \
-        a = t_ >> 1;                        \
-    } while (0)
-/* The carry is set when the high digit needs correction, and never cleared. */
-#define DAA                                                         \
-    do {                                                            \
-        uint64_t fix_ = 0;                                          \
-        if ((ac & FLAG_AC) || (a & 15) > 9) {                       \
-            fix_ = 6;                                               \
-        }                                                           \
-        if (cy || a > 0x99) {                                       \
-            fix_ += 0x60;                                           \
-            cy = 1;                                                 \
-        }                                                           \
-        ac = a ^ fix_ ^ (a + fix_);                                 \
-        a = (a + fix_) & 0xff;                                      \
-        SZP(a);                                                     \
-    } while (0)
-#define CMA (a ^= 0xff)
-#define STC (cy = 1)
-#define CMC (cy ^= 1)
-#define NOP ((void)0)
-#define XCHG                                \
-    do {                                    \
-        uint64_t t_ = hl;                   \
-        hl = de;                            \
-        de = t_;                            \
-    } while (0)
-#define POP(rr)                             \
-    do {                                    \
-        uint64_t t_ = RD16(sp);             \
-        sp = (sp + 2) & 0xffff;             \
-        SET_##rr(t_);                       \
-    } while (0)
-#define XTHL                                \
-    do {                                    \
-        uint64_t t_ = RD16(sp);             \
-        WR16(sp, hl);                       \
-        hl = t_;                            \
-    } while (0)
-
-/* Transfers of control end the instruction themselves when they are taken. */
-#define GO(address, cycles)                 \
-    do {                                    \
-        pc = (address);                     \
-        left -= COST(cycles, 1);            \
-        NEXT;                               \
-    } while (0)
-#define JUMP GO(IMM16, 10)
-#define JUMP_IF(cond)                       \
-    if (cond) {                             \
-        JUMP;                               \
-    }
-#define CALL                                \
-    do {                                    \
-        uint64_t to_ = IMM16;               \
-        PUSH((pc + 3) & 0xffff);            \
-        GO(to_, 17);                        \
-    } while (0)
-#define CALL_IF(cond)                       \
-    if (cond) {                             \
-        CALL;                               \
-    }
-#define RST(to)                             \
-    do {                                    \
-        PUSH((pc + 1) & 0xffff);            \
-        GO(to, 11);                         \
-    } while (0)
-#define RETURN_TAKING(cycles)               \
-    do {                                    \
-        uint64_t to_ = RD16(sp);            \
-        sp = (sp + 2) & 0xffff;             \
-        GO(to_, cycles);                    \
-    } while (0)
-#define RETURN RETURN_TAKING(10)
-#define RETURN_IF(cond)                     \
-    if (cond) {                             \
-        RETURN_TAKING(11);                  \
-    }
-#define PCHL GO(hl, 5)
-
 /* ---- the careful loop ---- */
 
 static void store(i8080 *c, uint64_t address, uint64_t value)
@@ -349,8 +173,6 @@ static bool attention(const i8080 *c)
     return c->stop_wanted || c->halted || c->shadow || (c->irq && c->inte);
 }
 
-#define FIRST(first, ...) first
-#define LENGTH(row) FIRST(row)
 #define LENGTH_OF(op) [0x##op] = LENGTH(OP_##op),
 static const uint8_t instruction_length[256] = { EVERY_OPCODE(LENGTH_OF) };
 
@@ -375,9 +197,6 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
         }                                                                           \
     } while (0)
 #define NEXT goto done
-#define SAVE_COUNTS                                                                 \
-    (c->cycles = c->slice_end - 1 - (uint64_t)(left >> 24), c->instructions += (uint64_t)(left & 0xffffff), \
-     left &= ~(int64_t)0xffffff)
 #define IN (SAVE_REGISTERS, SAVE_COUNTS, a = c->in(c->user, (uint8_t)IMM8))
 #define OUT (SAVE_REGISTERS, SAVE_COUNTS, c->out(c->user, (uint8_t)IMM8, (uint8_t)a))
 #define EI (c->inte = c->shadow = true)
@@ -395,7 +214,8 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 
     REGISTERS;
     bool at_break = false;
-    int64_t left = (int64_t)((c->slice_end - c->cycles - 1) << 24);
+    int64_t left;
+    COUNT_SLICE;
     LOAD_REGISTERS;
     do {
         const uint8_t *code = bus ? bus : c->mem + pc;
@@ -461,6 +281,9 @@ static unsigned decode(i8080 *c, unsigned address)
     if (c->mark[address] & MARK_BREAK) {
         return HANDLE_CAREFUL;
     }
+    if (c->mark[address] & MARK_ENTRY) {
+        return HANDLE_TRANSLATED;
+    }
     for (unsigned i = c->first_chain[opcode]; i < CHAINS && chains[i].opcode[0] == opcode; i++) {
         if (find_chain(c, address, i)) {
             return HANDLE_CHAINS + i;
@@ -470,22 +293,6 @@ static unsigned decode(i8080 *c, unsigned address)
     return opcode;
 }
 
-/* Stores a word as one, since a host that must gather a later 16-bit load (RET, POP) from two stores waits for both. */
-static inline void put16(uint8_t *at, uint64_t value)
-{
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    uint16_t word = (uint16_t)value;
-    memcpy(at, &word, sizeof word);
-#else
-    at[0] = (uint8_t)value;
-    at[1] = (uint8_t)(value >> 8);
-#endif
-}
-
-/* Runs until the slice is over or attention() is due; true when it stands at a breakpoint. With `labels` it only
- * gives away the table of its handlers. */
-static bool run_fast(i8080 *c, bool labels)
-{
 #define IMM8 RD(pc + 1)
 #define IMM16 RD16(pc + 1)
 #define NEXT                                \
@@ -495,35 +302,12 @@ static bool run_fast(i8080 *c, bool labels)
         }                                   \
         goto *c->code[pc];                  \
     } while (0)
-#define WR(address, value)                  \
-    do {                                    \
-        uint64_t at_ = (address);           \
-        if (UNLIKELY(c->mark[at_])) {       \
-            goto careful;                   \
-        }                                   \
-        c->mem[at_] = (uint8_t)(value);     \
-    } while (0)
-#define WR16(address, value)                                \
-    do {                                                    \
-        uint64_t at_ = (address);                           \
-        if (UNLIKELY(c->mark[at_] | c->mark[at_ + 1])) {    \
-            goto careful;                                   \
-        }                                                   \
-        put16(c->mem + at_, value);                         \
-    } while (0)
-#define PUSH(value)                         \
-    do {                                    \
-        uint64_t v_ = (value);              \
-        uint64_t sp_ = (sp - 2) & 0xffff;   \
-        WR16(sp_, v_);                      \
-        sp = sp_;                           \
-    } while (0)
-#define IN goto careful
-#define OUT goto careful
-#define EI goto careful
-#define DI goto careful
-#define HLT goto careful
+#include "i8080_fast.h"
 
+/* Runs until the slice is over or attention() is due; true when it stands at a breakpoint. With `labels` it only
+ * gives away the table of its handlers. */
+static bool run_fast(i8080 *c, bool labels)
+{
     static const void *const handlers[HANDLE_CHAINS + CHAINS] = {
 #define LABEL(op) [0x##op] = &&op_##op,
 #define CHAIN2(p, q) &&chain_##p##_##q,
@@ -532,6 +316,7 @@ static bool run_fast(i8080 *c, bool labels)
         [HANDLE_UNDECODED] = &&undecoded,
         [HANDLE_CAREFUL] = &&careful,
         [HANDLE_WRAP] = &&wrap,
+        [HANDLE_TRANSLATED] = &&translated,
         EVERY_CHAIN(CHAIN2, CHAIN3)
 #undef CHAIN2
 #undef CHAIN3
@@ -545,7 +330,7 @@ static bool run_fast(i8080 *c, bool labels)
         return false;
     }
     LOAD_REGISTERS;
-    left = (int64_t)((c->slice_end - c->cycles - 1) << 24);
+    COUNT_SLICE;
     NEXT;
 
 #define ON                                  \
@@ -578,6 +363,17 @@ undecoded:
     c->code[pc] = handlers[decode(c, (unsigned)pc)];
     goto *c->code[pc];
 
+translated:
+    SAVE_COUNTS;
+    SAVE_REGISTERS;
+    c->translation->run(c);
+    LOAD_REGISTERS;
+    COUNT_SLICE;
+    if (UNLIKELY(left < 0)) {
+        goto leave;
+    }
+    goto *handlers[c->mem[pc]];             /* an instruction in any case: it may have come back from its entry at once */
+
 careful:
     SAVE_COUNTS;
     SAVE_REGISTERS;
@@ -588,7 +384,7 @@ careful:
         return false;
     }
     LOAD_REGISTERS;
-    left = (int64_t)((c->slice_end - c->cycles - 1) << 24);
+    COUNT_SLICE;
     NEXT;
 
 leave:
@@ -647,12 +443,35 @@ void i8080_init(i8080 *c, i8080_in_fn *in, i8080_out_fn *out, void *user)
         c->first_chain[chains[i].opcode[0]] = (uint8_t)i;
     }
     run_fast(c, true);
-    for (unsigned i = 0; i < I8080_SPACE + I8080_PAD; i++) {
-        c->code[i] = c->handlers[i < I8080_SPACE ? HANDLE_UNDECODED : HANDLE_WRAP];
-    }
+    forget_all(c);
     for (unsigned i = 0; i < MIRRORED; i++) {
         c->mark[i] = c->mark[I8080_SPACE + i] = MARK_MIRROR;
     }
+}
+
+bool i8080_translate(i8080 *c, const i8080_translation *t)
+{
+    for (size_t i = 0; i < t->count; i++) {
+        const i8080_instruction *one = &t->instructions[i];
+        for (unsigned k = 0; k < one->length; k++) {
+            unsigned at = (one->address + k) & 0xffff;
+            if (c->mem[at] != one->bytes[k] || !(c->mark[at] & MARK_NOT_RAM) || (c->mark[at] & MARK_BREAK)) {
+                return false;
+            }
+        }
+    }
+    end_translation(c);                     /* of another one */
+    c->translation = t;
+    for (size_t i = 0; i < t->count; i++) {
+        const i8080_instruction *one = &t->instructions[i];
+        for (unsigned k = 0; k < one->length; k++) {
+            c->mark[(one->address + k) & 0xffff] |= MARK_TRANSLATED;
+        }
+        if (one->entry) {
+            c->mark[one->address] |= MARK_ENTRY;
+        }
+    }
+    return true;
 }
 
 void i8080_reset(i8080 *c)

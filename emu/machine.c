@@ -1,6 +1,8 @@
 /* The board as a test sees it. See machine.h. */
 #include "machine.h"
 
+#include "translations.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,6 +64,8 @@ machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int ki
     m->board->drive.step = keep_step;
     m->board->user = m;
     board_rom(m->board, rom, length);
+    for (size_t i = 0; translations[i] && !i8080_translate(&m->board->cpu, translations[i]); i++) {
+    }
     return m;
 }
 
@@ -177,6 +181,11 @@ void machine_count(const machine *m, machine_counts *counts)
 void machine_watch(machine *m, bool on, uint16_t first, uint16_t last)
 {
     i8080_watch(&m->board->cpu, on, first, last);
+}
+
+bool machine_is_translated(const machine *m)
+{
+    return m->board->cpu.translation;
 }
 
 void machine_interrupt(machine *m, const uint8_t code[3])

@@ -70,6 +70,10 @@ void machine_get(const machine *m, machine_registers *r);
 void machine_set(machine *m, const machine_registers *r);
 void machine_count(const machine *m, machine_counts *counts);
 void machine_watch(machine *m, bool on, uint16_t first, uint16_t last);
+
+/* Whether a translation of its ROM carries it out (i8080_translate). */
+bool machine_is_translated(const machine *m);
+
 void machine_interrupt(machine *m, const uint8_t code[3]);
 void machine_break(machine *m, uint16_t address, bool on);
 

@@ -1,8 +1,8 @@
 """Builds the package's C libraries and takes in the ROM images; all else stands in pyproject.toml.
 
-The emulator's sources (emu/) and the images (roms/) are the project's, beside this folder. The source distribution has
-copies of both, so that a wheel can be built from it too. An editable install builds the libraries where make has them,
-in build/, and reads the images in roms/.
+The emulator's sources (emu/), the images (roms/) and the examples are the project's, beside this folder. The source
+distribution has copies of them, so that a wheel can be built from it too. An editable install builds the libraries
+where make has them, in build/, and reads the images in roms/.
 """
 
 from __future__ import annotations
@@ -23,14 +23,18 @@ from setuptools.command.sdist import sdist
 HERE = Path(__file__).resolve().parent
 #: Where emu/ and roms/ lie: here in an unpacked source distribution, else in the project above.
 ABOVE = HERE if (HERE / "emu").is_dir() else HERE.parent
+EMU = ABOVE / "emu"
 #: Library -> its sources and the compiler's options. emu/emu.mk and tools.mk build the same for developers.
 LIBRARIES = {
     "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3"]),
     "libskg80.so": (
-        [ABOVE / "emu" / name for name in ("i8080.c", "board.c", "drive.c", "machine.c", "image.c")],
-        ["-O2", "-D_DEFAULT_SOURCE", "-D_XOPEN_SOURCE=700"],
+        [EMU / f"{name}.c" for name in ("i8080", "board", "drive", "machine", "image", "translations")],
+        ["-O2", "-D_DEFAULT_SOURCE", "-D_XOPEN_SOURCE=700", "-DWITH_TRANSLATIONS"],
     ),
 }
+#: What writes the rows of an image's translation (emu/translate.c), and the images that have one.
+TRANSLATE = [EMU / f"{name}.c" for name in ("translate", "i8080", "board", "drive")]
+TRANSLATED = ("skg", "skg-nodrift")
 
 
 def compiler() -> str:
@@ -48,8 +52,29 @@ def compile_into(folder: Path) -> None:
         made = folder / name
         newest = max(path.stat().st_mtime for source in sources for path in source.parent.glob("*.[ch]"))
         if not made.exists() or made.stat().st_mtime < newest:
-            command = [*compiler().split(), "-std=c11", "-shared", "-fPIC", *options, "-o", made, *sources]
-            subprocess.run(command, check=True)
+            with tempfile.TemporaryDirectory() as scratch:
+                objects = translations(Path(scratch)) if "-DWITH_TRANSLATIONS" in options else []
+                run_compiler("-shared", "-fPIC", *options, "-o", made, *sources, *objects)
+
+
+def run_compiler(*words: str | Path) -> None:
+    """Compile C11."""
+    subprocess.run([*compiler().split(), "-std=c11", *words], check=True)
+
+
+def translations(folder: Path) -> list[Path]:
+    """The ROMs that the board runs most often, translated into C and compiled."""
+    run_compiler("-O2", "-D_DEFAULT_SOURCE", "-o", folder / "translate", *TRANSLATE)
+    parts = sorted((ABOVE / "examples").glob("*.skg"))
+    objects = []
+    for image in TRANSLATED:
+        rows, made = folder / f"{image}.rows", folder / f"{image}.o"
+        with rows.open("wb") as file:
+            subprocess.run([folder / "translate", ABOVE / "roms" / f"{image}.bin", *parts], stdout=file, check=True)
+        names = [f"-DNAME=translation_{image.replace('-', '_')}", f'-DROWS="{rows}"']
+        run_compiler("-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
+        objects.append(made)
+    return objects
 
 
 class Build(build):
@@ -92,11 +117,11 @@ class Wheel(bdist_wheel):
 
 
 class SourceDistribution(sdist):
-    """With the emulator's sources and the images."""
+    """With the emulator's sources, the images, and the examples that show what of these is instructions."""
 
     def make_release_tree(self, base_dir: str, files: list[str]) -> None:
         super().make_release_tree(base_dir, files)
-        for folder, pattern in (("emu", "*.[ch]"), ("roms", "*.bin")):
+        for folder, pattern in (("emu", "*.[ch]"), ("roms", "*.bin"), ("examples", "*.skg")):
             target = Path(base_dir) / folder
             target.mkdir(exist_ok=True)
             for file in sorted((ABOVE / folder).glob(pattern)):

@@ -13,8 +13,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from asm8080 import assemble  # noqa: E402
 from emuhelp import ROM_SIZE, Skg80  # noqa: E402
 
-TARGETS = ["emu", "build/emu/compare", "build/emu/bench", "build/asan/compare", "build/asan/fuzz",
-           "build/asan/skg80", "build/emu/mix.com"]  # fmt: skip
+TARGETS = ["emu", "build/emu/compare", "build/emu/bench", "build/emu/translated", "build/emu/mix.com",
+           "build/asan/compare", "build/asan/fuzz", "build/asan/skg80"]  # fmt: skip
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -102,6 +102,7 @@ def _library() -> ctypes.CDLL:
         "machine_steps": (size, [pointer, ctypes.POINTER(pointer), ctypes.POINTER(pointer)]),
         "machine_peek": (None, [pointer, address, pointer, size]),
         "machine_poke": (None, [pointer, address, ctypes.c_char_p, size]),
+        "machine_is_translated": (flag, [pointer]),
         "machine_get": (None, [pointer, ctypes.POINTER(_Registers)]),
         "machine_set": (None, [pointer, ctypes.POINTER(_Registers)]),
         "machine_count": (None, [pointer, ctypes.POINTER(_Counts)]),
@@ -376,6 +377,11 @@ class Machine:
     def poke(self, address: int, data: bytes) -> None:
         """Write memory, the ROM too; nothing happens on an open bus."""
         self._lib.machine_poke(self._machine, address, data, len(data))
+
+    @property
+    def is_translated(self) -> bool:
+        """Whether the ROM is carried out by its translation into C, up to its first change or breakpoint."""
+        return self._lib.machine_is_translated(self._machine)
 
     def peek16(self, address: int) -> int:
         """A word, low byte first."""

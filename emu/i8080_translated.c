@@ -1,0 +1,113 @@
+/* A program in ROM as C: its i8080_translation is called NAME, and ROWS is the file that translate.c has written of it.
+ *
+ * A row is an instruction with its operand, and does what the table (i8080_ops.h) says. So the compiler sees which flags
+ * nobody asks for, and where a jump goes. Rows stand in blocks, which are entered at their tops alone:
+ *
+ *      BLOCK(at, cycles, count)                                a block of so many instructions begins; an entry
+ *      STEP(at, length, op, operand, cycles, count)            an instruction; cycles and count: of the block, from it on
+ *      LEAP(at, length, op, operand, cycles, count)            the same of one whose operand is another block
+ *      ON_TO(at)                                               the block is over, and goes on with that one
+ *      ELSEWHERE(at)                                           what there is at an address was not translated
+ *
+ * A block takes all its cycles from `left` at its top, as if no jump were taken, and is not begun when the slice might be
+ * over in its middle; who leaves it earlier gives back the rest. Whatever is rare, and what is not here, is left to the
+ * fast loop: run() comes back in front of that instruction.
+ */
+#include "i8080.h"
+#include "i8080_words.h"
+
+#define IMM8 operand
+#define IMM16 operand
+#include "i8080_fast.h"
+
+/* Control is transferred: the block's cycles from this instruction on are given back but for those that it took. */
+#undef GO
+#define GO(to, cycles)                      \
+    do {                                    \
+        pc = (to);                          \
+        left += rest - COST(cycles, 1);     \
+        if (target) {                       \
+            goto *target;                   \
+        }                                   \
+        goto dispatch;                      \
+    } while (0)
+
+#define BODY(length, cycles, ...) __VA_ARGS__;
+#define CARRY_OUT(row) BODY(row)
+
+/* The rows as what must stand in memory. */
+#define BLOCK(at, cycles, count) { 0x##at, 0, { 0 }, true },
+#define STEP(at, size, op, value, cycles, count) { 0x##at, size, { 0x##op, 0x##value & 0xff, 0x##value >> 8 }, false },
+#define LEAP STEP
+#define ON_TO(at)
+#define ELSEWHERE(at)
+static const i8080_instruction instructions[] = {
+#include ROWS
+};
+#undef BLOCK
+#undef STEP
+#undef ON_TO
+#undef ELSEWHERE
+#undef LEAP
+
+enum { ENTRIES = 0x2000 };      /* no block begins at or above */
+
+static void run(i8080 *c)
+{
+    static const void *const entries[ENTRIES] = {
+#define BLOCK(at, cycles, count) [0x##at] = &&at_##at,
+#define STEP(at, length, op, operand, cycles, count)
+#define LEAP STEP
+#define ON_TO(at)
+#define ELSEWHERE(at)
+#include ROWS
+#undef BLOCK
+#undef STEP
+#undef LEAP
+#undef ON_TO
+#undef ELSEWHERE
+    };
+
+    REGISTERS;
+    int64_t left, rest;
+    uint64_t operand;
+    const void *target;
+    LOAD_REGISTERS;
+    COUNT_SLICE;
+
+dispatch:
+    if (pc >= ENTRIES || !entries[pc]) {
+        goto out;
+    }
+    goto *entries[pc];
+
+#define BLOCK(at, cycles, count)            \
+    at_##at:                                \
+    if (UNLIKELY(left < COST(cycles, 0))) { \
+        pc = 0x##at;                        \
+        goto out;                           \
+    }                                       \
+    left -= COST(cycles, count);
+#define ROW(at, op, value, cycles, count, to)   \
+    pc = 0x##at;                            \
+    operand = 0x##value;                    \
+    rest = COST(cycles, count);             \
+    target = to;                            \
+    CARRY_OUT(OP_##op)
+#define STEP(at, length, op, value, cycles, count) ROW(at, op, value, cycles, count, NULL)
+#define LEAP(at, length, op, value, cycles, count) ROW(at, op, value, cycles, count, &&at_##value)
+#define ON_TO(at) goto at_##at;
+#define ELSEWHERE(at)                       \
+    at_##at:                                \
+    pc = 0x##at;                            \
+    goto out;
+#include ROWS
+
+careful:
+    left += rest;
+out:
+    SAVE_COUNTS;
+    SAVE_REGISTERS;
+}
+
+const i8080_translation NAME = { instructions, sizeof instructions / sizeof *instructions, run };
