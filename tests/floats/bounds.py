@@ -182,7 +182,7 @@ def measure_route(name: str, make: Callable) -> float:
 
 def exact_number(v: Fraction) -> real.Real:
     """A fraction as the reference's number."""
-    return real.Real(v.numerator) / v.denominator
+    return real.mp.mpf(v.numerator) / v.denominator
 
 
 def numbers(machine: Machine, names: dict[str, int], count: int) -> list[Fraction]:

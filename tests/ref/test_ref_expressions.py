@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -14,7 +11,6 @@ from skg.ref import real, run
 from skg.ref.fault import Fault
 from skg.ref.geometry import negate
 from skg.ref.operations import operate
-from skg.ref.real import Real
 from skg.ref.values import X_AXIS, Circle, Line, Point, Value, canonical
 
 TABLE = [
@@ -351,32 +347,3 @@ def test_foot_and_image(p: Point, s: Line) -> None:
 @given(lines, lines)
 def test_quasi_mirror_twice(s: Line, mirror: Line) -> None:
     assert same(s, operate(operate(s, "/", mirror), "/", mirror))
-
-
-def test_fifty_digits_in_any_thread() -> None:
-    """MPFR's precision belongs to a thread: in a new one it would be that of a double."""
-    with ThreadPoolExecutor(1) as thread:
-        there = thread.submit(run, "10 CUT O,(1/3,0)\n20 END\n").result()
-    assert there.path[-1].end.x == run("10 CUT O,(1/3,0)\n20 END\n").path[-1].end.x
-    assert there.path[-1].end.x != Real(1 / 3)
-
-
-def test_what_has_no_value_is_an_error() -> None:
-    for nothing in (lambda: Real(1) / 0, lambda: real.mp.sqrt(Real(-1)), lambda: real.mp.asin(Real(2))):
-        with pytest.raises(ArithmeticError):
-            nothing()
-
-
-def test_numbers_are_given_back() -> None:
-    """A version of gmpy2 kept 48 bytes of each sum for ever."""
-
-    def pages() -> int:
-        return int(Path("/proc/self/statm").read_text().split()[1])
-
-    a, b = Real(1) / 3, Real(1) / 7
-    for _ in range(1000):
-        a + b
-    before = pages()
-    for _ in range(200_000):
-        a + b
-    assert pages() - before < 500

@@ -62,7 +62,7 @@ def ellipse(n: int, *before: str) -> list[Segment]:
         "FROM (40,0)",
         "FIT (30,0),90",
         "A=0",
-        f"A=A+{step:.20g}",
+        f"A=A+{mp.nstr(step, 20)}",
         "IF A>=360 GOTO 500",
         "FIT (30*COS A,18*SIN A)",
         f"GOTO {10 * (4 + len(before))}",

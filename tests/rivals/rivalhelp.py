@@ -25,7 +25,7 @@ EXACT = 1e-10
 def made(text: str, translate: Translate = xy.translate) -> dict[str, Value]:
     """The elements that a translated program makes, by SKG's names."""
     program = translate(text)
-    with watching() as watch, real.mp.precision():
+    with watching() as watch, real.mp.workprec(real.mp.prec):
         machine = Interpreter([], watch, Punch())
         assert machine.load(program) is None, (text, program, machine.paper)
         assert machine.run() is None, (text, program, machine.paper)

@@ -15,7 +15,7 @@ from test_xy_making import near, on, same
 from tkhhelp import fault, made
 
 from skg.ref.geometry import mirrored
-from skg.ref.real import ZERO, Real, cos, mp, sin
+from skg.ref.real import ZERO, cos, mp, sin
 from skg.ref.values import Circle, Line, Point, Value
 from skg.rivals.tekhtran_making import FORMS
 
@@ -234,11 +234,11 @@ def of_line(e: Elements, new: Point, n: list) -> None:
     decides(new, -new, n[0])
 
 
-def value(_: Elements, new: Real, n: list) -> None:
+def value(_: Elements, new: mp.mpf, n: list) -> None:
     near(new, n[0])
 
 
-def sums(_: Elements, new: Real, n: list) -> None:
+def sums(_: Elements, new: mp.mpf, n: list) -> None:
     near(new, 2 * (n[0] - n[1]) / n[2] + -n[1] * n[0] - n[2])
 
 
@@ -317,7 +317,7 @@ def filled(rng: random.Random, template: str) -> tuple[str, list]:
 
     def word(match: re.Match[str]) -> str:
         text = makers[match[1]]()
-        words.append(Real(text) if match[1] in "nra" else text)
+        words.append(mp.mpf(text) if match[1] in "nra" else text)
         return text
 
     return re.sub(r"\{(\w)\}", word, template), words
@@ -339,7 +339,7 @@ def test_form(form: tuple[str, str, str, str, Check]) -> None:
         text, words = filled(rng, f"{start(rng)}{before}\n{letters}50 = {right}")
         if right.endswith("-"):
             # The same numbers once more.
-            x, y, z = (f"({n:.12g})" for n in words)
+            x, y, z = (f"({mp.nstr(n, 12)})" for n in words)
             text += f"{y}*{x} - {z}"
         if "ТЧ50" in text:
             text += "\nЧ1 = КООРД(3, ТЧ50)"
@@ -390,7 +390,7 @@ def test_every_sign_of_a_line_is_met() -> None:
         c, s, d = (float(e[f"D{3 * i + k}"]) for k in (1, 2, 3))
         x, y = (0, 0) if p == "ТЧ0" else (3, 4)
         # The normal that points to the line's right, or the other one.
-        u, v = float(sin(Real(a))), -float(cos(Real(a)))
+        u, v = float(sin(mp.mpf(a))), -float(cos(mp.mpf(a)))
         wanted = u * x + v * y
         if wanted < -1e-9 or abs(wanted) < 1e-9 and (v < -1e-9 or abs(v) < 1e-9 and u < 0):
             u, v, wanted = -u, -v, -wanted
@@ -419,7 +419,7 @@ def test_height() -> None:
 def test_defined_again() -> None:
     """A name may be defined again, by itself too; what was made of it stays."""
     e = made("ТЧ1 = 1, 2; ТЧ2 = ТЧ1, ПЕРЕНОС, 1, 1; ТЧ1 = ТЧ1, ПЕРЕНОС, 5, 0; А = 1; А = А + 1; Б = А*3")
-    same(e["P1"], Point(Real(6), Real(2)))
-    same(e["P2"], Point(Real(2), Real(3)))
+    same(e["P1"], Point(mp.mpf(6), mp.mpf(2)))
+    same(e["P2"], Point(mp.mpf(2), mp.mpf(3)))
     near(e["D1"], 2)
     near(e["D2"], 6)

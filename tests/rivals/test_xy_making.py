@@ -9,7 +9,7 @@ import pytest
 from rivalhelp import EXACT, fault, gap, made, number
 
 from skg.ref.geometry import direction, mirrored
-from skg.ref.real import Real, cos, mp, sin
+from skg.ref.real import cos, mp, sin
 from skg.ref.values import Circle, Line, Point, Value
 from skg.rivals.making import FORMS
 
@@ -48,7 +48,7 @@ def same_angle(one: float, other: float) -> None:
 def turns_in_order(circle: Circle, places: list[Point]) -> bool:
     """Whether a clockwise circle passes places in this order."""
     at = [float(mp.atan2(p.y - circle.y, p.x - circle.x)) for p in places]
-    ahead = [(at[0] - a) % (2 * mp.PI) for a in at]
+    ahead = [(at[0] - a) % (2 * mp.pi) for a in at]
     return ahead == sorted(ahead)
 
 
@@ -170,7 +170,7 @@ def three(_: Elements, new: Circle, arguments: list) -> None:
     for e in arguments:
         near(gap(e, new), 0, 1e-7)
     ahead = [float(mp.atan2(*reversed([getattr(touch(new, e) - new.centre, c) for c in "xy"]))) for e in arguments]
-    ways = [(ahead[0] - a) % (2 * float(mp.PI)) for a in ahead]
+    ways = [(ahead[0] - a) % (2 * float(mp.pi)) for a in ahead]
     assert ways[1] <= ways[2] + 1e-9 or _others(new, arguments) == 1
 
 
@@ -249,7 +249,7 @@ def filled(rng: random.Random, template: str) -> tuple[str, list[str]]:
 
 def value(elements: Elements, word: str) -> object:
     if word[-1:].isdigit() and word.lstrip("-")[0].isdigit():
-        return Real(word)
+        return mp.mpf(word)
     element = elements["PSC"["DXY".index(word.lstrip("-")[0])] + word.lstrip("-")[1:]]
     return negative(element) if word[0] == "-" else element
 
@@ -290,7 +290,7 @@ def test_moves(seed: int) -> None:
             f"⊕ZD({k}6,D2,{a})⇒{k}9;"
         )
     e = made(text)
-    for p, moved_by in ((Point(Real(u), Real(v)), 5),):
+    for p, moved_by in ((Point(mp.mpf(u), mp.mpf(v)), 5),):
         same(e[f"P{moved_by}"] - e["P1"], p)
         same(e[f"C{moved_by}"].centre - e["C1"].centre, p)
         on(p + e["S1"].normal * e["S1"].g, e[f"S{moved_by}"])
@@ -324,7 +324,7 @@ def test_frame(frame: str) -> None:
     e = made(f"{before}⊕{frame};5⇒A;⊕D(0,0)⇒D1;{inner}")
     origin = "5,7" if where == "D1" else "3,-4" if "3,-4" in before else "0,0"
     plain = made(inner.replace("⇒D5", f"⇒D5;⊕D({origin})⇒D1"))
-    by = Real(turned_by if turned_by != "A" else 30)
+    by = mp.mpf(turned_by if turned_by != "A" else 30)
     at = plain["P1"]
 
     def moved(p: Point) -> Point:
@@ -341,5 +341,5 @@ def test_frame(frame: str) -> None:
 
 def test_numbers() -> None:
     e = made("2×(3+4)/7-1⇒A; -A+2⇒B1; 1-(2-3)⇒C; 12/(2×3)⇒E; ⊕D(A×B1,-A-C-E)⇒D1; A×2⇒A; ⊕D(A,A/4)⇒D2;")
-    same(e["P1"], Point(Real(1), Real(-5)))
-    same(e["P2"], Point(Real(2), Real("0.5")))
+    same(e["P1"], Point(mp.mpf(1), mp.mpf(-5)))
+    same(e["P2"], Point(mp.mpf(2), mp.mpf("0.5")))

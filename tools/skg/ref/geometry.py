@@ -283,4 +283,4 @@ def sweep(c: Circle, start: Point, end: Point) -> Real:
     angle = real.mp.atan2(u.cross(v), u.dot(v))
     if c.r < 0:
         angle = -angle
-    return angle if angle > 0 else angle + 2 * real.mp.PI
+    return angle if angle > 0 else angle + 2 * real.mp.pi

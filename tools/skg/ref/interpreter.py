@@ -455,7 +455,7 @@ def run(
 
 def carry_out(machine: Callable[[Watch], Interpreter], source: str, bits: int | None, runs: bool = True) -> Result:
     """Load and RUN a program on a machine; `bits` and `runs` as in `run`."""
-    with watching() as watch, real.mp.precision(bits or real.mp.BITS):
+    with watching() as watch, real.mp.workprec(bits or real.mp.prec):
         board = machine(watch)
         error = board.load(source)
         if error is None and runs:

@@ -5,10 +5,14 @@ The firmware's range is kept: a number of 2^127 or more is error 5, one below 2^
 
 from __future__ import annotations
 
-from skg import mp
-from skg.mp import Real
+import mpmath
+
 from skg.ref import near
 from skg.ref.fault import Code, Fault
+
+mp = mpmath.mp.clone()
+mp.dps = 50
+Real = mp.mpf
 
 ZERO, ONE = Real(0), Real(1)
 LARGEST, SMALLEST = Real(2) ** 127, Real(2) ** -127
@@ -47,7 +51,7 @@ def sin(angle: Real) -> Real:
     n = _whole_quarters(angle)
     if n is not None:
         return Real((0, 1, 0, -1)[n % 4])
-    return mp.sin(mp.radians(angle % 360))
+    return mp.sin(mp.radians(mp.fmod(angle, 360)))
 
 
 def cos(angle: Real) -> Real:
@@ -55,7 +59,7 @@ def cos(angle: Real) -> Real:
     n = _whole_quarters(angle)
     if n is not None:
         return Real((1, 0, -1, 0)[n % 4])
-    return mp.cos(mp.radians(angle % 360))
+    return mp.cos(mp.radians(mp.fmod(angle, 360)))
 
 
 def tan(angle: Real) -> Real:

@@ -294,7 +294,7 @@ class Route:
             if not _same_offset(e.offset, f.offset):
                 raise Fault(Code.GEOMETRY)
             return e.place(p)
-        if near.at_most(real.mp.PI - angle, SAME_WAY, "opposite direction"):
+        if near.at_most(real.mp.pi - angle, SAME_WAY, "opposite direction"):
             raise Fault(Code.GEOMETRY)
         return _nearest_crossing(crossings(e.curve, f.curve, ZERO), p)
 
@@ -311,7 +311,7 @@ class Route:
         near.note("fillet left out", (abs(turn) - SAME_WAY) / SAME_WAY, near.RELATIVE)
         if abs(turn) < SAME_WAY:
             return None
-        if near.at_most(real.mp.PI - abs(turn), SAME_WAY, "opposite direction"):
+        if near.at_most(real.mp.pi - abs(turn), SAME_WAY, "opposite direction"):
             raise Fault(Code.GEOMETRY)
         signed = radius if turn > 0 else -radius
         inner_e, inner_f = _moved_inwards(e.nominal, signed), _moved_inwards(f.nominal, signed)
@@ -396,7 +396,7 @@ class Route:
         if self.fillet is not None:
             raise Fault(Code.GEOMETRY)
         if angle == 0:
-            self._emit_arc(first, first.start, 2 * real.mp.PI, "cut")
+            self._emit_arc(first, first.start, 2 * real.mp.pi, "cut")
             return
         self._travel(replace(first, start=halfway), first.start, "cut")
 
@@ -407,7 +407,7 @@ class Route:
             raise Fault(Code.GEOMETRY)
         if isinstance(e.curve, Circle):
             cut = _path_travel(e.curve, entry, self.first_end)
-            overlap = _path_travel(e.curve, e.start, entry) + cut - 2 * real.mp.PI
+            overlap = _path_travel(e.curve, e.start, entry) + cut - 2 * real.mp.pi
             if not near.at_most(overlap * abs(e.curve.r), MICRON, "closing corner"):
                 raise Fault(Code.GEOMETRY)
         self._travel(e, entry, "cut")

@@ -89,7 +89,7 @@ def full_turns(start: Grid, end: Grid, true_sweep: Real) -> int | None:
     if (xs, ys) == (0, 0) or (xe, ye) == (0, 0):
         return None
     cross, dot = xs * ye - ys * xe, xs * xe + ys * ye
-    rounded = real.mp.atan2(cross, dot) % (2 * real.mp.PI)
+    rounded = real.mp.atan2(cross, dot) % (2 * real.mp.pi)
     turns = _nearest_turns(rounded, true_sweep)
     if turns < 0 or (turns == 0 and cross == 0 and dot > 0):
         return None
@@ -98,7 +98,7 @@ def full_turns(start: Grid, end: Grid, true_sweep: Real) -> int | None:
 
 def _nearest_turns(rounded: Real, true_sweep: Real) -> int:
     """How many full turns to add to the rounded values' sweep to come nearest the true one: -1, 0 or 1."""
-    full = 2 * real.mp.PI
+    full = 2 * real.mp.pi
     misses = sorted((abs(rounded + n * full - true_sweep), n) for n in (-1, 0, 1))
     near.note("sweep", misses[1][0] - misses[0][0], 1e-6)
     return misses[0][1]
@@ -153,8 +153,8 @@ class Punch:
         last, middle = grid(end), grid(centre)
         xs, ys = self.at[0] - middle[0], self.at[1] - middle[1]
         if last == self.at:
-            near.note("sweep", sweep - real.mp.PI, 1e-6)
-            if sweep > real.mp.PI:
+            near.note("sweep", sweep - real.mp.pi, 1e-6)
+            if sweep > real.mp.pi:
                 self._full_circle(xs, ys, clockwise)
             return
         block = arc_block((xs, ys), (last[0] - middle[0], last[1] - middle[1]), clockwise, sweep)
@@ -165,7 +165,7 @@ class Punch:
             self.at = last
 
     def _full_circle(self, xs: int, ys: int, clockwise: bool) -> None:
-        block = arc_block((xs, ys), (xs, ys), clockwise, 2 * real.mp.PI)
+        block = arc_block((xs, ys), (xs, ys), clockwise, 2 * real.mp.pi)
         if block is not None:
             self.lines.append(block)
 

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skg import mp
-from skg.mp import Real
+import mpmath
+
+mp = mpmath.mp.clone()
+mp.dps = 50
+Real = mp.mpf
 
 ZERO = Real(0)
 #: 1 µm in mm.
@@ -115,14 +118,14 @@ def direction(angle: Real) -> ExactPoint:
     if quarters == mp.floor(quarters):
         x, y = ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarters) % 4]
         return ExactPoint(Real(x), Real(y))
-    radians = mp.radians(angle % 360)
+    radians = mp.radians(mp.fmod(angle, 360))
     return ExactPoint(mp.cos(radians), mp.sin(radians))
 
 
 def turn(u: ExactPoint, v: ExactPoint) -> Real:
     """Angle from one vector to another, radians in (−π, π], left positive."""
     angle = mp.atan2(u.cross(v), u.dot(v))
-    return mp.PI if angle <= -mp.PI else angle
+    return mp.pi if angle <= -mp.pi else angle
 
 
 def rotated(e: ExactElement, angle: Real, about: ExactPoint) -> ExactElement:
@@ -259,7 +262,7 @@ def sweep(circle: ExactCircle, start: ExactPoint, end: ExactPoint) -> Real:
     angle = turn(start - circle.centre, end - circle.centre)
     if circle.r < 0:
         angle = -angle
-    return angle if angle >= 0 else angle + 2 * mp.PI
+    return angle if angle >= 0 else angle + 2 * mp.pi
 
 
 def touching_point(circle: ExactCircle, other: ExactCurve) -> ExactPoint:

@@ -77,7 +77,7 @@ class Stretch:
     def angle(self) -> Real:
         """The angle that an arc sweeps, radians."""
         if self.whole:
-            return 2 * mp.PI
+            return 2 * mp.pi
         return sweep(self.curve, self.start, self.end) if self.is_travelled else ZERO
 
     def has(self, p: ExactPoint) -> bool:
@@ -291,7 +291,7 @@ def _round(parts: list[Part]) -> None:
 
 def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Stretch:
     """The arc that touches both on the inner side of a corner that turns by `angle`."""
-    if mp.PI - abs(angle) <= SAME_WAY:
+    if mp.pi - abs(angle) <= SAME_WAY:
         raise PlaneError("the route turns straight back")
     signed = radius if angle > 0 else -radius
     inner = [parallel(curve, -signed) for curve in (e, f)]

@@ -63,7 +63,7 @@ def wire_corner(e: ExactCurve, f: ExactCurve, p: ExactPoint, offset: Real) -> Ex
     angle = abs(turn(way_at(e, p), way_at(f, p)))
     if offset == 0 or angle <= SAME_WAY:
         return p - way_at(e, p).left() * offset
-    if mp.PI - angle <= SAME_WAY:
+    if mp.pi - angle <= SAME_WAY:
         return None
     paths = [parallel(curve, offset) for curve in (e, f)]
     if any(isinstance(path, ExactCircle) and path.r * curve.r <= 0 for path, curve in zip(paths, (e, f), strict=True)):

@@ -141,7 +141,7 @@ def point_centre(circle: Operand) -> Defined:
 @_form
 def point_along_circle(circle: Operand, point: Operand, turn: Token, d: Operand) -> Defined:
     _on(circle, point)
-    angle, _ = _clockwise(turn, 180 * _distance(d) / (mp.PI * circle.value.r), d.text)
+    angle, _ = _clockwise(turn, 180 * _distance(d) / (mp.pi * circle.value.r), d.text)
     about = join(decimal(angle), ":", centre_text(circle.text))
     return Defined(rotated(point.value, angle, circle.value.centre), join(point.text, "#", about))
 

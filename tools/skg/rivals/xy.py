@@ -17,6 +17,7 @@ from skg.rivals.plane import (
     Real,
     mirrored,
     moved,
+    mp,
     rotated,
 )
 from skg.rivals.program import LAST_LINE, LAST_SUBSCRIPT, SkgProgram, packed, plain, too_long
@@ -277,7 +278,7 @@ class _Machine:
         for copy in range(1, times):
             whole = (
                 decimal(angle * copy)
-                if (angle * copy).is_integer() or "A" not in text.text
+                if mp.isint(angle * copy) or "A" not in text.text
                 else join(SkgText(str(copy)), "*", text)
             )
             found += [
@@ -289,7 +290,7 @@ class _Machine:
                 )
                 for item in items
             ]
-        rest = angle * times % 360
+        rest = mp.fmod(angle * times, 360)
         goes_round = min(abs(rest), 360 - abs(rest)) <= TINY
         return found, _Copies(len(items), f"REP {times},{join(text, ':', about.text)}", goes_round)
 

@@ -127,13 +127,13 @@ class IsoPunch(Punch):
         for length in to_centre:
             millimetres(length)
         if last == self.at:
-            near.note("sweep", sweep - real.mp.PI, 1e-6)
-            if sweep > real.mp.PI and to_centre != (0, 0):
+            near.note("sweep", sweep - real.mp.pi, 1e-6)
+            if sweep > real.mp.pi and to_centre != (0, 0):
                 self._arc(last, to_centre, clockwise)
             return
         dx, dy = last[0] - self.at[0], last[1] - self.at[1]
         chord, square = dx * dx + dy * dy, to_centre[0] ** 2 + to_centre[1] ** 2
-        if sweep <= real.mp.PI:
+        if sweep <= real.mp.pi:
             near.note("flat arc", chord * chord / (4 * square or 1) - 1, 1e-9)
         # The arc's image about the X axis where it is clockwise: its ends relative to the centre.
         way = -1 if clockwise else 1
@@ -142,7 +142,7 @@ class IsoPunch(Punch):
             (dx - to_centre[0], way * (dy - to_centre[1])),
             sweep,
         )
-        if turns is None or (sweep <= real.mp.PI and chord * chord <= 4 * square):
+        if turns is None or (sweep <= real.mp.pi and chord * chord <= 4 * square):
             self._line(last)
         else:
             self._arc(last, to_centre, clockwise)
