@@ -458,3 +458,17 @@ def test_any_text(text: str) -> None:
     except UserError:
         return
     assert all(not finding.is_fatal for finding in findings)
+
+
+@pytest.mark.parametrize(("arc", "length"), [
+    ("G3X16.522Y28.3337I0.4391J0.7856", 0),
+    ("G2X16.522Y28.3337I0.4391J0.7856", 3600),
+    ("G2X16.5217Y28.3339I-0.4391J-0.7856", 0),
+    ("G3X16.5215Y28.334I0.4391J0.7856", 3600),
+    ("G3X16.522Y28.3337R0.9", 0),
+])  # fmt: skip
+def test_an_arc_shorter_than_a_micrometre_is_no_circle(arc: str, length: int) -> None:
+    """Its ends are one place when rounded; a control goes the short way, or almost all round."""
+    tape = gcode_reader.read(f"G21G90F100\nG0X15.8Y28.8\nG1X16.5215Y28.334\n{arc}\nG1X20Y27\nM2\n").tape()
+    assert [block.j for block in tape.blocks if not block.is_line] == ([length] if length else [])
+    assert sum(block.is_line for block in tape.blocks) == 2

@@ -340,9 +340,20 @@ class _Reader:
                 to = (start[0] + round(place), start[1]) if self.plane == 18 else (start[0], start[1] + round(place))
                 self.straight(at, to, cuts)
                 at = to
-        else:
+        elif not self.is_no_way(values, goal):
             self.arc(start, end, self.to_centre(values, "XY", minus(end, start), column), column, cuts)
         self.at, self.spot = goal, end
+
+    def is_no_way(self, values: dict[str, Word], goal: tuple[Decimal, Decimal]) -> bool:
+        """Whether an arc ends less than 1 µm ahead of where it begins: rounded it would be a full circle."""
+        x, y = (float(to - here) for to, here in zip(goal, self.at, strict=True))
+        if (x, y) == (0, 0) or _rounded(goal) != self.spot:
+            return False
+        if "R" in values:
+            return self.value(values, "R", Decimal(0)) > 0
+        to_centre = [float(self.value(values, letter, Decimal(0))) for letter in _CENTRES["XY"]]
+        ahead = y * to_centre[0] - x * to_centre[1]
+        return (ahead < 0) == (self.motion == 3) and abs(ahead) > LEAST_SWEEP * (to_centre[0] ** 2 + to_centre[1] ** 2)
 
     def look_for_feed(self, column: int) -> None:
         """Say, once, that there has been no F."""
