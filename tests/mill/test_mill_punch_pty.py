@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from grblhelp import GREETING, OK, ROMS, ROOT, SKG80, driven
+from playedhelp import always
 
 from skg.ref import mill
 
@@ -23,10 +24,6 @@ def part(tmp_path: Path) -> Path:
     path = tmp_path / "part.skg"
     path.write_text(PART)
     return path
-
-
-def always(_block: str, _number: int) -> bytes:
-    return OK
 
 
 # The line itself, with the ROM that waits for nobody ------------------------------------------------------------------

@@ -101,6 +101,7 @@ def test_third_order_convergence() -> None:
 def test_the_curve_is_smooth_with_and_without_offset() -> None:
     for before in ((), ("R=0.1",), ("R=-2",)):
         segments = ellipse(12, *before)
+        assert len(segments) > 12
         for s, t in zip(segments, segments[1:], strict=False):
             assert (s.end - t.start).length() < 1e-40
             assert abs(heading(s, s.end).cross(heading(t, t.start))) < 1e-30

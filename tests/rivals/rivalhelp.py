@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
+from math import hypot
 from pathlib import Path
 
 from compare import compare
@@ -18,6 +19,7 @@ from skg.rivals.languages import RivalFault
 
 ROOT = Path(__file__).parents[2]
 Translate = Callable[[str], str]
+XY = tuple[float, float]
 #: mm: the program's own numbers have 14 decimals.
 EXACT = 1e-10
 
@@ -60,6 +62,11 @@ def gap(e: Point | Circle | Line, new: Circle | Line) -> float:
     if isinstance(e, Line):
         return abs(float(e.distance(new.centre) + new.r))
     return abs(float((e.centre - new.centre).length() - abs(e.r - new.r)))
+
+
+def apart(p: XY, q: XY) -> float:
+    """How far apart two places are."""
+    return hypot(p[0] - q[0], p[1] - q[1])
 
 
 def number(rng: random.Random, low: int, high: int) -> str:

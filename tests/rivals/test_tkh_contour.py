@@ -13,17 +13,10 @@ from math import atan2, cos, hypot, pi, sin
 
 import pytest
 from compare import compare
-from rivalhelp import cut_small_numbers
+from rivalhelp import XY, apart, cut_small_numbers
 from tkhhelp import cut, fault
 
 from skg.rivals.tekhtran import translate
-
-XY = tuple[float, float]
-
-
-def apart(p: XY, q: XY) -> float:
-    return hypot(p[0] - q[0], p[1] - q[1])
-
 
 # The independent construction --------------------------------------------------------------------------------------
 

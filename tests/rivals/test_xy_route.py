@@ -11,11 +11,10 @@ from math import asin, atan2, cos, hypot, pi, sin
 
 import pytest
 from compare import compare
-from rivalhelp import cut, cut_small_numbers
+from rivalhelp import XY, apart, cut, cut_small_numbers
 
 from skg.rivals.xy import translate
 
-XY = tuple[float, float]
 #: x, y, signed radius (0: a pin).
 Hanger = tuple[float, float, float]
 
@@ -89,10 +88,6 @@ def path(text: str) -> tuple[list[XY], XY]:
     segments = [s for s in found if s.role in ("cut", "fillet")]
     found = [(float(s.start.x), float(s.start.y)) for s in segments]
     return found, found[0]
-
-
-def apart(p: XY, q: XY) -> float:
-    return hypot(p[0] - q[0], p[1] - q[1])
 
 
 #: Blocks that the test of random belts compares at least, in all.

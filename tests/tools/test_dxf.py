@@ -397,6 +397,7 @@ def test_circles_of_a_few_micrometres(block: str) -> None:
     tape = tapes.parse(f"{block}\r\n{block}\r\nDD\r\n".encode())
     for drift in (False, True):
         placed = [placed for route in estimate(tape, (0, 0), drift) for placed in route.blocks]
+        assert len(placed) == 2
         assert all(abs(ordinate) < 10 for one in placed for ordinate in (*one.start, *one.end, *one.centre))
 
 

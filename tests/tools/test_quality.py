@@ -34,7 +34,9 @@ parts = pytest.mark.parametrize("part", PARTS, ids=lambda part: part.stem)
 
 @cache
 def runs(part: Path) -> list[Run]:
-    return fitted_runs(part.read_text())
+    found = fitted_runs(part.read_text())
+    assert found, "no curve was fitted"
+    return found
 
 
 def curves(part: Path) -> list[list[Node]]:
