@@ -9,8 +9,9 @@ import pytest
 
 from skg.drawing import plain
 from skg.drawing.account import Content
-from skg.drawing.dxf_file import DxfFile, Group, Record
+from skg.drawing.dxf_file import DxfFile
 from skg.drawing.entities import collect
+from skg.drawing.record import Group, Record
 from skg.drawing.wishes import Wishes
 
 ENTITY, PLACE, OTHER = [(5, "1F"), (330, "A"), (100, "AcDbEntity")], [(10, "1.5"), (20, "-2")], [(11, "4"), (21, "7e0")]

@@ -25,8 +25,8 @@ from ezdxf.math import OCS, BSpline, Matrix44, Vec3
 from ezdxf.tools.codepage import toencoding
 
 from skg.drawing.contour import Edge
-from skg.drawing.dxf_file import Group, Record
 from skg.drawing.placing import LEVEL, NotFlat, Placing, swept
+from skg.drawing.record import Group, Record
 from skg.drawing.shapes import spline_edges
 
 __all__ = ["binary_groups", "edges", "encoding", "entity", "is_through_places", "placed", "start"]

@@ -12,12 +12,10 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+from skg.drawing.record import Group, Record
 from skg.errors import UserError
 from skg.kinds import kind_of
-from skg.plane import XY
 
-#: A group: its code and its value as text.
-Group = tuple[int, str]
 #: $INSUNITS -> the name of the units, and mm in one.
 UNITS = {
     1: ("inch", 25.4), 2: ("foot", 304.8), 3: ("mile", 1_609_344.0), 4: ("mm", 1.0), 5: ("cm", 10.0), 6: ("m", 1000.0),
@@ -33,45 +31,6 @@ _COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
 _PARTS = ("VERTEX", "ATTRIB", "SEQEND")
 #: Where a block definition tells that its content is in another file.
 _EXTERNAL = 4 | 8 | 16
-
-
-class Record:
-    """An entity as it stands in the file, with those that follow it as its parts. `kind`: its name, such as LINE."""
-
-    __slots__ = ("groups", "parts", "kind", "first")
-
-    def __init__(self, groups: list[Group]) -> None:
-        self.groups = groups
-        self.parts: list[Record] = []
-        self.kind = groups[0][1].strip().upper()
-        self.first = dict(reversed(groups))
-
-    def value(self, code: int, default: str = "") -> str:
-        """The first value with a code."""
-        return self.first.get(code, default)
-
-    def whole(self, code: int) -> int:
-        """The first value with a code as a whole number, 0 when there is none."""
-        try:
-            return int(float(self.value(code, "0")))
-        except (ValueError, OverflowError):
-            return 0
-
-    @property
-    def layer(self) -> str:
-        """The name of its layer."""
-        return self.value(8).strip() or "0"
-
-    @property
-    def place(self) -> XY:
-        """The first place that it tells, as it stands there."""
-        if self.kind == "POLYLINE" and self.parts:
-            # (its own place is no more than a height)
-            return self.parts[0].place
-        try:
-            return float(self.value(10, "0")), float(self.value(20, "0"))
-        except ValueError:
-            return 0.0, 0.0
 
 
 @dataclass

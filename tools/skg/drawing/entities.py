@@ -16,8 +16,9 @@ import shapely
 from skg.drawing import plain
 from skg.drawing.account import Content, Entity, said
 from skg.drawing.contour import Edge
-from skg.drawing.dxf_file import Definition, DxfFile, Record
+from skg.drawing.dxf_file import Definition, DxfFile
 from skg.drawing.placing import NotFlat, Placing, is_full, swept
+from skg.drawing.record import Record
 from skg.drawing.shapes import is_number
 from skg.drawing.wishes import Wishes
 from skg.errors import UserError

@@ -10,7 +10,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import NamedTuple
 
-from skg.drawing.dxf_file import Record
+from skg.drawing.record import Record
 
 #: What a record has besides its numbers: handle and owner (before its subclasses alone), layer and line type; colours
 #: and weight, whole numbers.
