@@ -142,6 +142,8 @@ def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
     """The numbers of the passes that follow each other without a stop; -1: all of them in one cut."""
     if not route.contour.is_closed:
         return [(-1,)]
+    if len(route.passes) == 1 and not route.tab:
+        return [(0,)]
     found: list[tuple[int, ...]] = []
     for at, run in enumerate(route.runs()):
         if not found or run.stop:

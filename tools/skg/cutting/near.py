@@ -207,7 +207,8 @@ class Pieces:
 
 
 class _Grid:
-    """Pieces laid out on square cells: `which` pieces stand in the cells `keys`, in the order of these."""
+    """Pieces laid out on square cells: `which` pieces stand in the cells `keys`, in the order of these; those of each
+    cell from where it `begins` on, up to where the next one does."""
 
     def __init__(self, pieces: Pieces, cell: float) -> None:
         self.cell = cell
@@ -217,18 +218,21 @@ class _Grid:
         self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - beside
         #: So many rows, no piece is in the last one.
         self.width = int(self._cells(np.maximum(pieces.start.max(0), pieces.end.max(0)) + beside)[1]) + 2
+        # (a path may have millions of pieces: their numbers take half the room, and what is done with goes at once)
         found = []
         for which, part in pieces.batches(2 * self.apart, 1):
             column, row = self._cells(pieces.at(which, part))
-            found.append(_once(which, column * self.width + row))
-        which, keys = (np.concatenate(column) for column in zip(*found, strict=True))
+            found.append(_once(column * self.width + row, which.astype(np.int32)))
+        keys, which = (np.concatenate(column) for column in zip(*found, strict=True))
         found.clear()
-        order = np.lexsort((which, keys))
-        # (a path may have millions of pieces: what is done with goes at once)
+        # (the pieces come in the order of their numbers, and stay so in each cell)
+        order = np.argsort(keys, kind="stable")
         keys = keys[order]
         which = which[order]
         del order
-        self.keys, self.which = _once(keys, which)
+        keys, self.which = _once(keys, which)
+        begins = np.flatnonzero(np.diff(keys, prepend=-1))
+        self.keys, self.begins = keys[begins], np.append(begins, len(keys))
 
     def _cells(self, places: Floats) -> Whole:
         return np.floor((places - self.corner) / self.cell).astype(np.int64).T
@@ -242,13 +246,13 @@ class _Grid:
         columns = np.where(top >= bottom, np.maximum(high - low + 1, 0), 0)
         place = np.repeat(np.arange(len(places)), columns)
         column = low[place] + numbers_up_to(columns)
-        first = np.searchsorted(self.keys, column * self.width + bottom[place])
-        counts = np.searchsorted(self.keys, column * self.width + top[place], "right") - first
+        first = self.begins[np.searchsorted(self.keys, column * self.width + bottom[place])]
+        counts = self.begins[np.searchsorted(self.keys, column * self.width + top[place], "right")] - first
         return place, first, counts
 
     def pieces(self, first: Whole, counts: Whole) -> Whole:
         """The pieces that stand there."""
-        return self.which[np.repeat(first, counts) + numbers_up_to(counts)]
+        return self.which[np.repeat(first, counts) + numbers_up_to(counts)].astype(np.int64)
 
 
 #: Pieces that follow each other: starts, ends, whose they are; centre, radius, first angle and sweep, None of chords.

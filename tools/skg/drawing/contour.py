@@ -18,7 +18,7 @@ Places = NDArray[np.float64]
 _NONE: Places = np.empty((0, 2))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class CurveNode:
     """A point of a curve and the direction angle of the tangent there, radians."""
 
@@ -135,7 +135,7 @@ def part_of(edge: Edge, first: float, last: float) -> Edge:
     """A line's or an arc's piece between two parts of its length."""
     start = edge.start if first == 0 else edge.at(first)
     end = edge.end if last == 1 else edge.at(last)
-    return replace(edge, start=start, end=end, sweep=edge.sweep * (last - first))
+    return Edge(start, end, edge.centre, edge.sweep * (last - first), entity=edge.entity)
 
 
 @dataclass(frozen=True)

@@ -281,8 +281,10 @@ def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
 
 def _is_wide(record: Record) -> bool:
     """Whether a polyline is drawn with a width."""
-    widths = [value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43)]
-    return record.kind in ("POLYLINE", "LWPOLYLINE") and any(width.strip(" 0.+-eE") for width in widths)
+    if record.kind not in ("POLYLINE", "LWPOLYLINE"):
+        return False
+    widths = (value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43))
+    return any(width.strip(" 0.+-eE") for width in widths)
 
 
 def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from math import inf
 from typing import NamedTuple
@@ -89,7 +89,7 @@ def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]
     """
     if not tab and len(contour.edges) == 1 and contour.edges[0].is_circle:
         # (there is nothing to choose from)
-        yield from _on_edges(contour, [0], tab)
+        yield from _on_edges(contour, [(0, contour.edges[0].length)], tab)
         return
     if contour.copies > 1 and not tab:
         yield EntryAt(0)
@@ -102,10 +102,10 @@ def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]
     # (a short edge may not be there any more beside the contour)
     sure = [at for at in fitting if lengths[at] > _SURE * widest]
     unsure = [at for at in fitting if lengths[at] <= _SURE * widest]
-    yield from _on_edges(contour, sure[:_TRIED], tab)
+    yield from _on_edges(contour, [(at, lengths[at]) for at in sure[:_TRIED]], tab)
     if any(edge.nodes and length > _ROOM * tab for edge, length in zip(contour.edges, lengths, strict=True)):
         yield from _entries_on_curve(contour)
-    yield from _on_edges(contour, unsure[:_TRIED], tab)
+    yield from _on_edges(contour, [(at, lengths[at]) for at in unsure[:_TRIED]], tab)
     if not fitting and is_long(contour, tab):
         for at in ranked[:_TRIED]:
             yield EntryAt(at, 0.5)
@@ -113,12 +113,12 @@ def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]
             yield from _entries_on_curve(contour)
 
 
-def _on_edges(contour: Contour, edges: list[int], tab: float) -> Iterator[EntryAt]:
-    """Entries in the middle of edges and aside from it, behind a tab."""
-    for at in edges:
-        edge = contour.edges[at]
-        aside = tab / 2 / edge.length if tab else 0.0
-        for part in (0.0, 0.25, 0.5, 0.75) if edge.is_circle else (0.5, 0.3, 0.7):
+def _on_edges(contour: Contour, edges: Iterable[tuple[int, float]], tab: float) -> Iterator[EntryAt]:
+    """Entries in the middle of edges, given by their numbers and lengths, and aside from it, behind a tab."""
+    for at, length in edges:
+        is_circle = contour.edges[at].is_circle
+        aside = tab / 2 / length if tab else 0.0
+        for part in (0.0, 0.25, 0.5, 0.75) if is_circle else (0.5, 0.3, 0.7):
             part += aside
-            if edge.is_circle or part - 2 * aside > 0.05 and part < 0.95:
+            if is_circle or part - 2 * aside > 0.05 and part < 0.95:
                 yield EntryAt(at, part % 1)

@@ -29,6 +29,10 @@ _TANGENT = 1e-5
 _FILLET_MISS = 1e-5
 
 
+#: What edges are, in the order in which a title has them.
+_KINDS = ("LINE", "ARC", "CIRCLE", "CURVE")
+
+
 def number(value: float) -> str:
     """Write a number as a program has it: at most six decimals, no needless zeros."""
     text = f"{value:.6f}".rstrip("0").rstrip(".")
@@ -344,16 +348,20 @@ def _title(at: int, route: PlannedContour) -> str:
     return f"{at + 1}. {describe(route)}"
 
 
+def _kind(edge: Edge) -> str:
+    """What an edge is."""
+    if edge.nodes:
+        return "CURVE"
+    if edge.centre is None:
+        return "LINE"
+    return "CIRCLE" if edge.is_circle else "ARC"
+
+
 def describe(route: PlannedContour) -> str:
     """Say what a contour is made of."""
     contour = route.contour
-    kinds = [
-        ("LINE", sum(edge.is_line for edge in contour.edges)),
-        ("ARC", sum(edge.centre is not None and not edge.is_circle for edge in contour.edges)),
-        ("CIRCLE", sum(edge.is_circle for edge in contour.edges)),
-        ("CURVE", sum(bool(edge.nodes) for edge in contour.edges)),
-    ]
-    parts = ", ".join(_count(count, noun) for noun, count in kinds if count)
+    kinds = Counter(map(_kind, contour.edges))
+    parts = ", ".join(_count(kinds[noun], noun) for noun in _KINDS if noun in kinds)
     if not contour.is_closed:
         return f"OPEN: {parts}"
     way = "COUNTER-CLOCKWISE" if contour.area > 0 else "CLOCKWISE"
