@@ -272,6 +272,30 @@ def test_variables_and_the_present_colour(style: str, is_seen: bool) -> None:
     assert (WHERE in boxes(reading_of(page(content)))) == is_seen
 
 
+@pytest.mark.parametrize(
+    ("fill", "is_seen"),
+    [
+        ("url(#No)", False),
+        ("url('#no') none", False),
+        ("url(#no) red", True),
+        ("url(#Ink)", True),
+        ("url( #g )", False),
+    ],
+)
+def test_an_area_of_a_gradient_that_is_not_there_is_left(fill: str, is_seen: bool) -> None:
+    defs = '<defs><linearGradient id="Ink"><stop stop-color="red"/></linearGradient><g id="g"/></defs>'
+    reading = reading_of(page(f'{defs}{PART}<circle cx="70" cy="50" r="20" fill="{fill}"/>'))
+    assert len(reading.contours) == 1 + is_seen
+    assert left(reading) == ({} if is_seen else {"drawn with neither line nor area": 1})
+
+
+def test_animations_are_said() -> None:
+    moving = '<g><animateTransform attributeName="transform" type="scale" to="2"/>%s</g><set href="#a" to="1"/>'
+    reading = reading_of(page(moving % PART))
+    assert boxes(reading) == [WHERE]
+    assert reading.report.notes == ["2 animations: passed over, all is cut as it stands without"]
+
+
 def test_parts_of_a_page_without_a_size_are_left() -> None:
     content = '<rect width="50%" height="9"/><svg viewBox="0 0 1 1"><rect width="1" height="1"/></svg>' + PART
     reading = checked(page(content, ""), units="mm")

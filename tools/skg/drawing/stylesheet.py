@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
@@ -16,11 +17,13 @@ _PROPERTIES = (
 )  # fmt: skip
 #: Lengths of an element's form, which may be told as properties, too; they are not handed down.
 _GEOMETRY = frozenset(("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "d"))
-#: Colours that are not seen (the fourth of a colour's numbers is 0), and parts of one that are nothing.
+#: Colours that are not seen (the fourth of a colour's numbers is 0), a gradient or a pattern by its id with the colour
+#: where it is not there, and parts of a colour that are nothing.
 _CLEAR = re.compile(
     r"none|transparent|#[0-9a-f]{3}0|#[0-9a-f]{6}00"
     r"|(?:rgba?|hsla?)\((?:(?:[^,]*,){3}|[^/]*/)\s*(?:0+\.?0*|\.0+)(?:e[+-]?\d+)?%?\s*\)"
 )
+_PAINT = re.compile(r"url\(\s*[\"']?#([^\"')]*)[\"']?\s*\)\s*(.*)")
 _NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
 #: What stands for a value that is told elsewhere, with that where it is told nowhere.
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,((?:[^()]|\([^()]*\))*))?\)")
@@ -85,9 +88,13 @@ class Style:
 
 
 class StyleSheet:
-    """The rules of a drawing's style sheets: those whose selectors are names, classes, ids and what these stand in."""
+    """The rules of a drawing's style sheets: those whose selectors are names, classes, ids and what these stand in.
 
-    def __init__(self, text: str) -> None:
+    `paints`: the ids of the drawing's gradients and patterns.
+    """
+
+    def __init__(self, text: str, paints: Iterable[str] = ()) -> None:
+        self.paints = {name.lower() for name in paints}
         #: Weight, selector (parts from the outside in, ">" where one stands right in the one before), declarations.
         self.rules: list[tuple[tuple[int, int, int, int], list[str], _Declared]] = []
         #: Selectors and conditions of rules that would show something otherwise, but are not understood.
@@ -118,6 +125,11 @@ class StyleSheet:
             self.missed.append(f"@{rule[1]} {rule[2].strip()}")
         return ""
 
+    def _colour(self, told: str) -> str:
+        """A colour in small letters; of a gradient that is not in the drawing the one in its place, or none."""
+        paint = _PAINT.fullmatch(told.lower())
+        return (paint[2] or "none") if paint and paint[1] not in self.paints else told.lower()
+
     def style(self, element: Element, around: tuple[Element, ...], outer: Style) -> Style:
         """How an element is drawn; `around`: those that it stands in, `outer`: how the last of these is drawn."""
         elements = (*around, element)
@@ -137,8 +149,8 @@ class StyleSheet:
         width = re.match(r"[\d.]+(?:e-?\d+)?", told.get("stroke-width", ""))
         return replace(
             outer,
-            fill=told.get("fill", outer.fill).lower(),
-            stroke=told.get("stroke", outer.stroke).lower(),
+            fill=self._colour(told.get("fill", outer.fill)),
+            stroke=self._colour(told.get("stroke", outer.stroke)),
             color=told.get("color", outer.color).lower(),
             stroke_width=float(width[0]) if width else outer.stroke_width,
             is_fill_clear=_is_nothing(told.get("fill-opacity"), outer.is_fill_clear),

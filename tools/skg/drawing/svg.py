@@ -226,6 +226,8 @@ class _SvgCollector:
         """What of the page as a whole is passed over."""
         if self.file.style.transform:
             yield f"the page itself is transformed ({self.file.style.transform}): passed over"
+        if self.file.animations:
+            yield f"{counted(self.file.animations, 'animation')}: passed over, all is cut as it stands without"
         for name in self.file.elsewhere:
             yield f"the style sheet {name} is in another file: passed over"
         if missed := self.file.sheet.missed:

@@ -26,6 +26,9 @@ SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
 NOTES = {"text": "text, convert it to paths", "image": "a picture", "foreignObject": "not SVG", "flowRoot": "text"}
 #: What holds others; what stands in anything else is drawn where it is used, or not at all.
 _GROUPS = ("g", "a", "svg", "switch")
+#: What a line or an area may be filled with, and what moves or changes others.
+_PAINTS = ("linearGradient", "radialGradient", "meshgradient", "pattern", "hatch", "solidcolor")
+_ANIMATIONS = ("animate", "animateTransform", "animateMotion", "animateColor", "set")
 _LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 _MODE = "{http://www.inkscape.org/namespaces/inkscape}groupmode"
 _LINK = "{http://www.w3.org/1999/xlink}href"
@@ -92,7 +95,7 @@ class Drawn:
 
 class SvgFile:
     """What an SVG file holds. `units`: the name of the page's units and mm in one, None when it does not tell; then
-    `guess` is mm in a pixel, and `guessed` says where that comes from."""
+    `guess` is mm in a pixel, and `guessed` says where that comes from. `animations`: how many there are, of whatever."""
 
     def __init__(self, data: bytes) -> None:
         try:
@@ -109,8 +112,10 @@ class SvgFile:
             self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
         self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
         self.sheet = StyleSheet(
-            "".join(element.text or "" for element in self.root.iter() if tag_of(element) == "style")
+            "".join(element.text or "" for element in self.root.iter() if tag_of(element) == "style"),
+            (name for name, element in self.ids.items() if tag_of(element) in _PAINTS),
         )
+        self.animations = sum(tag_of(element) in _ANIMATIONS for element in self.root.iter())
         self.elsewhere = _elsewhere(data, self.sheet)
         box = _view_box(self.root)
         self.style = self.sheet.style(self.root, (), Style())
