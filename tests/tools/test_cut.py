@@ -453,6 +453,25 @@ def test_what_is_left_out_of_a_drawing_that_says_metres(run: Run, tmp_path: Path
     assert "take care, left out: opening from (20" in told and "1 outline; 1 start hole" in told, told
 
 
+@pytest.mark.parametrize(
+    ("side", "said"),
+    [
+        ("auto", []),
+        ("outside", ["outside of 1 opening (contour 1), as --side says: 0.4 mm wider than drawn"]),
+        ("inside", ["inside of 1 outline (contour 2), as --side says: 0.4 mm smaller than drawn"]),
+        ("on", []),
+    ],
+)
+def test_the_other_side_of_a_part_is_said(run: Run, tmp_path: Path, side: str, said: list[str]) -> None:
+    page = drawing()
+    polygon([(0, 0), (20, 0), (20, 10), (0, 10)], page)
+    page.modelspace().add_circle((10, 5), 3)
+    path = saved(page, tmp_path)
+    words = ["--offset", 0.2, "--side", side, "--quiet"]
+    report = run("cut", path, "-o", tmp_path / "a.3b", *words).stderr
+    assert report.splitlines() == [f"take care: the wire runs {text}" for text in said]
+
+
 @pytest.mark.parametrize(("offset", "step"), [(0.1, 0.02), (0.1, 0.05), (0.2, 0.05), (2, 1)])
 def test_nothing_is_left_beside_a_step(run: Run, tmp_path: Path, offset: float, step: float) -> None:
     """Beside a step lower than R the wire comes nearer to the corner than where the edges' parallels meet."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 
 from skg.cutting.check import LIMIT, Threading
 from skg.cutting.job import Job
@@ -76,11 +77,26 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
                 f"take care: {counted(len(outer), 'part')} free after the first pass "
                 f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
             )
+    lines += _sides(routes)
     if on:
         lines.append(
             f"take care: the wire's middle runs on {counted(on, 'open contour')}, no side of them is the part's"
         )
     return lines
+
+
+def _sides(routes: list[PlannedContour]) -> Iterator[str]:
+    """Contours that the wire runs beside on the side that --side says, not on that of a part with openings."""
+    closed = [(at + 1, route) for at, route in enumerate(routes) if route.contour.is_closed and any(route.passes)]
+    for is_opening, what in ((True, "outside of {}: wider"), (False, "inside of {}: smaller")):
+        some = [at for at, one in closed if one.is_opening is is_opening is one.is_outside]
+        if some and any(one.depth for _, one in closed):
+            wide = short(2 * abs(closed[0][1].passes[-1]))
+            where, than = what.format(counted(len(some), "opening" if is_opening else "outline")).split(": ")
+            yield (
+                f"take care: the wire runs {where} (contour {', '.join(map(str, some[:_PLACES]))}"
+                f"{' …' * (len(some) > _PLACES)}), as --side says: {wide} mm {than} than drawn"
+            )
 
 
 def _corners(routes: list[PlannedContour], factor: float) -> list[str]:

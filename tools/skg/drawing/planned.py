@@ -125,6 +125,11 @@ class PlannedContour:
         """Whether it is cut from inside: what falls out is the slug."""
         return self.contour.is_closed and self.depth % 2 == 1
 
+    @property
+    def is_outside(self) -> bool:
+        """Whether the wire runs outside of it, with an R that is not 0."""
+        return (self.contour.area > 0) == (self.offset > 0)
+
     @cached_property
     def chain(self) -> tuple[Edge, ...]:
         """The edges from the entry on; a closed contour's come back to it."""

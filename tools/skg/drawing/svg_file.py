@@ -95,7 +95,7 @@ class Drawn:
 
 class SvgFile:
     """What an SVG file holds. `units`: the name of the page's units and mm in one, None when it does not tell; then
-    `guess` is mm in a pixel, and `guessed` says where that comes from. `animations`: how many there are, of whatever."""
+    `guess` is mm in a pixel, and `guessed` says where that comes from. `animations`: how many there are."""
 
     def __init__(self, data: bytes) -> None:
         try:
