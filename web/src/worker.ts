@@ -31,6 +31,8 @@ const BAUD = 110;
 const SLICE = 2_000_000;
 const UNSEEN = 6;
 const TICK = 15;
+/** ms without a prompt, and with nothing left to type, from which on a program runs; no line takes so long to store. */
+const RUNS = 400;
 const CTRL_C = 3;
 
 let board: Board;
@@ -40,6 +42,10 @@ let state: State = "busy";
 let asleep = true;
 let unseen = 0;
 let kept: Uint8Array = new Uint8Array(0);
+let keptProgram = "";
+/** When it was last at its prompt or had something left to type; whether the program that runs since has been looked at. */
+let quiet = 0;
+let looked = false;
 /** What is to be done at the next prompts, unless there is an ERR on the way. */
 let script: (() => void)[] = [];
 let errors = "";
@@ -82,6 +88,7 @@ function turn(): void {
   const punched = board.takePunched();
   if (paper || punched.length || state !== "busy") report(paper, punched);
   if (state === "prompt") atPrompt();
+  else if (state !== "halt") inRun(now);
   if (state === "busy" || !board.idle) schedule();
   else asleep = true;
 }
@@ -100,7 +107,8 @@ function stateOf(reason: Reason): State {
 
 function atPrompt(): void {
   if (!broken && /(^|\n)ERR \d\d/.test(errors)) script = [];
-  broken = isStarting = false;
+  broken = isStarting = looked = false;
+  quiet = performance.now();
   const next = script.shift();
   if (next) {
     errors = "";
@@ -114,8 +122,26 @@ function atPrompt(): void {
 function remember(): void {
   const ram = board.save();
   if (ram.length === kept.length && ram.every((byte, at) => byte === kept[at])) return;
+  keep(ram, board.list(ram));
+}
+
+function keep(ram: Uint8Array, program: string): void {
   kept = ram;
-  tell({ kind: "memory", ram, program: board.list(ram), rom });
+  keptProgram = program;
+  tell({ kind: "memory", ram, program, rom });
+}
+
+/** A program that was typed and RUN in one go is in no memory that the page was told: it is told that while it runs. */
+function inRun(now: number): void {
+  if (!board.idle) {
+    quiet = now;
+    looked = false;
+  } else if (!looked && !isStarting && (state !== "busy" || now - quiet > RUNS)) {
+    looked = true;
+    const ram = board.save();
+    const program = board.list(ram);
+    if (program !== keptProgram) keep(ram, program);
+  }
 }
 
 /** Carries out a script from the next prompt on: now, when the board stands at one; else what runs is broken off. */

@@ -362,6 +362,29 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await other.context.close();
   });
 
+  test("reload while a program runs, or asks, that was pasted with its RUN: it is there again", async () => {
+    const { page, context, said } = await visit();
+    for (const program of ["10 I=0\n20 I=I+1\n30 GOTO 20\n", "10 INPUT D\n20 PRINT D\n30 END\n"]) {
+      await prompt(page);
+      await page.click("#terminal");
+      await page.evaluate((text) => {
+        const data = new DataTransfer();
+        data.setData("text/plain", text);
+        document.querySelector(".xterm-helper-textarea")?.dispatchEvent(
+          new ClipboardEvent("paste", { clipboardData: data, bubbles: true, cancelable: true }));
+      }, `NEW\n${program}RUN\n`);
+      const there = () => page.waitForFunction((wanted) =>
+        [...document.querySelectorAll("#lines [role=option]")].map((line) => `${line.textContent}\n`).join("") === wanted, program);
+      await there();
+      await page.waitForFunction(() => document.getElementById("state")?.textContent !== "at its prompt");
+      await page.reload();
+      await page.waitForSelector("body[data-ready]");
+      await there();
+    }
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
   test("links: one made here, one cut short, a part's; what was there can be put back; the form for other pages", async () => {
     const { page, context } = await visit({ permissions: ["clipboard-read", "clipboard-write"] });
     await runPart(page, "ratchet");
