@@ -229,6 +229,8 @@ IDLE = {
     # A fan beside a spindle is a fan; a spindle that nothing turns on, or that nobody has cut without, is none.
     "M3\nM107\nG1 X1 F100\nM106\nX2\nM2": ("B1000B0B1000GXL1 B1000B0B1000GXL1 DD", "", ""),
     "M5\nG1 X1 F100\nM107\nX2\nM2": ("B1000B0B1000GXL1 B1000B0B1000GXL1 DD", "", ""),
+    "M62 P0\nG1 X1 F100\nM63 P0\nX2\nM64 P0\nX3\nM65 P0\nM2":
+        ("B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD", "1 of 3", "M63 or M65"),
     # Pens and cutters: G1 where the rapids are; a way up cuts; up and down without any rapid.
     "G0 X1 Z5\nG1 Z0 F100\nX2\nX3 Z5\nX4\nZ0\nX5\nM2":
         ("B1000B0B1000GXL1 B1000B0B1000GXL1 D B1000B0B1000GXL1 D B1000B0B1000GXL1 DD", "1 of 4", "up, Z5"),
@@ -435,6 +437,18 @@ def test_a_pen_of_which_nobody_knows_when_it_is_up(up: str, down: str, said: str
     text = "G21 G90 F5\n" + "".join(f"{up}\nG1 X{n}\n{down}\nG1 Y{n}\n" for n in range(1, 5)) + "M5\nM2"
     notes = " ".join(gcode_reader.read(text).notes)
     assert ("lifts a pen" in notes) == bool(said) and said in notes
+
+
+@pytest.mark.parametrize("text", [
+    "M3 S9\nM62 P0\nG1 X1 F100\nM63 P0\nX2\nM5",
+    "M64 P1\nM62 P0\nG1 X1 F100\nM63 P0\nM65 P1\nX2",
+])  # fmt: skip
+def test_an_output_of_which_nobody_knows_what_it_is(text: str) -> None:
+    """Beside a spindle, or beside other outputs, it may be a coolant as well."""
+    program = gcode_reader.read(f"G21 G90\n{text}\nM2")
+    assert tapes.to_bytes(program.tape().items).decode().split() == ["B1000B0B1000GXL1"] * 2 + ["DD"]
+    said = "M62 to M65 switch outputs, on in 1 of 2 moves with G1 to G3: if one of them is a beam"
+    assert [note.startswith(said) for note in program.notes] == [True]
 
 
 def test_a_line_takes_little_room() -> None:

@@ -16,7 +16,7 @@ from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
 from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
-from skg.tape.gcode_tool import TURNS, Idle, Tool
+from skg.tape.gcode_tool import OUTPUTS, TURNS, Idle, Tool
 from skg.tape.gcode_upright import AXES, PLANES, SeenFromAbove, seen_from_above
 from skg.tape.gcode_words import SPACE, Misread, Word, words
 
@@ -200,6 +200,8 @@ class _Reader:
                 is_board |= (word.number >= _BOARDS or word.number in _BOARD) and not (codes or values)
             elif letter == "S":
                 power = word.number
+            elif letter == "P" and OUTPUTS.intersection(turns):
+                self.tool.outputs.add(word.number)
             elif letter == "Q" and (_BLEND in codes or self.motion in _CYCLES):
                 pass
             elif letter not in _SILENT and not (letter in _OTHERS and not word.number):

@@ -12,9 +12,9 @@ from decimal import Decimal
 from skg.tape.gcode_program import several
 
 #: What turns a beam (or spindle) off, for people, and the M words that turn it on and off: those of controls; those of
-#: a fan's output and of any pin, to which small lasers are connected on boards for printers.
-_BEAM, _FAN, _PIN = "M5 or S0", "M107 or S0", "M42 S0"
-_SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set())}
+#: a fan's output and of any pin, to which small lasers are connected on boards for printers; LinuxCNC's outputs.
+_BEAM, _FAN, _PIN, _OUTPUT = "M5 or S0", "M107 or S0", "M42 S0", "M63 or M65"
+_SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set()), _OUTPUT: ({62, 64}, {63, 65})}
 #: M words of which a line has one at most.
 TURNS = set.union(*_SWITCHES[_BEAM])
 #: An S in a line with an M word that is none of these is that word's.
@@ -23,6 +23,8 @@ _PLAIN = {*range(10), 30, 48, 49}
 _TURN = Decimal(3)
 #: M words that turn a servo, to a place that is their S.
 _SERVOS = {280, 300}
+#: M words whose P names an output.
+OUTPUTS = set.union(*_SWITCHES[_OUTPUT])
 #: A pen's two S, both not 0, are told from two powers of a laser by how often they change.
 _CHANGES = 3
 
@@ -46,6 +48,8 @@ class Tool:
         self.turned_on: dict[str, int] = {}
         self.is_on = dict.fromkeys(_SWITCHES, False)
         self.dark = dict.fromkeys(_SWITCHES, 0)
+        # Which of LinuxCNC's outputs are switched: with several it is not known which one is a beam's.
+        self.outputs: set[Decimal] = set()
         # What may lift a pen: the S of a servo's M word, or else that of M3 and M4; how often it changes between moves.
         self.servo: tuple[Decimal, Decimal] | None = None
         self.lifts: dict[tuple[Decimal, Decimal | None], None] = {}
@@ -106,6 +110,8 @@ class Tool:
         without rapids in the plane the upper one of two heights, above 0, when it goes up and down between them.
         """
         beam = next((name for name in self.is_on if name in self.turned_on), "")
+        if beam == _OUTPUT and len(self.outputs) > 1:
+            beam = ""
         rapids = self.rapid_heights
         if not rapids and not beam and len(self.feed_heights) == 2 and self.feed_changes > 1:
             rapids = {height for height in (max(self.feed_heights),) if height > 0}
@@ -119,7 +125,15 @@ class Tool:
         up = "" if self.idle.above is None else f"the tool is up, {several([self.idle.above])}"
         why = " or ".join(filter(None, [self.idle.beam and f"the beam is off ({self.idle.beam})", up]))
         said = f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}" if self.idled else ""
-        return tuple(filter(None, [said, self._said_of_pen()]))
+        return tuple(filter(None, [said, self._said_of_outputs(), self._said_of_pen()]))
+
+    def _said_of_outputs(self) -> str:
+        """That an output may be a beam's, of which nobody knows when it is off."""
+        lit = self.feeds - self.dark[_OUTPUT]
+        if self.idle.beam == _OUTPUT or not 0 < lit < self.feeds:
+            return ""
+        said = f"M62 to M65 switch outputs, on in {lit} of {self.feeds} moves with G1 to G3"
+        return f"{said}: if one of them is a beam, it is not known when it is off: all are taken for cuts"
 
     def _said_of_pen(self) -> str:
         """That there may be a pen, of which nobody knows when it is up."""
