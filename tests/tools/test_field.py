@@ -13,7 +13,9 @@ from shapely.geometry import LineString, Point, Polygon
 
 from skg.cutting.near import Pieces
 from skg.drawing.contour import Contour, Edge
-from skg.drawing.field import Field, boxes_of, headings, nearest_order
+from skg.drawing.field import Field
+from skg.drawing.order import nearest_order
+from skg.drawing.rows import boxes_of, headings
 from skg.drawing.touching import _near_others, lines_of
 from skg.piece import Piece
 from skg.plane import XY, polar

@@ -10,7 +10,7 @@ from threading import Lock
 
 import numpy as np
 
-from skg.drawing.field import Floats, Whole, rows_of
+from skg.drawing.rows import Floats, Whole, rows_of
 from skg.piece import Piece
 from skg.tape.columns import directions, hypots, numbers_up_to
 from skg.tape.laid import Laid

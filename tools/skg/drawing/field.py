@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from math import cos, inf, pi, sin
+from math import inf
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-from skg.drawing.contour import Contour, Edge
-from skg.piece import Piece
+from skg.drawing.contour import Contour
+from skg.drawing.rows import Floats, Whole, columns_at, points_of
 from skg.plane import XY, distance
-from skg.tape.columns import Flags, directions, hypots, numbers_up_to
+from skg.tape.columns import Flags, numbers_up_to
 
 #: So many chords that follow each other are looked for together; of these so many are looked at, or none of them.
 _RUN, _PIECE = 32, 8
@@ -26,15 +24,9 @@ _PAIRS, _FEW = 100_000, 200
 #: Where a contour is looked across for places in it, parts of its height and of the width there: no corners lie there
 #: but by chance.
 _ACROSS, _NEAR_ENDS = (0.2873, 0.25), (0.0731, 0.05)
-#: So many rings of cells around a place are looked at for the one that is nearest to it, before all are.
-_RINGS = 4
-#: So many arcs become chords together.
-_ARCS = 1000
 #: So many boxes are asked for the places in them together.
 _BOXES = 1000
 
-Floats = NDArray[np.float64]
-Whole = NDArray[np.int64]
 Measure = Callable[[Whole, Whole], Floats]
 
 
@@ -72,7 +64,7 @@ class Field:
         where none is within its reach. What is nearer than `least` is none."""
 
         def measure(at: Whole, one: Whole) -> Floats:
-            return _ahead(*self._chords(at, places, one), *_columns(ways, one), reach[one], least[one])
+            return _ahead(*self._chords(at, places, one), *columns_at(ways, one), reach[one], least[one])
 
         return self._look(places, places + reach[:, None] * ways, np.full(len(places), _HAIR), measure)
 
@@ -81,13 +73,17 @@ class Field:
         before it touches a contour, mm: from `least` on, infinite where it touches none within its reach."""
 
         def measure(at: Whole, one: Whole) -> Floats:
-            return _before(*self._chords(at, places, one), *_columns(ways, one), reach[one], least[one], wide[one])
+            return _before(*self._chords(at, places, one), *columns_at(ways, one), reach[one], least[one], wide[one])
 
         return self._look(places, places + reach[:, None] * ways, wide + _HAIR, measure)
 
     def _chords(self, at: Whole, places: Floats, one: Whole) -> tuple[Floats, Floats, Floats, Floats]:
         """The ways from where some chords begin to some places, and to where they end: x and y of each."""
-        (x, y), (x1, y1), (x2, y2) = _columns(places, one), _columns(self._points, at), _columns(self._points, at + 1)
+        (x, y), (x1, y1), (x2, y2) = (
+            columns_at(places, one),
+            columns_at(self._points, at),
+            columns_at(self._points, at + 1),
+        )
         return x - x1, y - y1, x2 - x1, y2 - y1
 
     def _look(self, places: Floats, ends: Floats, aside: Floats, measure: Measure) -> Floats:
@@ -247,7 +243,7 @@ class Field:
             (x, y), ys = places[of[some]].T, self._points[:, 1]
             is_over = (ys[at] > y[pair]) != (ys[at + 1] > y[pair])
             at, pair = at[is_over], pair[is_over]
-            (x1, y1), (x2, y2) = _columns(self._points, at), _columns(self._points, at + 1)
+            (x1, y1), (x2, y2) = columns_at(self._points, at), columns_at(self._points, at + 1)
             is_right = x[pair] < x1 + (y[pair] - y1) / (y2 - y1) * (x2 - x1)
             found[some] = np.bincount(pair[is_right], minlength=len(some)) % 2 == 1
         many = np.flatnonzero(points > _FEW)
@@ -297,91 +293,6 @@ def _batches(counts: Whole) -> Iterator[slice]:
         end = max(begin + 1, int(np.searchsorted(total, total[begin] + _PAIRS, "right")) - 1)
         yield slice(begin, end)
         begin = end
-
-
-def points_of(contours: Sequence[Contour]) -> tuple[Floats, Whole]:
-    """The points of contours one after the other, to the last bit those of `Contour.points`, and how many each has."""
-    edges = [edge for contour in contours for edge in contour.edges]
-    # A contour has its edges' points but the last of each, and its end.
-    counts = np.array([edge.chords for edge in edges], np.int64)
-    first = np.cumsum([0, *(len(contour.edges) for contour in contours)])
-    per_contour = np.add.reduceat(counts, first[:-1]) + 1 if edges else counts
-    at = np.cumsum(counts) - counts + np.repeat(np.arange(len(contours)), np.diff(first))
-    found = np.empty((int(per_contour.sum()), 2))
-    found[at] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
-    found[np.cumsum(per_contour) - 1] = np.array([contour.edges[-1].end for contour in contours]).reshape(-1, 2)
-    arcs = [number for number, edge in enumerate(edges) if not edge.is_line and not edge.nodes]
-    for begin in range(0, len(arcs), _ARCS):
-        some = arcs[begin : begin + _ARCS]
-        _inner_points([edges[number] for number in some], at[some], counts[some], found)
-    for number, edge in enumerate(edges):
-        if edge.nodes:
-            found[at[number] : at[number] + counts[number]] = edge.samples[:-1]
-    return found, per_contour
-
-
-def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> None:
-    """Put the points of arcs behind their first ones, which are at some places."""
-    inner = pieces - 1
-    rows = rows_of(arcs)
-    # (arcs that differ in place and size alone, as most holes do, have the same directions from their centres)
-    kinds, kind = np.unique(np.column_stack((rows[:, 7:9], pieces)), axis=0, return_inverse=True)
-    many = kinds[:, 2].astype(int) - 1
-    first, sweep, chords = np.repeat(kinds, many, axis=0).T
-    ways = headings(first + (numbers_up_to(many) + 1) / chords * sweep)
-    number = numbers_up_to(inner)
-    across, up = _columns(ways, np.repeat((np.cumsum(many) - many)[kind], inner) + number)
-    x, y, radius = (np.repeat(column, inner) for column in rows[:, 4:7].T)
-    places = np.repeat(at, inner) + number + 1
-    found[places, 0], found[places, 1] = x + radius * across, y + radius * up
-
-
-def rows_of(pieces: Sequence[Piece]) -> Floats:
-    """Lines and arcs as rows (n, 9): start, end, centre, radius, angle at the start, sweep; a line has zeros there."""
-    found = np.zeros((len(pieces), 9))
-    found[:, 0:2] = np.array([piece.start for piece in pieces]).reshape(-1, 2)
-    found[:, 2:4] = np.array([piece.end for piece in pieces]).reshape(-1, 2)
-    arcs = [at for at, piece in enumerate(pieces) if piece.centre is not None]
-    found[arcs, 4:6] = np.array([pieces[at].centre for at in arcs]).reshape(-1, 2)
-    found[arcs, 8] = [pieces[at].sweep for at in arcs]
-    out = found[arcs, 0:2] - found[arcs, 4:6]
-    found[arcs, 6], found[arcs, 7] = hypots(*out.T), directions(out)
-    return found
-
-
-def boxes_of(contours: Sequence[Contour]) -> tuple[Floats, Floats]:
-    """The boxes around contours, and around all their edges, as rows (n, 4): smallest x and y, largest x and y."""
-    boxes = _boxes_of_edges([edge for contour in contours for edge in contour.edges])
-    counts = np.array([len(contour.edges) for contour in contours], np.int64)
-    first = np.cumsum(counts) - counts
-    around = np.minimum.reduceat(boxes[:, :2], first), np.maximum.reduceat(boxes[:, 2:], first)
-    return np.column_stack(around), boxes
-
-
-def _boxes_of_edges(edges: Sequence[Edge]) -> Floats:
-    rows = rows_of(edges)
-    low, high = np.minimum(rows[:, 0:2], rows[:, 2:4]), np.maximum(rows[:, 0:2], rows[:, 2:4])
-    centres, (radius, first, sweep) = rows[:, 4:6], rows[:, 6:].T
-    begin = np.minimum(first, first + sweep)
-    for angle, axis, ends, way in ((0, 0, high, 1), (pi / 2, 1, high, 1), (pi, 0, low, -1), (-pi / 2, 1, low, -1)):
-        is_there = (sweep != 0) & (np.mod(angle - begin, 2 * pi) <= np.abs(sweep))
-        ends[is_there, axis] = (centres[:, axis] + way * radius)[is_there]
-    for at, edge in enumerate(edges):
-        if edge.nodes:
-            low[at], high[at] = np.minimum(low[at], edge.samples.min(0)), np.maximum(high[at], edge.samples.max(0))
-    return np.column_stack((low, high))
-
-
-def headings(angles: Floats) -> Floats:
-    """Unit vectors (n, 2) in directions, radians."""
-    # (numpy's own cosine is another one on another processor)
-    turns = angles.tolist()
-    return np.column_stack([np.fromiter(map(of, turns), float, len(turns)) for of in (cos, sin)])
-
-
-def _columns(table: Floats, at: Whole) -> tuple[Floats, Floats]:
-    """x and y of some rows. (numpy is slow along rows of two)"""
-    return table[:, 0][at], table[:, 1][at]
 
 
 def _beside(x: Floats, y: Floats, along: Floats, up: Floats, reach: Floats) -> Floats:
@@ -435,49 +346,3 @@ def _before(
     first = np.where(is_beside, np.fmin(first, low), first)
     last = np.where(is_beside, np.fmax(last, high), last)
     return np.where((last >= least) & (first <= reach), np.maximum(first, least), inf)
-
-
-def nearest_order(places: Floats, begin: XY) -> list[int]:
-    """The order of places when from `begin` on the nearest one is always next; of equally near ones the first."""
-    x, y = places.T.copy()
-    xs, ys = x.tolist(), y.tolist()
-    (left, low), size = places.min(0).tolist(), (places.max(0) - places.min(0)).tolist()
-    cell = max((size[0] * size[1] / len(xs)) ** 0.5 * 1.5, max(size) / len(xs), 1e-9)
-    columns, rows = int(size[0] / cell), int(size[1] / cell)
-    # (cells by one number: what lies so many rings beside the last row is not in the next column)
-    column = rows + 1 + 2 * _RINGS
-    rings = [[i * column + j for i, j in _ring(ring)] for ring in range(_RINGS)]
-    cells: dict[int, list[int]] = defaultdict(list)
-    home = [int((p - left) / cell) * column + int((q - low) / cell) for p, q in zip(xs, ys, strict=True)]
-    for at, key in enumerate(home):
-        cells[key].append(at)
-    order: list[int] = []
-    p, q = begin
-    for _ in xs:
-        here = min(max(int((p - left) // cell), 0), columns) * column + min(max(int((q - low) // cell), 0), rows)
-        nearest, best = -1, inf
-        for number, ring in enumerate(rings):
-            for beside in ring:
-                for at in cells.get(here + beside, ()):
-                    u, v = xs[at] - p, ys[at] - q
-                    far = u * u + v * v
-                    if far < best or far == best and at < nearest:
-                        nearest, best = at, far
-            # All that is in no ring yet is at least so many cells away.
-            if best < (number * cell) ** 2 * (1 - 1e-9):
-                break
-        else:
-            nearest = int(np.argmin((x - p) ** 2 + (y - q) ** 2))
-        order.append(nearest)
-        cells[home[nearest]].remove(nearest)
-        p, q = xs[nearest], ys[nearest]
-        x[nearest] = inf
-    return order
-
-
-def _ring(number: int) -> list[tuple[int, int]]:
-    """Columns and rows from a cell to those that are so many cells around it."""
-    if not number:
-        return [(0, 0)]
-    found = [(i, j) for i in range(-number, number + 1) for j in (-number, number)]
-    return found + [(i, j) for i in (-number, number) for j in range(1 - number, number)]

@@ -11,8 +11,10 @@ import numpy as np
 
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.entry import EntryAt, entries_of, entry_near, is_long, longest_tab
-from skg.drawing.field import Field, Floats, Whole, headings, nearest_order, rows_of
+from skg.drawing.field import Field
+from skg.drawing.order import nearest_order
 from skg.drawing.planned import PlannedContour, chain_from, split_at_end
+from skg.drawing.rows import Floats, Whole, headings, rows_of
 from skg.errors import UserError
 from skg.plane import XY, distance
 from skg.tape.columns import Flags, directions, hypots

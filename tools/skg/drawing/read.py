@@ -19,7 +19,7 @@ from skg.drawing import dxf_file, entities, svg, svg_file
 from skg.drawing.account import Account, Content, counted, listed, short, shown
 from skg.drawing.chain import merged
 from skg.drawing.contour import Contour
-from skg.drawing.field import boxes_of
+from skg.drawing.rows import boxes_of
 from skg.drawing.selection import SMALL, Selection
 from skg.drawing.wishes import OPEN, UNITS, Wishes
 from skg.errors import UserError

@@ -21,8 +21,8 @@ from skg.drawing.account import (
 )
 from skg.drawing.chain import Chains, chain
 from skg.drawing.contour import Contour, Edge
-from skg.drawing.field import boxes_of
 from skg.drawing.overrun import Overrun, without_overruns
+from skg.drawing.rows import boxes_of
 from skg.drawing.touching import Relations, lying_on, nearest, relations
 from skg.drawing.wishes import Wishes
 from skg.errors import UserError

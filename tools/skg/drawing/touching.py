@@ -12,7 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from skg.drawing.contour import Contour
-from skg.drawing.field import Floats, Whole, boxes_of, rows_of
+from skg.drawing.rows import Floats, Whole, boxes_of, rows_of
 from skg.piece import chords_of
 from skg.plane import XY
 from skg.tape.columns import Flags
