@@ -195,21 +195,25 @@ def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
 def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
     """The ways between start holes and the contour that a route may take."""
     for run in route.runs():
-        leads = [run.into, run.out] if run.into else [_plain_lead(route, run.edges[0])]
-        for lead in leads:
+        if not run.into:
+            begin = run.edges[0]
+            yield _straight(route.start, begin.start, begin.direction(), run.offset)
+            continue
+        for lead in (run.into, run.out):
             # (a straight one is the same way in and out)
             for is_in in (True, False)[: 1 + lead.is_arc]:
                 yield from _one_lead(lead, run.offset, is_in)
 
 
-def _plain_lead(route: PlannedContour, edge: Edge) -> Lead:
-    return Lead(route.start, edge.start, edge.direction(), False)
+def _straight(hole: XY, entry: XY, way: float, r: float) -> Piece:
+    """The way from a hole to beside an entry that is passed in a direction (radians)."""
+    # The contour's right is where R is positive.
+    return Piece(hole, (entry[0] + r * sin(way), entry[1] - r * cos(way)))
 
 
 def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
     if not lead.is_arc:
-        # The contour's right is where R is positive.
-        yield Piece(lead.hole, (lead.entry[0] + r * sin(lead.way), lead.entry[1] - r * cos(lead.way)))
+        yield _straight(lead.hole, lead.entry, lead.way, r)
         return
     arc = lead.arc(is_in)
     part = 1 - abs(r) / arc.radius

@@ -34,9 +34,13 @@ class Blocks(Sequence[Block]):
 
     def add(self, x: int, y: int, j: int, axis: str, code: str, number: int) -> None:
         """Add a block behind all others, as `Block` has it; a number of more than 64 bits is an `OverflowError`."""
-        row = (x, y, j, _AXIS_NUMBERS[axis], _CODE_NUMBERS[code], number)
-        for column, value in zip(self.columns, row, strict=True):
-            column.append(value)
+        xs, ys, js, axes, codes, numbers = self.columns
+        xs.append(x)
+        ys.append(y)
+        js.append(j)
+        axes.append(_AXIS_NUMBERS[axis])
+        codes.append(_CODE_NUMBERS[code])
+        numbers.append(number)
 
     @classmethod
     def joined(cls, parts: Iterable[Blocks]) -> Blocks:

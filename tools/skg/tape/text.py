@@ -21,6 +21,8 @@ _MANY = 20_000
 
 _DIGITS = rf"(0|[1-9]\d{{0,{MAX_DIGITS - 1}}})"
 _BLOCK = re.compile(rf"B{_DIGITS}B{_DIGITS}B{_DIGITS}G([XY])({'|'.join(CODES)})", re.ASCII)
+#: The same with its line's end, as the punch makes all of them.
+_LINE = re.compile(rf"{_BLOCK.pattern}\r\n", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -86,11 +88,16 @@ def parse_block(text: str, number: int = 0) -> Block:
         raise UserError(str(Finding(number, error.at + 1, str(error)))) from None
 
 
+def _values(block: re.Match[str]) -> tuple[int, int, int, str, str]:
+    """x, y, J, count direction and code of a block that was matched."""
+    x, y, j, axis, code = block.groups()
+    return int(x), int(y), int(j), axis, code
+
+
 def _parse(text: str) -> tuple[int, int, int, str, str]:
     """x, y, J, count direction and code of a block."""
     if block := _BLOCK.fullmatch(text):
-        x, y, j, axis, code = block.groups()
-        return int(x), int(y), int(j), axis, code
+        return _values(block)
     # Something is wrong: where, and what was expected?
     scanner = _Scanner(text)
     values = []
@@ -116,7 +123,12 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     findings: list[Finding] = []
     number, ended, bare = 0, False, 0
     for raw in BytesIO(without_filling(data).lstrip(b"\0")):
-        whole, text = raw.endswith(b"\n"), raw.decode("latin-1").removesuffix("\n")
+        text = raw.decode("latin-1")
+        if not ended and (block := _LINE.fullmatch(text)):
+            number += 1
+            blocks.add(*_values(block), number)
+            continue
+        whole, text = text.endswith("\n"), text.removesuffix("\n")
         if not whole and not text.strip("\0"):
             break
         line = text.removesuffix("\r")
