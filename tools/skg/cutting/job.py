@@ -11,7 +11,7 @@ from skg.cutting import refusal
 from skg.cutting.check import Checked, Misfit, check
 from skg.cutting.settings import Settings
 from skg.drawing.entry import longest_tab
-from skg.drawing.parallel import NoRoom
+from skg.drawing.parallel import NoRoom, has_spike
 from skg.drawing.planned import PlannedContour
 from skg.drawing.write import Program, Step
 from skg.errors import UserError
@@ -105,6 +105,11 @@ def make(
             helped = _in_chords(routes, checked.faults)
         if helped != routes:
             return make(helped, title, factor, settings, fillets, left + more)
+    if not checked.faults and (around := _around_spikes(routes)) != routes:
+        with suppress(UserError):
+            job = make(around, title, factor, settings, fillets, left)
+            if job.left == left:
+                return job
     refusal.refuse(checked, routes, factor, settings)
     return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings, left)
 
@@ -114,6 +119,18 @@ def _one_by_one(routes: list[PlannedContour]) -> list[PlannedContour]:
     if all(route.contour.copies == 1 for route in routes):
         return []
     return [route.one_by_one() for route in routes]
+
+
+def _around_spikes(routes: list[PlannedContour]) -> list[PlannedContour]:
+    """The routes; those whose wire would run far past a tip go around it, with the wire's own way."""
+    found = list(routes)
+    for at, route in enumerate(routes):
+        contour = route.contour
+        if contour.is_closed and contour.copies == 1 and all(route.passes) and not route.traced:
+            with suppress(NoRoom):
+                if has_spike(contour, route.offset):
+                    found[at] = replace(route.with_wire_ways(), is_around=True)
+    return found
 
 
 def _refused(program: Program, settings: Settings) -> set[int]:

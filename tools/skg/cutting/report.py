@@ -101,12 +101,14 @@ def _sides(routes: list[PlannedContour]) -> Iterator[str]:
 
 def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
-    straight, chords, off = [], [], []
+    straight, around, chords, off = [], [], [], []
     for at, route in enumerate(routes):
         if route.is_cramped:
             why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"
             straight.append(f"contour {at + 1} {why} for a lead along an arc: it is straight")
-        if not route.traced:
+        if route.is_around:
+            around.append(f"contour {at + 1} has sharp tips: the wire goes along an arc around them")
+        if not route.traced or route.is_around:
             continue
         if not any(route.passes):
             chords.append(
@@ -121,7 +123,7 @@ def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
         f"it stays {short(far)} mm off"
         for far, at, place in sorted(off, key=lambda one: -one[0])
     ]
-    return [line for lines in (straight, chords, narrow) for line in _first(lines)]
+    return [line for lines in (straight, around, chords, narrow) for line in _first(lines)]
 
 
 def _first(lines: list[str]) -> list[str]:

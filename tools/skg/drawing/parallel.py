@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
-from math import atan2, cos, floor, hypot, pi, sin, sqrt
+from math import acos, atan2, cos, floor, hypot, pi, sin, sqrt
 
 import numpy as np
 import shapely
@@ -34,6 +34,8 @@ _SLIT = 1e-5
 _FLAT = 1e-4
 #: Directions (radians) that differ by less run on without a corner.
 _SMOOTH = 1e-3
+#: A tip is a spike where its parallels meet farther than this from it, in R.
+_SPIKE = 10.0
 #: A closed way begins within an edge, this part of it from its ends where it is short.
 _INSIDE = 0.2
 
@@ -159,6 +161,13 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
             return tuple(way)
         del runs[short]
     raise NoRoom(contour.edges[0].start, _NONE)
+
+
+def has_spike(contour: Contour, r: float) -> bool:
+    """Whether the wire, R (mm) to the right of a closed contour, would run far past a tip of it."""
+    most, sense = 2 * acos(1 / _SPIKE), 1 if r > 0 else -1
+    ways = [(edge.direction(), edge.direction(1.0)) for edge in contour.edges]
+    return any(sense * turn(end, start) > most for (_, end), (start, _) in pairwise([ways[-1], *ways]))
 
 
 def widest(contour: Contour, r: float) -> float:

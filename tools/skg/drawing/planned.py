@@ -85,6 +85,7 @@ class PlannedContour:
     `traced`: the wire's own way in each pass, where the contour has edges that it cannot follow, or the controller does
     not; see `with_wire_ways` and `in_chords`.
     `is_moved`: they are entered where they are nearest to the start hole.
+    `is_around`: they are there for tips alone, which the wire goes around.
     `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
     """
 
@@ -102,6 +103,7 @@ class PlannedContour:
     traced: tuple[tuple[Edge, ...], ...] = ()
     is_moved: bool = False
     is_cramped: bool = False
+    is_around: bool = False
     is_short: bool = False
 
     @property
