@@ -12,6 +12,7 @@ from skg.commands.options import (
     RomName,
     drawing_options,
     feed_option,
+    numbers_in,
     offset_option,
     output_option,
     picture_format,
@@ -33,10 +34,7 @@ class Passes(click.ParamType):
         """Return the numbers."""
         if isinstance(value, tuple):
             return value
-        try:
-            found = tuple(float(part) for part in str(value).split(","))
-        except ValueError:
-            found = ()
+        found = numbers_in(value)
         if not found or not all(0 <= more <= MOST_OFFSET for more in found):
             self.fail(f"{value!r}: expected lengths in mm with commas between them, such as 0.06,0.02,0", param, ctx)
         return found

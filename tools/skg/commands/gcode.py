@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import Coordinates, decided, output_option, positions_option
+from skg.commands.options import Coordinates, decided, numbers_in, output_option, positions_option
 from skg.drawing.source import gcode_text, iso_of, iso_text, load
 from skg.errors import UserError
 from skg.files import write_bytes
@@ -26,10 +26,7 @@ class OneOrTwo(click.ParamType):
         """Return one or two numbers."""
         if isinstance(value, tuple):
             return value
-        try:
-            numbers = tuple(float(part) for part in str(value).split(","))
-        except ValueError:
-            numbers = ()
+        numbers = numbers_in(value)
         if len(numbers) not in (1, 2) or not all(abs(number) < 1e8 for number in numbers):
             self.fail(f"{value!r}: expected a number, or two with a comma between them", param, ctx)
         return numbers

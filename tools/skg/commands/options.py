@@ -226,6 +226,14 @@ class FiniteRange(click.FloatRange):
         return number
 
 
+def numbers_in(value: object, number: type = float) -> tuple:
+    """The numbers of a text with commas between them; none where something else stands there."""
+    try:
+        return tuple(number(part) for part in str(value).split(","))
+    except ValueError:
+        return ()
+
+
 class Coordinates(click.ParamType):
     """Two numbers with a comma between them, such as 115000,-10000."""
 
@@ -238,10 +246,9 @@ class Coordinates(click.ParamType):
         """Return the two numbers."""
         if isinstance(value, tuple):
             return value
-        try:
-            first, second = (self.number(part) for part in str(value).split(","))
-        except ValueError:
+        found = numbers_in(value, self.number)
+        if len(found) != 2:
             self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
-        if not max(abs(first), abs(second)) < 10**MAX_DIGITS:
+        if not all(abs(ordinate) < 10**MAX_DIGITS for ordinate in found):
             self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
-        return first, second
+        return found
