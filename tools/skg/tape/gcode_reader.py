@@ -174,6 +174,7 @@ class _Reader:
         codes: list[Decimal] = []
         turns: list[Decimal] = []
         power: Decimal | None = None
+        output: Decimal | None = None
         is_origin = is_stop = is_board = False
         for word in words(text):
             letter = word.letter
@@ -200,12 +201,17 @@ class _Reader:
                 is_board |= (word.number >= _BOARDS or word.number in _BOARD) and not (codes or values)
             elif letter == "S":
                 power = word.number
-            elif letter == "P" and OUTPUTS.intersection(turns):
-                self.tool.outputs.add(word.number)
+            elif letter == "P":
+                output = word.number
             elif letter == "Q" and (_BLEND in codes or self.motion in _CYCLES):
                 pass
             elif letter not in _SILENT and not (letter in _OTHERS and not word.number):
                 raise Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
+        if OUTPUTS.intersection(turns):
+            if output is None:  # another control's words
+                turns = [code for code in turns if code not in OUTPUTS]
+            else:
+                self.tool.outputs.add(output)
         return values, codes, turns, power, is_origin, is_stop
 
     def is_apart(self, text: str) -> bool:
