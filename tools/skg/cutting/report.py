@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from skg.cutting.check import LIMIT, Threading
+from skg.cutting.check import LIMIT
+from skg.cutting.follow import Threading
 from skg.cutting.job import Job
 from skg.cutting.refusal import in_file, into, kind
 from skg.drawing.account import counted, short
