@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from math import atan, cos, pi, radians, sin, tan
 from pathlib import Path
@@ -119,6 +120,18 @@ def test_past_what_is_too_small(
     assert ("too narrow for the wire" in words) == (side == "inside" or shape is steps)
 
 
+def test_a_curve_with_a_cusp_is_soon_told_from_a_way_beside_it(run: Run, tmp_path: Path) -> None:
+    """The parallels of a cusp meet nowhere near: following the wire there and comparing its places took 2 GB."""
+    page = drawing()
+    polygon([(-2, -2), (8, -2), (8, 8), (-2, 8)], page)
+    spline = page.modelspace().add_spline(degree=3)
+    spline.set_closed([(0, 0, 0), (2, 3, 0), (6, 0, 0), (0, 0, 0), (1, 6, 0)])
+    path = saved(page, tmp_path)
+    begun = time.process_time()
+    assert "it crosses or touches itself at (0.8945, 1.44" in run_failing(run, "cut", path, "--offset", 0.1)
+    assert time.process_time() - begun < 4
+
+
 @pytest.mark.parametrize(("height", "style"), [(0.05, "round"), (1, "round"), (3.9, "round"), (4.2, "mitre")])
 def test_around_a_tip(run: Run, tmp_path: Path, height: float, style: str) -> None:
     """Where the parallels meet more than 10 R away the wire goes around the tip: it does not come to the other part."""
@@ -230,7 +243,7 @@ def test_what_is_too_small_may_be_left(run: Run, tmp_path: Path) -> None:
     space.add_circle((50, 10), 3)
     path = saved(page, tmp_path)
     words = run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1)
-    assert "crosses or touches itself at (2" in words and "more contour without room" in words
+    assert "crosses or touches itself at (2" in words and "2 more contours without room" in words
     assert words.endswith("--small leave") and not (tmp_path / "part.3b").exists()
     cuts, words = cut(run, page, tmp_path, "--offset", 0.1, "--small", "leave")
     wanted = [(10, 5, 1.9), (50, 10, 2.9)]

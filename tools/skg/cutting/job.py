@@ -24,6 +24,10 @@ from skg.tape.block import Tape
 _LEAST_STORED = 24
 
 
+#: Past a tip from which the wire would run on by more R than this it is not tried.
+_WILD = 1000.0
+
+
 @dataclass(frozen=True)
 class Left:
     """A contour that is not cut, since the wire has no room: its number among those planned, what it is, and why."""
@@ -79,6 +83,14 @@ def make(
         left += more
     if not routes:
         raise UserError(f"no contour is left to cut: {left[0].name}: {left[0].why}")
+    if wild := _wild(routes):
+        # (a wire that runs off for metres would be followed and compared first)
+        try:
+            helped, more = _helped(routes, wild, factor, settings)
+        except UserError:
+            # (all that have no way are said at once)
+            helped, more = _helped(routes, set(range(len(routes))), factor, settings)
+        return make(helped, title, factor, settings, fillets, left + more)
     program = Program(routes, title, fillets)
     text, is_stored, fed = _through(program, settings)
     if fed.error and (one_by_one := _one_by_one(routes)):
@@ -125,12 +137,28 @@ def _around_spikes(routes: list[PlannedContour]) -> list[PlannedContour]:
     """The routes; those whose wire would run far past a tip go around it, with the wire's own way."""
     found = list(routes)
     for at, route in enumerate(routes):
-        contour = route.contour
-        if contour.is_closed and contour.copies == 1 and all(route.passes) and not route.traced:
-            with suppress(NoRoom):
-                if has_spike(contour, route.offset):
-                    found[at] = replace(route.with_wire_ways(), is_around=True)
+        with suppress(NoRoom):
+            if _may_be_traced(route) and has_spike(route.contour, route.offset):
+                found[at] = replace(route.with_wire_ways(), is_around=True)
     return found
+
+
+def _wild(routes: list[PlannedContour]) -> set[int]:
+    """The routes whose wire would run off for a thousand R and more, where it has a way of its own, or none at all."""
+    found: set[int] = set()
+    for at, route in enumerate(routes):
+        if _may_be_traced(route) and has_spike(route.contour, route.offset, _WILD):
+            try:
+                route.with_wire_ways()
+            except NoRoom as no_room:
+                if not no_room.is_crossing:
+                    continue
+            found.add(at)
+    return found
+
+
+def _may_be_traced(route: PlannedContour) -> bool:
+    return route.contour.is_closed and route.contour.copies == 1 and all(route.passes) and not route.traced
 
 
 def _refused(program: Program, settings: Settings) -> set[int]:

@@ -163,9 +163,9 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
     raise NoRoom(contour.edges[0].start, _NONE)
 
 
-def has_spike(contour: Contour, r: float) -> bool:
-    """Whether the wire, R (mm) to the right of a closed contour, would run far past a tip of it."""
-    most, sense = 2 * acos(1 / _SPIKE), 1 if r > 0 else -1
+def has_spike(contour: Contour, r: float, far: float = _SPIKE) -> bool:
+    """Whether the wire, R (mm) to the right of a closed contour, would run past a tip of it by more than `far` R."""
+    most, sense = 2 * acos(1 / far), 1 if r > 0 else -1
     ways = [(edge.direction(), edge.direction(1.0)) for edge in contour.edges]
     return any(sense * turn(end, start) > most for (_, end), (start, _) in pairwise([ways[-1], *ways]))
 
