@@ -13,6 +13,7 @@ from decimal import Decimal
 from math import hypot
 
 from skg.errors import UserError
+from skg.tape import gcode_known as known
 from skg.tape.block import MAX_DIGITS, Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
 from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
@@ -52,40 +53,6 @@ _SYSTEM = re.compile(r"(\$(?:\d+\s*=\s*[\d.]+|[GHICNX#$]|RST\s*=.*|SLP)?|\?)" + 
 _MARK = re.compile(r"([%:O])\d*" + SPACE.pattern, re.I)
 #: How lines begin that may be no block of words.
 _APART = "%:Oo$?"
-#: Letters that say nothing of the path; and the G and M words that do not either: a dwell, lengths of tools, path
-#: modes, work offsets (one of them, see there); sub-programs are no part of a path.
-_SILENT = "FSTPHDL"
-#: Other axes, which may stand at 0.
-_OTHERS = "ABCUVW"
-_MODES = {Decimal(n) for n in ("4", "8", "9", "40", "43", "49", "50", "61", "64", "69", "80", "91.1", "94", "97")}
-_OFFSETS = {Decimal(n) for n in range(54, 60)}
-_CALLS = {96, 97, 98, 99}
-#: Cycles that drill, or bore: at each place down and up again. Their Q is the depth of a peck.
-_CYCLES = {73, 81, 82, 83, 85, 89}
-#: G words that say what a place does; the first ones are the motions.
-_MOTIONS = set(map(Decimal, range(4)))
-_WAYS = {*_MOTIONS, *map(Decimal, _CYCLES)}
-#: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
-_GROUPS = [
-    _WAYS,
-    *(set(map(Decimal, group.split())) for group in ("17 18 19", "20 21", "90 91", "43 49", "61 64", "98 99")),
-    _OFFSETS,
-]
-#: Words that are places, and what G4 has besides P on some controls.
-_PLACES = "XYZIJKR"
-_VALUES = _PLACES + "F"
-#: What has an arc's centre in a plane, and what belongs to the others.
-_CENTRES = {"XY": "IJ", **{plane: "".join("IJK"["XYZ".index(axis)] for axis in plane) for plane in PLANES.values()}}
-_OTHER_CENTRES = {plane: {*"IJK"} - {*letters} for plane, letters in _CENTRES.items()}
-_DWELL, _NO_MOTION = Decimal(4), Decimal(80)
-#: How near to its corners a path may be cut: P, and Q for lines that are nearly one.
-_BLEND = Decimal(64)
-#: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
-_HOMES, _MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
-_AWAY = {*_HOMES, _MACHINE}
-#: M words of boards for printers: from here on, and these; the words behind one are its own (`M92 X80`: steps).
-_BOARDS, _BOARD = 100, {17, 18, 84, 92}
-_KNOWN = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 #: What is said of a program that has rapids and nothing else.
 _GOES_ONLY = "nothing is cut: it goes everywhere with G0"
 #: µm in a number of each unit; None: by the decimal point.
@@ -143,24 +110,24 @@ class _Reader:
             return
         values, codes, turns, power, is_origin, is_stop = self.gather(line)
         if turns or power is not None:
-            self.tool.turn(self.line, turns, power, _DWELL in codes)
-        if _NO_MOTION in codes and not _MOTIONS.intersection(codes):
+            self.tool.turn(self.line, turns, power, known.DWELL in codes)
+        if known.NO_MOTION in codes and not known.MOTIONS.intersection(codes):
             self.motion = None
         feed = values.pop("F", None)
         if feed:
             self.fed = feed.number > 0
             if not self.fed:
                 self.warn(feed.column, "a feed that is not more than 0")
-        if self.motion not in _CYCLES:
+        if self.motion not in known.CYCLES:
             self.cycle.clear()
-        if values and _DWELL in codes:
+        if values and known.DWELL in codes:
             place = next(iter(values.values()))
             raise Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
         if is_origin:
             self.name_place(values)
-        elif not _AWAY.isdisjoint(codes):
-            self.go_away(values, _MACHINE not in codes)
-        elif values and self.motion in _CYCLES:
+        elif not known.AWAY.isdisjoint(codes):
+            self.go_away(values, known.MACHINE not in codes)
+        elif values and self.motion in known.CYCLES:
             self.drill(values)
         elif values:
             self.move(values)
@@ -178,17 +145,17 @@ class _Reader:
         is_origin = is_stop = is_board = False
         for word in words(text):
             letter = word.letter
-            if self.ended and (letter in _PLACES or letter == "G"):
+            if self.ended and (letter in known.PLACES or letter == "G"):
                 raise Misread(word.column, "expected nothing after M02")
             if is_board and letter not in "GMS":
                 continue
-            if letter in _VALUES:
+            if letter in known.VALUES:
                 if letter in values:
                     raise Misread(word.column, f"{letter} stands here twice")
                 values[letter] = word
             elif letter == "G":
                 for code in codes:
-                    if any({code, word.number} <= group for group in _GROUPS):
+                    if any({code, word.number} <= group for group in known.GROUPS):
                         raise Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
                 codes.append(word.number)
                 is_origin |= self.preparatory(word)
@@ -198,14 +165,14 @@ class _Reader:
                     raise Misread(word.column, f"M{turns[0]:f} and M{word.number:f} in one line")
                 turns.append(word.number)
                 is_stop |= self.miscellaneous(word)
-                is_board |= (word.number >= _BOARDS or word.number in _BOARD) and not (codes or values)
+                is_board |= (word.number >= known.BOARDS or word.number in known.BOARD) and not (codes or values)
             elif letter == "S":
                 power = word.number
             elif letter == "P":
                 output = word.number
-            elif letter == "Q" and (_BLEND in codes or self.motion in _CYCLES):
+            elif letter == "Q" and (known.BLEND in codes or self.motion in known.CYCLES):
                 pass
-            elif letter not in _SILENT and not (letter in _OTHERS and not word.number):
+            elif letter not in known.SILENT and not (letter in known.OTHERS and not word.number):
                 raise Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
         if OUTPUTS.intersection(turns):
             if output is None:  # another control's words
@@ -251,7 +218,7 @@ class _Reader:
     def preparatory(self, word: Word) -> bool:
         """Carry out a G word; True for G92."""
         match word.number:
-            case n if n in _WAYS:
+            case n if n in known.WAYS:
                 self.motion = int(word.number)
             case 98 | 99:
                 self.is_low = word.number == 99
@@ -263,21 +230,21 @@ class _Reader:
                 self.plane = int(word.number)
             case 20 | 21:
                 self.unit = _INCH if word.number == 20 else _MILLIMETRE
-            case n if n in _OFFSETS:
+            case n if n in known.OFFSETS:
                 if self.offset not in (None, n):
                     raise Misread(word.column, f"G{n:f} after G{self.offset:f}: how far apart the two are is not known")
                 self.offset = n
-            case n if n in _MODES or n in _HOMES or n == _MACHINE:
+            case n if n in known.MODES or n in known.HOMES or n == known.MACHINE:
                 pass
             case n:
-                raise Misread(word.column, f"G{n:f} is not known, expected {_KNOWN}")
+                raise Misread(word.column, f"G{n:f} is not known, expected {known.EXPECTED}")
         return False
 
     def miscellaneous(self, word: Word) -> bool:
         """Carry out an M word; True for a stop."""
         if word.number in (2, 30):
             self.ended = True
-        elif word.number in _CALLS:
+        elif word.number in known.CALLS:
             raise Misread(word.column, f"M{word.number:f}: a sub-program is not known here")
         return word.number in (0, 1)
 
@@ -359,7 +326,7 @@ class _Reader:
             return False
         if "R" in values:
             return self.value(values, "R", Decimal(0)) > 0
-        to_centre = [float(self.value(values, letter, Decimal(0))) for letter in _CENTRES["XY"]]
+        to_centre = [float(self.value(values, letter, Decimal(0))) for letter in known.CENTRES["XY"]]
         ahead = y * to_centre[0] - x * to_centre[1]
         return (ahead < 0) == (self.motion == 3) and abs(ahead) > LEAST_SWEEP * (to_centre[0] ** 2 + to_centre[1] ** 2)
 
@@ -415,8 +382,8 @@ class _Reader:
 
     def to_centre(self, values: dict[str, Word], plane: str, to_end: Spot, column: int) -> Spot:
         """From an arc's start to its centre, in a plane; `to_end` is the way to its end."""
-        letters = _CENTRES[plane]
-        for letter in filter(_OTHER_CENTRES[plane].__contains__, values):
+        letters = known.CENTRES[plane]
+        for letter in filter(known.OTHER_CENTRES[plane].__contains__, values):
             raise Misread(values[letter].column, f"{letter} belongs to arcs of another plane")
         if "R" in values:
             if not values.keys().isdisjoint(letters):
