@@ -470,6 +470,9 @@ def test_the_other_side_of_a_part_is_said(run: Run, tmp_path: Path, side: str, s
     words = ["--offset", 0.2, "--side", side, "--quiet"]
     report = run("cut", path, "-o", tmp_path / "a.3b", *words).stderr
     assert report.splitlines() == [f"take care: the wire runs {text}" for text in said]
+    # (where the last pass runs on the line nothing is wider or smaller)
+    report = run("cut", path, "-o", tmp_path / "a.3b", "--passes", "0.06,0", "--tab", 1, "--side", side).stderr
+    assert "the wire runs outside" not in report and "the wire runs inside" not in report
 
 
 @pytest.mark.parametrize(("offset", "step"), [(0.1, 0.02), (0.1, 0.05), (0.2, 0.05), (2, 1)])

@@ -88,7 +88,7 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
 
 def _sides(routes: list[PlannedContour]) -> Iterator[str]:
     """Contours that the wire runs beside on the side that --side says, not on that of a part with openings."""
-    closed = [(at + 1, route) for at, route in enumerate(routes) if route.contour.is_closed and any(route.passes)]
+    closed = [(at + 1, route) for at, route in enumerate(routes) if route.contour.is_closed and route.passes[-1]]
     for is_opening, what in ((True, "outside of {}: wider"), (False, "inside of {}: smaller")):
         some = [at for at, one in closed if one.is_opening is is_opening is one.is_outside]
         if some and any(one.depth for _, one in closed):
