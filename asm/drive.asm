@@ -1,7 +1,7 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
 ; Uses:   cut decimal io io_6850 io_port io_punch monitor reset start tape value
-; Room:   698 bytes
+; Room:   685 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
@@ -30,7 +30,7 @@ DYSTEP  EQU 04H         ; Y step
 DSTEPS  EQU 05H         ; both step bits
 DMINUS  EQU 0AH         ; both directions
 DCUTS   EQU 80H         ; cutting
-DMOST   EQU 6           ; numbers are below 6 * 2^24
+DMOST   EQU 12          ; numbers are below 12 * 2^24, x and y twofold
 DSLICE  EQU 7FH         ; steps of a slice at most, less 1: all lower bits (not 0FFH: an N of 0 is a slice's end)
 DSLIC1  EQU 1           ; the same while a line is being read
 
@@ -51,7 +51,8 @@ DMODE   EQU HELD+1      ; 0FEH: RUN drives, 0: it does not
 
 ; A block: the same places in two pages, behind the registers and in HELD
 DPAGES  EQU 4           ; what the pages' numbers differ in
-DTURN   EQU HELD+48H    ; low two bits: what is added to the quadrant: 0 line, 1 counter-clockwise, 3 clockwise
+DTURN   EQU HELD+48H    ; low two bits: what is added to the quadrant: 0 line, 1 counter-clockwise, 3 clockwise;
+                        ; with bit 2 the step of record 1: Y on a line, X on an arc
 DQUAD   EQU DTURN+1     ; the quadrant that the motion points into, 0 to 3
 DROLE   EQU DTURN+2     ; -> lowest R of the record that leads inside: F >= 0 steps it
 DREST   EQU HELD+54H    ; J, high byte first; then what is left of it behind the slice
@@ -65,12 +66,17 @@ DR1     EQU DU1+1
 DB1     EQU DU1+5
 DN1     EQU DU1+6
 DNUMS   EQU 16          ; from a number of the line to the next one, downwards
+DTWICE  EQU 20H         ; bit of the address behind a number: x or y, not J
+DCARRY  EQU 4           ; bit of the address of a byte of R: not U's
 
 ;! (MREG/100H+1) ^ HELD/100H == DPAGES and (HELD/100H) & DPAGES == DPAGES -- DLINE goes from page to page
 ;! DTURN&0FFH >= 320-256 and (DN1&0FFH) < 80H -- behind the registers, in front of the typed line
 ;! (DREST&3)+(DR2&3)+(DR1&3) == 0 and DR1-DR2 == DNUMS and DR2-DREST == DNUMS and DREST+4-DTURN == DNUMS -- DLINE walks along numbers
 ;! ((DR1+3)^(DR2+3)) == DNUMS -- DLOOP goes from one record to the other
-;! DFDEV > DREST and DFDEV+4 <= DR1 and DB2 == DR2+4 -- F is cleared with the numbers; DLIN6 takes what lies in front of R
+;! DFDEV > DREST and DFDEV+4 <= DR1 -- F is cleared with the numbers
+;! ((DR1+4)&DTWICE)*((DR2+4)&DTWICE) != 0 and ((DREST+4)&DTWICE) == 0 -- DLINE tells J from x and y
+;! (DU1&DCARRY)+(DU2&DCARRY) == 0 and (DR1&DCARRY)*((DR1+2)&DCARRY) != 0 -- DCAR comes to U behind the bytes of R
+;! (DR2&DCARRY)*((DR2+2)&DCARRY) != 0 -- the same
 ;! DCHAR == DSTATE+1 and DMODE < CLOSED and DCHAR < MNEXT and DHIGH < MTO+5 -- two cells are taken at once; nobody else's cells
 ;! (DSYN1&0FFH)*(DSYN2&0FFH)*(DSYN3&0FFH)*(DSYN4&0FFH)*(DSYN5&0FFH) != 0 -- DPUSH takes 0 for a line's beginning
 ;! (DSYN6&0FFH)*(DSYN7&0FFH)*(DSYN8&0FFH) != 0 -- the same
@@ -78,7 +84,7 @@ DNUMS   EQU 16          ; from a number of the line to the next one, downwards
 ; DLOOP - steps, until there is something else to see to
 ; In:  B C D E = F, H = the block's page
 ; Out: Z: an N has run out; CY: the clock has not fallen behind the step; neither: it is low, or stop   Clobbers A, L
-; Cycles: a step 293, with a carry 70 to 150 more, with a new quadrant 680
+; Cycles: a step 293, with a carry 105 to 155 more, with a new quadrant 650
 DLOOP:  IN      DRIVE
         ANI     3
         DCR     A
@@ -129,16 +135,15 @@ DLOOP:  IN      DRIVE
 ; DCAR - carries into the higher bytes of R; out of them: the next quadrant
 ; In:  HL -> lowest byte   Clobbers A
 DCAR:   PUSH    H
-        MVI     A,3
-DCAR1:  DCR     L
-        INR     M
-        JNZ     DCAR2
-        DCR     A
-        JNZ     DCAR1
         PUSH    B
-        CALL    DIRS
+DCAR1:  DCR     L
+        INR     M               ; (behind R's highest byte U, which never comes to 0)
+        JZ      DCAR1
+        MOV     A,L
+        ANI     DCARRY          ; out of R: DIRS makes U anew
+        CZ      DIRS
         POP     B
-DCAR2:  POP     H
+        POP     H
         RET
 
 ; PUNOFF - punch off, the block is complete: the place for a break; after DRIVE 1 a running program's is followed
@@ -248,6 +253,12 @@ DLIN1:  CPI     CLTB-CZERO
         CALL    DNEXZ
 DSYN1:  DB      CZERO,10
 DLIN2:  LHLD    DNUMP
+        MOV     B,A
+        MOV     A,L
+        ANI     DTWICE          ; x and y are made twofold, J is not
+        MOV     A,B
+        JZ      DLIN3
+        ADD     A
 DLIN3:  DCX     H               ; 10x+digit, byte by byte
         MOV     E,M
         MVI     D,0
@@ -283,27 +294,19 @@ DSYN3:  DB      CLTY-1,2
 DSYN4:  DB      CLTL,CLTS-CLTL+1
         RRC                     ; L 0, N 1, S 83H (Z stays)
         LHLD    DNUMP
-        MOV     M,A
+        MVI     M,DYSTEP        ; (DIRS takes the line's step from there)
         JZ      DLIN5
+        MOV     M,A
+        MVI     L,(DR1+3)&255   ; an arc: 2x+1, 2y+1
+        INR     M
+        MVI     L,(DR2+3)&255
+        INR     M
         DCR     A
         JZ      DLIN4
         CPI     82H
 DLIN4:  CALL    DNEXZ
 DSYN5:  DB      CLTR,1
-DLIN5:  LHLD    DNUMP
-        MOV     A,M
-        RRC                     ; CY, and bit 7: an arc
-        MVI     L,DB2&255       ; doubles x, what is 0, bit 7, and y: on an arc with 1 added to both
-        MOV     M,A
-        MVI     L,(DR1+3)&255
-        MVI     B,DR1+4-DR2
-DLIN6:  MOV     A,M
-        RAL
-        MOV     M,A
-        DCR     L
-        DCR     B
-        JNZ     DLIN6
-        CALL    DNEXT
+DLIN5:  CALL    DNEXT
 DSYN6:  DB      CZERO+1,4
         LHLD    DNUMP
         INX     H
@@ -456,36 +459,30 @@ DIRS:   MVI     L,DTURN&255
         ADD     C
         ANI     3
         MOV     M,A
+        LDA     DSTATE
+        RRC
+        ANI     DCUTS
+        ADD     M               ; and 3 times the quadrant, and 4: bit 3 is the Y direction, bit 1 the X direction
+        ADD     M
+        ADD     M
+        ADI     DCUTS+4
+        ANI     DCUTS+DMINUS
         MOV     B,A
         MOV     A,C
         RRC
-        XRA     B
+        XRA     M
         RRC
         SBB     A
         ANI     DNUMS
         XRI     (DR2+3)&255
         INR     L
         MOV     M,A             ; DROLE
-        MOV     A,B             ; 3B+4: bit 3 is the Y direction, bit 1 the X direction
-        ADD     A
-        ADD     B
-        ADI     DCUTS+4
-        ANI     DCUTS+DMINUS
-        MOV     B,A
-        LDA     DSTATE
-        RRC
-        ANI     DCUTS
-        XRA     B
         MVI     L,DB1&255
-        MOV     M,A
+        MOV     M,B
         MVI     L,DB2&255
-        MOV     M,A
-        MOV     B,A
+        MOV     M,B
         MOV     A,C
-        RRC
-        SBB     A
-        ANI     DSTEPS
-        XRI     DYSTEP          ; X on an arc, Y on a line
+        ANI     DSTEPS          ; X on an arc, Y on a line
         ORA     B
         MVI     L,DU1&255
         MOV     M,A
