@@ -198,7 +198,7 @@ def _helped(
     if none and settings.small != "leave":
         raise UserError(refusal.without_room(routes, none, factor, settings))
     return _without(
-        found, {at: f"{no_room} {refusal.in_file(no_room.place, factor)}" for at, no_room in none.items()}, factor
+        found, {at: f"{no_room} {refusal.told_in_file(no_room.place, factor)}" for at, no_room in none.items()}, factor
     )
 
 
@@ -253,4 +253,4 @@ def _located(program: Program, error: ErrorLine, factor: float, settings: Settin
     _, done = feed_lines([_text([one]) for one in routes[at]], settings.rom, settings.ram_kib)
     route = program.routes[at]
     places = [one.place for one in routes[at][: done + 1] if one.place] or [route.entry]
-    return f"{refusal.named(route, at, factor)}, near {refusal.in_file(places[-1], factor)}: {message}"
+    return f"{refusal.named(route, at, factor)}, near {refusal.told_in_file(places[-1], factor)}: {message}"

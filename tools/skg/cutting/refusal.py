@@ -11,7 +11,7 @@ from math import copysign, floor, inf
 from skg.cutting.check import LIMIT, Checked, Misfit
 from skg.cutting.crossing import Crossing
 from skg.cutting.settings import Settings
-from skg.drawing.account import counted, short, shown
+from skg.drawing.account import counted, in_file, short, shown
 from skg.drawing.contour import Contour
 from skg.drawing.parallel import NoRoom, widest, wire_way
 from skg.drawing.planned import PlannedContour
@@ -34,9 +34,9 @@ _MEANING = {
 _MANY = 2000
 
 
-def in_file(place: XY, factor: float) -> str:
+def told_in_file(place: XY, factor: float) -> str:
     """A place as the drawing's file has it; `factor`: mm in a unit of the file."""
-    return shown((place[0] / factor, place[1] / factor))
+    return shown(in_file(place, factor))
 
 
 def kind(route: PlannedContour) -> str:
@@ -49,7 +49,7 @@ def kind(route: PlannedContour) -> str:
 def called(route: PlannedContour, factor: float) -> str:
     """A contour by what it is, where it begins, and its layers."""
     layers = f", layer {', '.join(route.contour.layers)}" if route.contour.layers else ""
-    return f"{kind(route)} from {in_file(route.contour.edges[0].start, factor)}{layers}"
+    return f"{kind(route)} from {told_in_file(route.contour.edges[0].start, factor)}{layers}"
 
 
 def named(route: PlannedContour, number: int, factor: float) -> str:
@@ -81,7 +81,7 @@ def without_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: 
     """What to say of contours that the wire does not get around: of the tightest one."""
     at, fit = _tightest(routes, none)
     route = routes[at]
-    message = f"{named(route, at, factor)}: {none[at]} {in_file(none[at].place, factor)}"
+    message = f"{named(route, at, factor)}: {none[at]} {told_in_file(none[at].place, factor)}"
     if none[at].is_crossing:
         message += ", there is no way beside it for the wire"
         help_ = "mend it in the drawing"
@@ -134,7 +134,7 @@ def _or_leave(settings: Settings) -> str:
 
 def why_no_room(fault: Misfit, factor: float) -> str:
     """Why there is no room for the wire; empty when it is something else that is wrong."""
-    place = in_file(fault.place, factor)
+    place = told_in_file(fault.place, factor)
     if fault.is_into:
         return f"the wire would cut {short(fault.off)} mm into it at {place}"
     return f"the wire does not come to {place}" if fault.is_missed else ""
@@ -150,7 +150,7 @@ def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settin
                 f"{name}: {why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
                 f"take a smaller one or a thinner wire{_or_leave(settings)}"
             )
-        place, off = in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
+        place, off = told_in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
         where = (
             f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
         )
@@ -174,7 +174,7 @@ def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float,
     worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
     message = (
         f"{named(routes[worst.route], worst.route, factor)}: its wire would come {into(worst)} "
-        f"{named(routes[worst.other], worst.other, factor)} at {in_file(worst.place, factor)}"
+        f"{named(routes[worst.other], worst.other, factor)} at {told_in_file(worst.place, factor)}"
     )
     if len(spoilt) > 1:
         message += f"; {counted(len(spoilt) - 1, 'more cut')} into other contours"
@@ -194,7 +194,7 @@ def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Setti
     if not settings.is_without_drift:
         return "--rom no-drift is nearer"
     edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
-    ends = " to ".join(in_file(end, factor) for end in (edge.start, edge.end))
+    ends = " to ".join(told_in_file(end, factor) for end in (edge.start, edge.end))
     what = "curve" if edge.nodes else "arc" if edge.centre else "line"
     others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
     return f"{others}draw the {what} from {ends} anew, {short(edge.length / factor)} long, or what meets it"

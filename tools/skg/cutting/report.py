@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from skg.cutting.check import LIMIT
 from skg.cutting.follow import Threading
 from skg.cutting.job import Job
-from skg.cutting.refusal import in_file, into, kind
+from skg.cutting.refusal import into, kind, told_in_file
 from skg.drawing.account import counted, short
 from skg.drawing.parallel import uncut
 from skg.drawing.planned import PlannedContour
@@ -28,7 +28,7 @@ def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
     holes = [route.start for route in routes]
     lines = [
         f"cut in this order: {order}; {counted(len(holes), 'start hole')}: "
-        + ", ".join(in_file(hole, factor) for hole in holes[:_PLACES])
+        + ", ".join(told_in_file(hole, factor) for hole in holes[:_PLACES])
         + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
     ]
     lines += _offsets(routes, offset)
@@ -51,7 +51,7 @@ def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
     for crossing in job.checked.crossings[:_PLACES]:
         lines.append(
             f"take care: the cut of contour {crossing.route + 1} comes {into(crossing)} contour {crossing.other + 1} "
-            f"at {in_file(crossing.place, factor)}"
+            f"at {told_in_file(crossing.place, factor)}"
         )
     if more := job.checked.crossings[_PLACES:]:
         lines.append(
@@ -118,7 +118,7 @@ def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
             continue
         far, place = uncut(route.contour, route.traced[-1], route.passes[-1])
         if far > LIMIT:
-            off.append((far, at, in_file(place, factor)))
+            off.append((far, at, told_in_file(place, factor)))
     narrow = [
         f"take care: contour {at + 1} has corners that are too narrow for the wire, as at {place}: "
         f"it stays {short(far)} mm off"
