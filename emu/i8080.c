@@ -369,7 +369,7 @@ translated:
     c->translation->run(c);
     LOAD_REGISTERS;
     COUNT_SLICE;
-    if (UNLIKELY(left < 0)) {
+    if (UNLIKELY(left < 0 || attention(c))) {
         goto leave;
     }
     goto *handlers[c->mem[pc]];             /* an instruction in any case: it may have come back from its entry at once */

@@ -29,6 +29,25 @@
         goto away;                          \
     } while (0)
 
+/* A port sees the counts at the instruction's start. Where it wants to be looked at, the block is left behind it. */
+#undef IN
+#undef OUT
+#define PORT(access)                        \
+    do {                                    \
+        left += rest;                       \
+        SAVE_COUNTS;                        \
+        SAVE_REGISTERS;                     \
+        access;                             \
+        if (UNLIKELY(c->stop_wanted || c->irq)) {   \
+            pc += 2;                        \
+            left -= COST(10, 1);            \
+            goto out;                       \
+        }                                   \
+        left -= rest;                       \
+    } while (0)
+#define IN PORT(a = c->in(c->user, (uint8_t)IMM8))
+#define OUT PORT(c->out(c->user, (uint8_t)IMM8, (uint8_t)a))
+
 #define BODY(length, cycles, ...) __VA_ARGS__;
 #define CARRY_OUT(row) BODY(row)
 

@@ -54,8 +54,6 @@ static way way_of(uint8_t op)
     case 0xd9:
     case 0xe9:
         return RETURNS;
-    case 0xd3:
-    case 0xdb:
     case 0xf3:
     case 0xfb:
     case 0x76:
