@@ -323,5 +323,5 @@ def test_mistake_would_be_found(mistake: str, monkeypatch: pytest.MonkeyPatch) -
     source = inspect.getsource(fit)
     assert MISTAKES[mistake][0] in source
     exec(source.replace(*MISTAKES[mistake]), wrong.__dict__)
-    monkeypatch.setattr(cutter, "FittedCurve", wrong.FittedCurve)
+    monkeypatch.setattr(cutter.Cutter, "new_curve", wrong.FittedCurve)
     assert any(reference(program).tape != right.tape and not close_call(right) for program, right in programs)
