@@ -34,7 +34,7 @@ build/libskg80.so: $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
 	$(EMU_CC) -fPIC -shared -DWITH_TRANSLATIONS -o $@ $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
 
 # Translations: the examples show what of a ROM is instructions. (-O2 takes gcc twice as long, for nothing)
-build/emu/translate: emu/translate.c emu/board.c emu/drive.c build/emu/i8080.o
+build/emu/translate: emu/translate.c emu/board.c emu/drive.c emu/image.c build/emu/i8080.o
 	$(EMU_CC) -o $@ $^
 
 build/emu/%.rows: roms/%.bin build/emu/translate $(wildcard examples/*.skg)
@@ -47,7 +47,7 @@ $(EMU_ROWS): build/emu/%.o: build/emu/%.rows emu/i8080_translated.c $(EMU_HEADER
 build/emu/compare: $(EMU_COMPARE) build/emu/i8080.o
 	$(EMU_CC) -o $@ $(EMU_COMPARE) build/emu/i8080.o
 
-build/emu/translated: tests/emu/translated.c emu/board.c emu/drive.c emu/translations.c build/emu/i8080.o $(EMU_ROWS)
+build/emu/translated: tests/emu/translated.c emu/board.c emu/drive.c emu/image.c emu/translations.c build/emu/i8080.o $(EMU_ROWS)
 	$(EMU_CC) -DWITH_TRANSLATIONS -o $@ $^
 
 build/emu/bench: $(EMU_BENCH) build/emu/i8080.o

@@ -7,6 +7,7 @@
  * somebody came back: there may be bytes that the subroutine reads.
  */
 #include "board.h"
+#include "image.h"
 #include "i8080_words.h"
 
 #include <stdio.h>
@@ -17,6 +18,7 @@ enum {
     PLACES = BOARD_ROM_SIZE + 3, /* an instruction may end behind the ROM */
     MOST_STEPS = 2000000,       /* of the processor, for one command */
     MOST_TAPE = 1 << 20,
+    ERROR_SIZE = 256,
     END_OF_TAPE = 0x1a          /* ctrl-Z: LOAD waits for nothing more */
 };
 
@@ -181,16 +183,10 @@ static void print_rows(program *p)
 
 /* ---- the parts ---- */
 
-static size_t read_file(const char *name, uint8_t *bytes, size_t size)
+static void give_up(const char *error)
 {
-    FILE *f = fopen(name, "rb");
-    if (!f) {
-        perror(name);
-        exit(EXIT_FAILURE);
-    }
-    size_t n = fread(bytes, 1, size, f);
-    fclose(f);
-    return n;
+    fprintf(stderr, "translate: %s\n", error);
+    exit(EXIT_FAILURE);
 }
 
 static void ignore(void *user, uint8_t byte)
@@ -219,14 +215,18 @@ static void watch(program *p, board *b, const char *line)
 
 static void run_part(program *p, const char *name)
 {
-    static uint8_t tape[MOST_TAPE + 1];
-    size_t n = read_file(name, tape, MOST_TAPE);
-    tape[n++] = END_OF_TAPE;
-    board *b = board_new(BOARD_6850, BOARD_RAM_MAX_KIB);
-    if (!b || !board_tape(b, tape, n)) {
-        fputs("translate: no memory\n", stderr);
-        exit(EXIT_FAILURE);
+    char error[ERROR_SIZE];
+    size_t size;
+    uint8_t *tape = image_read(name, MOST_TAPE, &size, error, sizeof error);
+    if (!tape) {
+        give_up(error);
     }
+    tape[size] = END_OF_TAPE; /* in place of the NUL */
+    board *b = board_new(BOARD_6850, BOARD_RAM_MAX_KIB);
+    if (!b || !board_tape(b, tape, size + 1)) {
+        give_up("no memory");
+    }
+    free(tape);
     b->paper = b->punch = ignore;
     board_rom(b, p->rom, BOARD_ROM_SIZE);
     watch(p, b, "");
@@ -242,7 +242,11 @@ int main(int argc, char **argv)
         fputs("usage: translate ROM.bin PART...\n", stderr);
         return EXIT_FAILURE;
     }
-    read_file(argv[1], p.rom, BOARD_ROM_SIZE);
+    static bool given[BOARD_ROM_SIZE];
+    char error[ERROR_SIZE];
+    if (image_rom(argv[1], p.rom, given, BOARD_ROM_SIZE, error, sizeof error)) {
+        give_up(error);
+    }
     for (int i = 2; i < argc; i++) {
         run_part(&p, argv[i]);
     }

@@ -33,7 +33,7 @@ LIBRARIES = {
     ),
 }
 #: What writes the rows of an image's translation (emu/translate.c), and the images that have one.
-TRANSLATE = [EMU / f"{name}.c" for name in ("translate", "i8080", "board", "drive")]
+TRANSLATE = [EMU / f"{name}.c" for name in ("translate", "i8080", "board", "drive", "image")]
 TRANSLATED = ("skg", "skg-nodrift")
 
 

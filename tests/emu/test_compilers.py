@@ -25,7 +25,7 @@ TREE = [
 MINGW = "x86_64-w64-mingw32-gcc"
 LIBRARIES = {
     "skg80": [f"emu/{name}.c" for name in ("i8080", "board", "drive", "image", "machine", "translations")],
-    "translate": [f"emu/{name}.c" for name in ("i8080", "board", "drive", "translate")],
+    "translate": [f"emu/{name}.c" for name in ("i8080", "board", "drive", "image", "translate")],
     "skgsim": ["tools/skg/native/skgsim.c"],
 }
 

@@ -8,6 +8,7 @@
  * instructions were compared, and how many of these the translation has carried out; or the first difference, exit 1.
  */
 #include "../../emu/board.h"
+#include "../../emu/image.h"
 #include "../../emu/translations.h"
 
 #include <stdio.h>
@@ -137,34 +138,33 @@ static bool compare(const uint8_t *rom, const uint8_t *tape, size_t length)
     return agree;
 }
 
-static size_t read_file(const char *name, uint8_t *bytes, size_t size)
-{
-    FILE *f = fopen(name, "rb");
-    if (!f) {
-        perror(name);
-        exit(EXIT_FAILURE);
-    }
-    size_t n = fread(bytes, 1, size, f);
-    fclose(f);
-    return n;
-}
-
 int main(int argc, char **argv)
 {
-    static uint8_t rom[BOARD_ROM_SIZE], tape[MOST_TAPE + 1];
+    static uint8_t rom[BOARD_ROM_SIZE];
+    static bool given[BOARD_ROM_SIZE];
+    char error[256];
     if (argc < 4) {
         fputs("usage: translated ROM.bin SEED PART...\n", stderr);
         return EXIT_FAILURE;
     }
-    read_file(argv[1], rom, sizeof rom);
+    if (image_rom(argv[1], rom, given, sizeof rom, error, sizeof error)) {
+        puts(error);
+        return EXIT_FAILURE;
+    }
     random_state = strtoull(argv[2], NULL, 0);
     for (int i = 3; i < argc; i++) {
-        size_t length = read_file(argv[i], tape, MOST_TAPE);
-        tape[length++] = 0x1a; /* ctrl-Z: LOAD waits for nothing more */
-        if (!compare(rom, tape, length)) {
+        size_t length;
+        uint8_t *tape = image_read(argv[i], MOST_TAPE, &length, error, sizeof error);
+        if (!tape) {
+            puts(error);
+            return EXIT_FAILURE;
+        }
+        tape[length] = 0x1a; /* ctrl-Z, in place of the NUL: LOAD waits for nothing more */
+        if (!compare(rom, tape, length + 1)) {
             printf("%s: they differ\n", argv[i]);
             return EXIT_FAILURE;
         }
+        free(tape);
     }
     printf("%llu slices, %.1f %% of %llu instructions by a translation, begun %llu times, ended %llu times\n",
            (unsigned long long)slices, 100.0 * (double)translated / (double)instructions,
