@@ -372,7 +372,10 @@ translated:
     if (UNLIKELY(left < 0 || attention(c))) {
         goto leave;
     }
-    goto *handlers[c->mem[pc]];             /* an instruction in any case: it may have come back from its entry at once */
+    if (c->code[pc] == handlers[HANDLE_TRANSLATED]) {
+        goto *handlers[c->mem[pc]];         /* back from an entry at once: it goes on with the instruction behind it */
+    }
+    goto *c->code[pc];
 
 careful:
     SAVE_COUNTS;

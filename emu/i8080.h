@@ -108,7 +108,8 @@ void i8080_map(i8080 *c, uint16_t first, uint16_t last, i8080_kind kind);
 uint8_t i8080_peek(const i8080 *c, uint16_t address);
 void i8080_poke(i8080 *c, uint16_t address, uint8_t value);
 
-/* True when an instruction was fetched there since the byte was last written. (Not while watching.) */
+/* True when an instruction was fetched there since the byte was last written. (Not while watching, nor by a
+ * translation.) */
 bool i8080_fetched(const i8080 *c, uint16_t address);
 
 /* Ends the run before the instruction at that address; on = false takes the breakpoint away again. */

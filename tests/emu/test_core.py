@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from asm8080 import assemble
 
-from skg.machine import Machine
+from skg.machine import Machine, symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -61,6 +61,21 @@ def test_a_translation_does_what_the_fast_loop_does(image: str) -> None:
     told = run("emu/translated", str(ROOT / "roms" / f"{image}.bin"), "1", *parts)
     slices, share, ended = re.fullmatch(r"(\d+) slices, ([\d.]+) % of .* times, ended (\d+) times\n", told).groups()
     assert int(slices) > 10_000 and float(share) > 90 and int(ended) > 100, told
+
+
+def test_a_translation_comes_back_to_a_breakpoint() -> None:
+    """A subroutine of the ROM returns to one: what `call` waits for."""
+    names, ends = symbols((ROOT / "roms" / "skg.sym").read_text()), []
+    for is_translated in (True, False):
+        m = Machine(ROOT / "roms" / "skg.bin")
+        m.run()
+        if not is_translated:
+            m.poke(0, m.peek(0))
+        cycles = m.cycles
+        ends.append((m.call(names["CALINI"]), m.cycles - cycles, m.registers))
+        assert m.is_translated == is_translated
+    assert ends[0] == ends[1]
+    assert ends[0][0] == "returned"
 
 
 def test_the_library_has_translations() -> None:
