@@ -5,7 +5,7 @@ from __future__ import annotations
 import tracemalloc
 from dataclasses import replace
 from functools import cache
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 from random import Random
 
@@ -15,10 +15,10 @@ import pytest
 from skg.errors import UserError
 from skg.quality import measure as measuring
 from skg.quality.fewest import Saving, arc_distance, fewest_blocks, savings, span_blocks, with_tangents
-from skg.quality.fitted import Biarcs, FittedPiece, Run, _Few, fitted_runs, pieces, tangent_jump
+from skg.quality.fitted import Biarcs, FittedPiece, Run, _Few, fitted_runs, pieces
 from skg.quality.measure import Quality, denser, distance, measure, node
 from skg.quality.true_curves import TRUE_CURVES
-from skg.ref import fit
+from skg.ref import fit, real
 from skg.ref import run as reference
 from skg.ref.cutter import MOST_ITEMS
 from skg.ref.fit import MOST_PASSED, Node, within
@@ -30,6 +30,12 @@ PARTS = sorted((Path(__file__).parents[2] / "examples").glob("fit-*.skg"))
 TOLERANCE, SMOOTH, RATIO = "0.005", 1e-6, 1.3
 
 parts = pytest.mark.parametrize("part", PARTS, ids=lambda part: part.stem)
+
+
+def tangent_jump(curve: list[FittedPiece]) -> float:
+    """The largest angle (radians) between two arcs where they meet."""
+    jumps = (abs(real.mp.asin(a.heading(a.end).cross(b.heading(b.start)))) for a, b in pairwise(curve))
+    return float(max(jumps, default=ZERO))
 
 
 @cache

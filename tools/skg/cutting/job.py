@@ -22,8 +22,6 @@ from skg.tape.block import Tape
 
 #: No contour takes fewer bytes of the board's memory: the lines of its REM, FROM and CUT.
 _LEAST_STORED = 24
-
-
 #: Past a tip from which the wire would run on by more R than this it is not tried.
 _WILD = 1000.0
 

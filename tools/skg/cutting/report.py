@@ -76,7 +76,7 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
         if outer:
             lines.append(
                 f"take care: {counted(len(outer), 'part')} free after the first pass "
-                f"(contour {', '.join(map(str, outer[:_PLACES]))}{' …' * (len(outer) > _PLACES)}): --tab keeps a bridge"
+                f"{_contours(outer)}: --tab keeps a bridge"
             )
     lines += _sides(routes)
     if on:
@@ -89,15 +89,24 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
 def _sides(routes: list[PlannedContour]) -> Iterator[str]:
     """Contours that the wire runs beside on the side that --side says, not on that of a part with openings."""
     closed = [(at + 1, route) for at, route in enumerate(routes) if route.contour.is_closed and route.passes[-1]]
-    for is_opening, what in ((True, "outside of {}: wider"), (False, "inside of {}: smaller")):
-        some = [at for at, one in closed if one.is_opening is is_opening is one.is_outside]
-        if some and any(one.depth for _, one in closed):
-            wide = short(2 * abs(closed[0][1].passes[-1]))
-            where, than = what.format(counted(len(some), "opening" if is_opening else "outline")).split(": ")
+    if not any(route.depth for _, route in closed):
+        return
+    wide = short(2 * abs(closed[0][1].passes[-1]))
+    for is_opening, side, noun, than in (
+        (True, "outside", "opening", "wider"),
+        (False, "inside", "outline", "smaller"),
+    ):
+        some = [at for at, route in closed if route.is_opening is is_opening is route.is_outside]
+        if some:
             yield (
-                f"take care: the wire runs {where} (contour {', '.join(map(str, some[:_PLACES]))}"
-                f"{' …' * (len(some) > _PLACES)}), as --side says: {wide} mm {than} than drawn"
+                f"take care: the wire runs {side} of {counted(len(some), noun)} {_contours(some)}, as --side says: "
+                f"{wide} mm {than} than drawn"
             )
+
+
+def _contours(numbers: list[int]) -> str:
+    """Some contours, the first ones by their numbers."""
+    return f"(contour {', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)})"
 
 
 def _corners(routes: list[PlannedContour], factor: float) -> list[str]:

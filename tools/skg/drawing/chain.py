@@ -144,7 +144,7 @@ def _off(one: Edge, other: Edge) -> float:
     """How far one edge leaves another one, at its points."""
     if other.nodes:
         return float(shapely.distance(shapely.points(one.points()), shapely.linestrings(other.samples)).max())
-    return max(distance(place, other.at(other.nearest(place))) for place in one.points())
+    return max(map(other.far, one.points()))
 
 
 def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chains:

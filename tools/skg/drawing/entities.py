@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
@@ -232,12 +231,8 @@ class _Collector:
 @cache
 def _by_ezdxf() -> ModuleType:
     """`skg.drawing.by_ezdxf`: slow to import, and many drawings do not need it."""
-    # (what a library drops while it is loaded keeps alive all that those hold who called for it: that goes at once)
-    gc.freeze()
     from skg.drawing import by_ezdxf
 
-    gc.collect()
-    gc.unfreeze()
     return by_ezdxf
 
 

@@ -130,7 +130,7 @@ class PlannedContour:
     @property
     def is_outside(self) -> bool:
         """Whether the wire runs outside of it, with an R that is not 0."""
-        return (self.contour.area > 0) == (self.offset > 0)
+        return (self.contour.area > 0) == (self.widest > 0)
 
     @cached_property
     def chain(self) -> tuple[Edge, ...]:
@@ -175,8 +175,7 @@ class PlannedContour:
         """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.drawing.parallel)."""
         traced = tuple(wire_way(self.contour, r) for r in self.passes)
         found = replace(self, traced=traced)
-        is_outside = (self.contour.area > 0) == (self.widest > 0)
-        if is_outside or self.room == inf:
+        if self.is_outside or self.room == inf:
             return found
         # (a start hole that was chosen, square to the contour, may be where the wire does not come to)
         place = roomy_place(traced[self.passes.index(self.widest)], self.start)

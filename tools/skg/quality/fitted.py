@@ -5,9 +5,8 @@ A curve is what one run of FIT statements makes, without R: arcs and lines (skg.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from itertools import chain, pairwise
 
 import numpy as np
 
@@ -190,34 +189,20 @@ def fitted_runs(source: str, mills: bool = False) -> list[Run]:
     return machine.runs
 
 
-def each_piece(
-    nodes: Iterable[Node], tolerance: Real = ZERO, kind: type[FittedCurve] = FittedCurve
-) -> Iterator[FittedPiece]:
-    """The blocks of a curve, one after the other: the arcs and lines between the points that it is fed as."""
+def pieces(nodes: Iterable[Node], tolerance: Real = ZERO, kind: type[FittedCurve] = FittedCurve) -> list[FittedPiece]:
+    """The blocks of a curve: the arcs and lines between the points that it is fed as."""
     fed: list[Point | Circle] = []
     curve = kind(lambda value, _: fed.append(value), tolerance)
+    for node in nodes:
+        curve.add(node)
+    curve.finish()
+    found: list[FittedPiece] = []
     start, circle = None, None
-    for node in chain(nodes, [None]):
-        if node is None:
-            curve.finish()
-        else:
-            curve.add(node)
-        for value in fed:
-            if isinstance(value, Circle):
-                circle = value
-                continue
-            if start is not None:
-                yield FittedPiece(start, value, circle)
-            start, circle = value, None
-        fed.clear()
-
-
-def pieces(nodes: Iterable[Node], tolerance: Real = ZERO, kind: type[FittedCurve] = FittedCurve) -> list[FittedPiece]:
-    """All blocks of a curve."""
-    return list(each_piece(nodes, tolerance, kind))
-
-
-def tangent_jump(curve: Iterable[FittedPiece]) -> float:
-    """The largest angle (radians) between two arcs where they meet."""
-    jumps = (abs(real.mp.asin(a.heading(a.end).cross(b.heading(b.start)))) for a, b in pairwise(curve))
-    return float(max(jumps, default=ZERO))
+    for value in fed:
+        if isinstance(value, Circle):
+            circle = value
+            continue
+        if start is not None:
+            found.append(FittedPiece(start, value, circle))
+        start, circle = value, None
+    return found
