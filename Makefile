@@ -25,7 +25,7 @@ include tests/fuzz/fuzz.mk
 include tests/rom/soup.mk
 include tests/mill/mill.mk
 include web/web.mk
--include tests/floats/floats.mk
+include tests/floats/floats.mk
 
 # The virtual environment of the host tools and tests, made anew when the pinned list changes. The tools are installed as
 # a user has them, but editable: their modules, the ROM images and the libraries in C are those of this tree.
@@ -78,7 +78,7 @@ docs: venv rom emu tools
 	$(PY) asm/rooms.py --headers
 	@for page in $(PAGES); do echo $(PY) $$page; PYTHONHASHSEED=0 $(PY) $$page || exit 1; done
 
-bench: bench-emu $(if $(wildcard tests/floats/floats.mk),bench-floats) bench-rom
+bench: bench-emu bench-floats bench-rom
 
 bench-rom: venv emu
 	@$(PY) tests/rom/bench.py

@@ -92,7 +92,7 @@ EUNSET  EQU 3           ; name without a value
 EKIND   EQU 4           ; kinds cannot be combined
 ERANGE  EQU 5           ; number out of range
 EGEOM   EQU 6           ; geometry impossible
-EOFFS   EQU 7           ; offset larger than an inner radius
+EOFFS   EQU 7           ; the offset leaves nothing of a radius
 EDATA   EQU 8           ; out of DATA
 EMEM    EQU 9           ; memory full
 ETAPE   EQU 10H         ; 10: block does not fit, reader ran out, operator broke in

@@ -267,6 +267,16 @@ def test_meaning_of_errors() -> None:
         assert number == 10 or rows[f"{number:02d}"].startswith(meaning)
 
 
+def test_one_wording_of_error_7() -> None:
+    """The manual, the page and `skg cut` say it as the specification does: of any arc, and of a cutter too."""
+    from skg.cutting.refusal import meaning
+    from skg.machine.board import ERRORS
+
+    assert ERRORS[7] in meaning(7)
+    for page in ("docs/manual.md", "web/src/language.ts"):
+        assert ERRORS[7] in (ROOT / page).read_text()
+
+
 #: Lines without numbers in front of one with a number; whether their last leg is cut.
 MIXED = {
     "CUT (0,0),(5,0),(5,5)\n\n10 A=1\n": "of line 1 is given up by line 3,",

@@ -85,7 +85,7 @@ const WORDS = {
   err04: ["these kinds cannot be combined", "类型不能这样组合"],
   err05: ["number out of range", "数超出范围"],
   err06: ["geometry impossible: no crossing, no tangent, no room for a fillet", "几何上不可能:无交点、无切线或圆角放不下"],
-  err07: ["wire offset larger than an inner radius", "偏移大于内圆角半径"],
+  err07: ["the offset leaves nothing of an arc's radius", "偏移后圆弧半径为零或为负"],
   err08: ["out of DATA", "DATA 用完"],
   err09: ["memory full, or the line is too long", "内存满,或行太长"],
   err10: ["broken off, or a block does not fit the tape", "被中断,或程序段超出范围"],

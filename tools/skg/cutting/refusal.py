@@ -26,7 +26,7 @@ _MEANING = {
         "with an offset a short edge or corner has vanished: try a smaller --offset, another --side or --start; "
         "without one look for edges that nearly touch there",
     ),
-    7: ("the offset is larger than the radius of an inner arc", "a thinner wire or a smaller --offset"),
+    7: ("the offset leaves nothing of an arc's radius", "a thinner wire or a smaller --offset"),
     9: ("the board's memory is full", "a larger --ram"),
     10: ("a move is too long for a tape", "is the drawing in the right --units? a tape ends at 100 m"),
 }

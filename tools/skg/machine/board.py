@@ -26,7 +26,7 @@ ERRORS = {
     4: "these kinds cannot be combined, or do not fit the name",
     5: "number out of range",
     6: "geometry impossible",
-    7: "wire offset larger than an inner radius",
+    7: "the offset leaves nothing of an arc's radius",
     8: "out of DATA",
     9: "memory full",
     10: "tape: a block does not fit, the reader ran out in mid-line, or the operator broke in",
