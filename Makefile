@@ -8,7 +8,8 @@
 #   make bench    the emulator's speed, cycles of the floats, cycles a block and a step over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
 #   make web      the machine in a web page, web/dist; make web-serve shows it, make test-web looks at it in browsers
-#   make hunt     a million random programs, firmware against reference (PROGRAMS=1000000)
+#   make hunt     new examples for the tests that take any, a million random programs, firmware against reference
+#                 (PROGRAMS=1000000, SEED)
 PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python

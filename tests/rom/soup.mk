@@ -2,7 +2,8 @@
 PROGRAMS ?= 1000000
 SEED     ?= $(shell date +%s)
 
-hunt: venv emu
+hunt: venv asm80 emu tools
+	$(PY) -m pytest -q -n 2 --hypothesis-profile hunt --hypothesis-seed $(SEED) $(shell grep -rl '^@given' tests)
 	$(PY) tests/rom/hunt.py --seed $(SEED) --programs $(PROGRAMS)
 	$(PY) tests/mill/hunt_grbl.py --seed $(SEED) --programs $$(($(PROGRAMS) / 10))
 

