@@ -383,6 +383,29 @@ def test_edges_that_are_cut_away_are_not_spoiled(run: Run, tmp_path: Path, windo
     assert "its wire would come 0.2 mm or more into contour" in run_failing(run, *words, "--offset", 0.2)
 
 
+@pytest.mark.parametrize(
+    "others",
+    [
+        # An island that reaches over the edge of its opening; a part as large as the first one that crosses it; an
+        # island that is nearer to its window than the wire is wide, where that reaches into a second part.
+        [[(2, 2), (18, 2), (18, 13), (2, 13)], [(8, 4), (18.7, 7), (8, 10)]],
+        [[(5, 4), (25, 4), (25, 19), (5, 19)]],
+        [
+            [(21, 0), (41, 0), (41, 15), (21, 15)],
+            [(15, 5), (26, 5), (26, 8), (15, 8)],
+            [(23, 5.1), (25, 5.1), (25, 7), (23, 7)],
+        ],
+    ],
+)
+def test_what_crosses_and_is_no_window_is_refused(run: Run, tmp_path: Path, others: list[list[XY]]) -> None:
+    """There is no side of these edges that is cut away: each would be spoiled by the other's wire."""
+    page = drawing()
+    for corners in ([(0, 0), (20, 0), (20, 15), (0, 15)], *others):
+        polygon(corners, page)
+    told = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.2)
+    assert "its wire would come 0.2 mm or more into contour" in told and "; 1 more cut into" in told, told
+
+
 def test_an_opening_that_crosses_itself_and_the_edge(run: Run, tmp_path: Path) -> None:
     """The ROM goes along it; the check must tell, whatever area such a contour has."""
     page = drawing()

@@ -243,6 +243,12 @@ def test_depths_of_what_crosses() -> None:
     assert Field([*reliefs, *shapes]).depths() == [1] * 6 + [0, 1]
 
 
+def test_depths_of_what_is_as_large() -> None:
+    """Two squares that cross, each as large as the other: neither is an opening of the other."""
+    squares = [ring([(x, y), (x + 9, y), (x + 9, y + 9), (x, y + 9)]) for x, y in ((0.0, 0.0), (2.1, 3.3))]
+    assert Field(squares).depths() == [0, 0]
+
+
 @pytest.mark.parametrize("is_turned", [False, True])
 def test_depths_of_crossed_slots(is_turned: bool) -> None:
     """Slots that cross in a plate are openings, also where one lies in the other by half, and two as large ones, and

@@ -1,7 +1,7 @@
 """Where the wire of one contour cuts into another one, and how deep: measured between the pieces (shapely).
 
 What is spoiled is an edge that the finished part has. Where a window reaches past the edge of its part, or into another
-window, that edge is cut away, whatever the wire does there.
+window, that edge is cut away, whatever the wire does there. A window is smaller than its part.
 """
 
 from __future__ import annotations
@@ -82,20 +82,26 @@ def _cut_away(lines: Shapes, owners: Whole, inner: Flags, outer: Flags) -> bool:
     rings = np.array([shapely.LinearRing(shapely.get_coordinates(lines[pieces[owner]])) for owner in closed])
     # (what has no width in one that crosses itself is no area)
     areas = shapely.buffer(shapely.make_valid(shapely.polygons(rings)), 0)
+    sizes = shapely.area(areas)
     one, other = shapely.STRtree(rings).query(rings, predicate="intersects")
-    found = False
+    parts: dict[int, list[shapely.Geometry]] = {}
+    holes: dict[int, list[shapely.Geometry]] = {}
     for a, b in zip(one.tolist(), other.tolist(), strict=True):
         mine, its = closed[a], closed[b]
         is_hole = inner[its]
-        if a == b or not (is_hole or inner[mine]):
+        # (an island that reaches over the edge of its opening takes nothing from that, nor has it anything taken away)
+        if a == b or not (is_hole or inner[mine]) or (is_hole != inner[mine] and (sizes[b] < sizes[a]) != is_hole):
             continue
         area = areas[b].buffer(_HAIR, join_style="mitre") if is_hole else areas[b]
         left, within = shapely.difference(rings[a], area), shapely.intersection(rings[a], area)
         if left.length > _HAIR and within.length > _HAIR:
-            some = pieces[mine]
-            lines[some] = (shapely.difference if is_hole else shapely.intersection)(lines[some], area)
-            found = True
-    return found
+            (holes if is_hole else parts).setdefault(mine, []).append(area)
+    for mine, some in parts.items():
+        # (a window may reach from one part into another)
+        lines[pieces[mine]] = shapely.intersection(lines[pieces[mine]], shapely.union_all(some))
+    for mine, some in holes.items():
+        lines[pieces[mine]] = shapely.difference(lines[pieces[mine]], shapely.union_all(some))
+    return bool(parts or holes)
 
 
 def _lines(pieces: Pieces, which: Whole) -> Shapes:

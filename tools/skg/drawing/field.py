@@ -19,6 +19,8 @@ from skg.tape.columns import Flags, numbers_up_to
 _RUN, _PIECE = 32, 8
 #: What is within a reach may seem to lie this much farther away, mm.
 _HAIR = 1e-9
+#: Areas that differ by less than this part of them are the same.
+_ALIKE = 1e-9
 #: So many pairs of a place and a chord are looked at together; those of contours of no more than so many points too.
 _PAIRS, _FEW = 100_000, 200
 #: Where a contour is looked across for places in it, parts of its height and of the width there: no corners lie there
@@ -157,13 +159,14 @@ class Field:
 
     def _around_in(self, where: tuple[float, float], some: Flags) -> tuple[Whole, Whole, Whole]:
         """The contours that each of some places lies in, which are in some of the contours: whose these places are;
-        of each pair of a place and a contour around it, as large as its own or larger, both numbers."""
+        of each pair of a place and a contour around it, larger than its own, both numbers."""
         whose, places = self._inner(*where)
         asked = some[whose]
         whose, places = whose[asked], places[asked]
         sizes = self._sizes()
         of, holding = self._holding(places, whose)
-        large = sizes[holding] >= sizes[whose[of]]
+        # (of two that are as large as each other neither lies in the other: both would be openings, and none the part)
+        large = sizes[holding] > sizes[whose[of]] * (1 + _ALIKE)
         return whose, of[large], holding[large]
 
     def _sizes(self) -> Floats:
