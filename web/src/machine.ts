@@ -5,7 +5,7 @@ import type { News, Order, Speed, State } from "./worker.ts";
 export interface Listener {
   /** `seen` is to be called when all of it has been shown: the board waits for that. */
   out(paper: string, punched: Punched[], seen: () => void): void;
-  state(state: State, cycles: number): void;
+  state(state: State): void;
   memory(ram: Uint8Array, program: string, rom: string): void;
   failed(why: string): void;
 }
@@ -13,6 +13,8 @@ export interface Listener {
 export class Machine {
   readonly #worker: Worker;
   readonly #listener: Listener;
+  /** How often it was loaded, restored or reset: what it did before is no news any more. */
+  #taken = 0;
 
   constructor(listener: Listener) {
     this.#listener = listener;
@@ -40,19 +42,25 @@ export class Machine {
 
   /** NEW (`clear`), LOAD and RUN of a program; what runs is broken off. */
   load(program: string, run: boolean, clear = true): void {
-    this.#say({ kind: "load", program, run, clear });
+    this.#take({ kind: "load", program, run, clear });
   }
 
   restore(ram: Uint8Array): void {
-    this.#say({ kind: "restore", ram });
+    this.#take({ kind: "restore", ram });
   }
 
   reset(): void {
-    this.#say({ kind: "reset" });
+    this.#take({ kind: "reset" });
   }
 
   speed(speed: Speed): void {
     this.#say({ kind: "speed", speed });
+  }
+
+  #take(order: Order): void {
+    this.#taken++;
+    this.#say(order);
+    this.#listener.state("busy");
   }
 
   #say(order: Order): void {
@@ -63,7 +71,7 @@ export class Machine {
     switch (news.kind) {
       case "out":
         this.#listener.out(news.paper, news.punched, () => this.#say({ kind: "seen" }));
-        this.#listener.state(news.state, news.cycles);
+        this.#listener.state(news.taken === this.#taken ? news.state : "busy");
         break;
       case "memory":
         this.#listener.memory(news.ram, news.program, news.rom);

@@ -228,7 +228,7 @@ function showState(): void {
 function lookForError(paper: string): void {
   tail = (tail + paper).slice(-400);
   const found = [...tail.matchAll(/(?:^|\n)ERR (\d\d)(?: LINE (\d+))?\r\n/g)].at(-1);
-  if (/RUN\r\n|LOAD\r\n/.test(paper)) program.wrong = 0;
+  if (/RUN\r\n|LOAD\r\n/.test(tail)) program.wrong = 0;
   if (!found) return;
   const [, number = "", line] = found;
   tail = tail.slice((found.index ?? 0) + found[0].length);

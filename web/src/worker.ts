@@ -18,9 +18,10 @@ export type Order =
 /** What the board does now; `tape`: LOAD waits for one. */
 export type State = "busy" | "prompt" | "input" | "wait" | "tape" | "halt";
 
-/** What the worker says. `memory`: at a prompt, when the RAM has changed; `rom` names the ROM that it belongs to. */
+/** What the worker says. `taken`: how often it was loaded, restored or reset until then. `memory`: at a prompt, when the RAM has
+ * changed; `rom` names the ROM that it belongs to. */
 export type News =
-  | { kind: "out"; paper: string; punched: Punched[]; state: State; cycles: number }
+  | { kind: "out"; paper: string; punched: Punched[]; state: State; taken: number; cycles: number }
   | { kind: "memory"; ram: Uint8Array; program: string; rom: string }
   | { kind: "failed"; why: string };
 
@@ -53,6 +54,7 @@ let errors = "";
 let broken = false;
 /** It has not been at its prompt since it was switched on or reset: nothing runs that could be broken off. */
 let isStarting = true;
+let taken = 0;
 let last = 0;
 
 const tell = (news: News): void => postMessage(news);
@@ -86,6 +88,8 @@ function turn(): void {
   state = stateOf(reason);
   const paper = ascii(board.takePaper());
   const punched = board.takePunched();
+  errors = (errors + paper).slice(-400);
+  if (state === "prompt" && !broken && /(^|\n)ERR \d\d/.test(errors)) script = [];
   if (paper || punched.length || state !== "busy") report(paper, punched);
   if (state === "prompt") atPrompt();
   else if (state !== "halt") inRun(now);
@@ -95,8 +99,8 @@ function turn(): void {
 
 function report(paper: string, punched: Punched[]): void {
   unseen++;
-  errors = (errors + paper).slice(-400);
-  tell({ kind: "out", paper, punched, state, cycles: board.cycles });
+  // (At the prompts of its script it waits for nobody.)
+  tell({ kind: "out", paper, punched, state: state === "prompt" && script.length ? "busy" : state, taken, cycles: board.cycles });
 }
 
 function stateOf(reason: Reason): State {
@@ -106,7 +110,6 @@ function stateOf(reason: Reason): State {
 }
 
 function atPrompt(): void {
-  if (!broken && /(^|\n)ERR \d\d/.test(errors)) script = [];
   broken = isStarting = looked = false;
   quiet = performance.now();
   const next = script.shift();
@@ -226,15 +229,18 @@ function obey(order: Order): void {
       board.tape(order.bytes);
       break;
     case "load":
+      taken++;
       carryOut(loading(order.program, order.run, order.clear));
       break;
     case "restore":
+      taken++;
       script = [];
       board.forget();
       board.restore(order.ram);
       isStarting = true;
       break;
     case "reset":
+      taken++;
       script = [];
       board.forget();
       board.reset();
