@@ -9,15 +9,22 @@ const TYPES: Record<string, string> = {
   svg: "image/svg+xml", webmanifest: "application/manifest+json",
 };
 
+/** Nothing takes so long but what hangs, ms: a test waits for what it wants to see, however busy the machine is. */
+export const PATIENCE = 180_000;
+/** The same of all tests of a file. */
+export const WHOLE = 2_400_000;
+
 export interface Served {
   url: string;
   /** Bytes of each file asked for since it was last emptied, gzipped. */
   sent: Map<string, number>;
+  /** Nobody gets through to it, or may again. */
+  cut(isCut: boolean): void;
   stop(): Promise<void>;
 }
 
-/** Serves the page from a folder of its own; on a port that was used before when `port` is not 0. */
-export async function serve(port = 0, folder = "web/dist"): Promise<Served> {
+/** Serves the page from a folder of its own. */
+export async function serve(folder = "web/dist"): Promise<Served> {
   const sent = new Map<string, number>();
   const server: Server = createServer((request, response) => {
     const name = (request.url ?? "").replace(/^\/some\/folder\//, "").replace(/[?#].*/, "") || "index.html";
@@ -32,9 +39,15 @@ export async function serve(port = 0, folder = "web/dist"): Promise<Served> {
       response.end();
     }
   });
-  await new Promise<void>((started) => server.listen(port, "127.0.0.1", started));
+  let isCut = false;
+  server.on("connection", (socket) => isCut && socket.destroy());
+  await new Promise<void>((started) => server.listen(0, "127.0.0.1", started));
   return {
     url: `http://127.0.0.1:${(server.address() as AddressInfo).port}/some/folder/`, sent,
+    cut(wanted) {
+      isCut = wanted;
+      if (isCut) server.closeAllConnections();
+    },
     stop: () => new Promise((stopped) => {
       server.close(() => stopped());
       server.closeAllConnections();
@@ -42,10 +55,10 @@ export async function serve(port = 0, folder = "web/dist"): Promise<Served> {
   };
 }
 
-/** A tape of 20,000 blocks, lines and half circles, row upon row: 100 mm high. */
-export function longTape(): string {
+/** A tape of 200 blocks a row, lines and half circles, row upon row: 1 mm high each. */
+export function longTape(count = 100): string {
   const rows: string[] = [];
-  for (let row = 0; row < 100; row++) {
+  for (let row = 0; row < count; row++) {
     const pair = row % 2 ? ["B500B0B500GXL3", "B250B0B500GYNR1"] : ["B500B0B500GXL1", "B250B0B500GYSR2"];
     rows.push(...Array.from({ length: 99 }, () => pair).flat(), "B0B500B500GYL2", "B0B500B500GYL2");
   }
