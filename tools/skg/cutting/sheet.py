@@ -22,6 +22,7 @@ from skg.cutting.refusal import kind
 from skg.drawing.account import short, shown
 from skg.drawing.contour import Edge, Places
 from skg.drawing.page import as_it_stands, save
+from skg.drawing.planned import PlannedContour
 from skg.drawing.plot import FEW, outlines
 from skg.plane import XY, distance
 from skg.tape.columns import numbers_up_to
@@ -33,7 +34,9 @@ _A4, _A3 = (297.0, 210.0), (420.0, 297.0)
 _INCH = 25.4
 _MARGIN, _HEAD = 10.0, 26.0
 #: A row of the table, a column of it; room around the part for dimensions.
-_ROW, _COLUMN, _AROUND = 2.9, 46.0, 14.0
+_ROW, _COLUMN, _AROUND = 2.9, 48.0, 14.0
+#: Where a column's cells end, or begin (the fourth), mm.
+_CELLS = (5.5, 16.9, 28.3, 30.0, 47.5)
 #: The largest mark of a start hole (its radius), the largest arrow; all mm on the paper.
 _HOLE, _ARROW = 1.1, 1.8
 #: Of these scales the largest at which the part fits is taken.
@@ -45,15 +48,20 @@ _SCALES = (
 _MOST_NUMBERS = 1000
 #: Numbers are looked for room on a grid of this, mm, no further from their holes than the second.
 _GRID, _FAR = 0.4, 14.0
-_FONT = 6.0
+#: A number this much further from its hole than the nearest place stands alone beside it, or has a line to it.
+_ALONE = 1.7
+#: The letters of numbers, points of a font; no letters on the page are smaller than the second.
+_FONT, _LEAST = 6.0, 5.0
 #: Ways from a hole to its number, in the order in which they are tried.
 _AROUND_A_HOLE = np.array([(cos(pi / 4 + turn * pi / 6), sin(pi / 4 + turn * pi / 6)) for turn in range(12)])
 #: So many straight lines are laid on the grid at once.
 _LINES = 100_000
-#: A fact at the foot of the page, and how small its letters may be.
-_FACT, _SMALL = 6.5, 4.0
+#: Letters of a fact at the foot of the page.
+_FACT = 6.5
 #: A point of a font in mm; how wide a character is, in font sizes.
 _POINT, _WIDE = _INCH / 72, 0.62
+#: The starts of steps along places, and their ends.
+_STEPS = (slice(None, -1), slice(1, None))
 _INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
 
 
@@ -83,6 +91,11 @@ class _Taken:
         """The cells of places, or those `behind` them, as ends of slices."""
         return np.clip((places / _GRID).astype(int) + behind, 0, self.cells.shape)
 
+    def is_free_along(self, places: np.ndarray) -> bool:
+        """Whether nothing is where a line passes; places no further apart than the grid."""
+        at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
+        return not self.cells[at[:, 0], at[:, 1]].any()
+
     def are_free(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """In which of some boxes, near to each other, nothing is; their lower and upper corners (n × 2)."""
         low, high = self._corners(low, 0), self._corners(high, 1)
@@ -98,6 +111,29 @@ class _Taken:
         """Take a box."""
         (left, bottom), (right, top) = self._corners(np.array(low), 0), self._corners(np.array(high), 1)
         self.cells[left:right, bottom:top] = True
+
+
+class _Marks:
+    """The marks of the start holes: their places on the page (n × 2) and radii, mm."""
+
+    def __init__(self, places: np.ndarray, radii: np.ndarray) -> None:
+        self.places, self.radii = places, radii
+        self._tree = shapely.STRtree(shapely.points(places))
+
+    def are_alone(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
+        """Which of some boxes (their middles, n × 2; half their sides) are clearly nearer to a mark than to others."""
+        if not len(middles):
+            return np.zeros(0, bool)
+        reach = half + self.radii[at] + 2 * _ALONE + 2.2
+        near = self._tree.query(shapely.box(*(middles.min(0) - reach), *(middles.max(0) + reach)))
+        near = near[np.any(self.places[near] != self.places[at], axis=1)]
+        apart = [self._distance(one, middles, half) for one in near]
+        return self._distance(at, middles, half) + 0.3 < np.min(apart, axis=0, initial=np.inf)
+
+    def _distance(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
+        """How far some boxes are from a mark."""
+        beside = np.maximum(np.abs(self.places[at] - middles) - half, 0)
+        return np.hypot(*beside.T) - self.radii[at]
 
 
 class SetupSheet:
@@ -116,7 +152,8 @@ class SetupSheet:
         self.axes.set_xlim(0, self.page[0])
         self.axes.set_ylim(0, self.page[1])
         self.axes.axis("off")
-        self.taken = _Taken(self.page)
+        # What texts stay off; what lines from numbers to holes stay off: other numbers, holes, such lines.
+        self.taken, self.marked = _Taken(self.page), _Taken(self.page)
         self._place()
 
     def draw(self) -> None:
@@ -186,25 +223,33 @@ class SetupSheet:
         laid = self.job.checked.followed.laid
         cuts = [some for cut in self.job.checked.cuts if len(some := laid[cut.blocks])]
         if cuts:
-            self._patch(outlines(Laid.joined(cuts)), 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire")
+            curve = outlines(Laid.joined(cuts))
+            self._patch(curve, 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire")
             # (what lies beside the contours: leads)
             starts, ends = (
                 self._all_on_paper(np.concatenate([places[[0, -1]] for places in side]) / 1000)
                 for side in ([cut.starts for cut in cuts], [cut.ends for cut in cuts])
             )
             self._take_lines(starts, ends)
+            if any(abs(route.widest) * self.scale > _GRID for route in self.job.routes):
+                # (elsewhere the wire's path is where the part's lines are)
+                tenths = Affine2D().scale(0.001 * self.scale).translate(*self.shift).scale(10)
+                path = [places / 10 for places in curve.to_polygons(tenths, closed_only=False)]
+                self._take_lines(*(np.concatenate([places[some] for places in path]) for some in _STEPS))
         holes = self._all_on_paper(route.start for route in self.job.routes)
         moves = np.stack([holes[:-1], holes[1:]], axis=1)
         self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
         arrows = [arrow for route in self.job.routes if (arrow := self._arrow(route.chain))]
         if arrows:
-            self._lines(np.array(arrows), edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
+            places = np.array(arrows)
+            self._lines(places, edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
+            self._take_lines(*(places[:, some].reshape(-1, 2) for some in _STEPS))
 
     def _arrow(self, edges: Sequence[Edge]) -> list[XY]:
         """An arrow on the longest edge of a contour shows the way and covers nothing: it is open and thin. None where
         it would be too small."""
         edge = max(edges, key=lambda edge: edge.length)
-        size = min(_ARROW, edge.length * self.scale / 4)
+        size = min(_ARROW, edge.length * self.scale / (10 if edge.is_circle else 4))
         if size <= 0.3:
             return []
         x, y = self.on_paper(edge.at(0.5))
@@ -257,6 +302,7 @@ class SetupSheet:
         widths = [min(0.7, radius) for radius in radii]
         for place, radius in zip(places, radii, strict=True):
             self.taken.take(place - radius, place + radius)
+            self.marked.take(place - radius, place + radius)
         if len(places) > FEW:
             curves = [paths.Path.circle(place, radius) for place, radius in zip(places, radii, strict=True)]
             look = {"facecolor": "none", "edgecolor": _MARK, "zorder": 5, "gid": "holes"}
@@ -266,9 +312,8 @@ class SetupSheet:
                 mark = Circle(place, radius, fill=False, edgecolor=_MARK, linewidth=width, zorder=5, gid="hole")
                 # (add_patch would look for its bounds)
                 self.axes.add_artist(mark)
-        looked_for = zip(places[:_MOST_NUMBERS].tolist(), radii, strict=False)
-        found = [self._number(str(at), hole, radius) for at, (hole, radius) in enumerate(looked_for, 1)]
-        return len(places) - sum(found)
+        marks = _Marks(places, np.array(radii))
+        return len(places) - sum(self._number(at, marks) for at in range(min(len(places), _MOST_NUMBERS)))
 
     def _radii(self, places: np.ndarray) -> np.ndarray:
         """The radii of the marks at these places: a mark covers neither its contour nor the next mark."""
@@ -283,23 +328,41 @@ class SetupSheet:
         limits = [0.5 * rooms, np.where(leads > 0, 0.5 * leads, _HOLE), 0.4 * apart]
         return np.clip(np.min(limits, axis=0), 0.1, _HOLE)
 
-    def _number(self, text: str, hole: XY, radius: float) -> bool:
-        """Write a number where there is room near its hole, with a line to it from further away."""
-        rings = np.arange(radius + 0.5, _FAR, 0.8)
-        for size in (_FONT, 4.5):
-            half = self._half_a_box(text, size)
-            middles = (hole + (rings[:, None, None] + half) * _AROUND_A_HOLE).reshape(-1, 2)
-            free = np.flatnonzero(self.taken.are_free(middles - half, middles + half))
-            if len(free):
-                ring, middle = rings[free[0] // len(_AROUND_A_HOLE)], middles[free[0]]
-                if ring > radius + 2.2:
-                    way = _AROUND_A_HOLE[free[0] % len(_AROUND_A_HOLE)]
-                    ends = np.array([[hole + radius * way, hole + ring * way]])
-                    self._lines(ends, edgecolor=_MARK, linewidth=0.25, capstyle="projecting", zorder=4)
-                self.taken.take(middle - half, middle + half)
-                self._text(middle, text, size, _MARK, ha="center", va="center", gid="number", zorder=6)
+    def _number(self, at: int, marks: _Marks) -> bool:
+        """Write a number where there is room near its hole, with a line to it where it does not stand beside it alone;
+        whether there was room."""
+        for size in (_FONT, _LEAST):
+            half = self._half_a_box(str(at + 1), size)
+            if found := self._room_beside(at, marks, half):
+                middle, line = found
+                if len(line):
+                    look = {"linewidth": 0.25, "capstyle": "projecting", "zorder": 4, "gid": "number-line"}
+                    self._lines(line[None, [0, -1]], edgecolor=_MARK, **look)
+                for taken in (self.taken, self.marked):
+                    taken.along(line)
+                    taken.take(middle - half, middle + half)
+                self._text(middle, str(at + 1), size, _MARK, ha="center", va="center", gid="number", zorder=6)
                 return True
         return False
+
+    def _room_beside(self, at: int, marks: _Marks, half: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """The middle of a free box near a hole, and places along the line to it, none where it needs no line; `half`:
+        half the box's sides."""
+        hole, radius = marks.places[at], marks.radii[at]
+        rings = np.arange(radius + 0.5, _FAR, 0.8)
+        middles = (hole + (rings[:, None, None] + half) * _AROUND_A_HOLE).reshape(-1, 2)
+        free = np.flatnonzero(self.taken.are_free(middles - half, middles + half))
+        far = rings[free // len(_AROUND_A_HOLE)]
+        near = middles[free[far <= np.minimum(radius + 2.2, far[:1] + _ALONE)]]
+        alone = near[marks.are_alone(at, near, half)]
+        if len(alone):
+            return alone[0], np.zeros((0, 2))
+        for one, length in zip(free, far, strict=True):
+            along = np.linspace(radius, length, int(length / _GRID) + 2)
+            line = hole + along[:, None] * _AROUND_A_HOLE[one % len(_AROUND_A_HOLE)]
+            if self.marked.is_free_along(line[along > radius + 2 * _GRID]):
+                return middles[one], line
+        return None
 
     def _table(self) -> None:
         """Number, place, kind and length of each start hole."""
@@ -318,22 +381,25 @@ class SetupSheet:
             route = routes[at]
             # (-0.0001 is 0.000)
             x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
-            cells = (str(at + 1), x_, y_, kind(route).split()[0])
+            cells = (str(at + 1), x_, y_, _called(route))
             self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[at]:.1f}"), _INK)
         if shown < len(routes):
-            self._text((right, _MARGIN + _HEAD + 1), f"and {len(routes) - shown} more", 5, _INK, ha="right")
+            more = f"and {len(routes) - shown} more: the program has them"
+            self._text((right, _MARGIN + _HEAD + 1), more, _LEAST, _INK, ha="right")
 
     def _row(self, x: float, y: float, cells: Iterable[str], colour: str) -> None:
-        for cell, end in zip(cells, (6.0, 17.5, 29.0, 30.0, 45.0), strict=True):
-            self._text((x + end, y), cell, 4.8, colour, ha="left" if end == 30.0 else "right", va="center")
+        for cell, end in zip(cells, _CELLS, strict=True):
+            self._text((x + end, y), cell, _LEAST, colour, ha="left" if end == _CELLS[3] else "right", va="center")
 
     def _title(self, left_out: int) -> None:
         """The block of facts at the foot of the page."""
         job, facts, page = self.job, self.facts, self.page
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
-        offsets = next((route.passes for route in job.routes if any(route.passes)), ())
-        beside = ", ".join(short(abs(r)) for r in offsets) + " mm" if offsets else "0, the wire's middle on the contour"
+        offsets = max((route.passes for route in job.routes), key=lambda passes: (any(passes), len(passes)))
+        beside = ", ".join(short(abs(r)) for r in offsets) + " mm"
+        if not any(offsets):
+            beside = "0, the wire's middle on the contour"
         wire = "not told" if facts.wire is None else f"{short(facts.wire)} mm, gap {short(facts.gap)} mm"
         tabs = {route.tab for route in job.routes if route.tab}
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
@@ -348,14 +414,14 @@ class SetupSheet:
             (
                 ("wire", wire),
                 ("offset", beside),
-                ("passes", f"{max(1, len(offsets))}, {'each from the other end' if len(offsets) > 1 else 'one way'}"),
+                ("passes", f"{len(offsets)}, {'every second one backwards' if len(offsets) > 1 else 'one way'}"),
                 ("tab", f"{short(max(tabs))} mm, the machine stops before it" if tabs else "none"),
             ),
             (
                 ("cut length", f"{job.cut_length:.1f} mm"),
                 ("time", f"{duration(job.seconds)} at {job.settings.feed:g} mm/min"),
                 ("ROM", job.settings.rom),
-                ("numbers", f"order of cutting, {left_out} in the table alone" if left_out else "order of cutting"),
+                ("numbers", "order of cutting" + (f", {left_out} without room" if left_out else "")),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)
@@ -377,16 +443,25 @@ def _way(samples: Places) -> float:
     return float(np.arctan2(v - y, u - x))
 
 
+def _called(route: PlannedContour) -> str:
+    """What a contour is, and the way around it."""
+    if not route.contour.is_closed:
+        return kind(route).split()[0]
+    return f"{kind(route)} {'ccw' if route.contour.area > 0 else 'cw'}"
+
+
 def _fitted(text: str, width: float) -> tuple[str, float]:
-    """A text that is no wider than `width` mm, and the size of its letters: small ones before some are left out."""
+    """A text that is no wider than `width` mm, and the size of its letters: small ones before some in the middle are
+    left out."""
     letters = [_WIDE * 0.95 * _POINT * (1.7 if east_asian_width(one) in "WF" else 1) for one in text]
-    size = max(_SMALL, min(_FACT, width / max(sum(letters), 1e-9)))
+    size = max(_LEAST, min(_FACT, width / max(sum(letters), 1e-9)))
     room = width / size
     if sum(letters) <= room:
         return text, size
-    while letters and sum(letters) > room - _WIDE * _POINT:
-        letters.pop()
-    return text[: len(letters)] + "…", size
+    first = last = len(letters) // 2
+    while sum(letters[:first] + letters[last:]) > room - _WIDE * _POINT:
+        first, last = (first - 1, last) if first > len(letters) - last else (first, last + 1)
+    return f"{text[:first]}…{text[last:]}", size
 
 
 def write_sheet(job: Job, facts: Facts, output: str, form: str) -> None:
