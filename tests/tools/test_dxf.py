@@ -521,7 +521,7 @@ def tilted() -> Drawing:
     [
         (empty, [], "no lines, arcs or curves to cut"),
         (tilted, [], "leaves the drawing's plane, expected a flat drawing"),
-        (drawings.die_plate, ["--layer", "CUT"], "no layer CUT, the drawing has 0"),
+        (drawings.die_plate, ["--layer", "CUT"], "no layer 'CUT', the drawing has 0"),
         (drawings.connecting_rod, ["--start", "0,0"] * 4, "4 start holes for 3 contours"),
     ],
 )

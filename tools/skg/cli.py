@@ -120,7 +120,8 @@ def main() -> None:
     except BrokenPipeError:
         _leave(1)
     except OSError as error:
-        _fail(f"{error.filename or 'standard output'}: {error.strerror}")
+        name = "standard output" if error.filename is None else error.filename or "a file without a name"
+        _fail(f"{name}: {error.strerror}")
     # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
     gc.freeze()
     sys.exit(code)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import click
@@ -18,6 +19,7 @@ from skg.commands.options import (
     picture_format,
     unmarked,
 )
+from skg.drawing.account import short
 from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, read
 from skg.errors import UserError
@@ -37,6 +39,8 @@ class Passes(click.ParamType):
         found = numbers_in(value)
         if not found or not all(0 <= more <= MOST_OFFSET for more in found):
             self.fail(f"{value!r}: expected lengths in mm with commas between them, such as 0.06,0.02,0", param, ctx)
+        if any(after > before for before, after in pairwise(found)):
+            self.fail(f"{value!r}: a pass that leaves more than the one before it cuts nothing", param, ctx)
         return found
 
 
@@ -176,6 +180,10 @@ def command(
         write_sheet(job, Facts(*names, wire, gap, reading.report.units), sheet, form)
     write_bytes(output, job.data)  # last: no tape where something else could not be written
     lines = [*reading.report.lines(), *report(job, factor, distance)]
+    if passes and passes[-1]:
+        lines.append(f"take care: the last pass leaves {short(passes[-1])} mm more than the offset, as --passes says")
+    if tab and not any(route.tab for route in job.routes):
+        lines.append("take care: no contour has a tab: none is a part that is cut from outside")
     if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
         from skg.cutting.fallen import said
 

@@ -16,6 +16,8 @@ from skg.tape.text import WITHOUT_DRIFT
 
 #: No wire with its spark gap is wider than twice this, mm.
 MOST_OFFSET = 5.0
+#: No machine cuts more slowly, mm/min.
+LEAST_FEED = 0.001
 #: A tape of more blocks than this shows whether it is without drift.
 _TELLING = 20_000
 #: Formats of pictures, by the ending of a file's name.
@@ -96,12 +98,16 @@ def output_option(text: str, required: bool = False, in_place: bool = False) -> 
 
 
 def _refuse_onto(context: click.Context) -> None:
-    """Raise a `UserError` when a command would write a file that it reads, or one file twice."""
+    """Raise a `UserError` when a command would write a file that it reads, or one file twice, or one without a name."""
     read, written = [], []
     for parameter in context.command.params:
-        if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name]):
+        if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name]) is not None:
+            if value == "":
+                raise UserError(f"{parameter.human_readable_name}: a file without a name")
             is_read = isinstance(parameter, click.Argument) or parameter.name == "answers"
             (read if is_read else written).extend(map(str, value if isinstance(value, tuple) else [value]))
+    if written.count("-") > 1:
+        raise UserError("-: the standard output is to be written twice")
     real = [name for name in written if name != "-" and (not Path(name).exists() or Path(name).is_file())]
     for at, name in enumerate(real):
         if any(realpath(name) == realpath(other) for other in [*read, *real[:at]] if other != "-"):
@@ -131,7 +137,7 @@ def feed_option(function: Callable) -> Callable:
         default=5.0,
         show_default=True,
         metavar="MM/MIN",
-        type=FiniteRange(0, min_open=True),
+        type=FiniteRange(LEAST_FEED),
         help="Feed, for the time.",
     )(function)
 
@@ -139,7 +145,7 @@ def feed_option(function: Callable) -> Callable:
 def drawing_options(function: Callable) -> Callable:
     """Give a command the options for how a drawing is read, and how its contours are entered and run through."""
     from skg.drawing.plan import LEAD, SIDES  # which loads numpy
-    from skg.drawing.wishes import OPEN, UNITS
+    from skg.drawing.wishes import OPEN, START, UNITS
 
     for option in (
         click.option(
@@ -177,7 +183,7 @@ def drawing_options(function: Callable) -> Callable:
         ),
         click.option(
             "--start-layer",
-            default="START",
+            default=START,
             show_default=True,
             metavar="NAME",
             help="Layer of the points for start holes.",
@@ -217,6 +223,8 @@ class RomName(click.Choice):
 
 class FiniteRange(click.FloatRange):
     """A number in a range: neither infinite nor NaN, which is in every range, and of no more digits than a tape has."""
+
+    name = "number"
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""

@@ -67,10 +67,10 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
     on = sum(not any(route.passes) for route in routes)
     if not passes:
         why = "they are open" if offset and not any(route.contour.is_closed for route in routes) else "--side on"
-        return [f"the wire's middle runs on the contours: {why if offset else 'no --offset'}"]
-    lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours"]
+        often = max(len(route.passes) for route in routes)
+        return [f"the wire's middle runs on the contours{_passes(often)}: {why if offset else 'no --offset'}"]
+    lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours{_passes(len(passes))}"]
     if len(passes) > 1:
-        lines[0] += f" in {len(passes)} passes, every second one backwards"
         free = [at + 1 for at, route in enumerate(routes) if route.contour.is_closed and not route.tab]
         outer = [at for at in free if not routes[at - 1].is_opening]
         if outer:
@@ -84,6 +84,10 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
             f"take care: the wire's middle runs on {counted(on, 'open contour')}, no side of them is the part's"
         )
     return lines
+
+
+def _passes(count: int) -> str:
+    return f" in {count} passes, every second one backwards" if count > 1 else ""
 
 
 def _sides(routes: list[PlannedContour]) -> Iterator[str]:

@@ -21,7 +21,7 @@ from skg.drawing.chain import merged
 from skg.drawing.contour import Contour
 from skg.drawing.rows import boxes_of
 from skg.drawing.selection import SMALL, Selection
-from skg.drawing.wishes import OPEN, UNITS, Wishes
+from skg.drawing.wishes import OPEN, START, UNITS, Wishes
 from skg.errors import UserError
 from skg.plane import XY, shifted
 
@@ -68,6 +68,8 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
     content, report = _content(data, name, wishes)
     if not content.edges:
         raise UserError(_nothing(content, wishes))
+    if wishes.start_layer != START and not content.starts:
+        report.notes.append(f"take care: there are no points on the layer {wishes.start_layer} for start holes")
     selection = Selection(content, wishes, report)
     contours = selection.contours()
     if contours and _is_in_odd_metres(contours, report):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 
 from skg.errors import UserError
 
@@ -11,6 +12,8 @@ from skg.errors import UserError
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
 #: What becomes of open contours; "all" cuts what is at junctions as well.
 OPEN = ("cut", "leave", "refuse", "all")
+#: The layer whose points are start holes, where no other one is asked for.
+START = "START"
 
 
 @dataclass(frozen=True)
@@ -23,7 +26,7 @@ class Wishes:
     """
 
     layers: tuple[str, ...] = ()
-    start_layer: str = "START"
+    start_layer: str = START
     units: str | None = None
     tolerance: float = 0.005
     fit_tolerance: float = 0.0002
@@ -34,7 +37,9 @@ class Wishes:
         names = {name.lower(): name for name in known}
         for layer in self.layers:
             if layer.lower() not in names:
-                raise UserError(f"no layer {layer}, the drawing has {', '.join(sorted(names.values())) or 'none'}")
+                near = "".join(f", did you mean {names[one]}?" for one in get_close_matches(layer.lower(), names, 1))
+                has = ", ".join(sorted(names.values())) or "none"
+                raise UserError(f"no layer {layer!r}{near or ','}{' It' if near else ' the drawing'} has {has}")
 
     def is_start(self, layer: str) -> bool:
         """Whether a layer is that of the start holes."""
