@@ -1,4 +1,5 @@
-# The emulator: build/skg80 and, for the tests, build/libskg80.so. `make bench-emu` prints the core's speed.
+# The emulator: build/skg80 and, for the Python tools, build/libskg80.so. `make bench-emu` prints the core's speed.
+# tools/setup.py, which builds the library without make, reads EMU_CFLAGS, EMU_LIBRARY, EMU_TRANSLATE and TRANSLATED here.
 EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
 EMU_PROGRAM := emu/board.c emu/drive.c emu/drawn.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c \
                emu/main.c emu/output.c emu/operator.c \
@@ -7,6 +8,7 @@ EMU_LIBRARY := emu/board.c emu/drive.c emu/image.c emu/machine.c emu/translation
 # The images that are translated into C for the library, and what is compiled of them.
 TRANSLATED  := skg skg-nodrift
 EMU_ROWS    := $(TRANSLATED:%=build/emu/%.o)
+EMU_TRANSLATE := emu/translate.c emu/board.c emu/drive.c emu/image.c
 EMU_COMPARE := tests/emu/compare.c tests/emu/plain8080.c
 EMU_FUZZ    := tests/emu/fuzz.c emu/com.c $(EMU_LIBRARY)
 EMU_BENCH   := tests/emu/bench.c tests/emu/plain8080.c emu/com.c emu/image.c
@@ -34,7 +36,7 @@ build/libskg80.so: $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
 	$(EMU_CC) -fPIC -shared -DWITH_TRANSLATIONS -o $@ $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
 
 # Translations: the examples show what of a ROM is instructions. (-O2 takes gcc twice as long, for nothing)
-build/emu/translate: emu/translate.c emu/board.c emu/drive.c emu/image.c build/emu/i8080.o
+build/emu/translate: $(EMU_TRANSLATE) build/emu/i8080.o
 	$(EMU_CC) -o $@ $^
 
 build/emu/%.rows: roms/%.bin build/emu/translate $(wildcard examples/*.skg)
@@ -47,7 +49,7 @@ $(EMU_ROWS): build/emu/%.o: build/emu/%.rows emu/i8080_translated.c $(EMU_HEADER
 build/emu/compare: $(EMU_COMPARE) build/emu/i8080.o
 	$(EMU_CC) -o $@ $(EMU_COMPARE) build/emu/i8080.o
 
-build/emu/translated: tests/emu/translated.c emu/board.c emu/drive.c emu/image.c emu/translations.c build/emu/i8080.o $(EMU_ROWS)
+build/emu/translated: tests/emu/translated.c $(filter-out emu/machine.c,$(EMU_LIBRARY)) build/emu/i8080.o $(EMU_ROWS)
 	$(EMU_CC) -DWITH_TRANSLATIONS -o $@ $^
 
 build/emu/bench: $(EMU_BENCH) build/emu/i8080.o

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -24,17 +25,24 @@ HERE = Path(__file__).resolve().parent
 #: Where emu/ and roms/ lie: here in an unpacked source distribution, else in the project above.
 ABOVE = HERE if (HERE / "emu").is_dir() else HERE.parent
 EMU = ABOVE / "emu"
-#: Library -> its sources and the compiler's options. emu/emu.mk and tools.mk build the same for developers.
+
+
+def listed(name: str) -> list[str]:
+    """The words of a list in emu/emu.mk: what developers build by is built here too, where there need be no make."""
+    lines = (EMU / "emu.mk").read_text().replace("\\\n", " ")
+    return re.search(rf"^{name} *:=(.*)$", lines, re.M)[1].split()
+
+
+def emulator_sources(name: str) -> list[Path]:
+    """The processor, and a list of C files in emu/emu.mk."""
+    return [ABOVE / source for source in ("emu/i8080.c", *listed(name))]
+
+
+#: Library -> its sources and the compiler's options; tools.mk has the first for developers.
 LIBRARIES = {
-    "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3"]),
-    "libskg80.so": (
-        [EMU / f"{name}.c" for name in ("i8080", "board", "drive", "machine", "image", "translations")],
-        ["-O2", "-D_DEFAULT_SOURCE", "-D_XOPEN_SOURCE=700", "-DWITH_TRANSLATIONS"],
-    ),
+    "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3", "-std=c11"]),
+    "libskg80.so": (emulator_sources("EMU_LIBRARY"), [*listed("EMU_CFLAGS"), "-DWITH_TRANSLATIONS"]),
 }
-#: What writes the rows of an image's translation (emu/translate.c), and the images that have one.
-TRANSLATE = [EMU / f"{name}.c" for name in ("translate", "i8080", "board", "drive", "image")]
-TRANSLATED = ("skg", "skg-nodrift")
 
 
 def compiler() -> str:
@@ -58,21 +66,21 @@ def compile_into(folder: Path) -> None:
 
 
 def run_compiler(*words: str | Path) -> None:
-    """Compile C11."""
-    subprocess.run([*compiler().split(), "-std=c11", *words], check=True)
+    """Compile, or raise what the compiler ended with; it says why itself."""
+    subprocess.run([*compiler().split(), *words], check=True)
 
 
 def translations(folder: Path) -> list[Path]:
     """The ROMs that the board runs most often, translated into C and compiled."""
-    run_compiler("-O2", "-D_DEFAULT_SOURCE", "-o", folder / "translate", *TRANSLATE)
+    run_compiler(*listed("EMU_CFLAGS"), "-o", folder / "translate", *emulator_sources("EMU_TRANSLATE"))
     parts = sorted((ABOVE / "examples").glob("*.skg"))
     objects = []
-    for image in TRANSLATED:
+    for image in listed("TRANSLATED"):
         rows, made = folder / f"{image}.rows", folder / f"{image}.o"
         with rows.open("wb") as file:
             subprocess.run([folder / "translate", ABOVE / "roms" / f"{image}.bin", *parts], stdout=file, check=True)
         names = [f"-DNAME=translation_{image.replace('-', '_')}", f'-DROWS="{rows}"']
-        run_compiler("-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
+        run_compiler(*listed("EMU_CFLAGS"), "-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
         objects.append(made)
     return objects
 
@@ -121,7 +129,7 @@ class SourceDistribution(sdist):
 
     def make_release_tree(self, base_dir: str, files: list[str]) -> None:
         super().make_release_tree(base_dir, files)
-        for folder, pattern in (("emu", "*.[ch]"), ("roms", "*.bin"), ("examples", "*.skg")):
+        for folder, pattern in (("emu", "*.[ch]"), ("emu", "emu.mk"), ("roms", "*.bin"), ("examples", "*.skg")):
             target = Path(base_dir) / folder
             target.mkdir(exist_ok=True)
             for file in sorted((ABOVE / folder).glob(pattern)):
