@@ -427,6 +427,13 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
         run("plot", tape, "-o", picture, "--show-offset")
 
 
+@pytest.mark.parametrize("cycle", ["G81 R2 Z-1 X5", "G81 Z-1 R2 X5"])
+def test_the_first_number_without_a_unit_is_named(cycle: str) -> None:
+    """Of R and Z of a drilling cycle it is the one that stands first, in every run."""
+    findings, _ = gcode_reader.look(f"G90\n{cycle}\nM2")
+    assert "line 2, column 5: no G20 or G21 yet: a number with a point is taken for mm" in str(findings[0])
+
+
 @pytest.mark.parametrize(("up", "down", "said"), [
     ("M300 S50", "M300 S30", "S50 and S30 of M300"),
     ("M280 P0 S0", "M280 P0 S90", "S0 and S90 of M280"),

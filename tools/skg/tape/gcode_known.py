@@ -39,7 +39,12 @@ BLEND = Decimal(64)
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 HOMES, MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
 AWAY = {*HOMES, MACHINE}
-#: M words of boards for printers: from here on, and these; the words behind one are its own (`M92 X80`: steps).
-BOARDS, BOARD = 100, {17, 18, 84, 92}
+#: M words of boards for printers: from the first on, and these.
+_BOARDS, _BOARD = 100, {17, 18, 84, 92}
 #: What is expected where another G word stands.
 EXPECTED = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
+
+
+def is_of_board(number: Decimal) -> bool:
+    """Whether an M word is one of boards for printers: the words behind it are its own (`M92 X80`: steps)."""
+    return number >= _BOARDS or number in _BOARD

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import NamedTuple
 
@@ -20,6 +21,39 @@ class Misread(Exception):
     def __init__(self, column: int, message: str) -> None:
         super().__init__(message)
         self.column = column
+
+
+@dataclass(frozen=True)
+class GcodeFinding:
+    """Something wrong in G-code: line and column, from 1, and what.
+
+    `is_fatal`: it cannot be read further. `is_guess`: it is read as the message says, and might mean something else.
+    """
+
+    line: int
+    column: int
+    message: str
+    is_fatal: bool = field(default=True, repr=False)
+    is_guess: bool = field(default=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"line {self.line}, column {self.column}: {self.message}"
+
+
+class Findings:
+    """What is wrong in a program that is being read; `line`, from 1, is the one that is read."""
+
+    def __init__(self) -> None:
+        self.line = 0
+        self.all: list[GcodeFinding] = []
+
+    def misread(self, error: Misread) -> None:
+        """What cannot be read."""
+        self.all.append(GcodeFinding(self.line, error.column, str(error)))
+
+    def warn(self, column: int, message: str, is_guess: bool = False) -> None:
+        """What can be read, and yet stops a control, or might be meant otherwise."""
+        self.all.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
 
 
 class Word(NamedTuple):
