@@ -77,7 +77,7 @@ ARCL2:  DB      QEND            ;               (ARCL is too far away)
 
 ; AROOT - w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2 (byte-code)
 ; (the root, rounded, is k or one less; k^2-a1^2 and w^2-a0^2 as products are exact while they are below 2^32, as
-; they are for a short arc of any radius; n itself is so up to 65 mm)
+; they are for a short arc of any radius; n itself is so up to 65 mm)   Clobbers T4
 AROOT:  DB      CALC,QDUP,LA0,QADD,QSWP,LA0,QSUB,QMUL ; p = w^2-a0^2
         DB      QDUP,LA1,QSQ,QSUB,QABS,QSQRT,Q502,QADD,QFLR,ST4 ; p
         DB      LT4,LA1,QSUB,LT4,LA1,QADD,QMUL,QADD ; k^2-(n-w^2)

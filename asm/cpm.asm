@@ -7,7 +7,7 @@
 ; when the operator has read what it says.
 
 ; BDINIT - start: page 0, cells, memory up to the BDOS, the lines that the command line asks for;
-;          signs on
+;          signs on and goes to READY
 BDINIT: LXI     SP,STKTOP
         LHLD    CPBDOS+1
         MVI     L,0             ; VTOP ends a page
@@ -173,7 +173,7 @@ BYE:    LHLD    WBVEC
         SHLD    CPWBT
         JMP     0
 
-; REBOOT - the BDOS gives up after an error on a disk: ERR 10
+; REBOOT - the BDOS gives up after an error on a disk: goes to ERR, number 10
 REBOOT: LXI     SP,STKTOP
         MVI     A,WLOST
         STA     WMODE

@@ -44,7 +44,7 @@ FTEN4:  DB      CALC,QMUL,QJMP  ; x*p
         DB      FTEN2-$
 
 ; FDIG - divides a whole number by 10
-; In:  D E H L   Out: D E H L, A = remainder, Z: it is 0, CY clear, B = 0, C = C+1
+; In:  D E H L   Out: D E H L, A = remainder, Z: it is 0, CY clear, B = 0, C = C+1   Clobbers nothing else
 ; Cycles: 2,500; below 65536 1,300
 FDIG:   MVI     B,32
         MOV     A,D

@@ -222,6 +222,7 @@ DPUSH:  LHLD    DPARS
         PCHL
 
 ; DNEXZ - DNEXT where Z is set, else the character is wrong
+; In, Out: as DNEXT; ERR 10   Clobbers all
 DNEXZ:  JNZ     DERR
 ; (fall into DNEXT)
 
@@ -423,6 +424,7 @@ DSTE5:  CALL    DECOU1
         DB      ERROR,ETAPE
 
 ; DSTOP - the line begins with D: the end of the tape, or off, and a key comes before the next block
+; Out: ERR 10   Clobbers all
 DSTOP:  CALL    DNEXT
 DSYN8:  DB      CLTD,CZERO-CLTD ; all but '0' to 'C'
         JZ      DEND
@@ -443,7 +445,8 @@ DKEY1:  CALL    BREAK
         MVI     M,0
         RET
 
-; DEND - the end of the tape
+; DEND - the end of the tape: back to RUN when it has punched it, else goes to READY
+; Clobbers all
 DEND:   CALL    DENDS
         CALL    DASKED
         RNZ                     ; RUN has punched it
@@ -510,7 +513,7 @@ DIRS3:  SBB     M
         CZ      SDRI7           ; it is the block in hand: there is none (what DERR does of it again changes nothing)
 ; (fall into DERR)
 
-; DERR - the line is none: that counts when the block in hand has been followed
+; DERR - the line is none: that counts when the block in hand has been followed; goes to ERR, number 10
 DERR:   CALL    DENDS
         DB      ERROR,ETAPE
 
@@ -540,14 +543,13 @@ DENDS:  CALL    DFIN
 ; (fall into BDOFF)
 
 ; BDOFF - after an error and at a program tape's end: no more lines from the reader; the machine is off
-; Out: A = 0
+; Out: A = 0   Clobbers nothing else
 BDOFF:  XRA     A
         STA     LOADF
         OUT     DRIVE
         RET
 
-; BDREST - what is readied at reset besides the serial ports (the machine's port is cleared by the reset itself)
-; Clobbers A
+; BDREST - what is readied at reset besides the serial ports (the machine's port is cleared by the reset itself); goes to RESET
 BDREST: XRA     A
         STA     DMODE
         JMP     RESET

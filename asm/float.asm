@@ -115,7 +115,8 @@ FADD1:  XCHG                    ; HL -> the larger, DE -> the smaller
 ; (fall into FNRMC)
 
 ; FNRMC - ends FADD after a carry, FMUL and FDIV
-; In:  B C D E L = mantissa, EXPO one less than for a first bit 1, CY = first bit
+; In:  B C D E L = mantissa, EXPO one less than for a first bit 1, CY = first bit; the rest as FNRM
+; Out: as FNRM   Clobbers all
 FNRMC:  LDA     EXPO
         INR     A
         MOV     H,A
@@ -148,7 +149,7 @@ FMUL:   PUSH    D
 ; (fall into FNRM1)
 
 ; FNRM1 - ends FMUL and FDIV
-; In:  B C D E L = mantissa from 1/4 up, EXPO for one below 1/2
+; In:  B C D E L = mantissa from 1/4 up, EXPO for one below 1/2; the rest as FNRM   Out: as FNRM   Clobbers all
 FNRM1:  MOV     A,B
         RLC
         JMP     FNRMC
@@ -254,7 +255,7 @@ FMULB:  DAD     B
 ; FEXP - sign and exponent of a product or quotient, mantissas
 ; In:  DE -> x, HL -> y, CY,A = exponent of the result + 128
 ; Out: SIGN, EXPO; B C D E = mantissa of x, FY = that of y
-;      (out of range: leaves the routine that called it)
+;      (out of range: leaves the routine that called it)   Clobbers A, HL
 FEXP:   MOV     B,A
         RAR                     ; CY,A from 80H to 17FH: the first two bits differ
         ADI     40H
@@ -385,7 +386,7 @@ FDIV6:  CMC
         RET
 
 ; FADD2 - the part of FADD for different signs
-; In:  B C D E A = the smaller, aligned, HL -> last byte of the larger
+; In:  B C D E A = the smaller, aligned, HL -> last byte of the larger, EXPO; the rest as FNRM   Out: as FNRM   Clobbers all
 FADD2:  ADI     0FFH            ; 0 - guard, CY: borrow
         CMA
         PUSH    PSW
@@ -427,13 +428,14 @@ FADD2:  ADI     0FFH            ; 0 - guard, CY: borrow
         STA     SIGN
 ; (fall into FNRME)
 
-; FNRME - as FNRM, exponent in EXPO   Clobbers all
+; FNRME - as FNRM, exponent in EXPO
+; Clobbers all
 FNRME:  LDA     EXPO
         MOV     H,A
 ; (fall into FNRM)
 
 ; FNRM - normalizes, rounds and stores
-; In:  B C D E L = any mantissa, H = exponent, SIGN; on the stack: address
+; In:  B C D E L = any mantissa, H = exponent, SIGN; on the stack: address   Out: as FPACK; ERR 05   Clobbers all
 FNRM:   MOV     A,B
         ORA     A
         JM      FRND
@@ -463,7 +465,7 @@ FNRM2:  MOV     A,L
 ; (fall into FRND)
 
 ; FRND - rounds and stores
-; In:  B C D E L = mantissa, H = exponent, SIGN; on the stack: address
+; In:  B C D E L = mantissa, H = exponent, SIGN; on the stack: address   Out: as FPACK; ERR 05   Clobbers all
 FRND:   MOV     A,L
         ADD     A
         JNC     FPACK
@@ -603,7 +605,8 @@ FSHR3:  SUI     8
         MOV     A,H
         JMP     FSHR3
 
-; FSHR2 - shifts H bits, CY comes in first
+; FSHR1 - shifts a mantissa right by H bits, zeros come in.  FSHR2 - CY comes in first
+; In:  B C D E L, H from 1 up   Out: B C D E L, H = 0   Clobbers A
 FSHR1:  ORA     A
 FSHR2:  MOV     A,B
         RAR

@@ -308,7 +308,7 @@ WPUT:   LDA     WMODE
         RZ
 ; (fall into WFAIL)
 
-; WFAIL - the file cannot be written: it goes, ERR 10
+; WFAIL - the file cannot be written: it is taken back; goes to ERR, number 10
 WFAIL:  LDA     WMODE
         CPI     WSAVE
         JNZ     WFAI1

@@ -18,5 +18,5 @@ BDOFF:  XRA     A
         STA     LOADF
         RET
 
-; BDREST - what is readied at reset besides the serial ports
+; BDREST - what is readied at reset besides the serial ports: nothing; goes to RESET
 BDREST  EQU RESET

@@ -36,7 +36,7 @@ PUNOFF: MVI     A,CDC4
         DB      PUTC
         JMP     PAPON
 
-; BDREST - what is readied at reset besides the serial port
+; BDREST - what is readied at reset besides the serial port: nothing; goes to RESET
 BDREST  EQU RESET
 
 ; BDOFF - after an error and at a tape's end: no more lines from the reader; punch and reader off

@@ -159,6 +159,8 @@ LEXW5:  POP     PSW             ; yes: HL-> behind it
 ; (fall into LEXRAW)
 
 ; LEXRAW - the text behind HL goes as it is, up to the character C or the end
+; In:  HL, DE -> last character and token, C   Out: HL behind the text, DE -> last token; at the end LEX is left
+; Clobbers A
 LEXRAW: INX     H
         INX     D
         MOV     A,M
@@ -185,7 +187,8 @@ LEXW4:  LDAX    D               ; to the next word
         RET
 
 ; LEXNAM - a name, or its letter and the bracket of a computed subscript
-; In:  A = the letter's token
+; In:  A = the letter's token, HL behind the letter, DE -> where the name goes
+; Out: HL behind it, DE -> its last byte; ERR 05   Clobbers A, BC
 LEXNAM: SUI     TLETR-TSUB
         MOV     B,A
         CALL    LEXCH

@@ -17,7 +17,7 @@ LASTLN  EQU     9999            ; greatest line number
 ; ERRLX - LEX has refused something.  That waits for its turn: the parser may refuse what stands in
 ;         front of it, else it comes to the character that LEX has left there.  Then LEX, when ERR
 ;         looks for the place of the mark, refuses it again, and its number is the error's
-; In:  L = CHKF, B = error, the stack empty
+; In:  L = CHKF, B = error, the stack empty; it goes to READY or back to ERR
 ERRLX:  DCR     L
         JNZ     ERRLX1
         MOV     A,L             ; as the line came in
@@ -129,7 +129,7 @@ STMT:   CALL    CALINI
         XCHG
         PCHL
 
-; CHKED - the line is understood: stores it or carries it out
+; CHKED - the line is understood: stores it or carries it out, and goes to READY
 ; In:  at STKTOP-2: -> behind its tokens; the stack holds little more
 CHKED:  LXI     H,TOKS
         SHLD    TXTP
@@ -252,7 +252,8 @@ SGOTO:  CALL    TARGET
 ; TARGET - takes the number of a line to go to and demands the statement's end
 ; Out: HL-> the line; ERR 02   Clobbers all
 TARGET: CALL    LNEND
-; TARGE1 - the same for a number in DE (RUN)
+; TARGE1 - the same for a number in DE (RUN comes in here)
+; Out: as TARGET   Clobbers all
 TARGE1: CALL    FINDLN
         RZ
 ERLINE: DB      ERROR,ELINE
@@ -270,7 +271,7 @@ SRUN:   CALL    OPTLN
 RUN1:   SHLD    NXTP            ; (GOTO, GOSUB and RETURN come in here with the line to go on at)
 ; (fall into RUNLP)
 
-; RUNLP - runs the program from NXTP on; to READY when a direct line is done
+; RUNLP - runs the program from NXTP on; goes to READY when a direct line is done
 RUNLP:  LHLD    NXTP
         MOV     A,H
         ORA     A
@@ -382,7 +383,8 @@ SINPUT: CALL    GETREF
         CALL    MORE
         JMP     SINPUT
 
-; ASKAGN - after a wrong answer: what ASK needs is still on the stack   Out: as ASK
+; ASKAGN - after a wrong answer: what ASK needs is still on the stack
+; Out: as ASK   Clobbers all
 ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
         CALL    PAPON
         CALL    CALINI          ; (the wrong answer's floats)
@@ -452,6 +454,7 @@ CLEAR:  LHLD    VTOP
         SHLD    VBOT
         MVI     M,0
 ; CLEAR1 - the same, but the variables stay
+; Clobbers all
 CLEAR1: CALL    RUNINI
 ; (fall into CLRPTR)
 

@@ -8,4 +8,5 @@
 HOLD    EQU SPOUT
 
 ; FLUSH - nothing is held back
+; Clobbers nothing
 FLUSH   EQU ODRP                ; (a RET)

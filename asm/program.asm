@@ -7,8 +7,8 @@
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
 ; it.
 
-; STORE - puts the line into the program, or takes it out; to READY
-; In:  LINUM = its number, STKTOP-2
+; STORE - puts the line into the program, or takes it out
+; In:  LINUM = its number, at STKTOP-2: -> behind its tokens, H = TOKS/256   Out: ERR 01, ERR 09   Clobbers all
 STORE:  MVI     L,STMT0 & 255
         SHLD    TXTP
         DB      NEXT
@@ -124,7 +124,7 @@ LINE1:  MOV     E,M             ; (STORE takes a number here, RETURN its line)
         RET
 
 ; SUMREC - check sum: a sound record of the program sums up to 0
-; In:  HL-> bytes, A = how many   Out: A = 0 less their sum; HL behind; B = 0
+; In:  HL-> bytes, A = how many   Out: A = 0 less their sum; HL behind; B = 0   Clobbers nothing else
 SUMREC: MOV     B,A
         XRA     A
 SUMR1:  SUB     M               ; (VARSUM goes on with its sum here)

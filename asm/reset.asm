@@ -4,7 +4,7 @@
 ; Room:   115 bytes
 
 ; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
-;         sound in it, signs on
+;         sound in it, signs on and goes to READY
 RESET:  LXI     SP,STKTOP
         CALL    CALINI
         LXI     H,0

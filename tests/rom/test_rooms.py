@@ -41,6 +41,29 @@ def test_no_silent_entry() -> None:
     assert rooms.silent_entries(ALL) == []
 
 
+#: A routine's header, from its first line on, and the line behind it.
+HEADER = re.compile(r"^; (?P<name>[A-Z][A-Z0-9]*) - .*\n(?:;(?!!).*\n)*(?P<next>.*)", re.M)
+#: What says which registers change, or that nobody sees them. (STMT says it for all statements and commands.)
+CHANGED = re.compile(r"Clobbers|- (statement|command):|goes (back )?to (READY|ERR|RESET)\b|for ever")
+
+
+def silent_headers(lines: list[str]) -> list[str]:
+    """Routines whose header does not say what they clobber."""
+    headers = [found for found in HEADER.finditer("\n".join(lines)) if rooms.LABEL.match(found["next"])]
+    return [found["name"] for found in headers if not CHANGED.search(found[0])]
+
+
+def test_routines_say_what_they_clobber() -> None:
+    assert sum(len(HEADER.findall("\n".join(room.lines))) for room in ALL.values()) > 300
+    assert {name: silent for name, room in ALL.items() if (silent := silent_headers(room.lines))} == {}
+
+
+def test_a_silent_header_is_said() -> None:
+    said = ["; PLAY - plays", "; In:  A   Clobbers HL", "PLAY: RET", "; SCUT - statement: CUT", "SCUT: RET"]
+    assert silent_headers(said) == []
+    assert silent_headers([*said, "; WORK - works", "; In:  A", "WORK: RET", "; TAB - numbers", "N EQU 5"]) == ["WORK"]
+
+
 @pytest.mark.parametrize("image", IMAGES)
 def test_room(image: str) -> None:
     """No file is longer than its header allows; where restarts are CALLs that counts for an image's own files."""
