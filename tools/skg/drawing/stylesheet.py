@@ -15,6 +15,7 @@ _PROPERTIES = (
     "display", "visibility", "opacity", "fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width",
     "stroke-dasharray", "clip-path", "mask", "overflow", "transform", "transform-origin", "transform-box", *_MARKERS,
 )  # fmt: skip
+_PRESENTED = frozenset((*_PROPERTIES, "color"))
 #: Lengths of an element's form, which may be told as properties, too; they are not handed down.
 _GEOMETRY = frozenset(("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "d"))
 #: Colours that are not seen (the fourth of a colour's numbers is 0), a gradient or a pattern by its id with the colour
@@ -141,7 +142,7 @@ class StyleSheet:
         for one in found:
             declared |= one.important
         variables = outer.variables | {name: value for name, value in declared.items() if name.startswith("--")}
-        told = {name: element.get(name, "").strip() for name in (*_PROPERTIES, "color")} | declared
+        told = {name: value.strip() for name, value in element.items() if name in _PRESENTED} | declared
         told = {name: _told(value, variables) for name, value in told.items()}
         told = {name: value for name, value in told.items() if value and value != "inherit"}
         visibility = told.get("visibility")

@@ -6,8 +6,9 @@ svgelements reads what stands in an attribute: path data and transforms.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from math import atan2, hypot, pi, sqrt
 from xml.etree import ElementTree
 
@@ -33,8 +34,8 @@ _WIDE = 1.0
 _UNPAINTED = "drawn with neither line nor area"
 
 
-def _outline(element: ElementTree.Element, view: View) -> svgelements.Path:
-    """A shape as a path, in pixels."""
+def _outline(element: ElementTree.Element, view: View) -> Sequence[svgelements.PathSegment]:
+    """A shape as the segments of a path, in its own pixels."""
     width, height = view.size
     wholes = {**dict.fromkeys(("x", "cx", "rx", "x1", "x2", "width"), width), "r": hypot(*view.size) / sqrt(2)}
 
@@ -52,25 +53,28 @@ def _outline(element: ElementTree.Element, view: View) -> svgelements.Path:
     match tag_of(element):
         case "rect":
             rx, ry = radii()
-            found = svgelements.Path()
-            if of("width") > 0 and of("height") > 0:
-                corner = min(rx or 0.0, of("width") / 2), min(ry or 0.0, of("height") / 2)
-                found = svgelements.Path(svgelements.Rect(of("x"), of("y"), of("width"), of("height"), *corner))
+            wide, high = of("width"), of("height")
+            if wide <= 0 or high <= 0:
+                return []
+            x, y = of("x"), of("y")
+            if rx and ry:
+                return svgelements.Rect(x, y, wide, high, min(rx, wide / 2), min(ry, high / 2)).segments(False)
+            return _lines([(x, y), (x + wide, y), (x + wide, y + high), (x, y + high), (x, y)])
         case "circle":
-            found = _around((of("cx"), of("cy")), of("r"), of("r"))
+            return _around((of("cx"), of("cy")), of("r"), of("r"))
         case "ellipse":
             rx, ry = radii()
-            found = _around((of("cx"), of("cy")), rx or 0.0, ry or 0.0)
+            return _around((of("cx"), of("cy")), rx or 0.0, ry or 0.0)
         case "line":
-            found = svgelements.Path(svgelements.SimpleLine(of("x1"), of("y1"), of("x2"), of("y2")))
+            return _lines([(of("x1"), of("y1")), (of("x2"), of("y2"))])
         case "polyline":
-            found = svgelements.Path(svgelements.Polyline(_points(element)))
+            return _lines(_points(element))
         case "polygon":
-            found = svgelements.Path(svgelements.Polygon(_points(element)))
+            points = _points(element)
+            return _lines([*points, *points[:1]])
         case _:
             path = re.fullmatch(r"""path\(\s*["'](.*)["']\s*\)""", told := property_of(element, view, "d"), re.DOTALL)
-            found = _path(path[1] if path else told)
-    return (found * view.matrix).reify()
+            return _path(path[1] if path else told)
 
 
 class _PathData(svgelements.Path):
@@ -100,18 +104,25 @@ def _path(data: str) -> svgelements.Path:
         raise ValueError("its path data") from None
 
 
-def _points(element: ElementTree.Element) -> list[float]:
+def _points(element: ElementTree.Element) -> list[XY]:
     """The points of a polyline or polygon."""
     numbers = element.get("points", "").replace(",", " ")
     found = [float(number) for number in re.findall(NUMBER, numbers)]
     if re.sub(NUMBER, "", numbers).strip() or len(found) % 2:
         raise ValueError("its points")
-    return found
+    return list(zip(found[::2], found[1::2], strict=True))
 
 
-def _around(centre: XY, rx: float, ry: float) -> svgelements.Path:
-    """A circle or an ellipse."""
-    return svgelements.Path(svgelements.Ellipse(*centre, rx, ry)) if rx > 0 and ry > 0 else svgelements.Path()
+def _lines(points: list[XY]) -> list[svgelements.Line]:
+    """The lines from each point to the next."""
+    return [svgelements.Line(start, end) for start, end in pairwise(points)]
+
+
+def _around(centre: XY, rx: float, ry: float) -> list[svgelements.Arc]:
+    """A circle or an ellipse: one arc."""
+    start = centre[0] + rx, centre[1]
+    whole = {"rx": rx, "ry": ry, "rotation": 0.0, "sweep": 2 * pi}
+    return [svgelements.Arc(start, start, centre, **whole)] if rx > 0 and ry > 0 else []
 
 
 def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
@@ -156,7 +167,8 @@ class _SvgCollector:
             return
         try:
             outline = _outline(one.element, one.view)
-            edges = self._edges(outline, kind)
+            self.shapes.matrix, self.shapes.entity = one.view.matrix, len(self.found.entities) - 1
+            edges = list(self.shapes.edges(outline))
         except UNREADABLE as error:
             account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"
             account.is_odd = not one.view.hidden
@@ -168,29 +180,22 @@ class _SvgCollector:
         if account.left:
             return
         if self.wishes.is_start(layer):
-            self._start(account, outline, bool(edges))
-        elif not edges:
-            account.left = "it has no length"
+            self._start(account, outline if edges else [])
         elif not one.view.matrix.determinant:
             account.left = "its transform leaves no area, so that nothing is shown"
+        elif not edges:
+            account.left = "it has no length"
         elif not one.view.style.is_painted:
             account.left = _UNPAINTED
             self.unpainted.append((account, edges))
         else:
             self._cut(account, one.view, edges)
 
-    def _edges(self, outline: svgelements.Path, kind: str) -> list[Edge]:
-        """A shape's edges, with the number of its entity."""
-        entity = len(self.found.entities) - 1
-        return [replace(edge, entity=entity) for edge in self.shapes.edges(outline, kind in ("circle", "ellipse"))]
-
-    def _start(self, account: Entity, outline: svgelements.Path, has_edges: bool) -> None:
+    def _start(self, account: Entity, outline: Sequence[svgelements.PathSegment]) -> None:
         """A shape on the layer of start holes: a circle is one, about its middle."""
         account.left = "a start hole" if account.kind == "circle" else "nothing to cut"
-        if account.kind == "circle" and has_edges:
-            low_x, low_y, high_x, high_y = outline.bbox()
-            middle = svgelements.Point((low_x + high_x) / 2, (low_y + high_y) / 2)
-            self.found.starts.append(self.shapes.point(middle))
+        if account.kind == "circle" and outline:
+            self.found.starts.append(self.shapes.point(outline[0].center))
 
     def _cut(self, account: Entity, view: View, edges: list[Edge]) -> None:
         """A shape that is cut; how it is drawn may have to be said."""
@@ -236,33 +241,37 @@ class _SvgCollector:
 
 
 class _Shapes:
-    """Turns shapes into edges."""
+    """Turns shapes into edges. `matrix`: from the present shape's pixels to those of the page; `entity`: its number."""
 
     def __init__(self, height: float, factor: float, tolerance: float) -> None:
         self.height = height
         self.factor = factor
         self.tolerance = tolerance
+        self.matrix = svgelements.Matrix()
+        self.entity = -1
 
     def point(self, point: svgelements.Point) -> XY:
         """A place in mm, y upwards."""
-        at = point.x * self.factor, (self.height - point.y) * self.factor
-        if not all(map(is_number, at)):
+        point = self.matrix.point_in_matrix_space(point)
+        x, y = point.x * self.factor, (self.height - point.y) * self.factor
+        if not (is_number(x) and is_number(y)):
             raise ValueError("a place of it is no number")
-        return at
+        return x, y
 
-    def edges(self, path: svgelements.Path, is_round: bool) -> Iterator[Edge]:
-        """A path's edges; `is_round`: it is all of a circle or an ellipse."""
+    def edges(self, path: Iterable[svgelements.PathSegment]) -> Iterator[Edge]:
+        """A path's edges."""
         for segment in path:
             if isinstance(segment, svgelements.Arc):
-                yield from self.arc(segment, is_round)
-                if is_round:
-                    return
+                yield from self.arc(segment)
             elif isinstance(segment, svgelements.CubicBezier | svgelements.QuadraticBezier):
                 yield from self.bezier([self.point(point) for point in segment])
             elif isinstance(segment, svgelements.Line | svgelements.Close) and segment.start is not None:
-                edge = Edge(self.point(segment.start), self.point(segment.end or segment.start))
-                if edge.length > 0:
-                    yield edge
+                yield from self.line(self.point(segment.start), self.point(segment.end or segment.start))
+
+    def line(self, start: XY, end: XY) -> Iterator[Edge]:
+        """A line, if it has a length."""
+        if distance(start, end) > 0:
+            yield Edge(start, end, entity=self.entity)
 
     def bezier(self, controls: list[XY]) -> Iterator[Edge]:
         """A Bézier curve."""
@@ -270,10 +279,11 @@ class _Shapes:
 
         controls = [Vec3(*control) for control in controls]
         if any(control != controls[0] for control in controls):
-            yield from spline_edges(BSpline(controls, order=len(controls)), self.tolerance)
+            for edge in spline_edges(BSpline(controls, order=len(controls)), self.tolerance):
+                yield replace(edge, entity=self.entity)
 
-    def arc(self, arc: svgelements.Arc, is_round: bool) -> Iterator[Edge]:
-        """An arc of an ellipse; `is_round`: all of it."""
+    def arc(self, arc: svgelements.Arc) -> Iterator[Edge]:
+        """An arc of an ellipse, or all of it."""
         start, end, centre, one, other = (
             self.point(point) for point in (arc.start, arc.end, arc.center, arc.prx, arc.pry)
         )
@@ -281,18 +291,18 @@ class _Shapes:
         area = cross(u, v)
         if abs(area) < 1e-12:
             # (an arc without a radius is a line)
-            if distance(start, end) > 0:
-                yield Edge(start, end)
+            yield from self.line(start, end)
             return
-        if (arc.sweep > 0) == (area > 0):
+        turned = -arc.sweep if self.matrix.determinant < 0 else arc.sweep
+        if (turned > 0) == (area > 0):
             # With y upwards a turn that SVG calls positive is clockwise.
             v, area = (-v[0], -v[1]), -area
         ways = (minus(place, centre) for place in (start, end))
         first, last = (atan2(cross(u, way) / area, cross(way, v) / area) for way in ways)
         sweep = (last - first) % (2 * pi)
-        if is_round or distance(start, end) < 1e-9 and abs(arc.sweep) > 1:
+        if distance(start, end) < 1e-9 and abs(turned) > 1:
             sweep = 2 * pi
-        edge = conic(centre, u, v, first, sweep, self.tolerance)
+        edge = conic(centre, u, v, first, sweep, self.tolerance, self.entity)
         if edge.nodes or sweep == 2 * pi:
             yield edge
         elif edge.length > 0:

@@ -9,6 +9,7 @@ import gzip
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from xml.etree import ElementTree
 
 import svgelements
@@ -61,12 +62,15 @@ class _Frame:
         """Whether all of some places, in pixels, lie in it, or hardly outside."""
         if not self.matrix.determinant:
             return True
-        back, near = ~self.matrix, _NEAR_FRAME * max(self.size)
+        (left, top), (width, height), near = self.at, self.size, _NEAR_FRAME * max(self.size)
         return all(
-            -near <= ordinate - low <= side + near
-            for place in places
-            for ordinate, low, side in zip(back.point_in_matrix_space(place), self.at, self.size, strict=True)
+            -near <= place.x - left <= width + near and -near <= place.y - top <= height + near
+            for place in map(self._back.point_in_matrix_space, places)
         )
+
+    @cached_property
+    def _back(self) -> svgelements.Matrix:
+        return ~self.matrix
 
 
 @dataclass(frozen=True)
