@@ -20,6 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SKG80 = ROOT / "build" / "skg80"
 ROMS = ROOT / "roms"
+#: Seconds; only what hangs takes so long, on a busy machine too.
+PATIENCE = 120
 
 #: What GRBL says when its line is opened.
 GREETING = b"\r\nGrbl 1.1h ['$' for help]\r\n"
@@ -55,9 +57,9 @@ class Machine:
         """Say something without having been asked."""
         os.write(self._line, words)
 
-    def heard(self, blocks: int, seconds: float = 10) -> None:
+    def heard(self, blocks: int) -> None:
         """Come back when so many blocks have come."""
-        last = time.monotonic() + seconds
+        last = time.monotonic() + PATIENCE
         while len(self.blocks) < blocks:
             assert time.monotonic() < last, self.blocks
             time.sleep(0.01)
@@ -105,9 +107,9 @@ class Driven:
     process: subprocess.Popen[bytes]
     paper: Path
 
-    def wait(self, seconds: float = 20) -> int:
+    def wait(self) -> int:
         """The exit code, when it has ended by itself."""
-        return self.process.wait(timeout=seconds)
+        return self.process.wait(timeout=PATIENCE)
 
     def printed(self) -> list[str]:
         """The lines of the paper."""

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from grblhelp import GREETING, OK, ROMS, ROOT, SKG80, driven
+from grblhelp import GREETING, OK, PATIENCE, ROMS, ROOT, SKG80, driven
 from playedhelp import always
 
 from skg.ref import mill
@@ -38,9 +38,8 @@ def test_the_tape_goes_to_the_line(tmp_path: Path) -> None:
         assert board.wait() == 0
         tape = example.with_suffix(".3b").read_bytes()
         assert len(tape) > 4096  # more than a line holds
-        for _ in range(100):
-            if len(machine.raw) == len(tape):
-                break
+        last = time.monotonic() + PATIENCE
+        while len(machine.raw) < len(tape) and time.monotonic() < last:
             time.sleep(0.02)
         assert machine.raw == tape == copy.read_bytes()
         assert board.process.stdout.read() == b""
@@ -49,7 +48,7 @@ def test_the_tape_goes_to_the_line(tmp_path: Path) -> None:
 def test_nobody_reads(part: Path) -> None:
     """Blocks that nobody takes are not lost without a word."""
     part.write_text((ROOT / "examples" / "xy-star.skg").read_text())
-    done = subprocess.run([SKG80, "--punch-pty", part], capture_output=True, text=True, timeout=30)
+    done = subprocess.run([SKG80, "--punch-pty", part], capture_output=True, text=True, timeout=PATIENCE)
     assert done.returncode == 2
     assert done.stderr.endswith(f"skg80: {done.stdout.strip()}: nobody reads what is punched\n")
 
@@ -59,7 +58,7 @@ def test_nobody_reads(part: Path) -> None:
     (["--punch-pty", "--com", "x.com"], "--com goes with --stats and --max-cycles alone"),
 ])  # fmt: skip
 def test_wrong_usage(options: list[str], wrong: str) -> None:
-    done = subprocess.run([SKG80, *options], capture_output=True, text=True, timeout=30)
+    done = subprocess.run([SKG80, *options], capture_output=True, text=True, timeout=PATIENCE)
     assert (done.returncode, done.stderr) == (2, f"skg80: {wrong}\n")
 
 
@@ -86,9 +85,9 @@ def terminal(*options: object) -> Iterator[tuple[int, int]]:
             os.close(end)
 
 
-def until(end: int, wanted: bytes, seconds: float = 10) -> bytes:
+def until(end: int, wanted: bytes) -> bytes:
     """What comes from a line until it ends in something."""
-    came, last = b"", time.monotonic() + seconds
+    came, last = b"", time.monotonic() + PATIENCE
     while not came.endswith(wanted):
         assert time.monotonic() < last, came
         if select.select([end], [], [], 0.1)[0]:

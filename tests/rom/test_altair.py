@@ -33,7 +33,7 @@ PROMPT = (b"\r\n>", b"\r\n\x1a>")
 #: What keys that edit print: RUBOUT, ctrl-U.
 ECHO = {0x7F: b"\b \b", 0x15: b"\r\n"}
 #: Seconds for anything that SIMH is asked to do.
-PATIENCE = 20.0
+PATIENCE = 120.0
 #: The whole 64 KiB are RAM but for the ROM.
 RAM_KIB = 56
 SCRIPT = """set cpu 8080

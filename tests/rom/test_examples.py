@@ -53,5 +53,5 @@ def test_skg80_says_that_a_run_ended_in_err(tmp_path: Path) -> None:
 def test_skg80_takes_an_empty_file_for_an_empty_program(tmp_path: Path) -> None:
     part = tmp_path / "empty.skg"
     part.write_text("")
-    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=10)
+    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=60)
     assert (done.returncode, done.stdout) == (0, b"DD\r\n")

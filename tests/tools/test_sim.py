@@ -258,7 +258,7 @@ def test_progress_on_a_terminal_only(run_program: Run, tmp_path: Path) -> None:
 
 def test_speed() -> None:
     block = Block(30_000_000, 40_000_000, 80_000_000, "X", "NR1")
-    started = time.perf_counter()
+    started = time.process_time()
     steps = run_block(block).steps
-    rate = steps / (time.perf_counter() - started)
+    rate = steps / (time.process_time() - started)
     assert rate > 20e6, f"{rate / 1e6:.0f} million steps a second"

@@ -49,7 +49,7 @@ class Emulator:
         """Switch it off; its pseudo-terminal goes with it."""
         self.link.unlink()
         self.process.terminate()
-        self.process.wait(timeout=10)
+        self.process.wait(timeout=60)
         assert self.process.stdout
         self.process.stdout.close()
 

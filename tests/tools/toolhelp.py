@@ -8,6 +8,8 @@ from pathlib import Path
 from click.testing import Result
 
 ROOT = Path(__file__).parents[2]
+#: Seconds; only what hangs takes so long, on a busy machine too.
+PATIENCE = 120
 
 #: The fixture `run`: call it with the command line's arguments.
 Run = Callable[..., Result]
