@@ -260,6 +260,29 @@ def test_what_is_too_small_may_be_left(run: Run, tmp_path: Path) -> None:
     assert "3 contours: 3 closed" in words
 
 
+def test_what_lies_in_an_opening_that_is_left_out(run: Run, tmp_path: Path) -> None:
+    """Islands, each with a hole, in the two rooms of a window: they would be cut out of the part. What lies in the
+    window beside it is cut, as is the hole of a part that is left out itself."""
+    page = drawing()
+    polygon([(0, 0), (60, 0), (60, 30), (0, 30)], page)
+    lower, upper = [(2, 2), (14, 2), (14, 9.9), (14.1, 9.9), (14.1, 2), (28, 2)], [(28, 20), (14.1, 20), (14.1, 10)]
+    polygon([*lower, *upper, (14, 10), (14, 20), (2, 20)], page)
+    polygon([(32, 2), (58, 2), (58, 20), (32, 20)], page)
+    for x in (8, 21, 45):
+        polygon([(x - 3, 6), (x + 3, 6), (x + 3, 16), (x - 3, 16)], page)
+        page.modelspace().add_circle((x, 12), 1)
+    page.modelspace().add_line((19, 8), (23, 8))
+    polygon([(70, 0), (90, 0), (90, 20), (80, 20), (86, 24), (80, 24), (86, 20), (70, 20)], page)
+    page.modelspace().add_circle((80, 10), 3)
+    cuts, words = cut(run, page, tmp_path, "--offset", 0.1, "--small", "leave", "--open", "cut")
+    reaches = sorted(tuple(round(reach, 1) for reach in LineString(places[1:-1]).bounds) for places in cuts)
+    wanted = [(-0.1, -0.1, 60.1, 30.1), (32.1, 2.1, 57.9, 19.9), (41.9, 5.9, 48.1, 16.1), (44.1, 11.1, 45.9, 12.9)]
+    assert reaches == [*wanted, (77.1, 7.1, 82.9, 12.9)]
+    assert "2 CIRCLE, 1 LINE, 2 LWPOLYLINE (in an opening that is left out)" in words
+    named = "left out: outline from (5, 6), layer 0: it lies in the opening from (28, 20), layer 0, which is left out"
+    assert named in words and "and 2 more contours left out" in words
+
+
 def test_a_cusp(run: Run, tmp_path: Path) -> None:
     """Both ends of a slot are half circles that bulge into it: the wire goes past the corners, and that is said."""
     page = drawing()

@@ -22,6 +22,7 @@ from skg.commands.options import (
 from skg.drawing.account import short
 from skg.drawing.plan import plan
 from skg.drawing.read import Wishes, read
+from skg.drawing.selection import SMALL, WITHIN
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.plane import XY
@@ -170,7 +171,7 @@ def command(
     except UserError as error:
         raise UserError(f"{file}: {error}") from None
     if job.left:
-        reading = read(data, file, wishes, {one.number for one in job.left})
+        reading = read(data, file, wishes, {one.number: WITHIN if one.is_within else SMALL for one in job.left})
     if program:
         write_bytes(program, job.program.encode("ascii"))
     if sheet:

@@ -9,7 +9,7 @@ import shapely
 
 from skg.drawing.account import counted, shown
 from skg.drawing.planned import PlannedContour
-from skg.drawing.touching import lines_of
+from skg.drawing.touching import areas_of
 from skg.plane import XY
 
 #: What is narrower than twice this holds nothing together, mm; a piece of less than this square is none.
@@ -25,8 +25,7 @@ def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
     depth = np.array([routes[at].depth for at in closed.tolist()], int)
     if not len(closed) or not depth.any():
         return
-    lines = lines_of([routes[at].contour for at in closed.tolist()])
-    areas = shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in lines]))
+    areas = areas_of([routes[at].contour for at in closed.tolist()])
     outline, opening = shapely.STRtree(areas).query(areas)
     is_in = (depth[outline] % 2 == 0) & (depth[opening] == depth[outline] + 1)
     outline, opening = outline[is_in], opening[is_in]

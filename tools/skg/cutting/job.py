@@ -9,6 +9,7 @@ from math import inf
 
 from skg.cutting import refusal
 from skg.cutting.check import Checked, Misfit, check
+from skg.cutting.islands import islands
 from skg.cutting.settings import Settings
 from skg.drawing.entry import longest_tab
 from skg.drawing.parallel import NoRoom, has_spike
@@ -28,11 +29,15 @@ _WILD = 1000.0
 
 @dataclass(frozen=True)
 class Left:
-    """A contour that is not cut, since the wire has no room: its number among those planned, what it is, and why."""
+    """A contour that is not cut, since the wire has no room: its number among those planned, what it is, and why.
+
+    `is_within`: it lies in an opening that is not cut.
+    """
 
     number: int
     name: str
     why: str
+    is_within: bool = False
 
 
 @dataclass(frozen=True)
@@ -217,9 +222,13 @@ def _is_bent(route: PlannedContour) -> bool:
 def _without(
     routes: list[PlannedContour], why: dict[int, str], factor: float
 ) -> tuple[list[PlannedContour], tuple[Left, ...]]:
-    """The routes without some, and these with the reason."""
-    left = tuple(Left(routes[at].number, refusal.called(routes[at], factor), reason) for at, reason in why.items())
-    return [route for at, route in enumerate(routes) if at not in why], left
+    """The routes without some, and without what lies in those that are openings; these with the reason."""
+    left = [Left(routes[at].number, refusal.called(routes[at], factor), reason) for at, reason in why.items()]
+    within = islands(routes, why)
+    for at, opening in within.items():
+        reason = f"it lies in the {refusal.called(routes[opening], factor)}, which is left out"
+        left.append(Left(routes[at].number, refusal.called(routes[at], factor), reason, is_within=True))
+    return [route for at, route in enumerate(routes) if at not in why and at not in within], tuple(left)
 
 
 def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:

@@ -46,7 +46,7 @@ def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
         )
     lines += [f"take care, left out: {one.name}: {one.why}" for one in job.left[:_PLACES]]
     if len(job.left) > _PLACES:
-        lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} without room for the wire")
+        lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} left out")
     lines += _corners(routes, factor)
     for crossing in job.checked.crossings[:_PLACES]:
         lines.append(

@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Collection
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import floor
 
@@ -20,7 +20,7 @@ from skg.drawing.account import Account, Content, counted, listed, short, shown
 from skg.drawing.chain import merged
 from skg.drawing.contour import Contour
 from skg.drawing.rows import boxes_of
-from skg.drawing.selection import SMALL, Selection
+from skg.drawing.selection import Selection
 from skg.drawing.wishes import OPEN, START, UNITS, Wishes
 from skg.errors import UserError
 from skg.plane import XY, shifted
@@ -50,21 +50,21 @@ class Reading:
     report: Account
 
 
-def read(data: bytes, name: str, wishes: Wishes | None = None, small: Collection[int] = ()) -> Reading:
+def read(data: bytes, name: str, wishes: Wishes | None = None, small: Mapping[int, str] | None = None) -> Reading:
     """Read a drawing file's bytes; `name` is the file's name, for messages and for its ending.
 
-    `small`: numbers of contours, as they are read without it, that turned out to have no room for the wire: the report
-    has them among what is left, and the contours are without them. A drawing without anything to cut, or one that is
+    `small`: numbers of contours, as they are read without it, that turned out to have no room for the wire, and why
+    they are left: the report has them among what is, and the contours are without them. A drawing without anything to cut, or one that is
     refused, is a `UserError` that begins with the name.
     """
     wishes = wishes or Wishes()
     try:
-        return _read(data, name, wishes, small)
+        return _read(data, name, wishes, small or {})
     except UserError as error:
         raise UserError(f"{name}: {error}") from None
 
 
-def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Reading:
+def _read(data: bytes, name: str, wishes: Wishes, small: Mapping[int, str]) -> Reading:
     content, report = _content(data, name, wishes)
     if not content.edges:
         raise UserError(_nothing(content, wishes))
@@ -80,8 +80,8 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Collection[int]) -> Rea
         return reading
     contours = selection.without_open(contours)
     fates = selection.fates
-    for at in small:
-        fates.of_edges(contours[at].edges, SMALL)
+    for at, why in small.items():
+        fates.of_edges(contours[at].edges, why)
     cut = [one for at, one in enumerate(contours) if at not in small]
     fates.account(cut, report)
     if not contours:

@@ -32,7 +32,7 @@ from skg.plane import XY, distance
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
 DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
 AXIS = "drawn with dashes, across outlines: --open all cuts it"
-SMALL = "no room for the wire or the tab"
+SMALL, WITHIN = "no room for the wire or the tab", "in an opening that is left out"
 PAST = "runs past a corner"
 OPENED = "of an open contour"
 #: What is short or drawn twice is cut with its neighbour, what runs past a corner is said by itself.

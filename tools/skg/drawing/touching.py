@@ -136,6 +136,11 @@ def lines_of(contours: list[Contour]) -> NDArray[Any]:
     return shapely.linestrings(found, indices=np.repeat(owners, counts))
 
 
+def areas_of(contours: list[Contour]) -> NDArray[Any]:
+    """What closed contours run around, as shapely's areas."""
+    return shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in lines_of(contours)]))
+
+
 def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
     """Which pairs of lines are the same."""
     found = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= 2 * tolerance
