@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable
-from math import atan, cos, pi, radians, sin, tan
+from math import atan, cos, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
 import pytest
@@ -176,6 +177,32 @@ def test_a_slot_that_is_too_narrow_is_no_corner(run: Run, tmp_path: Path, side: 
     assert f"the wire does not come to ({(40 + tip) // 2}, 1" in words and "at most 0.5 mm fits" in words
     (places,), words = cut(run, page, tmp_path, "--offset", 0.45, "--side", side)
     assert LineString(places).distance(Point(tip + (0.45 if side == "outside" else -0.45), 15.5)) < 0.05 + LIMIT
+
+
+@pytest.mark.parametrize(("width", "fits"), [(0.05, 0.025), (0.15, 0.075)])
+def test_a_slot_with_walls_of_chords_is_no_corner(run: Run, tmp_path: Path, width: float, fits: float) -> None:
+    """Walls of lines that are shorter than the wire is wide, all but straight on: it does not come to them."""
+    page = drawing()
+    wall = [(5 + 0.002 * (at % 2), at * 0.18) for at in range(12)]
+    polygon([(0, 0), *wall, *((x + width, y) for x, y in reversed(wall)), (10, 0), (10, 10), (0, 10)], page)
+    words = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1)
+    assert "the wire does not come to (5" in words and f"at most {fits} mm fits" in words
+    cut(run, page, tmp_path, "--offset", fits - 0.001)
+
+
+@pytest.mark.parametrize(("depth", "is_round"), [(2.0, False), (2.0, True), (0.9, False), (0.86, False)])
+def test_how_far_the_wire_stays_off_a_wedge_is_said(run: Run, tmp_path: Path, depth: float, is_round: bool) -> None:
+    """It comes in until its walls are 2 R apart; a corner of more than 60 degrees, or an outer one, is not named."""
+    page = drawing()
+    tip = [(5.0, depth)] if not is_round else [(4.99, depth), (5.01, depth)]
+    polygon([(0, 0), (4.5, 0), *tip, (5.5, 0), (10, 0), (10, 10), (5, 20), (0, 10)], page)
+    (places,), words = cut(run, page, tmp_path, "--offset", 0.1)
+    far = LineString(places).distance(Point(tip[0])) - 0.1
+    said = re.search(r"as at \((\S+), (\S+)\): it stays (\S+) mm off", words)
+    assert bool(said) == (depth > 0.5 * sqrt(3)), words
+    if said:
+        assert (float(said[1]), float(said[2])) == tip[0] and float(said[3]) == pytest.approx(far, abs=LIMIT)
+        assert far > 0.1
 
 
 def test_the_wire_ends_where_a_slot_of_curves_narrows(run: Run, tmp_path: Path) -> None:

@@ -30,4 +30,3 @@ def islands(routes: Sequence[PlannedContour], openings: Collection[int]) -> dict
         if routes[others[inner]].depth > routes[around[opening]].depth:
             found[others[inner]] = around[opening]
     return found
-

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 
 from skg.cutting.check import LIMIT
 from skg.cutting.follow import Threading
 from skg.cutting.job import Job
 from skg.cutting.refusal import into, kind, told_in_file
 from skg.drawing.account import counted, short
-from skg.drawing.parallel import uncut
+from skg.drawing.parallel import NoRoom, sharpest, uncut, wire_way
 from skg.drawing.planned import PlannedContour
+from skg.plane import XY
 from skg.tape.simulation import duration
 
 #: Places that a line of the report names before it says how many more there are.
@@ -115,7 +117,7 @@ def _contours(numbers: list[int]) -> str:
 
 def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
-    straight, around, chords, off = [], [], [], []
+    straight, around, chords, off = [], [], [], _in_sharp_ones(routes)
     for at, route in enumerate(routes):
         if route.is_cramped:
             why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"
@@ -131,13 +133,30 @@ def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
             continue
         far, place = uncut(route.contour, route.traced[-1], route.passes[-1])
         if far > LIMIT:
-            off.append((far, at, told_in_file(place, factor)))
+            off.append((far, place, at))
     narrow = [
-        f"take care: contour {at + 1} has corners that are too narrow for the wire, as at {place}: "
-        f"it stays {short(far)} mm off"
-        for far, at, place in sorted(off, key=lambda one: -one[0])
+        f"take care: contour {at + 1} has corners that are too narrow for the wire, as at "
+        f"{told_in_file(place, factor)}: it stays {short(far)} mm off"
+        for far, place, at in sorted(off, key=lambda one: -one[0])
     ]
     return [line for lines in (straight, around, chords, narrow) for line in _first(lines)]
+
+
+def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, int]]:
+    """How far (mm) the wire stays off the sharp inner corners of contours that are cut as they are, where, and of
+    which contour: the worst first, and those that may be named as measured."""
+    found = []
+    for at, route in enumerate(routes):
+        is_beside = route.contour.is_closed and route.passes and route.passes[-1]
+        if is_beside and (route.is_around or not route.traced) and (one := sharpest(route.contour, route.passes[-1])):
+            found.append((*one, at))
+    found.sort(key=lambda one: -one[0])
+    for number, (_, _, at) in enumerate(found[:_PLACES]):
+        route = routes[at]
+        with suppress(NoRoom):
+            way = route.traced[-1] if route.traced else wire_way(route.contour, route.passes[-1])
+            found[number] = *uncut(route.contour, way, route.passes[-1]), at
+    return found
 
 
 def _first(lines: list[str]) -> list[str]:

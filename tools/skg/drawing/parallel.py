@@ -59,6 +59,10 @@ class NoRoom(Exception):
 #: A line is no corner when it is longer than so many R, an arc or curve (a fillet of half a turn has pi) than so many;
 #: the wire is beside an edge when a place of it is no further from the wire than R and this, mm.
 _SLOT, _BEND, _OFF = 2.0, 4.0, 0.003
+#: Lines that turn by no more are a wall: from one to the next, and all together (radians).
+_STRAIGHT, _WALL = 0.3, pi / 4
+#: Where the wire turns by more in an inner corner it stays off by more than R (radians).
+_SHARP = 2 * pi / 3 + _SMOOTH
 #: Why it does not.
 _NONE, _NECK, _SLOTTED, _CROSSES = (
     "the wire has no room at",
@@ -329,22 +333,61 @@ def _path(way: Sequence[Edge]) -> shapely.LineString:
     return shapely.LineString([place for edge in way for place in (*_chords(edge), edge.end)])
 
 
+def sharpest(contour: Contour, r: float) -> tuple[float, XY] | None:
+    """How far (mm) the wire, R to the right of a closed contour, stays off its sharpest inner corner, between lines,
+    and where that is; None where no corner is sharper than 60 degrees, so that it is no more than R."""
+    ways = [(edge.direction(), edge.direction(1.0)) for edge in contour.edges]
+    turns = [turn(start, end) if r > 0 else turn(end, start) for (_, end), (start, _) in pairwise([ways[-1], *ways])]
+    at = max(range(len(turns)), key=turns.__getitem__)
+    if turns[at] < _SHARP:
+        return None
+    # (in a cusp that closes for good it never ends)
+    return abs(r) * (1 / max(cos(turns[at] / 2), _SMOOTH) - 1), contour.edges[at].start
+
+
 def _refuse_slots(contour: Contour, way: Sequence[Edge], r: float) -> None:
-    """Raise `NoRoom` where the wire passes over more than a corner: it is nowhere beside an edge that is too long."""
+    """Raise `NoRoom` where the wire passes over more than a corner: it is nowhere beside an edge that is too long, or
+    beside chords that are too long together."""
     path = _path(way)
+    shapely.prepare(path)
     # (around an edge's end it is R away from that, and so much further in by all that it may be off)
     ends = sqrt(3 * abs(r) * _OFF)
-    for edge in contour.edges:
-        if edge.length <= (_SLOT if edge.is_line else _BEND) * abs(r):
+    for edges in _walls(contour.edges):
+        length, edge = sum(edge.length for edge in edges), edges[len(edges) // 2]
+        if length <= (_SLOT if edge.is_line else _BEND) * abs(r):
             continue
-        if edge.nodes:
-            apart = [np.hypot(*(edge.samples - end).T) > ends for end in (edge.start, edge.end)]
-            places = edge.samples[apart[0] & apart[1]]
-        else:
-            inner = part_of(edge, ends / edge.length, 1 - ends / edge.length)
-            places = np.array([*_chords(inner), inner.end])
-        if len(places) > 1 and shapely.distance(path, shapely.LineString(places)) > abs(r) + _OFF:
+        places = [edge.samples if edge.nodes else np.array([*_chords(edge), edge.end]) for edge in edges]
+        if not shapely.dwithin(path, _without_ends(np.concatenate(places), ends), abs(r) + _OFF):
             raise NoRoom(edge.at(0.5), _SLOTTED)
+
+
+def _without_ends(places: np.ndarray, ends: float) -> shapely.LineString:
+    """Places joined by chords, but for so much (mm) at both ends."""
+    along = np.concatenate(((0.0,), np.cumsum(np.hypot(*np.diff(places, axis=0).T))))
+    first = min(ends, 0.49 * along[-1])
+    last = along[-1] - first
+    between = places[(along > first) & (along < last)]
+    one, other = (np.array([np.interp(at, along, column) for column in places.T]) for at in (first, last))
+    return shapely.LineString([one, *between, other])
+
+
+def _walls(edges: Sequence[Edge]) -> Iterator[list[Edge]]:
+    """The edges, from a corner on; lines that follow each other all but straight on, as the chords of a curve do,
+    together."""
+    turns = [
+        turn(one.direction(), other.direction()) if one.is_line and other.is_line else pi
+        for one, other in pairwise([edges[-1], *edges])
+    ]
+    first = max(range(len(turns)), key=lambda at: abs(turns[at]))
+    wall: list[Edge] = []
+    turned = 0.0
+    for edge, by in zip((*edges[first:], *edges[:first]), (*turns[first:], *turns[:first]), strict=True):
+        if wall and (abs(by) > _STRAIGHT or abs(turned + by) > _WALL):
+            yield wall
+            wall, turned = [], 0.0
+        turned += by if wall else 0.0
+        wall.append(edge)
+    yield wall
 
 
 def roomy_place(way: tuple[Edge, ...], place: XY) -> XY:

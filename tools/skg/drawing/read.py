@@ -54,8 +54,8 @@ def read(data: bytes, name: str, wishes: Wishes | None = None, small: Mapping[in
     """Read a drawing file's bytes; `name` is the file's name, for messages and for its ending.
 
     `small`: numbers of contours, as they are read without it, that turned out to have no room for the wire, and why
-    they are left: the report has them among what is, and the contours are without them. A drawing without anything to cut, or one that is
-    refused, is a `UserError` that begins with the name.
+    they are left: the report has them among what is, and the contours are without them. A drawing without anything to
+    cut, or one that is refused, is a `UserError` that begins with the name.
     """
     wishes = wishes or Wishes()
     try:
