@@ -6,11 +6,15 @@ import contextlib
 import sys
 import threading
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from skg.commands.options import FiniteRange
 from skg.files import read_bytes, without_mark
+
+if TYPE_CHECKING:
+    from skg.machine.teletype import Port, Teletype
 
 
 @click.command(name="term")
@@ -107,13 +111,10 @@ def command(
         if record:
             teletype.record = stack.enter_context(Path(record).open("wb", buffering=0))
         for reader in readers:
-            thread = threading.Thread(target=teletype.listen, args=reader, daemon=True)
-            stack.callback(thread.join, 2)
-            stack.callback(reader[0].close)
-            thread.start()
+            _listen(teletype, *reader, stack)
         teletype.keys = stack.enter_context(raw_keyboard())
         typist = Typist(machine, teletype, silence, pace == "prompt", delay)
-        stopped = ""
+        stopped = False
         try:
             try:
                 if run and file:
@@ -128,17 +129,30 @@ def command(
                     is_known = typist.paced and bool(lines or keyed) and not (record and (run or punch_port))
                     finish(typist, 0.0 if is_known else quiet, bool(record and run))
             except Stopped as reason:
-                stopped = str(reason)
-                teletype.say(f"{stopped}; nothing more was sent")
+                stopped = True
+                teletype.say(f"{reason}; nothing more was sent")
             if is_attended:
                 converse(machine, teletype)
         except BrokenOff:
             teletype.say("broken off")
             stack.close()
             raise SystemExit(1) from None
+    _tell_punched(teletype, record, run)
+    if stopped and not is_attended:
+        raise SystemExit(1)
+
+
+def _listen(teletype: Teletype, port: Port, is_punch: bool, stack: contextlib.ExitStack) -> None:
+    """Take what comes at a port, until `stack` is left."""
+    thread = threading.Thread(target=teletype.listen, args=(port, is_punch), daemon=True)
+    stack.callback(thread.join, 2)
+    stack.callback(port.close)
+    thread.start()
+
+
+def _tell_punched(teletype: Teletype, record: str | None, run: bool) -> None:
+    """Say how many bytes were punched, if any were."""
     if teletype.punched:
         where = f" to {record}" if record else ""
         cut_off = "" if teletype.ended or not run else ", the tape is not complete"
         click.echo(f"skg term: {teletype.punched} bytes punched{where}{cut_off}", err=True)
-    if stopped and not is_attended:
-        raise SystemExit(1)

@@ -17,8 +17,6 @@ from skg.tape.styles import read_any, to_style
 WITHOUT_DRIFT = ".nodrift.3b"
 #: From so many blocks on it takes less time to load numpy than to look at them one by one.
 _MANY = 20_000
-
-
 _DIGITS = rf"(0|[1-9]\d{{0,{MAX_DIGITS - 1}}})"
 _BLOCK = re.compile(rf"B{_DIGITS}B{_DIGITS}B{_DIGITS}G([XY])({'|'.join(CODES)})", re.ASCII)
 #: The same with its line's end, as the punch makes all of them.
@@ -112,6 +110,63 @@ def _parse(text: str) -> tuple[int, int, int, str, str]:
     return *values, axis, code
 
 
+class _Reading:
+    """A tape that is read line by line; blocks whose text cannot be read are left out."""
+
+    def __init__(self) -> None:
+        self.blocks, self.stops = Blocks(), list[Stop]()
+        self.findings: list[Finding] = []
+        # Of the last block; whether DD was there; at which block a line ends with LF alone (0: none does).
+        self.number, self.ended, self.bare = 0, False, 0
+
+    def take(self, text: str) -> None:
+        """A line and its end."""
+        if not self.ended and (block := _LINE.fullmatch(text)):
+            self.number += 1
+            self.blocks.add(*_values(block), self.number)
+            return
+        whole, text = text.endswith("\n"), text.removesuffix("\n")
+        if not whole and not text.strip("\0"):
+            return
+        line = text.removesuffix("\r")
+        if self.ended:
+            self._behind(line.strip("\0"))
+            return
+        if line == text and not self.bare:
+            self.bare = self.number + 1
+        if not whole:
+            self._find(self.number + 1, len(line), "expected CR LF, found the end of the tape")
+        if line == "D":
+            self.stops.append(Stop(len(self.blocks)))
+        elif line == "DD":
+            self.ended = True
+        else:
+            self._block(line)
+
+    def _block(self, line: str) -> None:
+        """A block that is not as the punch makes it."""
+        self.number += 1
+        try:
+            self.blocks.add(*_parse(line), self.number)
+        except _Unexpected as error:
+            self._find(self.number, error.at, str(error))
+
+    def _behind(self, rest: str) -> None:
+        """What stands behind DD."""
+        if rest:
+            self._find(self.number, 0, f"expected nothing after DD, found {_Scanner(rest).found()}")
+
+    def end(self) -> None:
+        """No more lines."""
+        if self.bare:
+            self._find(self.bare, 0, "expected CR LF at the line's end, found LF alone (the first)")
+        if not self.ended:
+            self._find(self.number + 1, 0, "expected DD, found the end of the tape")
+
+    def _find(self, block: int, at: int, message: str) -> None:
+        self.findings.append(Finding(block, at + 1, message))
+
+
 def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, list[Finding]]:
     """Read a whole tape and everything that is wrong with it.
 
@@ -119,51 +174,14 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     (see `Block.problems`, which goes by `positions`) are in it. NULs before the first block and after `DD` are blank
     tape, ctrl-Zs at the end CP/M's.
     """
-    blocks, stops = Blocks(), []
-    findings: list[Finding] = []
-    number, ended, bare = 0, False, 0
+    reading = _Reading()
     for raw in BytesIO(without_filling(data).lstrip(b"\0")):
-        text = raw.decode("latin-1")
-        if not ended and (block := _LINE.fullmatch(text)):
-            number += 1
-            blocks.add(*_values(block), number)
-            continue
-        whole, text = text.endswith("\n"), text.removesuffix("\n")
-        if not whole and not text.strip("\0"):
-            break
-        line = text.removesuffix("\r")
-        if ended:
-            rest = line.strip("\0")
-            if rest:
-                found = _Scanner(rest).found()
-                findings.append(Finding(number, 1, f"expected nothing after DD, found {found}"))
-            continue
-        if line == text and not bare:
-            bare = number + 1
-        if not whole:
-            findings.append(Finding(number + 1, len(line) + 1, "expected CR LF, found the end of the tape"))
-        if line == "D":
-            stops.append(Stop(len(blocks)))
-            continue
-        if line == "DD":
-            ended = True
-            continue
-        number += 1
-        try:
-            blocks.add(*_parse(line), number)
-        except _Unexpected as error:
-            findings.append(Finding(number, error.at + 1, str(error)))
-    tape = Tape(name, blocks, tuple(stops))
+        reading.take(raw.decode("latin-1"))
+    reading.end()
+    tape = Tape(name, reading.blocks, tuple(reading.stops))
     # (of a block there is either this or what could not be read)
-    findings[:0] = [
-        Finding(one.number, 1, text) for one in _doubtful(tape, positions) for text in one.problems(positions)
-    ]
-    if bare:
-        findings.append(Finding(bare, 1, "expected CR LF at the line's end, found LF alone (the first)"))
-    if not ended:
-        findings.append(Finding(number + 1, 1, "expected DD, found the end of the tape"))
-    findings.sort(key=lambda finding: (finding.block, finding.column))
-    return tape, findings
+    wrong = [Finding(one.number, 1, text) for one in _doubtful(tape, positions) for text in one.problems(positions)]
+    return tape, sorted(wrong + reading.findings, key=lambda finding: (finding.block, finding.column))
 
 
 def _doubtful(tape: Tape, positions: str) -> Iterable[Block]:
