@@ -26,21 +26,44 @@ static void fill(uint8_t *bytes, size_t length)
     }
 }
 
-/* A board of random kind with a random ROM that uses its ports often, an operator who types, presses and loads. */
-static uint64_t fuzz_board(void)
+/* Any bytes, but that the board's ports are met often and the processor seldom halts. */
+static void fill_rom(uint8_t *rom)
 {
     static const uint8_t io[] = { 0xdb, 0xd3, 0xfb, 0xf3 };
     static const uint8_t ports[] = { 0x10, 0x11, 0x12, 0x13, 0x14 };
-    uint8_t rom[BOARD_ROM_SIZE], bytes[512];
-    fill(rom, sizeof rom);
-    for (unsigned i = 0; i < sizeof rom; i++) {
+    fill(rom, BOARD_ROM_SIZE);
+    for (unsigned i = 0; i < BOARD_ROM_SIZE; i++) {
         if (rom[i] == 0x76) {
             rom[i] = io[random32() % sizeof io];
         }
         if (rom[i] == 0xdb || rom[i] == 0xd3) {
-            rom[(i + 1) % sizeof rom] = ports[random32() % sizeof ports];
+            rom[(i + 1) % BOARD_ROM_SIZE] = ports[random32() % sizeof ports];
         }
     }
+}
+
+/* Ten calls of one routine anywhere, with random registers and data. */
+static void batch(machine *m)
+{
+    const machine_job job = {
+        .registers = { .sp = (uint16_t)random32(), .pc = (uint16_t)random32(), .hl = (uint16_t)random32() },
+        // clang-format off
+        .max_cycles = 2000, .in_length = 5, .out_length = 7,
+        .in_address = (uint16_t)random32(), .out_address = (uint16_t)random32(),
+        // clang-format on
+    };
+    uint8_t in[50], out[70], ends[10];
+    uint32_t cycles[10];
+    machine_registers registers[10];
+    fill(in, sizeof in);
+    machine_batch(m, &job, 10, in, out, cycles, ends, registers);
+}
+
+/* A board of random kind with a random ROM that uses its ports often, an operator who types, presses and loads. */
+static uint64_t fuzz_board(void)
+{
+    uint8_t rom[BOARD_ROM_SIZE], bytes[512];
+    fill_rom(rom);
     machine *m = machine_new(rom, random32() % 4 ? sizeof rom : random32() % sizeof rom, 2 + random32() % 55,
                              random32() % 2, random32() % 2, random32() % 2 ? 9600 : 0);
     if (!m) {
@@ -76,18 +99,7 @@ static uint64_t fuzz_board(void)
             board_reset(b);
         }
     }
-    const machine_job job = {
-        .registers = { .sp = (uint16_t)random32(), .pc = (uint16_t)random32(), .hl = (uint16_t)random32() },
-        // clang-format off
-        .max_cycles = 2000, .in_length = 5, .out_length = 7,
-        .in_address = (uint16_t)random32(), .out_address = (uint16_t)random32(),
-        // clang-format on
-    };
-    uint8_t in[50], out[70], ends[10];
-    uint32_t cycles[10];
-    machine_registers registers[10];
-    fill(in, sizeof in);
-    machine_batch(m, &job, 10, in, out, cycles, ends, registers);
+    batch(m);
     machine_counts counts;
     machine_count(m, &counts);
     machine_free(m);

@@ -514,7 +514,13 @@ static void read_listing(fuzz *f, const char *path)
     }
 }
 
-int main(int argc, char **argv)
+/* What the command line asks for. */
+typedef struct {
+    const char *rom, *sym, *lst;
+    uint64_t bytes;
+} wishes;
+
+static bool read_options(int argc, char **argv, wishes *w, fuzz *f)
 {
     static const struct option list[] = {
         // clang-format off
@@ -525,26 +531,44 @@ int main(int argc, char **argv)
         { NULL, 0, NULL, 0 },
         // clang-format on
     };
-    static fuzz f;
-    const char *rom = "roms/skg.bin", *sym = "roms/skg.sym", *lst = NULL;
-    uint64_t bytes = 1000000;
-    char error[256];
-    f.seed = 1;
-    f.lowest = 0xffff;
     for (int c; (c = getopt_long(argc, argv, "", list, NULL)) != -1;) {
         switch (c) {
             // clang-format off
-        case 'r': rom = optarg; break;
-        case 'y': sym = optarg; break;
-        case 'l': lst = optarg; break;
-        case 'k': f.kind = strcmp(optarg, "8251") ? BOARD_6850 : BOARD_8251; break;
-        case 't': f.punch_tty = true; break;
-        case 'n': bytes = strtoull(optarg, NULL, 10); break;
-        case 's': f.seed = strtoull(optarg, NULL, 10); break;
-        case 'f': f.session = strtoull(optarg, NULL, 10); break;
-        default: return 2;
+        case 'r': w->rom = optarg; break;
+        case 'y': w->sym = optarg; break;
+        case 'l': w->lst = optarg; break;
+        case 'k': f->kind = strcmp(optarg, "8251") ? BOARD_6850 : BOARD_8251; break;
+        case 't': f->punch_tty = true; break;
+        case 'n': w->bytes = strtoull(optarg, NULL, 10); break;
+        case 's': f->seed = strtoull(optarg, NULL, 10); break;
+        case 'f': f->session = strtoull(optarg, NULL, 10); break;
+        default: return false;
             // clang-format on
         }
+    }
+    return true;
+}
+
+static void print_counts(const fuzz *f, uint64_t first)
+{
+    printf("%llu bytes typed in %llu sessions, %llu rounds, %llu resets (%llu left a garbled line); %llu million "
+           "instructions; stack down to %04X (room from %04X); %.1f s at 2 MHz from ctrl-C to the prompt at most; "
+           "program and LIST compared %llu times\n",
+           (unsigned long long)(f->queued - f->dropped), (unsigned long long)(f->session - first),
+           (unsigned long long)f->rounds, (unsigned long long)f->resets, (unsigned long long)f->renewed,
+           (unsigned long long)f->instructions / 1000000, f->lowest, f->at.stklow, (double)f->longest / BOARD_HZ,
+           (unsigned long long)f->compared);
+}
+
+int main(int argc, char **argv)
+{
+    static fuzz f;
+    wishes w = { .rom = "roms/skg.bin", .sym = "roms/skg.sym", .bytes = 1000000 };
+    char error[256];
+    f.seed = 1;
+    f.lowest = 0xffff;
+    if (!read_options(argc, argv, &w, &f)) {
+        return 2;
     }
     for (int i = optind; i < argc; i++) {
         if (!noise_read(&f.noise, argv[i])) {
@@ -555,27 +579,21 @@ int main(int argc, char **argv)
         quit("no examples");
     }
     static bool given[BOARD_ROM_SIZE];
-    if (image_rom(rom, f.rom, given, sizeof f.rom, error, sizeof error)) {
+    if (image_rom(w.rom, f.rom, given, sizeof f.rom, error, sizeof error)) {
         quit(error);
     }
-    read_symbols(&f.at, sym);
-    if (lst) {
-        read_listing(&f, lst);
+    read_symbols(&f.at, w.sym);
+    if (w.lst) {
+        read_listing(&f, w.lst);
     } else {
         memset(f.instruction, true, sizeof f.instruction);
     }
     uint64_t first = f.session;
-    while (f.queued - f.dropped < bytes) {
-        session(&f, bytes);
+    while (f.queued - f.dropped < w.bytes) {
+        session(&f, w.bytes);
         f.session++;
     }
-    printf("%llu bytes typed in %llu sessions, %llu rounds, %llu resets (%llu left a garbled line); %llu million "
-           "instructions; stack down to %04X (room from %04X); %.1f s at 2 MHz from ctrl-C to the prompt at most; "
-           "program and LIST compared %llu times\n",
-           (unsigned long long)(f.queued - f.dropped), (unsigned long long)(f.session - first),
-           (unsigned long long)f.rounds, (unsigned long long)f.resets, (unsigned long long)f.renewed,
-           (unsigned long long)f.instructions / 1000000, f.lowest, f.at.stklow, (double)f.longest / BOARD_HZ,
-           (unsigned long long)f.compared);
+    print_counts(&f, first);
     noise_free(&f.noise);
     return 0;
 }
