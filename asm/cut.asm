@@ -2,7 +2,7 @@
 ; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR SCALED CPYEL
 ;         CPYPL RTDON1 ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XCHDA XXING SBACK SBACK1
 ; Uses:   arc_3b arc_iso arc_nodrift calc consts fit float geom grid iso parser start tape value
-; Room:   1263 bytes
+; Room:   1262 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next

@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5) (curves.md)
 ; Offers: NODSIZ SFIT SPOUT SPOUT3 FITEND XCHRD XMIRR XBIAR ARCW
 ; Uses:   calc consts cut float geom notol parser start tol value
-; Room:   370 bytes
+; Room:   369 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in

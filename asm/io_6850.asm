@@ -13,8 +13,7 @@ TXRDY   EQU 02H         ; transmitter empty
 SIORST  EQU 03H         ; control: reset
 SIO8N2  EQU 11H         ; control: 8 bits, no parity, 2 stop bits, clock / 16
 
-; BDINIT - readies both ports
-; Clobbers A
+; BDINIT - readies both ports, then goes to BDREST
 BDINIT: MVI     A,SIORST
         OUT     TTYST
         OUT     PUNST

@@ -12,8 +12,7 @@ RXRDY   EQU 02H         ; receiver full
 
 USARUN  EQU 37H         ; command: transmitter and receiver on
 
-; BDINIT - readies both ports
-; Clobbers A, HL
+; BDINIT - readies both ports, then goes to BDREST
 BDINIT: LXI     H,BDTAB
 BDINI1: MOV     A,M
         INX     H

@@ -164,10 +164,10 @@ def header(rooms: dict[str, Room], room: Room) -> tuple[str, str]:
     return lines("Offers:", ["names for all"] if room.name in COMMON else names), lines("Uses:", sorted(room.uses))
 
 
-def room_of(room: Room) -> int:
-    """Bytes that a header gives its file; 0 when it says nothing."""
+def room_of(room: Room) -> int | None:
+    """Bytes that a header gives its file; None when it does not say so once."""
     found = ROOM.findall("\n".join(room.lines))
-    return int(found[0]) if len(found) == 1 else 0
+    return int(found[0]) if len(found) == 1 else None
 
 
 def tangled(rooms: dict[str, Room]) -> list[str]:
@@ -204,7 +204,7 @@ def wrong_headers(rooms: dict[str, Room]) -> list[str]:
                     if lacks or too_much
                     else f"{room.name}.asm: {word} is written in another way"
                 )
-        if room.name not in COMMON and not room_of(room):
+        if room.name not in COMMON and room_of(room) is None:
             wrong.append(f"{room.name}.asm: no line Room: N bytes")
     return wrong
 

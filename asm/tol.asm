@@ -1,7 +1,7 @@
 ; tol.asm - TOL: few arcs for many nodes, spans of a curve are held back and tried as one (curves.md)
 ; Offers: STOL HOLD FLUSH
 ; Uses:   calc consts cut fit float geom parser start
-; Room:   224 bytes
+; Room:   223 bytes
 ;
 ; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
 ; has the places of the nodes behind that one, node 1's the last.  When node 2 comes and the
