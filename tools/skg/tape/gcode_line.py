@@ -19,7 +19,7 @@ INCH, MILLIMETRE = Decimal(25400), Decimal(1000)
 
 
 @dataclass
-class Line:
+class GcodeLine:
     """What a line says: places and feed by their letters, the numbers of its G and M words, its S, the output that its
     P names; whether there is a G92, and a stop."""
 
@@ -55,9 +55,9 @@ class Modes:
         """1: arcs run counter-clockwise, -1: clockwise."""
         return 1 if self.motion == 3 else -1
 
-    def take(self, text: str) -> Line:
+    def take(self, text: str) -> GcodeLine:
         """The words of a line. G and M words hold from where they stand; the others wait for the line's end."""
-        line = Line()
+        line = GcodeLine()
         is_board = False
         for word in words(text):
             letter = word.letter
@@ -89,7 +89,7 @@ class Modes:
             self.motion = None
         return line
 
-    def _preparatory(self, word: Word, line: Line) -> None:
+    def _preparatory(self, word: Word, line: GcodeLine) -> None:
         """Carry out a G word."""
         for code in line.codes:
             if any({code, word.number} <= group for group in known.GROUPS):
@@ -117,7 +117,7 @@ class Modes:
             case n:
                 raise Misread(word.column, f"G{n:f} is not known, expected {known.EXPECTED}")
 
-    def _miscellaneous(self, word: Word, line: Line) -> None:
+    def _miscellaneous(self, word: Word, line: GcodeLine) -> None:
         """Carry out an M word."""
         if word.number in TURNS and TURNS.intersection(line.turns):
             raise Misread(word.column, f"M{line.turns[0]:f} and M{word.number:f} in one line")
