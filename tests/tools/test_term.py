@@ -41,6 +41,8 @@ class Machine:
         self.unplug_after = 0
         #: A character that gets lost on the line, so often.
         self.loses, self.losses = b"", 0
+        #: Seconds that it, or the computer that plays it, takes to answer ctrl-U.
+        self.thinks = 0.0
         #: Whether it takes one character at a time, and what comes meanwhile is lost.
         self.is_slow = False
         #: A line that is answered with this error.
@@ -87,6 +89,7 @@ class Machine:
     def answer(self, line: bytearray, byte: int, master: int) -> None:
         if byte == 0x15:
             line.clear()
+            time.sleep(self.thinks)
             os.write(master, b"\r\n")
             return
         if self.losses and bytes([byte]) == self.loses:
@@ -269,6 +272,15 @@ def test_what_the_board_cannot_take(machine: Machine, text: str, message: str, t
     assert message in result.stderr.decode()
 
 
+def test_a_board_that_is_slow_to_answer(machine: Machine, tmp_path: Path) -> None:
+    """An emulator on a busy computer, say, is silent for some seconds now and then."""
+    part = tmp_path / "part.skg"
+    part.write_text(PROGRAM)
+    machine.thinks = 3
+    result = term(machine.link, "--send", part, "--batch")
+    assert (result.returncode, machine.lines) == (0, PROGRAM.splitlines()), result.stderr
+
+
 def test_nobody_there(tmp_path: Path) -> None:
     """A port without a board behind it."""
     part = tmp_path / "part.skg"
@@ -388,6 +400,11 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
     [
         (["/nowhere"], "skg: /nowhere: no such file or directory\n"),
         (["nonsense://x"], "skg: nonsense://x: invalid URL"),
+        (["/dev/null"], "skg: /dev/null: no serial port\n"),
+        (
+            ["/dev/null", "--punch-port", "/dev/../dev/null"],
+            "skg: /dev/../dev/null: the teletype's port too: --punch-port",
+        ),
         (["/dev/null", "--send", "/nowhere.skg"], "skg: /nowhere.skg: No such file or directory\n"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
 import threading
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from skg.commands.options import FiniteRange
+from skg.errors import UserError
 from skg.files import read_bytes, without_mark
 
 if TYPE_CHECKING:
@@ -97,6 +99,8 @@ def command(
 
     if unnumbered and not (file and run):
         raise click.UsageError("--unnumbered goes with --send and --run")
+    if punch_port and os.path.realpath(punch_port) == os.path.realpath(port):
+        raise UserError(f"{punch_port}: the teletype's port too: --punch-port is for a punch on one of its own")
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
     lines = lines_to_type(without_mark(read_bytes(file)), file) if file else []
     keyed = (

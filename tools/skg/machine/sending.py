@@ -25,6 +25,8 @@ LONGEST = 126
 _CTRL_C, _CTRL_U, _CTRL_Z, _CR = b"\x03", b"\x15", b"\x1a", b"\r"
 #: Seconds of silence after which an echo does not come any more; how often a line is typed that comes back wrong.
 _ECHO, _TRIES = 1.5, 3
+#: The same of what tells whether the board is there at all: an emulator may have to wait for its computer.
+_ANSWER = 6.0
 #: How often a program is stored again because the port went away.
 _LOSSES = 5
 
@@ -151,7 +153,7 @@ class Typist:
         teletype = self.teletype
         before = teletype.received
         self._put(_CTRL_U)
-        if not teletype.wait(lambda: teletype.received > before and not teletype.line, _ECHO):
+        if not teletype.wait(lambda: teletype.received > before and not teletype.line, _ANSWER):
             raise Stopped(
                 "the board does not answer: is it on, at its prompt (ctrl-C ends a program), and at this --baud? "
                 "(--pace none sends all the same)"

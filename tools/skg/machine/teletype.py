@@ -9,6 +9,7 @@ port itself and obeyed here, whatever the driver underneath does about them.
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import select
 import sys
@@ -146,6 +147,8 @@ class Port:
 
 def _reason(error: Exception) -> str:
     """An error's own words, without the wrapping that pyserial puts around them."""
+    if isinstance(cause := error.__context__, termios.error):
+        return "no serial port" if cause.args[0] == errno.ENOTTY else os.strerror(cause.args[0]).lower()
     if isinstance(error, OSError) and error.errno:
         return os.strerror(error.errno).lower()
     return str(error).splitlines()[0] if str(error) else type(error).__name__
