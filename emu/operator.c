@@ -207,6 +207,24 @@ static int watch_reader(const session *s, bool *told)
     return 0;
 }
 
+/* Listens to the terminal, so many ms (-1: until something comes); false: no memory. */
+static bool hear_operator(session *s, int wait)
+{
+    terminal *t = &s->terminal;
+    if (!terminal_listen(t, s->board, wait)) {
+        return false;
+    }
+    if (t->reset) {
+        t->reset = false;
+        board_reset(s->board);
+    }
+    if (t->stop) {
+        t->stop = false;
+        debug_stop(s->debug);
+    }
+    return true;
+}
+
 int operator_terminal(session *s)
 {
     i8080 *c = &s->board->cpu;
@@ -259,16 +277,8 @@ int operator_terminal(session *s)
             return complain(EXIT_ERR, "the input ended in the middle of `%s`", s->board->line);
         }
         bool idle = told || asks_machine(s);
-        if (!terminal_listen(t, s->board, idle && !wait ? SLICE_MS : wait)) {
+        if (!hear_operator(s, idle && !wait ? SLICE_MS : wait)) {
             return complain(EXIT_ERR, "out of memory");
-        }
-        if (t->reset) {
-            t->reset = false;
-            board_reset(s->board);
-        }
-        if (t->stop) {
-            t->stop = false;
-            debug_stop(s->debug);
         }
         if (wait) {
             pacer_start(&s->pacer, s->pacer.hz, c->cycles);
