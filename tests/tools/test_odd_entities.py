@@ -9,8 +9,10 @@ from math import pi
 import ezdxf
 import pytest
 from ezdxf.document import Drawing
+from ezdxf.math import Matrix44, Vec3
 from test_reading import checked, dxf_bytes, left, line, raw, square
 
+from skg.drawing.placing import LEAVES
 from skg.drawing.read import Reading, read
 from skg.errors import UserError
 from skg.plane import distance
@@ -106,6 +108,42 @@ def test_a_polyline_that_is_not_read_is_placed_at_its_first_corner() -> None:
     tilted = "POLYLINE 8 0 66 1 70 9 10 0 20 0" + corners + "\n0\nSEQEND"
     (left,) = checked(raw(*square(0, 0, 9), tilted)).report.not_understood
     assert (left.place, left.left) == ((40, 7), "leaves the drawing's plane, expected a flat drawing")
+
+
+@pytest.mark.parametrize(("plane", "upwards"), [("xz", "y"), ("yz", "x")])
+def test_a_drawing_that_stands_upright(plane: str, upwards: str) -> None:
+    """As a sketch on another plane is exported: read as it is seen from the front or from the right, its blocks too."""
+    axes = {"x": Vec3(1, 0, 0), "y": Vec3(0, 1, 0), "z": Vec3(0, 0, 1)}
+    right, up = (axes[axis] for axis in plane)
+
+    def drawn(*, turned: bool) -> Drawing:
+        drawing = mm()
+        block = drawing.blocks.new("PIN")
+        block.add_lwpolyline([(0, 0, 0), (8, 0, 1), (8, 4, 0), (0, 4, 0)], format="xyb", close=True)
+        space = drawing.modelspace()
+        space.add_lwpolyline([(0, 0), (60, 0), (60, 40), (0, 30)], close=True)
+        space.add_circle((15, 15), 5)
+        space.add_arc((40, 15), 6, 20, 270)
+        space.add_spline([(5, 45), (20, 60), (30, 42), (40, 50)])
+        space.add_blockref("PIN", (20, 20), {"rotation": 30})
+        matrix = Matrix44.ucs(right, up, right.cross(up))
+        for one in space if turned else ():
+            one.transform(matrix)
+        return drawing
+
+    flat, standing = (checked(dxf_bytes(drawn(turned=turned))) for turned in (False, True))
+    assert (
+        f"the drawing stands in the plane of {plane[0]} and {plane[1]}: read as it is seen there"
+        in standing.report.notes
+    )
+    assert len(standing.contours) == len(flat.contours) == 5
+    for one, other in zip(standing.contours, flat.contours, strict=True):
+        assert one.area == pytest.approx(other.area, abs=1e-6)
+        for edge, same in zip(one.edges, other.edges, strict=True):
+            assert max(distance(edge.at(t), same.at(t)) for t in (0, 0.3, 1)) < 1e-6
+    both = drawn(turned=True)
+    both.modelspace().add_lwpolyline([(0, 0), (60, 0), (60, 40), (0, 30)], close=True)
+    assert {one.left for one in checked(dxf_bytes(both)).report.not_understood} == {LEAVES}
 
 
 def test_axes_within_an_outline_are_left() -> None:

@@ -460,6 +460,18 @@ def test_a_gap_in_what_is_left_is_said() -> None:
     assert not again.report.notes
 
 
+def test_an_outline_with_gaps_that_is_left_is_said() -> None:
+    """Every side of it is a run of its own, for lines hang on its corners."""
+    corners = [(0, 0), (40, 0), (40, 20), (0, 20), (0, 0)]
+    sides = [line(*p, *q) for p, q in pairwise(corners[:4])] + [line(0, 20, 0, 0.0125)]
+    hanging = [line(x, y, x * 1.2 - 4, y * 1.2 - 2) for x, y in corners[:4]]
+    circles = [f"CIRCLE 8 0 10 {x} 20 10 40 1" for x in (10, 30)]
+    said = "take care: what is left reaches around all that is cut: is it the outline, which has gaps?"
+    assert said in checked(raw(*sides, *hanging, *circles)).report.notes
+    for some in ([*sides, *hanging, circles[0]], [*sides[:2], *hanging, *circles], [*square(0, 0, 40), *circles]):
+        assert said not in checked(raw(*some)).report.notes
+
+
 def test_outlines_of_one_layer() -> None:
     """What is closed on its own layer is the outline, not what lines of another layer make of it."""
     rounded = [
@@ -629,7 +641,7 @@ def test_units() -> None:
     assert read(mile, "a.dxf").report.lines()[0] == "16.0934 x 16.0934 mm, read in mile (as the file says)"
     nothing = "a.dxf: nothing to cut, read in mm: shorter than the tolerance; --units and --tolerance may help"
     with pytest.raises(UserError, match=nothing):
-        read(raw(*square(0, 0, 2e-5)), "a.dxf")
+        read(raw(*square(0, 0, 2e-5), "TEXT 8 0 10 0 20 0 1 A"), "a.dxf")
     # ezdxf writes m where it is told nothing.
     metres = read(raw(*square(0, 0, 60), header="9\n$INSUNITS\n70\n6\n"), "a.dxf").report
     assert metres.size == (60, 60)
@@ -645,8 +657,8 @@ def test_units() -> None:
         read(house, "a.dxf")
 
 
-def test_small_parts_of_unknown_units_are_doubted() -> None:
-    """Up to an inch, with a word."""
+def test_parts_of_unknown_units_are_doubted() -> None:
+    """Up to an inch, and above 1 m, with a word."""
 
     def notes(side: float, wishes: Wishes | None = None) -> list[str]:
         return read(raw(*square(0, 0, side)), "a.dxf", wishes).report.notes
@@ -654,6 +666,11 @@ def test_small_parts_of_unknown_units_are_doubted() -> None:
     doubt = "take care: 8 x 8 mm is small, and the units are guessed; it would be 203.2 x 203.2 mm in inch"
     assert notes(8) == [doubt + ", 80 x 80 mm in cm: --units says so"]
     assert len(notes(3)) == 1 and notes(8, Wishes(units="mm")) == [] and notes(26) == []
+    doubt = "take care: 3500 x 3500 mm is large, and the units are guessed; it would be 88.9 x 88.9 mm in mil: "
+    assert notes(3500) == [doubt + "--units says so"]
+    assert notes(3500, Wishes(units="mm")) == [] and notes(1000) == []
+    with pytest.raises(UserError, match="and 15000 x 15000 mm is an odd size: .* it would be 381 x 381 mm in mil$"):
+        notes(15000)
 
 
 def test_told_units_of_an_odd_size_are_doubted() -> None:
@@ -829,6 +846,14 @@ def test_encodings(encoding: str, page: str) -> None:
     for end in (b"\r\n", b"\r", b"\r\r\n"):
         if encoding == "utf-8":
             assert checked(data.replace(b"\n", end)).contours[0].layers == (name,)
+
+
+def test_characters_that_are_told_by_numbers() -> None:
+    """As files write them whose code page does not have them; half of a UTF-16 pair is none."""
+    layer = "0\nLAYER\n2\nT\\U+00fcr\\U+0020\\U+D83D\n70\n0\n62\n1\n"
+    data = raw(*square(0, 0, 20, "T\\U+00FCr\\U+0020\\U+D83D"), line(0, 30, 9, 30, "\\U+039B"), layers=layer)
+    assert [one.layer for one in checked(data).report.layers] == ["T\u00fcr \\U+D83D", "\u039b"]
+    assert len(checked(data, layers=("\u039b",)).contours) == 1
 
 
 def test_old_files() -> None:

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from skg.drawing.contour import Edge
 from skg.plane import XY
 
+#: Why what only writes on a drawing, or fills what is drawn, is left.
+NOTE = "nothing to cut"
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
 

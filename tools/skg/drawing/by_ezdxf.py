@@ -29,7 +29,7 @@ from skg.drawing.placing import LEVEL, NotFlat, Placing, swept
 from skg.drawing.record import Group, Record
 from skg.drawing.shapes import spline_edges
 
-__all__ = ["binary_groups", "edges", "encoding", "entity", "is_through_places", "placed", "start"]
+__all__ = ["binary_groups", "edges", "encoding", "entity", "is_through_places", "placed", "start", "view"]
 
 # What ezdxf would say is said here, in one line.
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())
@@ -99,6 +99,15 @@ def _matrix(insert: DXFGraphic, base: tuple[float, float, float], outer: Matrix4
         insert.dxf.extrusion = Vec3(0, 0, 1)
     matrix = Matrix44.translate(*(-ordinate for ordinate in base)) @ insert.matrix44()
     return matrix if outer is None else matrix @ outer
+
+
+def view(plane: str) -> Matrix44:
+    """From places to where they are seen: two axes such as "xz", which become x and y."""
+    axes = {"x": Vec3(1, 0, 0), "y": Vec3(0, 1, 0), "z": Vec3(0, 0, 1)}
+    right, up = (axes[axis] for axis in plane)
+    matrix = Matrix44.ucs(right, up, right.cross(up))
+    matrix.transpose()
+    return matrix
 
 
 def start(entity: DXFGraphic) -> Vec3:

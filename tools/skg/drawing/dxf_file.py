@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from skg.drawing.record import Group, Record
+from skg.drawing.record import Group, Record, unescaped
 from skg.errors import UserError
 from skg.kinds import kind_of
 
@@ -228,7 +228,7 @@ def _units(header: list[Group]) -> tuple[str, float] | None:
 
 
 def _layer(found: DxfFile, record: Record) -> None:
-    name = record.value(2).strip()
+    name = unescaped(record.value(2).strip())
     found.layers[name.lower()] = name
     found.dashed_layers[name.lower()] = record.value(6).strip().upper()
     if record.whole(70) & 1:

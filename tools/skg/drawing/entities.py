@@ -13,10 +13,10 @@ import numpy as np
 import shapely
 
 from skg.drawing import plain
-from skg.drawing.account import Content, Entity, said
+from skg.drawing.account import NOTE, Content, Entity, said
 from skg.drawing.contour import Edge
 from skg.drawing.dxf_file import Definition, DxfFile
-from skg.drawing.placing import NotFlat, Placing, is_full, swept
+from skg.drawing.placing import LEAVES, NotFlat, Placing, is_full, swept
 from skg.drawing.record import Record
 from skg.drawing.shapes import is_number
 from skg.drawing.wishes import Wishes
@@ -45,6 +45,8 @@ _NO_LINES = {
 }
 #: Blocks within blocks within blocks.
 _DEPTH = 32
+#: The planes beside x and y that a whole drawing may stand in, with what is seen there to the right and upwards.
+_STANDING = ("xz", "yz")
 #: More entities than this in all are no drawing, but blocks that hold copies of copies.
 _MOST = 1_000_000
 #: The codes of the angles that an arc begins and ends at, and a full turn.
@@ -54,12 +56,14 @@ UNREADABLE = (ArithmeticError, ValueError, TypeError, IndexError, KeyError, Attr
 
 
 class _Collector:
-    """Turns records into edges. `placing` knows where the present block's records stand on the drawing."""
+    """Turns records into edges. `placing` knows where the present block's records stand on the drawing; `view`: from
+    the file's places to the drawing's, None where these are the same."""
 
-    def __init__(self, file: DxfFile, wishes: Wishes, factor: float) -> None:
+    def __init__(self, file: DxfFile, wishes: Wishes, factor: float, view: Matrix44 | None = None) -> None:
         self.file = file
         self.wishes = wishes
         self.placing = Placing(factor, wishes.fit_tolerance)
+        self.placing.matrix = view
         self.content = Content()
         self.known: dict[int, DXFGraphic] = {}
         self.wide: list[Entity] = []
@@ -83,6 +87,10 @@ class _Collector:
     def unwanted(self, layer: str) -> str:
         """Why what is on a layer is left."""
         return self.wishes.unwanted(layer, self.file.states.get(layer.lower(), ""))
+
+    def leaves(self) -> bool:
+        """Whether an entity leaves the drawing's plane."""
+        return any(entity.left == LEAVES for entity in self.content.entities)
 
     def place(self, record: Record) -> XY:
         """A place on a record's entity, in the drawing's units."""
@@ -119,7 +127,7 @@ class _Collector:
         is_start = self.wishes.is_start(layer)
         account.left = hidden or self.unwanted(layer) or ("invisible" if record.whole(60) else "")
         if not account.left and _is_note(record.kind, is_start):
-            account.left = "nothing to cut"
+            account.left = NOTE
         if account.left:
             return
         known = len(self.content.edges)
@@ -282,6 +290,21 @@ def _is_wide(record: Record) -> bool:
     return any(width.strip(" 0.+-eE") for width in widths)
 
 
+def _standing(flat: _Collector) -> _Collector | None:
+    """The same drawing seen from the front or from the right, where all of it that is wanted stands upright."""
+    if not flat.leaves():
+        return None
+    for plane in _STANDING:
+        seen = _Collector(flat.file, flat.wishes, flat.placing.factor, _by_ezdxf().view(plane))
+        seen.collect(flat.file.model, "", "", ())
+        if seen.content.edges and not seen.leaves():
+            flat.file.notes.append(
+                f"the drawing stands in the plane of {' and '.join(plane)}: read as it is seen there"
+            )
+            return seen
+    return None
+
+
 def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     """Return the entities of a drawing, and the edges of those of its model space that are wanted, in mm.
 
@@ -290,6 +313,7 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     wishes.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
     collector = _Collector(file, wishes, factor)
     collector.collect(file.model, "", "", ())
+    collector = _standing(collector) or collector
     collector.placing.matrix = None
     if not collector.content.edges and file.paper:
         # (some programs write all that they have there)

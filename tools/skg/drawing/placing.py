@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 XYZ = Sequence[float]
 #: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
 LEVEL = 1e-3
+#: Why an entity is left that does not lie in one.
+LEAVES = "leaves the drawing's plane, expected a flat drawing"
 #: Angles are whole turns apart when they miss it by no more than this part of one; those that are the same angle but
 #: for a float's rounding by no more than that: what is longer than nothing is drawn so (where two fillets meet).
 _WHOLE, _NONE = 1e-8, 1e-13
@@ -46,7 +48,7 @@ class Placing:
         found = points if self.matrix is None else list(self.matrix.transform_vertices(points))
         heights = [point[2] for point in found]
         if heights and (max(heights) - min(heights)) * self.factor > LEVEL:
-            raise NotFlat("leaves the drawing's plane, expected a flat drawing")
+            raise NotFlat(LEAVES)
         return found
 
     def points(self, points: Sequence[XYZ]) -> list[XY]:

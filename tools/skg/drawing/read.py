@@ -16,7 +16,7 @@ from math import floor
 
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
 from skg.drawing import dxf_file, entities, svg, svg_file
-from skg.drawing.account import Account, Content, counted, listed, short, shown
+from skg.drawing.account import NOTE, Account, Content, counted, listed, short, shown
 from skg.drawing.chain import merged
 from skg.drawing.contour import Contour
 from skg.drawing.rows import boxes_of
@@ -35,6 +35,8 @@ DOUBTED = 25.4
 LARGE = 1000.0
 #: No drawing that is cut has a larger side, mm.
 FARTHEST = 50_000.0
+#: The units that a drawing may be in. (In mil write programs for boards that do not tell it)
+GUESSED = ("mm", "inch", "cm", "mil")
 #: Who says what units a drawing is in.
 TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
 #: What fills an area, without lines around it.
@@ -165,7 +167,7 @@ def _nothing(content: Content, wishes: Wishes) -> str:
 def _no_outline(report: Account) -> str:
     """Why no contour is left."""
     if not report.rest and not report.open_ends:
-        reasons = Counter(reason for layer in report.layers for reason in layer.why)
+        reasons = dict.fromkeys(reason for layer in report.layers for reason in layer.why if reason != NOTE)
         return f"nothing to cut, read in {report.units}: {', '.join(reasons)}; --units and --tolerance may help"
     if not report.rest:
         return f"no closed outline, {report.first_gap()}"
@@ -196,7 +198,7 @@ def _check_size(report: Account) -> None:
     if not is_told and not USUAL[0] <= max(report.size) <= USUAL[1]:
         raise UserError(
             f"the file does not say its units, and {width} x {height} mm is an odd size: "
-            f"give --units ({', '.join(UNITS)}){_in_other_units(report)}"
+            f"give --units ({', '.join(UNITS)}){_in_other_units(report, units=GUESSED)}"
         )
     if max(report.size) >= FARTHEST:
         raise UserError(
@@ -211,12 +213,17 @@ def _check_size(report: Account) -> None:
         report.notes.append(
             f"take care: {width} x {height} mm is small, and the units are guessed{other}: --units says so"
         )
+    other = _in_other_units(report, LARGE, GUESSED)
+    if not is_told and other and max(report.size) > LARGE:
+        report.notes.append(
+            f"take care: {width} x {height} mm is large, and the units are guessed{other}: --units says so"
+        )
 
 
-def _in_other_units(report: Account, most: float = USUAL[1]) -> str:
+def _in_other_units(report: Account, most: float = USUAL[1], units: tuple[str, ...] = GUESSED[:3]) -> str:
     """The size that a drawing has in units that make it a usual one, of `most` mm."""
     found = []
-    for name in ("mm", "inch", "cm"):
+    for name in units:
         width, height = (side / report.factor * UNITS[name] for side in report.size)
         if name != report.units and USUAL[0] <= max(width, height) <= most:
             found.append(f"{short(width)} x {short(height)} mm in {name}")

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+import re
+
 from skg.plane import XY
 
 #: A group: its code and its value as text.
 Group = tuple[int, str]
+
+
+#: A character by its number, as files write it whose code page does not have it. (Half of a pair of UTF-16 is none)
+_NUMBERED = re.compile(r"\\U\+((?![Dd][89A-Fa-f])[0-9A-Fa-f]{4})")
+
+
+def unescaped(name: str) -> str:
+    """A name with the characters that a file tells by their numbers."""
+    return _NUMBERED.sub(lambda found: chr(int(found[1], 16)), name) if "\\U+" in name else name
 
 
 class Record:
@@ -33,7 +44,7 @@ class Record:
     @property
     def layer(self) -> str:
         """The name of its layer."""
-        return self.value(8).strip() or "0"
+        return unescaped(self.value(8).strip()) or "0"
 
     @property
     def place(self) -> XY:

@@ -22,7 +22,7 @@ from skg.drawing.account import (
 from skg.drawing.chain import Chains, chain
 from skg.drawing.contour import Contour, Edge
 from skg.drawing.overrun import Overrun, without_overruns
-from skg.drawing.rows import boxes_of
+from skg.drawing.rows import Floats, boxes_of
 from skg.drawing.touching import Relations, lying_on, nearest, relations
 from skg.drawing.wishes import Wishes
 from skg.errors import UserError
@@ -62,8 +62,9 @@ class Selection:
         rest = [one for run, one in enumerate(rest) if run not in on]
         for run in rest:
             self.fates.of_edges(run.edges, JUNCTION)
-        self.report.notes += _around(rest, kept, self.report.factor)
-        self.report.notes += _gaps(rest, self.content.edges, self.wishes.tolerance, self.report.factor)
+        gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance, self.report.factor))
+        self.report.notes += _around(rest, kept, bool(gaps), self.report.factor)
+        self.report.notes += gaps
         return kept
 
     def without_open(self, contours: list[Contour]) -> list[Contour]:
@@ -244,22 +245,30 @@ def _between(runs: list[Contour], factor: float) -> Iterator[str]:
         )
 
 
-def _around(rest: list[Contour], kept: list[Contour], factor: float) -> Iterator[str]:
-    """What is said when something that is left reaches around all contours that are cut, and is larger than each."""
-    boxes = boxes_of(kept)[0].tolist() if rest and len(kept) > 1 else ()
-    for run in rest if boxes else ():
-        ((left, low, right, high),) = boxes_of([run])[0].tolist()
-        if all(
-            left <= (x + far_x) / 2 <= right and low <= (y + far_y) / 2 <= high
-            and far_x - x < right - left and far_y - y < high - low
-            for x, y, far_x, far_y in boxes
-        ):  # fmt: skip
+def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool, factor: float) -> Iterator[str]:
+    """What is said when something that is left reaches around all contours that are cut, and is larger than each: one
+    run, or all of them where they have gaps."""
+    if not rest or len(kept) < 2:
+        return
+    boxes, outer = boxes_of(kept)[0], boxes_of(rest)[0]
+    for at, run in enumerate(rest):
+        if _reach_around(outer[at : at + 1], boxes):
             ends = (shown(in_file(end, factor)) for end in (run.edges[0].start, run.edges[-1].end))
             yield (
                 f"take care: what is left from {' to '.join(ends)} reaches around all that is cut: "
                 "is it the outline, which should close there?"
             )
             return
+    if has_gaps and _reach_around(outer, boxes):
+        yield "take care: what is left reaches around all that is cut: is it the outline, which has gaps?"
+
+
+def _reach_around(outer: Floats, boxes: Floats) -> bool:
+    """Whether the box around some boxes has the middles of all others in it, and is larger than each."""
+    low, high = outer[:, :2].min(0), outer[:, 2:].max(0)
+    middles = (boxes[:, :2] + boxes[:, 2:]) / 2
+    sizes = boxes[:, 2:] - boxes[:, :2]
+    return bool(((low <= middles) & (middles <= high) & (sizes < high - low)).all())
 
 
 def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> Iterator[str]:

@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 import svgelements
 
-from skg.drawing.account import Content, Entity, counted, said
+from skg.drawing.account import NOTE, Content, Entity, counted, said
 from skg.drawing.contour import Edge
 from skg.drawing.shapes import conic, is_number, spline_edges
 from skg.drawing.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Drawn, SvgFile, View, length_of, property_of, tag_of
@@ -193,7 +193,7 @@ class _SvgCollector:
 
     def _start(self, account: Entity, outline: Sequence[svgelements.PathSegment]) -> None:
         """A shape on the layer of start holes: a circle is one, about its middle."""
-        account.left = "a start hole" if account.kind == "circle" else "nothing to cut"
+        account.left = "a start hole" if account.kind == "circle" else NOTE
         if account.kind == "circle" and outline:
             self.found.starts.append(self.shapes.point(outline[0].center))
 
