@@ -1008,6 +1008,11 @@ def test_svg_that_is_none(data: bytes, message: str) -> None:
         read(data, "part.svg")
 
 
+@pytest.mark.parametrize("before", ["", "999\nA remark\n999\nand another\n"])
+def test_dxf_whose_name_says_svg(before: str) -> None:
+    assert read(before.encode() + raw(*square(0, 0, 30)), "part.svg").report.closed == 1
+
+
 @pytest.mark.parametrize(
     ("data", "message"),
     [

@@ -41,13 +41,16 @@ _DEPTH = 300
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 #: What is outside a frame by no more than this part of its larger side is within.
 _NEAR_FRAME = 1e-3
+#: How a DXF file begins that is text, remarks before it.
+_DXF = re.compile(rb"\s*(?:999\s*\n[^\n]*\n\s*)*0\s+SECTION\s")
 #: What a shape that cannot be read may raise.
 UNREADABLE = (ValueError, TypeError, ArithmeticError, IndexError, KeyError, AttributeError)
 
 
 def is_svg(data: bytes, name: str) -> bool:
-    """Whether a file is SVG: by its ending, else by its first lines."""
-    return name.lower().endswith((".svg", ".svgz")) or b"<svg" in data[:4096]
+    """Whether a file is SVG: by its ending, unless its first lines are those of DXF; else by its first lines."""
+    begin = data[:4096]
+    return b"<svg" in begin or name.lower().endswith((".svg", ".svgz")) and _DXF.match(begin) is None
 
 
 @dataclass(frozen=True)
