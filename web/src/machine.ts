@@ -45,8 +45,9 @@ export class Machine {
     this.#take({ kind: "load", program, run, clear });
   }
 
-  restore(ram: Uint8Array): void {
-    this.#take({ kind: "restore", ram });
+  /** Puts a saved RAM back; the program alone where it belongs to another ROM. */
+  restore(ram: Uint8Array, program: string, rom: string): void {
+    this.#take({ kind: "restore", ram, program, rom });
   }
 
   reset(): void {

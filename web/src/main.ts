@@ -322,7 +322,7 @@ function bringBack(saved: Everything): void {
     const ram = fromBase64(saved.kept.ram);
     teletype.clear();
     teletype.print(saved.kept.paper);
-    if (ram && saved.kept.rom === kept?.rom) machine.restore(ram);
+    if (ram) machine.restore(ram, saved.kept.program, saved.kept.rom);
     else machine.load(saved.kept.program, false);
   }
   const found = saved.tape ? recognize("saved.3b", new TextEncoder().encode(saved.tape)) : undefined;

@@ -10,7 +10,7 @@ export type Order =
   | { kind: "press"; key: number }
   | { kind: "tape"; bytes: Uint8Array }
   | { kind: "load"; program: string; run: boolean; clear: boolean }
-  | { kind: "restore"; ram: Uint8Array }
+  | { kind: "restore"; ram: Uint8Array; program: string; rom: string }
   | { kind: "reset" }
   | { kind: "speed"; speed: Speed }
   | { kind: "seen" };
@@ -234,6 +234,10 @@ function obey(order: Order): void {
       break;
     case "restore":
       taken++;
+      if (order.rom !== rom) {
+        carryOut(loading(order.program, false, true));
+        break;
+      }
       script = [];
       board.forget();
       board.restore(order.ram);

@@ -430,6 +430,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await onPaper(page, "\n42\n");
     assert.equal(await page.getAttribute("html", "data-theme"), "dark");
     assert.equal(await page.inputValue("#wire"), "0.25");
+    const variables = await saved(page, "json");
     await runPart(page, "punch");
     await prompt(page);
     const program = await lines(page);
@@ -443,6 +444,20 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await hasLines(other.page, program);
     assert.equal(await other.page.getAttribute("html", "data-theme"), "dark");
     await other.context.close();
+
+    // brought in before the board is there
+    let come = (): void => undefined;
+    const isThere = new Promise<void>((resolve) => (come = resolve));
+    const early = await visit({ serviceWorkers: "block" }, "", (context) =>
+      context.route("**/board.wasm", (route) => isThere.then(() => route.continue())));
+    await open(early.page, "all.json", variables);
+    await message(early.page, /all\.json/);
+    come();
+    await prompt(early.page);
+    await early.page.click("#terminal");
+    await early.page.keyboard.type("PRINT I,I\r");
+    await onPaper(early.page, "\n42 42\n");
+    await early.context.close();
   });
 
   test("reload while a program runs, or asks, that was pasted with its RUN: it is there again", async () => {
