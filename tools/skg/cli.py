@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import gc
 import io
 import os
@@ -37,9 +36,6 @@ COMMANDS = {
 }
 
 
-#: What glibc calls the size (bytes) from which on a piece of memory is the system's again when it is let go, and the
-#: size that it is to be; it would go up to 32 MB by itself, and keep a hundred of them for arrays that come no more.
-_MMAP_THRESHOLD, _LARGE = -3, 4 << 20
 #: So many new objects before garbage is looked for: 20,000 circles have 4 million, and none of it is garbage.
 _GARBAGE = 5_000_000
 
@@ -100,7 +96,6 @@ def main() -> None:
         sys.stdout = _Closed()
     # What commands make of large files lives to their end: the collector would look through millions of blocks in vain.
     gc.set_threshold(_GARBAGE)
-    _give_back()
     try:
         try:
             # (click alone would take four lines for wrong usage)
@@ -125,12 +120,6 @@ def main() -> None:
     # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
     gc.freeze()
     sys.exit(code)
-
-
-def _give_back() -> None:
-    """Have large arrays that are done with given back to the system at once, where the C library is glibc."""
-    with suppress(OSError, AttributeError, TypeError):
-        ctypes.CDLL(None).mallopt(_MMAP_THRESHOLD, _LARGE)
 
 
 def _flush() -> None:
