@@ -173,13 +173,17 @@ class PlannedContour:
 
     def with_wire_ways(self) -> PlannedContour:
         """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.drawing.parallel)."""
-        traced = tuple(wire_way(self.contour, r) for r in self.passes)
+        traced = self._wire_ways
         found = replace(self, traced=traced)
         if self.is_outside or self.room == inf:
             return found
         # (a start hole that was chosen, square to the contour, may be where the wire does not come to)
         place = roomy_place(traced[self.passes.index(self.widest)], self.start)
         return found if place == self.start else replace(found, start=place, is_moved=True)
+
+    @cached_property
+    def _wire_ways(self) -> tuple[tuple[Edge, ...], ...]:
+        return tuple(wire_way(self.contour, r) for r in self.passes)
 
     def in_chords(self) -> PlannedContour:
         """The same without an offset, cut along chords of its arcs and curves: a controller may end an arc too early or
