@@ -169,43 +169,53 @@ class Field:
         large = sizes[holding] > sizes[whose[of]] * (1 + _ALIKE)
         return whose, of[large], holding[large]
 
+    def _parts(self) -> Iterator[tuple[slice, Floats, Whole, Whole]]:
+        """Some contours after the other, since there may be millions of points: which, their points, where each begins
+        among these and how many it has."""
+        counts = np.diff(self._first)
+        for some in _batches(counts):
+            first, last = self._first[some.start], self._first[some.stop]
+            yield some, self._points[first:last], self._first[some] - first, counts[some]
+
     def _sizes(self) -> Floats:
         """The areas of all contours, mm²."""
-        counts = np.diff(self._first)
-        x, y = (column - np.repeat(column[self._first[:-1]], counts) for column in self._points.T)
-        turned = np.zeros(len(x))
-        turned[1:] = x[:-1] * y[1:] - x[1:] * y[:-1]
-        # (each begins at 0, 0: what comes to it from the one before is nothing)
-        return np.abs(np.add.reduceat(turned, self._first[:-1])) / 2 if len(x) else x
+        found = np.empty(len(self.contours))
+        for some, points, begins, counts in self._parts():
+            x, y = (column - np.repeat(column[begins], counts) for column in points.T)
+            turned = np.zeros(len(x))
+            turned[1:] = x[:-1] * y[1:] - x[1:] * y[:-1]
+            # (each begins at 0, 0: what comes to it from the one before is nothing)
+            found[some] = np.abs(np.add.reduceat(turned, begins)) / 2
+        return found
 
     def _inner(self, height: float, aside: float) -> tuple[Whole, Floats]:
         """Four places inside each closed contour: a part of its height from its ends, and in the widest stretch across
         it there a part of that from its ends. An open one's start. Whose the places are comes first."""
-        counts = np.diff(self._first)
         closed = np.array([contour.is_closed for contour in self.contours], bool)
-        owner = np.repeat(np.arange(len(counts)), counts)[:-1]
-        (x1, y1), (x2, y2) = self._points[:-1].T, self._points[1:].T
-        # (no chord leads from one contour to the next)
-        is_chord = closed[owner]
-        is_chord[self._first[1:-1] - 1] = False
-        low, high = (of.reduceat(self._points[:, 1], self._first[:-1]) for of in (np.minimum, np.maximum))
-        owners, places = [], []
-        for part in (height, 1 - height):
-            y = low + part * (high - low)
-            across = np.flatnonzero(is_chord & ((y1 > y[owner]) != (y2 > y[owner])))
-            of, up = owner[across], y[owner[across]]
-            x = x1[across] + (up - y1[across]) / (y2[across] - y1[across]) * (x2[across] - x1[across])
-            x, of = x[np.lexsort((x, of))], of[::2]
-            wide = x[1::2] - x[::2]
-            # The first of the widest stretches of each.
-            order = np.lexsort((-wide, of))
-            numbers, first = np.unique(of[order], return_index=True)
-            widest = order[first]
-            for along in (aside, 1 - aside):
-                owners.append(numbers)
-                places.append(np.column_stack((x[2 * widest] + along * wide[widest], y[numbers])))
+        owners, places = [np.empty(0, np.int64)], [np.empty((0, 2))]
+        for some, points, begins, counts in self._parts():
+            owner = np.repeat(np.arange(len(counts)), counts)[:-1]
+            (x1, y1), (x2, y2) = points[:-1].T, points[1:].T
+            # (no chord leads from one contour to the next)
+            is_chord = closed[some][owner]
+            is_chord[begins[1:] - 1] = False
+            low, high = (of.reduceat(points[:, 1], begins) for of in (np.minimum, np.maximum))
+            for part in (height, 1 - height):
+                y = low + part * (high - low)
+                across = np.flatnonzero(is_chord & ((y1 > y[owner]) != (y2 > y[owner])))
+                of, up = owner[across], y[owner[across]]
+                x = x1[across] + (up - y1[across]) / (y2[across] - y1[across]) * (x2[across] - x1[across])
+                x, of = x[np.lexsort((x, of))], of[::2]
+                wide = x[1::2] - x[::2]
+                # The first of the widest stretches of each.
+                order = np.lexsort((-wide, of))
+                numbers, first = np.unique(of[order], return_index=True)
+                widest = order[first]
+                for along in (aside, 1 - aside):
+                    owners.append(some.start + numbers)
+                    places.append(np.column_stack((x[2 * widest] + along * wide[widest], y[numbers])))
         whose = np.concatenate(owners)
-        without = np.setdiff1d(np.arange(len(counts)), whose)
+        without = np.setdiff1d(np.arange(len(closed)), whose)
         starts = self._points[self._first[without]]
         return np.concatenate((whose, without)), np.concatenate((*places, starts))
 

@@ -26,7 +26,7 @@ _MOST = 300
 #: What is within a reach may seem to lie this much farther away, mm.
 _HAIR = 1e-9
 #: So many contours become lines together.
-_LINES = 1000
+_LINES = 100
 
 
 @dataclass
