@@ -588,6 +588,12 @@ def test_a_start_hole_in_the_part_is_refused(
         assert "2 closed contours end where they begin" in run(*words).stderr
 
 
+def allow(limit: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have the check refuse what is off by more than this, mm."""
+    for module in ("wire_path", "beside", "reached"):
+        monkeypatch.setattr(f"skg.cutting.{module}.LIMIT", limit)
+
+
 @pytest.mark.parametrize(
     ("words", "advice"),
     [
@@ -599,7 +605,7 @@ def test_a_start_hole_in_the_part_is_refused(
 def test_what_to_do_where_the_wire_is_off_is_said(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[object], advice: str
 ) -> None:
-    monkeypatch.setattr("skg.cutting.check.LIMIT", 0.0008)
+    allow(0.0008, monkeypatch)
     page = drawing()
     polygon([(0, 0), (20, 3), (20, 15), (0, 15)], page)
     told = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", *words)
@@ -636,7 +642,7 @@ def test_a_curve_that_a_controller_leaves_is_cut_along_chords(
     part, tape = saved(page, tmp_path), tmp_path / "part.3b"
     worst = re.search(r"at most ([\d.]+) µm off", run("cut", part, "-o", tape).stderr)
     assert worst
-    monkeypatch.setattr("skg.cutting.check.LIMIT", float(worst[1]) / 1000 - 1e-4)
+    allow(float(worst[1]) / 1000 - 1e-4, monkeypatch)
     told = run("cut", part, "-o", tape).stderr
     assert "contour 1 is cut along chords" in told
     assert {block.is_line for block in tapes.parse(tape.read_bytes(), "tape").blocks} == {True}

@@ -8,9 +8,10 @@ from itertools import tee
 from math import inf
 
 from skg.cutting import refusal
-from skg.cutting.check import Checked, Misfit, check
+from skg.cutting.check import Checked, check
 from skg.cutting.islands import islands
 from skg.cutting.settings import Settings
+from skg.cutting.wire_path import Misfit
 from skg.drawing.entry import longest_tab
 from skg.drawing.parallel import NoRoom, has_spike
 from skg.drawing.planned import PlannedContour

@@ -8,9 +8,10 @@ from __future__ import annotations
 from contextlib import suppress
 from math import copysign, floor, inf
 
-from skg.cutting.check import LIMIT, Checked, Misfit
+from skg.cutting.check import Checked
 from skg.cutting.crossing import Crossing
 from skg.cutting.settings import Settings
+from skg.cutting.wire_path import LIMIT, Misfit
 from skg.drawing.account import counted, in_file, short, shown
 from skg.drawing.contour import Contour
 from skg.drawing.parallel import NoRoom, widest, wire_way

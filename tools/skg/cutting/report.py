@@ -6,10 +6,10 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 
-from skg.cutting.check import LIMIT
 from skg.cutting.follow import Threading
 from skg.cutting.job import Job
 from skg.cutting.refusal import into, kind, told_in_file
+from skg.cutting.wire_path import LIMIT
 from skg.drawing.account import counted, short
 from skg.drawing.parallel import NoRoom, sharpest, uncut, wire_way
 from skg.drawing.planned import PlannedContour
