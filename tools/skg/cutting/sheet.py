@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import date
 from math import ceil, cos, pi, sin
@@ -20,7 +20,7 @@ from skg.cutting.check import drawn
 from skg.cutting.job import Job
 from skg.cutting.refusal import kind
 from skg.drawing.account import short, shown
-from skg.drawing.contour import Edge, Places
+from skg.drawing.contour import Places
 from skg.drawing.page import as_it_stands, save
 from skg.drawing.planned import PlannedContour
 from skg.drawing.plot import FEW, outlines
@@ -34,9 +34,9 @@ _A4, _A3 = (297.0, 210.0), (420.0, 297.0)
 _INCH = 25.4
 _MARGIN, _HEAD = 10.0, 26.0
 #: A row of the table, a column of it; room around the part for dimensions.
-_ROW, _COLUMN, _AROUND = 2.9, 48.0, 14.0
+_ROW, _COLUMN, _AROUND = 2.9, 50.0, 14.0
 #: Where a column's cells end, or begin (the fourth), mm.
-_CELLS = (5.5, 16.9, 28.3, 30.0, 47.5)
+_CELLS = (5.5, 16.9, 28.3, 29.5, 49.5)
 #: The largest mark of a start hole (its radius), the largest arrow; all mm on the paper.
 _HOLE, _ARROW = 1.1, 1.8
 #: Of these scales the largest at which the part fits is taken.
@@ -239,17 +239,17 @@ class SetupSheet:
         holes = self._all_on_paper(route.start for route in self.job.routes)
         moves = np.stack([holes[:-1], holes[1:]], axis=1)
         self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
-        arrows = [arrow for route in self.job.routes if (arrow := self._arrow(route.chain))]
+        arrows = [arrow for route in self.job.routes if (arrow := self._arrow(route))]
         if arrows:
             places = np.array(arrows)
             self._lines(places, edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
             self._take_lines(*(places[:, some].reshape(-1, 2) for some in _STEPS))
 
-    def _arrow(self, edges: Sequence[Edge]) -> list[XY]:
+    def _arrow(self, route: PlannedContour) -> list[XY]:
         """An arrow on the longest edge of a contour shows the way and covers nothing: it is open and thin. None where
         it would be too small."""
-        edge = max(edges, key=lambda edge: edge.length)
-        size = min(_ARROW, edge.length * self.scale / (10 if edge.is_circle else 4))
+        edge = max(route.chain, key=lambda edge: edge.length)
+        size = min(_ARROW, self.scale * min(edge.length / (10 if edge.is_circle else 4), route.room))
         if size <= 0.3:
             return []
         x, y = self.on_paper(edge.at(0.5))
@@ -382,7 +382,7 @@ class SetupSheet:
             # (-0.0001 is 0.000)
             x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
             cells = (str(at + 1), x_, y_, _called(route))
-            self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[at]:.1f}"), _INK)
+            self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[at]:.{lengths[at] < 1e5:d}f}"), _INK)
         if shown < len(routes):
             more = f"and {len(routes) - shown} more: the program has them"
             self._text((right, _MARGIN + _HEAD + 1), more, _LEAST, _INK, ha="right")
