@@ -362,14 +362,19 @@ def read_until(descriptor: int, wanted: bytes) -> bytes:
     return seen
 
 
+def until_raw(terminal: int) -> None:
+    """Wait until each key of a terminal goes to `skg term` as it is typed."""
+    last = time.monotonic() + PATIENCE
+    while termios.tcgetattr(terminal)[3] & termios.ICANON:
+        assert time.monotonic() < last
+        time.sleep(0.01)
+
+
 def test_in_a_terminal(machine: Machine) -> None:
     """Keys go out one by one, ctrl-] leaves, and the terminal is as it was."""
     outer, inner = pty.openpty()
     process = subprocess.Popen([SKG, "term", machine.link], stdin=inner, stdout=inner, stderr=inner)
-    last = time.monotonic() + PATIENCE
-    while termios.tcgetattr(inner)[3] & termios.ICANON:
-        assert time.monotonic() < last
-        time.sleep(0.01)
+    until_raw(inner)
     os.write(outer, b"PRINT 2\r")
     read_until(outer, b"PRINT 2\r\n>")
     os.write(outer, b"\x1d")
@@ -377,6 +382,20 @@ def test_in_a_terminal(machine: Machine) -> None:
     assert machine.lines == ["PRINT 2"]
     for descriptor in (inner, outer):
         os.close(descriptor)
+
+
+def test_the_terminal_goes_away(machine: Machine) -> None:
+    """Its window is closed: nobody is left to type ctrl-]."""
+    outer, inner = pty.openpty()
+    process = subprocess.Popen([SKG, "term", machine.link], stdin=inner, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    until_raw(inner)
+    for descriptor in (inner, outer):
+        os.close(descriptor)
+    try:
+        assert process.communicate(timeout=PATIENCE)[1] == b""
+    finally:
+        process.kill()
+    assert process.returncode == 0
 
 
 def test_broken_off(machine: Machine, tmp_path: Path) -> None:

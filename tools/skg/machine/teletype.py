@@ -302,18 +302,28 @@ class Teletype:
 def raw_keyboard() -> Iterator[Callable[[], bytes]]:
     """Give the keyboard's bytes as they are typed; the terminal is put right again at the end.
 
-    Where the standard input is no terminal there is no keyboard.
+    Where the standard input is no terminal there is no keyboard. A terminal that is gone types ctrl-].
     """
     if not sys.stdin.isatty():
         yield bytes
         return
     descriptor = sys.stdin.fileno()
     before = termios.tcgetattr(descriptor)
+
+    def typed() -> bytes:
+        if not select.select([descriptor], [], [], 0)[0]:
+            return b""
+        with contextlib.suppress(OSError):
+            if keys := os.read(descriptor, 256):
+                return keys
+        return bytes([ESCAPE])
+
     try:
         tty.setraw(descriptor)
-        yield lambda: os.read(descriptor, 256) if select.select([descriptor], [], [], 0)[0] else b""
+        yield typed
     finally:
-        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
+        with contextlib.suppress(termios.error):
+            termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
 
 
 def converse(port: Port, teletype: Teletype) -> None:
