@@ -189,7 +189,7 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
         if not len(left):
             return off
         reach *= 6
-        own_at = contours.nearest(places[left], owners[left], reach).own_at
+        own_at = contours.nearest_own(places[left], owners[left], reach)
 
 
 def _by_tips(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, reach: float) -> Whole:

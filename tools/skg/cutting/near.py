@@ -179,6 +179,26 @@ class Pieces:
             self._look(grid, places, owners, low, reach, found)
         return found
 
+    def nearest_own(self, places: Floats, owners: Whole, reach: float) -> Whole:
+        """The `own_at` of `nearest`, of pieces that stand in the order of their owners: what others own is not looked
+        at, which takes long where a wide reach has much of it."""
+        whose = np.unique(owners)
+        first = np.searchsorted(self.owner, whose)
+        count = np.searchsorted(self.owner, whose, "right") - first
+        numbers = np.repeat(first, count) + numbers_up_to(count)
+        if 2 * len(numbers) > len(self.length):
+            return self.nearest(places, owners, reach).own_at
+        found = self._some(numbers).nearest(places, owners, reach).own_at
+        return np.where(found >= 0, np.append(numbers, -1)[found], -1)
+
+    def _some(self, numbers: Whole) -> Pieces:
+        """Some of the pieces."""
+        found = Pieces.__new__(Pieces)
+        for name in ("start", "end", "centre", "radius", "first", "sweep", "owner", "is_chord"):
+            setattr(found, name, getattr(self, name)[numbers])
+        found._measure()
+        return found
+
     def _grid(self, cell: float) -> _Grid:
         """The pieces laid out on cells."""
         # (who comes while another thread is making the same one waits for it)
