@@ -564,6 +564,16 @@ def test_nothing_is_left_beside_a_step(run: Run, tmp_path: Path, offset: float, 
     assert (shapely.distance(places, path) <= shapely.distance(places, wanted) + LIMIT).all()
 
 
+@pytest.mark.parametrize("start", ["159,268", "300,130", "20,130"])
+def test_two_arcs_that_are_a_circle(run: Run, tmp_path: Path, start: str) -> None:
+    """Their middles are 4 nm apart: as two arcs the controller ended 1 µm beside where it began."""
+    page = drawing()
+    for y, first, last in ((130.261418, 90, 180), (130.261414, 180, 90)):
+        page.modelspace().add_arc((159.074093, y), 134.483399, first, last)
+    result = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--start", start)
+    assert "1 closed contour ends where it begins" in result.stderr
+
+
 @pytest.mark.parametrize(
     ("starts", "words", "why"),
     [

@@ -457,6 +457,11 @@ class _Graph:
         return turns > 0
 
 
+#: Circles whose middles and radii are no further apart are one, as programs write them that turn curves into arcs, mm.
+#: (As two, each with places of its own, they may end a micrometre beside where they began)
+_SAME = 1e-5
+
+
 def _merge(one: Edge, other: Edge) -> Edge | None:
     """Two neighbours as one edge, where they lie on one line or circle and run the same way, else None."""
     if one.is_line and other.is_line:
@@ -464,7 +469,7 @@ def _merge(one: Edge, other: Edge) -> Edge | None:
             return replace(one, end=other.end)
     elif one.centre is not None and other.centre is not None:
         sweep = one.sweep + other.sweep
-        is_same = distance(one.centre, other.centre) < 1e-6 and abs(one.radius - other.radius) < 1e-6
+        is_same = distance(one.centre, other.centre) < _SAME and abs(one.radius - other.radius) < _SAME
         if is_same and one.sweep * other.sweep > 0 and abs(sweep) <= 2 * pi + 1e-6:
             if distance(one.start, other.end) < 1e-6 and abs(sweep) > pi:
                 return replace(one, end=one.start, sweep=2 * pi if sweep > 0 else -2 * pi)
