@@ -1,7 +1,7 @@
 ; arc_nodrift.asm - arcs as 3B blocks, each from where the controller stands (docs/drift.md)
 ; Offers: ARC
 ; Uses:   calc consts float geom grid start tape
-; Room:   230 bytes
+; Room:   263 bytes
 ;
 ; An arc is looked at, and J counted, as in arc_3b.asm, whose header has u, v and F.
 ;
@@ -76,12 +76,21 @@ ARCL2:  DB      QEND            ;               (ARCL is too far away)
         JMP     MOVE
 
 ; AROOT - w -> least whole number whose square reaches n-w^2, n = a0^2+a1^2 (byte-code)
-; (the root, rounded, is k or one less; k^2-a1^2 and w^2-a0^2 as products are exact while they are below 2^32, as
-; they are for a short arc of any radius; n itself is so up to 65 mm)   Clobbers T4
-AROOT:  DB      CALC,QDUP,LA0,QADD,QSWP,LA0,QSUB,QMUL ; p = w^2-a0^2
+; (the root, rounded, is k or one less; k^2-a1^2 and w^2-a0^2 as products are exact while they are below 2^32. They are
+; so up to 65 mm, for a short arc of any radius, and, a0 and a1 exchanged, for one that ends about an axis further on)
+; Clobbers T2, T4
+AROOT:  DB      CALC,ST2        ; -             t2 = w
+        DB      LT2,QSQ,QDBL,LA0,LA1,QSS,QSUB ; 2w^2-n
+        DB      LA0,QSQ,LA1,QSQ,QSUB,QSIG,QJN ; - above 0: |w| is nearer to |a0| than to |a1|
+        DB      AROOT2-$
+AROOT0: DB      LT2,LA0,QADD,LT2,LA0,QSUB,QMUL ; p = w^2-a0^2
         DB      QDUP,LA1,QSQ,QSUB,QABS,QSQRT,Q502,QADD,QFLR,ST4 ; p
         DB      LT4,LA1,QSUB,LT4,LA1,QADD,QMUL,QADD ; k^2-(n-w^2)
         DB      QJN
         DB      AROOT1-$
         DB      LT4,QRET        ; k
 AROOT1: DB      LT4,Q1,QADD+QRET ; k+1
+AROOT2: DB      LA0,LA1,SA0,SA1,QEND
+        LXI     D,AROOT0
+        CALL    RUNBC
+        DB      CALC,LA0,LA1,SA0,SA1,QRET

@@ -5,6 +5,7 @@ Examples and random programs, byte for byte; what is set aside as a close call i
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from random import Random
 
@@ -15,7 +16,8 @@ from romhelp import EXAMPLES, Board
 from test_random import MOST_ASIDE, SEED, Record
 
 from skg.ref import run as reference
-from skg.tape.text import scan
+from skg.tape.simulation import simulate
+from skg.tape.text import parse, scan
 
 SHARES = range(4)
 BLOCKS_A_SHARE = 400
@@ -75,6 +77,43 @@ def test_a_large_radius(circle: str, end: str) -> None:
     program = f"FROM (0,0)\nCUT (0,0),{circle},{end},(0,0)\nEND\n"
     outcome = Driftless().outcome(program)
     assert outcome.tape == reference(program, drift=False).tape
+
+
+def place(xy: Sequence[float]) -> str:
+    """A point as SKG has it, mm."""
+    x, y = xy
+    return f"({x:f},{y:f})"
+
+
+#: Rounded squares: the first corner's centre, the straight edges' length, the corners' radius.
+ROUNDED = [
+    (187.110182, -15.501277, 10579.535265, 3576.615529),
+    (387.265105, -364.654023, 652.972404, 384.464535),
+    (470.264037, 409.222728, 179.686856, 188.614272),
+    (321.550145, -180.215997, 161.872937, 394.864596),
+]
+
+
+@pytest.mark.parametrize(("x", "y", "edge", "radius"), ROUNDED)
+@pytest.mark.parametrize("clockwise", [False, True])
+def test_large_quarter_turns(clockwise: bool, x: float, y: float, edge: float, radius: float) -> None:
+    """Arcs from axis to axis are taken exactly at any radius: the route closes, and no close call is set aside."""
+    corners = [(x, y), (x + edge, y), (x + edge, y + edge), (x, y + edge)]
+    outwards = [(0, -1), (1, 0), (0, 1), (-1, 0)]
+    turns = [(corner, outwards[i], outwards[(i + 1) % 4]) for i, corner in enumerate(corners)]
+    if clockwise:
+        turns = [(corner, after, before) for corner, before, after in reversed(turns)]
+    cuts = []
+    for centre, *ends in turns:
+        before, after = ([c + radius * d for c, d in zip(centre, end, strict=True)] for end in ends)
+        cuts += [place(before), f"{place(centre)}:{-radius if clockwise else radius:f}", place(after)]
+    cuts.append(cuts[0])
+    lines = [f"FROM {cuts[0]}", *(f"CUT {cut}" for cut in cuts), "END"]
+    program = "".join(f"{number} {line}\n" for number, line in enumerate(lines, 1))
+    result = reference(program, drift=False)
+    assert Driftless().outcome(program).tape == result.tape
+    assert not close_call(result)
+    assert simulate(parse(result.tape, "part")).closed
 
 
 @pytest.mark.parametrize("share", SHARES)

@@ -233,6 +233,7 @@ def test_wrong_tapes_are_found() -> None:
     """The check is no yes-man: a tape for another offset, one block bent, one contour left out."""
     from skg.cutting.check import check
     from skg.cutting.job import make
+    from skg.cutting.refusal import refuse
     from skg.cutting.settings import Settings
     from skg.drawing.contour import Contour, Edge
     from skg.drawing.plan import plan
@@ -252,6 +253,12 @@ def test_wrong_tapes_are_found() -> None:
     assert faults and faults[0].route == 1
     with pytest.raises(UserError, match="stops"):
         check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), routes, True)
+    # It goes 1 um too far up: nowhere off by much, but the wire does not come back to its start hole.
+    open_one = job.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 1, slanted[1]))
+    checked = check(tapes.parse(open_one, "open"), routes, True)
+    assert not checked.faults
+    with pytest.raises(UserError, match=r"contour 2 .* does not close, open by 0, 1 µm on the controller: .* as two"):
+        refuse(checked, routes, 1.0, Settings())
 
 
 def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> None:
@@ -571,6 +578,27 @@ def test_two_arcs_that_are_a_circle(run: Run, tmp_path: Path, start: str) -> Non
     for y, first, last in ((130.261418, 90, 180), (130.261414, 180, 90)):
         page.modelspace().add_arc((159.074093, y), 134.483399, first, last)
     result = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--start", start)
+    assert "1 closed contour ends where it begins" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "edge", "radius"),
+    [
+        (41.63624339, 26.44706912, 359.03209497, 119.05943787),
+        (-19.78584690, 94.71882837, 375.48853062, 134.483399),
+        (87.25925410, 6.52023028, 348.49178148, 88.39665467),
+    ],
+)
+def test_large_rounded_corners_close(run: Run, tmp_path: Path, x: float, y: float, edge: float, radius: float) -> None:
+    """Quarter arcs between axes: above 65 mm the ROM once took their end to be 1 µm beside where it is."""
+    page = drawing()
+    for i, (right, up) in enumerate([(1, 1), (0, 1), (0, 0), (1, 0)]):
+        page.modelspace().add_arc((x + right * edge, y + up * edge), radius, 90 * i, 90 * i + 90)
+    for low, high in ((x, x + edge), (y, y + edge)):
+        for side in (-radius, edge + radius):
+            ends = [(low, y + side), (high, y + side)] if low == x else [(x + side, low), (x + side, high)]
+            page.modelspace().add_line(*ends)
+    result = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b")
     assert "1 closed contour ends where it begins" in result.stderr
 
 

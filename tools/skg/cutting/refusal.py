@@ -163,7 +163,7 @@ def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settin
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
             raise UserError(
                 f"{named(route, cut.route, factor)}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
-                "controller"
+                "controller: draw its longest arc as two"
             )
     spoilt = [one for one in checked.crossings if all(routes[at].contour.is_closed for at in (one.route, one.other))]
     if spoilt and settings.into != "cut":

@@ -28,14 +28,17 @@ def least_root(start: Grid, w: int) -> int:
     """Least whole number whose square reaches n - w², n = x² + y² of the start.
 
     It is where the controller leaves the row or column w of an arc. (Circles of some µm may make n - w²
-    negative: then of its absolute value, as the firmware does it.)
+    negative: then of its absolute value, as the firmware does it.) The firmware takes differences of squares, from
+    w to the nearer coordinate of the start: exact while they are whole numbers of 32 bits.
     """
     n = start[0] ** 2 + start[1] ** 2
     square = abs(n - w * w)
     if square == 0:
         return 0
     root = isqrt(square - 1) + 1
-    near.note("end of an arc", min(square - (root - 1) ** 2, root**2 - square + 1) / max(n, 1), 4 / EXACT)
+    apart = min(abs(w * w - c * c) for c in start)
+    if apart >= EXACT:
+        near.note("end of an arc", min(square - (root - 1) ** 2, root**2 - square + 1) / apart, 4 / EXACT)
     return root
 
 
