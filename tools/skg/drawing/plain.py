@@ -34,7 +34,11 @@ _FORMS = {
 }
 #: Of polylines what stands before the vertices, and of each vertex of the older kind; the flags are code 70.
 _HEADS = {
-    "LWPOLYLINE": {(_ENTITY, "AcDbPolyline", 90, 70, *more) for more in ((), (43,), (38,), (43, 38))},
+    "LWPOLYLINE": {
+        (*classes, 90, 70, *more)
+        for classes in ((), (_ENTITY, "AcDbPolyline"))
+        for more in ((), (43,), (38,), (43, 38))
+    },
     "POLYLINE": {
         (*classes, *more)
         for classes in ((), (_ENTITY, "AcDb2dPolyline"))
