@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import random
 from collections import Counter
+from functools import partial
 from itertools import pairwise
 from math import cos, hypot, inf, pi, sin
-from time import process_time
 
 import numpy as np
 import pytest
 import shapely
 from shapely.geometry import LineString, Point, Polygon
+from toolhelp import least_time
 
 from skg.cutting.near import Pieces
 from skg.drawing.contour import Contour, Edge
@@ -225,8 +226,7 @@ def test_nearest_of_its_own_among_many_others() -> None:
     owners = np.where(np.arange(4000) % 3, 210, 211)
     seconds = []
     for way in (path.nearest_own, lambda *given: path.nearest(*given).own_at):
-        began = process_time()
-        seconds.append((way(places, owners, 3.6), process_time() - began))
+        seconds.append(least_time(partial(way, places, owners, 3.6)))
     (own, quick), (at, slow) = seconds
     assert (own >= 0).all() and (path.owner[own] == owners).all()
     assert path.from_place(places, own) == pytest.approx(path.from_place(places, at), abs=1e-12)

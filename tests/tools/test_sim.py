@@ -7,14 +7,13 @@ import os
 import pty
 import subprocess
 import sys
-import time
 from math import atan2, cos, degrees, hypot, pi, sin
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from toolhelp import ROOT, Run
+from toolhelp import ROOT, Run, least_time
 
 from skg import tape as tapes
 from skg.errors import UserError
@@ -258,7 +257,6 @@ def test_progress_on_a_terminal_only(run_program: Run, tmp_path: Path) -> None:
 
 def test_speed() -> None:
     block = Block(30_000_000, 40_000_000, 80_000_000, "X", "NR1")
-    started = time.process_time()
-    steps = run_block(block).steps
-    rate = steps / (time.process_time() - started)
+    ended, seconds = least_time(lambda: run_block(block))
+    rate = ended.steps / seconds
     assert rate > 20e6, f"{rate / 1e6:.0f} million steps a second"
