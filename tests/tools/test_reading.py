@@ -124,6 +124,31 @@ def test_no_subclasses() -> None:
     assert all(contour.is_closed for contour in found)
 
 
+@pytest.mark.parametrize("left_out", ["AcDbEntity", "AcDb(?!Entity|Helix)", "AcDb(?!Helix)"])
+@pytest.mark.parametrize("kind", ["LWPOLYLINE", "MLINE", "SPLINE", "HELIX"])
+def test_some_subclasses(kind: str, left_out: str) -> None:
+    """Entities that have only one of their subclass marks, as from a converter of Inkscape's, or none: nothing is lost,
+    and the layer stays."""
+    drawing = ezdxf.new("R2010", units=ezdxf.units.MM)
+    space, on_layer = drawing.modelspace(), {"layer": "SHEET"}
+    match kind:
+        case "LWPOLYLINE":
+            space.add_lwpolyline([(0, 0), (9, 0), (9, 7, 0, 0, 0.5)], dxfattribs=on_layer, close=True)
+        case "MLINE":
+            space.add_mline([(0, 0), (30, 0), (30, 20)], dxfattribs=on_layer)
+        case "SPLINE":
+            space.add_spline(dxfattribs=on_layer).set_open_uniform([(0, 0), (10, 15), (20, -5), (30, 0)])
+        case "HELIX":
+            space.add_helix(10, 0, 1, dxfattribs=on_layer)
+    whole = dxf_bytes(drawing)
+    head, entities = whole.split(b"ENTITIES\n", 1)
+    partly = head + b"ENTITIES\n" + re.sub(rb" *100\n%b[A-Za-z0-9]*\n" % left_out.encode(), b"", entities)
+    assert partly != whole
+    expected, found = checked(whole), checked(partly)
+    assert found.contours == expected.contours
+    assert [layer.layer for layer in found.report.layers if layer.cut] == ["SHEET"]
+
+
 def a_bit_of_everything() -> Drawing:
     drawing = ezdxf.new("R2010", units=ezdxf.units.MM)
     space = drawing.modelspace()

@@ -39,8 +39,16 @@ logging.getLogger("ezdxf").propagate = False
 _MOST = 1_000_000
 #: A vertex of a polyline that is not on it, but pulls at it.
 _FRAME = 16
-#: The subclass that ezdxf asks for where a file has none.
-_SUBCLASS = {"LWPOLYLINE": "AcDbPolyline", "SPLINE": "AcDbSpline", "HELIX": "AcDbSpline"}
+#: The subclasses by whose place ezdxf reads a kind: files have none of them, one or another.
+_SUBCLASSES = {
+    "LWPOLYLINE": ("AcDbEntity", "AcDbPolyline"),
+    "SPLINE": ("AcDbEntity", "AcDbSpline"),
+    "HELIX": ("AcDbEntity", "AcDbSpline"),
+    "MLINE": ("AcDbEntity", "AcDbMline"),
+    "MLINESTYLE": ("AcDbMlineStyle",),
+}
+#: The third, of a helix: its codes mean other things than those of the second.
+_THIRD = "AcDbHelix"
 
 
 @contextmanager
@@ -221,8 +229,9 @@ def _tags(groups: list[Group]) -> list[DXFTag]:
     # (of before release 11, when a LINE had no height)
     kind = "LINE" if kind == "3DLINE" else kind
     kept[0] = DXFTag(0, kind)
-    if not has_subclass and kind in _SUBCLASS:
-        kept[1:1] = [DXFTag(100, "AcDbEntity"), DXFTag(100, _SUBCLASS[kind])]
+    if kind in _SUBCLASSES:
+        rest = [tag for tag in kept[1:] if tag.code != 100 or tag.value == _THIRD]
+        kept = [kept[0], *(DXFTag(100, name) for name in _SUBCLASSES[kind]), *rest]
     # (the tag behind the last one makes ezdxf let go of the place or the entity before it)
     tags = iter([*kept, DXFTag(0, "EOF")])
     # Old programs write the places of a line as x, x, y, y.
