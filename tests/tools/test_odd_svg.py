@@ -64,6 +64,23 @@ def boxes(reading: Reading) -> list[Box]:
          "<rect id='a' class='q' width='5' height='5' style='transform:translate(30px,0)'/>", [(9, 95, 14, 100)]),
         ("<style>.q{transform:translate(9px)!important}</style>"
          "<rect class='q' width='5' height='5' style='transform:translate(30px,0)!IMPORTANT'/>", [(30, 95, 35, 100)]),
+        # Attributes, what has no mark, what stands behind another, the third of its kind; name spaces, remarks.
+        ("<style>*[layer='1']{transform:translate(9px)} g[layer] rect:not([layer]){transform:translate(20px)}</style>"
+         "<rect layer='1' width='5' height='5'/><g layer='2'><rect width='5' height='5'/></g>",
+         [(9, 95, 14, 100), (20, 95, 25, 100)]),
+        ("<style>circle + rect, rect:nth-of-type(3){transform:translate(9px)} a + rect{transform:none}</style>"
+         "<rect width='5' height='5'/><circle cx='50' cy='50' r='2'/><rect width='5' height='5'/>"
+         "<rect y='9' width='5' height='5'/>",
+         [(0, 95, 5, 100), (9, 86, 14, 91), (9, 95, 14, 100), (48, 48, 52, 52)]),
+        ("<style>@namespace s url(http://www.w3.org/2000/svg); @namespace 'http://www.w3.org/1999/xhtml';"
+         "s|rect{/* 9; */transform:/**/translate(9px)/**/} rect{transform:none}</style>"
+         "<style media='print'>*{display:none}</style><rect width='5' height='5'/>", [(9, 95, 14, 100)]),
+        # What is used knows of nothing around it, neither where it stands nor where it is shown.
+        ("<style>.in > rect, use rect, .out rect, rect:root{transform:translate(9px)} rect{x:3px}</style>"
+         "<defs><g class='in'><rect id='r' width='5' height='5'/></g></defs><g class='out'><use href='#r'/></g>",
+         [(3, 95, 8, 100)]),
+        ("<style>.in > rect{transform:translate(9px)}</style>"
+         "<defs><g class='in' id='g'><rect width='5' height='5'/></g></defs><use href='#g'/>", [(9, 95, 14, 100)]),
         # A transform turns about its origin: lengths, parts of the view box, sides.
         ('<rect width="5" height="10" transform="rotate(90)" transform-origin="20 30"/>', [(40, 85, 50, 90)]),
         ('<rect width="5" height="10" style="transform:rotate(90deg);transform-origin:20% 30px"/>', [(40, 85, 50, 90)]),
@@ -210,8 +227,10 @@ def test_what_is_kept_for_use_is_not_drawn(where: str) -> None:
          "1 entity on layer 0 drawn with dashes (stroke-dasharray), as at (10, 90): cut as it is"),
         ('<g fill="none">%s</g>',
          "1 shape on layer 0 drawn with neither line nor area, as at (10, 90): cut, there is nothing else"),
-        ("<style>rect[x]{stroke:red} a:hover{color:red}</style>%s",
-         "1 rule of the style sheet not understood, as rect[x]: passed over"),
+        ("<style>rect ~ rect{stroke:red} a:hover{color:red}</style>%s",
+         "1 rule of the style sheet not understood, as rect ~ rect: passed over"),
+        ("<style>rect:odd(x), rect{stroke:red}</style>%s",
+         "1 rule of the style sheet not understood, as rect:odd(x), rect: passed over"),
         ("<style>@media (min-width:9px){rect{fill:red}}</style>%s",
          "1 rule of the style sheet not understood, as @media (min-width:9px): passed over"),
     ],

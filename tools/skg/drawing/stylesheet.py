@@ -1,4 +1,7 @@
-"""How SVG elements are drawn: attributes, style sheets, and what is handed down."""
+"""How SVG elements are drawn: attributes, style sheets, and what is handed down.
+
+tinycss2 takes style sheets apart, cssselect2 says which elements a rule means.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
+
+import cssselect2
+import tinycss2
+from tinycss2 import ast
 
 #: What is drawn at the ends and corners of lines, such as heads of arrows.
 _MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
@@ -30,12 +37,10 @@ _NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,((?:[^()]|\([^()]*\))*))?\)")
 #: Variables told by variables.
 _DEPTH = 32
-#: Rules that hold under a condition: what stands before their braces, and in them.
-_CONDITIONAL = re.compile(r"@(media|supports|container|layer)\b([^{};]*)\{((?:[^{}]*\{[^{}]*\})*[^{}]*)\}")
-#: A selector's parts: a name, classes and ids.
-_COMPOUND = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
-#: A selector: such parts, one in another.
-_SELECTOR = re.compile(r"PART(?: (?:> )?PART)*".replace("PART", r"(?:(?:\*|[\w-]+)(?:[.#][\w-]+)*|(?:[.#][\w-]+)+)"))
+#: Rules that hold under a condition.
+_CONDITIONAL = ("media", "supports", "container", "layer", "scope")
+#: A remark.
+_REMARK = re.compile(r"/\*.*?\*/", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -89,53 +94,88 @@ class Style:
 
 
 class StyleSheet:
-    """The rules of a drawing's style sheets: those whose selectors are names, classes, ids and what these stand in.
+    """The rules of a drawing's style sheets; `paints`: the ids of the drawing's gradients and patterns."""
 
-    `paints`: the ids of the drawing's gradients and patterns.
-    """
-
-    def __init__(self, text: str, paints: Iterable[str] = ()) -> None:
+    def __init__(self, root: Element, paints: Iterable[str] = ()) -> None:
         self.paints = {name.lower() for name in paints}
-        #: Weight, selector (parts from the outside in, ">" where one stands right in the one before), declarations.
-        self.rules: list[tuple[tuple[int, int, int, int], list[str], _Declared]] = []
         #: Selectors and conditions of rules that would show something otherwise, but are not understood.
         self.missed: list[str] = []
-        text = re.sub(r"/\*.*?\*/|<!--|-->", "", text, flags=re.DOTALL)
         #: Style sheets in other files.
-        self.imported: list[str] = re.findall(r"""@import\s+(?:url\()?\s*["']?([^"')\s;]+)""", text)
-        text = re.sub(r"@[\w-]+[^{};]*;", "", text, flags=re.DOTALL)
-        text = _CONDITIONAL.sub(self._under_condition, text)
-        for selectors, declarations in re.findall(r"([^{}]+)\{([^{}]*)\}", text):
-            for selector in selectors.split(","):
-                parts = selector.replace(">", " > ").replace(":root", "svg").split()
-                declared = _declared(declarations)
-                if _SELECTOR.fullmatch(" ".join(parts)):
-                    marks = "".join(parts)
-                    names = sum(part[0] not in "*.#>" for part in parts)
-                    weight = marks.count("#"), marks.count("."), names, len(self.rules)
-                    self.rules.append((weight, parts, declared))
-                elif parts and (declared.usual.keys() | declared.important.keys()) & {*_PROPERTIES, *_GEOMETRY}:
-                    self.missed.append(" ".join(parts))
-        self.rules.sort(key=lambda rule: rule[0])
+        self.imported: list[str] = []
+        self._page = root
+        self._rules = cssselect2.Matcher()
+        #: What the rules declare of a tree's elements; what goes before others stands behind them.
+        self._trees: dict[Element, dict[Element, list[_Declared]]] = {}
+        for style in root.iter():
+            is_style = isinstance(style.tag, str) and style.tag.rpartition("}")[2] == "style"
+            if is_style and self._is_seen("media", style.get("media", "").strip()):
+                self._read(tinycss2.parse_stylesheet(style.text or "", True, True))
 
-    def _under_condition(self, rule: re.Match[str]) -> str:
-        """What of such rules holds on a screen."""
-        if rule[1] == "media" and rule[2].strip() in ("screen", "all"):
-            return rule[3]
-        if (rule[1], rule[2].strip()) != ("media", "print"):
-            self.missed.append(f"@{rule[1]} {rule[2].strip()}")
-        return ""
+    def _in(self, tree: Element) -> dict[Element, list[_Declared]]:
+        """What the rules declare of a tree's elements."""
+        if not self._rules.order:
+            return {}
+        if tree not in self._trees:
+            # (what is used is not the page: it stands in something without a name)
+            page = tree
+            if tree is not self._page:
+                page = Element("")
+                page.append(tree)
+            self._trees[tree] = {
+                wrapped.etree_element: [declared for *_, pseudo, declared in found if pseudo is None]
+                for wrapped in cssselect2.ElementWrapper.from_xml_root(page).iter_subtree()
+                if (found := self._rules.match(wrapped))
+            }
+        return self._trees[tree]
+
+    def _is_seen(self, kind: str, condition: str) -> bool:
+        """Whether rules under a condition hold on a screen; one that is not understood is kept in mind."""
+        if kind == "media" and condition.lower() in ("", "screen", "all", "print"):
+            return condition.lower() != "print"
+        self.missed.append(f"@{kind} {condition}".strip())
+        return False
+
+    def _read(self, rules: list[ast.Node]) -> None:
+        """The rules of a style sheet, or of a part of one."""
+        namespaces: dict[str | None, str] = {}
+        for rule in rules:
+            match rule.type, getattr(rule, "lower_at_keyword", ""):
+                case "qualified-rule", _:
+                    self._rule(rule, namespaces)
+                case "at-rule", "import":
+                    self.imported += _strings(rule.prelude)[:1]
+                case "at-rule", "namespace":
+                    prefix = next((token.value for token in rule.prelude if token.type == "ident"), None)
+                    namespaces[prefix] = "".join(_strings(rule.prelude)[:1])
+                case "at-rule", kind if kind in _CONDITIONAL and rule.content is not None:
+                    if self._is_seen(kind, tinycss2.serialize(rule.prelude).strip()):
+                        self._read(tinycss2.parse_rule_list(rule.content, True, True))
+
+    def _rule(self, rule: ast.QualifiedRule, namespaces: dict[str | None, str]) -> None:
+        declared = _declared(tinycss2.serialize(rule.content))
+        names = declared.usual.keys() | declared.important.keys()
+        if not any(name in _PRESENTED or name in _GEOMETRY or name.startswith("--") for name in names):
+            return
+        try:
+            # (what stands behind another would be looked for among all of 20,000 for each of 20,000)
+            if "~" in rule.prelude:
+                raise cssselect2.SelectorError
+            selectors = cssselect2.compile_selector_list(rule.prelude, namespaces)
+        except cssselect2.SelectorError:
+            self.missed.append(tinycss2.serialize(rule.prelude).strip())
+            return
+        for selector in selectors:
+            self._rules.add_selector(selector, declared)
 
     def _colour(self, told: str) -> str:
         """A colour in small letters; of a gradient that is not in the drawing the one in its place, or none."""
         paint = _PAINT.fullmatch(told.lower())
         return (paint[2] or "none") if paint and paint[1] not in self.paints else told.lower()
 
-    def style(self, element: Element, around: tuple[Element, ...], outer: Style) -> Style:
-        """How an element is drawn; `around`: those that it stands in, `outer`: how the last of these is drawn."""
-        elements = (*around, element)
-        found = [declarations for _, parts, declarations in self.rules if _fits(parts, elements)]
-        found.append(_declared(element.get("style", "")))
+    def style(self, element: Element, tree: Element, outer: Style) -> Style:
+        """How an element is drawn. `tree`: what rules know of around it, the whole page or all that is used with it;
+        `outer`: how that is drawn in which it is shown."""
+        found = [*self._in(tree).get(element, ()), _declared(element.get("style", ""))]
         declared: dict[str, str] = {}
         for one in found:
             declared |= one.usual
@@ -194,6 +234,17 @@ def _markers(told: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(told.get(name, told.get("marker", old)) for name, old in zip(_MARKERS, outer, strict=True))
 
 
+def _strings(tokens: list[ast.Node]) -> list[str]:
+    """The strings among some tokens, and the addresses, quoted or not."""
+    found = []
+    for token in tokens:
+        if token.type in ("string", "url"):
+            found.append(token.value)
+        elif token.type == "function" and token.lower_name == "url":
+            found += _strings(token.arguments)
+    return found
+
+
 class _Declared(NamedTuple):
     """Declarations by the names of their properties; what is `important` goes before all that is not."""
 
@@ -204,34 +255,10 @@ class _Declared(NamedTuple):
 def _declared(text: str) -> _Declared:
     """The declarations in a text."""
     found = _Declared({}, {})
-    for declaration in text.split(";"):
+    for declaration in _REMARK.sub("", text).split(";"):
         name, colon, value = declaration.partition(":")
         value, mark, important = value.partition("!")
         if colon:
             some = found.important if mark and important.strip().lower() == "important" else found.usual
             some[name.strip().lower()] = value.strip()
     return found
-
-
-def _fits(parts: list[str], elements: tuple[Element, ...]) -> bool:
-    """Whether a selector means the last of some elements, each of which stands in the one before."""
-    *outer, last = parts
-    if not elements or not _is(last, elements[-1]):
-        return False
-    if not outer:
-        return True
-    if outer[-1] == ">":
-        return _fits(outer[:-1], elements[:-1])
-    return any(_fits(outer, elements[:at]) for at in range(len(elements) - 1, 0, -1))
-
-
-def _is(part: str, element: Element) -> bool:
-    """Whether a part of a selector means an element."""
-    name, marks = _COMPOUND.fullmatch(part).groups()  # type: ignore[union-attr]
-    if name not in (None, "*") and element.tag.rpartition("}")[2] != name:
-        return False
-    classes = element.get("class", "").split()
-    return all(
-        mark[1:] in classes if mark[0] == "." else element.get("id") == mark[1:]
-        for mark in re.findall(r"[.#][\w-]+", marks)
-    )

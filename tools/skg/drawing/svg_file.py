@@ -118,14 +118,11 @@ class SvgFile:
         elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
             self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
         self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
-        self.sheet = StyleSheet(
-            "".join(element.text or "" for element in self.root.iter() if tag_of(element) == "style"),
-            (name for name, element in self.ids.items() if tag_of(element) in _PAINTS),
-        )
+        self.sheet = StyleSheet(self.root, (name for name, element in self.ids.items() if tag_of(element) in _PAINTS))
         self.animations = sum(tag_of(element) in _ANIMATIONS for element in self.root.iter())
         self.elsewhere = _elsewhere(data, self.sheet)
         box = _view_box(self.root)
-        self.style = self.sheet.style(self.root, (), Style())
+        self.style = self.sheet.style(self.root, self.root, Style())
         self.units = self._units()
         width, height = (_page_side(self._side(side)) for side in ("width", "height"))
         # (a page that tells one side or none has that of its view box)
@@ -156,7 +153,11 @@ class SvgFile:
         yield from self._children(self.root, view, (self.root,), ())
 
     def _children(
-        self, group: ElementTree.Element, view: View, around: tuple[ElementTree.Element, ...], used: tuple[str, ...]
+        self,
+        group: ElementTree.Element,
+        view: View,
+        around: tuple[ElementTree.Element, ...],
+        used: tuple[ElementTree.Element, ...],
     ) -> Iterator[Drawn]:
         if len(around) > _DEPTH:
             raise UserError(f"groups within groups, more than {_DEPTH} deep")
@@ -173,10 +174,10 @@ class SvgFile:
         name: str,
         view: View,
         around: tuple[ElementTree.Element, ...],
-        used: tuple[str, ...],
+        used: tuple[ElementTree.Element, ...],
     ) -> Iterator[Drawn]:
-        """What one element shows; `around`: those that it stands in, `used`: what is being used."""
-        style = self.sheet.style(element, around, view.style)
+        """What one element shows; `around`: those that it stands in, `used`: what is being used, the last innermost."""
+        style = self.sheet.style(element, (self.root, *used)[-1], view.style)
         layer = view.layer
         if name == "g" and (element.get(_MODE) == "layer" or len(around) == 1):
             layer = element.get(_LABEL) or element.get("id") or layer
@@ -207,19 +208,19 @@ class SvgFile:
         element: ElementTree.Element,
         view: View,
         around: tuple[ElementTree.Element, ...],
-        used: tuple[str, ...],
+        used: tuple[ElementTree.Element, ...],
     ) -> Iterable[Drawn]:
         """What a `use` shows."""
         link = (element.get("href") or element.get(_LINK) or "").strip()
         target = self.ids.get(link.removeprefix("#")) if link.startswith("#") else None
-        if target is None or link in used:
+        if target is None or target in used:
             why = "is part of itself" if target is not None else "is not in the file"
             return [Drawn(element, view, view.hidden or f"what it shows, {link or 'nothing'}, {why}")]
         name = tag_of(target)
         moved = replace(view, matrix=svgelements.Matrix.translate(*_corner(element, view)) * view.matrix)
-        around, used = (*around, element), (*used, link)
+        around, used = (*around, element), (*used, target)
         if name in ("symbol", "svg"):
-            style = self.sheet.style(target, around, view.style)
+            style = self.sheet.style(target, target, view.style)
             matrix = _transform(style, view.size) * moved.matrix if style.transform else moved.matrix
             inner = replace(moved, style=style, matrix=matrix)
             at = _corner(target, inner) if name == "svg" else (0.0, 0.0)
