@@ -165,6 +165,8 @@ def test_pages(size: str, expected: Box) -> None:
         ("<rect width='5' height='5' fill='none'/>", "drawn with neither line nor area"),
         ("<switch><g><path d='M0 0'/></g><rect width='5' height='5'/></switch>", "not displayed"),
         ("<switch><rect systemLanguage='de' width='5' height='5'/><g/></switch>", "not displayed"),
+        ("<g xmlns=''><rect width='5' height='5'/></g>", "not in SVG's name space"),
+        ("<x:rect xmlns:x='urn:x' width='5' height='5'/>", "not in SVG's name space"),
         ("<use href='#nothing'/>", "what it shows, #nothing, is not in the file"),
         ("<g id='g'><use href='#g'/></g>", "what it shows, #g, is part of itself"),
         ("<path d='M0 0 L 5 5 Q 3 X 4'/>", "cannot be read (its path data, at X 4)"),

@@ -32,6 +32,7 @@ _PAINTS = ("linearGradient", "radialGradient", "meshgradient", "pattern", "hatch
 _ANIMATIONS = ("animate", "animateTransform", "animateMotion", "animateColor", "set")
 _LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 _MODE = "{http://www.inkscape.org/namespaces/inkscape}groupmode"
+_SVG = "http://www.w3.org/2000/svg"
 _LINK = "{http://www.w3.org/1999/xlink}href"
 #: Sides that a transform may turn about.
 _SIDES = {"left": "0", "top": "0", "center": "50%", "right": "100%", "bottom": "100%"}
@@ -165,7 +166,10 @@ class SvgFile:
         for child in group:
             name = tag_of(child)
             if name in (*_GROUPS, *SHAPES, *NOTES, "use"):
-                inner = view if shown in (None, child) else replace(view, hidden=view.hidden or "not displayed")
+                why = "" if shown in (None, child) else "not displayed"
+                if _name_space(child) not in (_SVG, _name_space(self.root)):
+                    why = "not in SVG's name space"
+                inner = replace(view, hidden=view.hidden or why) if why else view
                 yield from self._one(child, name, inner, around, used)
 
     def _one(
@@ -233,6 +237,11 @@ class SvgFile:
 def tag_of(element: ElementTree.Element) -> str:
     """An element's name without its name space; nothing for a comment."""
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+
+
+def _name_space(element: ElementTree.Element) -> str:
+    """What an element's name belongs to; nothing for a comment."""
+    return element.tag.rpartition("}")[0].removeprefix("{") if isinstance(element.tag, str) else ""
 
 
 def _elsewhere(data: bytes, sheet: StyleSheet) -> list[str]:
