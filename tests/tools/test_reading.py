@@ -1024,6 +1024,10 @@ def test_svg_layers_and_units(run: Run, tmp_path: Path) -> None:
         (b"<html></html>", "not an SVG drawing, its root is html"),
         (svg("<path d='M0 0 L10 x'/><text>a</text>"), "no lines, arcs or curves to cut"),
         (svg("<image/>"), "a picture"),
+        (
+            svg("<defs><path d='M0 0h9'/><font><glyph d='M0 0h9'/></font></defs>"),
+            "1 path: shown nowhere; 1 glyph: shown",
+        ),
     ],
 )
 def test_svg_that_is_none(data: bytes, message: str) -> None:

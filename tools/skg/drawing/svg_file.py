@@ -148,10 +148,17 @@ class SvgFile:
         return None
 
     def drawn(self) -> Iterator[Drawn]:
-        """All that is drawn, and what is left of it, in the order of the file."""
+        """All that is drawn, and what is left of it, in the order of the file; all that is in the file, if nothing is
+        drawn."""
         hidden = "not displayed" if self.style.display == "none" else ""
         view = replace(self.view, style=self.style, hidden=hidden)
-        yield from self._children(self.root, view, (self.root,), ())
+        is_empty = True
+        for one in self._children(self.root, view, (self.root,), ()):
+            is_empty = False
+            yield one
+        if is_empty:
+            unshown = (element for element in self.root.iter() if tag_of(element) in (*SHAPES, "glyph"))
+            yield from (Drawn(element, view, "shown nowhere") for element in unshown)
 
     def _children(
         self,
