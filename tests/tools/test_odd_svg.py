@@ -73,7 +73,7 @@ def boxes(reading: Reading) -> list[Box]:
          "<rect y='9' width='5' height='5'/>",
          [(0, 95, 5, 100), (9, 86, 14, 91), (9, 95, 14, 100), (48, 48, 52, 52)]),
         ("<style>@namespace s url(http://www.w3.org/2000/svg); @namespace 'http://www.w3.org/1999/xhtml';"
-         "s|rect{/* 9; */transform:/**/translate(9px)/**/} rect{transform:none}</style>"
+         "@media all{s|rect{/* 9; */transform:/**/translate(9px)/**/}} rect{transform:none}</style>"
          "<style media='print'>*{display:none}</style><rect width='5' height='5'/>", [(9, 95, 14, 100)]),
         # What is used knows of nothing around it, neither where it stands nor where it is shown.
         ("<style>.in > rect, use rect, .out rect, rect:root{transform:translate(9px)} rect{x:3px}</style>"
@@ -233,6 +233,8 @@ def test_what_is_kept_for_use_is_not_drawn(where: str) -> None:
          "1 rule of the style sheet not understood, as rect ~ rect: passed over"),
         ("<style>rect:odd(x), rect{stroke:red}</style>%s",
          "1 rule of the style sheet not understood, as rect:odd(x), rect: passed over"),
+        ("<style>svg{fill:red; rect{fill:none}} a{cursor:text}</style>%s",
+         "1 rule of the style sheet not understood, as svg: passed over"),
         ("<style>@media (min-width:9px){rect{fill:red}}</style>%s",
          "1 rule of the style sheet not understood, as @media (min-width:9px): passed over"),
     ],
@@ -243,6 +245,18 @@ def test_what_is_guessed_is_said(content: str, note: str) -> None:
     assert note in reading.report.notes if note else not reading.report.notes
     content = '<g stroke="red" stroke-width="0.9" stroke-dasharray="none">%s</g>'
     assert reading_of(page(content % PART)).report.notes == []
+
+
+@pytest.mark.parametrize("selector", ["a " * 3000 + "a", "a+" * 300 + "a", "|", "a:is()|"])
+def test_a_selector_that_breaks_its_reader_is_said(selector: str) -> None:
+    (note,) = reading_of(page(f"<style>{selector}{{fill:red}}</style>{PART}")).report.notes
+    assert note == f"1 rule of the style sheet not understood, as {selector}: passed over"
+
+
+@pytest.mark.parametrize("sheet", ["a{" * 3000, "@media screen{" * 3000, ":not(" * 3000 + "a" + ")" * 3000 + "{r:1}"])
+def test_style_sheets_that_are_too_deep(sheet: str) -> None:
+    with pytest.raises(UserError, match="a style sheet nested too deep to read"):
+        reading_of(page(f"<style>{sheet}</style>{PART}"))
 
 
 @pytest.mark.parametrize(

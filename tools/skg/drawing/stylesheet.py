@@ -15,6 +15,8 @@ import cssselect2
 import tinycss2
 from tinycss2 import ast
 
+from skg.errors import UserError
+
 #: What is drawn at the ends and corners of lines, such as heads of arrows.
 _MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
 #: Attributes that mean what the property of that name means.
@@ -94,36 +96,39 @@ class Style:
 
 
 class StyleSheet:
-    """The rules of a drawing's style sheets; `paints`: the ids of the drawing's gradients and patterns."""
+    """The rules of a drawing's style sheets. `page`: all of it, `styles`: its `style` elements, `paints`: the ids of
+    its gradients and patterns."""
 
-    def __init__(self, root: Element, paints: Iterable[str] = ()) -> None:
+    def __init__(self, page: Element, styles: Iterable[Element], paints: Iterable[str]) -> None:
         self.paints = {name.lower() for name in paints}
         #: Selectors and conditions of rules that would show something otherwise, but are not understood.
         self.missed: list[str] = []
         #: Style sheets in other files.
         self.imported: list[str] = []
-        self._page = root
+        self._page = page
         self._rules = cssselect2.Matcher()
         #: What the rules declare of a tree's elements; what goes before others stands behind them.
         self._trees: dict[Element, dict[Element, list[_Declared]]] = {}
-        for style in root.iter():
-            is_style = isinstance(style.tag, str) and style.tag.rpartition("}")[2] == "style"
-            if is_style and self._is_seen("media", style.get("media", "").strip()):
-                self._read(tinycss2.parse_stylesheet(style.text or "", True, True))
+        for style in styles:
+            if self._is_seen("media", style.get("media", "").strip()):
+                try:
+                    self._read(tinycss2.parse_stylesheet(style.text or "", True, True), {})
+                except RecursionError:
+                    raise UserError("a style sheet nested too deep to read") from None
 
     def _in(self, tree: Element) -> dict[Element, list[_Declared]]:
         """What the rules declare of a tree's elements."""
         if not self._rules.order:
             return {}
         if tree not in self._trees:
-            # (what is used is not the page: it stands in something without a name)
-            page = tree
+            outermost = tree
             if tree is not self._page:
-                page = Element("")
-                page.append(tree)
+                # (what is used is not the page, which :root is: it stands in something without a name)
+                outermost = Element("")
+                outermost.append(tree)
             self._trees[tree] = {
                 wrapped.etree_element: [declared for *_, pseudo, declared in found if pseudo is None]
-                for wrapped in cssselect2.ElementWrapper.from_xml_root(page).iter_subtree()
+                for wrapped in cssselect2.ElementWrapper.from_xml_root(outermost).iter_subtree()
                 if (found := self._rules.match(wrapped))
             }
         return self._trees[tree]
@@ -135,9 +140,8 @@ class StyleSheet:
         self.missed.append(f"@{kind} {condition}".strip())
         return False
 
-    def _read(self, rules: list[ast.Node]) -> None:
-        """The rules of a style sheet, or of a part of one."""
-        namespaces: dict[str | None, str] = {}
+    def _read(self, rules: list[ast.Node], namespaces: dict[str | None, str]) -> None:
+        """Take the rules of a style sheet, or of a part of one; it may add to `namespaces`, what prefixes stand for."""
         for rule in rules:
             match rule.type, getattr(rule, "lower_at_keyword", ""):
                 case "qualified-rule", _:
@@ -149,22 +153,19 @@ class StyleSheet:
                     namespaces[prefix] = "".join(_strings(rule.prelude)[:1])
                 case "at-rule", kind if kind in _CONDITIONAL and rule.content is not None:
                     if self._is_seen(kind, tinycss2.serialize(rule.prelude).strip()):
-                        self._read(tinycss2.parse_rule_list(rule.content, True, True))
+                        self._read(tinycss2.parse_rule_list(rule.content, True, True), namespaces)
 
     def _rule(self, rule: ast.QualifiedRule, namespaces: dict[str | None, str]) -> None:
+        """Take one rule, if it changes how something is drawn."""
         declared = _declared(tinycss2.serialize(rule.content))
         names = declared.usual.keys() | declared.important.keys()
-        if not any(name in _PRESENTED or name in _GEOMETRY or name.startswith("--") for name in names):
+        has_rules = any(token.type == "{} block" for token in rule.content)
+        if not (has_rules or names & (_PRESENTED | _GEOMETRY) or any(name.startswith("--") for name in names)):
             return
-        try:
-            # (what stands behind another would be looked for among all of 20,000 for each of 20,000)
-            if "~" in rule.prelude:
-                raise cssselect2.SelectorError
-            selectors = cssselect2.compile_selector_list(rule.prelude, namespaces)
-        except cssselect2.SelectorError:
+        selectors = None if has_rules else _selectors(rule.prelude, namespaces)
+        if selectors is None:
             self.missed.append(tinycss2.serialize(rule.prelude).strip())
-            return
-        for selector in selectors:
+        for selector in selectors or ():
             self._rules.add_selector(selector, declared)
 
     def _colour(self, told: str) -> str:
@@ -232,6 +233,20 @@ def _is_nothing(opacity: str | None, outer: bool) -> bool:
 def _markers(told: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:
     """What is drawn at the start, at corners and at the end; `marker` tells all of them."""
     return tuple(told.get(name, told.get("marker", old)) for name, old in zip(_MARKERS, outer, strict=True))
+
+
+def _selectors(
+    tokens: list[ast.Node], namespaces: dict[str | None, str]
+) -> list[cssselect2.compiler.CompiledSelector] | None:
+    """What a rule means; None if that is not understood."""
+    # (what stands somewhere behind another would be looked for among all of 20,000, for each of 20,000)
+    if "~" in tokens:
+        return None
+    try:
+        return cssselect2.compile_selector_list(tokens, namespaces)
+    except Exception:
+        # (not its own error alone: it makes a Python expression, which fails for hundreds of parts and for some slips)
+        return None
 
 
 def _strings(tokens: list[ast.Node]) -> list[str]:

@@ -119,7 +119,13 @@ class SvgFile:
         elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
             self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
         self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
-        self.sheet = StyleSheet(self.root, (name for name, element in self.ids.items() if tag_of(element) in _PAINTS))
+        self.sheet = StyleSheet(
+            self.root,
+            (element for element in self.root.iter() if tag_of(element) == "style"),
+            (name for name, element in self.ids.items() if tag_of(element) in _PAINTS),
+        )
+        # (a file may do without any name space)
+        self._name_spaces = (_SVG, _name_space(self.root))
         self.animations = sum(tag_of(element) in _ANIMATIONS for element in self.root.iter())
         self.elsewhere = _elsewhere(data, self.sheet)
         box = _view_box(self.root)
@@ -174,7 +180,7 @@ class SvgFile:
             name = tag_of(child)
             if name in (*_GROUPS, *SHAPES, *NOTES, "use"):
                 why = "" if shown in (None, child) else "not displayed"
-                if _name_space(child) not in (_SVG, _name_space(self.root)):
+                if _name_space(child) not in self._name_spaces:
                     why = "not in SVG's name space"
                 inner = replace(view, hidden=view.hidden or why) if why else view
                 yield from self._one(child, name, inner, around, used)
