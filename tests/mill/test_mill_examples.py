@@ -19,9 +19,9 @@ from rs274help import moves as their_moves
 from rs274help import needs_rs274, same
 
 from skg.cli import cli
-from skg.drawing.milling import is_milling
 from skg.errors import UserError
 from skg.ref import mill
+from skg.sources.milling import is_milling
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples" / "mill"

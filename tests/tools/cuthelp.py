@@ -15,7 +15,7 @@ from toolhelp import Run
 
 from skg import tape as tapes
 from skg.errors import UserError
-from skg.plane import XY
+from skg.geometry.plane import XY
 from skg.tape.block import Block
 from skg.tape.controller import run_block
 

@@ -18,13 +18,12 @@ from skg import tape as tapes
 from skg.errors import UserError
 from skg.tape import Block, Stop, Tape, arc_block, line_block
 from skg.tape.block import CODES
+from skg.tape.block_list import Blocks
 from skg.tape.columns import Columns, columns_of
 from skg.tape.controller import run_block
-from skg.tape.laid import Laid, place
-from skg.tape.packed import Blocks
-from skg.tape.placed import Placed, stop_places
+from skg.tape.layout import Laid, Placed, place, stop_places
+from skg.tape.moves import machine_moves, walk
 from skg.tape.simulation import simulate
-from skg.tape.walk import machine_moves, walk
 
 #: Lines, arcs about an axis and a circle that come back to where they begin.
 TURN = "B343B706B706GYL1\r\nB0B343B343GYSR1\r\nB343B706B706GYL3\r\nB343B0B343GXL3\r\nB200B0B800GYNR1\r\n"
@@ -86,7 +85,7 @@ def turns(count: int) -> Tape:
 @pytest.mark.parametrize("together", [10_000, 2])
 def test_followed_together_as_one_by_one(together: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each block has the drift that those before it have left, or none: some at once, or all."""
-    monkeypatch.setattr("skg.tape.walk._CHUNK", together)
+    monkeypatch.setattr("skg.tape.moves._CHUNK", together)
     tape, drift = tapes.parse(CAD_TAPE), (0, 0)
     should = columns_of(tape).moves
     found = walk(tape, range(len(should)), should)
@@ -107,7 +106,7 @@ def test_followed_together_as_one_by_one(together: int, monkeypatch: pytest.Monk
 def test_blocks_that_are_alike_are_followed_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no block waits for the one before it: with the same outcome and progress as all one by one."""
     asked = []
-    monkeypatch.setattr("skg.tape.walk._parts", lambda steps: asked.append(len(steps)) or iter([slice(0, len(steps))]))
+    monkeypatch.setattr("skg.tape.moves._parts", lambda steps: asked.append(len(steps)) or iter([slice(0, len(steps))]))
     mixed = [tapes.parse(CAD_TAPE).blocks[at] for at in (3, 0, 3, 1, 2, 0)] + list(turns(2).blocks)
     rows, steps = np.array([7, 0, 2, 5, 1, 3, 4, 6, 10, 12]), []
     found = walk(Tape.of("-", mixed), rows, None, steps.append)
@@ -123,7 +122,7 @@ def test_a_block_that_never_ends_is_named(monkeypatch: pytest.MonkeyPatch) -> No
     items = [line_block(5, 5), Stop(1), Block(1, 0, 4, "Y", "NR1", 2)]
     with pytest.raises(UserError, match="block 2: B1B0B4GYNR1 never ends"):
         simulate(Tape.of("-", items, drift=False))
-    monkeypatch.setattr("skg.tape.walk._CHUNK", 1)
+    monkeypatch.setattr("skg.tape.moves._CHUNK", 1)
     with pytest.raises(UserError, match="block 2: B1B0B4GYNR1 never ends"):
         walk(Tape.of("-", items), np.array([0, 1]))
 

@@ -24,9 +24,9 @@ from toolhelp import Run, least_time
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.geometry.plane import XY
 from skg.machine import feeding
 from skg.machine.feeding import feed, feed_routes, rest_of, without_numbers
-from skg.plane import XY
 from skg.tape.controller import run_block
 
 #: A drawing.
@@ -235,12 +235,12 @@ def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: 
 
 def test_wrong_tapes_are_found() -> None:
     """The check is no yes-man: a tape for another offset, one block bent, one contour left out."""
-    from skg.cutting.check import check
+    from skg.checking.check import check
     from skg.cutting.job import make
     from skg.cutting.refusal import refuse
     from skg.cutting.settings import Settings
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
@@ -286,11 +286,11 @@ def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> No
 
 def test_the_controllers_steps_count() -> None:
     """What is compared with 3 µm is where the controller goes, and it is what is said: on a slant it steps aside."""
-    from skg.cutting.check import check
+    from skg.checking.check import check
     from skg.cutting.job import make
     from skg.cutting.settings import Settings
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.planning.plan import plan
 
     for height, is_far in ((0.0, False), (3.7, True)):
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
@@ -318,11 +318,11 @@ def test_the_controllers_steps_count() -> None:
 )
 def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> None:
     """A pass that goes around a corner where the last one should is found, though no part is spoiled by it."""
-    from skg.cutting.check import check
+    from skg.checking.check import check
     from skg.cutting.job import make
     from skg.cutting.settings import Settings
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
     square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
@@ -337,11 +337,11 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
 
 def test_a_circle_too_many_is_found() -> None:
     """At a corner the wire goes on along the line or circle there, but not all around that."""
-    from skg.cutting.check import check
+    from skg.checking.check import check
     from skg.cutting.job import make
     from skg.cutting.settings import Settings
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.planning.plan import plan
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
     routes = plan([half], [], 0.1, "auto")
@@ -358,8 +358,8 @@ def test_a_circle_too_many_is_found() -> None:
 )
 def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_from_centre: bool) -> None:
     """The wire begins in an opening's centre where it meets no part from there on, else aside."""
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.planning.plan import plan
 
     def circle(x: float, y: float, r: float) -> Contour:
         return Contour((Edge((x + r, y), (x + r, y), (x, y), 2 * pi),), True)
@@ -698,8 +698,8 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
     to the +X side, when something lies on that way."""
     from skg.cutting.job import make
     from skg.cutting.settings import Settings
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.planning.plan import plan
 
     def circle(x: float, y: float, r: float) -> Contour:
         start = x + r * cos(2 * pi * turn), y + r * sin(2 * pi * turn)
@@ -947,9 +947,9 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     mark."""
     from skg.cutting.job import make
     from skg.cutting.settings import Settings
-    from skg.cutting.sheet import Facts, SetupSheet
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.pictures.sheet import Facts, SetupSheet
+    from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
     contours = [
@@ -1011,9 +1011,9 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     it; none lies on the wire's path, and no letters are smaller than 5 points."""
     from skg.cutting.job import make
     from skg.cutting.settings import Settings
-    from skg.cutting.sheet import Facts, SetupSheet
-    from skg.drawing.contour import Contour, Edge
-    from skg.drawing.plan import plan
+    from skg.geometry.contour import Contour, Edge
+    from skg.pictures.sheet import Facts, SetupSheet
+    from skg.planning.plan import plan
 
     places = [(x + dx, y) for x in (1.0, 4.0, 7.0) for y in (1.0, 3.0) for dx in (0.0, 0.45)]
     contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]

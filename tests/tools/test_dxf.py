@@ -26,23 +26,24 @@ from test_tape import blocks
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
-from skg.drawing import dxf_file, entities, source
-from skg.drawing.account import Content
-from skg.drawing.chain import chain, merged
-from skg.drawing.contour import Contour, Edge
-from skg.drawing.dxf import draw
-from skg.drawing.dxf import write as write_drawing
-from skg.drawing.plan import plan
-from skg.drawing.source import lay_out
-from skg.drawing.wishes import Wishes
-from skg.drawing.write import write
+from skg.cutting.program import write
 from skg.errors import UserError
-from skg.plane import XY, distance, minus, polar
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.plane import XY, distance, minus, polar
+from skg.pictures.dxf import draw
+from skg.pictures.dxf import write as write_drawing
+from skg.planning.plan import plan
+from skg.reading import dxf_entities, dxf_file
+from skg.reading.account import Content
+from skg.reading.chain import chain, merged
+from skg.reading.read_options import Wishes
 from skg.ref import run as run_reference
+from skg.sources import load
+from skg.sources.load import lay_out
 from skg.tape import Block, Stop
 from skg.tape.controller import run_block
 from skg.tape.joints import estimate
-from skg.tape.laid import place
+from skg.tape.layout import place
 
 PARTS = Path(__file__).parent / "parts"
 PAGE = ROOT / "docs" / "drift.md"
@@ -66,7 +67,7 @@ def collect(drawing: Drawing, layers: tuple[str, ...] = (), **wishes: float) -> 
     text = io.StringIO()
     drawing.write(text)
     file = dxf_file.load(text.getvalue().encode())
-    return entities.collect(file, Wishes(layers, **wishes), file.units[1])
+    return dxf_entities.collect(file, Wishes(layers, **wishes), file.units[1])
 
 
 @cache
@@ -142,18 +143,18 @@ def path_edges(program: str) -> list[Edge]:
     return found
 
 
-def tape_edges(made: source.Made, positions: str, polylines: bool = False, joints: str = "drawn") -> list[Edge]:
+def tape_edges(made: load.Made, positions: str, polylines: bool = False, joints: str = "drawn") -> list[Edge]:
     routes, stops = lay_out(made, made.start, positions, joints)
     return collect(draw(routes, stops, polylines), ("WIRE",)).edges
 
 
 @cache
-def by_reference(program: str, drift: bool) -> source.Made:
+def by_reference(program: str, drift: bool) -> load.Made:
     """The tape that the reference makes of a program."""
     result = run_reference(program, drift=drift)
     assert result.error is None, (result.error, program)
     start = result.path[0].start
-    return source.Made(tapes.parse(result.tape), (float(start.x), float(start.y)))
+    return load.Made(tapes.parse(result.tape), (float(start.x), float(start.y)))
 
 
 @pytest.fixture(scope="module")
@@ -163,13 +164,13 @@ def emulator(build: Callable[..., None]) -> Path:
     return ROOT / "build" / "skg80"
 
 
-def by_rom(emulator: Path, image: str, program: str, directory: Path) -> source.Made:
+def by_rom(emulator: Path, image: str, program: str, directory: Path) -> load.Made:
     """The tape that a ROM punches for a program."""
     part = directory / "part.skg"
     part.write_text(program)
     rom = ROOT / "roms" / f"{image}.bin"
     done = subprocess.run([emulator, "--rom", rom, "--max-cycles", str(10**12), part], capture_output=True, check=True)
-    return source.Made(tapes.parse(done.stdout), by_reference(program, True).start)
+    return load.Made(tapes.parse(done.stdout), by_reference(program, True).start)
 
 
 @pytest.mark.parametrize("make", drawings.ALL)
@@ -418,7 +419,7 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     result = run("from-dxf", drawing, "--offset", "0.1", "-o", program)
     assert result.exit_code == 0
     assert f"skg: {drawing}: layer 0: 10 entities, 9 cut, 1 left: 1 TEXT (nothing to cut)\n" in result.stderr
-    tape.write_bytes(tapes.to_bytes(source.load(str(program), "reference").tape.items))
+    tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").tape.items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
     assert layers == {"WIRE", "LEAD", "MOVES", "START", "STOPS"}
@@ -594,7 +595,7 @@ def test_round_openings(run: Run, tmp_path: Path) -> None:
 
 
 def test_too_many_lines(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("skg.drawing.write._LAST_LINE", 20)
+    monkeypatch.setattr("skg.cutting.program._LAST_LINE", 20)
     with pytest.raises(UserError, match="the program would have .* lines, at most 20 fit"):
         program_of(drawings.ratchet)
 

@@ -14,14 +14,16 @@ import shapely
 from shapely.geometry import LineString, Point, Polygon
 from toolhelp import least_time
 
-from skg.cutting.near import Pieces
-from skg.drawing.contour import Contour, Edge
-from skg.drawing.field import Field
-from skg.drawing.order import nearest_order
-from skg.drawing.rows import boxes_of, headings
-from skg.drawing.touching import _near_others, lines_of
-from skg.piece import Piece
-from skg.plane import XY, polar
+from skg.geometry.areas import lines_of
+from skg.geometry.arrays import headings
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.edge_arrays import boxes_of
+from skg.geometry.field import Field
+from skg.geometry.nearest_pieces import Pieces
+from skg.geometry.piece import Piece
+from skg.geometry.plane import XY, polar
+from skg.planning.order import nearest_order
+from skg.reading.meetings import _near_others
 
 
 def ring(points: list[XY]) -> Contour:

@@ -19,8 +19,7 @@ from skg import tape as tapes
 from skg.errors import UserError
 from skg.ref import mill
 from skg.tape import Block, Stop, Tape, gcode, gcode_reader
-from skg.tape.laid import place
-from skg.tape.placed import PlacedRoute
+from skg.tape.layout import PlacedRoute, place
 
 ROOT = Path(__file__).parents[2]
 

@@ -12,7 +12,7 @@ from ezdxf.layouts import Modelspace
 from shapely.geometry import LinearRing, LineString
 from toolhelp import Run
 
-from skg.drawing import curve
+from skg.geometry import fitting
 from skg.ref import fit
 
 
@@ -68,4 +68,4 @@ def test_curve(run: Run, tmp_path: Path, shape: Callable[[Modelspace], LinearRin
 
 def test_flat_arcs_are_those_of_fit() -> None:
     """What is a line to the reference's FIT is one where a drawing's curves are made into nodes."""
-    assert (float(fit.FLAT), float(fit.STRAIGHT)) == (curve.FLAT, curve.STRAIGHT)
+    assert (float(fit.FLAT), float(fit.STRAIGHT)) == (fitting.FLAT, fitting.STRAIGHT)

@@ -12,10 +12,10 @@ from ezdxf.math import Matrix44, Vec3
 from test_reading import checked, dxf_bytes, left, line, raw, square
 from toolhelp import least_time
 
-from skg.drawing.placing import LEAVES
-from skg.drawing.read import Reading, read
 from skg.errors import UserError
-from skg.plane import distance
+from skg.geometry.plane import distance
+from skg.reading.dxf_placing import LEAVES
+from skg.reading.read import Reading, read
 
 LAYERS = "0\nLAYER\n2\nAXES\n70\n0\n62\n1\n6\nCENTER\n0\nLAYER\n2\nPART\n70\n0\n62\n7\n6\nCONTINUOUS\n"
 TYPES = "0\nLTYPE\n2\nCENTER\n73\n4\n0\nLTYPE\n2\nCONTINUOUS\n73\n0\n"

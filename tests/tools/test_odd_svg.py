@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from test_reading import checked, left
 
-from skg.drawing.read import Reading, Wishes, read
 from skg.errors import UserError
-from skg.plane import XY
+from skg.geometry.plane import XY
+from skg.reading.read import Reading, Wishes, read
 
 PART = '<rect x="10" y="10" width="20" height="10"/>'
 WHERE = (10, 80, 30, 90)

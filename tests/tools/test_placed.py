@@ -12,8 +12,7 @@ from toolhelp import Run
 
 from skg import tape as tapes
 from skg.ref import run as reference
-from skg.tape.laid import place
-from skg.tape.placed import CUT, WAY_BACK, WAY_IN
+from skg.tape.layout import CUT, WAY_BACK, WAY_IN, place
 from skg.tape.simulation import simulate
 
 #: What the reference calls a segment, by what the tools take its block for.

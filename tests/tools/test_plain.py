@@ -7,12 +7,12 @@ from collections import Counter
 
 import pytest
 
-from skg.drawing import plain
-from skg.drawing.account import Content
-from skg.drawing.dxf_file import DxfFile
-from skg.drawing.entities import collect
-from skg.drawing.record import Group, Record
-from skg.drawing.wishes import Wishes
+from skg.reading import fast_dxf
+from skg.reading.account import Content
+from skg.reading.dxf_entities import collect
+from skg.reading.dxf_file import DxfFile
+from skg.reading.dxf_record import Group, Record
+from skg.reading.read_options import Wishes
 
 ENTITY, PLACE, OTHER = [(5, "1F"), (330, "A"), (100, "AcDbEntity")], [(10, "1.5"), (20, "-2")], [(11, "4"), (21, "7e0")]
 LAYER: list[Group] = [(8, "A"), (62, "   7")]
@@ -63,19 +63,19 @@ def spoilt(records: list[list[Group]], rng: random.Random) -> list[list[Group]]:
 @pytest.mark.parametrize("records", RECORDS, ids=lambda records: f"{records[0][0][1]}-{len(records[0])}")
 def test_plain_entities_are_those_of_ezdxf(records: list[list[Group]], monkeypatch: pytest.MonkeyPatch) -> None:
     rng = random.Random(1)
-    kinds, polylines = plain.KINDS, plain.POLYLINES
+    kinds, polylines = fast_dxf.KINDS, fast_dxf.POLYLINES
     ways: Counter[bool] = Counter()
     for tried in [records, *(spoilt(records, rng) for _ in range(60))]:
-        monkeypatch.setattr(plain, "KINDS", kinds)
-        monkeypatch.setattr(plain, "POLYLINES", polylines)
+        monkeypatch.setattr(fast_dxf, "KINDS", kinds)
+        monkeypatch.setattr(fast_dxf, "POLYLINES", polylines)
         record, *parts = map(Record, tried)
         record.parts = parts
-        understood = plain.polyline(record) if record.kind in polylines else plain.numbers(record)
+        understood = fast_dxf.polyline(record) if record.kind in polylines else fast_dxf.numbers(record)
         assert understood or tried is not records
         ways[understood is not None] += 1
         found = read(tried)
-        monkeypatch.setattr(plain, "KINDS", frozenset())
-        monkeypatch.setattr(plain, "POLYLINES", frozenset())
+        monkeypatch.setattr(fast_dxf, "KINDS", frozenset())
+        monkeypatch.setattr(fast_dxf, "POLYLINES", frozenset())
         # (what is no number is not like itself)
         assert repr(found) == repr(read(tried)), tried
     assert min(ways.values()) > 10

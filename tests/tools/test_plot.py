@@ -18,10 +18,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
-from skg.drawing.page import as_it_stands
-from skg.drawing.plot import FEW, Picture, Sheet
-from skg.tape.laid import place
-from skg.tape.placed import Placed, stop_places
+from skg.pictures.page import as_it_stands
+from skg.pictures.plot import FEW, Picture, Sheet
+from skg.tape.layout import Placed, place, stop_places
 
 HERE = Path(__file__).parent
 PLATE = HERE / "parts" / "plate.3b"
@@ -249,7 +248,7 @@ def test_many_routes_are_few_artists() -> None:
 
 def test_a_long_route_is_several_curves(monkeypatch: pytest.MonkeyPatch) -> None:
     """One string of a million blocks took half a gigabyte; each curve goes on where the one before ends."""
-    monkeypatch.setattr("skg.drawing.plot.LONGEST", 7)
+    monkeypatch.setattr("skg.pictures.plot.LONGEST", 7)
     tape = tapes.parse(b"B500B0B500GXL1\r\nB0B500B500GYL2\r\n" * 10 + b"DD\r\n")
     sheet = Sheet("stairs", place(tape))
     picture = Picture([sheet], None, "")

@@ -12,7 +12,7 @@ from toolhelp import ROOT, Run
 from skg import tape as tapes
 from skg.machine.feeding import feed
 from skg.ref import run as reference
-from skg.tape.laid import place
+from skg.tape.layout import place
 from skg.tape.positions import decide
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))

@@ -17,10 +17,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from toolhelp import Run, least_time
 
-from skg.drawing.contour import Contour
-from skg.drawing.read import Reading, Wishes, read
 from skg.errors import UserError
-from skg.plane import XY, distance
+from skg.geometry.contour import Contour
+from skg.geometry.plane import XY, distance
+from skg.reading.read import Reading, Wishes, read
 
 FORMATS = ("R2000", "R2010", "R2018")
 

@@ -13,9 +13,9 @@ from toolhelp import Run
 from skg import tape as tapes
 from skg.cutting import job
 from skg.errors import UserError
+from skg.geometry.plane import XY
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed
-from skg.plane import XY
 from skg.ref import run as reference
 from skg.tape.block import Block
 from skg.tape.controller import run_block

@@ -19,15 +19,20 @@ COMMON = "common ground"
 ALLOWED = {
     COMMON: set(),
     "ref": {COMMON},
-    "native": {COMMON},
-    "tape": {COMMON, "native"},
-    "machine": {COMMON, "native"},
-    "quality": {COMMON, "ref"},
     "rivals": {COMMON},
-    "drawing": {COMMON, "ref", "tape", "machine", "rivals"},
-    "cutting": {COMMON, "tape", "machine", "drawing"},
-    "commands": {COMMON, "ref", "tape", "machine", "quality", "rivals", "drawing", "cutting"},
+    "native": {COMMON},
+    "geometry": {COMMON},
+    "quality": {COMMON, "ref"},
+    "machine": {COMMON, "native"},
+    "tape": {COMMON, "native", "geometry"},
+    "reading": {COMMON, "geometry"},
+    "planning": {COMMON, "geometry"},
+    "checking": {COMMON, "geometry", "tape", "planning"},
+    "cutting": {COMMON, "geometry", "tape", "planning", "checking", "machine"},
+    "sources": {COMMON, "geometry", "tape", "machine", "ref", "rivals"},
+    "pictures": {COMMON, "geometry", "tape", "planning", "checking", "cutting"},
 }
+ALLOWED["commands"] = set(ALLOWED) - {"native"}
 #: Modules beside the wings that are nobody's ground: the package's door, and the command line.
 DOORS = {"skg", "skg.cli"}
 

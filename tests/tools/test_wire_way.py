@@ -14,9 +14,9 @@ from shapely import union_all
 from shapely.geometry import LinearRing, LineString, Point, Polygon
 from toolhelp import Run, least_time
 
-from skg.drawing.contour import Contour, Edge
-from skg.drawing.parallel import NoRoom, part_between, wire_way
-from skg.plane import XY
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.offset import NoRoom, part_between, wire_way
+from skg.geometry.plane import XY
 
 
 def steps(space: Modelspace) -> Polygon:

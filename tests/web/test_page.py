@@ -15,10 +15,9 @@ import ezdxf
 import pytest
 from ezdxf.entities import DXFEntity
 
-from skg.drawing.dxf import draw
+from skg.pictures.dxf import draw
 from skg.tape import gcode, text
-from skg.tape.laid import place
-from skg.tape.placed import CUT, WAY_BACK, WAY_IN, PlacedRoute, stop_places
+from skg.tape.layout import CUT, WAY_BACK, WAY_IN, PlacedRoute, place, stop_places
 from skg.tape.simulation import simulate
 
 ROOT = Path(__file__).parents[2]

@@ -13,7 +13,7 @@ from stat import S_IMODE, S_ISREG
 from typing import BinaryIO, TextIO
 
 from skg.errors import UserError
-from skg.kinds import named
+from skg.file_type import named
 
 
 def read_bytes(path: str) -> bytes:

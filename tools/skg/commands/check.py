@@ -9,10 +9,10 @@ from dataclasses import asdict
 import click
 
 from skg.commands.options import positions_option
-from skg.drawing.source import iso_text, tape_bytes
 from skg.errors import UserError
+from skg.file_type import TAPE, kind_of
 from skg.files import without_filling
-from skg.kinds import TAPE, kind_of
+from skg.sources.load import iso_text, tape_bytes
 from skg.tape import gcode_reader
 from skg.tape.block import Tape
 from skg.tape.styles import read_any

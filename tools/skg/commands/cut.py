@@ -19,13 +19,13 @@ from skg.commands.options import (
     picture_format,
     unmarked,
 )
-from skg.drawing.account import short
-from skg.drawing.plan import plan
-from skg.drawing.read import Wishes, read
-from skg.drawing.selection import SMALL, WITHIN
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
-from skg.plane import XY
+from skg.geometry.plane import XY
+from skg.planning.plan import plan
+from skg.reading.read import Wishes, read
+from skg.reading.selection import SMALL, WITHIN
+from skg.wording import short
 
 
 class Passes(click.ParamType):
@@ -175,7 +175,7 @@ def command(
     if program:
         write_bytes(program, job.program.encode("ascii"))
     if sheet:
-        from skg.cutting.sheet import Facts, write_sheet
+        from skg.pictures.sheet import Facts, write_sheet
 
         names = (Path(path).name if path != "-" else "-" for path in (file, output))
         write_sheet(job, Facts(*names, wire, gap, reading.report.units), sheet, form)
@@ -186,7 +186,7 @@ def command(
     if tab and not any(route.tab for route in job.routes):
         lines.append("take care: no contour has a tab: none is a part that is cut from outside")
     if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
-        from skg.cutting.fallen import said
+        from skg.checking.split_parts import said
 
         lines += said(job.routes, factor)
     if quiet:

@@ -7,8 +7,8 @@ import click
 from skg.commands.options import Coordinates, decided, output_option, positions_option, skg80_option
 from skg.errors import UserError
 from skg.files import text_output
-from skg.plane import XY, distance
-from skg.tape.placed import PlacedRoute
+from skg.geometry.plane import XY, distance
+from skg.tape.layout import PlacedRoute
 from skg.tape.positions import OTHER, decide
 
 #: A drawing that is otherwise by more than this is another one, µm.
@@ -50,8 +50,8 @@ def command(
     Layers: WIRE is what is cut, LEAD the way from the start hole to the contour, MOVES what is no cut; START and STOPS
     have points, and HOLES, of a milling tape. Corners of a milling tape are where it has them, whatever --joints says.
     """
-    from skg.drawing.dxf import write
-    from skg.drawing.source import iso_program, lay_out, load
+    from skg.pictures.dxf import write
+    from skg.sources.load import iso_program, lay_out, load
 
     if program := iso_program(file, skg80):
         if start:

@@ -7,11 +7,11 @@ from pathlib import Path
 import click
 
 from skg.commands.options import FiniteRange, drawing_options, offset_option, output_option
-from skg.drawing.plan import plan
-from skg.drawing.read import Wishes, layer_lines, read
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
-from skg.plane import XY
+from skg.geometry.plane import XY
+from skg.planning.plan import plan
+from skg.reading.read import Wishes, layer_lines, read
 
 
 @click.command(name="from-dxf")
@@ -52,7 +52,7 @@ def command(
     cut before the outline around them, each from a start hole of its own and entered in the middle of an
     edge. FILE - is the standard input.
     """
-    from skg.drawing.write import write
+    from skg.cutting.program import write
 
     wishes = Wishes(layers, start_layer, units, tolerance, fit_tolerance, opened or ("refuse" if offset else "cut"))
     if list_layers:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import click
 
 from skg.commands.options import Coordinates, decided, numbers_in, output_option, positions_option
-from skg.drawing.source import gcode_text, iso_of, iso_text, load
 from skg.errors import UserError
 from skg.files import write_bytes
-from skg.plane import XY
+from skg.geometry.plane import XY
+from skg.sources.load import gcode_text, iso_of, iso_text, load
 from skg.tape import gcode
 from skg.tape.block import micrometres
 from skg.tape.text import to_bytes

@@ -18,12 +18,12 @@ from skg.commands.options import (
     skg80_option,
 )
 from skg.errors import UserError
-from skg.plane import XY
+from skg.geometry.plane import XY
 from skg.tape.block import micrometres
-from skg.tape.placed import stop_places
+from skg.tape.layout import stop_places
 
 if TYPE_CHECKING:
-    from skg.drawing.plot import Sheet
+    from skg.pictures.plot import Sheet
 
 
 @click.command(name="plot")
@@ -73,7 +73,7 @@ def command(
 
     Start holes are circles, drilled holes crosses in them, stops squares, moves that do not cut dashed.
     """
-    from skg.drawing.plot import COLOURS, Picture
+    from skg.pictures.plot import COLOURS, Picture
 
     form = picture_format(output, form, ", or --format")
     laid = [
@@ -96,9 +96,9 @@ def command(
 
 def _laid(name: str, start: XY | None, positions: str, skg80: str | None, show_offset: bool) -> tuple[Sheet, list[XY]]:
     """What there is to draw of a file, and where it stops, µm. (Of a tape no more is kept: it may be long.)"""
-    from skg.drawing.plot import Sheet
-    from skg.drawing.source import contour_of, iso_program, load
-    from skg.tape.laid import place
+    from skg.pictures.plot import Sheet
+    from skg.sources.load import contour_of, iso_program, load
+    from skg.tape.layout import place
 
     if program := iso_program(name, skg80):
         contour = contour_of(name) if show_offset else ()

@@ -78,11 +78,11 @@ def command(parts: tuple[Path, ...], tol: float | None) -> None:
     --tol shows what TOL (docs/curves.md) does to the number of blocks, with the nodes of the program and with four
     times as many, if these are no more than 300. A TOL in the program does not count then.
     """
-    from skg.drawing.milling import is_milling
-    from skg.drawing.source import program_text
     from skg.quality.fewest import savings
     from skg.quality.fitted import fitted_runs
     from skg.quality.measure import measure
+    from skg.sources.load import program_text
+    from skg.sources.milling import is_milling
 
     curves, without = [], []
     for part in parts:

@@ -8,8 +8,8 @@ import click
 
 from skg.commands.options import answers_option, output_option
 from skg.errors import UserError
+from skg.file_type import named
 from skg.files import read_bytes, without_mark, write_bytes
-from skg.kinds import named
 
 
 def _text(name: str) -> str:
@@ -41,12 +41,12 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
-    from skg.drawing.milling import is_milling
-    from skg.drawing.source import checked_program, program_text
     from skg.machine.feeding import as_run, given_up
     from skg.ref import mill as milling
     from skg.ref import run
     from skg.rivals.languages import is_rival
+    from skg.sources.load import checked_program, program_text
+    from skg.sources.milling import is_milling
 
     program = program_text(part) if is_rival(part) else checked_program(_text(part), part)
     inputs = _text(answers).splitlines() if answers else []

@@ -9,14 +9,14 @@ from contextlib import suppress
 import click
 
 from skg.commands.options import answers_option, output_option, unmarked
-from skg.drawing.milling import MILL_ROM, is_milling
-from skg.drawing.source import checked_program
 from skg.errors import UserError
 from skg.files import read_ascii, read_bytes, without_mark, write_bytes
 from skg.machine.board import Board, BoardStopped
 from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
 from skg.machine.roms import ROMS, known_rom
 from skg.rivals.languages import is_rival, translated
+from skg.sources.load import checked_program
+from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape.text import parse
 
 #: Exit codes, those of build/skg80; by the reason for which the board stopped, else ERR.

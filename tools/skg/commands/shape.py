@@ -7,9 +7,9 @@ from collections.abc import Callable
 import click
 
 from skg.commands.options import FiniteRange, offset_option, output_option
-from skg.drawing.contour import Contour
 from skg.errors import UserError
 from skg.files import write_bytes
+from skg.geometry.contour import Contour
 
 
 def shape_options(function: Callable) -> Callable:
@@ -33,7 +33,7 @@ def write_shape(
     from skg.cutting.job import make
     from skg.cutting.report import report
     from skg.cutting.settings import Settings
-    from skg.drawing.plan import plan
+    from skg.planning.plan import plan
 
     try:
         job = make(plan(contours(), [], offset or 0.0, "auto", tab=tab), name, 1.0, Settings())

@@ -9,9 +9,9 @@ from itertools import chain
 import click
 
 from skg.commands.options import decided, feed_option, positions_option
-from skg.drawing.source import load
 from skg.files import write_bytes
-from skg.plane import XY
+from skg.geometry.plane import XY
+from skg.sources.load import load
 from skg.tape.block import Tape
 from skg.tape.drive import drive_steps, stops_in_pairs
 from skg.tape.simulation import Report, closing, duration, simulate

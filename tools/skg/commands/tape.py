@@ -5,8 +5,8 @@ from __future__ import annotations
 import click
 
 from skg.commands.options import output_option, say
-from skg.drawing.source import load
 from skg.files import write_bytes
+from skg.sources.load import load
 from skg.tape.styles import STYLES, to_style
 from skg.tape.text import WITHOUT_DRIFT
 

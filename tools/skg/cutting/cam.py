@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import accumulate
 from math import atan2, cos, hypot, pi, radians, sin
 
-from skg.drawing.contour import Contour, Edge
-from skg.drawing.curve import curve_edge
 from skg.errors import UserError
-from skg.plane import XY
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.fitting import curve_edge
+from skg.geometry.plane import XY
 
 #: What FIT may be off the cam between its nodes, mm.
 TOLERANCE = 0.0002

@@ -8,10 +8,10 @@ from math import acos, asin, atan2, cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 
-from skg.drawing.contour import Contour, Edge
-from skg.drawing.curve import curve_edge
 from skg.errors import UserError
-from skg.plane import XY, polar
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.fitting import curve_edge
+from skg.geometry.plane import XY, polar
 from skg.tape.block import MAX_DIGITS
 
 #: What FIT may be off the involute between its nodes, mm.

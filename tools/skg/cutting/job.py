@@ -7,18 +7,18 @@ from dataclasses import dataclass, replace
 from itertools import tee
 from math import inf
 
+from skg.checking.check import Checked, check
+from skg.checking.wire_path import Misfit
 from skg.cutting import refusal
-from skg.cutting.check import Checked, check
-from skg.cutting.islands import islands
+from skg.cutting.program import Program, Step
 from skg.cutting.settings import Settings
-from skg.cutting.wire_path import Misfit
-from skg.drawing.entry import longest_tab
-from skg.drawing.parallel import NoRoom, has_spike
-from skg.drawing.planned import PlannedContour
-from skg.drawing.write import Program, Step
 from skg.errors import UserError
+from skg.geometry.offset import NoRoom, has_spike
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes
+from skg.planning.entries import longest_tab
+from skg.planning.islands import islands
+from skg.planning.route import PlannedContour
 from skg.tape import text as tapes
 from skg.tape.block import Tape
 

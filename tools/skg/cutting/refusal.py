@@ -8,16 +8,16 @@ from __future__ import annotations
 from contextlib import suppress
 from math import copysign, floor, inf
 
-from skg.cutting.check import Checked
-from skg.cutting.crossing import Crossing
+from skg.checking.check import Checked
+from skg.checking.gouges import Crossing
+from skg.checking.wire_path import LIMIT, Misfit
 from skg.cutting.settings import Settings
-from skg.cutting.wire_path import LIMIT, Misfit
-from skg.drawing.account import counted, in_file, short, shown
-from skg.drawing.contour import Contour
-from skg.drawing.parallel import NoRoom, widest, wire_way
-from skg.drawing.planned import PlannedContour
 from skg.errors import UserError
-from skg.plane import XY
+from skg.geometry.contour import Contour
+from skg.geometry.offset import NoRoom, widest, wire_way
+from skg.geometry.plane import XY
+from skg.planning.route import PlannedContour
+from skg.wording import counted, in_file, short, shown
 
 #: What the errors of a route mean (language.md, section 6), and what to do.
 _MEANING = {

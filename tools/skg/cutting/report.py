@@ -6,15 +6,15 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 
-from skg.cutting.follow import Threading
+from skg.checking.follow import Threading
+from skg.checking.wire_path import LIMIT
 from skg.cutting.job import Job
 from skg.cutting.refusal import into, kind, told_in_file
-from skg.cutting.wire_path import LIMIT
-from skg.drawing.account import counted, short
-from skg.drawing.parallel import NoRoom, sharpest, uncut, wire_way
-from skg.drawing.planned import PlannedContour
-from skg.plane import XY
+from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
+from skg.geometry.plane import XY
+from skg.planning.route import PlannedContour
 from skg.tape.simulation import duration
+from skg.wording import counted, short
 
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5

@@ -6,8 +6,8 @@ from importlib import import_module
 from pathlib import Path
 
 from skg.errors import UserError
+from skg.file_type import refuse_others
 from skg.files import read_bytes, without_filling
-from skg.kinds import refuse_others
 
 #: A rival's ending -> the module that makes SKG of it, loaded when it is needed: its `translate` takes the text and
 #: the file's name.

@@ -8,18 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cached_property
-from math import atan2, hypot, isqrt, pi
+from math import isqrt, pi
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from skg.geometry.arrays import Flags, Floats, Whole, directions, hypots
 from skg.tape.block import CODES, Block, Tape
-from skg.tape.packed import Blocks
+from skg.tape.block_list import Blocks
 
-Numbers = NDArray[np.int64]
-Reals = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 _Found = TypeVar("_Found")
 #: Squares of larger numbers are not sure to fit in 64 bits: they are reckoned with Python's own.
 _FITS = 10**9
@@ -34,7 +32,7 @@ _SENSES, _QUADRANTS = np.array(
 FIELDS = ("sense", "quadrant", "x", "y", "j", "counts_y")
 
 
-def _roots(squares: Numbers) -> Numbers:
+def _roots(squares: Whole) -> Whole:
     """Square roots of whole numbers, rounded down."""
     if squares.dtype == object:
         return np.frompyfunc(isqrt, 1, 1)(squares)
@@ -43,25 +41,9 @@ def _roots(squares: Numbers) -> Numbers:
     return roots + ((roots + 1) ** 2 <= squares)
 
 
-def round_roots(squares: Numbers) -> Numbers:
+def round_roots(squares: Whole) -> Whole:
     """Square roots of whole numbers, rounded to the nearest whole number."""
     return (_roots(4 * squares) + 1) // 2
-
-
-def directions(ways: NDArray) -> Reals:
-    """Direction angles of ways (n × 2), radians."""
-    # (math.atan2 is the same on every machine, numpy's is not)
-    return np.fromiter(map(atan2, ways[:, 1].tolist(), ways[:, 0].tolist()), float, len(ways))
-
-
-def numbers_up_to(counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """0, 1, 2 and so on, up to each of some counts in turn."""
-    return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-
-
-def hypots(x: NDArray, y: NDArray) -> Reals:
-    """Lengths of ways, as math.hypot has them."""
-    return np.fromiter(map(hypot, x.tolist(), y.tolist()), float, len(x))
 
 
 class Columns:
@@ -70,7 +52,7 @@ class Columns:
     `x`, `y`, `j` as they stand on the tape; `counts_y`: the count direction is Y; `sense` and `quadrant` as of `Block`.
     """
 
-    def __init__(self, x: Numbers, y: Numbers, j: Numbers, counts_y: Flags, sense: Numbers, quadrant: Numbers) -> None:
+    def __init__(self, x: Whole, y: Whole, j: Whole, counts_y: Flags, sense: Whole, quadrant: Whole) -> None:
         self.x, self.y, self.j, self.counts_y, self.sense, self.quadrant = x, y, j, counts_y, sense, quadrant
 
     @classmethod
@@ -91,13 +73,13 @@ class Columns:
     def __len__(self) -> int:
         return len(self.x)
 
-    def __getitem__(self, rows: slice | Flags | Numbers) -> Columns:
+    def __getitem__(self, rows: slice | Flags | Whole) -> Columns:
         """Some of the rows, with what has been worked out of them."""
         found = Columns.__new__(Columns)
         found.__dict__.update({name: column[rows] for name, column in self.__dict__.items()})
         return found
 
-    def alike(self) -> tuple[Numbers, Numbers]:
+    def alike(self) -> tuple[Whole, Whole]:
         """Rows of which no two have the same fields, in their order, and for each row which of these it is like."""
         fields = [getattr(self, name).astype(np.int64) for name in FIELDS]
         order = np.lexsort(fields)
@@ -117,17 +99,17 @@ class Columns:
         return self.sense == 0
 
     @cached_property
-    def squares(self) -> Numbers:
+    def squares(self) -> Whole:
         """x² + y²."""
         return self.x * self.x + self.y * self.y
 
     @cached_property
-    def radii(self) -> Numbers:
+    def radii(self) -> Whole:
         """As `Block.radius`."""
         return round_roots(self.squares)
 
     @cached_property
-    def turns(self) -> Numbers:
+    def turns(self) -> Whole:
         """As `Block.turn`."""
         return np.where(self.squares > 1, _roots(np.maximum(self.squares - 2, 0)) + 1, 0)
 
@@ -145,18 +127,18 @@ class Columns:
         return ~self.is_line & ~self.is_full_circle
 
     @cached_property
-    def across(self) -> Numbers:
+    def across(self) -> Whole:
         """As `Block.across`."""
         return np.where(self.counts_y, 0, 1)
 
     @cached_property
-    def starts(self) -> Numbers:
+    def starts(self) -> Whole:
         """As `Block.start` (n × 2)."""
         quadrants = np.where(self.is_line, 0, self.quadrant)
         return np.column_stack([_SIGNS_X[quadrants] * self.x, _SIGNS_Y[quadrants] * self.y])
 
     @cached_property
-    def _counted(self) -> Numbers:
+    def _counted(self) -> Whole:
         """As `Block.count_end` of arcs (n × 2); the start of all others."""
         along = np.where(self.counts_y, self.y, self.x)
         found = np.column_stack([along, self.quadrant])
@@ -192,7 +174,7 @@ class Columns:
         return np.array(is_line | is_arc | is_circle, bool)
 
     @cached_property
-    def ends(self) -> Numbers:
+    def ends(self) -> Whole:
         """As `Block.end` (n × 2)."""
         along, quadrants = self._counted.T
         beside = round_roots(np.maximum(0, self.squares - along * along))
@@ -204,12 +186,12 @@ class Columns:
         return np.column_stack([_SIGNS_X[quadrants.astype(int)] * x, _SIGNS_Y[quadrants.astype(int)] * y])
 
     @cached_property
-    def moves(self) -> Numbers:
+    def moves(self) -> Whole:
         """As `Block.move` (n × 2)."""
         return self.ends - self.starts
 
     @cached_property
-    def sweeps(self) -> Reals:
+    def sweeps(self) -> Floats:
         """As `Block.sweep`."""
         found = 2 * pi * self.sense
         rows = np.flatnonzero(self.is_arc)
@@ -222,11 +204,11 @@ class Columns:
         return found
 
     @cached_property
-    def lengths(self) -> Reals:
+    def lengths(self) -> Floats:
         """As `Block.length`."""
         return hypots(self.x, self.y) * np.where(self.is_line, 1.0, abs(self.sweeps))
 
-    def on_circles(self, places: NDArray) -> Reals:
+    def on_circles(self, places: NDArray) -> Floats:
         """As `Block.on_circle`, of a place for each block (n × 2)."""
         rows, across = np.arange(len(self)), self.across
         along, beside = places[rows, 1 - across], places[rows, across]

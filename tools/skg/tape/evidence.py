@@ -7,10 +7,11 @@ from math import log, pi
 
 import numpy as np
 
+from skg.geometry.arrays import Floats
 from skg.tape.block import Tape
-from skg.tape.columns import Columns, Reals, columns_of
+from skg.tape.columns import Columns, columns_of
+from skg.tape.moves import machine_moves
 from skg.tape.roundings import WholeEnds, closes, gap_of, whole_ends
-from skg.tape.walk import machine_moves
 
 #: Log likelihood for a tape without drift where a route closes on the machine alone; against it, as programmed alone.
 _SURE = 10
@@ -53,13 +54,13 @@ def _evidence_of_route(columns: Columns, is_closed: bool) -> float:
     return log(1 + sum(count % 2 for count in alike.values()))
 
 
-def _evidence_of_circles(columns: Columns) -> Reals:
+def _evidence_of_circles(columns: Columns) -> Floats:
     """Log likelihood of full circles: whether J counts the radius, or where the controller turns (docs/drift.md)."""
     tells = columns.is_full_circle & (columns.radii != columns.turns)
     return np.where(tells, np.where(columns.j == 4 * columns.turns, _SURE, -_SURE), 0)
 
 
-def _evidence(arcs: Columns, ends: WholeEnds) -> Reals:
+def _evidence(arcs: Columns, ends: WholeEnds) -> Floats:
     """Log likelihood of each arc on a tape without drift, against any other tape."""
     # The centre was not moved; or a drawing on whole micrometres: its arcs fit on any tape.
     tells = ((arcs.starts * ends.machine).sum(axis=1) < 0) | (abs(arcs.sweeps) <= pi)

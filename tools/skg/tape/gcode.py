@@ -7,7 +7,7 @@ from decimal import Decimal
 from math import pi
 
 from skg.tape.block import Tape
-from skg.tape.placed import Placed
+from skg.tape.layout import Placed
 
 #: A place, or a cutting and a travel height, µm.
 Spot = tuple[int, int]
@@ -93,7 +93,7 @@ def write(
     between two stops is an up, a rapid and a down; without them the stops are M0. `positions` is one of
     `skg.tape.positions.POSITIONS`.
     """
-    from skg.tape.laid import place  # which loads numpy
+    from skg.tape.layout import place  # which loads numpy
 
     plane, down = map(decimal, feeds)
     writer = _GcodeWriter()

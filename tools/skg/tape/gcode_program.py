@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 from skg.errors import UserError
 from skg.tape.block import Block, Stop, Tape, line_block
+from skg.tape.block_list import Blocks
 from skg.tape.gcode import Spot, millimetres, minus
-from skg.tape.packed import Blocks
-from skg.tape.placed import PlacedRoute
+from skg.tape.layout import PlacedRoute
 
 if TYPE_CHECKING:
-    from skg.tape.laid import Laid
+    from skg.tape.layout import Laid
 
 #: The end of a 3B block's arc may lie so far off the circle through its start, µm: both are rounded, and so is the
 #: centre.
@@ -92,7 +92,7 @@ class GcodePath:
         import numpy as np
 
         from skg.tape.columns import Columns
-        from skg.tape.laid import Laid
+        from skg.tape.layout import Laid
 
         places = np.array(self._places, np.int64).reshape(-1, 4)
         return Laid.apart(self.blocks, Columns.of(self.blocks), places[:, :2], places[:, 2:])
@@ -136,7 +136,7 @@ class GcodeProgram:
         return [mark for mark in self.path.marks if isinstance(mark, Drilled)]
 
     def routes(self) -> list[PlacedRoute]:
-        """What is cut and how it is moved between, as `skg.tape.placed.place` has it."""
+        """What is cut and how it is moved between, as `skg.tape.layout.place` has it."""
         laid, parts = self.path.laid(), self.path.parts()
         return [PlacedRoute(laid[part.first : part.last], part.is_move) for part in parts if isinstance(part, GcodeRun)]
 
@@ -196,7 +196,7 @@ class GcodeProgram:
         """Refuse the first arc that is cut and whose end is too far off its circle."""
         import numpy as np
 
-        from skg.tape.columns import hypots
+        from skg.geometry.arrays import hypots
 
         laid = self.path.laid()
         off = abs(hypots(*(laid.ends - laid.centres).T) - hypots(*(laid.starts - laid.centres).T))

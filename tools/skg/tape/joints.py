@@ -14,13 +14,13 @@ from math import cos, exp, hypot, sin, sqrt
 
 import numpy as np
 
-from skg.plane import XY, distance, dot, minus, shifted
+from skg.geometry.arrays import Flags, Whole, hypots
+from skg.geometry.plane import XY, distance, dot, minus, shifted
 from skg.tape.block import Tape
-from skg.tape.columns import Columns, Flags, Numbers, columns_of, hypots
-from skg.tape.laid import AT_ONCE, Laid, lay, routes_of
-from skg.tape.placed import PlacedRoute
+from skg.tape.columns import Columns, columns_of
+from skg.tape.layout import AT_ONCE, Laid, PlacedRoute, lay, routes_of
+from skg.tape.moves import machine_moves
 from skg.tape.roundings import LEAST, VARIANCE, MayEnd, Misses, Vector, closes, gap_of, unrounded_moves, whole_ends
-from skg.tape.walk import machine_moves
 
 #: Arcs of a larger sweep (radians) were drawn as arcs; those of fitted curves are shorter.
 _DRAWN = 0.25
@@ -35,7 +35,7 @@ class Radii:
     is in none)."""
 
     means: Vector
-    counts: Numbers
+    counts: Whole
 
 
 def estimate(tape: Tape, start: tuple[int, int], without_drift: bool) -> list[PlacedRoute]:
@@ -51,12 +51,12 @@ def estimate(tape: Tape, start: tuple[int, int], without_drift: bool) -> list[Pl
 # Arcs -----------------------------------------------------------------------------------------------------
 
 
-def _drawn(columns: Columns) -> Numbers:
+def _drawn(columns: Columns) -> Whole:
     """Which blocks are circles, or arcs that are too long to be part of a fitted curve."""
     return np.flatnonzero(abs(columns.sweeps) > _DRAWN)
 
 
-def _same_radii(rows: Numbers, radii: Vector, count: int) -> Radii:
+def _same_radii(rows: Whole, radii: Vector, count: int) -> Radii:
     """Group the radii of some of `count` blocks that are nearly equal, each group with its mean; single ones are left
     out."""
     order = np.argsort(radii, kind="stable")
@@ -167,7 +167,7 @@ def _from_machine(tape: Tape, start: XY) -> list[PlacedRoute]:
     return routes_of(tape, Laid.apart(tape.blocks, columns, starts, ends, centres))
 
 
-def _meet_radii(tape: Tape, radii: Radii, begins: Numbers, joints: Vector, centres: Vector) -> None:
+def _meet_radii(tape: Tape, radii: Radii, begins: Whole, joints: Vector, centres: Vector) -> None:
     """Move the joints of arcs, and joint and centre of circles, that have a radius together with others; `begins`: the
     joint where a block begins, the next one is that where it ends."""
     columns, shared = columns_of(tape), np.flatnonzero(radii.counts)

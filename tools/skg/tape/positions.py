@@ -42,8 +42,7 @@ def decide(tape: Tape, positions: str = "auto") -> Decision:
         return Decision("programmed")
     # (these load numpy)
     from skg.tape.evidence import drift_evidence
-    from skg.tape.moves import closed_moves
-    from skg.tape.walk import machine_moves
+    from skg.tape.moves import closed_moves, machine_moves
 
     try:
         is_same = bool((machine_moves(tape) == closed_moves(tape)).all())

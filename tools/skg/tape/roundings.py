@@ -12,11 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from skg.plane import XY
+from skg.geometry.arrays import Flags, Whole
+from skg.geometry.arrays import Floats as Vector
+from skg.geometry.plane import XY
 from skg.tape.block import Tape
-from skg.tape.columns import Columns, Flags, Numbers, columns_of
-from skg.tape.columns import Reals as Vector
-from skg.tape.walk import machine_moves
+from skg.tape.columns import Columns, columns_of
+from skg.tape.moves import machine_moves
 
 #: Variance of an error spread evenly over ±½.
 VARIANCE = 1 / 12
@@ -118,11 +119,11 @@ class WholeEnds:
     """
 
     machine: Vector
-    along: Numbers
-    beside: Numbers
+    along: Whole
+    beside: Whole
     is_on_circle: Flags
     likelihoods: Vector
-    across: Numbers
+    across: Whole
 
     def means(self) -> Vector:
         """The mean of each arc's whole ends by their likelihoods (n × 2); where none is likely, the machine's end."""
@@ -141,7 +142,7 @@ class WholeEnds:
         return map(MayEnd._make, zip(*(column.tolist() for column in columns), strict=True))
 
 
-def whole_ends(tape: Tape, rows: Numbers) -> WholeEnds:
+def whole_ends(tape: Tape, rows: Whole) -> WholeEnds:
     """What the ends of the arcs in some rows of a tape may have been.
 
     With d the chord, r the rounding and n = x² + y²: |end|² − n = −2 r·d, and r is spread evenly over ±½ on

@@ -12,8 +12,8 @@ from skg.tape.block import Block, Tape
 from skg.tape.positions import decide
 
 if TYPE_CHECKING:
-    from skg.tape.columns import Numbers
-    from skg.tape.walk import Walk
+    from skg.geometry.arrays import Whole
+    from skg.tape.moves import Walk
 
 #: A progress bar appears on tapes of more steps than this (about a second's worth).
 _LONG = 50_000_000
@@ -79,7 +79,7 @@ class Report:
 class _Each(Sequence[BlockReport]):
     """The reports of all blocks of a tape, each made when it is asked for."""
 
-    def __init__(self, blocks: Sequence[Block], should: Numbers, walk: Walk) -> None:
+    def __init__(self, blocks: Sequence[Block], should: Whole, walk: Walk) -> None:
         self.blocks, self.columns = blocks, (should, walk.moves, walk.steps, walk.off_curve)
 
     def __len__(self) -> int:
@@ -103,8 +103,7 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     import numpy as np
 
     from skg.tape.columns import columns_of
-    from skg.tape.moves import closed_moves
-    from skg.tape.walk import expected_steps, walk
+    from skg.tape.moves import closed_moves, expected_steps, walk
 
     positions = decide(tape, positions).positions
     columns = columns_of(tape)

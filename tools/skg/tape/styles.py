@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from skg.errors import UserError
+from skg.file_type import TAPE, refuse_others
 from skg.files import without_mark
-from skg.kinds import TAPE, refuse_others
 from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, line_block, start_quadrant
 
 #: Words for the end of the tape. All others are stops.

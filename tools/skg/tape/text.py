@@ -10,7 +10,7 @@ from io import BytesIO
 from skg.errors import UserError
 from skg.files import read_bytes, without_filling
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
-from skg.tape.packed import Blocks
+from skg.tape.block_list import Blocks
 from skg.tape.styles import read_any, to_style
 
 #: How the name of a file ends that holds a tape without drift.

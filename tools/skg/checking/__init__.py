@@ -1,0 +1,1 @@
+"""A tape checked: its wire laid beside the drawing."""

@@ -1,0 +1,99 @@
+"""Whether the wire has been beside every place of the contours that it can reach: the second half of the check."""
+
+from __future__ import annotations
+
+from itertools import chain
+
+import numpy as np
+
+from skg.checking.wire_path import LIMIT, Misfit, WirePath, first_of_each, place_of, spacing_of
+from skg.geometry.arrays import Floats, Whole
+from skg.geometry.nearest_pieces import Pieces
+from skg.geometry.plane import cross
+
+#: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
+_INSIDE, _NOISE = 1e-3, 1e-9
+#: A slot of lines and arcs that is narrower than two R by less than twice this is wide enough, mm.
+_TIGHT = 1e-5
+#: Where the sine of the wire's turn is less, it leaves nothing in an inner corner.
+_TURN = 0.1
+
+
+def not_reached(
+    path: WirePath, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
+) -> tuple[list[Misfit], float]:
+    """The first place of each route and pass beside its contour where the wire could be and was not, and how far it was
+    from such places at most, mm."""
+    faults: dict[tuple[int, int], Misfit] = {}
+    worst = 0.0
+    wires = [path.of_pass(number) for number in range(offsets.shape[1])]
+    places = contours.batches(spacing_of(contours, widest), 2)
+    for which, part in chain(places, [_by_inner_corners(path.pieces, contours, widest)] if widest else []):
+        # (a chord of a curve is square to it in its middle alone)
+        true = ~contours.is_chord[which] | (part > 0) & (part < 1)
+        which, part = which[true], part[true]
+        owners = contours.owner[which]
+        on, square = contours.at(which, part), contours.normal(which, part)
+        for number, r in enumerate(offsets.T):
+            aside = r[owners]
+            places = on + aside[:, None] * square
+            free = _free(contours, which, part, aside) if widest else np.ones(len(places), bool)
+            if number + 1 < offsets.shape[1]:
+                free &= ~in_tabs[which]
+            places = places[free]
+            near = wires[number].nearest(places, owners[free], 2 * LIMIT)
+            off = near.own.copy()
+            is_near = near.own_at >= 0
+            off[is_near] += path.aside[near.own_at[is_near]]
+            for at in path.doubtful(near.own, off).tolist():
+                off[at] = np.hypot(*(path.steps(int(near.own_at[at])) - places[at]).T).min()
+            for owner, at in first_of_each(owners[free], off > LIMIT):
+                found = Misfit(owner, place_of(places[at]), float(off[at]), is_missed=off[at] == np.inf)
+                faults.setdefault((number, owner), found)
+            worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
+    return [faults[key] for key in sorted(faults)], worst
+
+
+def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.ndarray:
+    """Whether the wire can be aside of places of contours: nothing of their own is nearer, and it would not be past
+    another piece (in a cusp, where one goes back along the other)."""
+    # (of an end a hair within the piece: there it is told which of two is nearer)
+    margin = _INSIDE / np.maximum(contours.length[which], 2 * _INSIDE)
+    part = np.clip(part, margin, 1 - margin)
+    places = contours.at(which, part) + aside[:, None] * contours.normal(which, part)
+    near = contours.nearest(places, contours.owner[which], float(np.abs(aside).max(initial=0.0)))
+    # (chords lie a little inside of their curve; of lines it would be 30 um where two all but parallel ones meet)
+    free = near.own > np.abs(aside) - np.where(contours.is_chord[which], LIMIT / 10, _TIGHT)
+    others = np.flatnonzero(free & (near.own_at >= 0) & (near.own_at != which))
+    piece = near.own_at[others]
+    # (nor may what is across a slot be any nearer, which becomes too narrow all but unnoticed)
+    is_across = (
+        contours.normal(piece, contours.part(places[others], piece)) * contours.normal(which[others], part[others])
+    ).sum(1) < 0
+    free[others[is_across & (near.own[others] < np.abs(aside[others]) - _TIGHT)]] = False
+    # (what is nearest to a place beyond a piece's end tells nothing)
+    is_beside = np.abs(contours.from_carrier(places[others], piece) - near.own[others]) < _NOISE
+    is_past = contours.right_of(places[others], piece) * aside[others] < -_NOISE
+    free[others[is_beside & is_past]] = False
+    return free
+
+
+def _by_inner_corners(wire: Pieces, contours: Pieces, widest: float) -> tuple[Whole, Floats]:
+    """Places of contours, by pieces and parts, a little to both sides of where the wire is beside them in its inner
+    corners: it may turn off too early there, before a step that is lower than R."""
+    before = np.flatnonzero(wire.owner[1:] == wire.owner[:-1])
+    # (a wire that turns by less leaves nothing)
+    one, other = (wire.normal(at, np.full(len(at), end)) for at, end in ((before, 1.0), (before + 1, 0.0)))
+    turns = np.abs(cross(one.T, other.T)) > _TURN
+    before, one, other = before[turns], one[turns], other[turns]
+    near = contours.nearest(wire.end[before], wire.owner[before], widest + 2 * LIMIT)
+    is_there = (near.own_at >= 0) & ~contours.is_chord[near.own_at]
+    before, one, other, which = before[is_there], one[is_there], other[is_there], near.own_at[is_there]
+    part = contours.part(wire.end[before], which)
+    away = wire.end[before] - contours.at(which, part)
+    # (the wire's way is square to its normal)
+    is_inner = cross((other - one).T, away.T) > 0
+    which, part, aside = which[is_inner], part[is_inner], 2 * LIMIT / contours.length[which[is_inner]]
+    part = np.concatenate((part - aside, part + aside))
+    is_on = (part > 0) & (part < 1)
+    return np.tile(which, 2)[is_on], part[is_on]

@@ -1,0 +1,223 @@
+"""Whether every place of the wire lies as far beside its contour as it should: the first half of the check.
+
+At a sharp corner, outside, it lies so beside the line or circle there, and elsewhere on a way between start hole and
+contour. What comes near to other contours is gathered, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from math import cos, hypot, sin
+
+import numpy as np
+import shapely
+
+from skg.checking.gouges import Crossing, crossings
+from skg.checking.wire_path import LIMIT, Misfit, WirePath, first_of_each, place_of, spacing_of
+from skg.geometry.arrays import Floats, Whole, numbers_up_to
+from skg.geometry.nearest_pieces import Nearest, Pieces
+from skg.geometry.piece import Piece
+from skg.geometry.plane import XY
+from skg.planning.route import Lead, PlannedContour
+
+#: Rounding takes a block's end up to this far, mm: where it is further off there may be a reason.
+_USUAL = 0.0008
+#: At a sharp corner, outside, the wire is no further from it than so often what it is where two lines meet.
+_TIP = 2.0
+#: No corner is so sharp that the wire is looked for further from it than about so often R.
+_FAR = 1000
+
+
+def off_contours(
+    path: WirePath, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
+) -> tuple[list[Misfit], list[Crossing], float]:
+    """The first place of each route where its wire is not as far beside its contour as it should be, cuts into other
+    contours, and how far it is off at most, mm, but where it runs into its own contour."""
+    wire = path.pieces
+    wanted = _Wanted(contours, routes, offsets)
+    faults: dict[int, Misfit] = {}
+    near_others: list[tuple[Whole, Whole]] = []
+    worst = 0.0
+    is_open = wanted.is_open
+    least = wanted.aside.min(1)
+    # What is cut on its line takes as much away on each side as the wire beside the other contours.
+    is_on = is_open & (least == 0)
+    least[is_on] = least.max()
+    spacing = spacing_of(wire, widest)
+    # Between two places the wire may be as much nearer to a corner.
+    slack = hypot(widest, spacing / 2) - widest + LIMIT if widest else 0.0
+    for which, part in wire.batches(spacing, 2):
+        places, owners = wire.at(which, part), wire.owner[which]
+        near = contours.nearest(places, owners, widest + slack + 2 * LIMIT)
+        passes = path.passes[which]
+        off, into = wanted.off_by(places, owners, passes, near)
+        total = off + path.aside[which]
+        for at in np.unique(which[path.doubtful(off, total)]).tolist():
+            total[which == at] = wanted.off_steps(path.steps(at), wire.owner[at], path.passes[at], widest)
+        for owner, at in first_of_each(owners, (total > LIMIT) | into):
+            misses = abs(wanted.aside[owner].min() - near.own[at]) if into[at] else total[at]
+            faults.setdefault(owner, Misfit(owner, place_of(places[at]), float(misses), bool(into[at])))
+        close = np.flatnonzero(near.other < least[owners] + slack)
+        near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
+        worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
+    empty = np.empty(0, np.int64)
+    some, others = (np.concatenate(found) for found in zip((empty, empty), *near_others, strict=True))
+    if is_on[wire.owner[some]].any():
+        # (the nearest one may be an open one, too: there is no side that it could be spoiled on)
+        others = np.concatenate((others, np.flatnonzero(~is_open)))
+    is_right = np.array([route.widest * route.contour.area for route in routes])
+    inner, outer = ~is_open & (is_right < 0), ~is_open & (is_right > 0)
+    found = crossings(wire, np.unique(some), contours, others, least, LIMIT, inner, outer)
+    return list(faults.values()), [one for one in found if not (is_on[one.route] and is_on[one.other])], worst
+
+
+class _Wanted:
+    """Where the wire of each route should be: beside its contour by one of its R, or on a way from or to a hole."""
+
+    def __init__(self, contours: Pieces, routes: list[PlannedContour], offsets: Floats) -> None:
+        self.contours = contours
+        self.routes = routes
+        #: How far beside its contour, in each of its passes.
+        self.aside = np.abs(offsets)
+        self.is_open = np.array([not route.contour.is_closed for route in routes])
+
+    @cached_property
+    def leads(self) -> Pieces:
+        """The ways between start holes and contours."""
+        return Pieces((piece, at) for at, route in enumerate(self.routes) for piece in _lead_pieces(route))
+
+    def off_leads(self, places: Floats, owners: Whole) -> Floats:
+        """How far places are from the ways of their routes."""
+        return self.leads.nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
+
+    def beside(self, owners: Whole, passes: Whole) -> Floats:
+        """How far places are to be from their contours: in their pass, or in any (passes of -1)."""
+        found, known = self.aside[owners], passes >= 0
+        if found.shape[1] == 1:
+            return found
+        found[known] = found[known, passes[known]][:, None]
+        return found
+
+    def off_by(self, places: Floats, owners: Whole, passes: Whole, near: Nearest) -> tuple[Floats, np.ndarray]:
+        """How far places are from where they should be, and which run into their own contour."""
+        aside = self.beside(owners, passes)
+        off = np.abs(near.own[:, None] - aside).min(1)
+        # (a start hole may be nearer than the first pass)
+        into = near.own < self.aside[owners].min(1) - LIMIT
+        # The wire of an open contour begins on it and goes aside.
+        begins = np.flatnonzero(into & self.is_open[owners])
+        into[begins] = self.off_leads(places[begins], owners[begins]) > LIMIT
+        doubtful = np.flatnonzero((off > _USUAL) & ~into)
+        off[doubtful] = np.minimum(off[doubtful], self.off_leads(places[doubtful], owners[doubtful]))
+        doubtful = doubtful[off[doubtful] > _USUAL]
+        corners = _off_corners(
+            places[doubtful], owners[doubtful], self.contours, aside[doubtful], near.own_at[doubtful]
+        )
+        off[doubtful] = np.minimum(off[doubtful], corners)
+        return off, into
+
+    def off_steps(self, steps: Floats, owner: int, number: int, widest: float) -> float:
+        """How far the controller's steps on a piece of a route's wire are from where they should be in a pass, at
+        most."""
+        owners, passes = np.full(len(steps), owner), np.full(len(steps), number)
+        near = self.contours.nearest(steps, owners, widest + 2 * LIMIT)
+        return float(self.off_by(steps, owners, passes, near)[0].max())
+
+
+def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
+    """The ways between start holes and the contour that a route may take."""
+    for run in route.runs():
+        if not run.into:
+            begin = run.edges[0]
+            yield _straight(route.start, begin.start, begin.direction(), run.offset)
+            continue
+        for lead in (run.into, run.out):
+            # (a straight one is the same way in and out)
+            for is_in in (True, False)[: 1 + lead.is_arc]:
+                yield from _one_lead(lead, run.offset, is_in)
+
+
+def _straight(hole: XY, entry: XY, way: float, r: float) -> Piece:
+    """The way from a hole to beside an entry that is passed in a direction (radians)."""
+    # The contour's right is where R is positive.
+    return Piece(hole, (entry[0] + r * sin(way), entry[1] - r * cos(way)))
+
+
+def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
+    if not lead.is_arc:
+        yield _straight(lead.hole, lead.entry, lead.way, r)
+        return
+    arc = lead.arc(is_in)
+    part = 1 - abs(r) / arc.radius
+
+    def inner(place: XY) -> XY:
+        return tuple(h + part * (p - h) for h, p in zip(lead.hole, place, strict=True))
+
+    yield Piece(inner(arc.start), inner(arc.end), arc.centre, arc.sweep)
+    yield Piece(lead.hole, inner(arc.start if is_in else arc.end))
+
+
+def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, own_at: Whole) -> Floats:
+    """How far places outside of sharp corners are from where they should be: beside a line or circle there. `own_at`:
+    the piece that is nearest to each, -1 where it is not within R."""
+    off = np.full(len(places), np.inf)
+    reach = max(float(wanted.max(initial=0.0)), LIMIT)
+    left = np.arange(len(places))
+    while True:
+        found = own_at >= 0
+        at, place = left[found], places[left][found]
+        first = np.searchsorted(contours.owner, owners[at])
+        count = np.searchsorted(contours.owner, owners[at], "right") - first
+        nearest = own_at[found]
+        # The corner of two pieces that a place is nearest to.
+        is_behind = _far(place, contours.end[nearest]) < _far(place, contours.start[nearest])
+        other = first + (nearest - first + np.where(is_behind, 1, -1)) % count
+        before, after = np.where(is_behind, nearest, other), np.where(is_behind, other, nearest)
+        corner = np.where(is_behind[:, None], contours.end[nearest], contours.start[nearest])
+        ways = [contours.normal(piece, np.full(len(piece), end)) for piece, end in ((before, 1.0), (after, 0.0))]
+        bend = _bend(*ways)
+        # Where two lines meet the wire is R / cos(bend / 2) from the corner; arcs may take it a little further.
+        is_there = _far(place, corner) * bend <= _TIP * wanted[at].max(1, initial=0.0) + LIMIT
+        for piece in (before, after):
+            carrier = np.abs(contours.from_carrier(place, piece)[:, None] - wanted[at]).min(1)
+            off[at] = np.minimum(off[at], np.where(is_there, carrier, np.inf))
+        left = left[~found]
+        if not len(left) or reach > _FAR * wanted.max():
+            return off
+        left = left[_by_tips(places[left], owners[left], contours, wanted, reach)]
+        if not len(left):
+            return off
+        reach *= 6
+        own_at = contours.nearest_own(places[left], owners[left], reach)
+
+
+def _by_tips(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, reach: float) -> Whole:
+    """Which places are so near to a sharp corner of their contour as the wire may be that goes around it there; those
+    of corners where that is not beyond a reach are left out."""
+    # (a path may have a million corners: only those of the contours that the places are beside)
+    whose = np.unique(owners)
+    first = np.searchsorted(contours.owner, whose)
+    count = np.searchsorted(contours.owner, whose, "right") - first
+    number = numbers_up_to(count)
+    before = np.repeat(first, count) + number
+    after = np.repeat(first, count) + (number + 1) % np.repeat(count, count)
+    bend = _bend(contours.normal(before, np.ones(len(before))), contours.normal(after, np.zeros(len(after))))
+    tip = (_TIP * wanted.max() + LIMIT) / np.maximum(bend, 1 / _FAR)
+    is_sharp = tip > reach
+    sharp, tip = before[is_sharp], tip[is_sharp]
+    if not len(sharp):
+        return sharp
+    tree = shapely.STRtree(shapely.points(contours.end[sharp]))
+    place, corner = tree.query(shapely.points(places), predicate="dwithin", distance=float(tip.max()))
+    is_near = _far(places[place], contours.end[sharp[corner]]) <= tip[corner]
+    return np.unique(place[is_near & (owners[place] == contours.owner[sharp[corner]])])
+
+
+def _far(places: Floats, others: Floats) -> Floats:
+    return np.hypot(*(places - others).T)
+
+
+def _bend(one: Floats, other: Floats) -> Floats:
+    """The cosine of half the angle between unit vectors."""
+    return np.sqrt(np.maximum(0, (1 + (one * other).sum(1)) / 2))

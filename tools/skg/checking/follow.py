@@ -1,0 +1,79 @@
+"""Following a tape that cuts planned contours with the controller: its blocks in their places, cut by cut."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from skg.errors import UserError
+from skg.geometry.arrays import Floats, hypots
+from skg.planning.route import PlannedContour
+from skg.tape.block import Tape, micrometres
+from skg.tape.columns import columns_of
+from skg.tape.layout import Laid
+from skg.tape.moves import closed_moves, walk
+
+
+@dataclass(frozen=True)
+class Threading:
+    """One stretch of cutting, from where the wire is threaded: whose it is, which passes it has, which blocks of the
+    tape, what the wire travels (mm), and how far from its beginning it ends (µm)."""
+
+    route: int
+    passes: tuple[int, ...]
+    blocks: slice
+    length: float
+    gap: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Followed:
+    """Where the controller goes: a tape's blocks in their places (µm), how far its steps go aside of each (µm), the
+    cuts among them, how far the misses of blocks have put it beside where the tape has them begin (mm, 0 without
+    drift)."""
+
+    laid: Laid
+    off_curve: Floats
+    cuts: list[Threading]
+    drift: float
+
+
+def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Followed:
+    """Follow a tape from the first start hole with the controller.
+
+    `is_without_drift`: blocks start where the controller stands; else its misses add up beside what is compared. A tape
+    whose stops are not those of the routes is a `UserError`.
+    """
+    owners = [(at, passes) for at, route in enumerate(routes) for passes in _between_stops(route)]
+    if len(tape.bounds) != 2 * len(owners) - 1:
+        raise UserError(f"the tape has {len(tape.bounds) - 1} stops, expected {2 * len(owners) - 2}")
+    columns = columns_of(tape)
+    walked = walk(tape, np.arange(len(columns)))
+    home = [micrometres(ordinate) for ordinate in routes[0].start]
+    moves = walked.moves if is_without_drift else closed_moves(tape)
+    places = np.cumsum([home, *moves], axis=0)
+    drift = float(hypots(*np.cumsum(walked.moves - moves, axis=0).T).max(initial=0.0)) / 1000
+    laid = Laid.between(tape.blocks, columns, places)
+    firsts, lasts = np.array(tape.bounds[::2]).T
+    gaps = (places[lasts] - places[firsts]).tolist()
+    lengths = laid.lengths()
+    cuts = [
+        Threading(*owner, slice(first, last), float(lengths[first:last].sum()) / 1000, tuple(gap))
+        for owner, (first, last), gap in zip(owners, tape.bounds[::2], gaps, strict=True)
+    ]
+    return Followed(laid, walked.off_curve, cuts, drift)
+
+
+def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
+    """The numbers of the passes that follow each other without a stop; -1: all of them in one cut."""
+    if not route.contour.is_closed:
+        return [(-1,)]
+    if len(route.passes) == 1 and not route.tab:
+        return [(0,)]
+    found: list[tuple[int, ...]] = []
+    for at, run in enumerate(route.runs()):
+        if not found or run.stop:
+            found.append(())
+        found[-1] += (min(at, len(route.passes) - 1),)
+    return found

@@ -1,0 +1,116 @@
+"""Where the wire of one contour cuts into another one, and how deep: measured between the pieces (shapely).
+
+What is spoiled is an edge that the finished part has. Where a window reaches past the edge of its part, or into another
+window, that edge is cut away, whatever the wire does there. A window is smaller than its part.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import acos
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from skg.geometry.arrays import Flags, Floats, Whole
+from skg.geometry.nearest_pieces import Pieces, spread
+from skg.geometry.plane import XY
+
+Shapes = NDArray[np.object_]
+
+#: The chords that stand for an arc leave it by no more than this, mm.
+_CHORD = 2e-4
+#: Contours cross when each has more than this inside the other one and outside; what is this near to a window's edge is
+#: on it, mm.
+_HAIR = 1e-3
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """The wire of one route comes into another's contour by `depth` mm, the deepest at a place of that contour; its
+    middle too where it `is_through`, then it may be more."""
+
+    route: int
+    other: int
+    place: XY
+    depth: float
+    is_through: bool
+
+
+def crossings(
+    wire: Pieces, some: Whole, contours: Pieces, others: Whole, least: Floats, limit: float, inner: Flags, outer: Flags
+) -> list[Crossing]:
+    """Return who cuts by more than `limit` into whom, each pair of routes once.
+
+    `some`: the pieces of the wire that come near, `others`: the owners of the contours that they come near to.
+    `least`: how far the wire of each route must stay off what is not its own, mm. `inner`, `outer`: on which side of
+    each route's contour its wire runs; on neither of an open one.
+    """
+    lines = _lines(wire, some)
+
+    def deep(near: Whole, there: Shapes) -> list[Crossing]:
+        one, other = shapely.STRtree(there).query(lines, predicate="dwithin", distance=float(least.max(initial=0.0)))
+        routes, owners = wire.owner[some[one]], contours.owner[near[other]]
+        far = shapely.distance(lines[one], there[other])
+        depth = least[routes] - far
+        deep = np.flatnonzero((routes != owners) & (depth > limit))
+        # The deepest of each pair comes first.
+        deep = deep[np.lexsort((-depth[deep], owners[deep], routes[deep]))]
+        _, first = np.unique(np.stack((routes[deep], owners[deep])), axis=1, return_index=True)
+        found = []
+        for at in deep[np.sort(first)].tolist():
+            x, y = shapely.get_coordinates(shapely.shortest_line(lines[one[at]], there[other[at]]))[1].tolist()
+            found.append(Crossing(int(routes[at]), int(owners[at]), (x, y), float(depth[at]), bool(far[at] == 0)))
+        return found
+
+    near = np.flatnonzero(np.isin(contours.owner, others))
+    there = _lines(contours, near)
+    found = deep(near, there)
+    if not found:
+        return found
+    # (behind an edge that is cut away there may be one that is not)
+    near = np.arange(len(contours.owner))
+    there = _lines(contours, near)
+    return deep(near, there) if _cut_away(there, contours.owner, inner, outer) else found
+
+
+def _cut_away(lines: Shapes, owners: Whole, inner: Flags, outer: Flags) -> bool:
+    """Take what other contours cut away from the edges of contours, which are lines in their order; False: nothing."""
+    closed = [owner for owner in np.unique(owners).tolist() if inner[owner] or outer[owner]]
+    pieces = {owner: slice(*np.searchsorted(owners, (owner, owner + 1))) for owner in closed}
+    rings = np.array([shapely.LinearRing(shapely.get_coordinates(lines[pieces[owner]])) for owner in closed])
+    # (what has no width in one that crosses itself is no area)
+    areas = shapely.buffer(shapely.make_valid(shapely.polygons(rings)), 0)
+    sizes = shapely.area(areas)
+    one, other = shapely.STRtree(rings).query(rings, predicate="intersects")
+    parts: dict[int, list[shapely.Geometry]] = {}
+    holes: dict[int, list[shapely.Geometry]] = {}
+    for a, b in zip(one.tolist(), other.tolist(), strict=True):
+        mine, its = closed[a], closed[b]
+        is_hole = inner[its]
+        # (an island that reaches over the edge of its opening takes nothing from that, nor has it anything taken away)
+        if a == b or not (is_hole or inner[mine]) or (is_hole != inner[mine] and (sizes[b] < sizes[a]) != is_hole):
+            continue
+        area = areas[b].buffer(_HAIR, join_style="mitre") if is_hole else areas[b]
+        left, within = shapely.difference(rings[a], area), shapely.intersection(rings[a], area)
+        if left.length > _HAIR and within.length > _HAIR:
+            (holes if is_hole else parts).setdefault(mine, []).append(area)
+    for mine, some in parts.items():
+        # (a window may reach from one part into another)
+        lines[pieces[mine]] = shapely.intersection(lines[pieces[mine]], shapely.union_all(some))
+    for mine, some in holes.items():
+        lines[pieces[mine]] = shapely.difference(lines[pieces[mine]], shapely.union_all(some))
+    return bool(parts or holes)
+
+
+def _lines(pieces: Pieces, which: Whole) -> Shapes:
+    """Pieces as chords."""
+    spaces = np.ones(len(which), np.int64)
+    arcs = np.flatnonzero(pieces.is_arc[which])
+    for at in arcs.tolist():
+        piece = which[at]
+        step = 2 * acos(max(0.9, 1 - _CHORD / pieces.radius[piece]))
+        spaces[at] = max(2, int(abs(pieces.sweep[piece]) / step) + 1)
+    of, part = spread(spaces, 0, len(spaces))
+    return shapely.linestrings(pieces.at(which[of], part), indices=of)

@@ -1,0 +1,53 @@
+"""Parts that what is cut out of them parts into pieces: a window that reaches from edge to edge (shapely)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import shapely
+
+from skg.geometry.areas import areas_of
+from skg.geometry.plane import XY
+from skg.planning.route import PlannedContour
+from skg.wording import counted, shown
+
+#: What is narrower than twice this holds nothing together, mm; a piece of less than this square is none.
+_HAIR = 0.005
+#: Lines of the report about them.
+_PLACES = 5
+
+
+def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
+    """The outlines (by their numbers) of which the openings leave more than one piece: how many, a place in the
+    smallest of them, mm."""
+    closed = np.array([at for at, route in enumerate(routes) if route.contour.is_closed], int)
+    depth = np.array([routes[at].depth for at in closed.tolist()], int)
+    if not len(closed) or not depth.any():
+        return
+    areas = areas_of([routes[at].contour for at in closed.tolist()])
+    outline, opening = shapely.STRtree(areas).query(areas)
+    is_in = (depth[outline] % 2 == 0) & (depth[opening] == depth[outline] + 1)
+    outline, opening = outline[is_in], opening[is_in]
+    for at in np.unique(outline).tolist():
+        left = areas[at].difference(shapely.union_all(areas[opening[outline == at]]))
+        left = left.buffer(-_HAIR, join_style="mitre")
+        pieces = [piece for piece in getattr(left, "geoms", [left]) if piece.area > _HAIR**2]
+        if len(pieces) > 1 and len(pieces) > _pieces(areas[at]):
+            inside = min(pieces, key=lambda piece: piece.area).representative_point()
+            yield int(closed[at]), len(pieces), (inside.x, inside.y)
+
+
+def said(routes: Sequence[PlannedContour], factor: float) -> list[str]:
+    """What to say of them; `factor`: mm in a unit of the file."""
+    found = [
+        f"take care: the part of contour {at + 1} falls into {count} pieces, what is cut out reaches its edge: the "
+        f"smallest is at {shown((x / factor, y / factor))}"
+        for at, count, (x, y) in fallen(routes)
+    ]
+    return found[:_PLACES] + [f"and {counted(len(found) - _PLACES, 'more such part')}"] * (len(found) > _PLACES)
+
+
+def _pieces(area: shapely.Geometry) -> int:
+    """How many pieces an outline is in by itself: one that crosses itself has more than one."""
+    return len(getattr(area.buffer(-_HAIR, join_style="mitre"), "geoms", [area]))

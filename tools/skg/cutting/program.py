@@ -1,0 +1,373 @@
+"""Writing: the SKG program that cuts planned contours, written the way a person would write it.
+
+A program has two forms. With line numbers it is stored and RUN; points that are used again have names, curves are nodes
+in DATA lines. Without, each line is carried out as it is loaded: any length goes through any memory.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from math import degrees, pi, tan
+from typing import NamedTuple
+
+from skg.errors import UserError
+from skg.geometry.contour import Edge
+from skg.geometry.plane import XY, distance, polar, turn
+from skg.planning.route import Lead, PlannedContour, Way
+
+#: No line of the program is longer, its number included.
+_WIDTH = 72
+_LAST_LINE = 9999
+#: Subscripts go up to here.
+_LAST_NAME = 999
+#: Neighbours whose directions differ by less (radians) are tangent to each other.
+_TANGENT = 1e-5
+#: An arc that a fillet would put elsewhere by more than this (mm) is written as a circle.
+_FILLET_MISS = 1e-5
+
+
+#: What edges are, in the order in which a title has them.
+_KINDS = ("LINE", "ARC", "CIRCLE", "CURVE")
+
+
+def number(value: float) -> str:
+    """Write a number as a program has it: at most six decimals, no needless zeros."""
+    text = f"{value:.6f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def literal(point: XY) -> str:
+    """Write a point as a program has it."""
+    return f"({number(point[0])},{number(point[1])})"
+
+
+class Step(NamedTuple):
+    """A statement: its text, and at which place of the drawing (mm) it is, if at any."""
+
+    text: str
+    place: XY | None = None
+
+
+class _Item(NamedTuple):
+    """What stands between two separators of a CUT: its text, the letter that its name may have, its place."""
+
+    text: str
+    letter: str
+    place: XY
+
+
+def _point(point: XY) -> _Item:
+    return _Item(literal(point), "P", point)
+
+
+def _circle(edge: Edge) -> _Item:
+    """An arc's circle, clockwise with a negative radius."""
+    radius = edge.radius if edge.sweep > 0 else -edge.radius
+    return _Item(f"{literal(edge.centre)}:{number(radius)}", "C", edge.at(0.5))
+
+
+def _fillet(edges: tuple[Edge, ...], at: int) -> tuple[XY, float] | None:
+    """The corner and radius of the arc after edge number `at`, where a fillet makes it, else None."""
+    if at + 2 >= len(edges):
+        return None
+    before, arc, after = edges[at : at + 3]
+    if not before.is_line or arc.centre is None or not after.is_line:
+        return None
+    bend = turn(before.direction(), after.direction())
+    if abs(bend) > 2.8 or abs(bend) < 0.01 or abs(bend - arc.sweep) > _TANGENT:
+        return None
+    if abs(turn(before.direction(), arc.direction())) > _TANGENT:
+        return None
+    reach = arc.radius * tan(abs(bend) / 2)
+    corner = polar(arc.start, reach, before.direction())
+    other = polar(arc.end, reach, after.direction() + pi)
+    return (corner, arc.radius) if distance(corner, other) < _FILLET_MISS else None
+
+
+def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
+    """What stands in the CUT statements of a run, from its first point on, and its curves."""
+    edges = run.edges
+    goes_back = run.is_closed and not run.out
+    if goes_back and edges[0].is_circle:
+        yield _circle(edges[0])
+        return
+    if not edges[0].nodes or run.into:
+        yield _point(edges[0].start)
+    # A contour that was entered in the middle of an edge ends with the rest of it: BACK goes along that to the entry.
+    is_split = goes_back and not edges[0].nodes
+    at = 0
+    while at < len(edges):
+        edge = edges[at]
+        if edge.nodes:
+            if at and edges[at - 1].nodes:
+                # Two curves that follow each other are two runs of FIT with a statement between them.
+                yield _point(edge.start)
+            yield edge
+            at += 1
+            continue
+        if edge.centre is not None:
+            yield _circle(edge)
+        if edge.is_circle:
+            # (not the only thing in its route: the point on its far side makes it a whole one)
+            yield _point(edge.at(0.5))
+            yield _circle(edge)
+        fillet = _fillet(edges, at) if fillets else None
+        if fillet:
+            corner, radius = fillet
+            yield _point(corner)
+            yield _Item(number(radius), "", corner)
+            at += 2
+            continue
+        # A curve's first node is the corner before it, but a line between two curves must be written.
+        is_between = edge.is_line and at and edges[at - 1].nodes
+        is_last = at + 1 == len(edges)
+        if (is_last and not is_split) or (not is_last and not edges[at + 1].nodes) or is_between:
+            yield _point(edge.end)
+        at += 1
+
+
+def _repeated(run: Way, fillets: bool) -> Iterator[_Item | Edge | str]:
+    """The first of the copies that a run has, and REP: each next one begins where the one before it ends."""
+    first = run.edges[: len(run.edges) // run.copies]
+    yield from _items(replace(run, edges=first), fillets)
+    yield f"REP {run.copies},360/{run.copies}"
+
+
+def _into(lead: Lead, r: float) -> Iterator[float | _Item]:
+    """From the start hole to the contour: straight pieces are the wire's own path, without an offset."""
+    yield 0.0
+    yield _point(lead.hole)
+    if lead.is_arc:
+        arc = lead.arc(True)
+        yield _point(arc.start)
+        yield r
+        yield _circle(arc)
+    yield _point(lead.entry)
+    yield r
+
+
+def _out(lead: Lead) -> Iterator[float | _Item]:
+    if lead.is_arc:
+        arc = lead.arc(False)
+        yield _circle(arc)
+        yield _point(arc.end)
+    yield 0.0
+    yield _point(lead.hole)
+
+
+def _pieces(route: PlannedContour, fillets: bool) -> Iterator[str | float | _Item | Edge]:
+    """A route as statements (text), offsets from here on (numbers), items of CUTs, and curves."""
+    here: XY | None = None
+    for at, run in enumerate(route.runs()):
+        hole = run.into.hole if run.into else route.start
+        if run.stop:
+            yield f"REM STOP: {run.stop}"
+        if not run.into:
+            yield run.offset
+        if at == 0 or run.stop:
+            yield f"FROM {literal(hole)}"
+            here = None
+        parts = [
+            *(_into(run.into, run.offset) if run.into else ()),
+            *(_items(run, fillets) if run.copies == 1 else _repeated(run, fillets)),
+            *(_out(run.out) if run.out else ()),
+        ]
+        for part in parts:
+            if isinstance(part, _Item) and part.letter == "P":
+                if part.place == here:
+                    continue
+                here = part.place
+            elif isinstance(part, Edge):
+                # (the same point again ends this curve where another one follows)
+                here = None
+            yield part
+        if run.is_closed and not run.out:
+            yield "BACK"
+            here = None
+
+
+@dataclass
+class _Writer:
+    """The statements of a program, and the names in use. `names`: the items that are used again, none: no names."""
+
+    is_stored: bool
+    uses: Counter[tuple[str, str]] = field(default_factory=Counter)
+    statements: list[Step] = field(default_factory=list)
+    data: list[str] = field(default_factory=list)
+    names: dict[tuple[str, str], str] = field(default_factory=dict)
+    used: Counter[str] = field(default_factory=Counter)
+    r: float | None = None
+
+    def say(self, text: str, place: XY | None = None) -> None:
+        """Add a statement."""
+        self.statements.append(Step(text, place))
+
+    def taken(self) -> list[Step]:
+        """The statements there are, for the caller alone."""
+        found, self.statements = self.statements, []
+        return found
+
+    def named(self, item: _Item) -> str:
+        """The item's text in a CUT: the name of one that is used again, given on a line before where it is new."""
+        key = item.letter, item.text
+        if not item.letter or self.uses[key] < 2:
+            return item.text
+        if key not in self.names:
+            if self.used[item.letter] == _LAST_NAME:
+                return item.text
+            self.used[item.letter] += 1
+            self.names[key] = f"{item.letter}{self.used[item.letter]}"
+            self.say(f"{self.names[key]}={item.text}", item.place)
+        return self.names[key]
+
+    def write(self, title: str, pieces: Iterable[str | float | _Item | Edge]) -> None:
+        """Write a route."""
+        self.say(f"REM {title}")
+        if not self.is_stored and self.r == 0:
+            self.r = None
+        is_first = True
+        cut: list[tuple[str, XY]] = []
+        for piece in pieces:
+            if isinstance(piece, _Item):
+                cut.append((self.named(piece), piece.place))
+                continue
+            if isinstance(piece, float):
+                is_new = piece != self.r if self.r is not None else piece != 0
+                if is_new or (is_first and not self.is_stored and piece):
+                    self.cut(cut)
+                    self.say(f"R={number(piece)}")
+                    self.r = piece
+                is_first = False
+                continue
+            self.cut(cut)
+            if isinstance(piece, Edge):
+                self.fit(piece)
+            else:
+                self.say(piece)
+        self.cut(cut)
+
+    def cut(self, items: list[tuple[str, XY]]) -> None:
+        """Write elements as CUT statements, as many as they need."""
+        line, place = "", (0.0, 0.0)
+        for item, where in items:
+            if line and len(line) + len(item) + len("9999 CUT ,") > _WIDTH:
+                self.say(f"CUT {line}", place)
+                line = ""
+            place = place if line else where
+            line += f",{item}" if line else item
+        if line:
+            self.say(f"CUT {line}", place)
+        items.clear()
+
+    def fit(self, edge: Edge) -> None:
+        """Write a curve: a FIT for each node, or nodes in DATA lines at the program's end, fitted by a subroutine."""
+        nodes = [f"{literal(node.point)},{number(degrees(turn(0, node.angle)))}" for node in edge.nodes]
+        if not self.is_stored:
+            for node, text in zip(edge.nodes, nodes, strict=True):
+                self.say(f"FIT {text}", node.point)
+            return
+        for text in (f"REM CURVE OF {len(nodes)} NODES", f"I={len(nodes)}", "GOSUB *"):
+            self.say(text, edge.start)
+        self.data += nodes
+
+
+@dataclass
+class Program:
+    """A program that cuts routes; `title` goes into its first line. `fillets`: arcs between lines are fillet radii."""
+
+    routes: list[PlannedContour]
+    title: str
+    fillets: bool = True
+
+    def __post_init__(self) -> None:
+        plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
+        self.head = Step(f"REM {plain}: {_count(len(self.routes), 'CONTOUR')}")
+
+    def unnumbered(self) -> Iterator[list[Step]]:
+        """The statements without line numbers: the title, a list for each route, the end."""
+        yield [self.head]
+        writer = _Writer(False)
+        for at, route in enumerate(self.routes):
+            writer.write(_title(at, route), _pieces(route, self.fillets))
+            yield writer.taken()
+        yield [Step("END")]
+
+    def numbered(self) -> str:
+        """The program with line numbers; too many lines are a `UserError`."""
+        pieces = [list(_pieces(route, self.fillets)) for route in self.routes]
+        writer = _Writer(True)
+        writer.uses.update((piece.letter, piece.text) for some in pieces for piece in some if isinstance(piece, _Item))
+        for at, route in enumerate(self.routes):
+            writer.write(_title(at, route), pieces[at])
+        lines = [self.head.text, *(statement.text for statement in writer.statements), "END"]
+        subroutine = len(lines)
+        if writer.data:
+            lines += [
+                "REM SUBROUTINE: I NODES WITH THE DIRECTION OF THEIR TANGENTS",
+                "READ P,A",
+                "FIT P,A",
+                "I=I-1",
+                "IF I>0 GOTO *",
+                "RETURN",
+                "REM NODES: PLACE, DIRECTION",
+            ]
+            lines += _data(writer.data)
+        step = 10 if len(lines) * 10 <= _LAST_LINE else 1
+        if len(lines) * step > _LAST_LINE:
+            raise UserError(
+                f"the program would have {len(lines)} lines, at most {_LAST_LINE} fit; "
+                "a larger --fit-tolerance makes fewer nodes"
+            )
+        target = str((subroutine + 2) * step)
+        return "".join(f"{at * step} {_pointed(line, target)}\n" for at, line in enumerate(lines, 1))
+
+
+def _pointed(line: str, target: str) -> str:
+    """Fill in the line number of the subroutine."""
+    return line[:-1] + target if line.startswith(("GOSUB *", "IF I>0 GOTO *")) else line
+
+
+def _data(items: list[str]) -> Iterator[str]:
+    line = ""
+    for item in items:
+        if line and len(line) + len(item) + len("9999 DATA ,") > _WIDTH:
+            yield f"DATA {line}"
+            line = ""
+        line += f",{item}" if line else item
+    yield f"DATA {line}"
+
+
+def _count(count: int, noun: str) -> str:
+    return f"{count} {noun}{'S' if count > 1 else ''}"
+
+
+def _title(at: int, route: PlannedContour) -> str:
+    return f"{at + 1}. {describe(route)}"
+
+
+def _kind(edge: Edge) -> str:
+    """What an edge is."""
+    if edge.nodes:
+        return "CURVE"
+    if edge.centre is None:
+        return "LINE"
+    return "CIRCLE" if edge.is_circle else "ARC"
+
+
+def describe(route: PlannedContour) -> str:
+    """Say what a contour is made of."""
+    contour = route.contour
+    kinds = Counter(map(_kind, contour.edges))
+    parts = ", ".join(_count(kinds[noun], noun) for noun in _KINDS if noun in kinds)
+    if not contour.is_closed:
+        return f"OPEN: {parts}"
+    way = "COUNTER-CLOCKWISE" if contour.area > 0 else "CLOCKWISE"
+    return f"{'OPENING' if route.is_opening else 'OUTLINE'}, {way}: {parts}"
+
+
+def write(routes: list[PlannedContour], title: str, fillets: bool = True) -> str:
+    """Return the numbered program that cuts the routes; `title` goes into its first line."""
+    return Program(routes, title, fillets).numbered()

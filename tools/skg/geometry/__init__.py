@@ -1,0 +1,1 @@
+"""Places, lines, arcs, contours, and what lies around them."""

@@ -1,0 +1,88 @@
+"""Contours, their edges and directions as numpy's rows, lengths in millimetres, angles in radians."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi
+
+import numpy as np
+
+from skg.geometry.arrays import Floats, Whole, columns_at, directions, headings, hypots, numbers_up_to
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.piece import Piece
+
+#: So many arcs become chords together.
+_ARCS = 1000
+
+
+def points_of(contours: Sequence[Contour]) -> tuple[Floats, Whole]:
+    """The points of contours one after the other, to the last bit those of `Contour.points`, and how many each has."""
+    edges = [edge for contour in contours for edge in contour.edges]
+    # A contour has its edges' points but the last of each, and its end.
+    counts = np.array([edge.chords for edge in edges], np.int64)
+    first = np.cumsum([0, *(len(contour.edges) for contour in contours)])
+    per_contour = np.add.reduceat(counts, first[:-1]) + 1 if edges else counts
+    at = np.cumsum(counts) - counts + np.repeat(np.arange(len(contours)), np.diff(first))
+    found = np.empty((int(per_contour.sum()), 2))
+    found[at] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
+    found[np.cumsum(per_contour) - 1] = np.array([contour.edges[-1].end for contour in contours]).reshape(-1, 2)
+    arcs = [number for number, edge in enumerate(edges) if not edge.is_line and not edge.nodes]
+    for begin in range(0, len(arcs), _ARCS):
+        some = arcs[begin : begin + _ARCS]
+        _inner_points([edges[number] for number in some], at[some], counts[some], found)
+    for number, edge in enumerate(edges):
+        if edge.nodes:
+            found[at[number] : at[number] + counts[number]] = edge.samples[:-1]
+    return found, per_contour
+
+
+def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> None:
+    """Put the points of arcs behind their first ones, which are at some places."""
+    inner = pieces - 1
+    rows = rows_of(arcs)
+    # (arcs that differ in place and size alone, as most holes do, have the same directions from their centres)
+    kinds, kind = np.unique(np.column_stack((rows[:, 7:9], pieces)), axis=0, return_inverse=True)
+    many = kinds[:, 2].astype(int) - 1
+    first, sweep, chords = np.repeat(kinds, many, axis=0).T
+    ways = headings(first + (numbers_up_to(many) + 1) / chords * sweep)
+    number = numbers_up_to(inner)
+    across, up = columns_at(ways, np.repeat((np.cumsum(many) - many)[kind], inner) + number)
+    x, y, radius = (np.repeat(column, inner) for column in rows[:, 4:7].T)
+    places = np.repeat(at, inner) + number + 1
+    found[places, 0], found[places, 1] = x + radius * across, y + radius * up
+
+
+def rows_of(pieces: Sequence[Piece]) -> Floats:
+    """Lines and arcs as rows (n, 9): start, end, centre, radius, angle at the start, sweep; a line has zeros there."""
+    found = np.zeros((len(pieces), 9))
+    found[:, 0:2] = np.array([piece.start for piece in pieces]).reshape(-1, 2)
+    found[:, 2:4] = np.array([piece.end for piece in pieces]).reshape(-1, 2)
+    arcs = [at for at, piece in enumerate(pieces) if piece.centre is not None]
+    found[arcs, 4:6] = np.array([pieces[at].centre for at in arcs]).reshape(-1, 2)
+    found[arcs, 8] = [pieces[at].sweep for at in arcs]
+    out = found[arcs, 0:2] - found[arcs, 4:6]
+    found[arcs, 6], found[arcs, 7] = hypots(*out.T), directions(out)
+    return found
+
+
+def boxes_of(contours: Sequence[Contour]) -> tuple[Floats, Floats]:
+    """The boxes around contours, and around all their edges, as rows (n, 4): smallest x and y, largest x and y."""
+    boxes = _boxes_of_edges([edge for contour in contours for edge in contour.edges])
+    counts = np.array([len(contour.edges) for contour in contours], np.int64)
+    first = np.cumsum(counts) - counts
+    around = np.minimum.reduceat(boxes[:, :2], first), np.maximum.reduceat(boxes[:, 2:], first)
+    return np.column_stack(around), boxes
+
+
+def _boxes_of_edges(edges: Sequence[Edge]) -> Floats:
+    rows = rows_of(edges)
+    low, high = np.minimum(rows[:, 0:2], rows[:, 2:4]), np.maximum(rows[:, 0:2], rows[:, 2:4])
+    centres, (radius, first, sweep) = rows[:, 4:6], rows[:, 6:].T
+    begin = np.minimum(first, first + sweep)
+    for angle, axis, ends, way in ((0, 0, high, 1), (pi / 2, 1, high, 1), (pi, 0, low, -1), (-pi / 2, 1, low, -1)):
+        is_there = (sweep != 0) & (np.mod(angle - begin, 2 * pi) <= np.abs(sweep))
+        ends[is_there, axis] = (centres[:, axis] + way * radius)[is_there]
+    for at, edge in enumerate(edges):
+        if edge.nodes:
+            low[at], high[at] = np.minimum(low[at], edge.samples.min(0)), np.maximum(high[at], edge.samples.max(0))
+    return np.column_stack((low, high))

@@ -1,0 +1,176 @@
+"""Smooth curves as nodes for FIT: as few as its biarcs need to come near enough (language.md, section 5)."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from math import ceil, cos, hypot, inf, pi, sin, sqrt
+
+import numpy as np
+
+from skg.geometry.contour import CurveNode, Edge, Places
+from skg.geometry.plane import XY, distance, dot, minus, turn
+
+#: A curve's points at parameters, and the direction angle of its tangent at one (radians).
+At = Callable[[list[float]], list[XY]]
+Heading = Callable[[float], float]
+#: One biarc bends by no more than this, radians.
+_BEND = 1.2
+#: The part of a tolerance that the tried places take: between them the curve may be a little further away.
+_SPARE = 0.9
+#: The chords between samples are about this far from the curve, mm; a span has no more samples than the second.
+_NEAR, _MOST = 5e-5, 4096
+#: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm
+#: (language.md, section 5).
+FLAT, STRAIGHT = 0.002, 50_000.0
+
+
+def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
+    """Where the biarc between two nodes changes arcs (language.md, section 5); None if there is none."""
+    v = minus(other.point, one.point)
+    t, u = ((cos(node.angle), sin(node.angle)) for node in (one, other))
+    both = t[0] + u[0], t[1] + u[1]
+    square = dot(v, v)
+    below = dot(v, both) + sqrt(dot(v, both) ** 2 + 2 * (1 - dot(t, u)) * square)
+    if below <= 1e-12 * sqrt(square):
+        return None
+    d = square / below
+    return tuple((p + d * a + q - d * b) / 2 for p, a, q, b in zip(one.point, t, other.point, u, strict=True))
+
+
+def _off_arc(points: list[XY], start: XY, angle: float, end: XY) -> tuple[float, float]:
+    """Largest distance of points from the arc that leaves `start` in direction `angle` for `end`: from the arc itself,
+    and as FIT cuts it, a flat or a very large one as the line of its chord (language.md, section 5)."""
+    if not points:
+        return 0.0, 0.0
+    normal = -sin(angle), cos(angle)
+    (x, y), (u, v) = start, minus(end, start)
+    height = dot(normal, (u, v))
+    square = dot((u, v), (u, v))
+    radius = square / (2 * height) if abs(height) >= 1e-9 else inf
+    off_chord = 0.0
+    if is_line := abs(height) <= FLAT or abs(radius) >= STRAIGHT:
+        off_chord = max([abs(u * (q - y) - v * (p - x)) for p, q in points]) / sqrt(square)
+    if radius == inf:
+        return off_chord, off_chord
+    x, y, far = x + radius * normal[0], y + radius * normal[1], abs(radius)
+    off = max([abs(hypot(p - x, q - y) - far) for p, q in points])
+    return off, off_chord if is_line else off
+
+
+def _off(
+    at: At, heading: Heading, one: CurveNode, low: float, high: float, breaks: Sequence[float]
+) -> tuple[float, float]:
+    """How far the curve leaves the biarc between two parameters, and what FIT cuts of it; infinity where there is no
+    good one. It is tried at eleven places, and at three between two breaks. `one`: the node at `low`."""
+    other = CurveNode(*at([high]), heading(high))
+    if distance(one.point, other.point) < 1e-6:
+        # A stretch without any length is one place; else the curve comes back to where it was.
+        between = at([low + k / 8 * (high - low) for k in range(1, 8)])
+        return (0.0, 0.0) if all(distance(place, one.point) < 1e-6 for place in between) else (inf, inf)
+    if abs(turn(one.angle, other.angle)) > _BEND:
+        return inf, inf
+    joint = biarc_joint(one, other)
+    if joint is None:
+        return inf, inf
+    chord = minus(other.point, one.point)
+    middle = dot(minus(joint, one.point), chord)
+    tried = [low + k / 12 * (high - low) for k in range(1, 12)]
+    inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
+    if len(inner) > 2:
+        tried += [p + k / 4 * (q - p) for p, q in pairwise(inner) for k in range(1, 5)][:-1]
+    (x, y), (u, v) = one.point, chord
+    parts: tuple[list[XY], list[XY]] = [], []
+    for p, q in at(tried):
+        parts[(p - x) * u + (q - y) * v >= middle].append((p, q))
+    first = _off_arc(parts[0], one.point, one.angle, joint)
+    # Seen from its end the second arc leaves along the reversed tangent.
+    second = _off_arc(parts[1], other.point, other.angle + pi, joint)
+    return max(first[0], second[0]), max(first[1], second[1])
+
+
+def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Edge:
+    """Return a smooth curve as an edge whose nodes FIT takes to within `tolerance`, mm.
+
+    `breaks`: parameters in rising order, the first and the last one included; between two of them the curve is as
+    smooth as a polynomial of low degree.
+    """
+    found = list(_stations(at, heading, breaks, tolerance))
+    nodes = tuple(CurveNode(place, heading(t)) for place, t in zip(at(found), found, strict=True))
+    samples: list[Places] = []
+    for (one, other), (low, high) in zip(pairwise(nodes), pairwise(found), strict=True):
+        bend = abs(turn(one.angle, other.angle)) + 0.01
+        inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
+        for begin, end in pairwise(inner):
+            samples.append(_samples(at, begin, end, bend)[:-1])
+    samples.append(np.array([nodes[-1].point]))
+    return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=np.concatenate(samples))
+
+
+def _samples(at: At, low: float, high: float, bend: float) -> Places:
+    """Places along a span that bends by an angle, or a part of it without a break in it, both ends included: so many
+    that the chords between them are near the curve."""
+    # n chords of a span of length l that bends by θ are lθ/8n² away from it, where it is run through evenly.
+    pieces = ceil(sqrt(distance(*at([low, high])) * bend / 8 / _NEAR) / 2) + 1
+    places = np.array(at([low + k / pieces * (high - low) for k in range(pieces + 1)]))
+    while True:
+        between = np.array(at([low + (k + 0.5) / pieces * (high - low) for k in range(pieces)]))
+        off = _off_chords(between, places)
+        pieces *= 2
+        both = np.empty((pieces + 1, 2))
+        both[::2], both[1::2] = places, between
+        places = both
+        if off <= 4 * _NEAR or pieces > _MOST:
+            return places
+
+
+def _off_chords(between: Places, places: Places) -> float:
+    """Largest distance of places from the lines that join those before and behind them."""
+    (u, v), (p, q) = (places[1:] - places[:-1]).T, (between - places[:-1]).T
+    length = np.hypot(u, v)
+    stands = length == 0
+    return float(np.where(stands, np.hypot(p, q), np.abs(u * q - v * p) / (length + stands)).max())
+
+
+def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Iterator[float]:
+    """The parameters of the nodes: each span as long as the tolerance allows, the last two of one length.
+
+    A biarc's error is of third order: what is tried next follows from the error found. A flat arc is cut as its chord
+    and is worse than a longer one that is not flat: so the longest good biarc is looked for, and only where FIT does
+    not cut that one well a shorter.
+    """
+    now, end = breaks[0], breaks[-1]
+    least = (end - now) * 1e-6
+    step = (end - now) / 8
+    tolerance *= _SPARE
+    yield now
+    while now < end:
+        node = CurveNode(*at([now]), heading(now))
+        # The longest good step, how far FIT's cut is off there; the shortest bad one.
+        good, off_cut, bad = 0.0, inf, inf
+        for _ in range(16):
+            step = min(step, end - now)
+            if step < least:
+                break
+            off, off_this = _off(at, heading, node, now, now + step, breaks)
+            if off <= tolerance:
+                good, off_cut = step, off_this
+                if now + step >= end or off > 0.6 * tolerance:
+                    break
+            else:
+                bad = step
+            wanted = step * min(3.0, max(0.2, 0.93 * (tolerance / off) ** (1 / 3) if off else 3.0))
+            step = min(wanted, 0.5 * (good + bad) if bad < inf else inf)
+            if step <= 1.05 * good:
+                break
+        step = good or least
+        while step > least and off_cut > tolerance:
+            step *= 0.8
+            off_cut = _off(at, heading, node, now, now + step, breaks)[1]
+        if now + step < end < now + 1.4 * step:
+            step = (end - now) / 2
+        now = end if now + step > end - least else now + step
+        yield now
+        # (behind a place that no biarc takes well, such as a cusp, the way is free again)
+        step = step if good else (end - now) / 8

@@ -1,0 +1,325 @@
+"""Which pieces of a path lie nearest to places: many of both at once (numpy)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from math import pi
+from threading import Lock
+
+import numpy as np
+
+from skg.geometry.arrays import Floats, Whole, directions, hypots, numbers_up_to
+from skg.geometry.edge_arrays import rows_of
+from skg.geometry.piece import Piece
+
+#: Pairs of a place and a piece that are looked at together, and so many places: more do not fit into a fast memory.
+_PAIRS = 50_000
+_PLACES = 20_000
+#: A path is laid out on about so many cells at most.
+_MOST_CELLS = 200_000
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """For m places: the distance to the nearest piece of the same owner, its number (-1: none within reach), and the
+    distance to the nearest piece of another owner and its number."""
+
+    own: Floats
+    own_at: Whole
+    other: Floats
+    other_at: Whole
+
+
+class Pieces:
+    """n lines and arcs, each with an owner.
+
+    They are given one by one, or as places (m, 2) with chords between them: those are `is_chord`, and left out where
+    they have no length.
+    """
+
+    def __init__(self, pieces: Iterable[tuple[Piece | Floats, int]]) -> None:
+        parts = list(_parts(pieces))
+        self._room(sum(len(start) for start, *_ in parts))
+        first = 0
+        for start, end, owner, rounds in parts:
+            some = slice(first, first + len(start))
+            self.start[some], self.end[some], self.owner[some] = start, end, owner
+            if rounds is None:
+                self.is_chord[some] = True
+            elif rounds.any():
+                self.centre[some], self.radius[some] = rounds[:, 0:2], rounds[:, 2]
+                self.first[some], self.sweep[some] = rounds[:, 3], rounds[:, 4]
+            first = some.stop
+        self._measure()
+
+    @classmethod
+    def of_columns(cls, start: Floats, end: Floats, centre: Floats, sweep: Floats, owner: Whole) -> Pieces:
+        """Pieces as columns; where nothing is swept, a line."""
+        found = cls.__new__(cls)
+        found._room(len(start))
+        found.start[:], found.end[:], found.owner[:] = start, end, owner
+        is_arc = sweep != 0
+        found.centre[is_arc], found.sweep[is_arc] = centre[is_arc], sweep[is_arc]
+        out = found.start[is_arc] - found.centre[is_arc]
+        found.radius[is_arc], found.first[is_arc] = hypots(*out.T), directions(out)
+        found._measure()
+        return found
+
+    def _room(self, count: int) -> None:
+        """Arrays of zeros for so many pieces (zeros that nobody writes to take no memory)."""
+        self.start, self.end, self.centre = np.zeros((3, count, 2))
+        self.radius, self.first, self.sweep = np.zeros((3, count))
+        self.owner, self.is_chord = np.zeros(count, np.int64), np.zeros(count, bool)
+
+    def _measure(self) -> None:
+        self.is_arc = self.radius > 0
+        way = self.end - self.start
+        self.length = np.hypot(way[:, 0], way[:, 1])
+        arcs = np.flatnonzero(self.is_arc)
+        self.length[arcs] = self.radius[arcs] * np.abs(self.sweep[arcs])
+        self._grids: dict[float, _Grid] = {}
+        self._making = Lock()
+
+    def at(self, which: Whole, part: Floats) -> Floats:
+        """The places at parts of the lengths of pieces."""
+        start = self.start[which]
+        found = start + part[:, None] * (self.end[which] - start)
+        arcs = np.flatnonzero(self.is_arc[which])
+        arc = which[arcs]
+        found[arcs] = self.centre[arc] + self.radius[arc, None] * self._out(arc, part[arcs])
+        return found
+
+    def normal(self, which: Whole, part: Floats) -> Floats:
+        """Unit vectors to the right of travel at parts of the lengths of pieces."""
+        way = self.end[which] - self.start[which]
+        length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
+        found = np.stack((way[:, 1], -way[:, 0]), 1) / length[:, None]
+        arcs = np.flatnonzero(self.is_arc[which])
+        arc = which[arcs]
+        found[arcs] = self._out(arc, part[arcs]) * np.sign(self.sweep[arc])[:, None]
+        return found
+
+    def _out(self, arcs: Whole, part: Floats) -> Floats:
+        """Unit vectors from the centres of arcs to parts of their lengths."""
+        angle = self.first[arcs] + part * self.sweep[arcs]
+        return np.stack((np.cos(angle), np.sin(angle)), 1)
+
+    def part(self, places: Floats, which: Whole) -> Floats:
+        """The part of the length of each place's piece where that is nearest (of an arc: the circle)."""
+        to, way = places - self.start[which], self.end[which] - self.start[which]
+        line = np.clip((to * way).sum(1) / np.maximum((way**2).sum(1), 1e-300), 0, 1)
+        about = places - self.centre[which]
+        ahead = (np.arctan2(about[:, 1], about[:, 0]) - self.first[which]) * np.sign(self.sweep[which])
+        arc = np.mod(ahead, 2 * pi) / np.maximum(np.abs(self.sweep[which]), 1e-300)
+        return np.where(self.is_arc[which], arc, line)
+
+    def batches(self, spacing: float, least: int) -> Iterator[tuple[Whole, Floats]]:
+        """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
+        an arc one for every 15 degrees besides. Some pieces after the other."""
+        for low in range(0, len(self.length), _PAIRS):
+            spaces = self._spaces(slice(low, low + _PAIRS), spacing, least)
+            ends = np.cumsum(spaces + 1)
+            cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1] + _PAIRS, _PAIRS), "right"))
+            for begin, end in pairwise(cuts.tolist()):
+                which, part = spread(spaces, begin, end)
+                yield low + which, part
+
+    def _spaces(self, some: slice, spacing: float, least: int) -> Whole:
+        """In how many spaces places divide each of some pieces."""
+        turns = np.ceil(np.abs(self.sweep[some]) / (pi / 12)) * self.is_arc[some]
+        return np.maximum(np.maximum(np.ceil(self.length[some] / spacing), turns), least).astype(np.int64)
+
+    def from_place(self, places: Floats, which: Whole) -> Floats:
+        """Distance of each place from its piece."""
+        found = np.empty(len(places))
+        is_arc = self.is_arc[which]
+        for mask, measure in ((~is_arc, self._from_line), (is_arc, self._from_arc)):
+            found[mask] = measure(places[mask], which[mask])
+        return found
+
+    def _from_line(self, places: Floats, which: Whole) -> Floats:
+        to = places - self.start[which]
+        way = self.end[which] - self.start[which]
+        square = np.maximum((way**2).sum(1), 1e-300)
+        part = np.clip((to * way).sum(1) / square, 0, 1)
+        return np.hypot(*(to - part[:, None] * way).T)
+
+    def _from_arc(self, places: Floats, which: Whole) -> Floats:
+        about = places - self.centre[which]
+        far = np.hypot(about[:, 0], about[:, 1])
+        ahead = (np.arctan2(about[:, 1], about[:, 0]) - self.first[which]) * np.sign(self.sweep[which])
+        inside = np.mod(ahead, 2 * pi) <= np.abs(self.sweep[which])
+        ends = np.minimum(np.hypot(*(places - self.start[which]).T), np.hypot(*(places - self.end[which]).T))
+        return np.where(inside, np.abs(far - self.radius[which]), ends)
+
+    def from_carrier(self, places: Floats, which: Whole) -> Floats:
+        """Distance of each place from the whole line or circle that its piece lies on."""
+        return np.abs(self.right_of(places, which))
+
+    def right_of(self, places: Floats, which: Whole) -> Floats:
+        """How far each place is to the right of the whole line or circle of its piece, negative to the left."""
+        to = places - self.start[which]
+        way = self.end[which] - self.start[which]
+        length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
+        line = (to[:, 1] * -way[:, 0] + to[:, 0] * way[:, 1]) / length
+        about = places - self.centre[which]
+        arc = (np.hypot(about[:, 0], about[:, 1]) - self.radius[which]) * np.sign(self.sweep[which])
+        return np.where(self.is_arc[which], arc, line)
+
+    def nearest(self, places: Floats, owners: Whole, reach: float) -> Nearest:
+        """What lies within `reach` of each of m places, and maybe a little beyond; `owners`: whose each place is."""
+        found = Nearest(*(np.full(len(places), nothing) for nothing in (np.inf, -1, np.inf, -1)))
+        if not len(self.length) or not len(places):
+            return found
+        grid = self._grid(max(1.5 * reach, float(self.length.sum()) / _MOST_CELLS, 1e-6))
+        for low in range(0, len(places), _PLACES):
+            self._look(grid, places, owners, low, reach, found)
+        return found
+
+    def nearest_own(self, places: Floats, owners: Whole, reach: float) -> Whole:
+        """The `own_at` of `nearest`, of pieces that stand in the order of their owners: what others own is not looked
+        at, which takes long where a wide reach has much of it."""
+        whose = np.unique(owners)
+        first = np.searchsorted(self.owner, whose)
+        count = np.searchsorted(self.owner, whose, "right") - first
+        numbers = np.repeat(first, count) + numbers_up_to(count)
+        if 2 * len(numbers) > len(self.length):
+            return self.nearest(places, owners, reach).own_at
+        found = self._some(numbers).nearest(places, owners, reach).own_at
+        return np.where(found >= 0, np.append(numbers, -1)[found], -1)
+
+    def _some(self, numbers: Whole) -> Pieces:
+        """Some of the pieces."""
+        found = Pieces.__new__(Pieces)
+        for name in ("start", "end", "centre", "radius", "first", "sweep", "owner", "is_chord"):
+            setattr(found, name, getattr(self, name)[numbers])
+        found._measure()
+        return found
+
+    def _grid(self, cell: float) -> _Grid:
+        """The pieces laid out on cells."""
+        # (who comes while another thread is making the same one waits for it)
+        with self._making:
+            if cell not in self._grids:
+                self._grids[cell] = _Grid(self, cell)
+            return self._grids[cell]
+
+    def _look(self, grid: _Grid, places: Floats, owners: Whole, low: int, reach: float, found: Nearest) -> None:
+        """Find what is nearest to the places from number `low` on."""
+        place, first, counts = grid.around(places[low : low + _PLACES], reach)
+        place += low
+        ends = np.cumsum(counts)
+        begin = 0
+        while begin < len(place):
+            until = int(np.searchsorted(ends, (ends[begin - 1] if begin else 0) + _PAIRS, "right"))
+            # (what is found for a place in one batch stands beside that of the next)
+            some = slice(begin, max(until, begin + 1))
+            which = grid.pieces(first[some], counts[some])
+            at = np.repeat(place[some], counts[some])
+            far = self.from_place(places[at], which)
+            own = self.owner[which] == owners[at]
+            _keep_nearest(far[own], at[own], which[own], found.own, found.own_at)
+            _keep_nearest(far[~own], at[~own], which[~own], found.other, found.other_at)
+            begin = some.stop
+
+
+class _Grid:
+    """Pieces laid out on square cells: `which` pieces stand in the cells `keys`, in the order of these; those of each
+    cell from where it `begins` on, up to where the next one does."""
+
+    def __init__(self, pieces: Pieces, cell: float) -> None:
+        self.cell = cell
+        #: A piece is nowhere further from a place that was laid out.
+        self.apart = cell / 8
+        beside = 2 * pieces.radius.max() + 2 * cell
+        self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - beside
+        #: So many rows, no piece is in the last one.
+        self.width = int(self._cells(np.maximum(pieces.start.max(0), pieces.end.max(0)) + beside)[1]) + 2
+        # (a path may have millions of pieces: their numbers take half the room, and what is done with goes at once)
+        found = []
+        for which, part in pieces.batches(2 * self.apart, 1):
+            column, row = self._cells(pieces.at(which, part))
+            found.append(_once(column * self.width + row, which.astype(np.int32)))
+        keys, which = (np.concatenate(column) for column in zip(*found, strict=True))
+        found.clear()
+        # (the pieces come in the order of their numbers, and stay so in each cell)
+        order = np.argsort(keys, kind="stable")
+        keys = keys[order]
+        which = which[order]
+        del order
+        keys, self.which = _once(keys, which)
+        begins = np.flatnonzero(np.diff(keys, prepend=-1))
+        self.keys, self.begins = keys[begins], np.append(begins, len(keys))
+
+    def _cells(self, places: Floats) -> Whole:
+        return np.floor((places - self.corner) / self.cell).astype(np.int64).T
+
+    def around(self, places: Floats, reach: float) -> tuple[Whole, Whole, Whole]:
+        """For each column of cells around each place: the place, and where the pieces there begin and how many."""
+        aside = reach + self.apart
+        low, bottom = np.maximum(self._cells(places - aside), 0)
+        high, top = self._cells(places + aside)
+        top = np.minimum(top, self.width - 1)
+        columns = np.where(top >= bottom, np.maximum(high - low + 1, 0), 0)
+        place = np.repeat(np.arange(len(places)), columns)
+        column = low[place] + numbers_up_to(columns)
+        first = self.begins[np.searchsorted(self.keys, column * self.width + bottom[place])]
+        counts = self.begins[np.searchsorted(self.keys, column * self.width + top[place], "right")] - first
+        return place, first, counts
+
+    def pieces(self, first: Whole, counts: Whole) -> Whole:
+        """The pieces that stand there."""
+        return self.which[np.repeat(first, counts) + numbers_up_to(counts)].astype(np.int64)
+
+
+#: Pieces that follow each other: starts, ends, whose they are; centre, radius, first angle and sweep, None of chords.
+_Part = tuple[Floats, Floats, Whole | int, Floats | None]
+
+
+def _parts(pieces: Iterable[tuple[Piece | Floats, int]]) -> Iterator[_Part]:
+    some: list[tuple[Piece, int]] = []
+    for piece, owner in pieces:
+        if isinstance(piece, Piece):
+            some.append((piece, owner))
+        if some and (len(some) == _PLACES or not isinstance(piece, Piece)):
+            yield _lines_and_arcs(some)
+            some.clear()
+        if not isinstance(piece, Piece):
+            is_there = (piece[:-1] != piece[1:]).any(1)
+            # (where all are, nothing is copied)
+            starts, ends = (piece[:-1], piece[1:]) if is_there.all() else (piece[:-1][is_there], piece[1:][is_there])
+            yield starts, ends, owner, None
+    if some:
+        yield _lines_and_arcs(some)
+
+
+def _lines_and_arcs(some: list[tuple[Piece, int]]) -> _Part:
+    rows = rows_of([piece for piece, _ in some])
+    return rows[:, 0:2], rows[:, 2:4], np.array([owner for _, owner in some], np.int64), rows[:, 4:]
+
+
+def _once(one: Whole, other: Whole) -> tuple[Whole, Whole]:
+    """Two columns of numbers without the rows that are like the one before."""
+    is_new = np.ones(len(one), bool)
+    is_new[1:] = (one[1:] != one[:-1]) | (other[1:] != other[:-1])
+    return one[is_new], other[is_new]
+
+
+def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at: Whole) -> None:
+    """Keep the nearest of the pieces that were looked at for each place, where it is nearer than the one known."""
+    if not len(far):
+        return
+    begins = np.flatnonzero(np.diff(place, prepend=-1))
+    least = np.minimum.reduceat(far, begins)
+    is_least = far == np.repeat(np.minimum(least, distance[place[begins]]), np.diff(begins, append=len(place)))
+    distance[place[is_least]] = far[is_least]
+    at[place[is_least]] = which[is_least]
+
+
+def spread(spaces: Whole, begin: int, end: int) -> tuple[Whole, Floats]:
+    """The pieces from one number up to another, each as often as it has places, and the parts where these are."""
+    count = spaces[begin:end]
+    which = np.repeat(np.arange(begin, end), count + 1)
+    return which, numbers_up_to(count + 1) / spaces[which]

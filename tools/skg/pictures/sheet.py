@@ -1,0 +1,471 @@
+"""The setup sheet: what the shop needs beside the machine, on one page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from datetime import date
+from math import ceil, cos, pi, sin
+from unicodedata import east_asian_width
+
+import numpy as np
+import shapely
+from matplotlib import path as paths
+from matplotlib.collections import PathCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, PathPatch, Polygon
+from matplotlib.transforms import Affine2D
+
+from skg.checking.check import drawn
+from skg.cutting.job import Job
+from skg.cutting.refusal import kind
+from skg.geometry.arrays import numbers_up_to
+from skg.geometry.contour import Places
+from skg.geometry.plane import XY, distance
+from skg.pictures.page import as_it_stands, save
+from skg.pictures.plot import FEW, outlines
+from skg.planning.route import PlannedContour
+from skg.tape.layout import Laid
+from skg.tape.simulation import duration
+from skg.wording import short, shown
+
+#: The page lies on its side: A4, and A3 where A4 has no room for the table; mm.
+_A4, _A3 = (297.0, 210.0), (420.0, 297.0)
+_INCH = 25.4
+_MARGIN, _HEAD = 10.0, 26.0
+#: A row of the table, a column of it; room around the part for dimensions.
+_ROW, _COLUMN, _AROUND = 2.9, 50.0, 14.0
+#: Where a column's cells end, or begin (the fourth), mm.
+_CELLS = (5.5, 16.9, 28.3, 29.5, 49.5)
+#: The largest mark of a start hole (its radius), the largest arrow; all mm on the paper.
+_HOLE, _ARROW = 1.1, 1.8
+#: Of these scales the largest at which the part fits is taken.
+_SCALES = (
+    *(float(m * p) for p in (100, 10, 1) for m in (5, 4, 3, 2, 1)),
+    *(1 / (m * p) for p in (1, 10, 100, 1000) for m in (2, 2.5, 3, 4, 5, 10)),
+)
+#: So many numbers are looked for room on the drawing, all stand in the table.
+_MOST_NUMBERS = 1000
+#: Numbers are looked for room on a grid of this, mm, no further from their holes than the second.
+_GRID, _FAR = 0.4, 14.0
+#: A number this much further from its hole than the nearest place stands alone beside it, or has a line to it.
+_ALONE = 1.7
+#: The letters of numbers, points of a font; no letters on the page are smaller than the second.
+_FONT, _LEAST = 6.0, 5.0
+#: Ways from a hole to its number, in the order in which they are tried.
+_AROUND_A_HOLE = np.array([(cos(pi / 4 + turn * pi / 6), sin(pi / 4 + turn * pi / 6)) for turn in range(12)])
+#: So many straight lines are laid on the grid at once.
+_LINES = 100_000
+#: Letters of a fact at the foot of the page.
+_FACT = 6.5
+#: A point of a font in mm; how wide a character is, in font sizes.
+_POINT, _WIDE = _INCH / 72, 0.62
+#: The starts of steps along places, and their ends.
+_STEPS = (slice(None, -1), slice(1, None))
+_INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the sheet says besides: the drawing's name, the tape's, wire and gap (mm, None: not told), the units."""
+
+    drawing: str
+    tape: str
+    wire: float | None
+    gap: float
+    units: str
+
+
+class _Taken:
+    """Which places of the page are taken, on a grid."""
+
+    def __init__(self, size: XY) -> None:
+        self.cells = np.zeros((int(size[0] / _GRID) + 2, int(size[1] / _GRID) + 2), bool)
+
+    def along(self, places: np.ndarray) -> None:
+        """Take what a line passes; places no further apart than the grid."""
+        at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
+        self.cells[at[:, 0], at[:, 1]] = True
+
+    def _corners(self, places: np.ndarray, behind: int) -> np.ndarray:
+        """The cells of places, or those `behind` them, as ends of slices."""
+        return np.clip((places / _GRID).astype(int) + behind, 0, self.cells.shape)
+
+    def is_free_along(self, places: np.ndarray) -> bool:
+        """Whether nothing is where a line passes; places no further apart than the grid."""
+        at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
+        return not self.cells[at[:, 0], at[:, 1]].any()
+
+    def are_free(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """In which of some boxes, near to each other, nothing is; their lower and upper corners (n × 2)."""
+        low, high = self._corners(low, 0), self._corners(high, 1)
+        first, last = low.min(axis=0), high.max(axis=0)
+        window = self.cells[first[0] : last[0], first[1] : last[1]]
+        # How many cells are taken below and left of each: four of these sums tell how many in a box.
+        sums = np.zeros((window.shape[0] + 1, window.shape[1] + 1), int)
+        sums[1:, 1:] = window.cumsum(axis=0, dtype=int).cumsum(axis=1)
+        (left, bottom), (right, top) = (low - first).T, (high - first).T
+        return sums[right, top] - sums[left, top] - sums[right, bottom] + sums[left, bottom] == 0
+
+    def take(self, low: XY, high: XY) -> None:
+        """Take a box."""
+        (left, bottom), (right, top) = self._corners(np.array(low), 0), self._corners(np.array(high), 1)
+        self.cells[left:right, bottom:top] = True
+
+
+class _Marks:
+    """The marks of the start holes: their places on the page (n × 2) and radii, mm."""
+
+    def __init__(self, places: np.ndarray, radii: np.ndarray) -> None:
+        self.places, self.radii = places, radii
+        self._tree = shapely.STRtree(shapely.points(places))
+
+    def are_alone(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
+        """Which of some boxes (their middles, n × 2; half their sides) are clearly nearer to a mark than to others."""
+        if not len(middles):
+            return np.zeros(0, bool)
+        reach = half + self.radii[at] + 2 * _ALONE + 2.2
+        near = self._tree.query(shapely.box(*(middles.min(0) - reach), *(middles.max(0) + reach)))
+        near = near[np.any(self.places[near] != self.places[at], axis=1)]
+        apart = [self._distance(one, middles, half) for one in near]
+        return self._distance(at, middles, half) + 0.3 < np.min(apart, axis=0, initial=np.inf)
+
+    def _distance(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
+        """How far some boxes are from a mark."""
+        beside = np.maximum(np.abs(self.places[at] - middles) - half, 0)
+        return np.hypot(*beside.T) - self.radii[at]
+
+
+class SetupSheet:
+    """A page with a job on it."""
+
+    def __init__(self, job: Job, facts: Facts) -> None:
+        self.job, self.facts = job, facts
+        rows = len(job.routes)
+        per_column = [int((page[1] - 2 * _MARGIN - _HEAD - 8) / _ROW) for page in (_A4, _A3)]
+        self.page = _A4 if rows <= 2 * per_column[0] else _A3
+        self.per_column = per_column[self.page == _A3]
+        most = int((self.page[0] / 2) / _COLUMN)
+        self.columns = max(1, min(most, ceil(rows / self.per_column)))
+        self.figure = Figure(figsize=(self.page[0] / _INCH, self.page[1] / _INCH))
+        self.axes = self.figure.add_axes((0, 0, 1, 1))
+        self.axes.set_xlim(0, self.page[0])
+        self.axes.set_ylim(0, self.page[1])
+        self.axes.axis("off")
+        # What texts stay off; what lines from numbers to holes stay off: other numbers, holes, such lines.
+        self.taken, self.marked = _Taken(self.page), _Taken(self.page)
+        self._place()
+
+    def draw(self) -> None:
+        """Draw everything."""
+        self._part()
+        self._wire()
+        self._dimensions()
+        left_out = self._holes()
+        self._table()
+        self._title(left_out)
+
+    def _place(self) -> None:
+        """Where the part lies on the page, and its scale."""
+        pieces = [piece for route in self.job.routes for piece in drawn(route)]
+        self.curve = outlines(pieces)
+        points = np.array([point for piece in pieces for point in piece.extremes()])
+        # (a bound of -1e-17 is 0)
+        self.low, self.high = (tuple(np.round(bound, 6) + 0.0) for bound in (points.min(0), points.max(0)))
+        holes = np.array([route.start for route in self.job.routes] + [self.low, self.high])
+        low, high = holes.min(0), holes.max(0)
+        room = (
+            self.page[0] - 2 * _MARGIN - self.columns * _COLUMN - 2 * _AROUND,
+            self.page[1] - 2 * _MARGIN - _HEAD - 2 * _AROUND,
+        )
+        size = [max(b - a, 1e-3) for a, b in zip(low, high, strict=True)]
+        fits = min(space / side for space, side in zip(room, size, strict=True))
+        self.scale = next((one for one in _SCALES if one <= fits), fits)
+        middle = _MARGIN + _AROUND + room[0] / 2, _MARGIN + _HEAD + _AROUND + room[1] / 2
+        self.shift = tuple(m - self.scale * (a + b) / 2 for m, a, b in zip(middle, low, high, strict=True))
+
+    def on_paper(self, place: XY) -> XY:
+        """A place of the part on the page, mm; numbers, or columns of them."""
+        return place[0] * self.scale + self.shift[0], place[1] * self.scale + self.shift[1]
+
+    def _all_on_paper(self, places: Iterable[XY]) -> np.ndarray:
+        """Places of the part on the page (n × 2), mm."""
+        return np.column_stack(self.on_paper(np.array(list(places), float).reshape(-1, 2).T))
+
+    def _patch(self, curve: paths.Path, unit: float, **look: object) -> None:
+        to_page = Affine2D().scale(unit * self.scale).translate(*self.shift)
+        # (add_patch would look for the bounds of every curve)
+        self.axes.add_artist(PathPatch(curve, fill=False, transform=to_page + self.axes.transData, **look))
+
+    def _lines(self, places: np.ndarray, **look: object) -> None:
+        """Draw lines through as many places of the page each (n × places × 2), all as one curve."""
+        codes = [paths.Path.MOVETO, *[paths.Path.LINETO] * (places.shape[1] - 1)]
+        curve = paths.Path(places.reshape(-1, 2), np.tile(codes, len(places)))
+        self.axes.add_artist(PathPatch(curve, fill=False, joinstyle="round", **look))
+
+    def _part(self) -> None:
+        self._patch(self.curve, 1.0, edgecolor=_INK, linewidth=0.7, zorder=3, gid="part")
+        lines = [edge.points() for route in self.job.routes for edge in route.contour.edges]
+        starts = self._all_on_paper(place for points in lines for place in points[:-1])
+        self._take_lines(starts, self._all_on_paper(place for points in lines for place in points[1:]))
+
+    def _take_lines(self, starts: np.ndarray, ends: np.ndarray) -> None:
+        """Take what straight lines between places of the page (n × 2) pass."""
+        for first in range(0, len(starts), _LINES):
+            begin, way = (part[first : first + _LINES] for part in (starts, ends - starts))
+            count = (np.hypot(*way.T) / _GRID * 1.5).astype(int) + 2
+            which = np.repeat(np.arange(len(way)), count)
+            part = numbers_up_to(count) / (count[which] - 1)
+            self.taken.along(begin[which] + part[:, None] * way[which])
+
+    def _wire(self) -> None:
+        """The wire's path, the moves between start holes, an arrow on each contour."""
+        laid = self.job.checked.followed.laid
+        cuts = [some for cut in self.job.checked.cuts if len(some := laid[cut.blocks])]
+        if cuts:
+            curve = outlines(Laid.joined(cuts))
+            self._patch(curve, 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire")
+            # (what lies beside the contours: leads)
+            starts, ends = (
+                self._all_on_paper(np.concatenate([places[[0, -1]] for places in side]) / 1000)
+                for side in ([cut.starts for cut in cuts], [cut.ends for cut in cuts])
+            )
+            self._take_lines(starts, ends)
+            if any(abs(route.widest) * self.scale > _GRID for route in self.job.routes):
+                # (elsewhere the wire's path is where the part's lines are)
+                tenths = Affine2D().scale(0.001 * self.scale).translate(*self.shift).scale(10)
+                path = [places / 10 for places in curve.to_polygons(tenths, closed_only=False)]
+                self._take_lines(*(np.concatenate([places[some] for places in path]) for some in _STEPS))
+        holes = self._all_on_paper(route.start for route in self.job.routes)
+        moves = np.stack([holes[:-1], holes[1:]], axis=1)
+        self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
+        arrows = [arrow for route in self.job.routes if (arrow := self._arrow(route))]
+        if arrows:
+            places = np.array(arrows)
+            self._lines(places, edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
+            self._take_lines(*(places[:, some].reshape(-1, 2) for some in _STEPS))
+
+    def _arrow(self, route: PlannedContour) -> list[XY]:
+        """An arrow on the longest edge of a contour shows the way and covers nothing: it is open and thin. None where
+        it would be too small."""
+        edge = max(route.chain, key=lambda edge: edge.length)
+        size = min(_ARROW, self.scale * min(edge.length / (10 if edge.is_circle else 4), route.room))
+        if size <= 0.3:
+            return []
+        x, y = self.on_paper(edge.at(0.5))
+        way = edge.direction(0.5) if not edge.nodes else _way(edge.samples)
+        ends = [(x - size * cos(way + turn), y - size * sin(way + turn)) for turn in (0.4, -0.4)]
+        return [ends[0], (x, y), ends[1]]
+
+    def _dimensions(self) -> None:
+        """Width and height of the part, and where its lower left corner lies on the drawing."""
+        (left, bottom), (right, top) = self.on_paper(self.low), self.on_paper(self.high)
+        holes = [self.on_paper(route.start) for route in self.job.routes]
+        under = min(bottom, *(y for _, y in holes)) - 6
+        beside = min(left, *(x for x, _ in holes)) - 6
+        width, height = self.high[0] - self.low[0], self.high[1] - self.low[1]
+        self._dimension((left, under), (right, under), (left, bottom), (right, bottom), f"{short(width)}")
+        self._dimension((beside, bottom), (beside, top), (left, bottom), (left, top), f"{short(height)}")
+        corner, size = f"lower left corner at {shown(self.low)}", 5
+        half = self._half_a_box(corner, size)
+        self._text((left, under - 5.2), corner, size, _GREY)
+        self.taken.take((left, under - 5.2 - half[1]), (left + 2 * half[0], under - 5.2 + 2 * half[1]))
+
+    def _dimension(self, one: XY, other: XY, from_one: XY, from_other: XY, text: str) -> None:
+        for p, q in ((one, other), (one, from_one), (other, from_other)):
+            self.axes.plot(*zip(p, q, strict=True), color=_GREY, linewidth=0.35, zorder=1)
+            self._take_lines(np.array([p]), np.array([q]))
+        length, is_flat = distance(one, other), one[1] == other[1]
+        size = min(1.6, length / 3)
+        for tip, way in ((one, 0.0), (other, pi)):
+            way += 0 if is_flat else pi / 2
+            sides = [(tip[0] + size * cos(way + turn), tip[1] + size * sin(way + turn)) for turn in (0.25, -0.25)]
+            self.axes.add_patch(Polygon([tip, *sides], facecolor=_GREY, edgecolor="none"))
+        middle = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+        place = (middle[0], middle[1] - 2.4) if is_flat else (middle[0] - 2, middle[1])
+        self._text(place, text, 7, _INK, ha="center", va="center", rotation=0 if is_flat else 90)
+        half = self._half_a_box(text, 7)[:: 1 if is_flat else -1]
+        self.taken.take(place - half, place + half)
+
+    @staticmethod
+    def _half_a_box(text: str, size: float) -> np.ndarray:
+        """Half the width and half the height of a text, mm."""
+        return np.array([(len(text) * _WIDE * 1.1 + 0.2) * size * _POINT / 2, 0.65 * size * _POINT])
+
+    def _text(self, place: XY, text: str, size: float, colour: str, **how: object) -> None:
+        self.axes.text(*place, **as_it_stands(text), fontsize=size, color=colour, **how)
+
+    def _holes(self) -> int:
+        """Mark and number the start holes; returns how many numbers found no room."""
+        places = self._all_on_paper(route.start for route in self.job.routes)
+        radii = self._radii(places).tolist()
+        widths = [min(0.7, radius) for radius in radii]
+        for place, radius in zip(places, radii, strict=True):
+            self.taken.take(place - radius, place + radius)
+            self.marked.take(place - radius, place + radius)
+        if len(places) > FEW:
+            curves = [paths.Path.circle(place, radius) for place, radius in zip(places, radii, strict=True)]
+            look = {"facecolor": "none", "edgecolor": _MARK, "zorder": 5, "gid": "holes"}
+            self.axes.add_artist(PathCollection(curves, linewidths=widths, **look))
+        else:
+            for place, radius, width in zip(places, radii, widths, strict=True):
+                mark = Circle(place, radius, fill=False, edgecolor=_MARK, linewidth=width, zorder=5, gid="hole")
+                # (add_patch would look for its bounds)
+                self.axes.add_artist(mark)
+        marks = _Marks(places, np.array(radii))
+        return len(places) - sum(self._number(at, marks) for at in range(min(len(places), _MOST_NUMBERS)))
+
+    def _radii(self, places: np.ndarray) -> np.ndarray:
+        """The radii of the marks at these places: a mark covers neither its contour nor the next mark."""
+        routes = self.job.routes
+        rooms = np.array([route.room for route in routes]) * self.scale
+        leads = np.array([distance(route.start, route.entry) for route in routes]) * self.scale
+        points, apart = shapely.points(places), np.full(len(places), np.inf)
+        (which, _), found = shapely.STRtree(points).query_nearest(
+            points, exclusive=True, return_distance=True, all_matches=False
+        )
+        apart[which] = found
+        limits = [0.5 * rooms, np.where(leads > 0, 0.5 * leads, _HOLE), 0.4 * apart]
+        return np.clip(np.min(limits, axis=0), 0.1, _HOLE)
+
+    def _number(self, at: int, marks: _Marks) -> bool:
+        """Write a number where there is room near its hole, with a line to it where it does not stand beside it alone;
+        whether there was room."""
+        for size in (_FONT, _LEAST):
+            half = self._half_a_box(str(at + 1), size)
+            if found := self._room_beside(at, marks, half):
+                middle, line = found
+                if len(line):
+                    look = {"linewidth": 0.25, "capstyle": "projecting", "zorder": 4, "gid": "number-line"}
+                    self._lines(line[None, [0, -1]], edgecolor=_MARK, **look)
+                for taken in (self.taken, self.marked):
+                    taken.along(line)
+                    taken.take(middle - half, middle + half)
+                self._text(middle, str(at + 1), size, _MARK, ha="center", va="center", gid="number", zorder=6)
+                return True
+        return False
+
+    def _room_beside(self, at: int, marks: _Marks, half: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """The middle of a free box near a hole, and places along the line to it, none where it needs no line; `half`:
+        half the box's sides."""
+        hole, radius = marks.places[at], marks.radii[at]
+        rings = np.arange(radius + 0.5, _FAR, 0.8)
+        middles = (hole + (rings[:, None, None] + half) * _AROUND_A_HOLE).reshape(-1, 2)
+        free = np.flatnonzero(self.taken.are_free(middles - half, middles + half))
+        far = rings[free // len(_AROUND_A_HOLE)]
+        near = middles[free[far <= np.minimum(radius + 2.2, far[:1] + _ALONE)]]
+        alone = near[marks.are_alone(at, near, half)]
+        if len(alone):
+            return alone[0], np.zeros((0, 2))
+        for one, length in zip(free, far, strict=True):
+            along = np.linspace(radius, length, int(length / _GRID) + 2)
+            line = hole + along[:, None] * _AROUND_A_HOLE[one % len(_AROUND_A_HOLE)]
+            if self.marked.is_free_along(line[along > radius + 2 * _GRID]):
+                return middles[one], line
+        return None
+
+    def _table(self) -> None:
+        """Number, place, kind and length of each start hole."""
+        routes = self.job.routes
+        lengths = np.zeros(len(routes))
+        for cut in self.job.checked.cuts:
+            lengths[cut.route] += cut.length
+        shown = min(len(routes), self.columns * self.per_column)
+        top = self.page[1] - _MARGIN - 2
+        right = self.page[0] - _MARGIN
+        for at in range(shown):
+            column, row = divmod(at, self.per_column)
+            x = right - (self.columns - column) * _COLUMN
+            if row == 0:
+                self._row(x, top, ("no.", "x, mm", "y, mm", "contour", "mm cut"), _GREY)
+            route = routes[at]
+            # (-0.0001 is 0.000)
+            x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
+            cells = (str(at + 1), x_, y_, _called(route))
+            self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[at]:.{lengths[at] < 1e5:d}f}"), _INK)
+        if shown < len(routes):
+            more = f"and {len(routes) - shown} more: the program has them"
+            self._text((right, _MARGIN + _HEAD + 1), more, _LEAST, _INK, ha="right")
+
+    def _row(self, x: float, y: float, cells: Iterable[str], colour: str) -> None:
+        for cell, end in zip(cells, _CELLS, strict=True):
+            self._text((x + end, y), cell, _LEAST, colour, ha="left" if end == _CELLS[3] else "right", va="center")
+
+    def _title(self, left_out: int) -> None:
+        """The block of facts at the foot of the page."""
+        job, facts, page = self.job, self.facts, self.page
+        for y in (_MARGIN, _MARGIN + _HEAD - 2):
+            self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
+        offsets = max((route.passes for route in job.routes), key=lambda passes: (any(passes), len(passes)))
+        beside = ", ".join(short(abs(r)) for r in offsets) + " mm"
+        if not any(offsets):
+            beside = "0, the wire's middle on the contour"
+        wire = "not told" if facts.wire is None else f"{short(facts.wire)} mm, gap {short(facts.gap)} mm"
+        tabs = {route.tab for route in job.routes if route.tab}
+        ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
+        columns = (
+            (("drawing", facts.drawing), ("tape", facts.tape), ("date", date.today().isoformat()), ("scale", ratio)),
+            (
+                ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
+                ("read in", facts.units),
+                ("contours", f"{len(job.routes)}, {len(job.routes)} start holes"),
+                ("stops", f"{len(job.tape.stops)}; {len(job.tape.blocks)} blocks"),
+            ),
+            (
+                ("wire", wire),
+                ("offset", beside),
+                ("passes", f"{len(offsets)}, {'every second one backwards' if len(offsets) > 1 else 'one way'}"),
+                ("tab", f"{short(max(tabs))} mm, the machine stops before it" if tabs else "none"),
+            ),
+            (
+                ("cut length", f"{job.cut_length:.1f} mm"),
+                ("time", f"{duration(job.seconds)} at {job.settings.feed:g} mm/min"),
+                ("ROM", job.settings.rom),
+                ("numbers", "order of cutting" + (f", {left_out} without room" if left_out else "")),
+            ),
+        )
+        wide = (page[0] - 2 * _MARGIN) / len(columns)
+        for column, facts_ in enumerate(columns):
+            for row, (name, value) in enumerate(facts_):
+                x, y = _MARGIN + column * wide + 1, _MARGIN + _HEAD - 6 - row * 5
+                self._text((x, y), name, 5.5, _GREY, va="center")
+                self._text((x + 14, y), *_fitted(value, wide - 16), _INK, va="center")
+
+    def save(self, output: str, form: str) -> None:
+        """Write the page as "pdf", "svg" or "png"."""
+        save(self.figure, output, form, 200)
+
+
+def _way(samples: Places) -> float:
+    """The direction in the middle of a curve."""
+    at = min(len(samples) - 2, int(0.5 * (len(samples) - 1)))
+    (x, y), (u, v) = samples[at], samples[at + 1]
+    return float(np.arctan2(v - y, u - x))
+
+
+def _called(route: PlannedContour) -> str:
+    """What a contour is, and the way around it."""
+    if not route.contour.is_closed:
+        return kind(route).split()[0]
+    return f"{kind(route)} {'ccw' if route.contour.area > 0 else 'cw'}"
+
+
+def _fitted(text: str, width: float) -> tuple[str, float]:
+    """A text that is no wider than `width` mm, and the size of its letters: small ones before some in the middle are
+    left out."""
+    letters = [_WIDE * 0.95 * _POINT * (1.7 if east_asian_width(one) in "WF" else 1) for one in text]
+    size = max(_LEAST, min(_FACT, width / max(sum(letters), 1e-9)))
+    room = width / size
+    if sum(letters) <= room:
+        return text, size
+    first = last = len(letters) // 2
+    while sum(letters[:first] + letters[last:]) > room - _WIDE * _POINT:
+        first, last = (first - 1, last) if first > len(letters) - last else (first, last + 1)
+    return f"{text[:first]}…{text[last:]}", size
+
+
+def write_sheet(job: Job, facts: Facts, output: str, form: str) -> None:
+    """Write the setup sheet of a job; `form` is "pdf", "svg" or "png"."""
+    sheet = SetupSheet(job, facts)
+    sheet.draw()
+    sheet.save(output, form)

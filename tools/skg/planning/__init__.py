@@ -1,0 +1,1 @@
+"""Contours planned: their order, their start holes and passes."""

@@ -1,0 +1,124 @@
+"""Where a closed contour may be entered: within its longest edges, with room for a tab before the entry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from math import inf
+from typing import NamedTuple
+
+from skg.geometry.contour import Contour
+from skg.geometry.plane import XY, distance, turn
+from skg.planning.route import split_curve
+
+#: How many edges of a contour are tried for a start hole with room around it.
+_TRIED = 8
+#: Edges of so often R are surely there beside the contour.
+_SURE = 4.0
+#: A contour with a tab is so many times as long as that, or has an edge that is so many times as long.
+_LONG, _ROOM = 3, 1.2
+
+
+def _turned_to(contour: Contour, at: int) -> Contour:
+    """The closed contour, beginning with another of its edges."""
+    return contour if not at else replace(contour, edges=contour.edges[at:] + contour.edges[:at])
+
+
+def entry_near(contour: Contour, start: XY, offset: float) -> tuple[Contour, float]:
+    """Begin a closed contour where it is nearest to the start hole, but well inside an edge."""
+    best = (inf, 0, 0.0)
+    for at, edge in enumerate(contour.edges):
+        if edge.nodes:
+            continue
+        margin = min(0.4, (2 * abs(offset) + 0.05) / edge.length)
+        part = edge.nearest(start)
+        if not edge.is_circle:
+            part = min(1 - margin, max(margin, part))
+        # A full circle is entered by a straight radial move; elsewhere any place of the edge will do.
+        best = min(best, (distance(edge.at(part), start), at, part))
+    if best[0] == inf:
+        entry = next(_entries_on_curve(contour))
+        return entry.begun(contour), entry.part
+    return _turned_to(contour, best[1]), best[2]
+
+
+class EntryAt(NamedTuple):
+    """Where a closed contour may begin: at `part` of its edge number `at`, or at a `node` of that edge, a curve."""
+
+    at: int
+    part: float = 0.0
+    node: int = 0
+
+    def begun(self, contour: Contour) -> Contour:
+        """The contour, beginning with the edge of the entry: at its part, at the node."""
+        turned = _turned_to(contour, self.at)
+        if not self.node:
+            return turned
+        before, after = split_curve(turned.edges[0], self.node)
+        return replace(contour, edges=(after, *turned.edges[1:], before), copies=1)
+
+
+def _entries_on_curve(contour: Contour) -> Iterator[EntryAt]:
+    """Begin a contour at nodes inside its longest curve (first, a closed one at its seam)."""
+    at = max(range(len(contour.edges)), key=lambda k: contour.edges[k].length)
+    edge = contour.edges[at]
+    is_smooth = len(contour.edges) == 1 and abs(turn(edge.nodes[0].angle, edge.nodes[-1].angle)) < 1e-3
+    inner = {len(edge.nodes) * k // 4 for k in (1, 2, 3)} - {0, len(edge.nodes) - 1}
+    if is_smooth or not inner:
+        yield EntryAt(at)
+    for node in sorted(inner, key=lambda k: abs(2 * k - len(edge.nodes))):
+        yield EntryAt(at, node=node)
+
+
+def is_long(contour: Contour, tab: float) -> bool:
+    """Whether there is room for a tab that goes around corners."""
+    return sum(edge.length for edge in contour.edges) > _LONG * tab
+
+
+def longest_tab(contour: Contour) -> float:
+    """A closed contour has room for a tab that is shorter than this (mm): in an edge, or around corners."""
+    lengths = [edge.length for edge in contour.edges]
+    return max(max(lengths) / _ROOM, sum(lengths) / _LONG)
+
+
+def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]:
+    """Where a closed contour may begin: in its longest lines, else in its longest arcs, else on a curve.
+
+    The tab lies before the entry, on the same edge where there is one that is long enough. `widest`: the largest R.
+    Copies of a tooth are entered where one of them begins: there the next one goes on.
+    """
+    if not tab and len(contour.edges) == 1 and contour.edges[0].is_circle:
+        # (there is nothing to choose from)
+        yield from _on_edges(contour, [(0, contour.edges[0].length)], tab)
+        return
+    if contour.copies > 1 and not tab:
+        yield EntryAt(0)
+    lengths = [edge.length for edge in contour.edges]
+    ranked = sorted(
+        (at for at, edge in enumerate(contour.edges) if not edge.nodes),
+        key=lambda at: (not contour.edges[at].is_line, -lengths[at]),
+    )
+    fitting = [at for at in ranked if lengths[at] > _ROOM * tab]
+    # (a short edge may not be there any more beside the contour)
+    sure = [at for at in fitting if lengths[at] > _SURE * widest]
+    unsure = [at for at in fitting if lengths[at] <= _SURE * widest]
+    yield from _on_edges(contour, [(at, lengths[at]) for at in sure[:_TRIED]], tab)
+    if any(edge.nodes and length > _ROOM * tab for edge, length in zip(contour.edges, lengths, strict=True)):
+        yield from _entries_on_curve(contour)
+    yield from _on_edges(contour, [(at, lengths[at]) for at in unsure[:_TRIED]], tab)
+    if not fitting and is_long(contour, tab):
+        for at in ranked[:_TRIED]:
+            yield EntryAt(at, 0.5)
+        if not ranked:
+            yield from _entries_on_curve(contour)
+
+
+def _on_edges(contour: Contour, edges: Iterable[tuple[int, float]], tab: float) -> Iterator[EntryAt]:
+    """Entries in the middle of edges, given by their numbers and lengths, and aside from it, behind a tab."""
+    for at, length in edges:
+        is_circle = contour.edges[at].is_circle
+        aside = tab / 2 / length if tab else 0.0
+        for part in (0.0, 0.25, 0.5, 0.75) if is_circle else (0.5, 0.3, 0.7):
+            part += aside
+            if is_circle or part - 2 * aside > 0.05 and part < 0.95:
+                yield EntryAt(at, part % 1)

@@ -1,0 +1,32 @@
+"""What lies in openings that are not cut: it would be cut in the middle of the part (shapely)."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import shapely
+
+from skg.geometry.areas import areas_of
+from skg.planning.route import PlannedContour
+
+
+def islands(routes: Sequence[PlannedContour], openings: Collection[int]) -> dict[int, int]:
+    """The routes (by their numbers) that lie in some openings, other routes, and the innermost of these for each."""
+    around = sorted((at for at in openings if routes[at].is_opening), key=lambda at: routes[at].depth)
+    if not around:
+        return {}
+    least = routes[around[0]].depth
+    others = [at for at, route in enumerate(routes) if at not in openings and route.depth > least]
+    if not others:
+        return {}
+    places = shapely.points([routes[at].contour.edges[0].at(0.5) for at in others])
+    if closed := [k for k, at in enumerate(others) if routes[at].contour.is_closed]:
+        places[closed] = shapely.point_on_surface(areas_of([routes[others[k]].contour for k in closed]))
+    areas = areas_of([routes[at].contour for at in around])
+    one, other = shapely.STRtree(places).query(areas, predicate="contains")
+    found: dict[int, int] = {}
+    for opening, inner in zip(one.tolist(), other.tolist(), strict=True):
+        # (the openings come in the order of their depths)
+        if routes[others[inner]].depth > routes[around[opening]].depth:
+            found[others[inner]] = around[opening]
+    return found

@@ -1,0 +1,1 @@
+"""Drawings read: a DXF or SVG file becomes contours."""

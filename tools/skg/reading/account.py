@@ -1,0 +1,204 @@
+"""What was read from a drawing: every entity with what became of it, and the report in text."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from skg.geometry.contour import Edge
+from skg.geometry.plane import XY
+from skg.wording import counted, short, shown
+
+#: Why what only writes on a drawing, or fills what is drawn, is left.
+NOTE = "nothing to cut"
+#: Places that a line of the report names before it says how many more there are.
+_PLACES = 5
+
+
+@dataclass(slots=True)
+class Entity:
+    """One entity of a file (those of a block as often as the block is inserted).
+
+    `kind`: its name in the file, such as LWPOLYLINE or path; `place`: a place on it in the file's own units.
+    `left`: why it is not cut, or not all of it; empty while it is. `is_odd`: it is left because it was not understood,
+    not because it is nothing to cut. `dashes`: the name of its line type where that is not drawn through.
+    """
+
+    kind: str
+    layer: str
+    place: XY
+    left: str = ""
+    is_odd: bool = False
+    dashes: str = ""
+
+
+@dataclass
+class Content:
+    """What a file holds: its entities, their edges in mm (each with the number of its entity), start points in mm,
+    and what is to be said of them."""
+
+    entities: list[Entity] = field(default_factory=list)
+    edges: list[Edge] = field(default_factory=list)
+    starts: list[XY] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+@dataclass
+class LayerSum:
+    """A layer's entities: how many were read, cut, cut in part and left; `why`: reason -> kinds of those left."""
+
+    layer: str
+    read: int = 0
+    cut: int = 0
+    part: int = 0
+    left: int = 0
+    why: dict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
+
+
+@dataclass(frozen=True)
+class OpenEnd:
+    """An end of an open contour: its place and that of the nearest other end (in the file's units), the gap between
+    them in mm; without another end None and infinity. A tolerance of the gap's width closes it, `can_join`: without
+    making one point of any edge."""
+
+    place: XY
+    other: XY | None
+    gap: float
+    can_join: bool = False
+
+    @property
+    def advice(self) -> str:
+        """How the gap is closed."""
+        if self.can_join:
+            return f"--tolerance {above(self.gap)} joins them"
+        return "wider than the shortest edge, so --tolerance is no help: close it in the drawing"
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """Two edges on each other. `what`: "drawn twice", "overlap", "touch" or "cross"; `place` in the file's units."""
+
+    what: str
+    layer: str
+    place: XY
+
+
+@dataclass
+class Account:
+    """What a person must know about a drawing that was read.
+
+    `units`: those it was read in; `units_from`: who said so. `factor`: mm in one unit of the file. `low`, `high`: the
+    box around the contours, mm. `layers`: the sums of all layers. `rest`: entities at junctions, of which (some of) the
+    edges belong to no closed outline.
+    """
+
+    name: str
+    units: str
+    units_from: str
+    factor: float
+    low: XY = (0.0, 0.0)
+    high: XY = (0.0, 0.0)
+    closed: int = 0
+    open: int = 0
+    length: float = 0.0
+    layers: list[LayerSum] = field(default_factory=list)
+    open_ends: list[OpenEnd] = field(default_factory=list)
+    not_understood: list[Entity] = field(default_factory=list)
+    rest: list[Entity] = field(default_factory=list)
+    overlaps: list[Overlap] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def size(self) -> XY:
+        """Width and height of all contours, mm."""
+        return self.high[0] - self.low[0], self.high[1] - self.low[1]
+
+    def first_gap(self) -> str:
+        """The narrowest gap between open ends."""
+        nearest = min(self.open_ends, key=lambda end: end.gap)
+        message = f"the first end at {shown(nearest.place)}"
+        if nearest.other is None:
+            return message
+        return f"{message}, {short(nearest.gap)} mm from that at {shown(nearest.other)}; {nearest.advice}"
+
+    def lines(self) -> list[str]:
+        """The report as lines of text, without the file's name."""
+        width, height = self.size
+        found = [f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from})"]
+        found += [_of_layer(layer) for layer in self.layers]
+        kinds = [f"{self.closed} closed"] * bool(self.closed) + [f"{self.open} open"] * bool(self.open)
+        found.append(f"{counted(self.closed + self.open, 'contour')}: {', '.join(kinds)}; {short(self.length)} mm")
+        for end in self.open_ends[:_PLACES]:
+            line = f"open end at {shown(end.place)}"
+            if end.other is not None:
+                line += f", {short(end.gap)} mm from {shown(end.other)}; {end.advice}"
+            found.append(line)
+        found += _more(self.open_ends, "open end")
+        for entity in self.not_understood[:_PLACES]:
+            found.append(f"not cut: {entity.kind} on layer {entity.layer} at {shown(entity.place)}: {entity.left}")
+        found += _more(self.not_understood, "entity not understood", "entities not understood")
+        found += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
+        for what in ("drawn twice", "overlap", "cross", "touch"):
+            found += _overlaps(what, [overlap for overlap in self.overlaps if overlap.what == what])
+        return found + self.notes
+
+
+def said(entities: Iterable[Entity], nouns: tuple[str, str], what: str, then: str) -> Iterator[str]:
+    """What is odd about entities and what is made of that, a line for each layer; `nouns`: one and many."""
+    layers: dict[str, list[Entity]] = defaultdict(list)
+    for entity in entities:
+        layers[entity.layer].append(entity)
+    for layer, some in sorted(layers.items()):
+        yield f"{counted(len(some), *nouns)} on layer {layer} {what}, as at {shown(some[0].place)}: {then}"
+
+
+def listed(kinds: dict[str, int]) -> str:
+    """Kinds of entities with their numbers."""
+    return ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+
+
+def above(gap: float) -> str:
+    """A tolerance that a gap is surely within."""
+    return f"{gap * 1.01 + 1e-4:.4g}"
+
+
+def _more(all_of_them: list, noun: str, nouns: str = "") -> list[str]:
+    more = len(all_of_them) - _PLACES
+    return [f"and {counted(more, f'more {noun}', f'more {nouns}' * bool(nouns))}"] if more > 0 else []
+
+
+def _of_layer(layer: LayerSum) -> str:
+    parts = [f"{layer.cut} cut"] * bool(layer.cut) + [f"{layer.part} cut in part"] * bool(layer.part)
+    parts += [f"{layer.left} left"] * bool(layer.left)
+    line = f"layer {layer.layer}: {counted(layer.read, 'entity', 'entities')}, {', '.join(parts) or 'none cut'}"
+    reasons = [f"{listed(kinds)} ({reason})" for reason, kinds in layer.why.items()]
+    return line + (f": {', '.join(reasons)}" if reasons else "")
+
+
+def _places(head: str, entities: Iterable[Entity]) -> list[str]:
+    """Entities by layer and kind, with their places."""
+    groups: dict[tuple[str, str], list[XY]] = defaultdict(list)
+    for entity in entities:
+        groups[entity.layer, entity.kind].append(entity.place)
+    found = []
+    for (layer, kind), places in groups.items():
+        more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
+        found.append(f"{head} {len(places)} {kind} on layer {layer} at {', '.join(map(shown, places[:_PLACES]))}{more}")
+    return found
+
+
+def _overlaps(what: str, overlaps: list[Overlap]) -> list[str]:
+    groups: dict[str, list[XY]] = defaultdict(list)
+    for overlap in overlaps:
+        groups[overlap.layer].append(overlap.place)
+    found = []
+    for layer, places in groups.items():
+        more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
+        found.append(
+            f"{counted(len(places), 'place')} on layer {layer} where lines {what}: "
+            if what != "drawn twice"
+            else f"{counted(len(places), 'edge')} on layer {layer} drawn twice, cut once: "
+        )
+        found[-1] += f"{', '.join(map(shown, places[:_PLACES]))}{more}"
+    return found

@@ -1,0 +1,493 @@
+"""Chaining: the contours that edges make, and what is left where more than two of them meet.
+
+An entity that closes by itself (a circle, a closed polyline) is a contour, whatever touches it. All other edges are the
+lines of a graph whose corners are places where ends meet. A corner of two edges is a corner of a contour; where more
+meet, the closed outlines are found so:
+
+1. a ring of edges of one layer and type of line that meet no others of these is an outline, whatever else meets it
+   (lines to measure to, lines to bend along);
+2. of the others what hangs on a junction and ends free is no outline, nor is what alone joins two parts (a bridge);
+3. what then is left falls into blocks that hang together at single corners: a block that is a ring is an outline;
+4. of a block with junctions the boundary around all of it is an outline, followed from its lowest place on;
+5. what lies within that is looked at once more, and rings are outlines unless they turn off at a junction where
+   another edge goes straight on (cells between crossing lines).
+
+The rest is handed back, nothing is dropped.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from math import asin, atan2, copysign, hypot, pi
+
+import numpy as np
+import shapely
+
+from skg.geometry.contour import Contour, CurveNode, Edge
+from skg.geometry.piece import chords_of
+from skg.geometry.plane import XY, distance, dot, minus, turn
+
+#: Shorter edges of one polyline (mm) go into their neighbour: the ROM takes such places for one.
+_LEAST = 1e-3
+#: Ends of neighbours in one entity lie within this of each other, mm.
+_EXACT = 1e-6
+#: Directions within this (radians) run straight on.
+_STRAIGHT_ON = 0.02
+#: The chords that stand for an arc that is bent are this near to it, mm.
+_CHORD = 1e-4
+#: An arc whose ends were moved may leave the drawn one by this, mm; else it is bent at its ends alone.
+_BENT = 1e-3
+
+
+#: Of each entity how it is drawn: its layer, its type of line.
+Styles = Sequence[Hashable]
+
+
+@dataclass
+class Chains:
+    """What edges make; each edge that went in is in one of these, once.
+
+    `contours`: in the order of the edges, their ends moved to common corners; `rest`: runs of edges at junctions that
+    belong to no closed outline; `doubles`: drawn twice, with the edge that each was drawn on; `short`: shorter than the
+    tolerance.
+    """
+
+    contours: list[Contour] = field(default_factory=list)
+    rest: list[Contour] = field(default_factory=list)
+    doubles: list[tuple[Edge, Edge]] = field(default_factory=list)
+    short: list[Edge] = field(default_factory=list)
+
+
+class _Corners:
+    """Ends of edges, those within a tolerance of each other taken as one corner, in their middle."""
+
+    def __init__(self, tolerance: float) -> None:
+        self.tolerance = tolerance
+        self.cells: dict[tuple[int, int], list[int]] = defaultdict(list)
+        self.first: list[XY] = []
+        self.members: list[list[XY]] = []
+
+    def index(self, point: XY) -> int:
+        """The number of the corner at a point."""
+        column, row = (int(ordinate // self.tolerance) for ordinate in point)
+        for i in (column, column - 1, column + 1):
+            for j in (row, row - 1, row + 1):
+                for known in self.cells.get((i, j), ()):
+                    if distance(self.first[known], point) <= self.tolerance:
+                        self.members[known].append(point)
+                        return known
+        self.first.append(point)
+        self.members.append([point])
+        self.cells[column, row].append(len(self.first) - 1)
+        return len(self.first) - 1
+
+    def points(self) -> list[XY]:
+        """Where the corners are."""
+        return [
+            (sum(x for x, _ in members) / len(members), sum(y for _, y in members) / len(members))
+            for members in self.members
+        ]
+
+
+def moved(edge: Edge, start: XY, end: XY) -> Edge:
+    """The edge with its ends moved to given places; it stays where it was as nearly as it can."""
+    if (edge.start, edge.end) == (start, end):
+        return edge
+    if edge.nodes:
+        nodes = (CurveNode(start, edge.nodes[0].angle), *edge.nodes[1:-1], CurveNode(end, edge.nodes[-1].angle))
+        samples = edge.samples.copy()
+        samples[0], samples[-1] = start, end
+        return replace(edge, start=start, end=end, nodes=nodes, samples=samples)
+    if edge.centre is None or edge.is_circle:
+        return replace(edge, start=start, end=end)
+    off = max(abs(distance(point, edge.centre) - edge.radius) for point in (start, end))
+    if off < 1e-4:
+        return replace(edge, start=start, end=end)
+    # The centre goes to the nearest place that has the same distance from both ends.
+    chord = minus(end, start)
+    length = hypot(*chord)
+    if length > 0:
+        middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+        part = dot(minus(middle, edge.centre), chord) / length**2
+        centre = edge.centre[0] + part * chord[0], edge.centre[1] + part * chord[1]
+        if distance(centre, edge.centre) < _BENT:
+            angles = (atan2(*reversed(minus(point, centre))) for point in (start, end))
+            sweep = edge.sweep + turn(edge.sweep, turn(*angles))
+            return replace(edge, start=start, end=end, centre=centre, sweep=sweep)
+    pieces = max(3, int(abs(edge.sweep) / 0.5) + 1)
+    nodes = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
+    nodes[0], nodes[-1] = CurveNode(start, nodes[0].angle), CurveNode(end, nodes[-1].angle)
+    fine = max(pieces, chords_of(edge.radius, edge.sweep, _CHORD))
+    samples = [start, *edge.parted(fine)[1:-1], end]
+    return Edge(start, end, nodes=tuple(nodes), samples=np.array(samples), entity=edge.entity)
+
+
+def _twin(one: Edge, others: list[Edge], tolerance: float) -> Edge | None:
+    """The edge that one was drawn on, if there is any."""
+    for other in others:
+        for way in (other, other.reversed()):
+            if max(distance(one.start, way.start), distance(one.end, way.end)) > tolerance:
+                continue
+            if one.nodes or other.nodes:
+                # (what is run through backwards has other samples)
+                is_on = _off(one, other) <= tolerance >= _off(other, one)
+            else:
+                is_on = distance(one.at(0.5), way.at(0.5)) <= tolerance
+            if is_on:
+                return other
+    return None
+
+
+def _off(one: Edge, other: Edge) -> float:
+    """How far one edge leaves another one, at its points."""
+    if other.nodes:
+        return float(shapely.distance(shapely.points(one.points()), shapely.linestrings(other.samples)).max())
+    return max(map(other.far, one.points()))
+
+
+def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chains:
+    """Return what edges make whose ends within `tolerance` (mm) of each other join.
+
+    `styles`: of each entity how it is drawn; empty where all are drawn alike.
+    """
+    found = Chains()
+    loose: list[Edge] = []
+    groups: dict[int, list[Edge]] = defaultdict(list)
+    for edge in edges:
+        groups[edge.entity if edge.entity >= 0 else -1 - len(groups)].append(edge)
+    for group in groups.values():
+        kept, short = _without_short(group) if _is_ring(group, tolerance) else ([], [])
+        if not kept:
+            loose += group
+            continue
+        found.short += short
+        found.contours.append(Contour(tuple(kept), True))
+    _Graph(loose, tolerance, found).chain(styles)
+    found.contours.sort(key=lambda contour: min(edge.entity for edge in contour.edges))
+    return found
+
+
+def _is_ring(group: list[Edge], tolerance: float) -> bool:
+    """Whether the edges of one entity close by themselves, around some area."""
+    if len(group) == 1:
+        edge = group[0]
+        return edge.is_circle or (edge.start == edge.end and edge.length > 3 * tolerance)
+    following = [*group[1:], group[0]]
+    if any(distance(one.end, other.start) > _EXACT for one, other in zip(group, following, strict=True)):
+        return False
+    length = sum(edge.length for edge in group)
+    return abs(Contour(tuple(group), True).area) > 0.1 * tolerance * length
+
+
+def _without_short(group: list[Edge]) -> tuple[list[Edge], list[Edge]]:
+    """A ring's edges without those that are too short for the ROM, and these."""
+    kept: list[Edge] = []
+    short: list[Edge] = []
+    for edge in group:
+        if distance(edge.start, edge.end) < _LEAST and edge.length < 2 * _LEAST:
+            short.append(edge)
+        elif kept:
+            kept.append(moved(edge, kept[-1].end, edge.end))
+        else:
+            kept.append(edge)
+    if kept and kept[-1].end != kept[0].start:
+        kept[-1] = moved(kept[-1], kept[-1].start, kept[0].start)
+    return kept, short
+
+
+#: An edge of the graph by its number, and whether it is run through from its first end to its last.
+_Step = tuple[int, bool]
+
+
+class _Graph:
+    """Edges whose ends are corners."""
+
+    def __init__(self, edges: list[Edge], tolerance: float, found: Chains) -> None:
+        self.found = found
+        corners = _Corners(tolerance)
+        self.edges: list[Edge] = []
+        self.ends: list[tuple[int, int]] = []
+        self.at: dict[int, list[int]] = defaultdict(list)
+        known: dict[tuple[int, int], list[Edge]] = defaultdict(list)
+        for edge in edges:
+            first, last = corners.index(edge.start), corners.index(edge.end)
+            alike = known[min(first, last), max(first, last)]
+            if first == last and edge.length <= 3 * tolerance:
+                found.short.append(edge)
+            elif twin := _twin(edge, alike, tolerance):
+                found.doubles.append((edge, twin))
+            elif first == last:
+                alike.append(edge)
+                found.contours.append(Contour((moved(edge, edge.start, edge.start),), True))
+            else:
+                alike.append(edge)
+                for corner in (first, last):
+                    self.at[corner].append(len(self.edges))
+                self.edges.append(edge)
+                self.ends.append((first, last))
+        self.corners = corners.points()
+
+    def other(self, at: int, corner: int) -> int:
+        """The corner at an edge's other end."""
+        first, last = self.ends[at]
+        return last if first == corner else first
+
+    def chain(self, styles: Styles) -> None:
+        """Find all contours; `styles`: see `chain`."""
+        for part in self.parts(range(len(self.edges))):
+            degrees = self.degrees(part)
+            if max(degrees.values()) <= 2:
+                (run,) = self.runs(part)
+                self.found.contours.append(self.contour(run, 1 not in degrees.values()))
+                continue
+            own = list(self.rings_of_styles(part, styles)) if styles else []
+            rings, rest = self.outlines(part.difference(*own))
+            rings += [ring for one in own for ring in self.runs(one)]
+            self.found.contours += [self.contour(ring, True) for ring in rings]
+            self.found.rest += [self.contour(run, self.is_closed(run)) for run in self.runs(rest)]
+
+    def is_closed(self, run: list[_Step]) -> bool:
+        """Whether a run ends where it begins."""
+        (first, ahead), (last, goes) = run[0], run[-1]
+        return self.ends[first][not ahead] == self.ends[last][goes]
+
+    def contour(self, run: list[_Step], is_closed: bool) -> Contour:
+        """A run of edges, their ends moved to the corners."""
+        steps = []
+        for at, ahead in run:
+            start, end = (self.corners[corner] for corner in self.ends[at])
+            edge = moved(self.edges[at], start, end)
+            steps.append(edge if ahead else edge.reversed())
+        return Contour(tuple(steps), is_closed)
+
+    def degrees(self, part: Iterable[int]) -> Counter[int]:
+        """How many of some edges meet at each corner."""
+        return Counter(corner for at in part for corner in self.ends[at])
+
+    def parts(self, some: Collection[int]) -> Iterator[set[int]]:
+        """Those of some edges that hang together."""
+        seen: set[int] = set()
+        for begin in some:
+            if begin in seen:
+                continue
+            part, open_ones = {begin}, [begin]
+            while open_ones:
+                for corner in self.ends[open_ones.pop()]:
+                    for at in self.at[corner]:
+                        if at not in part and at in some:
+                            part.add(at)
+                            open_ones.append(at)
+            seen |= part
+            yield part
+
+    def rings_of_styles(self, part: set[int], styles: Styles) -> Iterator[set[int]]:
+        """The rings of edges that meet no others drawn as they are; none where all are drawn alike."""
+        found: dict[Hashable, set[int]] = defaultdict(set)
+        for at in part:
+            found[styles[self.edges[at].entity]].add(at)
+        if len(found) > 1:
+            for some in found.values():
+                yield from filter(self.is_ring, self.parts(some))
+
+    def runs(self, part: Iterable[int]) -> Iterator[list[_Step]]:
+        """Edges that follow each other, from where none or more than one other edge meets them to the next such
+        place; a ring from its first edge's start on."""
+        part = sorted(part)
+        degrees = self.degrees(part)
+        free = set(part)
+        begins = [(at, ahead) for at in part for ahead in (True, False) if degrees[self.ends[at][not ahead]] != 2]
+        for begin in [*begins, *((at, True) for at in part)]:
+            if begin[0] not in free:
+                continue
+            at, ahead = begin
+            run = []
+            while True:
+                free.discard(at)
+                run.append((at, ahead))
+                corner = self.ends[at][ahead]
+                following = [other for other in self.at[corner] if other in free]
+                if degrees[corner] != 2 or not following:
+                    break
+                at = following[0]
+                ahead = self.ends[at][0] == corner
+            yield run
+
+    def outlines(self, part: set[int]) -> tuple[list[list[_Step]], set[int]]:
+        """The closed outlines of edges with junctions, and what is left."""
+        rings: list[list[_Step]] = []
+        for block in self.blocks(self.peeled(part)):
+            if self.is_ring(block):
+                rings += [ring for ring in self.runs(block) if not self.is_cell(ring)]
+                continue
+            boundary = self.boundary(block)
+            if boundary is None:
+                continue
+            rings.append(boundary)
+            inner = block - {at for at, _ in boundary}
+            for within in self.blocks(self.peeled(inner)):
+                if self.is_ring(within):
+                    rings += [ring for ring in self.runs(within) if not self.is_cell(ring)]
+        return rings, part - {at for ring in rings for at, _ in ring}
+
+    def is_ring(self, part: set[int]) -> bool:
+        """Whether edges that hang together are one ring."""
+        return all(degree == 2 for degree in self.degrees(part).values())
+
+    def peeled(self, part: set[int]) -> set[int]:
+        """Edges without those that end free."""
+        part = set(part)
+        degrees = self.degrees(part)
+        open_ones = [corner for corner, degree in degrees.items() if degree == 1]
+        while open_ones:
+            corner = open_ones.pop()
+            for at in self.at[corner]:
+                if at in part:
+                    part.discard(at)
+                    other = self.other(at, corner)
+                    degrees[other] -= 1
+                    if degrees[other] == 1:
+                        open_ones.append(other)
+        return part
+
+    def blocks(self, part: set[int]) -> Iterator[set[int]]:
+        """The blocks of more than one edge: edges any two of which lie on a ring. (Hopcroft and Tarjan, 1973.)"""
+        number: dict[int, int] = {}
+        low: dict[int, int] = {}
+        for root in self.degrees(part):
+            if root in number:
+                continue
+            number[root] = low[root] = len(number)
+            passed: list[int] = []
+            stack = [(root, -1, iter(self.at[root]))]
+            while stack:
+                corner, came, edges = stack[-1]
+                at = next(edges, None)
+                if at is None:
+                    stack.pop()
+                    if not stack:
+                        continue
+                    before = stack[-1][0]
+                    low[before] = min(low[before], low[corner])
+                    if low[corner] >= number[before]:
+                        block: set[int] = set()
+                        while came not in block:
+                            block.add(passed.pop())
+                        if len(block) > 1:
+                            yield block
+                    continue
+                if at == came or at not in part:
+                    continue
+                other = self.other(at, corner)
+                if other not in number:
+                    number[other] = low[other] = len(number)
+                    passed.append(at)
+                    stack.append((other, at, iter(self.at[other])))
+                elif number[other] < number[corner]:
+                    passed.append(at)
+                    low[corner] = min(low[corner], number[other])
+
+    def ahead(self, at: int, corner: int, reach: float) -> float:
+        """The direction from a corner to where an edge leaves the circle of radius `reach` around it."""
+        edge = self.edges[at] if self.ends[at][0] == corner else self.edges[at].reversed()
+        if edge.is_line:
+            return edge.direction()
+        if edge.centre is not None:
+            return edge.direction() + copysign(asin(min(1.0, reach / (2 * edge.radius))), edge.sweep)
+        samples = edge.samples
+        far = np.hypot(*(samples - edge.start).T)
+        # (the first sample that is as far away, else the last one)
+        at = 1 + int(np.argmax(far[1:] >= reach)) if far[1:].max() >= reach else len(far) - 1
+        part = (reach - far[at - 1]) / (far[at] - far[at - 1]) if far[at] > far[at - 1] else 0.0
+        x, y = samples[at - 1] + part * (samples[at] - samples[at - 1]) - edge.start
+        return atan2(y, x)
+
+    def boundary(self, block: set[int]) -> list[_Step] | None:
+        """The ring around all edges of a block, counter-clockwise; None where they cross so that there is none."""
+        lowest = min(((y, x, at, k) for at in block for k, (x, y) in enumerate(self.edges[at].points())))
+        at, place = lowest[2:]
+        points = self.edges[at].points()
+        if 0 < place < len(points) - 1:
+            begin = at, points[place + 1][0] > points[place - 1][0]
+        else:
+            corner = self.ends[at][place > 0]
+            begin = self.rightmost([other for other in self.at[corner] if other in block], corner, 0.0)
+        run: list[_Step] = []
+        seen: set[int] = set()
+        step = begin
+        while True:
+            at, ahead = step
+            run.append(step)
+            corner = self.ends[at][ahead]
+            if corner in seen:
+                return None
+            seen.add(corner)
+            others = [other for other in self.at[corner] if other in block and other != at]
+            reach = self.reach([at, *others])
+            step = self.rightmost(others, corner, self.ahead(at, corner, reach) + pi, reach)
+            if step == begin:
+                return run
+
+    def reach(self, edges: list[int]) -> float:
+        """How far along edges their directions are compared."""
+        chords = (distance(self.edges[at].start, self.edges[at].end) for at in edges)
+        return min(1.0, 0.3 * min(chords))
+
+    def rightmost(self, edges: list[int], corner: int, heading: float, reach: float | None = None) -> _Step:
+        """The edge that turns most to the right of a heading at a corner."""
+        far = self.reach(edges) if reach is None else reach
+        at = min(edges, key=lambda other: turn(heading, self.ahead(other, corner, far)))
+        return at, self.ends[at][0] == corner
+
+    def is_cell(self, ring: list[_Step]) -> bool:
+        """Whether a ring turns off at junctions alone, and each time another edge goes straight on."""
+        within = {at for at, _ in ring}
+        turns = 0
+        for (at, ahead), (following, _) in zip(ring, [*ring[1:], ring[0]], strict=True):
+            corner = self.ends[at][ahead]
+            others = [other for other in self.at[corner] if other not in within]
+            reach = self.reach([at, following, *others])
+            heading = self.ahead(at, corner, reach) + pi
+            if abs(turn(heading, self.ahead(following, corner, reach))) < _STRAIGHT_ON:
+                continue
+            turns += 1
+            if not any(abs(turn(heading, self.ahead(other, corner, reach))) < _STRAIGHT_ON for other in others):
+                return False
+        return turns > 0
+
+
+#: Circles whose middles and radii are no further apart are one, as programs write them that turn curves into arcs, mm.
+#: (As two, each with places of its own, they may end a micrometre beside where they began)
+_SAME = 1e-5
+
+
+def _merge(one: Edge, other: Edge) -> Edge | None:
+    """Two neighbours as one edge, where they lie on one line or circle and run the same way, else None."""
+    if one.is_line and other.is_line:
+        if abs(turn(one.direction(), other.direction())) < 1e-7:
+            return replace(one, end=other.end)
+    elif one.centre is not None and other.centre is not None:
+        sweep = one.sweep + other.sweep
+        is_same = distance(one.centre, other.centre) < _SAME and abs(one.radius - other.radius) < _SAME
+        if is_same and one.sweep * other.sweep > 0 and abs(sweep) <= 2 * pi + 1e-6:
+            if distance(one.start, other.end) < 1e-6 and abs(sweep) > pi:
+                return replace(one, end=one.start, sweep=2 * pi if sweep > 0 else -2 * pi)
+            return replace(one, end=other.end, sweep=sweep)
+    return None
+
+
+def merged(contour: Contour) -> Contour:
+    """The contour with neighbours merged where they are the same line or circle."""
+    edges: list[Edge] = []
+    for edge in contour.edges:
+        both = _merge(edges[-1], edge) if edges else None
+        if both is None:
+            edges.append(edge)
+        else:
+            edges[-1] = both
+    if contour.is_closed and len(edges) > 1:
+        both = _merge(edges[-1], edges[0])
+        if both is not None:
+            edges = [both, *edges[1:-1]]
+    return contour if len(edges) == len(contour.edges) else replace(contour, edges=tuple(edges))

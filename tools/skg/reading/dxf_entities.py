@@ -1,0 +1,333 @@
+"""The entities of a DXF drawing as edges, lengths in millimetres; each is accounted for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import cache
+from math import pi, radians
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+
+from skg.errors import UserError
+from skg.geometry.contour import Edge
+from skg.geometry.plane import XY
+from skg.reading import fast_dxf
+from skg.reading.account import NOTE, Content, Entity, said
+from skg.reading.curves import is_number
+from skg.reading.dxf_file import Definition, DxfFile
+from skg.reading.dxf_placing import LEAVES, NotFlat, Placing, is_full, swept
+from skg.reading.dxf_record import Record
+from skg.reading.read_options import Wishes
+
+if TYPE_CHECKING:
+    from ezdxf.entities import DXFGraphic
+    from ezdxf.math import Matrix44
+
+#: Kinds that write on a drawing, or that fill what is drawn: nothing to cut.
+NOTES = frozenset(
+    """TEXT MTEXT ATTRIB ATTDEF DIMENSION ARC_DIMENSION LARGE_RADIAL_DIMENSION LEADER MULTILEADER MLEADER TOLERANCE
+    HATCH MPOLYGON SOLID TRACE VIEWPORT IMAGE PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY WIPEOUT OLEFRAME OLE2FRAME
+    ACAD_TABLE RTEXT ARCALIGNEDTEXT POINT LIGHT CAMERA SECTION SUN GEODATA SHAPE RAY XLINE""".split()  # noqa: SIM905
+)
+#: Kinds that have no lines to cut, or none that are understood, and what a person can do.
+_NO_LINES = {
+    **dict.fromkeys(("3DFACE", "MESH"), "a face, not lines: draw its outline in the CAD program"),
+    **dict.fromkeys(
+        ("3DSOLID", "BODY", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE"),
+        "a solid, not lines: draw its outline in the CAD program",
+    ),
+    "REGION": "an ACIS body, which is not read: explode it into lines in the CAD program",
+    **dict.fromkeys(("ACAD_PROXY_ENTITY", "PROXY"), "not understood, explode it in the CAD program"),
+}
+#: Blocks within blocks within blocks.
+_DEPTH = 32
+#: The planes beside x and y that a whole drawing may stand in, with what is seen there to the right and upwards.
+_STANDING = ("xz", "yz")
+#: More entities than this in all are no drawing, but blocks that hold copies of copies.
+_MOST = 1_000_000
+#: The codes of the angles that an arc begins and ends at, and a full turn.
+_ANGLES = {"ARC": (50, 51, 360.0), "ELLIPSE": (41, 42, 2 * pi)}
+#: What an entity that cannot be read may raise.
+UNREADABLE = (ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError, AssertionError)
+
+
+class _Collector:
+    """Turns records into edges. `placing` knows where the present block's records stand on the drawing; `view`: from
+    the file's places to the drawing's, None where these are the same."""
+
+    def __init__(self, file: DxfFile, wishes: Wishes, factor: float, view: Matrix44 | None = None) -> None:
+        self.file = file
+        self.wishes = wishes
+        self.placing = Placing(factor, wishes.fit_tolerance)
+        self.placing.matrix = view
+        self.content = Content()
+        self.known: dict[int, DXFGraphic] = {}
+        self.wide: list[Entity] = []
+        self.whole: list[int] = []
+        self.thick: list[Entity] = []
+        self.through: list[Entity] = []
+        self.dashes_around = ""
+
+    def collect(self, records: Iterable[Record], inherited: str, hidden: str, blocks: tuple[str, ...]) -> None:
+        """Add records; those of a block on layer 0 lie on its reference's layer.
+
+        `hidden`: why nothing of them is seen; `blocks`: the names of those around.
+        """
+        for record in records:
+            layer = inherited if record.layer == "0" and inherited else record.layer
+            if record.kind == "INSERT":
+                self.insert(record, layer, hidden, blocks)
+            else:
+                self.one(record, layer, hidden)
+
+    def unwanted(self, layer: str) -> str:
+        """Why what is on a layer is left."""
+        return self.wishes.unwanted(layer, self.file.states.get(layer.lower(), ""))
+
+    def leaves(self) -> bool:
+        """Whether an entity leaves the drawing's plane."""
+        return any(entity.left == LEAVES for entity in self.content.entities)
+
+    def place(self, record: Record) -> XY:
+        """A place on a record's entity, in the drawing's units."""
+        at = record.place
+        if not all(map(is_number, at)):
+            return 0.0, 0.0
+        if record.value(230).strip().startswith("-1"):
+            at = -at[0], at[1]
+        if self.placing.matrix is not None:
+            at = self.placing.matrix.transform(at).xyz[:2]
+        return at
+
+    def dashes(self, record: Record, layer: str) -> str:
+        """The line type of a record that is not drawn through, else nothing."""
+        name = record.value(6).strip().upper()
+        if name == "BYBLOCK":
+            return self.dashes_around
+        if name in ("", "BYLAYER"):
+            return self.file.dashed_layers.get(layer.lower(), "")
+        return name if name in self.file.dashed else ""
+
+    def account(self, record: Record, layer: str) -> Entity:
+        """Add an account of a record."""
+        found = Entity(record.kind, layer, self.place(record))
+        self.placing.entity = len(self.content.entities)
+        self.content.entities.append(found)
+        if len(self.content.entities) > _MOST:
+            raise UserError(f"more than {_MOST:,} entities, expected a drawing")
+        return found
+
+    def one(self, record: Record, layer: str, hidden: str) -> None:
+        """Add what is no block reference."""
+        account = self.account(record, layer)
+        is_start = self.wishes.is_start(layer)
+        account.left = hidden or self.unwanted(layer) or ("invisible" if record.whole(60) else "")
+        if not account.left and _is_note(record.kind, is_start):
+            account.left = NOTE
+        if account.left:
+            return
+        known = len(self.content.edges)
+        try:
+            if is_start:
+                self.content.starts.append(self.start(record))
+                account.left = "a start hole"
+                return
+            for edge in self.edges_of(record):
+                self.add(edge)
+            if len(self.content.edges) > known:
+                self.describe(record, account, self.content.edges[known].start)
+            else:
+                account.left = "it has no length"
+            return
+        except NotFlat as error:
+            account.left = str(error)
+        except UNREADABLE as error:
+            account.left = _unread(error)
+        account.is_odd = True
+        del self.content.edges[known:]
+
+    def describe(self, record: Record, account: Entity, start: XY) -> None:
+        """Note what there is to say of a record that is cut from `start` on, mm."""
+        account.place = start[0] / self.placing.factor, start[1] / self.placing.factor
+        account.dashes = self.dashes(record, account.layer)
+        if record.value(39).strip(" 0.+-eE"):
+            self.thick.append(account)
+        if _is_wide(record):
+            self.wide.append(account)
+        if _is_whole(record):
+            self.whole.append(self.placing.entity)
+
+    def entity(self, record: Record) -> DXFGraphic:
+        """ezdxf's entity of a record, made once."""
+        slow_dxf = _slow_dxf()
+        if self.placing.matrix is None:
+            return slow_dxf.entity(record)
+        if id(record) not in self.known:
+            self.known[id(record)] = slow_dxf.entity(record)
+        return self.known[id(record)]
+
+    def insert(self, record: Record, layer: str, hidden: str, blocks: tuple[str, ...]) -> None:
+        """Add what a block reference shows, once for each place of its array."""
+        name = record.value(2).strip()
+        block = self.file.blocks.get(name.lower())
+        reason = ""
+        if block is None:
+            reason = f"its block {name} is not in the file"
+        elif block.is_external:
+            reason = f"its block {name} is in another file"
+        elif name.lower() in blocks or len(blocks) > _DEPTH:
+            reason = f"its block {name} is part of itself"
+        hidden = hidden or ("invisible" if record.whole(60) else "")
+        if self.file.states.get(layer.lower()) == "frozen":
+            hidden = hidden or self.unwanted(layer)
+        outer = self.placing.matrix, self.dashes_around
+        try:
+            matrices = [] if reason else self.matrices(record, block)
+        except UNREADABLE as error:
+            reason = _unread(error)
+        if reason:
+            account = self.account(record, layer)
+            account.left = hidden or self.unwanted(layer) or reason
+            account.is_odd = account.left == reason
+            return
+        self.dashes_around = self.dashes(record, layer)
+        for matrix in matrices:
+            self.placing.matrix = matrix
+            self.collect(block.records, layer, hidden, (*blocks, name.lower()))
+        self.placing.matrix, self.dashes_around = outer
+        self.collect((part for part in record.parts if part.kind == "ATTRIB"), layer, hidden, blocks)
+
+    def matrices(self, record: Record, block: Definition) -> list[Matrix44]:
+        """From a block's content to the drawing, for each place of a reference's array."""
+        return _slow_dxf().placed(record, block.base, self.placing.matrix)
+
+    def start(self, record: Record) -> XY:
+        """A start hole: a POINT, or a CIRCLE around it."""
+        (place,) = self.placing.points([_slow_dxf().start(self.entity(record))])
+        return place
+
+    def edges_of(self, record: Record) -> Iterable[Edge]:
+        """One record's edges."""
+        placing = self.placing
+        if record.kind in fast_dxf.POLYLINES and (line := fast_dxf.polyline(record)):
+            points = [(x, y, line.height) for x, y, _ in line.vertices]
+            return placing.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)
+        if record.kind in fast_dxf.KINDS and (given := fast_dxf.numbers(record)):
+            if record.kind == "LINE":
+                return [placing.line(given[:3], given[3:])]
+            first, last = map(radians, given[4:] or (0.0, 360.0))
+            sweep = swept(first, last) if record.kind == "ARC" else 2 * pi
+            return placing.arc(given[:3], given[3], first, sweep)
+        if record.kind in _NO_LINES:
+            raise NotFlat(_NO_LINES[record.kind])
+        slow_dxf, entity = _slow_dxf(), self.entity(record)
+        if slow_dxf.is_through_places(entity):
+            self.through.append(self.content.entities[-1])
+        return slow_dxf.edges(entity, placing, self.file.multiline_styles)
+
+    def add(self, edge: Edge) -> None:
+        """Keep an edge unless it has no length."""
+        if edge.length > 0:
+            number = self.placing.entity
+            self.content.edges.append(edge if edge.entity == number else replace(edge, entity=number))
+
+
+@cache
+def _slow_dxf() -> ModuleType:
+    """`skg.reading.slow_dxf`: slow to import, and many drawings do not need it."""
+    from skg.reading import slow_dxf
+
+    return slow_dxf
+
+
+def _is_note(kind: str, is_start: bool) -> bool:
+    """Whether there is nothing to cut in entities of a kind; on the layer of start holes: nothing that is one."""
+    return kind not in ("POINT", "CIRCLE") if is_start else kind in NOTES
+
+
+def _unread(error: Exception) -> str:
+    """Why an entity is left that cannot be read."""
+    return f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
+
+
+def _is_whole(record: Record) -> bool:
+    """Whether an arc that is read as a full turn ends at the angle that it begins at, not a turn further on."""
+    if record.kind not in _ANGLES:
+        return False
+    *codes, turn = _ANGLES[record.kind]
+    first, last = (float(record.value(code, "nan")) for code in codes)
+    return last - first < turn / 2 and is_full((last - first) / turn)
+
+
+def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
+    """Those of some arcs, by their numbers, that are circles: each ends at the angle that it begins at. One that lies
+    between the ends of two other lines is what is left of a fillet, and has no length."""
+    if not whole:
+        return []
+    some = set(whole)
+    begins = {edge.entity: edge.start for edge in content.edges if edge.entity in some}
+    places = np.array([end for edge in content.edges if edge.start != edge.end for end in (edge.start, edge.end)])
+    tree = shapely.STRtree(shapely.points(places.reshape(-1, 2)))
+    arcs = np.array(list(begins))
+    at = shapely.points(np.array(list(begins.values())).reshape(-1, 2))
+    near = tree.query(at, predicate="dwithin", distance=tolerance)[0]
+    gone = set(arcs[np.bincount(near, minlength=len(arcs)) >= 2].tolist())
+    for at in gone:
+        content.entities[at].left = "it ends where it begins, between two other lines"
+    content.edges = [edge for edge in content.edges if edge.entity not in gone]
+    return [at for at in whole if at not in gone]
+
+
+def _is_wide(record: Record) -> bool:
+    """Whether a polyline is drawn with a width."""
+    if record.kind not in ("POLYLINE", "LWPOLYLINE"):
+        return False
+    widths = (value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43))
+    return any(width.strip(" 0.+-eE") for width in widths)
+
+
+def _standing(flat: _Collector) -> _Collector | None:
+    """The same drawing seen from the front or from the right, where all of it that is wanted stands upright."""
+    if not flat.leaves():
+        return None
+    for plane in _STANDING:
+        seen = _Collector(flat.file, flat.wishes, flat.placing.factor, _slow_dxf().view(plane))
+        seen.collect(flat.file.model, "", "", ())
+        if seen.content.edges and not seen.leaves():
+            flat.file.notes.append(
+                f"the drawing stands in the plane of {' and '.join(plane)}: read as it is seen there"
+            )
+            return seen
+    return None
+
+
+def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
+    """Return the entities of a drawing, and the edges of those of its model space that are wanted, in mm.
+
+    `factor`: mm per drawing unit. A layer that the drawing does not have is a `UserError`.
+    """
+    wishes.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
+    collector = _Collector(file, wishes, factor)
+    collector.collect(file.model, "", "", ())
+    collector = _standing(collector) or collector
+    collector.placing.matrix = None
+    if not collector.content.edges and file.paper:
+        # (some programs write all that they have there)
+        collector.collect(file.paper, "", "", ())
+        if collector.content.edges:
+            file.notes.append("there is nothing to cut in the model space: the paper space was read")
+    else:
+        for record in file.paper:
+            collector.account(record, record.layer).left = "in paper space"
+    file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "the middle is cut")
+    whole = [collector.content.entities[at] for at in _circles(collector.content, collector.whole, wishes.tolerance)]
+    file.notes += said(whole, ("arc", "arcs"), "from an angle to the same angle", "a full turn is cut")
+    file.notes += said(
+        collector.through, ("spline", "splines"), "through points alone", "between them the curve is guessed"
+    )
+    file.notes += said(collector.thick, ("entity", "entities"), "with a thickness", "what it stands on is cut")
+    return collector.content

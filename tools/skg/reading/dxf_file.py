@@ -1,0 +1,245 @@
+"""A DXF file's bytes as records: its entities as they stand in the file, its blocks, layers and units.
+
+ezdxf reads a file whole or not at all, and what it mends it may lose: entities whose handles repeat, all that follows a
+section without its end, a polyline without its subclass. So the file is cut into records here, and ezdxf makes an
+entity of one by itself (`skg.reading.slow_dxf`), where it is needed: one that it cannot read is named, and costs no
+other.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from skg.errors import UserError
+from skg.file_type import kind_of
+from skg.reading.dxf_record import Group, Record, unescaped
+
+#: $INSUNITS -> the name of the units, and mm in one.
+UNITS = {
+    1: ("inch", 25.4), 2: ("foot", 304.8), 3: ("mile", 1_609_344.0), 4: ("mm", 1.0), 5: ("cm", 10.0), 6: ("m", 1000.0),
+    7: ("km", 1e6), 8: ("microinch", 2.54e-5), 9: ("mil", 0.0254), 10: ("yard", 914.4), 11: ("angstrom", 1e-7),
+    12: ("nm", 1e-6), 13: ("um", 0.001), 14: ("dm", 100.0), 15: ("dam", 1e4), 16: ("hm", 1e5), 17: ("Gm", 1e12),
+    21: ("US survey foot", 1200 / 3937 * 1000), 22: ("US survey inch", 100 / 3937 * 1000),
+    23: ("US survey yard", 3600 / 3937 * 1000), 24: ("US survey mile", 6_336_000 / 3937 * 1000),
+}  # fmt: skip
+_BINARY, _IS_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00", b"AutoCAD Binary DXF"
+#: A number with a comma, as some programs write it where that is the custom.
+_COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
+#: Kinds that belong to the entity before them.
+_PARTS = ("VERTEX", "ATTRIB", "SEQEND")
+#: Where a block definition tells that its content is in another file.
+_EXTERNAL = 4 | 8 | 16
+
+
+@dataclass
+class Definition:
+    """A block as it is defined: what each reference to it shows."""
+
+    base: tuple[float, float, float]
+    is_external: bool
+    records: list[Record] = field(default_factory=list)
+
+
+@dataclass
+class DxfFile:
+    """What a DXF file holds. `units`: name and mm in one, None when it does not tell; `is_imperial`: it asks
+    for the hatches and line types of a country with inches. Names of layers and blocks are
+    in lower case as keys. `states`: "off" or "frozen" of layers that are not seen; `dashed`: the line types that are
+    not drawn through, in upper case; `dashed_layers`: that of each layer that has one. `notes`: what was mended."""
+
+    units: tuple[str, float] | None = None
+    is_imperial: bool = False
+    layers: dict[str, str] = field(default_factory=dict)
+    states: dict[str, str] = field(default_factory=dict)
+    dashed: set[str] = field(default_factory=set)
+    dashed_layers: dict[str, str] = field(default_factory=dict)
+    multiline_styles: dict[str, Record] = field(default_factory=dict)
+    blocks: dict[str, Definition] = field(default_factory=dict)
+    model: list[Record] = field(default_factory=list)
+    paper: list[Record] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+def load(data: bytes) -> DxfFile:
+    """Read a DXF file's bytes, text or binary; what is none is a `UserError`."""
+    found = DxfFile()
+    section = ""
+    block: Definition | None = None
+    for record in _records(_groups(data, found.notes)):
+        kind = record.kind
+        if kind == "SECTION":
+            section, block = record.value(2).strip().upper(), None
+            if section == "HEADER":
+                found.units = _units(record.groups)
+                found.is_imperial = _variable(record.groups, "$MEASUREMENT") == "0"
+        elif kind in ("ENDSEC", "EOF"):
+            section = ""
+        elif section == "BLOCKS":
+            block = _of_blocks(found, block, record)
+        elif section == "ENTITIES":
+            _add(found.paper if record.whole(67) else found.model, record)
+        else:
+            _of_tables(found, section, record)
+    found.dashed_layers = {name: kind for name, kind in found.dashed_layers.items() if kind in found.dashed}
+    for name, block in found.blocks.items():
+        if name.startswith(("*paper_space", "$paper_space")):
+            found.paper += block.records
+    return found
+
+
+def _groups(data: bytes, notes: list[str]) -> Iterator[Group]:
+    """A file's groups, told by its first bytes what kind it is; what is odd about it goes to `notes`."""
+    if data[:4] == b"AC10" and data[4:6].isdigit():
+        raise UserError("a DWG file, expected DXF: save it as DXF")
+    if data.startswith(_BINARY):
+        return _of_binary(data)
+    if data.startswith(_IS_BINARY):
+        raise UserError("a binary DXF drawing that was changed on its way, as by a transfer as text")
+    if b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
+        kind = kind_of(data)
+        raise UserError(f"{kind}, expected a drawing" if kind else "not a DXF drawing, it has no SECTION")
+    return _of_text(_decoded(data), notes)
+
+
+def _of_tables(found: DxfFile, section: str, record: Record) -> None:
+    """What tables and objects tell of how lines are drawn: line types, layers, styles of multilines."""
+    match section, record.kind:
+        case "TABLES", "LTYPE":
+            if record.whole(73):
+                found.dashed.add(record.value(2).strip().upper())
+        case "TABLES", "LAYER":
+            _layer(found, record)
+        case "OBJECTS", "MLINESTYLE":
+            found.multiline_styles[record.value(2).strip().upper()] = record
+
+
+def _of_blocks(found: DxfFile, block: Definition | None, record: Record) -> Definition | None:
+    """Take one record of the section of blocks; returns the block that is open behind it."""
+    if record.kind == "ENDBLK":
+        return None
+    if record.kind == "BLOCK":
+        block = _block(record)
+        found.blocks[record.value(2).strip().lower()] = block
+    elif block is not None:
+        _add(block.records, record)
+    return block
+
+
+def _add(records: list[Record], record: Record) -> None:
+    if record.kind in _PARTS and records:
+        records[-1].parts.append(record)
+    else:
+        records.append(record)
+
+
+def _records(groups: Iterable[Group]) -> Iterator[Record]:
+    """Groups from each code 0 up to the next."""
+    record: list[Group] = []
+    for group in groups:
+        if group[0] == 0:
+            if record:
+                yield Record(record)
+            record = [group]
+        elif record:
+            record.append(group)
+    if record:
+        yield Record(record)
+
+
+def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
+    """The groups of a text file."""
+    text = text.replace("\r\n", "\n")
+    lines = re.split("\r*\n|\r", text) if "\r" in text else text.split("\n")
+    at = 0
+    while at < len(lines) and not lines[at].strip():
+        at += 1
+    value = ""
+    may_have_commas, has_commas, has_blanks = "," in text, False, False
+    while at < len(lines) - 1:
+        try:
+            code = int(lines[at])
+        except ValueError:
+            if lines[at].strip():
+                raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
+            if not has_blanks:
+                notes.append("there are empty lines between the file's groups: passed over")
+            has_blanks = True
+            at += 1
+            continue
+        value = lines[at + 1]
+        at += 2
+        if may_have_commas and "," in value and _is_real(code) and _COMMA.fullmatch(value):
+            value = value.replace(",", ".")
+            if not has_commas:
+                notes.append("numbers are written with commas: read as decimal points")
+            has_commas = True
+        yield code, value
+        if code == 0 and value.strip() == "EOF":
+            return
+    notes.append("the file has no EOF at its end, it may have been cut off")
+
+
+def _is_real(code: int) -> bool:
+    """Whether a group's value is a number with decimals."""
+    return 10 <= code < 60 or 110 <= code < 150 or 210 <= code < 240 or 460 <= code < 470
+
+
+def _of_binary(data: bytes) -> Iterator[Group]:
+    """The groups of a binary file, as text."""
+    from skg.reading import slow_dxf  # (slow to import, and seldom needed)
+
+    try:
+        yield from slow_dxf.binary_groups(data)
+    except (IndexError, ValueError) as error:
+        raise UserError(f"not a binary DXF drawing that can be read ({error or type(error).__name__})") from None
+
+
+def _decoded(data: bytes) -> str:
+    """The text of a file: UTF-8 where it is that, else the code page that it tells."""
+    for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"\xef\xbb\xbf", "utf-8-sig")):
+        if data.startswith(mark):
+            return data.decode(encoding, "replace")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        page = re.search(rb"\$DWGCODEPAGE\s+3\s+(\S+)", data)
+        if not page:
+            return data.decode("cp1252", "replace")
+        from skg.reading import slow_dxf  # (as above)
+
+        encoding = slow_dxf.encoding(page[1].decode("ascii", "replace"))
+        return data.decode("cp1252" if encoding == "utf8" else encoding, "replace")
+
+
+def _variable(header: list[Group], wanted: str) -> str:
+    """A variable of the header, empty when it is not there."""
+    for (code, name), (_, value) in zip(header, header[1:], strict=False):
+        if code == 9 and name.strip() == wanted:
+            return value.strip()
+    return ""
+
+
+def _units(header: list[Group]) -> tuple[str, float] | None:
+    """What $INSUNITS tells."""
+    value = _variable(header, "$INSUNITS")
+    return UNITS.get(int(value)) if value.isdigit() else None
+
+
+def _layer(found: DxfFile, record: Record) -> None:
+    name = unescaped(record.value(2).strip())
+    found.layers[name.lower()] = name
+    found.dashed_layers[name.lower()] = record.value(6).strip().upper()
+    if record.whole(70) & 1:
+        found.states[name.lower()] = "frozen"
+    elif record.whole(62) < 0:
+        found.states[name.lower()] = "off"
+
+
+def _block(record: Record) -> Definition:
+    try:
+        base = tuple(float(record.value(code, "0")) for code in (10, 20, 30))
+    except ValueError:
+        base = 0.0, 0.0, 0.0
+    return Definition(base, bool(record.whole(70) & _EXTERNAL))

@@ -1,0 +1,179 @@
+"""Which contours of a drawing touch, cross, overlap or repeat each other (shapely finds the pairs)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from skg.geometry.areas import CHORD, lines_of
+from skg.geometry.arrays import Flags, Floats, Whole
+from skg.geometry.contour import Contour
+from skg.geometry.edge_arrays import boxes_of
+from skg.geometry.plane import XY
+
+#: Contours that run along each other for more than this part of the shorter one overlap, else they touch.
+_ALONG = 0.03
+#: So many pairs of contours that meet are looked at.
+_MOST = 300
+#: What is within a reach may seem to lie this much farther away, mm.
+_HAIR = 1e-9
+#: So many contours become lines together.
+_LINES = 100
+
+
+@dataclass
+class Relations:
+    """Contours by their numbers. `repeated`: those that are the same as an earlier one, and which; `touched`: open ones
+    that touch or cross another one; `meetings`: what two closed ones (or one with itself) do at a place; `unseen`: how
+    many more pairs of closed ones meet."""
+
+    repeated: dict[int, int] = field(default_factory=dict)
+    touched: set[int] = field(default_factory=set)
+    meetings: list[tuple[str, int, int, XY]] = field(default_factory=list)
+    unseen: int = 0
+
+
+def relations(contours: list[Contour], tolerance: float) -> Relations:
+    """Find which contours meet: are nowhere further apart than `tolerance`, mm."""
+    found = Relations()
+    is_closed = np.array([contour.is_closed for contour in contours], bool)
+    # (the chords of 20,000 circles would take 100 MB: most drawings have few contours that come near to others)
+    near = _near_others(contours, tolerance + 2 * CHORD)
+    lines = np.full(len(contours), None)
+    lines[near] = lines_of([contours[at] for at in near.tolist()])
+    one, other = near[
+        shapely.STRtree(lines[near]).query(lines[near], predicate="dwithin", distance=tolerance + 2 * CHORD)
+    ]
+    one, other = one[one < other], other[one < other]
+    repeats = _repeats(lines[one], lines[other], tolerance) & (is_closed[one] == is_closed[other])
+    for second, at in sorted(zip(other[repeats].tolist(), one[repeats].tolist(), strict=True)):
+        found.repeated.setdefault(second, found.repeated.get(at, at))
+    gone = set(found.repeated)
+    for at, second in sorted(zip(one.tolist(), other.tolist(), strict=True)):
+        if at in gone or second in gone:
+            continue
+        found.touched |= {number for number in (at, second) if not is_closed[number]}
+        if is_closed[at] and is_closed[second] and len(found.meetings) >= _MOST:
+            found.unseen += 1
+        elif is_closed[at] and is_closed[second]:
+            what, place = _meeting(lines[at], lines[second], tolerance)
+            found.meetings.append((what, at, second, place))
+    for at, place in _crossing_themselves(contours):
+        if at not in gone:
+            found.meetings.append(("cross", at, at, place))
+    return found
+
+
+def _near_others(contours: list[Contour], reach: float) -> Whole:
+    """The contours that come near to others: an edge's box lies within reach of that of another contour's edge."""
+    around, boxes = boxes_of(contours)
+    counts = np.array([len(contour.edges) for contour in contours], np.int64)
+    owners = np.repeat(np.arange(len(contours)), counts)
+    is_circle = np.array([edge.is_circle for contour in contours for edge in contour.edges], bool)
+    is_one = is_circle[np.cumsum(counts) - counts] & (counts == 1)
+    # (the box around a frame is near to all that is in it, those around its edges are not)
+    edges = np.flatnonzero(np.isin(owners, _near_boxes(around, np.arange(len(contours)), is_one, reach)))
+    return _near_boxes(boxes[edges], owners[edges], is_circle[edges], reach)
+
+
+def _near_boxes(boxes: Floats, owners: Whole, is_circle: Flags, reach: float) -> Whole:
+    """The owners of boxes that lie within reach of another owner's; of two around circles: where these do."""
+    grown = boxes + (reach + _HAIR) * np.array((-1, -1, 1, 1))
+    one, other = shapely.STRtree(shapely.box(*boxes.T)).query(shapely.box(*grown.T))
+    is_other = owners[one] != owners[other]
+    one, other = one[is_other], other[is_other]
+    middle, radius = (boxes[:, 0:2] + boxes[:, 2:4]) / 2, (boxes[:, 2] - boxes[:, 0]) / 2
+    apart = np.hypot(*(middle[one] - middle[other]).T)
+    gap = np.maximum(apart - radius[one] - radius[other], np.abs(radius[one] - radius[other]) - apart)
+    # (chords of circles may be nearer to each other than the circles)
+    is_near = ~(is_circle[one] & is_circle[other]) | (gap <= reach + 2 * CHORD)
+    return np.unique(owners[one[is_near]])
+
+
+def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:
+    """The closed contours that cross themselves, and where; one that is a circle does not."""
+    is_circle = [len(one.edges) == 1 and one.edges[0].is_circle for one in contours]
+    some = [at for at, one in enumerate(contours) if one.is_closed and not is_circle[at]]
+    for first in range(0, len(some), _LINES):
+        numbers = some[first : first + _LINES]
+        lines = lines_of([contours[at] for at in numbers])
+        for one in np.flatnonzero(~shapely.is_simple(lines)).tolist():
+            at = numbers[one]
+            reason = shapely.is_valid_reason(shapely.Polygon(lines[one].coords))
+            place = reason.partition("[")[2].rstrip("]").split()
+            yield at, (float(place[0]), float(place[1])) if len(place) == 2 else contours[at].edges[0].start
+
+
+def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
+    """Which pairs of lines are the same."""
+    found = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= 2 * tolerance
+    found &= np.abs(shapely.length(ones) - shapely.length(others)) <= 1e-3 * shapely.length(ones) + tolerance
+    found[found] = shapely.hausdorff_distance(ones[found], others[found], 0.5) <= 2 * tolerance + 2 * CHORD
+    return found
+
+
+def _meeting(one: shapely.LineString, other: shapely.LineString, tolerance: float) -> tuple[str, XY]:
+    """What two closed lines do, and where."""
+    near = shapely.intersection(one, other.buffer(tolerance + 2 * CHORD, quad_segs=2))
+    place = shapely.get_coordinates(shapely.shortest_line(one, other) if near.is_empty else near)[0]
+    areas = shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in (one, other)]))
+    common = shapely.intersection(*areas).area
+    smaller = min(shapely.area(areas))
+    # (a strip as wide as the tolerance along the shorter line is no more than touching)
+    strip = 2 * tolerance * min(one.length, other.length)
+    if strip < common < smaller - strip:
+        return "cross", (float(place[0]), float(place[1]))
+    longest = max(part.length for part in getattr(near, "geoms", [near]))
+    what = "overlap" if longest > _ALONG * min(one.length, other.length) else "touch"
+    return what, (float(place[0]), float(place[1]))
+
+
+def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> tuple[dict[int, int], set[int]]:
+    """The runs that lie on a contour, all along: their numbers, and those of the contours; and those between contours:
+    runs that end on one, or where others end, at both ends."""
+    if not runs or not contours:
+        return {}, set()
+    reach = tolerance + 2 * CHORD
+    starts, ends = [run.edges[0].start for run in runs], [run.edges[-1].end for run in runs]
+    places = [shapely.points(some) for some in (starts, ends, [run.edges[0].at(0.5) for run in runs])]
+    around = shapely.STRtree(shapely.box(*boxes_of(contours)[0].T))
+    some = np.unique(around.query(np.concatenate(places), predicate="dwithin", distance=reach)[1])
+    lines = lines_of([contours[at] for at in some.tolist()])
+    tree = shapely.STRtree(lines)
+    near = [set(zip(*tree.query(one, predicate="dwithin", distance=reach).tolist(), strict=True)) for one in places]
+    covered = {run: int(some[at]) for run, at in _covered(runs, lines, set.intersection(*near), reach).items()}
+    count = Counter(starts + ends)
+    held = [
+        {run for run, _ in on} | {run for run, end in enumerate(side) if count[end] > 1}
+        for on, side in zip(near, (starts, ends), strict=False)
+    ]
+    return covered, held[0] & held[1] - covered.keys()
+
+
+def _covered(runs: list[Contour], lines: NDArray[Any], pairs: set[tuple[int, int]], reach: float) -> dict[int, int]:
+    """Of pairs of a run and a line near its ends and middle: the runs that lie within reach of one all along, and the
+    first such line."""
+    found: dict[int, int] = {}
+    for run, at in sorted(pairs):
+        (line,) = lines_of([runs[run]])
+        if run not in found and lines[at].buffer(reach, quad_segs=2).covers(line):
+            found[run] = at
+    return found
+
+
+def nearest(places: list[XY]) -> list[XY | None]:
+    """For each place the nearest of the others that is not the same place."""
+    if not places:
+        return []
+    points = shapely.points(places)
+    at, other = shapely.STRtree(points).query_nearest(points, exclusive=True, all_matches=False)
+    found: list[XY | None] = [None] * len(places)
+    for number, neighbour in zip(at.tolist(), other.tolist(), strict=True):
+        found[number] = places[neighbour]
+    return found

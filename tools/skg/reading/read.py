@@ -1,0 +1,232 @@
+"""Reading a drawing file: its contours in millimetres, and a report in which every entity is accounted for.
+
+    reading = read(data, "part.dxf", Wishes(units="inch"))
+    for contour in reading.contours: ...        # Contour: edges (lines, arcs, curves), is_closed, layers
+    print("\\n".join(reading.report.lines()))
+
+`read` is the one door for the commands; what it raises is a `UserError` that says what a person can do.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import floor
+
+from skg.errors import UserError
+from skg.geometry.contour import Contour
+from skg.geometry.edge_arrays import boxes_of
+from skg.geometry.plane import XY, shifted
+
+# (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
+from skg.reading import dxf_entities, dxf_file, svg_file, svg_shapes
+from skg.reading.account import NOTE, Account, Content, listed
+from skg.reading.chain import merged
+from skg.reading.read_options import OPEN, START, UNITS, Wishes
+from skg.reading.selection import Selection
+from skg.wording import counted, short, shown
+
+__all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
+
+#: The larger side of a usual part, mm.
+USUAL = 3.0, 10_000.0
+#: A drawing that does not tell its units and whose larger side is shorter than this, mm, may be in inches.
+DOUBTED = 25.4
+#: A larger part hardly lies on a wire machine, mm.
+LARGE = 1000.0
+#: No drawing that is cut has a larger side, mm.
+FARTHEST = 50_000.0
+#: The units that a drawing may be in. (In mil write programs for boards that do not tell it)
+GUESSED = ("mm", "inch", "cm", "mil")
+#: Who says what units a drawing is in.
+TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
+#: What fills an area, without lines around it.
+AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A drawing that was read: contours in the order of the file (mm), start holes (mm), and the report."""
+
+    contours: list[Contour]
+    starts: list[XY]
+    report: Account
+
+
+def read(data: bytes, name: str, wishes: Wishes | None = None, small: Mapping[int, str] | None = None) -> Reading:
+    """Read a drawing file's bytes; `name` is the file's name, for messages and for its ending.
+
+    `small`: numbers of contours, as they are read without it, that turned out to have no room for the wire, and why
+    they are left: the report has them among what is, and the contours are without them. A drawing without anything to
+    cut, or one that is refused, is a `UserError` that begins with the name.
+    """
+    wishes = wishes or Wishes()
+    try:
+        return _read(data, name, wishes, small or {})
+    except UserError as error:
+        raise UserError(f"{name}: {error}") from None
+
+
+def _read(data: bytes, name: str, wishes: Wishes, small: Mapping[int, str]) -> Reading:
+    content, report = _content(data, name, wishes)
+    if not content.edges:
+        raise UserError(_nothing(content, wishes))
+    if wishes.start_layer != START and not content.starts:
+        report.notes.append(f"take care: there are no points on the layer {wishes.start_layer} for start holes")
+    selection = Selection(content, wishes, report)
+    contours = selection.contours()
+    if contours and _is_in_odd_metres(contours, report):
+        # (in mm more ends meet, and the small ones are counted so)
+        width, height = (short(side / UNITS["m"]) for side in report.size)
+        reading = _read(data, name, replace(wishes, units="mm"), small)
+        reading.report.units_from = f"the file says m, but {width} x {height} m is no part; --units says otherwise"
+        return reading
+    contours = selection.without_open(contours)
+    fates = selection.fates
+    for at, why in small.items():
+        fates.of_edges(contours[at].edges, why)
+    cut = [one for at, one in enumerate(contours) if at not in small]
+    fates.account(cut, report)
+    if not contours:
+        raise UserError(_no_outline(report))
+    # (the size, and with it where the drawing lies, is the same without the small ones)
+    _measure(contours, report)
+    found = [replace(merged(one), layers=fates.layers(one)) for one in cut]
+    _count(found, report)
+    _check_size(report)
+    return _near_origin(Reading(found, content.starts, report))
+
+
+def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
+    """Whether a file says metres and cannot mean it: programs write so that were not told any units."""
+    if report.units != "m" or report.units_from != TOLD:
+        return False
+    _measure(contours, report)
+    return max(report.size) > USUAL[1]
+
+
+def _near_origin(reading: Reading) -> Reading:
+    """A drawing with a map's coordinates is moved by whole millimetres: the ROM has no places that far."""
+    report = reading.report
+    if max(map(abs, (*report.low, *report.high))) < FARTHEST:
+        return reading
+    by = -floor(report.low[0]), -floor(report.low[1])
+    report.notes.append(f"moved by {shown(by)} mm: the drawing lies too far from its origin for a tape")
+    report.low, report.high = shifted(report.low, by), shifted(report.high, by)
+    contours = [one.shifted(by) for one in reading.contours]
+    return Reading(contours, [shifted(at, by) for at in reading.starts], report)
+
+
+def layer_lines(data: bytes, name: str) -> list[str]:
+    """What is on each layer of a drawing file, a line each."""
+    kinds: dict[str, Counter[str]] = defaultdict(Counter)
+    for entity in _content(data, name, Wishes())[0].entities:
+        kinds[entity.layer][entity.kind] += 1
+    return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)]
+
+
+def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
+    """What a file holds, and an account that has its units."""
+    if svg_file.is_svg(data, name):
+        return _svg_content(data, name, wishes)
+    file = dxf_file.load(data)
+    unknown = f"{NOT_TOLD}; its $MEASUREMENT is that of inches" if file.is_imperial else NOT_TOLD
+    units = (*file.units, TOLD) if file.units else ("mm", 1.0, unknown)
+    if wishes.units:
+        units = wishes.units, UNITS[wishes.units], ASKED
+    report = Account(name, units[0], units[2], units[1], notes=file.notes)
+    return dxf_entities.collect(file, wishes, units[1]), report
+
+
+def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
+    """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
+    page = svg_file.SvgFile(data)
+    told, px = page.units, svg_file.PX
+    units = (told[0], told[1], TOLD) if told else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
+    if wishes.units:
+        # Without a page in mm or inches a pixel is one of the units asked for.
+        units = wishes.units, UNITS[wishes.units], ASKED
+        px = UNITS[wishes.units] * (svg_file.PX / told[1] if told else 1.0)
+    elif not told:
+        px = page.guess
+    content = svg_shapes.collect(page, px, units[1], wishes)
+    return content, Account(name, units[0], units[2], units[1], notes=list(content.notes))
+
+
+def _nothing(content: Content, wishes: Wishes) -> str:
+    """Why there is nothing to cut."""
+    where = f" on {', '.join(wishes.layers)}" if wishes.layers else ""
+    reasons = Counter(f"{entity.kind}: {entity.left}" for entity in content.entities)
+    found = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
+    unseen = sorted({entity.layer for entity in content.entities if entity.left.startswith("the layer is")})
+    help_ = f": --layer {unseen[0]} takes what is on that layer" if unseen and not wishes.layers else ""
+    if not help_ and any(entity.kind in AREAS for entity in content.entities):
+        help_ = ": draw outlines around the areas in the CAD program"
+    return f"no lines, arcs or curves to cut{where}" + (f" ({found})" if found else "") + help_
+
+
+def _no_outline(report: Account) -> str:
+    """Why no contour is left."""
+    if not report.rest and not report.open_ends:
+        reasons = dict.fromkeys(reason for layer in report.layers for reason in layer.why if reason != NOTE)
+        return f"nothing to cut, read in {report.units}: {', '.join(reasons)}; --units and --tolerance may help"
+    if not report.rest:
+        return f"no closed outline, {report.first_gap()}"
+    places = ", ".join(shown(entity.place) for entity in report.rest[:3])
+    return (
+        f"no closed outline: {counted(len(report.rest), 'entity', 'entities')} meet at junctions or cross, "
+        f"as at {places}: --open all cuts them as they are"
+    )
+
+
+def _measure(contours: list[Contour], report: Account) -> None:
+    """The box around the contours."""
+    boxes, _ = boxes_of(contours)
+    report.low, report.high = (tuple(place.tolist()) for place in (boxes[:, :2].min(0), boxes[:, 2:].max(0)))
+
+
+def _count(contours: list[Contour], report: Account) -> None:
+    """Number and length of the contours."""
+    report.closed = sum(contour.is_closed for contour in contours)
+    report.open = len(contours) - report.closed
+    report.length = sum(edge.length for contour in contours for edge in contour.edges)
+
+
+def _check_size(report: Account) -> None:
+    """Refuse an odd size that nobody vouches for, and what is too large for a tape."""
+    width, height = map(short, report.size)
+    is_told = not report.units_from.startswith(NOT_TOLD)
+    if not is_told and not USUAL[0] <= max(report.size) <= USUAL[1]:
+        raise UserError(
+            f"the file does not say its units, and {width} x {height} mm is an odd size: "
+            f"give --units ({', '.join(UNITS)}){_in_other_units(report, units=GUESSED)}"
+        )
+    if max(report.size) >= FARTHEST:
+        raise UserError(
+            f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; "
+            f"give --units, or --layer for a part{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
+        )
+    other = _in_other_units(report, LARGE) or _in_other_units(report) * (max(report.size) > USUAL[1])
+    if report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE:
+        # (programs write the units that they were last set to)
+        report.notes.append(f"take care: {width} x {height} mm is an odd size{other}: --units says so")
+    if not is_told and other and max(report.size) < DOUBTED:
+        report.notes.append(
+            f"take care: {width} x {height} mm is small, and the units are guessed{other}: --units says so"
+        )
+    other = _in_other_units(report, LARGE, GUESSED)
+    if not is_told and other and max(report.size) > LARGE:
+        report.notes.append(
+            f"take care: {width} x {height} mm is large, and the units are guessed{other}: --units says so"
+        )
+
+
+def _in_other_units(report: Account, most: float = USUAL[1], units: tuple[str, ...] = GUESSED[:3]) -> str:
+    """The size that a drawing has in units that make it a usual one, of `most` mm."""
+    found = []
+    for name in units:
+        width, height = (side / report.factor * UNITS[name] for side in report.size)
+        if name != report.units and USUAL[0] <= max(width, height) <= most:
+            found.append(f"{short(width)} x {short(height)} mm in {name}")
+    return f"; it would be {', '.join(found)}" if found else ""

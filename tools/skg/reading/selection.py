@@ -1,0 +1,313 @@
+"""Which contours of a drawing are cut, and what becomes of everything else: each edge that is not cut has a reason."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
+from math import inf
+
+from skg.errors import UserError
+from skg.geometry.arrays import Floats
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.edge_arrays import boxes_of
+from skg.geometry.plane import XY, distance
+from skg.reading.account import Account, Content, LayerSum, OpenEnd, Overlap, above, said
+from skg.reading.chain import Chains, chain
+from skg.reading.meetings import Relations, lying_on, nearest, relations
+from skg.reading.overruns import Overrun, without_overruns
+from skg.reading.read_options import Wishes
+from skg.wording import counted, in_file, short, shown
+
+#: Why an edge is not cut.
+SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
+DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
+AXIS = "drawn with dashes, across outlines: --open all cuts it"
+SMALL, WITHIN = "no room for the wire or the tab", "in an opening that is left out"
+PAST = "runs past a corner"
+OPENED = "of an open contour"
+#: What is short or drawn twice is cut with its neighbour, what runs past a corner is said by itself.
+_WITH_OTHERS = (SHORT, DOUBLE, PAST)
+#: Ends of what is left that are no further apart may be meant to meet, mm.
+_GAP = 0.1
+
+
+class Selection:
+    """Chains the edges of a drawing and chooses which contours are cut, as `wishes` has it; what is left, and what is
+    to be said of it, goes into `report`."""
+
+    def __init__(self, content: Content, wishes: Wishes, report: Account) -> None:
+        self.content = content
+        self.wishes = wishes
+        self.report = report
+        self.fates = Fates(content, report.factor, wishes.tolerance)
+        self.styles = [(entity.layer, entity.dashes) for entity in content.entities]
+
+    def contours(self) -> list[Contour]:
+        """The contours that are wanted, open ones among them."""
+        kept, rest = self._apart(self._chains())
+        kept, rest = self._wanted(kept, rest)
+        on, between = lying_on(rest, kept, self.wishes.tolerance)
+        self.report.notes += _between([rest[run] for run in sorted(between)], self.report.factor)
+        self.fates.doubles += [(rest[run].edges, kept[at].edges[0]) for run, at in on.items()]
+        rest = [one for run, one in enumerate(rest) if run not in on]
+        for run in rest:
+            self.fates.of_edges(run.edges, JUNCTION)
+        gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance, self.report.factor))
+        self.report.notes += _around(rest, kept, bool(gaps), self.report.factor)
+        self.report.notes += gaps
+        return kept
+
+    def without_open(self, contours: list[Contour]) -> list[Contour]:
+        """The contours without the open ones where these are left; a `UserError` where there are any and they are
+        refused. Their ends go into the report."""
+        opened = [one for one in contours if not one.is_closed]
+        self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance, self.report.factor)
+        if opened and self.wishes.open == "refuse":
+            count = counted(len(opened), "open contour")
+            raise UserError(f"{count}, {self.report.first_gap()}, or --open cut or leave tells what becomes of it")
+        if self.wishes.open != "leave":
+            return contours
+        for one in opened:
+            self.fates.of_edges(one.edges, OPENED)
+        return [one for one in contours if one.is_closed]
+
+    def _chains(self) -> Chains:
+        """All edges as contours; what is short, drawn twice or runs past a corner is accounted for."""
+        fates, report, tolerance = self.fates, self.report, self.wishes.tolerance
+        chains = chain(self.content.edges, tolerance, self.styles)
+        if self.wishes.open != "all":
+            chains, cuts = without_overruns(chains, tolerance, self.styles)
+            fates.of_pieces([one.piece for one in cuts if not one.is_whole], PAST)
+            fates.of_edges([one.piece for one in cuts if one.is_whole], PAST)
+            report.notes += _past(cuts, self.content, report.factor)
+        fates.of_edges(chains.short, SHORT)
+        fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
+        return chains
+
+    def _apart(self, chains: Chains) -> tuple[list[Contour], list[Contour]]:
+        """The outlines, and what hangs together with others at junctions; what is repeated or is an axis is neither."""
+        contours, every = chains.contours, chains.contours + chains.rest
+        found = relations(every, self.wishes.tolerance)
+        axes = _axes(contours, found, self.fates) if self.wishes.open != "all" and not self.wishes.layers else set()
+        for at, first in found.repeated.items():
+            self.fates.doubles.append((every[at].edges, every[first].edges[0]))
+        for at in sorted(axes):
+            self.fates.of_edges(contours[at].edges, AXIS)
+        self._say_meetings(contours, found, axes)
+        gone = set(found.repeated) | axes
+        hanging = {at for at in found.touched if at < len(contours)} - gone
+        rest = [one for at, one in enumerate(chains.rest, len(contours)) if at not in gone]
+        rest += [contours[at] for at in sorted(hanging)]
+        return [one for at, one in enumerate(contours) if at not in gone | hanging], rest
+
+    def _say_meetings(self, contours: list[Contour], found: Relations, axes: set[int]) -> None:
+        """Put into the report which outlines meet others."""
+        for what, one, at, place in found.meetings:
+            if at < len(contours) and not {one, at} & axes:
+                self.report.overlaps.append(self.fates.overlap(what, contours[at].edges[0], place))
+        if found.unseen:
+            self.report.notes.append(f"{counted(found.unseen, 'more pair')} of contours meet")
+
+    def _wanted(self, kept: list[Contour], rest: list[Contour]) -> tuple[list[Contour], list[Contour]]:
+        """What is cut and what is left of outlines and the rest, by --open and --layer; open dashes are left."""
+        if self.wishes.open == "all":
+            return kept + rest, []
+        if self.wishes.open == "cut" and rest and not kept:
+            self.report.notes.append("no closed outline: what meets at junctions or crosses is cut as it is drawn")
+            kept, rest = rest, []
+        dashed = {at for at, one in enumerate(kept) if self.fates.is_dashed(one)}
+        if self.wishes.layers or not any(one.is_closed and at not in dashed for at, one in enumerate(kept)):
+            return kept, rest
+        left = [at for at in sorted(dashed) if not kept[at].is_closed]
+        for at in left:
+            self.fates.of_edges(kept[at].edges, DASHED)
+        return [one for at, one in enumerate(kept) if at not in set(left)], rest
+
+
+class Fates:
+    """What becomes of each entity's edges. `doubles`: runs of those drawn twice, with an edge of what each was drawn
+    on: where that one is left, they are left with it."""
+
+    def __init__(self, content: Content, factor: float, tolerance: float) -> None:
+        self.entities = content.entities
+        self.factor = factor
+        self.tolerance = tolerance
+        self.doubles: list[tuple[tuple[Edge, ...], Edge]] = []
+        self.parts = Counter(edge.entity for edge in content.edges)
+        self.gone: dict[int, Counter[str]] = defaultdict(Counter)
+
+    def of_edges(self, edges: Iterable[Edge], why: str) -> None:
+        """Say why edges are not cut."""
+        for edge in edges:
+            self.gone[edge.entity][why] += 1
+
+    def of_pieces(self, pieces: list[Edge], why: str) -> None:
+        """Say why pieces are not cut that edges were divided into."""
+        self.parts.update(piece.entity for piece in pieces)
+        self.of_edges(pieces, why)
+
+    def overlap(self, what: str, edge: Edge, place: XY) -> Overlap:
+        """A line of the report."""
+        return Overlap(what, self.entities[edge.entity].layer, in_file(place, self.factor))
+
+    def layers(self, contour: Contour) -> tuple[str, ...]:
+        """The layers of a contour's edges."""
+        return tuple(dict.fromkeys(self.entities[edge.entity].layer for edge in contour.edges))
+
+    def is_dashed(self, contour: Contour) -> bool:
+        """Whether a contour is drawn with dashes, all of it: an axis, or what lies behind."""
+        return all(self.entities[edge.entity].dashes for edge in contour.edges)
+
+    def account(self, contours: list[Contour], report: Account) -> None:
+        """Put the sums of the layers into the report; one that does not agree is a `UserError`."""
+        cut = Counter(edge.entity for contour in contours for edge in contour.edges)
+        self._account_doubles(contours, cut, report)
+        sums: dict[str, LayerSum] = {}
+        for at, entity in enumerate(self.entities):
+            layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
+            layer.read += 1
+            gone = self.gone[at]
+            if cut[at] + gone.total() != self.parts[at] or not (self.parts[at] or entity.left):
+                raise UserError(
+                    f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: of its {self.parts[at]} parts "
+                    f"{cut[at] + gone.total()} are accounted for; a mistake in skg, please report it"
+                )
+            lost = [why for why in gone if not cut[at] or why not in _WITH_OTHERS]
+            if not lost and not entity.left:
+                layer.cut += 1
+                continue
+            entity.left = entity.left or " and ".join(lost)
+            if cut[at]:
+                layer.part += 1
+            else:
+                layer.left += 1
+            layer.why[entity.left][entity.kind] += 1
+            if JUNCTION in gone:
+                report.rest.append(entity)
+            elif entity.is_odd:
+                report.not_understood.append(entity)
+        report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
+        dashed = defaultdict(list)
+        for at, entity in enumerate(self.entities):
+            if cut[at] and entity.dashes:
+                dashed[entity.dashes].append(entity)
+        for name, some in dashed.items():
+            report.notes += said(some, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
+
+    def _account_doubles(self, contours: list[Contour], cut: Counter[int], report: Account) -> None:
+        """Say of what is drawn twice whether the other one is cut, and if not why."""
+        # (of most entities all is cut or nothing; of the others each edge is looked for)
+        partly = {twin.entity for _, twin in self.doubles if 0 < cut[twin.entity] < self.parts[twin.entity]}
+        middles: dict[int, list[XY]] = defaultdict(list)
+        for edge in (edge for contour in contours for edge in contour.edges if edge.entity in partly):
+            middles[edge.entity].append(edge.at(0.5))
+        overlaps = []
+        for run, twin in self.doubles:
+            at, middle = twin.entity, twin.at(0.5)
+            near = (distance(middle, place) <= 2 * self.tolerance for place in middles[at])
+            if any(near) if at in partly else cut[at]:
+                self.of_edges(run, DOUBLE)
+                overlaps.append(self.overlap(DOUBLE, run[0], run[0].start))
+            else:
+                self.of_edges(run, next((why for why in self.gone[at] if why not in _WITH_OTHERS), DOUBLE))
+        report.overlaps[:0] = overlaps
+
+
+def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]:
+    """What is said of ends that run past corners, a line for each layer."""
+    layers: dict[str, list[Overrun]] = defaultdict(list)
+    for one in cuts:
+        layers[content.entities[one.piece.entity].layer].append(one)
+    for layer, some in sorted(layers.items()):
+        longest = max(one.piece.length for one in some)
+        yield (
+            f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
+            f"{shown(in_file(some[0].corner, factor))}: cut to the corner; --open all cuts all that is drawn"
+        )
+
+
+def _between(runs: list[Contour], factor: float) -> Iterator[str]:
+    """What is said of lines that are left and divide what is cut."""
+    if runs:
+        yield (
+            f"{counted(len(runs), 'line')} from edge to edge of what is cut, as at "
+            f"{shown(in_file(runs[0].edges[0].start, factor))}: if parts share such edges, --open all cuts them"
+        )
+
+
+def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool, factor: float) -> Iterator[str]:
+    """What is said when something that is left reaches around all contours that are cut, and is larger than each: one
+    run, or all of them where they have gaps."""
+    if not rest or len(kept) < 2:
+        return
+    boxes, outer = boxes_of(kept)[0], boxes_of(rest)[0]
+    for at, run in enumerate(rest):
+        if _reach_around(outer[at : at + 1], boxes):
+            ends = (shown(in_file(end, factor)) for end in (run.edges[0].start, run.edges[-1].end))
+            yield (
+                f"take care: what is left from {' to '.join(ends)} reaches around all that is cut: "
+                "is it the outline, which should close there?"
+            )
+            return
+    if has_gaps and _reach_around(outer, boxes):
+        yield "take care: what is left reaches around all that is cut: is it the outline, which has gaps?"
+
+
+def _reach_around(outer: Floats, boxes: Floats) -> bool:
+    """Whether the box around some boxes has the middles of all others in it, and is larger than each."""
+    low, high = outer[:, :2].min(0), outer[:, 2:].max(0)
+    middles = (boxes[:, :2] + boxes[:, 2:]) / 2
+    sizes = boxes[:, 2:] - boxes[:, :2]
+    return bool(((low <= middles) & (middles <= high) & (sizes < high - low)).all())
+
+
+def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> Iterator[str]:
+    """What is said of free ends in what is left that lie so near to a corner there that an outline may be open."""
+    count = Counter(end for one in rest for edge in one.edges for end in (edge.start, edge.end))
+    corners = list(count)
+    near = [
+        (distance(place, other), place)
+        for place, other in zip(corners, nearest(corners), strict=True)
+        if count[place] == 1 and other is not None
+    ]
+    shortest = _shortest(edges, tolerance)
+    gaps = sorted((gap, place) for gap, place in near if gap <= _GAP and float(above(gap)) < shortest)
+    if gaps:
+        widest, place = gaps[-1]
+        yield (
+            f"{counted(len(gaps), 'end')} of what is left up to {short(widest)} mm from the next one, as at "
+            f"{shown(in_file(place, factor))}: --tolerance {above(widest)} joins them"
+        )
+
+
+def _axes(contours: list[Contour], found: Relations, fates: Fates) -> set[int]:
+    """The closed contours drawn with dashes that cross others, which are not: circles that holes lie on."""
+    pairs = [(one, at) for what, one, at, _ in found.meetings if what == "cross" and at < len(contours)]
+    return {
+        one
+        for one, other in (*pairs, *((at, one) for one, at in pairs))
+        if fates.is_dashed(contours[one]) and not fates.is_dashed(contours[other])
+    }
+
+
+def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> list[OpenEnd]:
+    """Ends of open contours, each with the nearest other one; `edges`: all of the drawing."""
+    ends = [place for one in contours for place in (one.edges[0].start, one.edges[-1].end)]
+    if not ends:
+        return []
+    shortest = _shortest(edges, tolerance)
+    found = []
+    for place, other in zip(ends, nearest(ends), strict=True):
+        if other is None:
+            found.append(OpenEnd(in_file(place, factor), None, inf))
+            continue
+        gap = distance(place, other)
+        can_join = float(above(gap)) < shortest
+        found.append(OpenEnd(in_file(place, factor), in_file(other, factor), gap, can_join))
+    return found
+
+
+def _shortest(edges: list[Edge], tolerance: float) -> float:
+    """How wide a tolerance may be that makes one point of no edge; those shorter than `tolerance` are lost already."""
+    wide = (distance(edge.start, edge.end) for edge in edges)
+    return min((chord for chord in wide if chord > tolerance), default=inf)

@@ -1,0 +1,367 @@
+"""An SVG file: what is shown of it, where, and how it is drawn (view boxes, transforms, `use`, style sheets).
+
+Its tree is gone through here; svgelements multiplies transforms.
+"""
+
+from __future__ import annotations
+
+import gzip
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from xml.etree import ElementTree
+
+import svgelements
+
+from skg.errors import UserError
+from skg.geometry.plane import XY
+from skg.reading.svg_style import Style, StyleSheet
+
+#: mm in one of the units that a page's width is given in.
+UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
+#: A pixel, mm.
+PX = 25.4 / 96
+#: What is drawn, and what is drawn but is nothing to cut.
+SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
+NOTES = {"text": "text, convert it to paths", "image": "a picture", "foreignObject": "not SVG", "flowRoot": "text"}
+#: What holds others; what stands in anything else is drawn where it is used, or not at all.
+_GROUPS = ("g", "a", "svg", "switch")
+#: What a line or an area may be filled with, and what moves or changes others.
+_PAINTS = ("linearGradient", "radialGradient", "meshgradient", "pattern", "hatch", "solidcolor")
+_ANIMATIONS = ("animate", "animateTransform", "animateMotion", "animateColor", "set")
+_LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
+_MODE = "{http://www.inkscape.org/namespaces/inkscape}groupmode"
+_SVG = "http://www.w3.org/2000/svg"
+_LINK = "{http://www.w3.org/1999/xlink}href"
+#: Sides that a transform may turn about.
+_SIDES = {"left": "0", "top": "0", "center": "50%", "right": "100%", "bottom": "100%"}
+#: Groups within groups within groups are no deeper than this.
+_DEPTH = 300
+#: A number.
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+#: What is outside a frame by no more than this part of its larger side is within.
+_NEAR_FRAME = 1e-3
+#: How a DXF file begins that is text, remarks before it.
+_DXF = re.compile(rb"\s*(?:999\s*\n[^\n]*\n\s*)*0\s+SECTION\s")
+#: What a shape that cannot be read may raise.
+UNREADABLE = (ValueError, TypeError, ArithmeticError, IndexError, KeyError, AttributeError)
+
+
+def is_svg(data: bytes, name: str) -> bool:
+    """Whether a file is SVG: by its ending, unless its first lines are those of DXF; else by its first lines."""
+    begin = data[:4096]
+    return b"<svg" in begin or name.lower().endswith((".svg", ".svgz")) and _DXF.match(begin) is None
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """The page, or what a nested drawing is seen through: corner and size, `matrix` from where it stands to pixels."""
+
+    matrix: svgelements.Matrix
+    at: XY
+    size: XY
+
+    def holds(self, places: list[XY]) -> bool:
+        """Whether all of some places, in pixels, lie in it, or hardly outside."""
+        if not self.matrix.determinant:
+            return True
+        (left, top), (width, height), near = self.at, self.size, _NEAR_FRAME * max(self.size)
+        return all(
+            -near <= place.x - left <= width + near and -near <= place.y - top <= height + near
+            for place in map(self._back.point_in_matrix_space, places)
+        )
+
+    @cached_property
+    def _back(self) -> svgelements.Matrix:
+        return ~self.matrix
+
+
+@dataclass(frozen=True)
+class View:
+    """Where an element stands. `matrix`: from its coordinates to pixels; `size`: that of the view box, for
+    percentages; `hidden`: why nothing of it is seen; `is_clipped`: whether only a part of it may be seen; `frames`: of
+    the nested drawings around it."""
+
+    matrix: svgelements.Matrix
+    size: XY
+    layer: str = "0"
+    style: Style = Style()
+    hidden: str = ""
+    is_clipped: bool = False
+    frames: tuple[_Frame, ...] = ()
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """An element that is drawn, or left for a reason."""
+
+    element: ElementTree.Element
+    view: View
+    left: str = ""
+
+
+class SvgFile:
+    """What an SVG file holds. `units`: the name of the page's units and mm in one, None when it does not tell; then
+    `guess` is mm in a pixel, and `guessed` says where that comes from. `animations`: how many there are."""
+
+    def __init__(self, data: bytes) -> None:
+        try:
+            data = gzip.decompress(data) if data[:2] == b"\x1f\x8b" else data
+            self.root = ElementTree.fromstring(data)
+        except (ElementTree.ParseError, OSError, EOFError, ValueError, LookupError) as error:
+            raise UserError(f"not an SVG drawing that can be read ({error})") from None
+        if tag_of(self.root) != "svg":
+            raise UserError(f"not an SVG drawing, its root is {tag_of(self.root)}")
+        self.guess, self.guessed = PX, "96 px are an inch"
+        if b"Adobe Illustrator" in data[:2000]:
+            self.guess, self.guessed = 25.4 / 72, "Illustrator has 72 px in an inch"
+        elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
+            self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
+        self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
+        self.sheet = StyleSheet(
+            self.root,
+            (element for element in self.root.iter() if tag_of(element) == "style"),
+            (name for name, element in self.ids.items() if tag_of(element) in _PAINTS),
+        )
+        # (a file may do without any name space)
+        self._name_spaces = (_SVG, _name_space(self.root))
+        self.animations = sum(tag_of(element) in _ANIMATIONS for element in self.root.iter())
+        self.elsewhere = _elsewhere(data, self.sheet)
+        box = _view_box(self.root)
+        self.style = self.sheet.style(self.root, self.root, Style())
+        self.units = self._units()
+        width, height = (_page_side(self._side(side)) for side in ("width", "height"))
+        # (a page that tells one side or none has that of its view box)
+        if box and width is None:
+            width = box[2] * (height / box[3] if height else 1.0)
+        if box and height is None:
+            height = box[3] * (width or 0.0) / box[2]
+        self.page = _Frame(svgelements.Matrix(), (0.0, 0.0), (width, height)) if width and height else None
+        self.height = height or 0.0
+        size = width or 0.0, self.height
+        self.view = View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size)
+
+    def _side(self, name: str) -> str:
+        """The page's width or height, as it is written."""
+        return self.style.geometry.get(name, self.root.get(name, ""))
+
+    def _units(self) -> tuple[str, float] | None:
+        for side in ("width", "height"):
+            unit = re.fullmatch(r"\s*[\d.eE+-]+\s*([a-zA-Z]+)\s*", self._side(side))
+            if unit and unit[1].lower() in UNITS:
+                return unit[1].lower().replace("in", "inch"), UNITS[unit[1].lower()]
+        return None
+
+    def drawn(self) -> Iterator[Drawn]:
+        """All that is drawn, and what is left of it, in the order of the file; all that is in the file, if nothing is
+        drawn."""
+        hidden = "not displayed" if self.style.display == "none" else ""
+        view = replace(self.view, style=self.style, hidden=hidden)
+        is_empty = True
+        for one in self._children(self.root, view, (self.root,), ()):
+            is_empty = False
+            yield one
+        if is_empty:
+            unshown = (element for element in self.root.iter() if tag_of(element) in (*SHAPES, "glyph"))
+            yield from (Drawn(element, view, "shown nowhere") for element in unshown)
+
+    def _children(
+        self,
+        group: ElementTree.Element,
+        view: View,
+        around: tuple[ElementTree.Element, ...],
+        used: tuple[ElementTree.Element, ...],
+    ) -> Iterator[Drawn]:
+        if len(around) > _DEPTH:
+            raise UserError(f"groups within groups, more than {_DEPTH} deep")
+        shown = _switched(group) if tag_of(group) == "switch" else None
+        for child in group:
+            name = tag_of(child)
+            if name in (*_GROUPS, *SHAPES, *NOTES, "use"):
+                why = "" if shown in (None, child) else "not displayed"
+                if _name_space(child) not in self._name_spaces:
+                    why = "not in SVG's name space"
+                inner = replace(view, hidden=view.hidden or why) if why else view
+                yield from self._one(child, name, inner, around, used)
+
+    def _one(
+        self,
+        element: ElementTree.Element,
+        name: str,
+        view: View,
+        around: tuple[ElementTree.Element, ...],
+        used: tuple[ElementTree.Element, ...],
+    ) -> Iterator[Drawn]:
+        """What one element shows; `around`: those that it stands in, `used`: what is being used, the last innermost."""
+        style = self.sheet.style(element, (self.root, *used)[-1], view.style)
+        layer = view.layer
+        if name == "g" and (element.get(_MODE) == "layer" or len(around) == 1):
+            layer = element.get(_LABEL) or element.get("id") or layer
+        hidden = view.hidden or ("not displayed" if style.display == "none" else "invisible" * style.is_clear)
+        view = replace(view, layer=layer, style=style, hidden=hidden, is_clipped=view.is_clipped or style.is_clipped)
+        try:
+            if style.transform:
+                view = replace(view, matrix=_transform(style, view.size) * view.matrix)
+            if name == "use":
+                shown = self._shown(element, view, around, used)
+            elif name == "svg":
+                inner = _framed(element, element, view, _corner(element, view))
+                shown = self._children(element, inner, (*around, element), used)
+            else:
+                shown = self._children(element, view, (*around, element), used)
+        except UNREADABLE as error:
+            yield Drawn(element, view, f"cannot be read ({str(error) or type(error).__name__})")
+            return
+        if name in NOTES:
+            yield Drawn(element, view, hidden or NOTES[name])
+        elif name in SHAPES:
+            yield Drawn(element, view, hidden)
+        else:
+            yield from shown
+
+    def _shown(
+        self,
+        element: ElementTree.Element,
+        view: View,
+        around: tuple[ElementTree.Element, ...],
+        used: tuple[ElementTree.Element, ...],
+    ) -> Iterable[Drawn]:
+        """What a `use` shows."""
+        link = (element.get("href") or element.get(_LINK) or "").strip()
+        target = self.ids.get(link.removeprefix("#")) if link.startswith("#") else None
+        if target is None or target in used:
+            why = "is part of itself" if target is not None else "is not in the file"
+            return [Drawn(element, view, view.hidden or f"what it shows, {link or 'nothing'}, {why}")]
+        name = tag_of(target)
+        moved = replace(view, matrix=svgelements.Matrix.translate(*_corner(element, view)) * view.matrix)
+        around, used = (*around, element), (*used, target)
+        if name in ("symbol", "svg"):
+            style = self.sheet.style(target, target, view.style)
+            matrix = _transform(style, view.size) * moved.matrix if style.transform else moved.matrix
+            inner = replace(moved, style=style, matrix=matrix)
+            at = _corner(target, inner) if name == "svg" else (0.0, 0.0)
+            return self._children(target, _framed(target, element, inner, at), (*around, target), used)
+        if name in (*_GROUPS, *SHAPES, *NOTES, "use"):
+            return self._one(target, name, moved, around, used)
+        return []
+
+
+def tag_of(element: ElementTree.Element) -> str:
+    """An element's name without its name space; nothing for a comment."""
+    return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+
+
+def _name_space(element: ElementTree.Element) -> str:
+    """What an element's name belongs to; nothing for a comment."""
+    return element.tag.rpartition("}")[0].removeprefix("{") if isinstance(element.tag, str) else ""
+
+
+def _elsewhere(data: bytes, sheet: StyleSheet) -> list[str]:
+    """The names of style sheets that are not in the file."""
+    links = re.findall(rb"""<\?xml-stylesheet\b[^>]*?\bhref\s*=\s*["']([^"']*)""", data[:20000])
+    return [*(link.decode("utf-8", "replace") for link in links if not link.startswith(b"#")), *sheet.imported]
+
+
+def _switched(group: ElementTree.Element) -> ElementTree.Element | None:
+    """What a `switch` shows: the first that asks for nothing that is not there."""
+    for child in group:
+        languages = child.get("systemLanguage", "en").replace(" ", "").split(",")
+        is_english = any(language.partition("-")[0] == "en" for language in languages)
+        if tag_of(child) in (*_GROUPS, *SHAPES, "use") and is_english and not child.get("requiredExtensions"):
+            return child
+    return group
+
+
+def length_of(text: str, whole: float | None) -> float | None:
+    """A length in pixels; `whole` is that of 100 %. None where there is none, or nothing that it is a part of; one in
+    units of a font or of a window, or a sum, is a `ValueError`."""
+    text = text.strip()
+    if text in ("", "auto"):
+        return None
+    found = re.fullmatch(rf"({NUMBER})\s*([a-zA-Z]*|%)", text)
+    unit = found[2].lower() if found else None
+    if found is None or unit not in ("", "px", "%", *UNITS):
+        raise ValueError(f"its length {text}")
+    if unit == "%":
+        if whole == 0:
+            raise ValueError(f"its length {text}, of a frame without a size")
+        return None if whole is None else float(found[1]) / 100 * whole
+    return float(found[1]) * (UNITS[unit] / PX if unit in UNITS else 1.0)
+
+
+def _page_side(text: str) -> float | None:
+    """The page's width or height, pixels; None where it is that of a window."""
+    try:
+        return length_of(text, None)
+    except ValueError:
+        return None
+
+
+def property_of(element: ElementTree.Element, view: View, name: str) -> str:
+    """A length of an element's form as it is written: in a style sheet, else as an attribute."""
+    return view.style.geometry.get(name, element.get(name, ""))
+
+
+def _corner(element: ElementTree.Element, view: View) -> XY:
+    """x and y of an element, in pixels."""
+    x, y = (length_of(property_of(element, view, side), whole) for side, whole in zip("xy", view.size, strict=True))
+    return x or 0.0, y or 0.0
+
+
+def _transform(style: Style, size: XY) -> svgelements.Matrix:
+    """An element's transform, which turns about its origin; `size`: that of the view box."""
+    words = style.origin.split()[:2] or ["0", "0"]
+    words = [*words, "center"][:2]
+    if words[0] in ("top", "bottom") or words[1] in ("left", "right"):
+        words.reverse()
+    whole = [length_of(_SIDES.get(word, word), side) for word, side in zip(words, size, strict=True)]
+    if None in whole or style.box not in ("", "view-box"):
+        raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
+    x, y = whole
+    translate = svgelements.Matrix.translate
+    return translate(-x, -y) * svgelements.Matrix(style.transform) * translate(x, y)
+
+
+def _view_box(element: ElementTree.Element) -> tuple[float, float, float, float] | None:
+    """The view box of an element that has one: its corner, its width and height."""
+    try:
+        x, y, width, height = (float(number) for number in element.get("viewBox", "").replace(",", " ").split())
+    except ValueError:
+        return None
+    return (x, y, width, height) if width > 0 and height > 0 else None
+
+
+def _fitted(element: ElementTree.Element, at: XY, size: XY) -> svgelements.Matrix:
+    """From the view box of an element to the frame at a place that it fills."""
+    box = _view_box(element)
+    if box is None or not all(size):
+        return svgelements.Matrix.translate(*at)
+    scales = [side / part for side, part in zip(size, box[2:], strict=True)]
+    words = (element.get("preserveAspectRatio") or "xMidYMid").split()
+    if words[0] == "none":
+        sx, sy = scales
+    else:
+        sx = sy = max(scales) if "slice" in words else min(scales)
+    aligned = {"min": 0.0, "mid": 0.5, "max": 1.0}
+    parts = [aligned.get(words[0][first : first + 3].lower(), 0.5) for first in (1, 5)]
+    free = size[0] - sx * box[2], size[1] - sy * box[3]
+    x, y = (corner + part * rest for corner, part, rest in zip(at, parts, free, strict=True))
+    return svgelements.Matrix(sx, 0, 0, sy, x - sx * box[0], y - sy * box[1])
+
+
+def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: View, at: XY) -> View:
+    """The view within a nested drawing or a symbol; `outer`, which may be what uses it, tells the frame's size."""
+    sides = []
+    for side, whole in zip(("width", "height"), view.size, strict=True):
+        # (what a `use` tells as attributes goes before the drawing's own; a style sheet before both)
+        length = length_of(view.style.geometry.get(side) or outer.get(side) or inner.get(side, ""), whole)
+        sides.append(whole if length is None else length)
+    box = _view_box(inner)
+    if box and not all(sides):
+        raise ValueError("a view box in a frame without a size")
+    matrix = _fitted(inner, at, (sides[0], sides[1])) * view.matrix
+    frames = view.frames
+    if all(sides) and not view.style.is_overflowing:
+        frames = (*frames, _Frame(view.matrix, at, (sides[0], sides[1])))
+    return replace(view, matrix=matrix, frames=frames, size=(box[2], box[3]) if box else (sides[0], sides[1]))

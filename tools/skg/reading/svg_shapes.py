@@ -1,0 +1,310 @@
+"""Shapes of an SVG drawing as edges, lengths in millimetres; each is accounted for.
+
+svgelements reads what stands in an attribute: path data and transforms.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from math import atan2, hypot, pi, sqrt
+from xml.etree import ElementTree
+
+import svgelements
+
+from skg.errors import UserError
+from skg.geometry.contour import Edge
+from skg.geometry.plane import XY, cross, distance, minus
+from skg.reading.account import NOTE, Content, Entity, said
+from skg.reading.curves import conic, is_number, spline_edges
+from skg.reading.read_options import Wishes
+from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Drawn, SvgFile, View, length_of, property_of, tag_of
+from skg.wording import counted
+
+#: More shapes than this are no drawing.
+_MOST = 1_000_000
+#: Shapes that may have markers at their ends and corners.
+_MARKED = ("path", "line", "polyline", "polygon")
+#: What stands in no path data.
+_NO_PATH = re.compile(r"(?:[^\s,\d.eE+MmZzLlHhVvCcSsQqTtAa-]|[eE](?![+-]?\d)).*")
+#: A line that is wider than this is said, mm.
+_WIDE = 1.0
+#: Why a shape is left that has neither a stroke nor a fill.
+_UNPAINTED = "drawn with neither line nor area"
+
+
+def _outline(element: ElementTree.Element, view: View) -> Sequence[svgelements.PathSegment]:
+    """A shape as the segments of a path, in its own pixels."""
+    width, height = view.size
+    wholes = {**dict.fromkeys(("x", "cx", "rx", "x1", "x2", "width"), width), "r": hypot(*view.size) / sqrt(2)}
+
+    def given(name: str) -> float | None:
+        return length_of(property_of(element, view, name), wholes.get(name, height))
+
+    def radii() -> tuple[float | None, float | None]:
+        """rx and ry; one that is not told, or below 0, is the other."""
+        rx, ry = (None if length is None or length < 0 else length for length in map(given, ("rx", "ry")))
+        return ry if rx is None else rx, rx if ry is None else ry
+
+    def of(name: str) -> float:
+        return given(name) or 0.0
+
+    match tag_of(element):
+        case "rect":
+            rx, ry = radii()
+            wide, high = of("width"), of("height")
+            if wide <= 0 or high <= 0:
+                return []
+            x, y = of("x"), of("y")
+            if rx and ry:
+                return svgelements.Rect(x, y, wide, high, min(rx, wide / 2), min(ry, high / 2)).segments(False)
+            return _lines([(x, y), (x + wide, y), (x + wide, y + high), (x, y + high), (x, y)])
+        case "circle":
+            return _around((of("cx"), of("cy")), of("r"), of("r"))
+        case "ellipse":
+            rx, ry = radii()
+            return _around((of("cx"), of("cy")), rx or 0.0, ry or 0.0)
+        case "line":
+            return _lines([(of("x1"), of("y1")), (of("x2"), of("y2"))])
+        case "polyline":
+            return _lines(_points(element))
+        case "polygon":
+            points = _points(element)
+            return _lines([*points, *points[:1]])
+        case _:
+            path = re.fullmatch(r"""path\(\s*["'](.*)["']\s*\)""", told := property_of(element, view, "d"), re.DOTALL)
+            return _path(path[1] if path else told)
+
+
+class _PathData(svgelements.Path):
+    """A path whose smooth curves go on from one of their own kind alone; behind another they begin as a line would."""
+
+    def smooth_quad(self, *points: svgelements.Point, **options: bool) -> svgelements.Path:
+        """T of the path data."""
+        if isinstance(self[-1], svgelements.QuadraticBezier):
+            return super().smooth_quad(*points, **options)
+        return self.quad(self.current_point, *points, **options)
+
+    def smooth_cubic(self, *points: svgelements.Point, **options: bool) -> svgelements.Path:
+        """S of the path data."""
+        if isinstance(self[-1], svgelements.CubicBezier):
+            return super().smooth_cubic(*points, **options)
+        return self.cubic(self.current_point, *points, **options)
+
+
+def _path(data: str) -> svgelements.Path:
+    """Path data; what does not begin with a move, or does not end as it should, is a `ValueError`."""
+    wrong = _NO_PATH.search(data)
+    if wrong or data.strip() and data.strip()[0] not in "Mm":
+        raise ValueError(f"its path data, at {(wrong[0] if wrong else data.strip())[:10]}")
+    try:
+        return _PathData(data)
+    except UNREADABLE:
+        raise ValueError("its path data") from None
+
+
+def _points(element: ElementTree.Element) -> list[XY]:
+    """The points of a polyline or polygon."""
+    numbers = element.get("points", "").replace(",", " ")
+    found = [float(number) for number in re.findall(NUMBER, numbers)]
+    if re.sub(NUMBER, "", numbers).strip() or len(found) % 2:
+        raise ValueError("its points")
+    return list(zip(found[::2], found[1::2], strict=True))
+
+
+def _lines(points: list[XY]) -> list[svgelements.Line]:
+    """The lines from each point to the next."""
+    return [svgelements.Line(start, end) for start, end in pairwise(points)]
+
+
+def _around(centre: XY, rx: float, ry: float) -> list[svgelements.Arc]:
+    """A circle or an ellipse: one arc."""
+    start = centre[0] + rx, centre[1]
+    whole = {"rx": rx, "ry": ry, "rotation": 0.0, "sweep": 2 * pi}
+    return [svgelements.Arc(start, start, centre, **whole)] if rx > 0 and ry > 0 else []
+
+
+def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
+    """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
+    edge. `px`: mm in one pixel; `factor`: mm in the units of the page."""
+    drawn: list[Drawn] = []
+    for one in file.drawn():
+        drawn.append(one)
+        if len(drawn) > _MOST:
+            raise UserError(f"more than {_MOST:,} shapes, expected a drawing")
+    wishes.check_layers(one.view.layer for one in drawn)
+    collector = _SvgCollector(file, px, factor, wishes)
+    for one in drawn:
+        collector.take(one)
+    return collector.content()
+
+
+class _SvgCollector:
+    """Accounts for what is drawn, one by one, and keeps the edges of what is to be cut."""
+
+    def __init__(self, file: SvgFile, px: float, factor: float, wishes: Wishes) -> None:
+        self.file = file
+        self.px = px
+        self.factor = factor
+        self.wishes = wishes
+        self.shapes = _Shapes(file.height, px, wishes.fit_tolerance)
+        self.found = Content()
+        # What is said of shapes, and those without a line or an area, which are cut where there is nothing else.
+        self.clipped: list[Entity] = []
+        self.outside: list[Entity] = []
+        self.wide: list[Entity] = []
+        self.marked: list[Entity] = []
+        self.unpainted: list[tuple[Entity, list[Edge]]] = []
+
+    def take(self, one: Drawn) -> None:
+        """Account for one element that is drawn."""
+        kind, layer = tag_of(one.element), one.view.layer
+        account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or one.left)
+        self.found.entities.append(account)
+        if kind not in SHAPES or one.left.startswith("cannot"):
+            account.is_odd = not one.view.hidden and kind not in NOTES
+            return
+        try:
+            outline = _outline(one.element, one.view)
+            self.shapes.matrix, self.shapes.entity = one.view.matrix, len(self.found.entities) - 1
+            edges = list(self.shapes.edges(outline))
+        except UNREADABLE as error:
+            account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"
+            account.is_odd = not one.view.hidden
+            return
+        if edges:
+            x, y = edges[0].start
+            account.place = x / self.factor, y / self.factor
+        account.left = account.left or ("invisible" if one.view.style.is_hidden else "")
+        if account.left:
+            return
+        if self.wishes.is_start(layer):
+            self._start(account, outline if edges else [])
+        elif not one.view.matrix.determinant:
+            account.left = "its transform leaves no area, so that nothing is shown"
+        elif not edges:
+            account.left = "it has no length"
+        elif not one.view.style.is_painted:
+            account.left = _UNPAINTED
+            self.unpainted.append((account, edges))
+        else:
+            self._cut(account, one.view, edges)
+
+    def _start(self, account: Entity, outline: Sequence[svgelements.PathSegment]) -> None:
+        """A shape on the layer of start holes: a circle is one, about its middle."""
+        account.left = "a start hole" if account.kind == "circle" else NOTE
+        if account.kind == "circle" and outline:
+            self.found.starts.append(self.shapes.point(outline[0].center))
+
+    def _cut(self, account: Entity, view: View, edges: list[Edge]) -> None:
+        """A shape that is cut; how it is drawn may have to be said."""
+        self.found.edges += edges
+        style = view.style
+        account.dashes = "stroke-dasharray" if style.is_dashed else ""
+        places = [(x / self.px, self.file.height - y / self.px) for edge in edges for x, y in edge.extremes()]
+        if view.is_clipped or not all(frame.holds(places) for frame in view.frames):
+            self.clipped.append(account)
+        if self.file.page and not self.file.page.holds(places):
+            self.outside.append(account)
+        if style.has_markers and account.kind in _MARKED:
+            self.marked.append(account)
+        if style.width * sqrt(abs(view.matrix.determinant)) * self.px > _WIDE:
+            self.wide.append(account)
+
+    def content(self) -> Content:
+        """All that was found, with what is to be said of it."""
+        found, some = self.found, ("shape", "shapes")
+        found.notes += self._of_page()
+        if not found.edges:
+            for account, edges in self.unpainted:
+                account.left = ""
+                found.edges += edges
+            found.notes += said((one for one, _ in self.unpainted), some, _UNPAINTED, "cut, there is nothing else")
+        found.notes += said(self.clipped, some, "clipped or masked", "cut whole")
+        found.notes += said(self.outside, some, "outside the page, or partly", "cut whole")
+        found.notes += said(self.wide, some, f"drawn with a line wider than {_WIDE:g} mm", "the middle is cut")
+        found.notes += said(self.marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
+        return found
+
+    def _of_page(self) -> Iterator[str]:
+        """What of the page as a whole is passed over."""
+        if self.file.style.transform:
+            yield f"the page itself is transformed ({self.file.style.transform}): passed over"
+        if self.file.animations:
+            yield f"{counted(self.file.animations, 'animation')}: passed over, all is cut as it stands without"
+        for name in self.file.elsewhere:
+            yield f"the style sheet {name} is in another file: passed over"
+        if missed := self.file.sheet.missed:
+            count = counted(len(missed), "rule", "rules")
+            yield f"{count} of the style sheet not understood, as {missed[0]}: passed over"
+
+
+class _Shapes:
+    """Turns shapes into edges. `matrix`: from the present shape's pixels to those of the page; `entity`: its number."""
+
+    def __init__(self, height: float, factor: float, tolerance: float) -> None:
+        self.height = height
+        self.factor = factor
+        self.tolerance = tolerance
+        self.matrix = svgelements.Matrix()
+        self.entity = -1
+
+    def point(self, point: svgelements.Point) -> XY:
+        """A place in mm, y upwards."""
+        point = self.matrix.point_in_matrix_space(point)
+        x, y = point.x * self.factor, (self.height - point.y) * self.factor
+        if not (is_number(x) and is_number(y)):
+            raise ValueError("a place of it is no number")
+        return x, y
+
+    def edges(self, path: Iterable[svgelements.PathSegment]) -> Iterator[Edge]:
+        """A path's edges."""
+        for segment in path:
+            if isinstance(segment, svgelements.Arc):
+                yield from self.arc(segment)
+            elif isinstance(segment, svgelements.CubicBezier | svgelements.QuadraticBezier):
+                yield from self.bezier([self.point(point) for point in segment])
+            elif isinstance(segment, svgelements.Line | svgelements.Close) and segment.start is not None:
+                yield from self.line(self.point(segment.start), self.point(segment.end or segment.start))
+
+    def line(self, start: XY, end: XY) -> Iterator[Edge]:
+        """A line, if it has a length."""
+        if distance(start, end) > 0:
+            yield Edge(start, end, entity=self.entity)
+
+    def bezier(self, controls: list[XY]) -> Iterator[Edge]:
+        """A Bézier curve."""
+        from ezdxf.math import BSpline, Vec3  # (slow to import, and many drawings do not need it)
+
+        controls = [Vec3(*control) for control in controls]
+        if any(control != controls[0] for control in controls):
+            for edge in spline_edges(BSpline(controls, order=len(controls)), self.tolerance):
+                yield replace(edge, entity=self.entity)
+
+    def arc(self, arc: svgelements.Arc) -> Iterator[Edge]:
+        """An arc of an ellipse, or all of it."""
+        start, end, centre, one, other = (
+            self.point(point) for point in (arc.start, arc.end, arc.center, arc.prx, arc.pry)
+        )
+        u, v = minus(one, centre), minus(other, centre)
+        area = cross(u, v)
+        if abs(area) < 1e-12:
+            # (an arc without a radius is a line)
+            yield from self.line(start, end)
+            return
+        turned = -arc.sweep if self.matrix.determinant < 0 else arc.sweep
+        if (turned > 0) == (area > 0):
+            # With y upwards a turn that SVG calls positive is clockwise.
+            v, area = (-v[0], -v[1]), -area
+        ways = (minus(place, centre) for place in (start, end))
+        first, last = (atan2(cross(u, way) / area, cross(way, v) / area) for way in ways)
+        sweep = (last - first) % (2 * pi)
+        if distance(start, end) < 1e-9 and abs(turned) > 1:
+            sweep = 2 * pi
+        edge = conic(centre, u, v, first, sweep, self.tolerance, self.entity)
+        if edge.nodes or sweep == 2 * pi:
+            yield edge
+        elif edge.length > 0:
+            yield replace(edge, start=start, end=end)

@@ -1,0 +1,1 @@
+"""Tapes from any file: 3B, G-code, programs."""

@@ -1,0 +1,259 @@
+"""Where a tape comes from: a .3b file, G-code (.nc, .ngc …), or a program (.skg, or a rival's) that is run first.
+
+A milling program's tape is G-code.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from skg.errors import UserError
+from skg.file_type import GCODE, PROGRAM, refuse_others
+from skg.files import in_ascii, read_ascii, read_bytes, without_filling, without_mark
+from skg.geometry.piece import Piece
+from skg.geometry.plane import XY
+from skg.machine.board import BoardStopped, find_error
+from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, given_up, least_ram, too_large
+from skg.machine.roms import rom_path
+from skg.rivals.languages import is_program, is_rival, translated
+from skg.sources.milling import MILL_ROM, is_milling
+from skg.tape import text as tapes
+from skg.tape.block import Tape, micrometres
+from skg.tape.gcode import is_gcode
+from skg.tape.gcode_program import GcodeProgram
+from skg.tape.gcode_reader import read as read_gcode
+from skg.tape.layout import PlacedRoute, stop_places
+from skg.tape.positions import decide
+
+if TYPE_CHECKING:
+    from skg.ref import Result
+
+
+@dataclass(frozen=True)
+class Made:
+    """A tape, where its wire starts on the drawing (mm), and its nominal contour, if it was asked for."""
+
+    tape: Tape
+    start: XY = (0.0, 0.0)
+    contour: tuple[Piece, ...] = ()
+
+
+def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Made:
+    """Return what is in a file: a program when its name ends in .skg or as a rival's does, else a tape.
+
+    `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator.
+    `with_contour` on a tape, and a program that ends in ERR, are a `UserError`.
+    """
+    if program := iso_program(name, skg80):
+        contour = contour_of(name) if with_contour else ()
+        tape = replace(program.tape(), notes=program.left_out())
+        return Made(tape, (program.home[0] / 1000, program.home[1] / 1000), contour)
+    if not is_program(name):
+        if with_contour:
+            raise _no_contour(name)
+        tape = tapes.read(name)
+        return Made(tape, tape.start or (0.0, 0.0))
+    # The reference is needed in any case: only it knows where on the drawing the wire is.
+    data, start, contour = _run(name, skg80, with_contour)
+    tape = tapes.parse(data, name)
+    if skg80 in (None, "reference"):
+        # The standard ROM or the reference as it is.
+        tape = replace(tape, drift=True)
+    return Made(tape, start, contour)
+
+
+def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
+    """The G-code in a file, told by its name's end, or that of a milling program; else None.
+
+    What is odd about it but can be read is no matter here, what is guessed is said. `skg80` as in `load`.
+    """
+    text = iso_text(name, skg80)
+    return None if text is None else iso_of(text, name)
+
+
+def iso_of(text: str, name: str) -> GcodeProgram:
+    """Read G-code; what it does not tell and is guessed, and what of it is no cut, is said on standard error."""
+    program = read_gcode(text, name)
+    for said in (*program.guesses, *program.notes):
+        print(f"skg: {name}: {said}", file=sys.stderr, flush=True)
+    return program
+
+
+def iso_text(name: str, skg80: str | None = None) -> str | None:
+    """The text of `iso_program`."""
+    if is_gcode(name):
+        return gcode_text(name)
+    if not is_program(name) or is_rival(name):
+        return None
+    text = program_text(name)
+    if not is_milling(text):
+        return None
+    by = "the mill ROM" if skg80 is None else "the reference" if skg80 == "reference" else f"{skg80}, the mill ROM"
+    print(f"skg: {name}: a milling program, run by {by}", file=sys.stderr, flush=True)
+    _say_given_up(name, text)
+    return _tape_of(name, text, skg80, mills=True).decode("ascii")
+
+
+def _no_contour(name: str) -> UserError:
+    return UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
+
+
+def gcode_text(name: str) -> str:
+    """Return the text of a file that should be G-code; another kind of file is a `UserError`."""
+    data = read_bytes(name)
+    refuse_others(data, name, GCODE)
+    return in_ascii(without_mark(without_filling(data)))
+
+
+def tape_bytes(name: str, skg80: str | None = None) -> bytes:
+    """Return a tape's bytes: those of a file (`-`: the standard input), or what its program punches."""
+    return _run(name, skg80, False)[0] if is_program(name) else read_bytes(name)
+
+
+def contour_of(name: str) -> tuple[Piece, ...]:
+    """The nominal contour of a milling program; a tape has none, which is a `UserError`."""
+    if not is_program(name):
+        raise _no_contour(name)
+    text = program_text(name)
+    return _nominal(_reference(name, text, mills=True))
+
+
+def program_text(name: str) -> str:
+    """Return the SKG program that is in a file, or that a rival's is translated to."""
+    return translated(name) if is_rival(name) else checked_program(read_ascii(name), name)
+
+
+def checked_program(text: str, name: str) -> str:
+    """Return what is in a file if it may be a program; another kind of file, and an empty one, is a `UserError`."""
+    refuse_others(text.encode("latin-1", "replace"), name, PROGRAM)
+    if not text.strip("\0\x1a \t\r\n"):
+        raise UserError(f"{name}: empty, expected {PROGRAM}")
+    return text
+
+
+def _run(name: str, skg80: str | None, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
+    """Run a program for wire: the tape's bytes, where the wire starts (mm), the nominal contour."""
+    text = program_text(name)
+    _say_given_up(name, text)
+    result = _reference(name, text)
+    start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
+    data = result.tape if skg80 == "reference" else _tape_of(name, text, skg80)
+    return data, start, _nominal(result) if with_contour else ()
+
+
+def _say_given_up(name: str, text: str) -> None:
+    if lost := given_up(text):
+        print(f"skg: {name}: {lost}", file=sys.stderr, flush=True)
+
+
+def _tape_of(name: str, text: str, skg80: str | None, mills: bool = False) -> bytes:
+    """The tape of a program, by the ROM or by what `skg80` names."""
+    if skg80 is None:
+        return _run_rom(name, text, MILL_ROM if mills else "standard")
+    if skg80 == "reference":
+        return _reference(name, text, mills).tape
+    return _run_emulator(name, text, skg80, mills)
+
+
+def _run_rom(name: str, text: str, rom: str) -> bytes:
+    """Run a program on the board; one that needs more memory gets it, with a word."""
+    try:
+        fed = feed(text, rom)
+        if fed.error and fed.error.number == MEMORY_FULL:
+            fed = feed(text, rom, MOST_RAM)
+            if fed.error and fed.error.number == MEMORY_FULL:
+                raise too_large(name, text, MOST_RAM, rom)
+            if not fed.error:
+                least = least_ram(text, rom)
+                print(f"skg: {name}: takes {least} KiB of RAM, more than the board's 8", file=sys.stderr)
+    except BoardStopped as stopped:
+        raise UserError(f"{name}: {stopped}") from None
+    if fed.error:
+        if fed.error.line is None:
+            # The board shows the line that it does not understand, the reference says its number.
+            _reference(name, text, rom == MILL_ROM)
+        raise _failure(name, text, *fed.error)
+    return fed.tape
+
+
+def _run_emulator(name: str, text: str, skg80: str, mills: bool) -> bytes:
+    """Run a program on an emulator of one's own."""
+    if not Path(skg80).exists():
+        raise UserError(f"{skg80}: no such file")
+    rom = ["--rom", rom_path(MILL_ROM)] if mills else []
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            part = Path(folder) / "part.skg"
+            part.write_text(text)
+            words = [skg80, *rom, "--max-cycles", str(MOST_CYCLES), part]
+            done = subprocess.run(words, capture_output=True, check=False)
+    except PermissionError:
+        raise UserError(f"{skg80}: not a program that can be run") from None
+    if done.returncode:
+        lines = done.stderr.decode("ascii", "replace").strip().splitlines()
+        error, last = find_error(lines), lines[-1:]
+        if error and error.number == MEMORY_FULL:
+            raise too_large(name, text, 8, MILL_ROM if mills else "standard")
+        if error:
+            raise _failure(name, text, *error)
+        raise UserError(f"{name}: {last[0] if last else f'{skg80} ended with {done.returncode}'}")
+    return done.stdout
+
+
+def _failure(name: str, text: str, number: int, line: int | None) -> UserError:
+    where = f" LINE {line}" if line is not None else ""
+    contour = _contour_at(text, line) if line is not None else ""
+    return UserError(f"{name}: ERR {number:02d}{where}" + (f", in contour {contour}" if contour else ""))
+
+
+def _contour_at(text: str, line: int) -> str:
+    """The contour that a line cuts, as the REM over it has it in a program that was made of a drawing; else nothing."""
+    found = ""
+    for number, statement in re.findall(r"^\s*(\d+)\s*(.*?)\s*$", text, re.M):
+        if len(number) > 4 or int(number) > line:
+            break
+        title = re.match(r"REM (\d+\. .*)", statement)
+        found = title[1] if title else "" if statement == "END" else found
+    return found
+
+
+def _reference(name: str, text: str, mills: bool = False) -> Result:
+    """What the reference makes of a program; one that ends in ERR is a `UserError`."""
+    # (slow to import, and not needed for tapes)
+    from skg.ref import mill, run
+
+    program, runs = as_run(text)
+    result = (mill.run if mills else run)(program, runs=runs)
+    if result.error:
+        raise _failure(name, text, *result.error)
+    return result
+
+
+def _nominal(result: Result) -> tuple[Piece, ...]:
+    from skg.sources.nominal import nominal
+
+    return nominal(result.path)
+
+
+def lay_out(made: Made, start: XY, positions: str, joints: str) -> tuple[list[PlacedRoute], list[XY]]:
+    """Return a tape's routes and stops in µm, its wire starting at `start` (mm).
+
+    `positions` is one of `skg.tape.positions.POSITIONS`. `joints` "drawn": where the corners most likely were before
+    the tape's rounding; "tape": at the whole µm that the blocks or the controller end at.
+    """
+    # (these load numpy)
+    from skg.tape.joints import estimate
+    from skg.tape.layout import place
+
+    home = micrometres(start[0]), micrometres(start[1])
+    if joints == "tape":
+        routes = place(made.tape, home, positions)
+    else:
+        routes = estimate(made.tape, home, decide(made.tape, positions).positions == "machine")
+    return routes, stop_places(made.tape, routes, home)

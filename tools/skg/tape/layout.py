@@ -1,0 +1,239 @@
+"""A tape laid out on the drawing: its blocks in their places, absolute lines and arcs, in micrometres."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
+from math import atan2, pi
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skg.geometry.arrays import Flags, Floats, directions, hypots
+from skg.geometry.piece import Piece
+from skg.geometry.plane import XY, minus
+from skg.tape.block import Block, Tape
+from skg.tape.block_list import Blocks
+from skg.tape.columns import Columns, columns_of
+from skg.tape.moves import closed_moves, machine_moves
+from skg.tape.positions import decide
+
+#: So many blocks at once leave the columns.
+AT_ONCE = 4096
+#: Where the four axes point.
+_QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+#: The parts of a route that is cut: from the start hole to the contour, the contour, and back to the hole.
+WAY_IN, CUT, WAY_BACK = "way in", "cut", "way back"
+
+
+@dataclass(frozen=True, slots=True)
+class Placed(Piece):
+    """A block in its place: the line or arc that it is, absolute, in µm."""
+
+    block: Block = field(kw_only=True)
+
+    @classmethod
+    def between(cls, block: Block, start: XY, end: XY, centre: XY | None = None) -> Placed:
+        """A block from `start` to `end`; `centre` is that of an arc when it is not the block's own.
+
+        The sweep is the block's, corrected by what the ends lie away from where the block alone has them.
+        """
+        if block.is_line:
+            return cls(start, end, block=block)
+        if centre is None:
+            centre = minus(start, block.start)
+        sweep = block.sweep
+        if not block.is_full_circle:
+            first, last = (atan2(y - centre[1], x - centre[0]) for x, y in (start, end))
+            sweep += (last - first - sweep + pi) % (2 * pi) - pi
+        return cls(start, end, centre, sweep, block=block)
+
+
+@dataclass(frozen=True)
+class PlacedRoute:
+    """The blocks between two stops; `is_move`: positioning (see `Tape.positioning`), else they are cut."""
+
+    blocks: Sequence[Placed]
+    is_move: bool
+
+    @property
+    def start(self) -> XY:
+        """Where the route begins, µm."""
+        return self.blocks[0].start
+
+    @property
+    def gap(self) -> float:
+        """Larger coordinate of end minus start, µm."""
+        return _apart(self.blocks[-1].end, self.blocks[0].start)
+
+    def parts(self) -> Iterator[tuple[str, Sequence[Placed]]]:
+        """Split the route into `WAY_IN` and `WAY_BACK`, one block each, and what is `CUT`.
+
+        A way in is a line, the way back the line that goes back along it later on: the path between them is closed.
+        There may be several, one after the other, when a contour is cut more than once.
+        """
+        blocks, at = self.blocks, 0
+        while at < len(blocks) and (back := self._way_back(at)):
+            yield WAY_IN, blocks[at : at + 1]
+            yield CUT, blocks[at + 1 : back]
+            yield WAY_BACK, blocks[back : back + 1]
+            at = back + 1
+        if at < len(blocks):
+            yield CUT, blocks[at:]
+
+    def _way_back(self, first: int) -> int | None:
+        """The line that goes back along the line `first`."""
+        lead = self.blocks[first]
+        if not lead.is_line:
+            return None
+        (dx, dy), arcs = lead.block.move, 0
+        for at, placed in enumerate(self.blocks[first + 1 :], first + 1):
+            if not placed.is_line:
+                arcs += 1
+                continue
+            ex, ey = placed.block.move
+            # Each arc between them may have ended beside its place; two lines alone enclose nothing.
+            if (
+                at > first + 1
+                and max(abs(dx + ex), abs(dy + ey)) <= 1
+                and _apart(placed.start, lead.end) <= 2 * (arcs + 1)
+            ):
+                return at
+        return None
+
+
+class Laid(Sequence[Placed]):
+    """Blocks in their places, as columns: each becomes a `Placed` when it is asked for.
+
+    `starts`, `ends`, `centres` (n × 2, µm; a line's centre is nothing), `sweeps` (n, radians), `is_line` (n).
+    """
+
+    def __init__(
+        self, blocks: Sequence[Block], starts: NDArray, ends: NDArray, centres: NDArray, sweeps: Floats, is_line: Flags
+    ) -> None:
+        self.blocks = blocks
+        self.starts, self.ends, self.centres, self.sweeps, self.is_line = starts, ends, centres, sweeps, is_line
+
+    @classmethod
+    def between(
+        cls, blocks: Sequence[Block], columns: Columns, places: NDArray, centres: NDArray | None = None
+    ) -> Laid:
+        """Blocks that end where the next one begins, at n + 1 places; as `Placed.between` of each."""
+        return cls.apart(blocks, columns, places[:-1], places[1:], centres)
+
+    @classmethod
+    def apart(
+        cls, blocks: Sequence[Block], columns: Columns, starts: NDArray, ends: NDArray, centres: NDArray | None = None
+    ) -> Laid:
+        """Blocks between starts and ends (n × 2 each); as `Placed.between` of each."""
+        if centres is None:
+            centres = starts - columns.starts
+        sweeps, rows = columns.sweeps.copy(), np.flatnonzero(columns.is_arc)
+        first, last = (directions((side - centres)[rows]) for side in (starts, ends))
+        sweeps[rows] += (last - first - sweeps[rows] + pi) % (2 * pi) - pi
+        return cls(blocks, starts, ends, centres, sweeps, columns.is_line)
+
+    @classmethod
+    def of(cls, placed: Sequence[Placed]) -> Laid:
+        """The columns of blocks in their places."""
+        if isinstance(placed, Laid):
+            return placed
+        rows = [(*one.start, *one.end, *(one.centre or (0, 0)), one.sweep, one.is_line) for one in placed]
+        columns = np.array(rows, float).reshape(-1, 8)
+        places = (columns[:, first : first + 2] for first in (0, 2, 4))
+        return cls([one.block for one in placed], *places, columns[:, 6], columns[:, 7] > 0)
+
+    def __len__(self) -> int:
+        return len(self.blocks)
+
+    @overload
+    def __getitem__(self, at: int) -> Placed: ...
+    @overload
+    def __getitem__(self, at: slice) -> Laid: ...
+    def __getitem__(self, at: int | slice) -> Placed | Laid:
+        if isinstance(at, slice):
+            columns = (self.starts, self.ends, self.centres, self.sweeps, self.is_line)
+            return Laid(self.blocks[at], *(column[at] for column in columns))
+        at = range(len(self))[at]
+        return next(iter(self[at : at + 1]))
+
+    def __iter__(self) -> Iterator[Placed]:
+        for first in range(0, len(self), AT_ONCE):
+            part = slice(first, first + AT_ONCE)
+            columns = (self.starts, self.ends, self.centres, self.sweeps, self.is_line)
+            rows = zip(self.blocks[part], *(column[part].tolist() for column in columns), strict=True)
+            for block, start, end, centre, sweep, is_line in rows:
+                yield Placed(tuple(start), tuple(end), None if is_line else tuple(centre), sweep, block=block)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Laid]) -> Laid:
+        """The blocks of several, at least one, one after the other."""
+        blocks = [one.blocks for one in parts]
+        is_packed = all(isinstance(one, Blocks) for one in blocks)
+        columns = zip(*((one.starts, one.ends, one.centres, one.sweeps, one.is_line) for one in parts), strict=True)
+        return cls(
+            Blocks.joined(blocks) if is_packed else list(chain.from_iterable(blocks)), *map(np.concatenate, columns)
+        )
+
+    def lengths(self) -> Floats:
+        """Lengths of the lines and arcs, µm."""
+        ways = np.where(self.is_line[:, None], self.ends, self.centres) - self.starts
+        return hypots(*ways.T) * np.where(self.is_line, 1.0, abs(self.sweeps))
+
+    def extents(self) -> tuple[XY, XY]:
+        """The smallest and the largest x and y, bulges of arcs included; of at least one block."""
+        arcs = np.flatnonzero(~self.is_line)
+        centres, arms = self.centres[arcs], (self.starts - self.centres)[arcs]
+        first, radii = directions(arms), hypots(*arms.T)
+        last = first + self.sweeps[arcs]
+        quarter, latest = np.ceil(np.minimum(first, last) / (pi / 2)), np.maximum(first, last) // (pi / 2)
+        corners = [self.starts, self.ends]
+        while (is_on := quarter <= latest).any():
+            # (as `Piece.extremes`)
+            corners.append((centres + radii[:, None] * _QUARTERS[quarter.astype(int) % 4])[is_on])
+            quarter = quarter + 1
+        low, high = (find([find(part, axis=0) for part in corners], axis=0).tolist() for find in (np.min, np.max))
+        return tuple(low), tuple(high)
+
+
+def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") -> list[PlacedRoute]:
+    """Lay a tape out from `start` (µm); `positions` is one of `skg.tape.positions.POSITIONS`."""
+    is_machine = decide(tape, positions).positions == "machine"
+    moves = machine_moves(tape) if is_machine else closed_moves(tape)
+    places = np.concatenate([[start], moves]).cumsum(axis=0)
+    return routes_of(tape, Laid.between(tape.blocks, columns_of(tape), places))
+
+
+def routes_of(tape: Tape, laid: Laid) -> list[PlacedRoute]:
+    """The routes of a tape, all of whose blocks are laid out."""
+    bounds = zip(tape.bounds, tape.positioning(), strict=True)
+    return [PlacedRoute(laid[first:last], is_move) for (first, last), is_move in bounds if first < last]
+
+
+def lay(tape: Tape, start: XY, place_blocks: Callable[[slice, XY], tuple[Laid, XY]]) -> list[PlacedRoute]:
+    """Lay a tape's routes out one after the other, from `start` (µm).
+
+    `place_blocks` is given which blocks of the tape stand between two stops, at least one, and where the first of them
+    starts; it returns them in their places, and where the block after them starts.
+    """
+    routes: list[PlacedRoute] = []
+    for (first, last), is_move in zip(tape.bounds, tape.positioning(), strict=True):
+        if first < last:
+            laid, start = place_blocks(slice(first, last), start)
+            routes.append(PlacedRoute(laid, is_move))
+    return routes
+
+
+def _apart(one: XY, other: XY) -> float:
+    """The larger coordinate of the way from one place to another."""
+    return max(abs(one[0] - other[0]), abs(one[1] - other[1]))
+
+
+def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:
+    """Where the controller stops, µm, each place once; `home` is where the tape begins."""
+    found, laid = [home], iter(routes)
+    for first, last in tape.bounds[:-1]:
+        found.append(next(laid).blocks[-1].end if first < last else found[-1])
+    return list(dict.fromkeys(found[1:]))
