@@ -172,7 +172,7 @@ class PlannedContour:
         yield last if is_there else _backwards(last)
 
     def with_wire_ways(self) -> PlannedContour:
-        """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.drawing.parallel)."""
+        """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.geometry.offset)."""
         traced = self._wire_ways
         found = replace(self, traced=traced)
         if self.is_outside or self.room == inf:

@@ -28,11 +28,11 @@ from skg.tape.block import Tape, micrometres
 from skg.tape.gcode import is_gcode
 from skg.tape.gcode_program import GcodeProgram
 from skg.tape.gcode_reader import read as read_gcode
-from skg.tape.layout import PlacedRoute, stop_places
 from skg.tape.positions import decide
 
 if TYPE_CHECKING:
     from skg.ref import Result
+    from skg.tape.layout import PlacedRoute
 
 
 @dataclass(frozen=True)
@@ -249,7 +249,7 @@ def lay_out(made: Made, start: XY, positions: str, joints: str) -> tuple[list[Pl
     """
     # (these load numpy)
     from skg.tape.joints import estimate
-    from skg.tape.layout import place
+    from skg.tape.layout import place, stop_places
 
     home = micrometres(start[0]), micrometres(start[1])
     if joints == "tape":

@@ -5,9 +5,12 @@ from __future__ import annotations
 
 from decimal import Decimal
 from math import pi
+from typing import TYPE_CHECKING
 
 from skg.tape.block import Tape
-from skg.tape.layout import Placed
+
+if TYPE_CHECKING:
+    from skg.tape.layout import Placed
 
 #: A place, or a cutting and a travel height, µm.
 Spot = tuple[int, int]

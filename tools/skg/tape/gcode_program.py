@@ -12,10 +12,9 @@ from skg.errors import UserError
 from skg.tape.block import Block, Stop, Tape, line_block
 from skg.tape.block_list import Blocks
 from skg.tape.gcode import Spot, millimetres, minus
-from skg.tape.layout import PlacedRoute
 
 if TYPE_CHECKING:
-    from skg.tape.layout import Laid
+    from skg.tape.layout import Laid, PlacedRoute
 
 #: The end of a 3B block's arc may lie so far off the circle through its start, µm: both are rounded, and so is the
 #: centre.
@@ -137,6 +136,8 @@ class GcodeProgram:
 
     def routes(self) -> list[PlacedRoute]:
         """What is cut and how it is moved between, as `skg.tape.layout.place` has it."""
+        from skg.tape.layout import PlacedRoute
+
         laid, parts = self.path.laid(), self.path.parts()
         return [PlacedRoute(laid[part.first : part.last], part.is_move) for part in parts if isinstance(part, GcodeRun)]
 
