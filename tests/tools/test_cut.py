@@ -633,8 +633,8 @@ def test_a_start_hole_in_the_part_is_refused(
 
 def allow(limit: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Have the check refuse what is off by more than this, mm."""
-    for module in ("wire_path", "beside", "reached"):
-        monkeypatch.setattr(f"skg.cutting.{module}.LIMIT", limit)
+    for module in ("wire_path", "check_distance", "check_coverage"):
+        monkeypatch.setattr(f"skg.checking.{module}.LIMIT", limit)
 
 
 @pytest.mark.parametrize(
