@@ -28,12 +28,12 @@ include tests/mill/mill.mk
 include web/web.mk
 include tests/floats/floats.mk
 
-# The virtual environment of the host tools and tests, made anew when the pinned list changes. The tools are installed as
+# The virtual environment of the host tools and tests, made anew when the list of versions changes. The tools are installed as
 # a user has them, but editable: their modules, the ROM images and the libraries in C are those of this tree.
 venv: $(VENV)/.stamp
-$(VENV)/.stamp: tools/pyproject.toml tools/setup.py | emu tools
-	$(PYTHON) -m venv $(VENV)
-	$(PY) -m pip install -q --disable-pip-version-check -e 'tools[test]'
+$(VENV)/.stamp: tools/pyproject.toml tools/constraints.txt tools/setup.py | emu tools
+	$(PYTHON) -m venv --clear $(VENV)
+	$(PY) -m pip install -q --disable-pip-version-check -c tools/constraints.txt -e 'tools[test]'
 	touch $@
 
 # The program, then the teletype's paper with the blocks as they are punched, then what it took.

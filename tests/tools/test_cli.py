@@ -128,6 +128,32 @@ def test_small_commands_start_fast(command: str) -> None:
     assert done.stdout == "[]\n"
 
 
+@pytest.mark.parametrize(
+    "words",
+    [("plot", "examples/xy-star.skg", "-o", "{}.svg"), ("cut", "{}.dxf", "-o", "{}.3b", "--sheet", "{}.pdf")],
+)
+def test_pictures_without_matplotlib(words: tuple[str, ...], tmp_path: Path) -> None:
+    """It is installed for pictures alone: who asks for one without it is told, before any work."""
+    words = tuple(word.format(tmp_path / "part") for word in words)
+    text = "import sys; sys.modules['matplotlib'] = None; from skg.cli import main; main()"
+    done = subprocess.run([sys.executable, "-c", text, *words], capture_output=True, text=True, cwd=ROOT)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "matplotlib" in done.stderr and words[-1] in done.stderr
+    assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("part", ["xy-star", "fit-gear"])
+def test_reference_without_gmpy2(part: str) -> None:
+    """It makes mpmath faster, and nothing else."""
+    environment = {**os.environ, "MPMATH_NOGMPY": "1"}
+    backend = "import mpmath.libmp as m; print(m.BACKEND)"
+    done = subprocess.run([sys.executable, "-c", backend], capture_output=True, text=True, env=environment)
+    assert done.stdout == "python\n"
+    done = subprocess.run([SKG, "ref", f"examples/{part}.skg"], capture_output=True, env=environment, cwd=ROOT)
+    assert done.stdout == (ROOT / "examples" / f"{part}.3b").read_bytes()
+
+
 @pytest.mark.parametrize("name", [*COMMANDS, "term"][1:])
 def test_no_option_takes_what_is_no_number(name: str) -> None:
     """NaN lies in every range, as Python compares."""

@@ -105,7 +105,7 @@ def test_wheel_is_complete(wheel: Path) -> None:
     assert len(grammars) >= 2
     assert len(images) >= 4
     assert {name for name in names if ".dist-info/" not in name} == modules | images | rest
-    assert wheel.name.startswith("skg-") and "-py3-none-linux_" in wheel.name
+    assert wheel.name.startswith("skg_nc-") and "-py3-none-linux_" in wheel.name
 
 
 def test_dependencies_are_named(skg: Shell) -> None:

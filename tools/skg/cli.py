@@ -81,7 +81,7 @@ class LazyGroup(click.Group):
 
 
 @click.command(cls=LazyGroup)
-@click.version_option(package_name="skg")
+@click.version_option(package_name="skg-nc")
 def cli() -> None:
     """SKG host tools: the board and its ROM, reference interpreter, 3B simulator, plots, converters."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import wraps
+from importlib.util import find_spec
 from os.path import realpath
 from pathlib import Path
 
@@ -41,6 +42,8 @@ def picture_format(output: str, form: str | None, also: str = "") -> str:
     found = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
     if found not in FORMATS:
         raise UserError(f"{output}: expected a name that ends in .svg, .png or .pdf{also}")
+    if find_spec("matplotlib") is None:
+        raise UserError(f"{output}: pictures need matplotlib, install it beside skg (pipx inject skg-nc matplotlib)")
     return found
 
 

@@ -73,9 +73,10 @@ def command(
 
     Start holes are circles, drilled holes crosses in them, stops squares, moves that do not cut dashed.
     """
+    form = picture_format(output, form, ", or --format")
     from skg.pictures.plot import COLOURS, Picture
 
-    form = picture_format(output, form, ", or --format")
+
     laid = [
         _laid(name, start[at] if at < len(start) else None, positions, skg80, show_offset)
         for at, name in enumerate(files)
