@@ -25,6 +25,7 @@ from toolhelp import Run, least_time
 from skg import tape as tapes
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.job.wanted import Wanted
 from skg.machine import feeding
 from skg.machine.feeding import feed, feed_routes, rest_of, without_numbers
 from skg.tape.controller import run_block
@@ -245,10 +246,10 @@ def test_wrong_tapes_are_found() -> None:
     corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
     round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
-    routes = plan([Contour(edges, True), round_hole], [], 0.1, "auto")
+    routes = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.1))
     job = make(routes, "part", 1.0, Settings())
     assert not job.checked.faults and job.checked.off < LIMIT
-    wider = plan([Contour(edges, True), round_hole], [], 0.105, "auto")
+    wider = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.105))
     assert {fault.route for fault in check(job.tape, wider, True).faults} == {0, 1}
     # The slanted edge goes 9 µm too far up, the one after it comes back.
     slanted = re.search(rb"B(\d+)B(\d+)B\1GXL2", job.data)
@@ -295,8 +296,8 @@ def test_the_controllers_steps_count() -> None:
     for height, is_far in ((0.0, False), (3.7, True)):
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
         contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-        job = make(plan([contour], [(5.0, -3.0)], 0.1, "auto"), "part", 1.0, Settings())
-        found = check(job.tape, plan([contour], [(5.0, -3.0)], 0.102, "auto"), True)
+        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part", 1.0, Settings())
+        found = check(job.tape, plan([contour], [(5.0, -3.0)], Wanted(offset=0.102)), True)
         assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
         if is_far:
             assert LIMIT < found.faults[0].off < 0.0036
@@ -326,7 +327,7 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
 
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
     square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-    routes = plan([square], [(5.0, -3.0)], 0.1, "auto", passes=(0.5, 0.3, 0.0))
+    routes = plan([square], [(5.0, -3.0)], Wanted(offset=0.1, passes=(0.5, 0.3, 0.0)))
     job = make(routes, "part", 1.0, Settings())
     assert not job.checked.faults and len(job.checked.cuts) == 2
     corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
@@ -344,7 +345,7 @@ def test_a_circle_too_many_is_found() -> None:
     from skg.planning.plan import plan
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
-    routes = plan([half], [], 0.1, "auto")
+    routes = plan([half], [], Wanted(offset=0.1))
     job = make(routes, "part", 1.0, Settings())
     assert not job.checked.faults
     (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
@@ -364,7 +365,7 @@ def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_fr
     def circle(x: float, y: float, r: float) -> Contour:
         return Contour((Edge((x + r, y), (x + r, y), (x, y), 2 * pi),), True)
 
-    routes = plan([circle(0, 0, 10), circle(0, 0, 20), circle(*inner, radius)], [], 0.1, "auto")
+    routes = plan([circle(0, 0, 10), circle(0, 0, 20), circle(*inner, radius)], [], Wanted(offset=0.1))
     (opening,) = (way for way in routes if way.is_opening and not way.number)
     lead = LineString([opening.start, opening.entry])
     assert (opening.start == (0.0, 0.0)) == is_from_centre
@@ -705,7 +706,7 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
         start = x + r * cos(2 * pi * turn), y + r * sin(2 * pi * turn)
         return Contour((Edge(start, start, (x, y), 2 * pi),), True)
 
-    routes = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], offset, "auto")
+    routes = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], Wanted(offset=offset))
     (opening,) = (route for route in routes if route.number == 1)
     assert opening.start != (0.0, 0.0)
     assert not make(routes, "part", 1.0, Settings()).checked.faults
@@ -962,7 +963,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
         contours.append(Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True))
-    job = make(plan(contours, [], size / 1e4, "auto", lead=size / 20), "part", 1.0, Settings())
+    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", 1.0, Settings())
     sheet = SetupSheet(job, Facts("part.dxf", "part.3b", 0.18, 0.01, "mm"))
     sheet.draw()
     sheet.save(str(tmp_path / "sheet.svg"), "svg")
@@ -1019,7 +1020,7 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]
     rest = [(0.0, 4.0), (width, 4.0), (width, 9.0), (0.0, 9.0)]
     contours.append(Contour(tuple(Edge(p, q) for p, q in zip(rest, rest[1:] + rest[:1], strict=True)), True))
-    job = make(plan(contours, [], 0.1, "inside"), "part", 1.0, Settings())
+    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part", 1.0, Settings())
     long = "a" * 40 + "b" * 40 + ".3b"
     sheet = SetupSheet(job, Facts("part.dxf", long, None, 0.0, "mm"))
     sheet.draw()

@@ -30,6 +30,7 @@ from skg.cutting.program import write
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, distance, minus, polar
+from skg.job.wanted import Wanted
 from skg.pictures.dxf import draw
 from skg.pictures.dxf import write as write_drawing
 from skg.planning.plan import plan
@@ -87,7 +88,11 @@ def contours_of(edges: list[Edge]) -> list[Contour]:
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
     contours = contours_of(edges_of(make))
     return write(
-        plan(contours, content_of(make).starts, offset, str(wishes.get("side", "auto")), bool(wishes.get("reverse"))),
+        plan(
+            contours,
+            content_of(make).starts,
+            Wanted(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse"))),
+        ),
         make.__name__,
         bool(wishes.get("fillets", True)),
     )
@@ -473,7 +478,7 @@ def test_large_curves_are_cut_as_arcs() -> None:
     space.add_ellipse((0, 0), (400, 0), 0.75)
     edge = collect(drawing).edges[0]
     assert len(edge.nodes) < 200
-    assert apart(path_edges(write(plan(contours_of([edge]), [], 0.0, "on"), "ELLIPSE")), [edge]) < 0.3
+    assert apart(path_edges(write(plan(contours_of([edge]), [], Wanted(side="on")), "ELLIPSE")), [edge]) < 0.3
 
 
 def star(count: int) -> list[XY]:

@@ -22,6 +22,7 @@ from skg.commands.options import (
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.geometry.plane import XY
+from skg.job.wanted import LEAD_SHAPES, Wanted
 from skg.planning.plan import plan
 from skg.reading.read import Wishes, read
 from skg.reading.selection import SMALL, WITHIN
@@ -66,7 +67,7 @@ class Passes(click.ParamType):
     "--lead-shape",
     default="perpendicular",
     show_default=True,
-    type=click.Choice(("perpendicular", "arc")),
+    type=click.Choice(LEAD_SHAPES),
     help="arc: a quarter of a circle about the start hole touches the contour.",
 )
 @click.option(
@@ -159,13 +160,7 @@ def command(
         routes = plan(
             reading.contours,
             list(starts) or reading.starts,
-            distance,
-            side,
-            reverse,
-            lead,
-            passes=passes or (0.0,),
-            tab=tab,
-            arc=lead_shape == "arc",
+            Wanted(True, distance, side, reverse, passes or (0.0,), tab, lead, lead_shape),
         )
         job = make(routes, "standard input" if file == "-" else Path(file).name, factor, settings)
     except UserError as error:

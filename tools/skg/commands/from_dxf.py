@@ -10,6 +10,7 @@ from skg.commands.options import FiniteRange, drawing_options, offset_option, ou
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.geometry.plane import XY
+from skg.job.wanted import Wanted
 from skg.planning.plan import plan
 from skg.reading.read import Wishes, layer_lines, read
 
@@ -63,7 +64,11 @@ def command(
     for line in reading.report.lines():
         click.echo(f"skg: {file}: {line}", err=True)
     try:
-        routes = plan(reading.contours, list(starts) or reading.starts, offset or 0.0, side, reverse, lead)
+        routes = plan(
+            reading.contours,
+            list(starts) or reading.starts,
+            Wanted(offset=offset or 0.0, side=side, reverse=reverse, lead=lead),
+        )
     except UserError as error:
         raise UserError(f"{file}: {error}") from None
     title = "standard input" if file == "-" else Path(file).name

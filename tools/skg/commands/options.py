@@ -147,7 +147,7 @@ def feed_option(function: Callable) -> Callable:
 
 def drawing_options(function: Callable) -> Callable:
     """Give a command the options for how a drawing is read, and how its contours are entered and run through."""
-    from skg.planning.plan import LEAD, SIDES  # which loads numpy
+    from skg.job.wanted import LEAD, SIDES
     from skg.reading.read_options import OPEN, START, UNITS
 
     for option in (

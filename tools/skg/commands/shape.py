@@ -33,10 +33,11 @@ def write_shape(
     from skg.cutting.job import make
     from skg.cutting.report import report
     from skg.cutting.settings import Settings
+    from skg.job.wanted import Wanted
     from skg.planning.plan import plan
 
     try:
-        job = make(plan(contours(), [], offset or 0.0, "auto", tab=tab), name, 1.0, Settings())
+        job = make(plan(contours(), [], Wanted(offset=offset or 0.0, tab=tab)), name, 1.0, Settings())
     except UserError as error:
         raise UserError(f"{name}: {error}") from None
     if any(route.traced and any(route.passes) for route in job.routes):

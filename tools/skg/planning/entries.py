@@ -24,24 +24,6 @@ def _turned_to(contour: Contour, at: int) -> Contour:
     return contour if not at else replace(contour, edges=contour.edges[at:] + contour.edges[:at])
 
 
-def entry_near(contour: Contour, start: XY, offset: float) -> tuple[Contour, float]:
-    """Begin a closed contour where it is nearest to the start hole, but well inside an edge."""
-    best = (inf, 0, 0.0)
-    for at, edge in enumerate(contour.edges):
-        if edge.nodes:
-            continue
-        margin = min(0.4, (2 * abs(offset) + 0.05) / edge.length)
-        part = edge.nearest(start)
-        if not edge.is_circle:
-            part = min(1 - margin, max(margin, part))
-        # A full circle is entered by a straight radial move; elsewhere any place of the edge will do.
-        best = min(best, (distance(edge.at(part), start), at, part))
-    if best[0] == inf:
-        entry = next(_entries_on_curve(contour))
-        return entry.begun(contour), entry.part
-    return _turned_to(contour, best[1]), best[2]
-
-
 class EntryAt(NamedTuple):
     """Where a closed contour may begin: at `part` of its edge number `at`, or at a `node` of that edge, a curve."""
 
@@ -56,6 +38,27 @@ class EntryAt(NamedTuple):
             return turned
         before, after = split_curve(turned.edges[0], self.node)
         return replace(contour, edges=(after, *turned.edges[1:], before), copies=1)
+
+
+def nearest_entry(contour: Contour, place: XY, offset: float, with_curves: bool = False) -> EntryAt:
+    """Enter a closed contour where it is nearest to a place, but well inside an edge; on a curve, at a node.
+
+    `with_curves`: False prefers lines and arcs to a nearer curve. `offset`: R, mm.
+    """
+    best = (inf, EntryAt(0))
+    for at, edge in enumerate(contour.edges):
+        if edge.nodes:
+            if with_curves:
+                nodes = range(1, len(edge.nodes) - 1) if len(edge.nodes) > 2 else [0]
+                best = min(best, *((distance(edge.nodes[k].point, place), EntryAt(at, node=k)) for k in nodes))
+            continue
+        margin = min(0.4, (2 * abs(offset) + 0.05) / edge.length)
+        part = edge.nearest(place)
+        if not edge.is_circle:
+            part = min(1 - margin, max(margin, part))
+        # A full circle is entered by a straight radial move; elsewhere any place of the edge will do.
+        best = min(best, (distance(edge.at(part), place), EntryAt(at, part)))
+    return best[1] if best[0] < inf else next(_entries_on_curve(contour))
 
 
 def _entries_on_curve(contour: Contour) -> Iterator[EntryAt]:

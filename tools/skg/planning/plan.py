@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from math import inf, pi
 from typing import NamedTuple
 
@@ -15,14 +15,11 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import rows_of
 from skg.geometry.field import Field
 from skg.geometry.plane import XY, distance
-from skg.planning.entries import EntryAt, entries_of, entry_near, is_long, longest_tab
+from skg.job.wanted import Wanted
+from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
 from skg.planning.order import nearest_order
 from skg.planning.route import PlannedContour, chain_from, split_at_end
 
-#: Where the wire may run, see `plan`.
-SIDES = ("auto", "inside", "outside", "left", "right", "on")
-#: A start hole is this far from the contour where there is room, mm.
-LEAD = 3.0
 #: A start hole has room enough when nothing is nearer than this part of the lead.
 _ENOUGH = 0.5
 #: A lead that is an arc has a radius of so often R.
@@ -35,28 +32,20 @@ _NEAR = 1e-3
 _LEAST_ARC, _ROUND = 0.05, 0.998
 
 
-@dataclass(frozen=True)
-class Method:
-    """How contours are cut. `passes`: what each pass leaves to the last offset, mm; see `plan` for the rest."""
-
-    offset: float = 0.0
-    side: str = "auto"
-    reverse: bool = False
-    lead: float = LEAD
-    passes: tuple[float, ...] = (0.0,)
-    tab: float = 0.0
-    is_arc: bool = False
-
-
 class _Choice:
     """A closed contour whose entry is chosen. `entry`: the one that is tried next, None when all were; `room`: that of
     the best one so far, which `made` has; `reach`: how far the start hole is to be from the contour."""
 
-    def __init__(self, made: PlannedContour, is_outside: bool, reach: float, entries: Iterator[EntryAt]) -> None:
+    def __init__(self, made: PlannedContour, wanted: Wanted, is_outside: bool) -> None:
         self.made = made
+        self.wanted = wanted
         self.is_outside = is_outside
         self.is_right = is_outside == (made.contour.area > 0)
-        self.reach = reach
+        if wanted.entry is None:
+            entries = entries_of(made.contour, made.tab, wanted.widest)
+        else:
+            entries = iter([nearest_entry(made.contour, wanted.entry, wanted.widest, with_curves=True)])
+        self.reach = wanted.lead + abs(made.widest)
         self.entries = entries
         self.entry = next(entries, None)
         self.room = -inf
@@ -82,16 +71,27 @@ class _Columns(NamedTuple):
     """What is told by choices, a row for each."""
 
     reach: Floats
+    widest: Floats
     is_right: Flags
-    is_inside: Flags
     is_arc: Flags
     has_tab: Flags
+    #: (a circle may be entered from its centre)
+    is_central: Flags
 
     @classmethod
     def of(cls, choices: Sequence[_Choice]) -> _Columns:
         """The columns of some choices."""
-        flags = [(one.is_right, not one.is_outside, one.made.is_arc, one.made.tab > 0) for one in choices]
-        return cls(np.array([one.reach for one in choices], float), *np.array(flags, bool).reshape(-1, 4).T)
+        lengths = [(choice.reach, choice.wanted.widest) for choice in choices]
+        flags = [
+            (
+                choice.is_right,
+                choice.made.is_arc,
+                choice.made.tab > 0,
+                not (choice.is_outside or choice.made.is_arc or choice.wanted.entry),
+            )
+            for choice in choices
+        ]
+        return cls(*np.array(lengths, float).reshape(-1, 2).T, *np.array(flags, bool).reshape(-1, 4).T)
 
     def rows(self, some: Whole) -> _Columns:
         """Some of the rows."""
@@ -101,20 +101,20 @@ class _Columns(NamedTuple):
 class _Planner:
     """Plans contours, each by itself; knows what lies around them. All contours look around together."""
 
-    def __init__(self, contours: list[Contour], method: Method) -> None:
+    def __init__(self, contours: list[Contour]) -> None:
         self.field = Field(contours)
-        self.method = method
-        self.widest = method.offset + max(method.passes) if method.side != "on" else 0.0
 
     def plan(
-        self, ready: Sequence[tuple[Contour, float]], depths: Sequence[int], given: dict[int, XY]
+        self, contours: Sequence[Contour], wanted: Sequence[Wanted], depths: Sequence[int], given: dict[int, XY]
     ) -> list[PlannedContour]:
-        """Plan contours, each with the sign of R; `given`: the start holes that some of them have."""
+        """Plan the contours that are wanted; `given`: the start holes that some of them have."""
         done: dict[int, PlannedContour] = {}
         choices: list[_Choice] = []
-        method = self.method
-        for number, ((contour, sign), depth) in enumerate(zip(ready, depths, strict=True)):
-            passes = tuple(sign * (method.offset + more) for more in method.passes)
+        for number, (drawn, want, depth) in enumerate(zip(contours, wanted, depths, strict=True)):
+            if not want.cut:
+                continue
+            contour, sign = _oriented(drawn, want, depth)
+            passes = tuple(sign * (want.offset + more) for more in want.passes)
             start, offset = given.get(number), passes[-1]
             if not contour.is_closed:
                 start = start or contour.edges[0].start
@@ -122,7 +122,7 @@ class _Planner:
                 continue
             is_ccw = contour.area > 0
             is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
-            tab = method.tab if is_outside else 0.0
+            tab = want.tab if is_outside else 0.0
             is_short = tab > 0 and tab >= longest_tab(contour)
             made = PlannedContour(
                 contour,
@@ -132,29 +132,29 @@ class _Planner:
                 depth,
                 passes,
                 0.0 if is_short else tab,
-                is_arc=method.is_arc,
+                is_arc=want.is_arc,
                 number=number,
                 is_short=is_short,
             )
             if start is not None:
                 if any(passes):
                     self._refuse_misplaced(made, is_outside)
-                done[number] = self._entered(made, is_outside == is_ccw)
+                done[number] = self._entered(made, want.entry, is_outside == is_ccw)
                 continue
-            choices.append(self._choice(made, is_outside))
+            choices.append(_Choice(made, want, is_outside))
         self._choose(choices)
         # (an arc takes more room than a line)
-        cramped = [at for at, one in enumerate(choices) if one.made.is_arc and one.room < _ROOMY * self.widest]
+        cramped = [
+            at
+            for at, choice in enumerate(choices)
+            if choice.made.is_arc and choice.room < _ROOMY * choice.wanted.widest
+        ]
         for at in cramped:
             made = replace(choices[at].made, is_arc=False, is_cramped=True)
-            choices[at] = self._choice(made, choices[at].is_outside)
+            choices[at] = _Choice(made, choices[at].wanted, choices[at].is_outside)
         self._choose([choices[at] for at in cramped])
         done |= {choice.made.number: choice.planned() for choice in choices}
-        return [done[number] for number in range(len(done))]
-
-    def _choice(self, made: PlannedContour, is_outside: bool) -> _Choice:
-        reach = self.method.lead + abs(made.widest)
-        return _Choice(made, is_outside, reach, entries_of(made.contour, made.tab, self.widest))
+        return [done[number] for number in sorted(done)]
 
     def _refuse_misplaced(self, made: PlannedContour, is_outside: bool) -> None:
         """Refuse a start hole that is given in the part, or so near to it that the wire would come into it there."""
@@ -173,14 +173,15 @@ class _Planner:
             f"{'outside' if is_outside else 'inside'} (mm): give another one, or another --side"
         )
 
-    def _entered(self, made: PlannedContour, is_right: bool) -> PlannedContour:
-        """A contour with its start hole, and where it is entered from there."""
-        contour, part = entry_near(made.contour, made.start, made.widest)
+    def _entered(self, made: PlannedContour, place: XY | None, is_right: bool) -> PlannedContour:
+        """Enter a contour from its start hole at a place, or where it is nearest to the hole."""
+        entry = nearest_entry(made.contour, place or made.start, made.widest, with_curves=place is not None)
+        contour, part = entry.begun(made.contour), entry.part
         if not made.tab:
             return replace(made, contour=contour, part=part)
-        contour, part = self._tab_before(contour, part)
+        contour, part = self._tab_before(contour, part, made.tab)
         end, reach = _before_tab(contour, part, made.tab), distance(made.start, contour.edges[0].at(part))
-        one = (np.array([what]) for what in (is_right, reach, made.is_arc))
+        one = (np.array([what]) for what in (is_right, reach, abs(made.widest), made.is_arc))
         ((x, y),) = self._tab_holes([end], *one).tolist()
         return replace(made, contour=contour, part=part, tab_hole=(x, y))
 
@@ -218,17 +219,17 @@ class _Planner:
         for at in curves:
             edge = choices[at].entry.begun(choices[at].made.contour).edges[0]
             places[at], ways[at] = edge.at(0.0), edge.direction()
-        reach, is_right, is_inside, is_arc, has_tab = told
+        reach, widest, is_right, is_arc, has_tab, is_central = told
         # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
-        circles = np.flatnonzero(_are_circles(rows) & is_inside & ~is_arc)
-        central = circles[self._is_clear_from_centre(rows[circles])]
+        circles = np.flatnonzero(_are_circles(rows) & is_central)
+        central = circles[self._is_clear_from_centre(rows[circles], widest[circles])]
         for at in central.tolist():
             edge = choices[at].made.contour.edges[choices[at].entry.at]
             parts[at] = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
             places[at] = edge.at(float(parts[at]))
         starts = rows[:, 4:6].copy()
         others = np.delete(np.arange(len(choices)), central)
-        starts[others] = self._holes(*(some[others] for some in (places, ways, rows, is_right, reach, is_arc)))
+        starts[others] = self._holes(*(some[others] for some in (places, ways, rows, is_right, reach, widest, is_arc)))
         far = hypots(*(starts - places).T)
         # How far the nearest contour is from the start holes.
         around = 2 * far + 1e-3
@@ -239,37 +240,46 @@ class _Planner:
             begun = [(choices[at].made, choices[at].entry, float(parts[at])) for at in tabs.tolist()]
             ends = [_before_tab(entry.begun(made.contour), part, made.tab) for made, entry, part in begun]
             # The start hole at the other side of the tab is as far from the contour as the first one.
-            tab_holes[tabs] = self._tab_holes(ends, is_right[tabs], far[tabs], is_arc[tabs])
+            tab_holes[tabs] = self._tab_holes(ends, is_right[tabs], far[tabs], widest[tabs], is_arc[tabs])
             room[tabs] = np.minimum(room[tabs], self.field.near(tab_holes[tabs], around[tabs]))
         is_centre = (rows[:, 8] != 0) & (starts == rows[:, 4:6]).all(1)
         return parts, starts, tab_holes, room, (room >= _ENOUGH * reach) | is_centre
 
-    def _tab_holes(self, edges: Sequence[Edge], is_right: Flags, reach: Floats, is_arc: Flags) -> Floats:
+    def _tab_holes(
+        self, edges: Sequence[Edge], is_right: Flags, reach: Floats, widest: Floats, is_arc: Flags
+    ) -> Floats:
         """The start holes at the other sides of tabs, which begin where some edges end."""
         rows = rows_of(edges)
         places, ways = _places(rows, np.ones(len(edges)))
         for at, edge in enumerate(edges):
             if edge.nodes:
                 places[at], ways[at] = edge.at(1.0), edge.direction(1.0)
-        return self._holes(places, ways, rows, is_right, reach, is_arc)
+        return self._holes(places, ways, rows, is_right, reach, widest, is_arc)
 
-    def _tab_before(self, contour: Contour, part: float) -> tuple[Contour, float]:
+    def _tab_before(self, contour: Contour, part: float, tab: float) -> tuple[Contour, float]:
         edge = contour.edges[0]
-        aside = self.method.tab / edge.length
+        aside = tab / edge.length
         if edge.is_circle:
             return contour, part
-        if aside > 0.8 and is_long(contour, self.method.tab):
+        if aside > 0.8 and is_long(contour, tab):
             return contour, part
         if aside > 0.8:
             x, y = edge.start
             raise UserError(
                 f"the edge from ({x:.3f}, {y:.3f}), which the start hole is at, has no room for a tab of "
-                f"{self.method.tab:g} mm: a shorter --tab, or another start hole"
+                f"{tab:g} mm: a shorter --tab, or another start hole"
             )
         return contour, min(0.95, max(part, aside + 0.05))
 
     def _holes(
-        self, places: Floats, ways: Floats, rows: Floats, is_right: Flags, reach: Floats, is_arc: Flags
+        self,
+        places: Floats,
+        ways: Floats,
+        rows: Floats,
+        is_right: Flags,
+        reach: Floats,
+        widest: Floats,
+        is_arc: Flags,
     ) -> Floats:
         """Start holes square to the ways at places on edges (in rows), on the wire's side: `reach` away, or in the
         middle of the room there is."""
@@ -277,7 +287,7 @@ class _Planner:
         # An arc's own chords lie up to 0.1 % of its radius inside of it.
         least = np.where(rows[:, 8] != 0, 1e-3 * (1 + rows[:, 6]), 1e-3)
         reach = np.minimum(reach, self.field.ahead(places, square, 2 * reach + least, least) / 2)
-        reach = self._clear(places, square, reach)
+        reach = self._clear(places, square, reach, widest)
         central = hypots(*(places + reach[:, None] * square - rows[:, 4:6]).T) < _BESIDE * rows[:, 6]
         # (from the centre the ROM would go to the +X side)
         reach[central & _are_circles(rows)] *= 1 - _BESIDE
@@ -290,20 +300,18 @@ class _Planner:
             tight = tight[reach[tight] > _LEAST_ARC]
         return places + reach[:, None] * square
 
-    def _is_clear_from_centre(self, circles: Floats) -> Flags:
+    def _is_clear_from_centre(self, circles: Floats, widest: Floats) -> Flags:
         """Whether the wire gets from circles' centres to their +X sides and cuts nothing that lies in the circle."""
-        r, radius = self.widest, circles[:, 6]
-        ways, wide = np.tile((1.0, 0.0), (len(circles), 1)), np.full(len(circles), max(_ROUND * r, 1e-3))
+        ways, wide = np.tile((1.0, 0.0), (len(circles), 1)), np.maximum(_ROUND * widest, 1e-3)
         # (not as far as the circle itself)
-        reach = np.maximum(0.0, _ROUND * radius - r)
+        reach = np.maximum(0.0, _ROUND * circles[:, 6] - widest)
         return self.field.before(circles[:, 4:6], ways, reach, np.zeros(len(circles)), wide) == inf
 
-    def _clear(self, places: Floats, square: Floats, reach: Floats) -> Floats:
+    def _clear(self, places: Floats, square: Floats, reach: Floats, widest: Floats) -> Floats:
         """How far the wire gets away from entries: all the way it stays R off what it does not cut there."""
-        r = self.widest
-        some = np.flatnonzero(reach > r) if r else np.empty(0, int)
-        least, wide = np.full(len(some), r), np.full(len(some), _ROUND * r)
-        far = self.field.before(places[some], square[some], reach[some], least, wide)
+        some = np.flatnonzero((widest > 0) & (reach > widest))
+        r = widest[some]
+        far = self.field.before(places[some], square[some], reach[some], r, _ROUND * r)
         # (halfway to where it is no longer free)
         found = reach.copy()
         found[some] = np.where(far == inf, reach[some], (r + far) / 2)
@@ -338,37 +346,27 @@ def _part_at(edge: Edge, place: XY) -> float:
     return 0.0 if distance(place, edge.start) < 1e-9 else part
 
 
-def plan(
-    contours: list[Contour],
-    starts: Sequence[XY],
-    offset: float,
-    side: str,
-    reverse: bool = False,
-    lead: float = LEAD,
-    *,
-    passes: tuple[float, ...] = (0.0,),
-    tab: float = 0.0,
-    arc: bool = False,
-) -> list[PlannedContour]:
+def plan(contours: list[Contour], starts: Sequence[XY], wanted: Wanted | Sequence[Wanted]) -> list[PlannedContour]:
     """Return the contours in the order in which they are cut: inner ones first, and then the nearest.
 
-    Each start hole goes to the innermost contour around it that is cut from inside, else to the nearest one. `passes`:
-    what each pass leaves to `offset`, mm. `tab`: the bridge that keeps a part cut from outside, mm. `arc`: the wire
-    comes to the contour along an arc.
+    `wanted`: how all contours are cut, or each. Each of the `starts` (mm) goes to the innermost contour around it that
+    is cut from inside and has no start hole yet, else to the nearest one. Raises `UserError` for a start hole in the
+    part, and for an order that cuts a contour before what lies in it.
     """
-    method = Method(offset, side, reverse, lead, passes, tab, arc)
-    planner = _Planner(contours, method)
+    each = [wanted] * len(contours) if isinstance(wanted, Wanted) else list(wanted)
+    planner = _Planner(contours)
     depths = planner.field.depths()
-    ready = [_oriented(one, side, depth, reverse) for one, depth in zip(contours, depths, strict=True)]
-    given = _given_starts(planner.field, depths, list(starts))
-    return _ordered(planner.plan(ready, depths, given))
+    given = _given_starts(planner.field, depths, each, list(starts))
+    routes = _ordered(planner.plan(contours, each, depths, given))
+    return _as_wanted(routes, each, planner.field)
 
 
-def _oriented(contour: Contour, side: str, depth: int, reverse: bool) -> tuple[Contour, float]:
+def _oriented(contour: Contour, wanted: Wanted, depth: int) -> tuple[Contour, float]:
     """Return the contour in the direction in which it is cut, and the sign of R."""
+    side = wanted.side
     if not contour.is_closed:
         sign = {"left": -1.0, "right": 1.0}.get(side, 0.0)
-        return (contour.reversed(), -sign) if reverse else (contour, sign)
+        return (contour.reversed(), -sign) if wanted.reverse else (contour, sign)
     # With the wire on the right of travel an outline is cut counter-clockwise and an opening clockwise.
     is_opening = depth % 2 == 1
     if side in ("inside", "outside"):
@@ -376,7 +374,7 @@ def _oriented(contour: Contour, side: str, depth: int, reverse: bool) -> tuple[C
     sign = {"on": 0.0, "left": -1.0}.get(side, 1.0)
     if (contour.area < 0) != is_opening:
         contour = contour.reversed()
-    if reverse:
+    if wanted.reverse:
         contour, sign = contour.reversed(), -sign
     return contour, sign
 
@@ -394,13 +392,44 @@ def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
     return ordered
 
 
-def _given_starts(field: Field, depths: list[int], starts: list[XY]) -> dict[int, XY]:
+def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted], field: Field) -> list[PlannedContour]:
+    """Put the routes that have a wanted order to their places; the others keep theirs among themselves."""
+    placed = {route.number: order for route in routes if (order := wanted[route.number].order) is not None}
+    if not placed:
+        return routes
+    free = iter([route for route in routes if route.number not in placed])
+    ranked = sorted((route for route in routes if route.number in placed), key=lambda route: placed[route.number])
+    found: list[PlannedContour] = []
+    while len(found) < len(routes):
+        if ranked and placed[ranked[0].number] <= len(found) + 1:
+            found.append(ranked.pop(0))
+        else:
+            found.append(next(free, None) or ranked.pop(0))
+    _refuse_outer_first(found, field)
+    return found
+
+
+def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
+    """Refuse an order that cuts a contour before what lies in it: that would fall with the part or the slug."""
+    turn = {route.number: at for at, route in enumerate(routes)}
+    around = field.around([route.contour.edges[0].at(0.5) for route in routes])
+    for route, holders in zip(routes, around, strict=True):
+        for number in holders:
+            outer = routes[turn[number]] if number in turn else None
+            if outer and outer.depth < route.depth and turn[number] < turn[route.number]:
+                first, second = outer.number + 1, route.number + 1
+                raise UserError(f"order: contour {first} would be cut before contour {second}, which lies in it")
+
+
+def _given_starts(field: Field, depths: list[int], wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
     """Which contour (by its number) each given start hole belongs to."""
-    found: dict[int, XY] = {}
-    if len(starts) > len(depths):
-        raise UserError(f"{len(starts)} start holes for {len(depths)} contours")
+    found = {at: want.start for at, want in enumerate(wanted) if want.cut and want.start is not None}
+    taken = {at for at, want in enumerate(wanted) if not want.cut} | set(found)
+    if len(starts) > len(depths) - len(taken):
+        raise UserError(f"{len(starts)} start holes for {len(depths) - len(taken)} contours")
     for start, holding in zip(starts, field.around(starts), strict=True):
-        around = [at for at in holding if at not in found and depths[at] % 2]
-        chosen = max(around, key=depths.__getitem__) if around else field.nearest(start, found)
+        around = [at for at in holding if at not in taken and depths[at] % 2]
+        chosen = max(around, key=depths.__getitem__) if around else field.nearest(start, taken)
         found[chosen] = start
+        taken.add(chosen)
     return found

@@ -1,0 +1,46 @@
+"""What is wanted of a contour: cut or not, the wire's side and offset, passes, tab, lead, start hole, entry, order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+#: The side of a contour that the wire runs on.
+SIDES = ("auto", "inside", "outside", "left", "right", "on")
+#: The way from a start hole to the contour.
+LEAD_SHAPES = ("perpendicular", "arc")
+#: A start hole is this far from the contour where there is room, mm.
+LEAD = 3.0
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """How a contour is cut.
+
+    `cut`: False leaves it, and it stays in the nesting. `offset`: the wire's distance from the contour, mm. `side`: one
+    of `SIDES`; auto: around outlines, within the openings in them. `passes`: what each pass leaves to the offset, mm.
+    `tab`: the bridge that keeps a part cut from outside, mm. `lead`: from a chosen start hole to the contour, mm;
+    `lead_shape`: one of `LEAD_SHAPES`. `start`: the start hole, mm, None: chosen. `entry`: the contour is entered
+    there, mm, None: chosen. `order`: its place in the order of cutting, from 1, None: chosen.
+    """
+
+    cut: bool = True
+    offset: float = 0.0
+    side: str = "auto"
+    reverse: bool = False
+    passes: tuple[float, ...] = (0.0,)
+    tab: float = 0.0
+    lead: float = LEAD
+    lead_shape: str = "perpendicular"
+    start: tuple[float, float] | None = None
+    entry: tuple[float, float] | None = None
+    order: int | None = None
+
+    @property
+    def is_arc(self) -> bool:
+        """Whether the wire comes to the contour along an arc."""
+        return self.lead_shape == "arc"
+
+    @property
+    def widest(self) -> float:
+        """The distance between wire and contour in the pass that is furthest aside, mm."""
+        return self.offset + max(self.passes) if self.side != "on" else 0.0
