@@ -634,8 +634,10 @@ def test_a_start_hole_in_the_part_is_refused(
 
 def allow(limit: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Have the check refuse what is off by more than this, mm."""
-    for module in ("wire_path", "check_distance", "check_coverage"):
-        monkeypatch.setattr(f"skg.checking.{module}.LIMIT", limit)
+    from skg.checking import check_coverage, check_distance, wire_path
+
+    for module in (wire_path, check_distance, check_coverage):
+        monkeypatch.setattr(module, "LIMIT", limit)
 
 
 @pytest.mark.parametrize(
