@@ -90,14 +90,14 @@ def test_a_tape_whose_name_does_not_say_what_it_is(run_program: Program, tmp_pat
     """As `skg cut` says it: a symmetrical part's tape without drift, and one with under the other's name."""
     part = ROOT / "examples" / "skg06-tangent-slot.skg"
     for rom, name, said in (
-        ("no-drift", "a.3b", "take care: the tape itself does not show that it is without drift"),
+        ("no-drift", "a.3b", "end the tape's name in .nodrift.3b"),
         ("no-drift", "a.nodrift.3b", ""),
         ("standard", "a.3b", ""),
         ("standard", "a.nodrift.3b", "take care: the name says that the tape is without drift, and it is with"),
     ):
         done = run_program("run", part, "--rom", rom, "-o", tmp_path / name)
         assert done.returncode == 0, done.stderr
-        assert ("take care" in done.stderr, said in done.stderr) == (bool(said), True), (rom, name, done.stderr)
+        assert said in done.stderr and (bool(said) or ".nodrift.3b" not in done.stderr), (rom, name, done.stderr)
 
 
 def test_answers_and_output(run_program: Program, tmp_path: Path) -> None:

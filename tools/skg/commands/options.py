@@ -12,15 +12,12 @@ import click
 
 from skg.errors import UserError
 from skg.tape.block import MAX_DIGITS, Tape
-from skg.tape.positions import POSITIONS, decide
-from skg.tape.text import WITHOUT_DRIFT
+from skg.tape.positions import POSITIONS, WITHOUT_DRIFT, decide, depends
 
 #: No wire with its spark gap is wider than twice this, mm.
 MOST_OFFSET = 5.0
 #: No machine cuts more slowly, mm/min.
 LEAST_FEED = 0.001
-#: A tape of more blocks than this shows whether it is without drift.
-_TELLING = 20_000
 #: Formats of pictures, by the ending of a file's name.
 FORMATS = ("svg", "png", "pdf")
 
@@ -30,7 +27,7 @@ positions_option = click.option(
     default="auto",
     show_default=True,
     help="Start each block where the block before should have ended (programmed), or where the controller "
-    "really stands then (machine: tapes without drift); auto: as the tape says, else found out, and said.",
+    "really stands then (machine: tapes without drift); auto: as a program or the tape's name says, else programmed.",
 )
 
 
@@ -50,7 +47,8 @@ def picture_format(output: str, form: str | None, also: str = "") -> str:
 def decided(tape: Tape, positions: str) -> str:
     """Where a tape's blocks start, "programmed" or "machine"; `positions` is what --positions says.
 
-    What had to be found out, and how, goes to standard error in one line, and so does what was noted when it was read.
+    What it was taken for, where nothing said it, goes to standard error in one line, and so does what was noted when it
+    was read.
     """
     decision = decide(tape, positions)
     say(tape, decision.why)
@@ -65,19 +63,13 @@ def say(tape: Tape, more: str = "") -> None:
 
 
 def unmarked(output: str, tape: Tape, rom: str) -> list[str]:
-    """What to say when other commands would not know by a tape, or its name, that it is without drift, or with."""
+    """What to say when a tape's name does not tell the other commands that it is without drift, or wrongly does."""
+    named = output.lower().endswith(WITHOUT_DRIFT)
     if rom != "no-drift":
-        wrong = output.lower().endswith(WITHOUT_DRIFT)
-        return ["take care: the name says that the tape is without drift, and it is with"] if wrong else []
-    if output.lower().endswith(WITHOUT_DRIFT) or len(tape.blocks) > _TELLING:
+        return ["take care: the name says that the tape is without drift, and it is with"] if named else []
+    if named or not depends(tape):
         return []
-    found = decide(tape)
-    if not found.why or found.is_sure and found.positions == "machine":
-        return []
-    return [
-        f"take care: the tape itself does not show that it is without drift: end its name in {WITHOUT_DRIFT}, or tell "
-        "the other commands --positions machine"
-    ]
+    return [f"for sim, plot and dxf: end the tape's name in {WITHOUT_DRIFT}, or give them --positions machine"]
 
 
 def output_option(text: str, required: bool = False, in_place: bool = False) -> Callable[[Callable], Callable]:

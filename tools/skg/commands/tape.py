@@ -7,8 +7,8 @@ import click
 from skg.commands.options import output_option, say
 from skg.files import write_bytes
 from skg.sources.load import load
+from skg.tape.positions import WITHOUT_DRIFT
 from skg.tape.styles import STYLES, to_style
-from skg.tape.text import WITHOUT_DRIFT
 
 
 @click.command(name="tape")

@@ -28,7 +28,6 @@ from skg.tape.block import Tape, micrometres
 from skg.tape.gcode import is_gcode
 from skg.tape.gcode_program import GcodeProgram
 from skg.tape.gcode_reader import read as read_gcode
-from skg.tape.positions import decide
 
 if TYPE_CHECKING:
     from skg.ref import Result
@@ -241,19 +240,11 @@ def _nominal(result: Result) -> tuple[Piece, ...]:
     return nominal(result.path)
 
 
-def lay_out(made: Made, start: XY, positions: str, joints: str) -> tuple[list[PlacedRoute], list[XY]]:
-    """Return a tape's routes and stops in µm, its wire starting at `start` (mm).
-
-    `positions` is one of `skg.tape.positions.POSITIONS`. `joints` "drawn": where the corners most likely were before
-    the tape's rounding; "tape": at the whole µm that the blocks or the controller end at.
-    """
-    # (these load numpy)
-    from skg.tape.joints import estimate
-    from skg.tape.layout import place, stop_places
+def lay_out(made: Made, start: XY, positions: str) -> tuple[list[PlacedRoute], list[XY]]:
+    """Return a tape's routes and stops in µm, its wire starting at `start` (mm); `positions` is one of
+    `skg.tape.positions.POSITIONS`."""
+    from skg.tape.layout import place, stop_places  # which loads numpy
 
     home = micrometres(start[0]), micrometres(start[1])
-    if joints == "tape":
-        routes = place(made.tape, home, positions)
-    else:
-        routes = estimate(made.tape, home, decide(made.tape, positions).positions == "machine")
+    routes = place(made.tape, home, positions)
     return routes, stop_places(made.tape, routes, home)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 from math import atan2, pi
@@ -117,19 +117,14 @@ class Laid(Sequence[Placed]):
         self.starts, self.ends, self.centres, self.sweeps, self.is_line = starts, ends, centres, sweeps, is_line
 
     @classmethod
-    def between(
-        cls, blocks: Sequence[Block], columns: Columns, places: NDArray, centres: NDArray | None = None
-    ) -> Laid:
+    def between(cls, blocks: Sequence[Block], columns: Columns, places: NDArray) -> Laid:
         """Blocks that end where the next one begins, at n + 1 places; as `Placed.between` of each."""
-        return cls.apart(blocks, columns, places[:-1], places[1:], centres)
+        return cls.apart(blocks, columns, places[:-1], places[1:])
 
     @classmethod
-    def apart(
-        cls, blocks: Sequence[Block], columns: Columns, starts: NDArray, ends: NDArray, centres: NDArray | None = None
-    ) -> Laid:
+    def apart(cls, blocks: Sequence[Block], columns: Columns, starts: NDArray, ends: NDArray) -> Laid:
         """Blocks between starts and ends (n × 2 each); as `Placed.between` of each."""
-        if centres is None:
-            centres = starts - columns.starts
+        centres = starts - columns.starts
         sweeps, rows = columns.sweeps.copy(), np.flatnonzero(columns.is_arc)
         first, last = (directions((side - centres)[rows]) for side in (starts, ends))
         sweeps[rows] += (last - first - sweeps[rows] + pi) % (2 * pi) - pi
@@ -203,27 +198,9 @@ def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") 
     is_machine = decide(tape, positions).positions == "machine"
     moves = machine_moves(tape) if is_machine else closed_moves(tape)
     places = np.concatenate([[start], moves]).cumsum(axis=0)
-    return routes_of(tape, Laid.between(tape.blocks, columns_of(tape), places))
-
-
-def routes_of(tape: Tape, laid: Laid) -> list[PlacedRoute]:
-    """The routes of a tape, all of whose blocks are laid out."""
+    laid = Laid.between(tape.blocks, columns_of(tape), places)
     bounds = zip(tape.bounds, tape.positioning(), strict=True)
     return [PlacedRoute(laid[first:last], is_move) for (first, last), is_move in bounds if first < last]
-
-
-def lay(tape: Tape, start: XY, place_blocks: Callable[[slice, XY], tuple[Laid, XY]]) -> list[PlacedRoute]:
-    """Lay a tape's routes out one after the other, from `start` (µm).
-
-    `place_blocks` is given which blocks of the tape stand between two stops, at least one, and where the first of them
-    starts; it returns them in their places, and where the block after them starts.
-    """
-    routes: list[PlacedRoute] = []
-    for (first, last), is_move in zip(tape.bounds, tape.positioning(), strict=True):
-        if first < last:
-            laid, start = place_blocks(slice(first, last), start)
-            routes.append(PlacedRoute(laid, is_move))
-    return routes
 
 
 def _apart(one: XY, other: XY) -> float:

@@ -11,10 +11,9 @@ from skg.errors import UserError
 from skg.files import read_bytes, without_filling
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
 from skg.tape.block_list import Blocks
+from skg.tape.positions import WITHOUT_DRIFT
 from skg.tape.styles import read_any, to_style
 
-#: How the name of a file ends that holds a tape without drift.
-WITHOUT_DRIFT = ".nodrift.3b"
 #: From so many blocks on it takes less time to load numpy than to look at them one by one.
 _MANY = 20_000
 _DIGITS = rf"(0|[1-9]\d{{0,{MAX_DIGITS - 1}}})"
