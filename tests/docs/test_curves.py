@@ -1,6 +1,6 @@
-"""docs/curves.md shows what `skg quality` prints and the pictures of the examples; run as a program, this writes it.
+"""docs/curves.md shows tables and pictures of the examples' curves; run as a program, this writes them.
 
-A table stands below a comment that holds the command it comes from.
+A table stands below a comment that names it.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from curve_tables import of_curves, of_tol
 
 from skg.cli import cli
 
@@ -17,49 +18,33 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "curves.md"
 PICTURES = ROOT / "docs" / "pictures"
 PARTS = sorted((ROOT / "examples").glob("fit-*.skg"))
-TABLE = re.compile(r"<!-- skg (?P<command>quality .*) -->\n\n(?P<table>(?:\|.*\n)*)")
+TABLE = re.compile(r"<!-- (?P<name>curves|TOL) -->\n\n(?P<table>(?:\|.*\n)*)")
+MAKERS = {"curves": lambda: of_curves(PARTS), "TOL": lambda: of_tol(PARTS, "0.005")}
 
 
 def tables() -> list[re.Match[str]]:
     return list(TABLE.finditer(PAGE.read_text()))
 
 
-def output(*words: object) -> str:
-    """What `skg` prints."""
-    done = CliRunner().invoke(cli, [str(word) for word in words])
-    assert done.exit_code == 0, done.output
-    return done.output
-
-
-def table(match: re.Match[str]) -> str:
-    """What the command of a table prints, files named by a pattern as in a shell."""
-    words = []
-    for word in match["command"].split():
-        words += sorted(ROOT.glob(word)) if "*" in word else [word]
-    return output(*words)
-
-
 def draw(part: Path, folder: Path) -> bytes:
     """The picture of an example."""
     picture = folder / f"{part.stem}.svg"
-    output("plot", part, "--skg80", "reference", "-o", picture)
+    done = CliRunner().invoke(cli, ["plot", str(part), "--skg80", "reference", "-o", str(picture)])
+    assert done.exit_code == 0, done.output
     return picture.read_bytes()
 
 
 def test_both_tables_are_there() -> None:
-    assert [match["command"] for match in tables()] == [
-        "quality examples/fit-*.skg",
-        "quality --tol 0.005 examples/fit-*.skg",
-    ]
+    assert [match["name"] for match in tables()] == list(MAKERS)
 
 
-@pytest.mark.parametrize("match", tables(), ids=lambda match: match["command"])
+@pytest.mark.parametrize("match", tables(), ids=lambda match: match["name"])
 def test_table(match: re.Match[str]) -> None:
     # The jump is what 50 digits leave over of nothing: only its size is to be expected.
     def fixed(text: str) -> str:
         return re.sub(r" \de-\d\d ", " e- ", text)
 
-    assert fixed(match["table"]) == fixed(table(match))
+    assert fixed(match["table"]) == fixed(MAKERS[match["name"]]())
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.stem)
@@ -73,6 +58,6 @@ def test_every_picture_is_used() -> None:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(TABLE.sub(lambda match: f"<!-- skg {match['command']} -->\n\n{table(match)}", PAGE.read_text()))
+    PAGE.write_text(TABLE.sub(lambda match: f"<!-- {match['name']} -->\n\n{MAKERS[match['name']]()}", PAGE.read_text()))
     for each in PARTS:
         draw(each, PICTURES)

@@ -23,7 +23,6 @@ COMMANDS = {
     "gcode": ["gcode", TAPE],
     "gear": ["gear", "--module", "2", "--teeth", "9"],
     "plot": ["plot", TAPE, "-o", "-"],
-    "quality": ["quality", PART],
     "ref": ["ref", PART],
     "run": ["run", PART],
     "sim": ["sim", "--blocks", *[TAPE] * 50],

@@ -26,7 +26,6 @@ READERS = {
     "gcode": (["gcode", "-o", "out"], {"tape"}),
     "gcode --back": (["gcode", "--back", "-o", "out"], {"nc"}),
     "plot": (["plot", "-o", "out.svg"], {"tape"}),
-    "quality": (["quality"], {"fit"}),
     "ref": (["ref", "-o", "out"], {"skg", "fit"}),
     "run": (["run", "-o", "out"], {"skg", "fit"}),
     "sim": (["sim"], {"tape"}),
@@ -82,7 +81,7 @@ def test_files_of_other_kinds(reader: str, tmp_path: Path, monkeypatch: pytest.M
     words, reads = READERS[reader]
     tried = 0
     # All kinds under the name that the command expects, and one whose file could be all of them under every name.
-    own = {"gcode --back": ".nc", "quality": ".skg", "ref": ".skg", "run": ".skg", "cut": ".dxf", "from-dxf": ".dxf"}
+    own = {"gcode --back": ".nc", "ref": ".skg", "run": ".skg", "cut": ".dxf", "from-dxf": ".dxf"}
     ending = own.get(reader, f".{words[0]}" if words[0] == "xy" else ".tkh" if words[0] == "tekhtran" else ".3b")
     for kind, (data, name) in FILES.items():
         Path(f"in{ending}").write_bytes(data)
@@ -93,7 +92,7 @@ def test_files_of_other_kinds(reader: str, tmp_path: Path, monkeypatch: pytest.M
             assert "no blocks" in said or "0 blocks" in out, kind
         if code == 2 and kind != "d":
             assert len(lines) == 1 and len(lines[0]) < 300, (kind, lines)
-        if code and name and (reader, kind) != ("quality", "skg"):
+        if code and name:
             assert name in out + said, (kind, out + said)
         tried += 1
     assert tried == len(FILES)

@@ -136,7 +136,7 @@ def test_ctrl_zs_of_cpm_are_no_finding(run: Run) -> None:
 @pytest.mark.parametrize("words", [
     "sim cad-tape.3b", "tape cad-tape.3b", "gcode cad-tape.3b", "plot -o - cad-tape.3b",
     "check mill/plate.nc", "sim mill/plate.nc", "gcode --back mill/rosette.nc", "run xy-star.skg", "ref xy-star.skg",
-    "sim xy-star.skg", "quality fit-gear.skg", "xy xy-gear.xy", "tekhtran tkh-maltese.tkh",
+    "sim xy-star.skg", "xy xy-gear.xy", "tekhtran tkh-maltese.tkh",
     "run tkh-maltese.tkh", "check xy-gear.xy",
 ])  # fmt: skip
 def test_every_reader_takes_files_of_cpm(run: Run, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,7 +22,6 @@ ALLOWED = {
     "rivals": {COMMON},
     "native": {COMMON},
     "geometry": {COMMON},
-    "quality": {COMMON, "ref"},
     "job": {COMMON},
     "machine": {COMMON, "native"},
     "tape": {COMMON, "native", "geometry"},

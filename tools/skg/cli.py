@@ -25,7 +25,6 @@ COMMANDS = {
     "gcode": "Turn a 3B tape into G-code, or back.",
     "gear": "Write the program that cuts an involute gear.",
     "plot": "Draw tapes and programs to scale: SVG, PNG or PDF.",
-    "quality": "Measure the curves of FIT against the true ones.",
     "ref": "Run a program in 50-digit arithmetic: the exact tape.",
     "run": "Run a program on the board, by the ROM itself.",
     "sim": "Follow tapes step by step as a controller does.",

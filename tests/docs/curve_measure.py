@@ -10,10 +10,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from curve_fitted import Biarcs, FittedPiece, Run, pieces
+from true_curves import TRUE_CURVES, TrueCurve
 
 from skg.errors import UserError
-from skg.quality.fitted import Biarcs, FittedPiece, Run, pieces
-from skg.quality.true_curves import TRUE_CURVES, TrueCurve
 from skg.ref.fit import MOST_PASSED, Node
 from skg.ref.real import ZERO, Real
 from skg.ref.values import Point

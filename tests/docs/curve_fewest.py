@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from curve_fitted import pieces
+from curve_measure import denser, true_curve
 
-from skg.quality.fitted import pieces
-from skg.quality.measure import denser, true_curve
 from skg.ref.fit import Node, circle_tangent, mirrored
 from skg.ref.real import Real
 

@@ -1,4 +1,4 @@
-"""`skg quality`: the curves of the examples against the true ones, TOL against the fewest blocks, the measuring."""
+"""FIT: the curves of the examples against the true ones, TOL against the fewest blocks, the measuring."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from itertools import combinations, pairwise
 from pathlib import Path
 from random import Random
 
+import curve_measure as measuring
 import numpy as np
 import pytest
+from curve_fewest import Saving, arc_distance, fewest_blocks, savings, span_blocks, with_tangents
+from curve_fitted import Biarcs, FittedPiece, Run, _Few, fitted_runs, pieces
+from curve_measure import Quality, denser, distance, measure, node
+from true_curves import TRUE_CURVES
 
 from skg.errors import UserError
-from skg.quality import measure as measuring
-from skg.quality.fewest import Saving, arc_distance, fewest_blocks, savings, span_blocks, with_tangents
-from skg.quality.fitted import Biarcs, FittedPiece, Run, _Few, fitted_runs, pieces
-from skg.quality.measure import Quality, denser, distance, measure, node
-from skg.quality.true_curves import TRUE_CURVES
 from skg.ref import fit, real
 from skg.ref import run as reference
 from skg.ref.cutter import MOST_ITEMS
@@ -275,19 +275,6 @@ def test_arc_distance() -> None:
     assert arc_distance(*quarter, np.array([])) == 0
 
 
-def test_command(run_program: object, tmp_path: Path) -> None:
-    part = next(p for p in PARTS if p.stem == "fit-gear")
-    done = run_program("quality", part)
-    assert done.returncode == 0, done.stderr
-    assert "| fit-gear | involute" in done.stdout
-    done = run_program("quality", "--tol", TOLERANCE, part)
-    assert done.stdout.splitlines()[0].startswith("| part")
-    wrong = tmp_path / "wrong.skg"
-    wrong.write_text("10 A=1/0\n")
-    done = run_program("quality", wrong)
-    assert (done.returncode, done.stderr) == (2, f"skg: {wrong}: the program ends in ERR 05 LINE 10\n")
-
-
 def test_a_node_takes_little_room() -> None:
     """A million blocks took 3 GB: of routes, tape and pieces nothing is kept, of an open route what REP may ask for."""
     peaks = []
@@ -307,19 +294,3 @@ def test_a_node_takes_little_room() -> None:
     for n in range(items):
         few.append(n)
     assert (few[0], few[-1], len(few)) == (0, items - 1, MOST_ITEMS + 1)
-
-
-def test_any_program(run_program: object, tmp_path: Path) -> None:
-    """Not ASCII; a syntax error; nodes that stand where the one before stands, which are none."""
-    part = tmp_path / "part.skg"
-    part.write_bytes(b"10 REM \xff\n")
-    done = run_program("quality", part)
-    assert (done.returncode, done.stderr) == (2, f"skg: {part}: byte 8 is not ASCII\n")
-    part.write_text("10 CUT O,,\n")
-    done = run_program("quality", part)
-    assert (done.returncode, done.stderr) == (2, f"skg: {part}: the program ends in ERR 01 LINE 10\n")
-    part.write_text("10 FIT (0,0)\n20 FIT (10,0)\n30 FIT (20,5)\n40 FIT (20,5)\n50 FIT (20,5)\n")
-    for options in ([], ["--tol", "0.01"]):
-        done = run_program("quality", *options, part)
-        assert (done.returncode, done.stderr) == (0, "")
-        assert done.stdout.splitlines()[-1].split("|")[3 if not options else 2].strip() == "3"
