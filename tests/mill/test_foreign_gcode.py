@@ -1,9 +1,8 @@
-"""G-code as others write it (upright arcs, drilling cycles, inches, relative places) is read as LinuxCNC reads it."""
+"""G-code as others write it (drilling cycles, inches, relative places) is read as LinuxCNC reads it."""
 
 from __future__ import annotations
 
 import os
-from math import atan2, cos, hypot, sin, tau
 from pathlib import Path
 from random import Random
 
@@ -21,51 +20,18 @@ pytestmark = needs_rs274
 Went = tuple[bool, float, float]
 
 
-def upright(plane: str, words: list[float], at: tuple[float, float, float]) -> list[tuple[float, float, float]]:
-    """An arc of XZ or YZ as the interpreter calls it: the places where it turns round, seen from above, and its end."""
-    first, second, c1, c2, turns = words[:5]
-    axes = (2, 0) if plane == "XZ" else (1, 2)
-    one, other = at[axes[0]] - c1, at[axes[1]] - c2
-    sense = 1 if turns > 0 else -1
-    sweep = (sense * (atan2(second - c2, first - c1) - atan2(other, one))) % tau or tau
-    # (by many small steps, not by where the angle is a quarter)
-    level = 0 if plane == "YZ" else 1
-    steps = 7200 if sweep > 1e-6 else 0
-    radius, start = hypot(one, other), atan2(other, one)
-    along = [(c1, c2)[level] + radius * (cos, sin)[level](start + sense * sweep * n / steps) for n in range(steps + 1)]
-    found = []
-    for before, here, after in zip(along, along[1:], along[2:], strict=False):
-        if (here - before) * (after - here) < 0:
-            found.append(here)
-    end = list(at)
-    end[axes[0]], end[axes[1]] = first, second
-    place = [list(at) for _ in found]
-    for one_place, value in zip(place, found, strict=True):
-        one_place[axes[level]] = value
-    return [tuple(p) for p in (*place, end)]
-
-
 def theirs(text: str, folder: Path) -> list[Went]:
     """What the interpreter makes of a program, in the plane."""
-    at, plane, unit, found = (0.0, 0.0, 0.0), "XY", 1.0, []
+    at, unit, found = (0.0, 0.0), 1.0, []
     for name, words in calls(text.encode(), folder):
-        if name == "SELECT_PLANE":
-            plane = words[0][-2:]
-        elif name == "USE_LENGTH_UNITS":
+        if name == "USE_LENGTH_UNITS":
             unit = 25.4 if "INCH" in words[0] else 1.0
         elif name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED"):
             values = [float(word) * unit for word in words[:6]]
-            if name != "ARC_FEED":
-                ends = [tuple(values[:3])]
-            elif plane == "XY":
-                values[4] /= unit
-                ends = [(values[0], values[1], values[5])]
-            else:
-                ends = upright(plane, values, at)
-            for end in ends:
-                if end[:2] != at[:2] or (name == "ARC_FEED" and plane == "XY"):
-                    found.append((name != "STRAIGHT_TRAVERSE", 1000 * end[0], 1000 * end[1]))
-                at = end
+            end = values[0], values[1]
+            if end != at or name == "ARC_FEED":
+                found.append((name != "STRAIGHT_TRAVERSE", 1000 * end[0], 1000 * end[1]))
+            at = end
     return found
 
 
@@ -102,20 +68,20 @@ def program(rng: Random) -> str:
                 lines.append(f"G{rng.randint(0, 1)}{words}" if not is_relative else f"G91 G1{words}\nG90")
                 at |= goal
             case 1 | 2:
-                plane, one, other = rng.choice([(17, "X", "Y"), (18, "Z", "X"), (19, "Y", "Z")])
+                one, other = "X", "Y"
                 r, quarter, count = rng.randint(1, 3), rng.randrange(4), rng.choice([1, 2, 3, 4])
                 sense = rng.choice([1, -1])
                 corner = [(r, 0), (0, r), (-r, 0), (0, -r)]
                 start, end = corner[quarter], corner[(quarter + sense * count) % 4]
                 centre = {one: -start[0], other: -start[1]}
                 goal = {one: at[one] + centre[one] + end[0], other: at[other] + centre[other] + end[1]}
-                names = {"X": "I", "Y": "J", "Z": "K"}
+                names = {"X": "I", "Y": "J"}
                 words = "".join(f" {k}{v}" for k, v in goal.items())
                 if count in (1, 3) and rng.random() < 0.4:
                     words += f" R{r if count == 1 else -r}"
                 else:
                     words += "".join(f" {names[k]}{v}" for k, v in centre.items())
-                lines.append(f"G{plane} G{3 if sense > 0 else 2}{words}")
+                lines.append(f"G{3 if sense > 0 else 2}{words}")
                 at |= goal
             case 3:
                 up = rng.choice(["G98", "G99"])

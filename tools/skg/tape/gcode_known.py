@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from decimal import Decimal
 
-from skg.tape.gcode_upright import PLANES
-
 #: Letters that say nothing of the path.
 SILENT = "FSTPHDL"
 #: Other axes, which may stand at 0.
@@ -30,9 +28,6 @@ GROUPS = [
 #: Words that are places, and what G4 has besides P on some controls.
 PLACES = "XYZIJKR"
 VALUES = PLACES + "F"
-#: What has an arc's centre in a plane, and what belongs to the others.
-CENTRES = {"XY": "IJ", **{plane: "".join("IJK"["XYZ".index(axis)] for axis in plane) for plane in PLANES.values()}}
-OTHER_CENTRES = {plane: {*"IJK"} - {*letters} for plane, letters in CENTRES.items()}
 DWELL, NO_MOTION = Decimal(4), Decimal(80)
 #: How near to its corners a path may be cut: P, and Q for lines that are nearly one.
 BLEND = Decimal(64)

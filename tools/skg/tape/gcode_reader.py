@@ -142,16 +142,13 @@ class _Reader:
         goal = self.place(values, feeds)
         end = _rounded(goal)
         way = minus(end, start)
-        seen = arcs.upright(modes, values, way, before, self.height, column) if is_arc and modes.plane != 17 else None
         lowest = (self.height if before is None else min(before, self.height)) if self.knows_height else None
-        if seen and lowest is not None:
-            lowest -= round(seen.dip)
         cuts = self.cuts(lowest, feeds, is_arc or start != end)
-        if seen:
-            self.upright(seen, start, cuts)
-        elif is_arc:
+        if is_arc:
+            if modes.plane != 17:
+                raise Misread(column, f"an arc of G{modes.plane} stands upright: expected arcs of the plane XY, G17")
             if not self.is_no_way(values, goal, end):
-                self.arc(start, end, arcs.to_centre(modes, values, "XY", way, column), column, cuts)
+                self.arc(start, end, arcs.to_centre(modes, values, way, column), column, cuts)
         elif not values.keys().isdisjoint("IJKR"):
             raise Misread(column, "I, J, K and R belong to G02 and G03")
         else:
@@ -262,14 +259,6 @@ class _Reader:
         if arcs.is_flat(first, last, self.modes.sense):
             self.findings.warn(column, "an arc so flat that LinuxCNC and GRBL take it for a full circle")
         self.lay(arc_block(first, last, self.modes.sense), start, end, cuts)
-
-    def upright(self, arc: arcs.SeenFromAbove, start: Spot, cuts: bool) -> None:
-        """An arc of G18 or G19 in its place: there and back on a line."""
-        at = start
-        for place in arc.places:
-            to = (start[0] + round(place), start[1]) if self.modes.plane == 18 else (start[0], start[1] + round(place))
-            self.straight(at, to, cuts)
-            at = to
 
     def lay(self, block: Block, start: Spot, end: Spot, cuts: bool) -> None:
         """A block in its place."""
