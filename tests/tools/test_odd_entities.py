@@ -275,3 +275,64 @@ def test_spline_through_points_alone() -> None:
     assert notes(reading, "guessed") == [
         "1 spline on layer 0 through points alone, as at (0, 0): between them the curve is guessed"
     ]
+
+
+#: Entities with a {} where their extrusion stands; a block of an arc for the reference.
+MIRRORED = {
+    "ARC": "ARC 8 0 10 5 20 0 40 10 50 0 51 90 {}",
+    "ARC, first": "ARC 8 0 {} 10 5 20 0 30 0 40 10 50 0 51 90",
+    "CIRCLE": "CIRCLE 8 0 100 AcDbEntity 100 AcDbCircle 10 5 20 0 30 0 40 10 {}",
+    "ELLIPSE": "ELLIPSE 8 0 10 5 20 0 30 0 11 10 21 0 31 0 {} 40 0.5 41 0 42 1.5",
+    "LWPOLYLINE": "LWPOLYLINE 8 0 90 3 70 1 {} 10 5 20 0 42 0.3 10 20 20 0 10 5 20 10",
+    "POLYLINE": "POLYLINE 8 0 66 1 70 1 {} 0 VERTEX 8 0 10 5 20 0 42 0.3 0 VERTEX 8 0 10 20 20 0 0 VERTEX 8 0 10 5 20 9"
+    " 0 SEQEND",
+    "INSERT": "INSERT 8 0 2 CORNER 10 5 20 0 {}",
+}  # fmt: skip
+CORNER = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\nCORNER\n10\n0\n20\n0\n"
+CORNER += "0\nARC\n8\n0\n10\n1\n20\n0\n40\n10\n50\n0\n51\n90\n0\nENDBLK\n0\nENDSEC\n"
+
+
+def edges_of(*entities: str) -> list[tuple]:
+    """The edges of a drawing's contours, with their samples' middle."""
+    data = raw(*entities).replace(b"0\nSECTION\n2\nENTITIES\n", CORNER.encode() + b"0\nSECTION\n2\nENTITIES\n")
+    found = [edge for contour in checked(data).contours for edge in contour.edges]
+    assert found
+    return [(edge.start, edge.at(0.3), edge.end) for edge in found]
+
+
+@pytest.mark.parametrize("written", ["230 -1", "230 -1 210 0 220 0", "220 0 230 -1", "210 0 230 -1", "230 -1 220 0"])
+@pytest.mark.parametrize("kind", MIRRORED)
+def test_an_extrusion_in_any_order(kind: str, written: str) -> None:
+    """z of an extrusion alone, or in front of x and y: the entity is mirrored as with x, y and z."""
+    whole = edges_of(MIRRORED[kind].format("210 0 220 0 230 -1"))
+    assert whole != edges_of(MIRRORED[kind].format(""))
+    assert edges_of(MIRRORED[kind].format(written)) == whole
+
+
+@pytest.mark.parametrize("written", ["210 0 220 0 230 1", "230 1", "230 0", "210 0", "230 0.0 220 0"])
+@pytest.mark.parametrize("kind", MIRRORED)
+def test_an_extrusion_that_says_nothing(kind: str, written: str) -> None:
+    assert edges_of(MIRRORED[kind].format(written)) == pytest.approx(edges_of(MIRRORED[kind].format("")))
+
+
+@pytest.mark.parametrize(
+    ("usual", "written"),
+    [
+        ("CIRCLE 8 0 10 5 20 3 40 2", "CIRCLE 8 0 20 3 10 5 40 2"),
+        ("CIRCLE 8 0 10 5 20 3 40 2", "CIRCLE 8 0 10 5 40 2 20 3"),
+        ("LINE 8 0 10 5 20 3 11 2 21 9", "LINE 8 0 21 9 20 3 10 5 11 2"),
+        ("ELLIPSE 8 0 10 0 20 0 11 1 21 5 40 0.5 41 0 42 2", "ELLIPSE 8 0 10 0 20 0 21 5 11 1 40 0.5 41 0 42 2"),
+        ("INSERT 8 0 2 CORNER 10 5 20 3", "INSERT 8 0 20 3 2 CORNER 10 5"),
+    ],
+)
+def test_a_place_in_any_order(usual: str, written: str) -> None:
+    """y in front of x, or apart from it."""
+    assert edges_of(written) == edges_of(usual)
+
+
+@pytest.mark.parametrize("half", ["CIRCLE 8 0 20 3 40 2", "CIRCLE 8 0 10 3 40 2", "INSERT 8 0 2 CORNER 20 3"])
+def test_half_a_place(half: str) -> None:
+    """An entity without x, or y, is listed and left: nobody knows where it was."""
+    reading = checked(raw(line(0, 0, 9, 0), half).replace(b"0\nSECTION\n2\nENT", CORNER.encode() + b"0\nSECTION\n2\nENT"))
+    assert [entity.kind for entity in reading.report.not_understood] == [half.split()[0]]
+    assert "missing" in reading.report.not_understood[0].left

@@ -17,7 +17,6 @@ from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic, factory
 from ezdxf.lldxf.const import DXFError
 from ezdxf.lldxf.extendedtags import ExtendedTags
-from ezdxf.lldxf.repair import tag_reorder_layer
 from ezdxf.lldxf.tagger import binary_tags_loader, tag_compiler
 from ezdxf.lldxf.tags import Tags
 from ezdxf.lldxf.types import DXFTag
@@ -46,6 +45,12 @@ _SUBCLASSES = {
     "HELIX": ("AcDbEntity", "AcDbSpline"),
     "MLINE": ("AcDbEntity", "AcDbMline"),
     "MLINESTYLE": ("AcDbMlineStyle",),
+}
+#: The codes of x, y and z of an entity's extrusion, and of the places (an ELLIPSE's axis) that a kind has once.
+_EXTRUSION = (210, 220, 230)
+_PLACES = {
+    **dict.fromkeys(("CIRCLE", "ARC", "INSERT", "POINT", "VERTEX"), ((10, 20, 30),)),
+    **dict.fromkeys(("LINE", "ELLIPSE"), ((10, 20, 30), (11, 21, 31))),
 }
 #: The third, of a helix: its codes mean other things than those of the second.
 _THIRD = "AcDbHelix"
@@ -232,8 +237,27 @@ def _tags(groups: list[Group]) -> list[DXFTag]:
     if kind in _SUBCLASSES:
         rest = [tag for tag in kept[1:] if tag.code != 100 or tag.value == _THIRD]
         kept = [kept[0], *(DXFTag(100, name) for name in _SUBCLASSES[kind]), *rest]
+    for codes in (*_PLACES.get(kind, ()), _EXTRUSION):
+        kept = _together(kept, codes)
     # (the tag behind the last one makes ezdxf let go of the place or the entity before it)
     tags = iter([*kept, DXFTag(0, "EOF")])
-    # Old programs write the places of a line as x, x, y, y.
-    *found, _ = tag_compiler(tag_reorder_layer(tags) if kind == "LINE" else tags)
+    *found, _ = tag_compiler(tags)
     return found
+
+
+def _together(tags: list[DXFTag], codes: tuple[int, int, int]) -> list[DXFTag]:
+    """The tags with x, y and z of a place or a way one after the other, as ezdxf takes them: else it reads 0 for what
+    stands alone or in front. Half a place is a `ValueError`; a way of no length is left out."""
+    given = {tag.code: tag.value for tag in reversed(tags) if tag.code in codes}
+    if not given:
+        return tags
+    if codes == _EXTRUSION:
+        whole = [DXFTag(code, given.get(code, "0.0")) for code in codes]
+        if not any(tag.value.strip(" 0.+-eE") for tag in whole):
+            whole = []
+    elif codes[0] in given and codes[1] in given:
+        whole = [DXFTag(code, given[code]) for code in codes if code in given]
+    else:
+        raise ValueError(f"code {codes[1] if codes[0] in given else codes[0]} is missing")
+    at = next(at for at, tag in enumerate(tags) if tag.code in codes)
+    return tags[:at] + whole + [tag for tag in tags[at:] if tag.code not in codes]
