@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import warnings
+from dataclasses import replace
 from itertools import pairwise
 from math import asin, cos, degrees, hypot, pi, sin, tan
 from pathlib import Path
@@ -827,6 +828,43 @@ def test_an_open_contour_is_cut_once_beside_what_has_passes(run: Run, tmp_path: 
     words = ["--offset", 0.1, "--passes", PASSES, "--open", "cut"]
     assert run("cut", saved(page, tmp_path), "-o", tape, *words).exit_code == 0
     assert tape.read_bytes().count(b"B0B10000B10000GYL") == 1
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_an_open_contour_beside_which_the_wire_runs_has_one_pass(run: Run, tmp_path: Path, side: str) -> None:
+    page = drawing()
+    page.modelspace().add_line((20, 0), (20, 10))
+    tape = tmp_path / "part.3b"
+    words = ["--offset", 0.1, "--passes", PASSES, "--open", "cut", "--side", side]
+    assert run("cut", saved(page, tmp_path), "-o", tape, *words).exit_code == 0
+    assert tape.read_bytes() == b"B100B0B100GX%b\r\nB0B10000B10000GYL2\r\nDD\r\n" % (b"L3" if side == "left" else b"L1")
+
+
+@pytest.mark.parametrize("tab", [0.0, 2.0])
+@pytest.mark.parametrize("other", [(0.06, 0.02, 0.0), (0.05, 0.0), (0.0,)])
+@pytest.mark.parametrize("one", [(0.06, 0.02, 0.0), (0.05, 0.0), (0.0,)])
+def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[float, ...], tab: float) -> None:
+    """Two squares, each with its own number of passes: all of these are checked, and none that is not there."""
+    from skg.checking.check import check
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
+    from skg.geometry.contour import Contour, Edge
+    from skg.planning.plan import plan
+
+    def square(x: float, side: float) -> Contour:
+        corners = [(x, 0.0), (x + side, 0.0), (x + side, side), (x, side)]
+        return Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+
+    wanted = [Wanted(offset=0.1, passes=one, tab=tab), Wanted(offset=0.1, passes=other)]
+    routes = plan([square(0, 20), square(40, 10)], [], wanted)
+    made = make(routes, "squares", 1.0, Settings())
+    assert not made.checked.faults and made.checked.off < LIMIT
+    for at in (0, 1):
+        # (a stop fewer or more would be found before: here a pass is wanted elsewhere)
+        elsewhere = list(routes)
+        elsewhere[at] = replace(routes[at], passes=(*routes[at].passes[:-1], routes[at].passes[-1] + 0.01))
+        faults = check(tapes.parse(made.data, "squares"), elsewhere, True).faults
+        assert {fault.route for fault in faults} == {at}, faults
 
 
 def test_passes(run: Run, tmp_path: Path) -> None:

@@ -333,6 +333,8 @@ def test_a_place_in_any_order(usual: str, written: str) -> None:
 @pytest.mark.parametrize("half", ["CIRCLE 8 0 20 3 40 2", "CIRCLE 8 0 10 3 40 2", "INSERT 8 0 2 CORNER 20 3"])
 def test_half_a_place(half: str) -> None:
     """An entity without x, or y, is listed and left: nobody knows where it was."""
-    reading = checked(raw(line(0, 0, 9, 0), half).replace(b"0\nSECTION\n2\nENT", CORNER.encode() + b"0\nSECTION\n2\nENT"))
+    reading = checked(
+        raw(line(0, 0, 9, 0), half).replace(b"0\nSECTION\n2\nENT", CORNER.encode() + b"0\nSECTION\n2\nENT")
+    )
     assert [entity.kind for entity in reading.report.not_understood] == [half.split()[0]]
     assert "missing" in reading.report.not_understood[0].left

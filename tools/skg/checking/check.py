@@ -57,11 +57,12 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
     contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
     path = WirePath(followed, routes)
     offsets = _offsets(routes)
+    passes = np.array([len(route.passes) for route in routes])
     widest = float(np.abs(offsets).max(initial=0.0))
     with ThreadPoolExecutor(1) as other:
         # (numpy lets both halves run at the same time)
         beside = other.submit(off_contours, path, contours, routes, offsets, widest)
-        more, far = not_reached(path, contours, _in_tabs(contours, routes), offsets, widest)
+        more, far = not_reached(path, contours, _in_tabs(contours, routes), offsets, passes, widest)
         faults, crossings, worst = beside.result()
     return Checked(followed, max(worst, far), faults + more, crossings)
 

@@ -20,10 +20,10 @@ _TURN = 0.1
 
 
 def not_reached(
-    path: WirePath, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, widest: float
+    path: WirePath, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, passes: Whole, widest: float
 ) -> tuple[list[Misfit], float]:
     """The first place of each route and pass beside its contour where the wire could be and was not, and how far it was
-    from such places at most, mm."""
+    from such places at most, mm. `passes`: how many each route has."""
     faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
     wires = [path.of_pass(number) for number in range(offsets.shape[1])]
@@ -38,8 +38,8 @@ def not_reached(
             aside = r[owners]
             places = on + aside[:, None] * square
             free = _free(contours, which, part, aside) if widest else np.ones(len(places), bool)
-            if number + 1 < offsets.shape[1]:
-                free &= ~in_tabs[which]
+            # (a tab is cut in the last pass alone)
+            free &= np.where(in_tabs[which], number + 1 == passes[owners], number < passes[owners])
             places = places[free]
             near = wires[number].nearest(places, owners[free], 2 * LIMIT)
             off = near.own.copy()

@@ -161,6 +161,7 @@ def command(
             reading.contours,
             list(starts) or reading.starts,
             Wanted(True, distance, side, reverse, passes or (0.0,), tab, lead, lead_shape),
+            reading.others,
         )
         job = make(routes, "standard input" if file == "-" else Path(file).name, factor, settings)
     except UserError as error:

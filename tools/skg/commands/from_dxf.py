@@ -54,6 +54,7 @@ def command(
     edge. FILE - is the standard input.
     """
     from skg.cutting.program import write
+    from skg.planning.nesting import said
 
     wishes = Wishes(layers, start_layer, units, tolerance, fit_tolerance, opened or ("refuse" if offset else "cut"))
     if list_layers:
@@ -68,8 +69,11 @@ def command(
             reading.contours,
             list(starts) or reading.starts,
             Wanted(offset=offset or 0.0, side=side, reverse=reverse, lead=lead),
+            reading.others,
         )
     except UserError as error:
         raise UserError(f"{file}: {error}") from None
+    for line in said(route.around for route in routes):
+        click.echo(f"skg: {file}: {line}", err=True)
     title = "standard input" if file == "-" else Path(file).name
     write_bytes(output, write(routes, title, not no_fillets).encode("ascii"))

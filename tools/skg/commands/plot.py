@@ -76,7 +76,6 @@ def command(
     form = picture_format(output, form, ", or --format")
     from skg.pictures.plot import COLOURS, Picture
 
-
     laid = [
         _laid(name, start[at] if at < len(start) else None, positions, skg80, show_offset)
         for at, name in enumerate(files)

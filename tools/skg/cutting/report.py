@@ -12,6 +12,7 @@ from skg.cutting.job import Job
 from skg.cutting.refusal import into, kind, told_in_file
 from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
 from skg.geometry.plane import XY
+from skg.planning.nesting import said
 from skg.planning.route import PlannedContour
 from skg.tape.simulation import duration
 from skg.wording import counted, short
@@ -49,6 +50,7 @@ def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
     lines += [f"take care, left out: {one.name}: {one.why}" for one in job.left[:_PLACES]]
     if len(job.left) > _PLACES:
         lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} left out")
+    lines += said(route.around for route in routes)
     lines += _corners(routes, factor)
     for crossing in job.checked.crossings[:_PLACES]:
         lines.append(

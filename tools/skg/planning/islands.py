@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 import shapely
 
 from skg.geometry.areas import areas_of
+from skg.planning.nesting import places_in
 from skg.planning.route import PlannedContour
 
 
@@ -19,9 +20,7 @@ def islands(routes: Sequence[PlannedContour], openings: Collection[int]) -> dict
     others = [at for at, route in enumerate(routes) if at not in openings and route.depth > least]
     if not others:
         return {}
-    places = shapely.points([routes[at].contour.edges[0].at(0.5) for at in others])
-    if closed := [k for k, at in enumerate(others) if routes[at].contour.is_closed]:
-        places[closed] = shapely.point_on_surface(areas_of([routes[others[k]].contour for k in closed]))
+    places = places_in([routes[at].contour for at in others])
     areas = areas_of([routes[at].contour for at in around])
     one, other = shapely.STRtree(places).query(areas, predicate="contains")
     found: dict[int, int] = {}

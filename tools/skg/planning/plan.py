@@ -17,6 +17,7 @@ from skg.geometry.field import Field
 from skg.geometry.plane import XY, distance
 from skg.job.wanted import Wanted
 from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
+from skg.planning.nesting import around_all, deeper
 from skg.planning.order import nearest_order
 from skg.planning.route import PlannedContour, chain_from, split_at_end
 
@@ -118,7 +119,7 @@ class _Planner:
             start, offset = given.get(number), passes[-1]
             if not contour.is_closed:
                 start = start or contour.edges[0].start
-                done[number] = PlannedContour(contour, start, 0.0, offset, depth, passes, number=number)
+                done[number] = PlannedContour(contour, start, 0.0, offset, depth, passes[-1:], number=number)
                 continue
             is_ccw = contour.area > 0
             is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
@@ -346,19 +347,31 @@ def _part_at(edge: Edge, place: XY) -> float:
     return 0.0 if distance(place, edge.start) < 1e-9 else part
 
 
-def plan(contours: list[Contour], starts: Sequence[XY], wanted: Wanted | Sequence[Wanted]) -> list[PlannedContour]:
+def plan(
+    contours: list[Contour],
+    starts: Sequence[XY],
+    wanted: Wanted | Sequence[Wanted],
+    others: Sequence[Contour] = (),
+) -> list[PlannedContour]:
     """Return the contours in the order in which they are cut: inner ones first, and then the nearest.
 
     `wanted`: how all contours are cut, or each. Each of the `starts` (mm) goes to the innermost contour around it that
-    is cut from inside and has no start hole yet, else to the nearest one. Raises `UserError` for a start hole in the
+    is cut from inside and has no start hole yet, else to the nearest one. `others`: closed contours on layers that are
+    not cut; what lies in one is an opening of it, or a part in a frame. Raises `UserError` for a start hole in the
     part, and for an order that cuts a contour before what lies in it.
     """
     each = [wanted] * len(contours) if isinstance(wanted, Wanted) else list(wanted)
     planner = _Planner(contours)
     depths = planner.field.depths()
+    around = around_all(contours, depths, others)
+    if openings := [at for at, one in around.items() if not one.is_frame]:
+        depths = deeper(contours, depths, openings)
     given = _given_starts(planner.field, depths, each, list(starts))
-    routes = _ordered(planner.plan(contours, each, depths, given))
-    return _as_wanted(routes, each, planner.field)
+    routes = planner.plan(contours, each, depths, given)
+    if around:
+        found = {at: one for at, one in around.items() if each[at].side == "auto"}
+        routes = [replace(route, around=found.get(route.number)) for route in routes]
+    return _as_wanted(_ordered(routes), each, planner.field)
 
 
 def _oriented(contour: Contour, wanted: Wanted, depth: int) -> tuple[Contour, float]:

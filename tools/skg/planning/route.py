@@ -15,6 +15,7 @@ from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.offset import part_between, roomy_place, wire_way
 from skg.geometry.piece import chords_of
 from skg.geometry.plane import XY, distance, minus, polar, turn
+from skg.planning.nesting import Around
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
@@ -86,6 +87,7 @@ class PlannedContour:
     not; see `with_wire_ways` and `in_chords`.
     `is_moved`: they are entered where they are nearest to the start hole.
     `is_around`: they are there for tips alone, which the wire goes around.
+    `around`: what lies around it and is not cut.
     `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
     """
 
@@ -105,6 +107,7 @@ class PlannedContour:
     is_cramped: bool = False
     is_around: bool = False
     is_short: bool = False
+    around: Around | None = None
 
     @property
     def entry(self) -> XY:

@@ -36,10 +36,11 @@ class Entity:
 @dataclass
 class Content:
     """What a file holds: its entities, their edges in mm (each with the number of its entity), start points in mm,
-    and what is to be said of them."""
+    and what is to be said of them. `others`: the edges of what is left because of its layer."""
 
     entities: list[Entity] = field(default_factory=list)
     edges: list[Edge] = field(default_factory=list)
+    others: list[Edge] = field(default_factory=list)
     starts: list[XY] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 

@@ -128,6 +128,8 @@ class _Collector:
         account.left = hidden or self.unwanted(layer) or ("invisible" if record.whole(60) else "")
         if not account.left and _is_note(record.kind, is_start):
             account.left = NOTE
+        if self.wishes.is_by_layer(account.left) and not is_start and not _is_note(record.kind, is_start):
+            self.see(record, account)
         if account.left:
             return
         known = len(self.content.edges)
@@ -149,6 +151,16 @@ class _Collector:
             account.left = _unread(error)
         account.is_odd = True
         del self.content.edges[known:]
+
+    def see(self, record: Record, account: Entity) -> None:
+        """Keep the edges of a record whose layer is not cut: what is cut may lie in them."""
+        known, through = len(self.content.others), len(self.through)
+        try:
+            self.content.others += map(self.numbered, (edge for edge in self.edges_of(record) if edge.length > 0))
+            account.dashes = self.dashes(record, account.layer)
+        except (NotFlat, *UNREADABLE):
+            del self.content.others[known:]
+        del self.through[through:]
 
     def describe(self, record: Record, account: Entity, start: XY) -> None:
         """Note what there is to say of a record that is cut from `start` on, mm."""
@@ -232,8 +244,12 @@ class _Collector:
     def add(self, edge: Edge) -> None:
         """Keep an edge unless it has no length."""
         if edge.length > 0:
-            number = self.placing.entity
-            self.content.edges.append(edge if edge.entity == number else replace(edge, entity=number))
+            self.content.edges.append(self.numbered(edge))
+
+    def numbered(self, edge: Edge) -> Edge:
+        """An edge with the number of the present entity."""
+        number = self.placing.entity
+        return edge if edge.entity == number else replace(edge, entity=number)
 
 
 @cache

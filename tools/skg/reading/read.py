@@ -47,11 +47,13 @@ AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 
 @dataclass(frozen=True)
 class Reading:
-    """A drawing that was read: contours in the order of the file (mm), start holes (mm), and the report."""
+    """A drawing that was read: contours in the order of the file (mm), start holes (mm), and the report; `others`: the
+    closed contours that are left because of their layers."""
 
     contours: list[Contour]
     starts: list[XY]
     report: Account
+    others: list[Contour]
 
 
 def read(data: bytes, name: str, wishes: Wishes | None = None, small: Mapping[int, str] | None = None) -> Reading:
@@ -95,7 +97,7 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Mapping[int, str]) -> R
     found = [replace(merged(one), layers=fates.layers(one)) for one in cut]
     _count(found, report)
     _check_size(report)
-    return _near_origin(Reading(found, content.starts, report))
+    return _near_origin(Reading(found, content.starts, report, selection.others()))
 
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
@@ -114,8 +116,8 @@ def _near_origin(reading: Reading) -> Reading:
     by = -floor(report.low[0]), -floor(report.low[1])
     report.notes.append(f"moved by {shown(by)} mm: the drawing lies too far from its origin for a tape")
     report.low, report.high = shifted(report.low, by), shifted(report.high, by)
-    contours = [one.shifted(by) for one in reading.contours]
-    return Reading(contours, [shifted(at, by) for at in reading.starts], report)
+    contours, others = ([one.shifted(by) for one in some] for some in (reading.contours, reading.others))
+    return Reading(contours, [shifted(at, by) for at in reading.starts], report, others)
 
 
 def layer_lines(data: bytes, name: str) -> list[str]:

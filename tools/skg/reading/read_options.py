@@ -12,6 +12,8 @@ from skg.errors import UserError
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
 #: What becomes of open contours; "all" cuts what is at junctions as well.
 OPEN = ("cut", "leave", "refuse", "all")
+#: Why what is on a layer is left: it is another one than those asked for, or it is not seen.
+_NOT_ASKED, _HIDDEN = "not asked for", "the layer is "
 #: The layer whose points are start holes, where no other one is asked for.
 START = "START"
 
@@ -49,7 +51,12 @@ class Wishes:
         """Why what is on a layer is left; empty when it is not. `state`: "off" or "frozen" for one that is not seen."""
         if self.layers:
             is_asked = self.is_start(layer) or layer.lower() in map(str.lower, self.layers)
-            return "" if is_asked else "not asked for"
+            return "" if is_asked else _NOT_ASKED
         if layer.lower() == "defpoints":
             return "a layer that is never plotted"
-        return f"the layer is {state}" if state else ""
+        return _HIDDEN + state if state else ""
+
+    @staticmethod
+    def is_by_layer(reason: str) -> bool:
+        """Whether a reason of `unwanted` is that its layer is not asked for, or not seen: what it shows is there."""
+        return reason == _NOT_ASKED or reason.startswith(_HIDDEN)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from math import inf
 
 from skg.errors import UserError
@@ -56,6 +57,15 @@ class Selection:
         self.report.notes += _around(rest, kept, bool(gaps), self.report.factor)
         self.report.notes += gaps
         return kept
+
+    def others(self) -> list[Contour]:
+        """The closed contours of layers that are not cut, drawn through: what is cut may lie in them."""
+        found = chain(self.content.others, self.wishes.tolerance, self.styles).contours
+        return [
+            replace(one, layers=self.fates.layers(one))
+            for one in found
+            if one.is_closed and not self.fates.is_dashed(one)
+        ]
 
     def without_open(self, contours: list[Contour]) -> list[Contour]:
         """The contours without the open ones where these are left; a `UserError` where there are any and they are

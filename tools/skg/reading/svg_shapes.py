@@ -177,6 +177,10 @@ class _SvgCollector:
         if edges:
             x, y = edges[0].start
             account.place = x / self.factor, y / self.factor
+        is_seen = not one.left and one.view.style.is_painted and not one.view.style.is_hidden
+        if self.wishes.is_by_layer(account.left) and is_seen and not self.wishes.is_start(layer):
+            self.found.others += edges
+            account.dashes = "stroke-dasharray" if one.view.style.is_dashed else ""
         account.left = account.left or ("invisible" if one.view.style.is_hidden else "")
         if account.left:
             return

@@ -1,0 +1,145 @@
+"""What lies in what, where not all of a drawing is cut: openings of a part that is left, parts in a frame."""
+
+from __future__ import annotations
+
+from itertools import product
+from pathlib import Path
+
+import pytest
+import shapely
+from cuthelp import drawing, polygon, saved, stretches
+from ezdxf.document import Drawing
+from shapely.geometry import Point
+from test_cut import start_of
+from toolhelp import Run
+
+OFFSET = 0.1
+PLATE = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]
+FRAME = [(-30.0, -30.0), (100.0, -30.0), (100.0, 100.0), (-30.0, 100.0)]
+HOLES = tuple(product((10.0, 50.0), (10.0, 30.0)))
+
+
+def plate(frame: bool = False, **more: object) -> Drawing:
+    """A plate on OUT, holes on HOLES, maybe a frame around them; `more`: attributes of what is not on HOLES."""
+    page = drawing()
+    polygon(PLATE, page, layer="OUT", **more)
+    if frame:
+        polygon(FRAME, page, layer="FRAME", **more)
+    for centre in HOLES:
+        page.modelspace().add_circle(centre, 4, {"layer": "HOLES"})
+    return page
+
+
+def ways(run: Run, path: Path, *words: object) -> tuple[list[shapely.LinearRing], str]:
+    """The wire's way around each contour, without its leads, and the report."""
+    tape, program = path.with_suffix(".3b"), path.with_suffix(".skg")
+    done = run("cut", path, "-o", tape, "--program", program, "--offset", OFFSET, *words)
+    assert done.exit_code == 0, done.stderr
+    found = [shapely.LinearRing(places[1:-1]) for places in stretches(tape.read_bytes(), start_of(program))]
+    assert found
+    return found, done.stderr
+
+
+def test_the_holes_alone(run: Run, tmp_path: Path) -> None:
+    """Holes whose plate is on another layer are openings: the wire runs inside of them, and that is said."""
+    path = saved(plate(), tmp_path)
+    for words in (["--layer", "HOLES"], ["--layer", "HOLES", "--quiet"]):
+        found, told = ways(run, path, *words)
+        assert len(found) == len(HOLES)
+        for ring in found:
+            radii = [min(Point(at).distance(Point(hole)) for hole in HOLES) for at in ring.coords]
+            assert max(radii) < 4 - OFFSET + 0.003, radii
+        assert "take care: 4 openings" in told and "layer OUT" in told and "--side outside" in told
+    found, told = ways(run, path, "--layer", "HOLES", "--side", "outside")
+    assert all(shapely.Polygon(ring).area > 16 * 3.1416 for ring in found)
+    assert "layer OUT" not in told.split("cut in this order")[1]
+
+
+@pytest.mark.parametrize("state", ["off", "freeze"])
+def test_the_holes_of_a_plate_that_is_not_seen(run: Run, tmp_path: Path, state: str) -> None:
+    page = plate()
+    getattr(page.layers.add("OUT"), state)()
+    found, told = ways(run, saved(page, tmp_path))
+    assert len(found) == len(HOLES) and "take care: 4 openings" in told
+    assert all(shapely.Polygon(ring).area < 16 * 3.1416 for ring in found)
+
+
+@pytest.mark.parametrize(
+    ("layers", "openings", "outlines"),
+    [(("OUT", "HOLES"), 4, 1), (("OUT",), 0, 1), (("HOLES",), 4, 0), (("OUT", "HOLES", "FRAME"), 1, 5)],
+)
+def test_a_frame(run: Run, tmp_path: Path, layers: tuple[str, ...], openings: int, outlines: int) -> None:
+    """What has openings itself is a part, also in a frame that is left; cut with its frame it is an opening of it."""
+    path = saved(plate(frame=True), tmp_path)
+    words = [word for layer in layers for word in ("--layer", layer)]
+    found, told = ways(run, path, *words)
+    assert len(found) == openings + outlines
+    order = told.split("cut in this order: ")[1].split(";")[0]
+    names = [f"{openings} opening{'s' * (openings > 1)}"] * (openings > 0)
+    names += [f"{outlines} outline{'s' * (outlines > 1)}"] * (outlines > 0)
+    assert sorted(order.split(", ")) == sorted(names)
+    assert ("taken for a frame" in told) == ("OUT" in layers and "FRAME" not in layers)
+    assert ("outline of their part" in told) == ("OUT" not in layers)
+
+
+@pytest.mark.parametrize("around", ["thread", "copy", "dashed", "beside", "text"])
+def test_what_makes_no_opening(run: Run, tmp_path: Path, around: str) -> None:
+    """A circle about a hole of a part that is cut, the same contour on another layer, a circle that holes lie on, what
+    lies beside, and text: the contours are cut as without them."""
+    page = drawing()
+    polygon(PLATE, page, layer="CUT")
+    for centre in HOLES:
+        page.modelspace().add_circle(centre, 4, {"layer": "CUT"})
+        if around == "thread":
+            page.modelspace().add_circle(centre, 5, {"layer": "MARKS"})
+    if around == "copy":
+        polygon(PLATE, page, layer="MARKS")
+    if around == "dashed":
+        page.linetypes.add("CENTER", [2.0, 1.25, -0.25, 0.25, -0.25])
+        page.modelspace().add_circle((30, 20), 90, {"layer": "MARKS", "linetype": "CENTER"})
+    if around == "beside":
+        polygon([(-20, -20), (-1, -20), (-1, 90), (-20, 90)], page, layer="MARKS")
+    page.modelspace().add_text("60 x 40", dxfattribs={"layer": "MARKS"})
+    found, told = ways(run, saved(page, tmp_path), "--layer", "CUT")
+    assert "4 openings, 1 outline" in told and "taken for" not in told
+    assert len(found) == 5
+
+
+def test_an_open_line_in_an_opening_goes_before_it(run: Run, tmp_path: Path) -> None:
+    """A line within a contour that is an opening of what is left is cut before that falls out."""
+    page = drawing()
+    polygon(FRAME, page, layer="OUT")
+    polygon(PLATE, page, layer="WINDOW")
+    page.modelspace().add_line((20, 20), (40, 20), {"layer": "WINDOW"})
+    path = saved(page, tmp_path)
+    done = run("cut", path, "-o", tmp_path / "a.3b", "--layer", "WINDOW", "--offset", OFFSET, "--open", "cut")
+    assert done.exit_code == 0 and "cut in this order: 1 open contour, 1 opening" in done.stderr
+
+
+def test_a_part_far_from_the_origin(run: Run, tmp_path: Path) -> None:
+    """What is left is moved with what is cut."""
+    page = drawing()
+    by = 3.5e6, 5.4e6
+    polygon([(x + by[0], y + by[1]) for x, y in PLATE], page, layer="OUT")
+    for x, y in HOLES:
+        page.modelspace().add_circle((x + by[0], y + by[1]), 4, {"layer": "HOLES"})
+    _, told = ways(run, saved(page, tmp_path), "--layer", "HOLES")
+    assert "moved by" in told and "take care: 4 openings" in told
+
+
+def test_layers_of_svg(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "plate.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
+        'width="60mm" height="40mm" viewBox="0 0 60 40"><g inkscape:groupmode="layer" inkscape:label="OUT">'
+        '<rect width="60" height="40"/></g><g inkscape:groupmode="layer" inkscape:label="HOLES">'
+        '<circle cx="10" cy="10" r="4"/></g></svg>'
+    )
+    (ring,), told = ways(run, path, "--layer", "HOLES")
+    assert shapely.Polygon(ring).area < 16 * 3.1416 and "take care: 1 opening" in told
+
+
+def test_from_dxf_says_it_too(run: Run, tmp_path: Path) -> None:
+    path = saved(plate(), tmp_path)
+    done = run("from-dxf", path, "-o", tmp_path / "a.skg", "--layer", "HOLES", "--offset", OFFSET)
+    assert "take care: 4 openings" in done.stderr and "OPENING, CLOCKWISE" in (tmp_path / "a.skg").read_text()

@@ -1,0 +1,95 @@
+"""Contours that are cut without what lies around them: openings of a part, or parts in a frame (shapely)."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from skg.geometry.areas import areas_of
+from skg.geometry.contour import Contour
+from skg.wording import counted
+
+#: One that is no larger than this is the same contour, drawn on another layer.
+_SAME = 1.001
+#: So much of a contour's area lies in what is around it.
+_WITHIN = 0.1
+#: Contours that a line of the report names.
+_PLACES = 5
+
+
+class Around(NamedTuple):
+    """What lies around a contour and is not cut: its layers, and whether it is taken for a frame."""
+
+    layers: tuple[str, ...]
+    is_frame: bool
+
+
+def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Sequence[Contour]) -> dict[int, Around]:
+    """The outermost of the contours (by their numbers) that lie in others, which are not cut: in the smallest of these.
+
+    `depths`: how many of the contours lie around each. In a frame at least half of them have openings themselves.
+    """
+    outer = [at for at, one in enumerate(contours) if one.is_closed and not depths[at]]
+    if not outer or not others:
+        return {}
+    areas, wholes = areas_of([contours[at] for at in outer]), areas_of(list(others))
+    sizes, large = shapely.area(areas), shapely.area(wholes)
+    one, other = shapely.STRtree(wholes).query(areas, predicate="intersects")
+    is_in = large[other] > _SAME * sizes[one]
+    one, other = one[is_in], other[is_in]
+    is_in = shapely.area(shapely.intersection(areas[one], wholes[other])) > _WITHIN * sizes[one]
+    holder: dict[int, int] = {}
+    for inner, whole in zip(one[is_in].tolist(), other[is_in].tolist(), strict=True):
+        holder[inner] = min(whole, holder.get(inner, whole), key=large.__getitem__)
+    inner = [*others, *(one for one, depth in zip(contours, depths, strict=True) if depth and one.is_closed)]
+    of, which = shapely.STRtree(areas).query(places_in(inner), predicate="within")
+    held = set(which[shapely.area(areas_of(inner))[of] < sizes[which]].tolist())
+    inside = Counter(holder.values())
+    with_openings = Counter(whole for inner, whole in holder.items() if inner in held)
+    return {
+        outer[inner]: Around(others[whole].layers, 2 * with_openings[whole] >= inside[whole])
+        for inner, whole in holder.items()
+    }
+
+
+def deeper(contours: Sequence[Contour], depths: Sequence[int], openings: Sequence[int]) -> list[int]:
+    """The depths; of some outermost contours and all that lies in them one more."""
+    found = list(depths)
+    areas = areas_of([contours[at] for at in openings])
+    inner = [at for at, depth in enumerate(depths) if depth]
+    of, _ = shapely.STRtree(areas).query(places_in([contours[at] for at in inner]), predicate="within")
+    for at in (*openings, *(inner[k] for k in np.unique(of).tolist())):
+        found[at] += 1
+    return found
+
+
+def places_in(contours: Sequence[Contour]) -> np.ndarray:
+    """A place in each closed contour, and on each open one, as shapely's points."""
+    places = shapely.points(np.array([contour.edges[0].at(0.5) for contour in contours], float).reshape(-1, 2))
+    if closed := [at for at, contour in enumerate(contours) if contour.is_closed]:
+        places[closed] = shapely.point_on_surface(areas_of([contours[at] for at in closed]))
+    return places
+
+
+def said(around: Iterable[Around | None]) -> Iterator[str]:
+    """What to say of contours, in the order of cutting, some of which lie in something that is not cut."""
+    groups: dict[Around, list[int]] = defaultdict(list)
+    for number, one in enumerate(around, 1):
+        if one:
+            groups[one].append(number)
+    for one, numbers in groups.items():
+        which = f"{', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)}"
+        layers = ", ".join(one.layers)
+        what, then = (
+            ("outline", "a frame: --side inside cuts openings")
+            if one.is_frame
+            else ("opening", "the outline of their part: --side outside cuts outlines")
+        )
+        yield (
+            f"take care: {counted(len(numbers), what)} (contour {which}) in a contour on layer {layers}, which is not "
+            f"cut and taken for {then}"
+        )
