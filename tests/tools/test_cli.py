@@ -19,7 +19,6 @@ COMMANDS = {
     "check": ["check", *[TAPE] * 50],
     "cut": ["cut", "docs/pictures/bracket.dxf"],
     "dxf": ["dxf", TAPE],
-    "from-dxf": ["from-dxf", "docs/pictures/bracket.dxf"],
     "gcode": ["gcode", TAPE],
     "gear": ["gear", "--module", "2", "--teeth", "9"],
     "plot": ["plot", TAPE, "-o", "-"],
@@ -40,7 +39,7 @@ def test_every_command_is_tried() -> None:
 
 
 @pytest.mark.parametrize(
-    ("word", "answer"), [("form-dxf", "did you mean from-dxf?"), ("qqq", "'qqq' (see skg --help)")]
+    ("word", "answer"), [("tekthran", "did you mean tekhtran?"), ("qqq", "'qqq' (see skg --help)")]
 )
 def test_mistyped_command(word: str, answer: str) -> None:
     done = subprocess.run([SKG, word, "part.dxf"], capture_output=True, text=True)
@@ -97,7 +96,7 @@ def test_help_loads_no_command() -> None:
     """`skg --help` needs click alone: neither the commands nor what they are made of."""
     text = (
         "import sys; from click.testing import CliRunner; from skg.cli import cli; "
-        "assert 'from-dxf' in CliRunner().invoke(cli, ['--help']).stdout; "
+        "assert 'tekhtran' in CliRunner().invoke(cli, ['--help']).stdout; "
         "slow = ('skg.', 'numpy', 'matplotlib', 'ezdxf', 'lark'); "
         "print([name for name in sys.modules if name.startswith(slow)])"
     )

@@ -89,13 +89,12 @@ def _order(shape: Polygon, cuts: list[list[XY]]) -> int:
         (["cut", "--wire", 100], "--wire"),
         (["cut", "--wire", 0.18, "--gap", 100], "--gap"),
         (["cut", "--offset", 0.1, "--passes", "100,0"], "--passes"),
-        (["from-dxf", "--offset", 100], "--offset"),
         (["gear", "--module", 2, "--teeth", 20, "--offset", 100], "--offset"),
         (["cam", "--base", 20, "--lift", 8, "--offset", 100], "--offset"),
     ],
 )
 def test_offsets_that_no_wire_has(run: Run, words: list[object], option: str) -> None:
-    drawing = [BRACKET] if words[0] in ("cut", "from-dxf") else []
+    drawing = [BRACKET] if words[0] == "cut" else []
     done = run(*words, *drawing)
     assert (done.exit_code, f"'{option}'" in done.stderr) == (2, True)
 

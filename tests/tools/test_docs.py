@@ -70,7 +70,7 @@ def test_example(example: re.Match[str], tmp_path: Path) -> None:
 
 
 def test_an_example_that_needs_another() -> None:
-    assert needed("skg dxf build/bracket.3b --start 34.5,15 | skg from-dxf - --list-layers")
+    assert needed("skg dxf build/bracket.3b --start 34.5,15 | skg cut - --list-layers")
 
 
 def test_every_command_has_a_section() -> None:

@@ -19,6 +19,7 @@ import drawings
 import ezdxf
 import numpy as np
 import pytest
+from click.testing import Result
 from ezdxf.document import Drawing
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -405,31 +406,36 @@ def test_program_is_as_a_person_writes_it() -> None:
     assert numbers == sorted(set(numbers))
 
 
+def program_by(run: Run, *arguments: object, **more: object) -> Result:
+    """`skg cut` with its program on the standard output, and the tape nowhere."""
+    return run("cut", *arguments, "-o", os.devnull, "--program", "-", **more)
+
+
 def test_command_line(run: Run, tmp_path: Path) -> None:
     drawing = tmp_path / "plate.dxf"
     drawings.die_plate().saveas(drawing)
     program, tape, back = (tmp_path / f"plate.{kind}" for kind in ("skg", "3b", "out.dxf"))
-    result = run("from-dxf", drawing, "--offset", "0.1", "-o", program)
+    result = run("cut", drawing, "--offset", "0.1", "-o", os.devnull, "--program", program)
     assert result.exit_code == 0
-    assert f"skg: {drawing}: layer 0: 10 entities, 9 cut, 1 left: 1 TEXT (nothing to cut)\n" in result.stderr
+    assert "layer 0: 10 entities, 9 cut, 1 left: 1 TEXT (nothing to cut)\n" in result.stderr
     tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").tape.items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
     assert layers == {"WIRE", "LEAD", "MOVES", "START", "STOPS"}
-    assert run("from-dxf", back, "--list-layers").stdout.startswith(
+    assert run("cut", back, "--list-layers").stdout.startswith(
         "LEAD: 6 LINE\nMOVES: 5 LINE\nSTART: 6 POINT\nSTOPS: 6 POINT\nWIRE: "
     )
-    again = run("from-dxf", back, "--layer", "WIRE", "-o", "-", "--layer", "wire")
+    again = program_by(run, back, "--layer", "WIRE", "--layer", "wire")
     assert again.exit_code == 0
     assert again.stdout.count("FROM") == 6
     assert "FROM (40,-3.1)" in again.stdout, "the start holes come back from their layer"
-    assert run("from-dxf", "-", stdin=drawing.read_bytes()).stdout.startswith("10 REM STANDARD INPUT: 6 CONT")
+    assert program_by(run, "-", stdin=drawing.read_bytes()).stdout.startswith("10 REM STANDARD INPUT: 6 CONT")
 
 
 def test_given_start_holes(run: Run, tmp_path: Path) -> None:
     drawing = tmp_path / "rod.dxf"
     drawings.connecting_rod().saveas(drawing)
-    program = run("from-dxf", drawing, "--start", "1,2", "--start", "30,40", "--start", "74,1").stdout
+    program = program_by(run, drawing, "--start", "1,2", "--start", "30,40", "--start", "74,1").stdout
     starts = [line.split()[2] for line in program.splitlines() if " FROM" in line]
     assert starts == ["(1,2)", "(74,1)", "(30,40)"]
     assert apart(path_edges(program), edges_of(drawings.connecting_rod)) < EXACT
@@ -524,7 +530,7 @@ def test_bad_drawings(
 ) -> None:
     drawing = tmp_path / "bad.dxf"
     make().saveas(drawing)
-    result = run_program("from-dxf", drawing, *arguments)
+    result = program_by(run_program, drawing, *arguments)
     assert result.returncode == 2
     assert message in result.stderr.splitlines()[-1]
     assert "Traceback" not in result.stderr
@@ -534,7 +540,7 @@ def test_bad_drawings(
 def test_no_outline(run_program: Run, tmp_path: Path) -> None:
     """Lines that meet in a star are all cut, and it is said that nothing is closed."""
     branching().saveas(tmp_path / "star.dxf")
-    result = run_program("from-dxf", tmp_path / "star.dxf")
+    result = program_by(run_program, tmp_path / "star.dxf")
     assert result.returncode == 0
     assert "no closed outline: what meets at junctions or crosses is cut as it is drawn\n" in result.stderr
     assert result.stdout.count("CUT ") == 3
@@ -542,7 +548,7 @@ def test_no_outline(run_program: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("data", ["", "hello\n", "0\nSECTION\n2\nENTITIES\n0\nLINE\n", "\0\1\2"])
 def test_not_a_drawing(run_program: Run, data: str) -> None:
-    result = run_program("from-dxf", "-", stdin=data)
+    result = program_by(run_program, "-", stdin=data)
     assert result.returncode == 2
     assert len(result.stderr.splitlines()) == 1
     assert result.stderr.startswith("skg: -: no lines" if "SECTION" in data else "skg: -: not a DXF drawing")
@@ -580,7 +586,7 @@ def test_round_openings(run: Run, tmp_path: Path) -> None:
     drawing, space = drawings.new()
     drawings.bent_slot(space, (0, 0), 40.3, 5.1, 24.5, 55)
     drawing.saveas(tmp_path / "slot.dxf")
-    program = run("from-dxf", tmp_path / "slot.dxf").stdout
+    program = program_by(run, tmp_path / "slot.dxf").stdout
     lines = [line for line in program.splitlines() if "FROM" in line or "CUT" in line][:2]
     hole, entry = (tuple(map(float, line.split("(")[1].split(")")[0].split(","))) for line in lines)
     assert distance(hole, entry) > 2

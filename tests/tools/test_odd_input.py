@@ -22,7 +22,6 @@ READERS = {
     "check": (["check"], {"tape", "d"}),
     "cut": (["cut", "-o", "out"], {"dxf"}),
     "dxf": (["dxf", "-o", "out"], {"tape"}),
-    "from-dxf": (["from-dxf", "-o", "out"], {"dxf"}),
     "gcode": (["gcode", "-o", "out"], {"tape"}),
     "gcode --back": (["gcode", "--back", "-o", "out"], {"nc"}),
     "plot": (["plot", "-o", "out.svg"], {"tape"}),
@@ -81,7 +80,7 @@ def test_files_of_other_kinds(reader: str, tmp_path: Path, monkeypatch: pytest.M
     words, reads = READERS[reader]
     tried = 0
     # All kinds under the name that the command expects, and one whose file could be all of them under every name.
-    own = {"gcode --back": ".nc", "ref": ".skg", "run": ".skg", "cut": ".dxf", "from-dxf": ".dxf"}
+    own = {"gcode --back": ".nc", "ref": ".skg", "run": ".skg", "cut": ".dxf"}
     ending = own.get(reader, f".{words[0]}" if words[0] == "xy" else ".tkh" if words[0] == "tekhtran" else ".3b")
     for kind, (data, name) in FILES.items():
         Path(f"in{ending}").write_bytes(data)

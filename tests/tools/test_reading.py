@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import re
 from itertools import pairwise
 from math import cos, hypot, pi, radians, sin
@@ -1012,9 +1013,12 @@ def test_svg_layers_and_units(run: Run, tmp_path: Path) -> None:
     assert left(reading) == {"a start hole": 1, "not displayed": 1}
     part = tmp_path / "part.svg"
     part.write_bytes(svg(content, 'width="400" height="200" viewBox="0 0 200 100"'))
-    assert "read in px (the file does not say; 96 px are an inch)" in run("from-dxf", part).stderr
-    assert "CUT (40,160):18" in run("from-dxf", part, "--units", "mm", "--layer", "cut").stdout
-    assert run("from-dxf", part, "--list-layers").stdout == "Cut: 1 circle\nOld: 1 circle\nSTART: 1 circle\n"
+    assert "read in px (the file does not say; 96 px are an inch)" in run("cut", part).stderr
+    assert (
+        "CUT (40,160):18"
+        in run("cut", part, "--units", "mm", "--layer", "cut", "-o", os.devnull, "--program", "-").stdout
+    )
+    assert run("cut", part, "--list-layers").stdout == "Cut: 1 circle\nOld: 1 circle\nSTART: 1 circle\n"
 
 
 @pytest.mark.parametrize(
@@ -1058,14 +1062,14 @@ def test_command(run: Run, tmp_path: Path) -> None:
     part = tmp_path / "part.dxf"
     part.write_bytes(raw(line(0, 0, 10, 0), line(10, 0, 10, 10), *square(20, 20, 10)))
     with pytest.raises(UserError) as refused:
-        run("from-dxf", part, "--offset", "0.1")
+        run("cut", part, "--offset", "0.1")
     assert str(refused.value) == (
         f"{part}: 1 open contour, the first end at (0, 0), 14.1421 mm from that at (10, 10); "
         "wider than the shortest edge, so --tolerance is no help: close it in the drawing, "
         "or --open cut or leave tells what becomes of it"
     )
     counts = [
-        run("from-dxf", part, "--offset", "0.1", "--open", word).stdout.count("FROM")
+        run("cut", part, "--offset", "0.1", "--open", word, "-o", os.devnull, "--program", "-").stdout.count("FROM")
         for word in ("cut", "leave", "all")
     ]
     assert counts == [2, 1, 2]

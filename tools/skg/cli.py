@@ -21,7 +21,6 @@ COMMANDS = {
     "check": "Find everything on tapes that a controller would choke on.",
     "cut": "Turn a drawing, DXF or SVG, into a checked tape.",
     "dxf": "Turn a tape or a program into a DXF drawing.",
-    "from-dxf": "Write the program that cuts a DXF or SVG drawing.",
     "gcode": "Turn a 3B tape into G-code, or back.",
     "gear": "Write the program that cuts an involute gear.",
     "plot": "Draw tapes and programs to scale: SVG, PNG or PDF.",

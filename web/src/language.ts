@@ -103,7 +103,7 @@ const WORDS = {
   badLarge: ["{0} is too large: at most {1} KB are read.", "{0} 太大:最多读取 {1} KB。"],
   badKind: ["{0} is no program, no tape and nothing that this page has saved.", "{0} 不是程序、纸带,也不是本页保存的文件。"],
   badSaved: ["{0} is not whole, or of another version of this page.", "{0} 不完整,或来自其他版本的页面。"],
-  noDxf: ["Drawings are not read in the page: skg from-dxf makes a program of {0}.", "本页不读图纸:请用 skg from-dxf 将 {0} 转成程序。"],
+  noDxf: ["Drawings are not read in the page: skg cut --program makes one of {0}.", "本页不读图纸:请用 skg cut --program 将 {0} 转成程序。"],
   noXy: ["{0} is in another language, which the page does not translate: skg xy and skg tekhtran do.", "{0} 是另一种语言,本页不翻译:请用 skg xy 或 skg tekhtran。"],
   badLink: ["The link is not whole: no program could be read from it.", "链接不完整:无法读出程序。"],
   badPart: ["There is no part {0}.", "没有零件 {0}。"],

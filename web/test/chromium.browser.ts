@@ -561,7 +561,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     for (const [name, text, sentence] of [
       ["a.3b", "B1B2B2GYL1\nB1B2X", /a\.3b is no tape: block 2, line 2, column 1/],
       ["a.3b", "", /a\.3b is empty/], ["a.png", "\x89PNG", /is no program, no tape/], ["a.skg", "10 REM \xe9", /byte 8/],
-      ["a.dxf", "0\nSECTION\n", /skg from-dxf/], ["a.xy", "(+)D(0,0)=>D0;", /skg xy/], ["a.json", "{\"format\":", /not whole/],
+      ["a.dxf", "0\nSECTION\n", /skg cut --program/], ["a.xy", "(+)D(0,0)=>D0;", /skg xy/], ["a.json", "{\"format\":", /not whole/],
       ["big.3b", "B1B2B2GYL1\n".repeat(1_600_000), /too large: at most 16384 KB/],
     ] as const) {
       await open(page, name, text);

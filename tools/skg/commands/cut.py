@@ -24,7 +24,7 @@ from skg.files import read_bytes, write_bytes
 from skg.geometry.plane import XY
 from skg.job.wanted import LEAD_SHAPES, Wanted
 from skg.planning.plan import plan
-from skg.reading.read import Wishes, read
+from skg.reading.read import Wishes, layer_lines, read
 from skg.reading.selection import SMALL, WITHIN
 from skg.wording import short
 
@@ -49,7 +49,8 @@ class Passes(click.ParamType):
 @click.command(name="cut")
 @click.argument("file", type=click.Path(allow_dash=True))
 @output_option("Tape to write, - for the standard output.")
-@click.option("--program", metavar="FILE", type=click.Path(), help="Also write the SKG program.")
+@click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and cut nothing.")
+@click.option("--program", metavar="FILE", type=click.Path(allow_dash=True), help="Also write the SKG program.")
 @click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
 @click.option("--wire", metavar="MM", type=FiniteRange(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
 @click.option(
@@ -63,6 +64,14 @@ class Passes(click.ParamType):
     "The wire's distance from the contour, R, instead of --wire and --gap: half the wire plus the gap. Default: 0."
 )
 @drawing_options
+@click.option(
+    "--fit-tolerance",
+    default=0.0002,
+    show_default=True,
+    metavar="MM",
+    type=FiniteRange(1e-5),
+    help="How near FIT shall come to splines and ellipses.",
+)
 @click.option(
     "--lead-shape",
     default="perpendicular",
@@ -115,6 +124,7 @@ class Passes(click.ParamType):
 def command(
     file: str,
     output: str,
+    list_layers: bool,
     program: str | None,
     sheet: str | None,
     wire: float | None,
@@ -134,6 +144,7 @@ def command(
     small: str,
     into: str,
     tolerance: float,
+    fit_tolerance: float,
     rom: str,
     ram: int,
     feed: float,
@@ -141,7 +152,8 @@ def command(
 ) -> None:
     """Cut a drawing: FILE (.dxf or .svg) becomes a 3B tape.
 
-    The contours are planned as in `skg from-dxf`, the program runs on the board in this process, and the tape is
+    Lines, arcs, circles, polylines, ellipses and splines are chained into contours. Openings are cut before the outline
+    around them, each from a start hole of its own. The program runs on the board in this process, and the tape is
     followed with the controller's simulation and compared with the drawing before it is written. The report goes to
     standard error. FILE - is the standard input.
     """
@@ -149,9 +161,13 @@ def command(
     from skg.cutting.report import report
     from skg.cutting.settings import Settings
 
+    if list_layers:
+        for line in layer_lines(read_bytes(file), file):
+            click.echo(line)
+        return
     distance = _offset(wire, gap, offset)
     form = picture_format(sheet, None) if sheet else ""
-    wishes = Wishes(layers, start_layer, units, tolerance, open=opened or ("refuse" if distance else "cut"))
+    wishes = Wishes(layers, start_layer, units, tolerance, fit_tolerance, opened or ("refuse" if distance else "cut"))
     data = read_bytes(file)
     reading = read(data, file, wishes)
     factor = reading.report.factor
