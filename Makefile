@@ -57,7 +57,7 @@ t: venv asm80 emu tools web-modules
 
 # Style. Not formatted: C files in .clang-format-ignore (tables made by hand), assembly (in columns, by hand).
 RUFF      := --config tools/pyproject.toml tools asm tests
-C_SOURCES := $(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c))
+C_SOURCES := $(filter-out emu/terminal_windows.c,$(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c)))
 C_STYLED  := $(wildcard $(foreach folder,emu tests/emu tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]))
 
 format: venv
@@ -70,7 +70,7 @@ lint: venv emu
 	$(VENV)/bin/ruff check $(RUFF)
 	$(VENV)/bin/ruff format --check $(RUFF)
 	$(VENV)/bin/clang-format --dry-run -Werror $(C_STYLED)
-	@for file in $(C_SOURCES); do $(CC) $(EMU_CFLAGS) $(EMU_ROWS_OF) -Werror -c -o /dev/null $$file || exit 1; done
+	@for file in $(C_SOURCES); do $(CC) $(EMU_CFLAGS) $(EMU_PROGRAM_FLAGS) $(EMU_ROWS_OF) -Werror -c -o /dev/null $$file || exit 1; done
 	@for file in $(wildcard tools/skg/native/*.c); do $(CC) $(TOOLS_CFLAGS) -Werror -c -o /dev/null $$file || exit 1; done
 
 # Tables, sessions and pictures of the pages and the lines Offers: and Uses: of the assembly files, as they are now.

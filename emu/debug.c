@@ -2,6 +2,7 @@
 #include "debug_state.h"
 
 #include "complain.h"
+#include "terminal.h"
 #include "trace.h"
 
 #include <errno.h>
@@ -84,10 +85,7 @@ static void on_interrupt(int number)
 
 void debug_catch_interrupt(void)
 {
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_interrupt;
-    sigaction(SIGINT, &action, NULL);
+    terminal_catch_interrupt(on_interrupt);
 }
 
 /* Has the board come to where the operator wants to be asked? */

@@ -1,7 +1,7 @@
 # The emulator: build/skg80 and, for the Python tools, build/libskg80.so. `make bench-emu` prints the core's speed.
 # tools/setup.py, which builds the library without make, reads EMU_CFLAGS, EMU_LIBRARY, EMU_TRANSLATE and TRANSLATED here.
-EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
-EMU_PROGRAM := emu/board.c emu/drive.c emu/drawn.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c \
+EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_DARWIN_C_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
+EMU_PROGRAM := emu/board.c emu/drive.c emu/drawn.c emu/com.c emu/complain.c emu/image.c emu/options.c emu/terminal.c emu/terminal_posix.c \
                emu/main.c emu/output.c emu/operator.c \
                emu/symbols.c emu/disasm.c emu/calculator.c emu/trace.c emu/breaks.c emu/debug.c emu/commands.c
 EMU_LIBRARY := emu/board.c emu/drive.c emu/image.c emu/machine.c emu/translations.c
@@ -17,6 +17,10 @@ EMU_ASAN    := -g -fsanitize=address,undefined -fno-sanitize-recover=all
 
 emu: build/skg80 build/libskg80.so
 
+# Of the package and of skg80.
+VERSION := $(shell sed -n 's/^version = "\(.*\)"$$/\1/p' tools/pyproject.toml)
+EMU_PROGRAM_FLAGS := -DSKG80_VERSION='"$(VERSION)"'
+
 # The ROM is built in when there is one.
 SKG80_ROM := $(wildcard roms/skg.bin roms/skg.sym)
 ifneq ($(SKG80_ROM),)
@@ -29,8 +33,8 @@ EMU_CC = @mkdir -p $(@D); $(CC) $(EMU_CFLAGS) $(CFLAGS)
 build/emu/i8080.o: emu/i8080.c $(EMU_HEADERS)
 	$(EMU_CC) -fPIC -c -o $@ $<
 
-build/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/emu/i8080.o
-	$(EMU_CC) -o $@ $(EMU_PROGRAM) build/emu/i8080.o $(EMU_ROM) -lm
+build/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/emu/i8080.o tools/pyproject.toml
+	$(EMU_CC) $(EMU_PROGRAM_FLAGS) -o $@ $(EMU_PROGRAM) build/emu/i8080.o $(EMU_ROM) -lm
 
 build/libskg80.so: $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
 	$(EMU_CC) -fPIC -shared -DWITH_TRANSLATIONS -o $@ $(EMU_LIBRARY) build/emu/i8080.o $(EMU_ROWS)
@@ -66,7 +70,7 @@ build/asan/fuzz: $(EMU_FUZZ) build/asan/i8080.o
 	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_FUZZ) build/asan/i8080.o
 
 build/asan/skg80: $(EMU_PROGRAM) emu/rom.S $(SKG80_ROM) build/asan/i8080.o
-	$(EMU_CC) $(EMU_ASAN) -o $@ $(EMU_PROGRAM) build/asan/i8080.o $(EMU_ROM) -lm
+	$(EMU_CC) $(EMU_PROGRAM_FLAGS) $(EMU_ASAN) -o $@ $(EMU_PROGRAM) build/asan/i8080.o $(EMU_ROM) -lm
 
 build/emu/%.com: tests/emu/%.asm tests/emu/asm8080.py
 	@mkdir -p $(@D); $(PYTHON) tests/emu/asm8080.py $< $@

@@ -110,16 +110,11 @@ static const char *hex_line(const char *line, uint8_t *rom, bool *given, size_t 
     }
 }
 
-int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size)
+int image_rom_of(const char *path, char *bytes, size_t length, uint8_t *rom, bool *given, size_t rom_size, char *error,
+                 size_t size)
 {
-    enum { FILE_LIMIT = 1 << 20 };
     const char *dot = strrchr(path, '.');
     int hex = dot && !strcasecmp(dot, ".hex");
-    size_t length;
-    uint8_t *bytes = image_read(path, FILE_LIMIT, &length, error, size);
-    if (!bytes) {
-        return -1;
-    }
     memset(rom, 0xff, rom_size);
     memset(given, !hex, rom_size);
     if (!hex) {
@@ -129,12 +124,11 @@ int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char
         } else {
             snprintf(error, size, "%s: %zu bytes, and the ROM has %zu", path, length, rom_size);
         }
-        free(bytes);
         return whole ? 0 : -1;
     }
     int ended = 0, number = 0;
-    const char *wrong = strlen((char *)bytes) == length ? NULL : "not a text file";
-    for (char *line = (char *)bytes, *next; !wrong && line; line = next) {
+    const char *wrong = strlen(bytes) == length ? NULL : "not a text file";
+    for (char *line = bytes, *next; !wrong && line; line = next) {
         next = strchr(line, '\n');
         if (next) {
             *next++ = '\0';
@@ -142,7 +136,6 @@ int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char
         number++;
         wrong = hex_line(line, rom, given, rom_size, &ended);
     }
-    free(bytes);
     if (wrong) {
         snprintf(error, size, "%s:%d: %s", path, number ? number : 1, wrong);
     } else if (!ended) {
@@ -151,4 +144,25 @@ int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char
         return 0;
     }
     return -1;
+}
+
+int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size)
+{
+    size_t length;
+    uint8_t *bytes = image_read(path, IMAGE_FILE_LIMIT, &length, error, size);
+    int failed = bytes ? image_rom_of(path, (char *)bytes, length, rom, given, rom_size, error, size) : -1;
+    free(bytes);
+    return failed;
+}
+
+uint32_t image_crc32(const uint8_t *bytes, size_t length)
+{
+    uint32_t crc = UINT32_MAX;
+    for (size_t i = 0; i < length; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++) {
+            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320 : 0);
+        }
+    }
+    return ~crc;
 }

@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum { IMAGE_FILE_LIMIT = 1 << 20 };    /* bytes that a file with a ROM may have */
+
 /* Reads a whole file into fresh memory (free it), and one NUL more. NULL when that cannot be done or it has more than
  * `limit` bytes: then `error` (of `size` bytes) says why, in one line with the file's name. */
 uint8_t *image_read(const char *path, size_t limit, size_t *length, char *error, size_t size);
@@ -19,5 +21,17 @@ uint8_t *image_read(const char *path, size_t limit, size_t *length, char *error,
  * just that many bytes; an Intel hex file may leave some out, which then are FF, and `given` tells them. Returns 0, or -1
  * with `error` as above. */
 int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size);
+
+/* The same of a file's bytes, which end in a NUL and are changed. */
+int image_rom_of(const char *path, char *bytes, size_t length, uint8_t *rom, bool *given, size_t rom_size, char *error,
+                 size_t size);
+
+#ifdef SKG80_BUILT_IN_ROM
+extern const uint8_t skg80_rom[]; /* roms/skg.bin, and its names; by rom.S */
+extern const char skg80_sym[];
+#endif
+
+/* The CRC-32 of some bytes, as zip and gzip have it. */
+uint32_t image_crc32(const uint8_t *bytes, size_t length);
 
 #endif

@@ -35,7 +35,6 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -45,11 +44,6 @@ enum {
     LINE_PATIENCE_MS = 5000,        /* so long a machine may leave its line full */
     CTRL_Z = 0x1a                   /* nothing follows on a tape of program lines */
 };
-
-#ifdef SKG80_BUILT_IN_ROM
-extern const uint8_t skg80_rom[BOARD_ROM_SIZE];    /* roms/skg.bin and its symbols, by rom.S */
-extern const char skg80_sym[];
-#endif
 
 static int run_com(const options *o)
 {
@@ -99,7 +93,7 @@ static int set_rom(session *s)
         return 0;
     }
 #ifdef SKG80_BUILT_IN_ROM
-    board_rom(s->board, skg80_rom, sizeof skg80_rom);
+    board_rom(s->board, skg80_rom, BOARD_ROM_SIZE);
     return 0;
 #else
     return complain(EXIT_USAGE, "built without a ROM: give one with --rom FILE");
@@ -331,22 +325,12 @@ static int with_terminal(session *s)
     return code;
 }
 
-/* No file that is opened may take the place of a standard stream that is closed: input and output then fail; standard error
- * was silenced. */
-static void open_standard_streams(void)
-{
-    static const int wrong_way[] = { O_WRONLY, O_RDONLY, O_WRONLY };
-    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
-        if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", wrong_way[fd]) < 0) {
-            _exit(EXIT_USAGE);
-        }
-    }
-}
-
 int main(int argc, char **argv)
 {
     static session s;
-    open_standard_streams();
+    if (!terminal_open_streams()) {
+        return EXIT_USAGE;
+    }
     int code = options_read(argc, argv, &s.o);
     if (code) {
         return code < 0 ? 0 : code;

@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include "complain.h"
+#include "image.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -11,6 +12,9 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#ifdef _WIN32
+#include <windows.h>
+#endif
 
 static const char USAGE[] =
     "usage: skg80 [options] [part.skg]\n"
@@ -39,6 +43,7 @@ static const char USAGE[] =
     "  --trace FILE      write every instruction, and every operation of the calculator, to a file\n"
     "  --sym FILE        the ROM's names (built in, or beside FILE.bin: FILE.sym)\n"
     "  --com FILE        run a CP/M program instead\n"
+    "  --version         the version, and the built-in ROM's CRC-32\n"
     "  --help            this\n"
     "exit: 0 done, 1 the run ended in ERR, 2 wrong usage or a file that cannot be read or written, 3 --max-cycles\n";
 
@@ -83,12 +88,34 @@ static const char *misfit(const options *o)
     return NULL;
 }
 
+#ifdef _WIN32
+/* Which file this is, of all that are there; false for what is no file on a disk. (stat numbers none.) */
+static bool identify(const char *path, BY_HANDLE_FILE_INFORMATION *file)
+{
+    HANDLE handle =
+        CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING, 0, NULL);
+    bool found = handle != INVALID_HANDLE_VALUE && GetFileType(handle) == FILE_TYPE_DISK
+                 && GetFileInformationByHandle(handle, file);
+    if (handle != INVALID_HANDLE_VALUE) {
+        CloseHandle(handle);
+    }
+    return found;
+}
+
+static bool same_file(const char *a, const char *b)
+{
+    BY_HANDLE_FILE_INFORMATION one, other;
+    return a && b && identify(a, &one) && identify(b, &other) && one.dwVolumeSerialNumber == other.dwVolumeSerialNumber
+           && one.nFileIndexHigh == other.nFileIndexHigh && one.nFileIndexLow == other.nFileIndexLow;
+}
+#else
 static bool same_file(const char *a, const char *b)
 {
     struct stat one, other;
     return a && b && !stat(a, &one) && !stat(b, &other) && S_ISREG(one.st_mode) && one.st_dev == other.st_dev
            && one.st_ino == other.st_ino;
 }
+#endif
 
 /* Two files that are to be written, and may not be there yet. */
 static bool will_be_one(const char *a, const char *b)
@@ -205,7 +232,7 @@ static bool read_break(const char *text, options *o)
 }
 
 /* An option sets a flag or a text of `options`, or its value is read and may be wrong. */
-typedef enum { FLAG, TEXT, VALUE, HELP } option_kind;
+typedef enum { FLAG, TEXT, VALUE, HELP, VERSION } option_kind;
 
 typedef struct {
     const char *name;
@@ -242,6 +269,7 @@ static const option_rule RULES[] = {
     { "trace",      TEXT,  SETS(trace) },
     { "sym",        TEXT,  SETS(sym) },
     { "help",       HELP,  0, NULL, NULL },
+    { "version",    VERSION, 0, NULL, NULL },
 };
 #undef SETS
 // clang-format on
@@ -258,6 +286,22 @@ static void getopt_list(struct option *list)
     list[RULE_COUNT] = (struct option){ NULL, 0, NULL, 0 };
 }
 
+/* The end of what goes to standard output instead of a run. The result is that of options_read. */
+static int printed(void)
+{
+    return fflush(stdout) ? complain(EXIT_USAGE, "cannot write: %s", strerror(errno)) : -1;
+}
+
+static int print_version(void)
+{
+    printf("skg80 " SKG80_VERSION);
+#ifdef SKG80_BUILT_IN_ROM
+    printf(", ROM skg.bin, CRC-32 %08X", (unsigned)image_crc32(skg80_rom, BOARD_ROM_SIZE));
+#endif
+    putchar('\n');
+    return printed();
+}
+
 /* Carries one option out, its value in optarg. The result is that of options_read. */
 static int take(const option_rule *rule, options *o)
 {
@@ -272,7 +316,9 @@ static int take(const option_rule *rule, options *o)
         return rule->read(optarg, o) ? 0 : complain(EXIT_USAGE, "--%s %s: %s", rule->name, optarg, rule->wrong);
     case HELP:
         fputs(USAGE, stdout);
-        return fflush(stdout) ? complain(EXIT_USAGE, "cannot write: %s", strerror(errno)) : -1;
+        return printed();
+    case VERSION:
+        return print_version();
     }
     return 0;
 }

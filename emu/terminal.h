@@ -6,7 +6,10 @@
  * ahead; everything else is typed when the board asks for it. From a pipe all characters are typed in their order, and
  * LF is CR. The signal USR1 is the reset button too, whatever the operator types at.
  *
- * NOT IMPLEMENTED: the modem lines, break and speed of a pseudo-terminal; more than one user of it.
+ * What differs between systems is in terminal_posix.c and terminal_windows.c.
+ *
+ * NOT IMPLEMENTED: the modem lines, break and speed of a pseudo-terminal; more than one user of it; on Windows
+ * pseudo-terminals and the signal USR1.
  */
 #ifndef TERMINAL_H
 #define TERMINAL_H
@@ -14,7 +17,6 @@
 #include "board.h"
 
 #include <stdio.h>
-#include <time.h>
 
 typedef struct {
     int in, out; /* file descriptors */
@@ -38,8 +40,12 @@ typedef struct {
 typedef struct {
     double hz;
     uint64_t start_cycles;
-    struct timespec start;
+    double start; /* s */
 } pacer;
+
+/* Sees to it that the three standard streams are there and take bytes as they are; before any file is opened. False when
+ * that cannot be. */
+bool terminal_open_streams(void);
 
 /* Takes standard input and output; raw mode when the input is a terminal. */
 void terminal_open(terminal *t);
@@ -50,6 +56,9 @@ int terminal_open_pty(terminal *t);
 /* Takes the signal USR1 for the reset button from now on. */
 void terminal_catch_reset(void);
 
+/* Has a function called at the signal INT, which then does nothing else. */
+void terminal_catch_interrupt(void (*called)(int));
+
 /* Leaves raw mode, so that lines can be typed; true when it was on. terminal_resume goes back to it. */
 bool terminal_pause(void);
 void terminal_resume(void);
@@ -59,6 +68,9 @@ bool terminal_is_raw(void);
 
 /* Prints one character of the paper. */
 void terminal_print(terminal *t, uint8_t c);
+
+/* Does what a key, or a character from a pipe, means: the board gets it, or it leaves, resets or stops. False without memory. */
+bool terminal_take(terminal *t, board *b, uint8_t c);
 
 /* Waits up to so many milliseconds (-1: for ever) for keys and gives them to the board; a reset ends the waiting. False
  * without memory. */
@@ -73,6 +85,10 @@ void terminal_drain(terminal *t);
 
 /* Starts real time now, and sleeps until the processor's cycles are due. */
 void pacer_start(pacer *p, double hz, uint64_t cycles);
-void pacer_wait(pacer *p, uint64_t cycles);
+void pacer_wait(const pacer *p, uint64_t cycles);
+
+/* Seconds since some moment; sleeps. */
+double terminal_now(void);
+void terminal_sleep(double seconds);
 
 #endif

@@ -5,7 +5,10 @@ from __future__ import annotations
 import random
 import re
 import subprocess
+import sys
 import time
+import tomllib
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -345,11 +348,20 @@ def test_help_names_every_option(skg80: Skg80) -> None:
     """And nothing but."""
     done = skg80("--help")
     source = (ROOT / "emu" / "options.c").read_text()
-    options = set(re.findall(r'\{ "([a-z-]+)", +(?:FLAG|TEXT|VALUE|HELP)', source))
+    options = set(re.findall(r'\{ "([a-z-]+)", +(?:FLAG|TEXT|VALUE|HELP|VERSION)', source))
     assert done.returncode == 0
     assert set(re.findall(r"--([a-z-]+)", done.stdout.decode())) == options
     assert b"ctrl-] leaves" in done.stdout
     assert {"rom", "ram", "input", "punch", "tty", "pty", "mhz", "baud", "stats", "max-cycles", "com"} < options
+
+
+def test_version(skg80: Skg80) -> None:
+    """The package's, and which ROM is built in."""
+    version = tomllib.loads((ROOT / "tools" / "pyproject.toml").read_text())["project"]["version"]
+    rom = f"ROM skg.bin, CRC-32 {zlib.crc32((ROOT / 'roms' / 'skg.bin').read_bytes()):08X}\n"
+    assert skg80("--version").stdout.decode() == f"skg80 {version}, {rom}"
+    done = subprocess.run([Path(sys.executable).with_name("skg"), "--version"], capture_output=True, text=True)
+    assert done.stdout == f"skg {version}, {rom}"
 
 
 # ROM images

@@ -126,6 +126,31 @@ def test_small_commands_start_fast(command: str) -> None:
     assert done.stdout == "[]\n"
 
 
+@pytest.mark.parametrize("encoding", ["cp932", "cp936", "cp949", "cp866"])
+@pytest.mark.parametrize("words", [("sim", TAPE), ("cut", "docs/pictures/bracket.dxf", "-o", "{}")])
+def test_pipes_without_micro(words: tuple[str, ...], encoding: str, tmp_path: Path) -> None:
+    """The code pages of China, Japan, Korea and Russia have no µ: on a pipe it is a u."""
+
+    def run(encoding: str) -> str:
+        environment = {**os.environ, "PYTHONIOENCODING": encoding}
+        words_ = [word.format(tmp_path / "part.3b") for word in words]
+        done = subprocess.run([SKG, *words_], capture_output=True, env=environment, cwd=ROOT)
+        assert done.returncode == 0
+        return (done.stdout + done.stderr).decode(encoding)
+
+    expected = run("utf-8")
+    assert "µm" in expected
+    assert run(encoding) == expected.replace("µ", "u")
+
+
+def test_name_that_an_encoding_has_not(tmp_path: Path) -> None:
+    """It is spelled in the message, and nothing is lost."""
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run([SKG, "sim", tmp_path / "件.3b"], capture_output=True, env=environment)
+    assert done.returncode == 2
+    assert b"\\u4ef6.3b: " in done.stderr
+
+
 @pytest.mark.parametrize(
     "words",
     [("plot", "examples/xy-star.skg", "-o", "{}.svg"), ("cut", "{}.dxf", "-o", "{}.3b", "--sheet", "{}.pdf")],

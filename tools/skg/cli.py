@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import gc
 import io
 import os
@@ -78,10 +79,38 @@ class LazyGroup(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
 
+def _print_version(ctx: click.Context, _option: click.Parameter, is_asked: bool) -> None:
+    """The version, and the standard ROM's CRC-32: which ROM this is."""
+    if not is_asked or ctx.resilient_parsing:
+        return
+    from importlib.metadata import version
+    from zlib import crc32
+
+    from skg.machine.roms import rom_path
+
+    rom = rom_path("standard")
+    click.echo(f"skg {version('skg-nc')}, ROM {rom.name}, CRC-32 {crc32(rom.read_bytes()):08X}")
+    ctx.exit()
+
+
 @click.command(cls=LazyGroup)
-@click.version_option(package_name="skg-nc")
+@click.option("--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version,
+              help="Print the version, and the ROM's CRC-32.")  # fmt: skip
 def cli() -> None:
     """SKG host tools: the board and its ROM, reference interpreter, 3B simulator, plots, converters."""
+
+
+def _spell(error: UnicodeError) -> tuple[str | bytes, int]:
+    """Characters that an encoding has not: u for µ, and else what tells them."""
+    if isinstance(error, UnicodeEncodeError) and error.object[error.start] == "µ":
+        return "u", error.start + 1
+    return codecs.backslashreplace_errors(error)
+
+
+def _prepare(stream: io.TextIOBase | None) -> None:
+    """Let a standard stream take every text, with the same line ends on every system."""
+    if isinstance(stream, io.TextIOWrapper):
+        stream.reconfigure(newline="\n", **({"errors": "skg-spell"} if stream.errors != "surrogateescape" else {}))
 
 
 def main() -> None:
@@ -92,6 +121,9 @@ def main() -> None:
     if sys.stdout is None and sys.argv[1:2] != ["term"]:
         # (who types at a board may do without its paper)
         sys.stdout = _Closed()
+    codecs.register_error("skg-spell", _spell)
+    _prepare(sys.stdout)
+    _prepare(sys.stderr)
     # What commands make of large files lives to their end: the collector would look through millions of blocks in vain.
     gc.set_threshold(_GARBAGE)
     try:

@@ -75,7 +75,8 @@ def _new_file(path: str) -> Iterator[BinaryIO]:
         with _named(path), os.fdopen(descriptor, "wb") as stream:
             yield stream
             stream.flush()
-            os.fchmod(descriptor, S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask())
+            # (of the open file there is none on Windows)
+            Path(name).chmod(S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask())
         Path(name).replace(target)
     except BaseException:
         Path(name).unlink()

@@ -94,8 +94,9 @@ def command(
 
     The first ERR ends what is sent: then the keyboard is yours, or the exit code is 1.
     """
+    from skg.machine.keyboard import raw_keyboard
     from skg.machine.sending import Stopped, TypedLine, Typist, finish, lines_to_type, make_tape, send
-    from skg.machine.teletype import BrokenOff, Port, Teletype, converse, raw_keyboard
+    from skg.machine.teletype import BrokenOff, Port, Teletype, converse
 
     if unnumbered and not (file and run):
         raise click.UsageError("--unnumbered goes with --send and --run")

@@ -37,6 +37,8 @@ ENDS = ("returned", "cycles", "stop", "halt", "wait")
 BOARDS = {"6850": 0, "8251": 1}
 
 ROM_SIZE = 0x2000
+#: Bytes that a file with an image may have: IMAGE_FILE_LIMIT of emu/image.h.
+_ROM_FILE = 1 << 20
 RAM_START = 0x2000
 
 #: The registers, as `machine_registers` lays them out, and how numpy names their sizes.
@@ -67,8 +69,16 @@ def read_rom(path: str) -> tuple[bytes, list[int]]:
 
     One that cannot be read, or is not that long, is a `UserError`.
     """
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(_ROM_FILE + 1)
+    except OSError as error:
+        raise UserError(f"{path}: {error.strerror}") from None
+    if len(data) > _ROM_FILE:
+        raise UserError(f"{path}: more than {_ROM_FILE} bytes")
     rom, given, error = (ctypes.create_string_buffer(size) for size in (ROM_SIZE, ROM_SIZE, 512))
-    if _library().image_rom(os.fsencode(path), rom, given, ROM_SIZE, error, len(error)):
+    text = ctypes.create_string_buffer(data)
+    if _library().image_rom_of(os.fsencode(path), text, len(data), rom, given, ROM_SIZE, error, len(error)):
         raise UserError(os.fsdecode(error.value))
     return rom.raw, [address for address, told in enumerate(given.raw) if not told]
 
@@ -119,7 +129,10 @@ def _library() -> ctypes.CDLL:
         "board_tape": (flag, [pointer, ctypes.c_char_p, size]),
         "board_take_tape": (None, [pointer]),
         "board_reader": (None, [pointer, flag]),
-        "image_rom": (ctypes.c_int, [ctypes.c_char_p] * 3 + [size, ctypes.c_char_p, size]),
+        "image_rom_of": (
+            ctypes.c_int,
+            [ctypes.c_char_p, ctypes.c_char_p, size, ctypes.c_char_p, ctypes.c_char_p, size, ctypes.c_char_p, size],
+        ),
         "machine_nobody": (ctypes.c_uint8, [pointer, ctypes.POINTER(flag)]),
         "board_reader_silence": (ctypes.c_uint64, [pointer]),
         "board_run": (ctypes.c_int, [pointer, ctypes.c_uint64]),

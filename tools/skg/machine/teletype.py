@@ -11,13 +11,10 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import select
 import sys
-import termios
 import threading
 import time
-import tty
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from io import RawIOBase
 
@@ -26,13 +23,14 @@ from tqdm import tqdm
 
 from skg.errors import UserError
 from skg.machine.board import ErrorLine, find_error
+from skg.machine.keyboard import ESCAPE, TERMINAL_TROUBLE
 
-XON, XOFF, DC2, DC4, ESCAPE = 0x11, 0x13, 0x12, 0x14, 0x1D
+XON, XOFF, DC2, DC4 = 0x11, 0x13, 0x12, 0x14
 LF, PROMPT = 0x0A, 0x3E
 #: Seconds between two tries to open a port that went away.
 _RETRY = 0.5
 #: What pyserial raises when a port cannot be opened, or is closed or gone in the middle of a call.
-_TROUBLE = (OSError, ValueError, TypeError, AttributeError, termios.error)
+_TROUBLE = (OSError, ValueError, TypeError, AttributeError, *TERMINAL_TROUBLE)
 
 
 class Splitter:
@@ -147,7 +145,7 @@ class Port:
 
 def _reason(error: Exception) -> str:
     """An error's own words, without the wrapping that pyserial puts around them."""
-    if isinstance(cause := error.__context__, termios.error):
+    if isinstance(cause := error.__context__, TERMINAL_TROUBLE):
         return "no serial port" if cause.args[0] == errno.ENOTTY else os.strerror(cause.args[0]).lower()
     if isinstance(error, OSError) and error.errno:
         return os.strerror(error.errno).lower()
@@ -296,34 +294,6 @@ class Teletype:
                     self.punch(punch)
         except UserError as error:
             self.failure = error
-
-
-@contextlib.contextmanager
-def raw_keyboard() -> Iterator[Callable[[], bytes]]:
-    """Give the keyboard's bytes as they are typed; the terminal is put right again at the end.
-
-    Where the standard input is no terminal there is no keyboard. A terminal that is gone types ctrl-].
-    """
-    if not sys.stdin.isatty():
-        yield bytes
-        return
-    descriptor = sys.stdin.fileno()
-    before = termios.tcgetattr(descriptor)
-
-    def typed() -> bytes:
-        if not select.select([descriptor], [], [], 0)[0]:
-            return b""
-        with contextlib.suppress(OSError):
-            if keys := os.read(descriptor, 256):
-                return keys
-        return bytes([ESCAPE])
-
-    try:
-        tty.setraw(descriptor)
-        yield typed
-    finally:
-        with contextlib.suppress(termios.error):
-            termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
 
 
 def converse(port: Port, teletype: Teletype) -> None:

@@ -15,7 +15,7 @@ CHECKOUT = HERE.parents[2]
 
 
 def load(name: str) -> ctypes.CDLL:
-    """The library `lib<name>.so`; one that is missing or unfit is a `UserError`."""
+    """The library `lib<name>.so`, so called on every system; one that is missing or unfit is a `UserError`."""
     path = HERE / f"lib{name}.so"
     if not path.exists():
         path = CHECKOUT / "build" / path.name
