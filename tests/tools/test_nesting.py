@@ -137,9 +137,3 @@ def test_layers_of_svg(run: Run, tmp_path: Path) -> None:
     )
     (ring,), told = ways(run, path, "--layer", "HOLES")
     assert shapely.Polygon(ring).area < 16 * 3.1416 and "take care: 1 opening" in told
-
-
-def test_from_dxf_says_it_too(run: Run, tmp_path: Path) -> None:
-    path = saved(plate(), tmp_path)
-    done = run("from-dxf", path, "-o", tmp_path / "a.skg", "--layer", "HOLES", "--offset", OFFSET)
-    assert "take care: 4 openings" in done.stderr and "OPENING, CLOCKWISE" in (tmp_path / "a.skg").read_text()
