@@ -7,7 +7,7 @@ from itertools import chain
 import numpy as np
 
 from skg.checking.wire_path import LIMIT, Misfit, WirePath, first_of_each, place_of, spacing_of
-from skg.geometry.arrays import Floats, Whole
+from skg.geometry.arrays import Flags, Floats, Whole
 from skg.geometry.nearest_pieces import Pieces
 from skg.geometry.plane import cross
 
@@ -17,6 +17,8 @@ _INSIDE, _NOISE = 1e-3, 1e-9
 _TIGHT = 1e-5
 #: Where the sine of the wire's turn is less, it leaves nothing in an inner corner.
 _TURN = 0.1
+#: Places on a curve that are looked at are about so far apart at most, mm.
+_ALONG = 0.1
 
 
 def not_reached(
@@ -27,10 +29,12 @@ def not_reached(
     faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
     wires = [path.of_pass(number) for number in range(offsets.shape[1])]
-    places = contours.batches(spacing_of(contours, widest), 2)
+    spacing = spacing_of(contours, widest)
+    looked_at = _looked_at(contours, min(spacing, _ALONG))
+    places = contours.batches(spacing, 2)
     for which, part in chain(places, [_by_inner_corners(path.pieces, contours, widest)] if widest else []):
         # (a chord of a curve is square to it in its middle alone)
-        true = ~contours.is_chord[which] | (part > 0) & (part < 1)
+        true = ~contours.is_chord[which] | looked_at[which] & (part > 0) & (part < 1)
         which, part = which[true], part[true]
         owners = contours.owner[which]
         on, square = contours.at(which, part), contours.normal(which, part)
@@ -52,6 +56,12 @@ def not_reached(
                 faults.setdefault((number, owner), found)
             worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
     return [faults[key] for key in sorted(faults)], worst
+
+
+def _looked_at(contours: Pieces, spacing: float) -> Flags:
+    """The chords of curves that are looked at: the first of each contour, and those after every `spacing`, mm."""
+    along = np.floor(np.cumsum(np.where(contours.is_chord, contours.length, 0.0)) / spacing)
+    return (np.diff(along, prepend=-1) > 0) | (np.diff(contours.owner, prepend=-1) != 0)
 
 
 def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.ndarray:

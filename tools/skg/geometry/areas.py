@@ -14,6 +14,8 @@ from skg.geometry.piece import chords_of
 
 #: The chords that stand for an arc here leave it by no more than this, mm.
 CHORD = 5e-4
+#: The part of it that is left to curves.
+_SPARE = 0.8
 
 
 def lines_of(contours: list[Contour]) -> NDArray[Any]:
@@ -37,7 +39,11 @@ def lines_of(contours: list[Contour]) -> NDArray[Any]:
         if edge.nodes:
             found[first[at] : first[at] + counts[at]] = edge.samples
     owners = np.repeat(np.arange(len(contours)), [len(contour.edges) for contour in contours])
-    return shapely.linestrings(found, indices=np.repeat(owners, counts))
+    lines = shapely.linestrings(found, indices=np.repeat(owners, counts))
+    curved = [at for at, contour in enumerate(contours) if any(edge.nodes for edge in contour.edges)]
+    # (a curve's samples lie ten times as near to it)
+    lines[curved] = shapely.simplify(lines[curved], _SPARE * CHORD, preserve_topology=False)
+    return lines
 
 
 def areas_of(contours: list[Contour]) -> NDArray[Any]:

@@ -10,7 +10,7 @@ from threading import Lock
 
 import numpy as np
 
-from skg.geometry.arrays import Floats, Whole, directions, hypots, numbers_up_to
+from skg.geometry.arrays import Floats, Whole, columns_at, directions, hypots, numbers_up_to
 from skg.geometry.edge_arrays import rows_of
 from skg.geometry.piece import Piece
 
@@ -140,19 +140,21 @@ class Pieces:
         return found
 
     def _from_line(self, places: Floats, which: Whole) -> Floats:
-        to = places - self.start[which]
-        way = self.end[which] - self.start[which]
-        square = np.maximum((way**2).sum(1), 1e-300)
-        part = np.clip((to * way).sum(1) / square, 0, 1)
-        return np.hypot(*(to - part[:, None] * way).T)
+        (x, y), (u, v) = columns_at(self.start, which), columns_at(self.end, which)
+        to_x, to_y = places[:, 0] - x, places[:, 1] - y
+        u, v = u - x, v - y
+        part = np.clip((to_x * u + to_y * v) / np.maximum(u * u + v * v, 1e-300), 0, 1)
+        return np.hypot(to_x - part * u, to_y - part * v)
 
     def _from_arc(self, places: Floats, which: Whole) -> Floats:
-        about = places - self.centre[which]
-        far = np.hypot(about[:, 0], about[:, 1])
-        ahead = (np.arctan2(about[:, 1], about[:, 0]) - self.first[which]) * np.sign(self.sweep[which])
-        inside = np.mod(ahead, 2 * pi) <= np.abs(self.sweep[which])
-        ends = np.minimum(np.hypot(*(places - self.start[which]).T), np.hypot(*(places - self.end[which]).T))
-        return np.where(inside, np.abs(far - self.radius[which]), ends)
+        x, y = (column - middle for column, middle in zip(places.T, columns_at(self.centre, which), strict=True))
+        ahead = (np.arctan2(y, x) - self.first[which]) * np.sign(self.sweep[which])
+        found = np.abs(np.hypot(x, y) - self.radius[which])
+        beyond = np.flatnonzero(np.mod(ahead, 2 * pi) > np.abs(self.sweep[which]))
+        which, places = which[beyond], places[beyond]
+        ends = (columns_at(side, which) for side in (self.start, self.end))
+        found[beyond] = np.minimum(*(np.hypot(places[:, 0] - x, places[:, 1] - y) for x, y in ends))
+        return found
 
     def from_carrier(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from the whole line or circle that its piece lies on."""

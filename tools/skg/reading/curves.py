@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from itertools import accumulate, pairwise
 from math import atan2, cos, hypot, isfinite, pi, sin
 from typing import TYPE_CHECKING
@@ -42,20 +43,11 @@ def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float
 
     An arc or a circle where u and v are square to each other and of one length; else an ellipse, for FIT.
     """
-    last = first + sweep
     is_full = sweep > 2 * pi - 1e-9
     (x, y), (p, q), (r, s) = centre, u, v
-
-    def at(angles: list[float]) -> list[XY]:
-        turned = [(cos(t), sin(t)) for t in angles]
-        return [(x + c * p + d * r, y + c * q + d * s) for c, d in turned]
-
-    def heading(t: float) -> float:
-        c, d = cos(t), sin(t)
-        return atan2(c * s - d * q, c * r - d * p)
-
     size = max(hypot(*u), hypot(*v))
-    start, end = at([first, last])
+    ends = ((cos(t), sin(t)) for t in (first, first + sweep))
+    start, end = ((x + c * p + d * r, y + c * q + d * s) for c, d in ends)
     if abs(cross(u, v)) <= 1e-9 * size**2:
         # Seen from its side it is a line.
         return Edge(start, end if sweep <= pi else start, entity=entity)
@@ -65,8 +57,24 @@ def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float
     if abs(dot(u, v)) <= 1e-9 * size**2 and abs(hypot(*u) - hypot(*v)) <= 1e-9 * size and is_arc:
         signed = sense * (2 * pi if is_full else sweep)
         return Edge(start, start if is_full else end, centre, signed, entity=entity)
-    edge = curve_edge(at, heading, [first, last], tolerance)
+    edge = _ellipse(u, v, first, sweep, tolerance).shifted(centre)
     return replace(edge, end=edge.start if is_full else edge.end, entity=entity)
+
+
+@lru_cache(maxsize=1000)
+def _ellipse(u: XY, v: XY, first: float, sweep: float, tolerance: float) -> Edge:
+    """The same about the origin. (a drawing may have the same ellipse a thousand times)"""
+    (p, q), (r, s) = u, v
+
+    def at(angles: list[float]) -> list[XY]:
+        turned = [(cos(t), sin(t)) for t in angles]
+        return [(c * p + d * r, c * q + d * s) for c, d in turned]
+
+    def heading(t: float) -> float:
+        c, d = cos(t), sin(t)
+        return atan2(c * s - d * q, c * r - d * p)
+
+    return curve_edge(at, heading, [first, first + sweep], tolerance)
 
 
 def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
