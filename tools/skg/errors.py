@@ -2,4 +2,4 @@
 
 
 class UserError(Exception):
-    """What is wrong and where, in one line; the command line prints it and exits with 2."""
+    """An error in the user's input, in one line with its place; the command line prints it and exits with 2."""

@@ -1,4 +1,4 @@
-"""What a file is by its first bytes, for the message when it is none of what was expected."""
+"""File types by first bytes, for messages about unexpected files."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _BEGINNINGS = [
 
 
 def kind_of(data: bytes) -> str:
-    """What a file is, such as "a 3B tape"; empty where that does not show."""
+    """Return a file's type, such as "a 3B tape"; empty where it is unknown."""
     head = data[:4096].removeprefix(b"\xef\xbb\xbf").lstrip(b"\0")
     return next((kind for begins, kind in _BEGINNINGS if re.match(begins, head, re.IGNORECASE | re.DOTALL)), "")
 
 
 def named(data: bytes) -> str:
-    """What a file is that cannot be read as text, for the beginning of a message; empty where it is text."""
+    """Return the type of a file that is not text, for the beginning of a message; empty for text."""
     found = kind_of(data)
     return f"{found}, " if found not in ("", TAPE, PROGRAM, GCODE) else ""
 

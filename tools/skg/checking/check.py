@@ -93,7 +93,7 @@ def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
 
 
 def _in_tabs(contours: Pieces, routes: list[PlannedContour]) -> np.ndarray:
-    """Which of the pieces of the contours are cut in the last pass alone."""
+    """Mark the pieces of contours that are cut in the last pass alone."""
     found = np.zeros(len(contours.owner), bool)
     ends = np.searchsorted(contours.owner, np.arange(len(routes)), "right")
     for end, route in zip(ends.tolist(), routes, strict=True):

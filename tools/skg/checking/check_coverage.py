@@ -1,4 +1,4 @@
-"""Whether the wire has been beside every place of the contours that it can reach: the second half of the check."""
+"""Tell whether the wire has been beside every place of the contours that it can reach: the second half of the check."""
 
 from __future__ import annotations
 
@@ -65,8 +65,8 @@ def _looked_at(contours: Pieces, spacing: float) -> Flags:
 
 
 def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.ndarray:
-    """Whether the wire can be aside of places of contours: nothing of their own is nearer, and it would not be past
-    another piece (in a cusp, where one goes back along the other)."""
+    """Tell whether the wire can be aside of places of contours: nothing of their own is nearer, and it would not be
+    past another piece (in a cusp, where one goes back along the other)."""
     # (of an end a hair within the piece: there it is told which of two is nearer)
     margin = _INSIDE / np.maximum(contours.length[which], 2 * _INSIDE)
     part = np.clip(part, margin, 1 - margin)

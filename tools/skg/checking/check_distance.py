@@ -1,4 +1,4 @@
-"""Whether every place of the wire lies as far beside its contour as it should: the first half of the check.
+"""Tell whether every place of the wire lies as far beside its contour as it should: the first half of the check.
 
 At a sharp corner, outside, it lies so beside the line or circle there, and elsewhere on a way between start hole and
 contour. What comes near to other contours is gathered, too.
@@ -73,7 +73,7 @@ def off_contours(
 
 
 class _Wanted:
-    """Where the wire of each route should be: beside its contour by one of its R, or on a way from or to a hole."""
+    """The wire's intended path: beside its contour by one of its R, or on a way from or to a hole."""
 
     def __init__(self, contours: Pieces, routes: list[PlannedContour], offsets: Floats) -> None:
         self.contours = contours
@@ -88,11 +88,11 @@ class _Wanted:
         return Pieces((piece, at) for at, route in enumerate(self.routes) for piece in _lead_pieces(route))
 
     def off_leads(self, places: Floats, owners: Whole) -> Floats:
-        """How far places are from the ways of their routes."""
+        """Distance of places from the leads of their routes."""
         return self.leads.nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
 
     def beside(self, owners: Whole, passes: Whole) -> Floats:
-        """How far places are to be from their contours: in their pass, or in any (passes of -1)."""
+        """Intended distance of places from their contours: in their pass, or in any (passes of -1)."""
         found, known = self.aside[owners], passes >= 0
         if found.shape[1] == 1:
             return found
@@ -100,7 +100,7 @@ class _Wanted:
         return found
 
     def off_by(self, places: Floats, owners: Whole, passes: Whole, near: Nearest) -> tuple[Floats, np.ndarray]:
-        """How far places are from where they should be, and which run into their own contour."""
+        """Distance of places from the intended path, and which of them run into their own contour."""
         aside = self.beside(owners, passes)
         off = np.abs(near.own[:, None] - aside).min(1)
         # (a start hole may be nearer than the first pass)
@@ -118,7 +118,7 @@ class _Wanted:
         return off, into
 
     def off_steps(self, steps: Floats, owner: int, number: int, widest: float) -> float:
-        """How far the controller's steps on a piece of a route's wire are from where they should be in a pass, at
+        """Distance of the controller's steps on a piece of a route's wire from the intended path in a pass, at
         most."""
         owners, passes = np.full(len(steps), owner), np.full(len(steps), number)
         near = self.contours.nearest(steps, owners, widest + 2 * LIMIT)
@@ -159,7 +159,7 @@ def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
 
 
 def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, own_at: Whole) -> Floats:
-    """How far places outside of sharp corners are from where they should be: beside a line or circle there. `own_at`:
+    """Distance of places outside of sharp corners from the intended path beside a line or circle there. `own_at`:
     the piece that is nearest to each, -1 where it is not within R."""
     off = np.full(len(places), np.inf)
     reach = max(float(wanted.max(initial=0.0)), LIMIT)
@@ -193,7 +193,7 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
 
 
 def _by_tips(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, reach: float) -> Whole:
-    """Which places are so near to a sharp corner of their contour as the wire may be that goes around it there; those
+    """Mark places as near to a sharp corner of their contour as a wire that goes around it; those
     of corners where that is not beyond a reach are left out."""
     # (a path may have a million corners: only those of the contours that the places are beside)
     whose = np.unique(owners)

@@ -29,7 +29,7 @@ class Threading:
 
 @dataclass(frozen=True)
 class Followed:
-    """Where the controller goes: a tape's blocks in their places (µm), how far its steps go aside of each (µm), the
+    """The controller's path: a tape's blocks in their places (µm), how far its steps go aside of each (µm), the
     cuts among them, how far the misses of blocks have put it beside where the tape has them begin (mm, 0 without
     drift)."""
 

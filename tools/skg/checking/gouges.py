@@ -1,4 +1,4 @@
-"""Where the wire of one contour cuts into another one, and how deep: measured between the pieces (shapely).
+"""Gouges: places where the wire of one contour cuts into another one, and their depth (shapely).
 
 What is spoiled is an edge that the finished part has. Where a window reaches past the edge of its part, or into another
 window, that edge is cut away, whatever the wire does there. A window is smaller than its part.

@@ -39,7 +39,7 @@ def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
 
 
 def said(routes: Sequence[PlannedContour], factor: float) -> list[str]:
-    """What to say of them; `factor`: mm in a unit of the file."""
+    """Report split parts; `factor`: mm in a unit of the file."""
     found = [
         f"take care: the part of contour {at + 1} falls into {count} pieces, what is cut out reaches its edge: the "
         f"smallest is at {shown((x / factor, y / factor))}"
@@ -49,5 +49,5 @@ def said(routes: Sequence[PlannedContour], factor: float) -> list[str]:
 
 
 def _pieces(area: shapely.Geometry) -> int:
-    """How many pieces an outline is in by itself: one that crosses itself has more than one."""
+    """Count the pieces of an outline by itself: one that crosses itself has more than one."""
     return len(getattr(area.buffer(-_HAIR, join_style="mitre"), "geoms", [area]))

@@ -67,7 +67,8 @@ class WirePath:
         return found
 
     def doubtful(self, off: Floats, total: Floats) -> Whole:
-        """Which of some places, as far off as this without the steps and with them, are too far off by these alone."""
+        """Return the places, with their distances without and with the steps, that are too far off by the steps
+        alone."""
         return np.flatnonzero((off <= LIMIT) & (total > LIMIT))
 
     def steps(self, at: int) -> Floats:
@@ -78,7 +79,7 @@ class WirePath:
 
 
 def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
-    """Which of several passes pieces belong to that end at some places: a pass ends in a start hole."""
+    """Return the passes of pieces that end at these places: a pass ends in a start hole."""
     holes = np.array([route.start, route.tab_hole] if route.tab else [route.start])
     is_last = (np.hypot(*(ends[:, None] - holes).T) < _HOLE).any(0)
     if is_last.sum() != len(passes):
@@ -87,7 +88,7 @@ def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Who
 
 
 def spacing_of(pieces: Pieces, widest: float) -> float:
-    """How near to each other places of a path are looked at: nothing is missed that is as large as the wire."""
+    """Return the sampling distance of a path: nothing as large as the wire is missed."""
     return max(widest / 2, float(pieces.length.sum()) / _MOST_PLACES) if widest else np.inf
 
 

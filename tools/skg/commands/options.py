@@ -45,7 +45,7 @@ def picture_format(output: str, form: str | None, also: str = "") -> str:
 
 
 def decided(tape: Tape, positions: str) -> str:
-    """Where a tape's blocks start, "programmed" or "machine"; `positions` is what --positions says.
+    """Decide where a tape's blocks start, "programmed" or "machine"; `positions` is what --positions says.
 
     What it was taken for, where nothing said it, goes to standard error in one line, and so does what was noted when it
     was read.
@@ -63,7 +63,7 @@ def say(tape: Tape, more: str = "") -> None:
 
 
 def unmarked(output: str, tape: Tape, rom: str) -> list[str]:
-    """What to say when a tape's name does not tell the other commands that it is without drift, or wrongly does."""
+    """Report a tape's name that does not tell the other commands that it is without drift, or wrongly does."""
     named = output.lower().endswith(WITHOUT_DRIFT)
     if rom != "no-drift":
         return ["take care: the name says that the tape is without drift, and it is with"] if named else []

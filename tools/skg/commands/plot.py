@@ -95,7 +95,7 @@ def command(
 
 
 def _laid(name: str, start: XY | None, positions: str, skg80: str | None, show_offset: bool) -> tuple[Sheet, list[XY]]:
-    """What there is to draw of a file, and where it stops, µm. (Of a tape no more is kept: it may be long.)"""
+    """The routes of a file and its stops, µm. (No more is kept of a tape: it may be long.)"""
     from skg.pictures.plot import Sheet
     from skg.sources.load import contour_of, iso_program, load
     from skg.tape.layout import place

@@ -1,4 +1,4 @@
-"""What the commands of the rival languages do, `skg xy` and `skg tekhtran`."""
+"""Common work of `skg xy` and `skg tekhtran`."""
 
 from __future__ import annotations
 

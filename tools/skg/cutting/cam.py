@@ -105,7 +105,7 @@ class Cam:
         return [Contour(tuple(edges), True)]
 
     def _refuse_undercut(self) -> None:
-        """Where the roller's path is bent more than the roller is round, the roller would cut into the profile."""
+        """Refuse a roller's path that bends more than the roller: it would cut into the profile."""
         for step in range(3600):
             angle = step * pi / 1800
             height, slope, more = self.height(angle)

@@ -91,7 +91,7 @@ class Gear:
             raise UserError("a keyway is narrower than the bore, and its depth from the far side is more than the bore")
 
     def _root(self) -> tuple[float, float, XY]:
-        """Where the root fillet touches: its angle beside the tooth's middle on the root circle, its radius on the
+        """Return the root fillet's contacts: its angle beside the tooth's middle on the root circle, its radius on the
         flank, and (radius, angle) of its centre. Without a fillet all are where flank and root circle meet."""
         rf, rb, f = self.root_radius, self.base_radius, self.fillet * self.module
         low = self.half_angle(max(rf, rb))

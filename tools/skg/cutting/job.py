@@ -57,12 +57,12 @@ class Job:
 
     @property
     def cut_length(self) -> float:
-        """What the wire travels while it cuts, mm."""
+        """Length that the wire cuts, mm."""
         return sum(cut.length for cut in self.checked.cuts)
 
     @property
     def seconds(self) -> float:
-        """How long it cuts, s."""
+        """Time of cutting, s."""
         return self.cut_length / self.settings.feed * 60
 
 

@@ -52,7 +52,7 @@ class Step(NamedTuple):
 
 
 class _Item(NamedTuple):
-    """What stands between two separators of a CUT: its text, the letter that its name may have, its place."""
+    """An item between two separators of a CUT: its text, the letter that its name may have, its place."""
 
     text: str
     letter: str
@@ -88,7 +88,7 @@ def _fillet(edges: tuple[Edge, ...], at: int) -> tuple[XY, float] | None:
 
 
 def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
-    """What stands in the CUT statements of a run, from its first point on, and its curves."""
+    """Yield the items in the CUT statements of a run, from its first point on, and its curves."""
     edges = run.edges
     goes_back = run.is_closed and not run.out
     if goes_back and edges[0].is_circle:
@@ -349,7 +349,7 @@ def _title(at: int, route: PlannedContour) -> str:
 
 
 def _kind(edge: Edge) -> str:
-    """What an edge is."""
+    """Return an edge's kind."""
     if edge.nodes:
         return "CURVE"
     if edge.centre is None:

@@ -1,4 +1,4 @@
-"""What is said of contours that cannot be cut, and of a tape that is not the drawing: where, why, and what helps.
+"""Messages about contours that cannot be cut, and a tape that is not the drawing: place, reason, remedy.
 
 `factor` is mm in a unit of the drawing's file, in which places are told.
 """
@@ -41,7 +41,7 @@ def told_in_file(place: XY, factor: float) -> str:
 
 
 def kind(route: PlannedContour) -> str:
-    """What a contour is."""
+    """Return a contour's kind."""
     if not route.contour.is_closed:
         return "open contour"
     return "opening" if route.is_opening else "outline"
@@ -65,12 +65,12 @@ def meaning(error: int) -> str:
 
 
 def too_short(fit: float) -> str:
-    """Why an outline has no room for its tab; `fit`: the longest that has, mm."""
+    """Explain why a tab does not fit an outline; `fit`: the longest that does, mm."""
     return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
 
 
 def without_tab(routes: list[PlannedContour], fits: dict[int, float], factor: float, settings: Settings) -> str:
-    """What to say of outlines that have no room for their tab: of the shortest one."""
+    """Report outlines that their tab does not fit: the shortest one."""
     at = min(fits, key=lambda one: fits[one])
     message = f"{named(routes[at], at, factor)}: {too_short(fits[at])}"
     if len(fits) > 1:
@@ -79,7 +79,7 @@ def without_tab(routes: list[PlannedContour], fits: dict[int, float], factor: fl
 
 
 def without_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings) -> str:
-    """What to say of contours that the wire does not get around: of the tightest one."""
+    """Report contours that the wire does not get around: the tightest one."""
     at, fit = _tightest(routes, none)
     route = routes[at]
     message = f"{named(route, at, factor)}: {none[at]} {told_in_file(none[at].place, factor)}"
@@ -98,7 +98,7 @@ def without_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: 
 
 
 def _in_passes(route: PlannedContour, fit: float) -> str:
-    """What the largest offset that fits is in the last pass, where another one has it."""
+    """Return the last pass's offset where the largest that fits belongs to another pass."""
     more = abs(route.widest) - abs(route.passes[-1])
     if not more:
         return ""
@@ -123,7 +123,7 @@ def _tightest(routes: list[PlannedContour], none: dict[int, NoRoom]) -> tuple[in
 
 
 def _fits(contour: Contour, r: float) -> bool:
-    """Whether the wire gets around a closed contour, R (mm) to the right of it."""
+    """Tell whether the wire gets around a closed contour, R (mm) to the right of it."""
     with suppress(NoRoom):
         return bool(wire_way(contour, r))
     return False
@@ -134,7 +134,7 @@ def _or_leave(settings: Settings) -> str:
 
 
 def why_no_room(fault: Misfit, factor: float) -> str:
-    """Why there is no room for the wire; empty when it is something else that is wrong."""
+    """Explain why the wire does not fit; empty when something else is wrong."""
     place = told_in_file(fault.place, factor)
     if fault.is_into:
         return f"the wire would cut {short(fault.off)} mm into it at {place}"
@@ -171,7 +171,7 @@ def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settin
 
 
 def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float, settings: Settings) -> str:
-    """What to say of contours whose wire comes into others: of the one that comes deepest."""
+    """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
     message = (
         f"{named(routes[worst.route], worst.route, factor)}: its wire would come {into(worst)} "
@@ -186,12 +186,12 @@ def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float,
 
 
 def into(crossing: Crossing) -> str:
-    """How deep a wire comes into another contour."""
+    """Return a gouge's depth in words."""
     return f"{short(crossing.depth)} mm{' or more' * crossing.is_through} into"
 
 
 def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Settings) -> str:
-    """What a person can do about a wire that is off the drawing."""
+    """Return remedies for a wire that is off the drawing."""
     if not settings.is_without_drift:
         return "--rom no-drift is nearer"
     edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))

@@ -1,4 +1,4 @@
-"""What a person must know about a tape that has been made and checked."""
+"""The report on a tape that has been made and checked."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _PAIRS = 100
 
 
 def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
-    """What a person must know about a tape, line by line. `offset`: what was asked for, mm."""
+    """Return the report on a tape, line by line. `offset`: as asked for, mm."""
     settings, routes = job.settings, job.routes
     kinds = Counter(kind(route) for route in routes)
     order = ", ".join(counted(count, one) for one, count in kinds.items())
@@ -145,7 +145,7 @@ def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
 
 
 def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, int]]:
-    """How far (mm) the wire stays off the sharp inner corners of contours that are cut as they are, where, and of
+    """Distance (mm) of the wire from the sharp inner corners of contours that are cut as they are, the place, and of
     which contour: the worst first, and those that may be named as measured."""
     found = []
     for at, route in enumerate(routes):

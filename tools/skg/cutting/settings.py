@@ -1,4 +1,4 @@
-"""How a job is done: the board, the feed, and what to do with contours that cannot be cut."""
+"""Settings of a job: the board, the feed, and what to do with contours that cannot be cut."""
 
 from __future__ import annotations
 
@@ -19,5 +19,5 @@ class Settings:
 
     @property
     def is_without_drift(self) -> bool:
-        """Whether blocks start where the controller stands."""
+        """Tell whether blocks start where the controller stands."""
         return self.rom == "no-drift"

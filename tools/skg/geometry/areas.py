@@ -47,5 +47,5 @@ def lines_of(contours: list[Contour]) -> NDArray[Any]:
 
 
 def areas_of(contours: list[Contour]) -> NDArray[Any]:
-    """What closed contours run around, as shapely's areas."""
+    """The areas of closed contours, by shapely."""
     return shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in lines_of(contours)]))

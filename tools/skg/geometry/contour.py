@@ -59,7 +59,7 @@ class Edge(Piece):
         return list(map(hypot, *np.diff(self.samples, axis=0).T.tolist()))
 
     def far(self, place: XY) -> float:
-        """How far a place is from it; of a curve from its samples."""
+        """Distance of a place from the edge; of a curve from its samples."""
         places = self.points() if self.nodes else [self.at(self.nearest(place))]
         return min(distance(one, place) for one in places)
 
@@ -94,7 +94,7 @@ class Edge(Piece):
 
     @property
     def chords(self) -> int:
-        """How many chords there are between `points`."""
+        """Number of chords between `points`."""
         if self.nodes:
             return len(self.samples) - 1
         return 1 if self.centre is None else max(2, int(abs(self.sweep) / 0.08) + 1)

@@ -1,4 +1,4 @@
-"""What lies around a place of a drawing: contours by their boxes, then by their chords (numpy; shapely finds boxes)."""
+"""Distances to the contours around a place: by their boxes, then by their chords (numpy; shapely finds boxes)."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Field:
         return tuple(of(of.reduceat(self._points, first), ends) for of in (np.minimum, np.maximum))
 
     def near(self, places: Floats, reach: Floats) -> Floats:
-        """How far the nearest contour is from each of n places (n, 2), mm: infinite where none is within its reach."""
+        """Distance of the nearest contour from each of n places (n, 2), mm: infinite where none is within its reach."""
 
         def measure(at: Whole, one: Whole) -> Floats:
             return _beside(*self._chords(at, places, one), reach[one])
@@ -62,7 +62,7 @@ class Field:
         return self._look(places, places, reach + _HAIR, measure)
 
     def ahead(self, places: Floats, ways: Floats, reach: Floats, least: Floats) -> Floats:
-        """How far it is from each of n places along its way (n, 2; unit vectors) to the next contour, mm: infinite
+        """Distance from each of n places along its way (n, 2; unit vectors) to the next contour, mm: infinite
         where none is within its reach. What is nearer than `least` is none."""
 
         def measure(at: Whole, one: Whole) -> Floats:
@@ -71,7 +71,7 @@ class Field:
         return self._look(places, places + reach[:, None] * ways, np.full(len(places), _HAIR), measure)
 
     def before(self, places: Floats, ways: Floats, reach: Floats, least: Floats, wide: Floats) -> Floats:
-        """How far something that is so wide on each side gets from each of n places along its way (n, 2; unit vectors)
+        """Distance that a disc so wide on each side gets from each of n places along its way (n, 2; unit vectors)
         before it touches a contour, mm: from `least` on, infinite where it touches none within its reach."""
 
         def measure(at: Whole, one: Whole) -> Floats:
@@ -129,7 +129,7 @@ class Field:
         return of[is_in], pieces[is_in]
 
     def depths(self) -> list[int]:
-        """How many closed contours lie around each: hold a place in it, and are larger.
+        """Number of closed contours around each: they hold a place in it, and are larger.
 
         (Its corners may lie on its neighbours, and a smaller one that lies in it may hold the place.) One that crosses
         others takes something away where it does: it is looked at where an odd number of them lies around it.
@@ -244,7 +244,7 @@ class Field:
         return tuple(np.concatenate(some) for some in zip(*found, strict=True))
 
     def _hold(self, contours: Whole, places: Floats, of: Whole) -> Flags:
-        """Which of pairs of a closed contour and one of some places have that place inside (`_holds`)."""
+        """Mark the pairs of a closed contour and a place inside it (`_holds`)."""
         found = np.zeros(len(of), bool)
         points = self._first[contours + 1] - self._first[contours]
         few = np.flatnonzero(points <= _FEW)
@@ -274,7 +274,7 @@ class Field:
         return min(near, key=lambda at: min(distance(place, point) for point in self.contours[at].points()))
 
     def _holds(self, at: int, places: Floats) -> Flags:
-        """Which places lie inside a closed contour (counts crossings of rays to the right)."""
+        """Mark the places inside a closed contour (counts crossings of rays to the right)."""
         points = self._points[self._first[at] : self._first[at + 1]]
         found = np.zeros(len(places), bool)
         order = np.argsort(places[:, 1])
@@ -299,7 +299,7 @@ def _stretches(first: Whole, last: Whole, size: int) -> tuple[tuple[Whole, Whole
 
 
 def _batches(counts: Whole) -> Iterator[slice]:
-    """What has so many pairs each, in parts that are looked at together."""
+    """Yield slices of items with these numbers of pairs, to be looked at together."""
     total = np.concatenate(([0], np.cumsum(counts)))
     begin = 0
     while begin < len(counts):
@@ -309,7 +309,7 @@ def _batches(counts: Whole) -> Iterator[slice]:
 
 
 def _beside(x: Floats, y: Floats, along: Floats, up: Floats, reach: Floats) -> Floats:
-    """How far places, which lie x, y from where chords begin, are from these."""
+    """Distance of places, x, y from where chords begin, from these chords."""
     square = np.maximum(along**2 + up**2, 1e-300)
     part = np.clip((x * along + y * up) / square, 0, 1)
     far = np.sqrt((x - part * along) ** 2 + (y - part * up) ** 2)
@@ -319,7 +319,7 @@ def _beside(x: Floats, y: Floats, along: Floats, up: Floats, reach: Floats) -> F
 def _ahead(
     x: Floats, y: Floats, along: Floats, up: Floats, u: Floats, v: Floats, reach: Floats, least: Floats
 ) -> Floats:
-    """How far it is from places along their ways u, v to chords."""
+    """Distance from places along their ways u, v to chords."""
     area = u * up - v * along
     with np.errstate(divide="ignore", invalid="ignore"):
         far = (y * along - x * up) / area
@@ -331,7 +331,7 @@ def _ahead(
 def _before(
     x: Floats, y: Floats, along: Floats, up: Floats, u: Floats, v: Floats, reach: Floats, least: Floats, wide: Floats
 ) -> Floats:
-    """How far a disc gets from places along their ways u, v before it touches chords: from `least` on.
+    """Distance that a disc gets from places along their ways u, v before it touches chords: from `least` on.
 
     It is on a chord while its centre is between the two ends of one of three stretches of the way: beside the chord,
     and within its radius of each end.

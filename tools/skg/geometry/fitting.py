@@ -27,7 +27,7 @@ FLAT, STRAIGHT = 0.002, 50_000.0
 
 
 def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
-    """Where the biarc between two nodes changes arcs (language.md, section 5); None if there is none."""
+    """Return the joint of the biarc between two nodes (language.md, section 5); None if there is none."""
     v = minus(other.point, one.point)
     t, u = ((cos(node.angle), sin(node.angle)) for node in (one, other))
     both = t[0] + u[0], t[1] + u[1]
@@ -62,7 +62,7 @@ def _off_arc(points: list[XY], start: XY, angle: float, end: XY) -> tuple[float,
 def _off(
     at: At, heading: Heading, one: CurveNode, low: float, high: float, breaks: Sequence[float]
 ) -> tuple[float, float]:
-    """How far the curve leaves the biarc between two parameters, and what FIT cuts of it; infinity where there is no
+    """Distance of the curve from the biarc between two parameters, and from what FIT cuts of it; infinity without a
     good one. It is tried at eleven places, and at three between two breaks. `one`: the node at `low`."""
     other = CurveNode(*at([high]), heading(high))
     if distance(one.point, other.point) < 1e-6:

@@ -1,4 +1,4 @@
-"""Which pieces of a path lie nearest to places: many of both at once (numpy)."""
+"""The pieces of a path nearest to places: many of both at once (numpy)."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ class Pieces:
         return np.abs(self.right_of(places, which))
 
     def right_of(self, places: Floats, which: Whole) -> Floats:
-        """How far each place is to the right of the whole line or circle of its piece, negative to the left."""
+        """Distance of each place to the right of the whole line or circle of its piece, negative to the left."""
         to = places - self.start[which]
         way = self.end[which] - self.start[which]
         length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
@@ -171,7 +171,8 @@ class Pieces:
         return np.where(self.is_arc[which], arc, line)
 
     def nearest(self, places: Floats, owners: Whole, reach: float) -> Nearest:
-        """What lies within `reach` of each of m places, and maybe a little beyond; `owners`: whose each place is."""
+        """Find the nearest pieces within `reach` of each of m places, and maybe a little beyond; `owners`: of the
+        places."""
         found = Nearest(*(np.full(len(places), nothing) for nothing in (np.inf, -1, np.inf, -1)))
         if not len(self.length) or not len(places):
             return found

@@ -74,7 +74,7 @@ _NONE, _NECK, _SLOTTED, _CROSSES = (
 
 @dataclass(frozen=True)
 class _Beside:
-    """What the wire runs beside: an edge, or a corner of the contour (`centre`, with the edge before it).
+    """A guide of the wire: an edge, or a corner of the contour (`centre`, with the edge before it).
 
     On a circle about `centre` it is `radius` away from it, and turns by `sense`; on a line `centre` is None.
     """
@@ -86,7 +86,7 @@ class _Beside:
     sense: int = 0
 
     def off(self, place: XY, r: float) -> tuple[float, XY]:
-        """How far a place is from the wire's line or circle, to its right, and the direction in which that grows."""
+        """Distance of a place to the right of the wire's line or circle, and the direction in which it grows."""
         if self.centre is None:
             way = minus(self.edge.end, self.edge.start)
             length = hypot(*way)
@@ -168,7 +168,8 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
 
 
 def has_spike(contour: Contour, r: float, far: float = _SPIKE) -> bool:
-    """Whether the wire, R (mm) to the right of a closed contour, would run past a tip of it by more than `far` R."""
+    """Tell whether the wire, R (mm) to the right of a closed contour, would run past a tip of it by more than `far`
+    R."""
     most, sense = 2 * acos(1 / far), 1 if r > 0 else -1
     ways = [(edge.direction(), edge.direction(1.0)) for edge in contour.edges]
     return any(sense * turn(end, start) > most for (_, end), (start, _) in pairwise([ways[-1], *ways]))
@@ -214,7 +215,7 @@ def _ring(edges: list[Edge], r: float) -> np.ndarray:
 
 
 def _area(edges: list[Edge]) -> shapely.Polygon:
-    """What edges run around."""
+    """Signed area of edges."""
     points = [point for edge in edges for point in _chords(edge)]
     area = shapely.Polygon(points if len(points) > 2 else [])
     if not area.is_empty and area.is_valid:
@@ -253,7 +254,7 @@ def _chords(edge: Edge) -> list[XY]:
 
 
 def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, XY]]:
-    """What the wire runs beside, in order, each with where that about begins."""
+    """Yield the wire's guides in order, each with about where it begins."""
     middles = (ring[:-1] + ring[1:]) / 2
     lengths = np.hypot(*(ring[1:] - ring[:-1]).T)
     kept = lengths > 1e-7
@@ -281,7 +282,7 @@ def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, 
 
 
 def _beside(edges: list[Edge], at: int, place: XY, r: float) -> _Beside:
-    """What the wire runs beside at a place: the edge with a number, or one of its ends."""
+    """Return the wire's guide at a place: the edge with a number, or one of its ends."""
     edge = edges[at]
     part = edge.nearest(place)
     for end, before in ((0.0, at - 1), (1.0, at)):
@@ -296,7 +297,7 @@ def _beside(edges: list[Edge], at: int, place: XY, r: float) -> _Beside:
 
 
 def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
-    """Where the wire changes from one to the other, near a place."""
+    """Return the place near another where the wire changes guides."""
     place = near
     for _ in range(30):
         (off, square), (too, athwart) = one.off(place, r), other.off(place, r)
@@ -321,7 +322,8 @@ def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
 
 
 def uncut(contour: Contour, way: Sequence[Edge], r: float) -> tuple[float, XY]:
-    """How far (mm) the wire, R beside a contour, stays off it at most, and where: in corners that it cannot follow."""
+    """Largest distance (mm) of the wire, R beside a contour, from it in corners that it cannot follow, and the
+    place."""
     places = contour.points()
     off = shapely.distance(shapely.points(places), _path(way)) - abs(r)
     worst = int(np.argmax(off))
@@ -334,7 +336,7 @@ def _path(way: Sequence[Edge]) -> shapely.LineString:
 
 
 def sharpest(contour: Contour, r: float) -> tuple[float, XY] | None:
-    """How far (mm) the wire, R to the right of a closed contour, stays off its sharpest inner corner, between lines,
+    """Distance (mm) of the wire, R to the right of a closed contour, from its sharpest inner corner, between lines,
     and where that is; None where no corner is sharper than 60 degrees, so that it is no more than R."""
     ways = [(edge.direction(), edge.direction(1.0)) for edge in contour.edges]
     turns = [turn(start, end) if r > 0 else turn(end, start) for (_, end), (start, _) in pairwise([ways[-1], *ways])]

@@ -102,6 +102,6 @@ class Piece:
 
 
 def chords_of(radius: float, sweep: float, off: float, coarsest: float = 0.5) -> int:
-    """How many chords stand for an arc (its sweep in radians) and leave it by no more than `off`, in the unit of the
+    """Number of chords that leave an arc (its sweep in radians) by no more than `off`, in the unit of the
     radius: two at least, and none whose half angle has a cosine below `coarsest`."""
     return max(2, ceil(abs(sweep) / (2 * acos(max(coarsest, 1 - off / radius)))))

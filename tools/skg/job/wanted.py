@@ -37,7 +37,7 @@ class Wanted:
 
     @property
     def is_arc(self) -> bool:
-        """Whether the wire comes to the contour along an arc."""
+        """Tell whether the wire comes to the contour along an arc."""
         return self.lead_shape == "arc"
 
     @property

@@ -32,7 +32,7 @@ def _millimetres(point: XY) -> XY:
 
 
 def _shape(placed: Placed) -> str:
-    """What a block is on the drawing: LINE, ARC or CIRCLE.
+    """Return a block's entity: LINE, ARC or CIRCLE.
 
     An arc of a few µm whose joints turned its sweep round is a line; one that they took past a full turn, a circle.
     """

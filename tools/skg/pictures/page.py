@@ -1,4 +1,4 @@
-"""What the pictures of plots and setup sheets have in common: words that are not ours, and how a page is written."""
+"""Common parts of plots and setup sheets: foreign text, and writing a page."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _MORE_FONTS = (
 
 
 def as_it_stands(text: str) -> dict[str, object]:
-    """What matplotlib is to be told to write a file's name or a title: no formula between dollars, in a font that has
+    """Escape a file's name or a title for matplotlib: no formula between dollars, in a font that has
     its letters; what is no letter (bytes that are not UTF-8, control characters) is a question mark."""
     shown = "".join(one if one.isprintable() else "?" for one in text)
     told: dict[str, object] = {"s": shown, "parse_math": False}

@@ -119,7 +119,7 @@ def outlines(pieces: Sequence[Piece]) -> Outline:
 
 
 class _TakenBoxes:
-    """What is taken of a page by boxes, mm."""
+    """Boxes that are taken on a page, mm."""
 
     def __init__(self) -> None:
         #: Which boxes reach into a square of `_SQUARE`.
@@ -264,7 +264,7 @@ class Picture:
     def _many_routes(
         self, cuts: list[PlacedRoute], moves: list[PlacedRoute], colour: str, name: str, wire: float
     ) -> None:
-        """What `_route` draws of each, all of a kind as one."""
+        """Draw all routes as `_route` does, each kind as one collection."""
         look = {"facecolor": "none", "edgecolor": colour, "joinstyle": "round"}
         if wire and cuts:
             # (where cuts overlap it shows: each is drawn by itself)

@@ -67,7 +67,7 @@ _INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
 
 @dataclass(frozen=True)
 class Facts:
-    """What the sheet says besides: the drawing's name, the tape's, wire and gap (mm, None: not told), the units."""
+    """Facts for the sheet's head: the drawing's name, the tape's, wire and gap (mm, None: not told), the units."""
 
     drawing: str
     tape: str
@@ -77,7 +77,7 @@ class Facts:
 
 
 class _Taken:
-    """Which places of the page are taken, on a grid."""
+    """The places of the page that are taken, on a grid."""
 
     def __init__(self, size: XY) -> None:
         self.cells = np.zeros((int(size[0] / _GRID) + 2, int(size[1] / _GRID) + 2), bool)
@@ -92,7 +92,7 @@ class _Taken:
         return np.clip((places / _GRID).astype(int) + behind, 0, self.cells.shape)
 
     def is_free_along(self, places: np.ndarray) -> bool:
-        """Whether nothing is where a line passes; places no further apart than the grid."""
+        """Tell whether nothing is where a line passes; places no further apart than the grid."""
         at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
         return not self.cells[at[:, 0], at[:, 1]].any()
 
@@ -121,7 +121,7 @@ class _Marks:
         self._tree = shapely.STRtree(shapely.points(places))
 
     def are_alone(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
-        """Which of some boxes (their middles, n × 2; half their sides) are clearly nearer to a mark than to others."""
+        """Mark the boxes (middles, n × 2; half their sides) that are clearly nearer to a mark than to others."""
         if not len(middles):
             return np.zeros(0, bool)
         reach = half + self.radii[at] + 2 * _ALONE + 2.2
@@ -131,7 +131,7 @@ class _Marks:
         return self._distance(at, middles, half) + 0.3 < np.min(apart, axis=0, initial=np.inf)
 
     def _distance(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
-        """How far some boxes are from a mark."""
+        """Distance of boxes from a mark."""
         beside = np.maximum(np.abs(self.places[at] - middles) - half, 0)
         return np.hypot(*beside.T) - self.radii[at]
 
@@ -166,7 +166,7 @@ class SetupSheet:
         self._title(left_out)
 
     def _place(self) -> None:
-        """Where the part lies on the page, and its scale."""
+        """Place the part on the page, with its scale."""
         pieces = [piece for route in self.job.routes for piece in drawn(route)]
         self.curve = outlines(pieces)
         points = np.array([point for piece in pieces for point in piece.extremes()])
@@ -444,7 +444,7 @@ def _way(samples: Places) -> float:
 
 
 def _called(route: PlannedContour) -> str:
-    """What a contour is, and the way around it."""
+    """Return a contour's kind and direction."""
     if not route.contour.is_closed:
         return kind(route).split()[0]
     return f"{kind(route)} {'ccw' if route.contour.area > 0 else 'cw'}"

@@ -1,4 +1,4 @@
-"""Where a closed contour may be entered: within its longest edges, with room for a tab before the entry."""
+"""Entries of closed contours: within the longest edges, with room for a tab before the entry."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _turned_to(contour: Contour, at: int) -> Contour:
 
 
 class EntryAt(NamedTuple):
-    """Where a closed contour may begin: at `part` of its edge number `at`, or at a `node` of that edge, a curve."""
+    """A possible start of a closed contour: at `part` of its edge number `at`, or at a `node` of that edge, a curve."""
 
     at: int
     part: float = 0.0
@@ -74,7 +74,7 @@ def _entries_on_curve(contour: Contour) -> Iterator[EntryAt]:
 
 
 def is_long(contour: Contour, tab: float) -> bool:
-    """Whether there is room for a tab that goes around corners."""
+    """Tell whether there is room for a tab that goes around corners."""
     return sum(edge.length for edge in contour.edges) > _LONG * tab
 
 
@@ -85,7 +85,7 @@ def longest_tab(contour: Contour) -> float:
 
 
 def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]:
-    """Where a closed contour may begin: in its longest lines, else in its longest arcs, else on a curve.
+    """Yield possible starts of a closed contour: in its longest lines, else in its longest arcs, else on a curve.
 
     The tab lies before the entry, on the same edge where there is one that is long enough. `widest`: the largest R.
     Copies of a tooth are entered where one of them begins: there the next one goes on.

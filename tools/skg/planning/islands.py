@@ -1,4 +1,4 @@
-"""What lies in openings that are not cut: it would be cut in the middle of the part (shapely)."""
+"""Islands: contours in openings that are not cut would be cut in the middle of the part (shapely)."""
 
 from __future__ import annotations
 

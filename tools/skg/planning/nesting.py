@@ -22,7 +22,7 @@ _PLACES = 5
 
 
 class Around(NamedTuple):
-    """What lies around a contour and is not cut: its layers, and whether it is taken for a frame."""
+    """An uncut contour around another: its layers, and whether it is taken for a frame."""
 
     layers: tuple[str, ...]
     is_frame: bool
@@ -76,7 +76,7 @@ def places_in(contours: Sequence[Contour]) -> np.ndarray:
 
 
 def said(around: Iterable[Around | None]) -> Iterator[str]:
-    """What to say of contours, in the order of cutting, some of which lie in something that is not cut."""
+    """Report contours, in the order of cutting, that lie in an uncut contour."""
     groups: dict[Around, list[int]] = defaultdict(list)
     for number, one in enumerate(around, 1):
         if one:

@@ -69,7 +69,7 @@ class _Choice:
 
 
 class _Columns(NamedTuple):
-    """What is told by choices, a row for each."""
+    """Columns of choices, a row for each."""
 
     reach: Floats
     widest: Floats
@@ -302,14 +302,15 @@ class _Planner:
         return places + reach[:, None] * square
 
     def _is_clear_from_centre(self, circles: Floats, widest: Floats) -> Flags:
-        """Whether the wire gets from circles' centres to their +X sides and cuts nothing that lies in the circle."""
+        """Tell whether the wire gets from circles' centres to their +X sides and cuts nothing that lies in the
+        circle."""
         ways, wide = np.tile((1.0, 0.0), (len(circles), 1)), np.maximum(_ROUND * widest, 1e-3)
         # (not as far as the circle itself)
         reach = np.maximum(0.0, _ROUND * circles[:, 6] - widest)
         return self.field.before(circles[:, 4:6], ways, reach, np.zeros(len(circles)), wide) == inf
 
     def _clear(self, places: Floats, square: Floats, reach: Floats, widest: Floats) -> Floats:
-        """How far the wire gets away from entries: all the way it stays R off what it does not cut there."""
+        """Return the distance that the wire gets away from entries: all the way it stays R off other contours."""
         some = np.flatnonzero((widest > 0) & (reach > widest))
         r = widest[some]
         far = self.field.before(places[some], square[some], reach[some], r, _ROUND * r)
@@ -320,7 +321,7 @@ class _Planner:
 
 
 def _are_circles(rows: Floats) -> Flags:
-    """Which of the edges in rows are whole circles, as `Piece.is_circle` has it."""
+    """Mark the rows that are whole circles, as `Piece.is_circle`."""
     return np.abs(rows[:, 8]) > 2 * pi - 1e-9
 
 
@@ -435,7 +436,7 @@ def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
 
 
 def _given_starts(field: Field, depths: list[int], wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
-    """Which contour (by its number) each given start hole belongs to."""
+    """Assign each given start hole to a contour (by its number)."""
     found = {at: want.start for at, want in enumerate(wanted) if want.cut and want.start is not None}
     taken = {at for at, want in enumerate(wanted) if not want.cut} | set(found)
     if len(starts) > len(depths) - len(taken):

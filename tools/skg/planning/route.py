@@ -1,4 +1,4 @@
-"""What is planned: a contour with its start hole, entry, passes and tab, and the ways of the wire that cut it."""
+"""A planned contour with its start hole, entry, passes and tab, and the ways of the wire that cut it."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Way:
 
     @property
     def is_closed(self) -> bool:
-        """Whether it ends where it began."""
+        """Tell whether it ends where it began."""
         return distance(self.edges[0].start, self.edges[-1].end) < 1e-9
 
 
@@ -111,7 +111,7 @@ class PlannedContour:
 
     @property
     def entry(self) -> XY:
-        """Where the contour is entered (on its first edge, without the offset)."""
+        """Place of entry on the contour (on its first edge, without the offset)."""
         return self.contour.edges[0].at(self.part)
 
     @property
@@ -121,18 +121,19 @@ class PlannedContour:
 
     @property
     def is_square(self) -> bool:
-        """Whether the start hole stands square to the entry: a lead that is an arc touches the contour only then."""
+        """Tell whether the start hole stands square to the entry: a lead that is an arc touches the contour only
+        then."""
         edge = self.chain[0]
         return _is_square(self.start, edge.start, edge.direction())
 
     @property
     def is_opening(self) -> bool:
-        """Whether it is cut from inside: what falls out is the slug."""
+        """Tell whether it is cut from inside: what falls out is the slug."""
         return self.contour.is_closed and self.depth % 2 == 1
 
     @property
     def is_outside(self) -> bool:
-        """Whether the wire runs outside of it, with an R that is not 0."""
+        """Tell whether the wire runs outside of it, with an R that is not 0."""
         return (self.contour.area > 0) == (self.widest > 0)
 
     @cached_property
@@ -240,7 +241,7 @@ def _beside(place: XY, way: float, r: float) -> XY:
 
 
 def _is_square(hole: XY, entry: XY, way: float) -> bool:
-    """Whether a hole stands square to a place that is passed in a direction (radians)."""
+    """Tell whether a hole stands square to a place that is passed in a direction (radians)."""
     return abs(cos(_angle(minus(hole, entry)) - way)) < _SQUARE
 
 

@@ -1,4 +1,4 @@
-"""What was read from a drawing: every entity with what became of it, and the report in text."""
+"""The account of a drawing: every entity, cut or left and why, and the report in text."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Entity:
 
 @dataclass
 class Content:
-    """What a file holds: its entities, their edges in mm (each with the number of its entity), start points in mm,
+    """The content of a file: its entities, their edges in mm (each with the number of its entity), start points in mm,
     and what is to be said of them. `others`: the edges of what is left because of its layer."""
 
     entities: list[Entity] = field(default_factory=list)
@@ -70,7 +70,7 @@ class OpenEnd:
 
     @property
     def advice(self) -> str:
-        """How the gap is closed."""
+        """Advice for closing the gap."""
         if self.can_join:
             return f"--tolerance {above(self.gap)} joins them"
         return "wider than the shortest edge, so --tolerance is no help: close it in the drawing"
@@ -87,7 +87,7 @@ class Overlap:
 
 @dataclass
 class Account:
-    """What a person must know about a drawing that was read.
+    """The account of a drawing that was read.
 
     `units`: those it was read in; `units_from`: who said so. `factor`: mm in one unit of the file. `low`, `high`: the
     box around the contours, mm. `layers`: the sums of all layers. `rest`: entities at junctions, of which (some of) the
@@ -146,7 +146,7 @@ class Account:
 
 
 def said(entities: Iterable[Entity], nouns: tuple[str, str], what: str, then: str) -> Iterator[str]:
-    """What is odd about entities and what is made of that, a line for each layer; `nouns`: one and many."""
+    """Describe odd entities and how they are cut, a line for each layer; `nouns`: singular and plural."""
     layers: dict[str, list[Entity]] = defaultdict(list)
     for entity in entities:
         layers[entity.layer].append(entity)

@@ -47,7 +47,7 @@ Styles = Sequence[Hashable]
 
 @dataclass
 class Chains:
-    """What edges make; each edge that went in is in one of these, once.
+    """Chains of edges; each edge is in one of them, once.
 
     `contours`: in the order of the edges, their ends moved to common corners; `rest`: runs of edges at junctions that
     belong to no closed outline; `doubles`: drawn twice, with the edge that each was drawn on; `short`: shorter than the
@@ -84,7 +84,7 @@ class _Corners:
         return len(self.first) - 1
 
     def points(self) -> list[XY]:
-        """Where the corners are."""
+        """Places of the corners."""
         return [
             (sum(x for x, _ in members) / len(members), sum(y for _, y in members) / len(members))
             for members in self.members
@@ -141,7 +141,7 @@ def _twin(one: Edge, others: list[Edge], tolerance: float) -> Edge | None:
 
 
 def _off(one: Edge, other: Edge) -> float:
-    """How far one edge leaves another one, at its points."""
+    """Largest distance of an edge's points from another edge."""
     if other.nodes:
         return float(shapely.distance(shapely.points(one.points()), shapely.linestrings(other.samples)).max())
     return max(map(other.far, one.points()))
@@ -170,7 +170,7 @@ def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chain
 
 
 def _is_ring(group: list[Edge], tolerance: float) -> bool:
-    """Whether the edges of one entity close by themselves, around some area."""
+    """Tell whether the edges of one entity close by themselves, around some area."""
     if len(group) == 1:
         edge = group[0]
         return edge.is_circle or (edge.start == edge.end and edge.length > 3 * tolerance)
@@ -249,7 +249,7 @@ class _Graph:
             self.found.rest += [self.contour(run, self.is_closed(run)) for run in self.runs(rest)]
 
     def is_closed(self, run: list[_Step]) -> bool:
-        """Whether a run ends where it begins."""
+        """Tell whether a run ends where it begins."""
         (first, ahead), (last, goes) = run[0], run[-1]
         return self.ends[first][not ahead] == self.ends[last][goes]
 
@@ -263,7 +263,7 @@ class _Graph:
         return Contour(tuple(steps), is_closed)
 
     def degrees(self, part: Iterable[int]) -> Counter[int]:
-        """How many of some edges meet at each corner."""
+        """Count of these edges at each corner."""
         return Counter(corner for at in part for corner in self.ends[at])
 
     def parts(self, some: Collection[int]) -> Iterator[set[int]]:
@@ -332,7 +332,7 @@ class _Graph:
         return rings, part - {at for ring in rings for at, _ in ring}
 
     def is_ring(self, part: set[int]) -> bool:
-        """Whether edges that hang together are one ring."""
+        """Tell whether edges that hang together are one ring."""
         return all(degree == 2 for degree in self.degrees(part).values())
 
     def peeled(self, part: set[int]) -> set[int]:
@@ -430,7 +430,7 @@ class _Graph:
                 return run
 
     def reach(self, edges: list[int]) -> float:
-        """How far along edges their directions are compared."""
+        """Distance along edges at which their directions are compared."""
         chords = (distance(self.edges[at].start, self.edges[at].end) for at in edges)
         return min(1.0, 0.3 * min(chords))
 
@@ -441,7 +441,7 @@ class _Graph:
         return at, self.ends[at][0] == corner
 
     def is_cell(self, ring: list[_Step]) -> bool:
-        """Whether a ring turns off at junctions alone, and each time another edge goes straight on."""
+        """Tell whether a ring turns off at junctions alone, and each time another edge goes straight on."""
         within = {at for at, _ in ring}
         turns = 0
         for (at, ahead), (following, _) in zip(ring, [*ring[1:], ring[0]], strict=True):

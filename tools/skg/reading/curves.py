@@ -154,7 +154,7 @@ class _Spline:
             yield from pairwise([0, *filter(self.has_corner, range(1, len(self.spans))), len(self.spans)])
 
     def has_corner(self, k: int) -> bool:
-        """Whether the direction jumps where span number k begins."""
+        """Tell whether the direction jumps where span number k begins."""
         before, after = self.heading(self.before_end(k - 1), k - 1), self.heading(self.behind_begin(k), k)
         return abs(turn(before, after)) > _CORNER
 

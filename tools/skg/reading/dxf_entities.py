@@ -85,11 +85,11 @@ class _Collector:
                 self.one(record, layer, hidden)
 
     def unwanted(self, layer: str) -> str:
-        """Why what is on a layer is left."""
+        """Return the reason why a layer's content is not cut."""
         return self.wishes.unwanted(layer, self.file.states.get(layer.lower(), ""))
 
     def leaves(self) -> bool:
-        """Whether an entity leaves the drawing's plane."""
+        """Tell whether an entity leaves the drawing's plane."""
         return any(entity.left == LEAVES for entity in self.content.entities)
 
     def place(self, record: Record) -> XY:
@@ -261,17 +261,17 @@ def _slow_dxf() -> ModuleType:
 
 
 def _is_note(kind: str, is_start: bool) -> bool:
-    """Whether there is nothing to cut in entities of a kind; on the layer of start holes: nothing that is one."""
+    """Tell whether there is nothing to cut in entities of a kind; on the layer of start holes: nothing that is one."""
     return kind not in ("POINT", "CIRCLE") if is_start else kind in NOTES
 
 
 def _unread(error: Exception) -> str:
-    """Why an entity is left that cannot be read."""
+    """Return the reason why an entity cannot be read."""
     return f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
 
 
 def _is_whole(record: Record) -> bool:
-    """Whether an arc that is read as a full turn ends at the angle that it begins at, not a turn further on."""
+    """Tell whether an arc that is read as a full turn ends at the angle that it begins at, not a turn further on."""
     if record.kind not in _ANGLES:
         return False
     *codes, turn = _ANGLES[record.kind]
@@ -299,7 +299,7 @@ def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
 
 
 def _is_wide(record: Record) -> bool:
-    """Whether a polyline is drawn with a width."""
+    """Tell whether a polyline is drawn with a width."""
     if record.kind not in ("POLYLINE", "LWPOLYLINE"):
         return False
     widths = (value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43))

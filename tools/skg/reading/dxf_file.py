@@ -44,7 +44,7 @@ class Definition:
 
 @dataclass
 class DxfFile:
-    """What a DXF file holds. `units`: name and mm in one, None when it does not tell; `is_imperial`: it asks
+    """The content of a DXF file. `units`: name and mm in one, None when it does not tell; `is_imperial`: it asks
     for the hatches and line types of a country with inches. Names of layers and blocks are
     in lower case as keys. `states`: "off" or "frozen" of layers that are not seen; `dashed`: the line types that are
     not drawn through, in upper case; `dashed_layers`: that of each layer that has one. `notes`: what was mended."""
@@ -104,7 +104,7 @@ def _groups(data: bytes, notes: list[str]) -> Iterator[Group]:
 
 
 def _of_tables(found: DxfFile, section: str, record: Record) -> None:
-    """What tables and objects tell of how lines are drawn: line types, layers, styles of multilines."""
+    """Read line types, layers and multiline styles from tables and objects."""
     match section, record.kind:
         case "TABLES", "LTYPE":
             if record.whole(73):
@@ -182,7 +182,7 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
 
 
 def _is_real(code: int) -> bool:
-    """Whether a group's value is a number with decimals."""
+    """Tell whether a group's value is a number with decimals."""
     return 10 <= code < 60 or 110 <= code < 150 or 210 <= code < 240 or 460 <= code < 470
 
 
@@ -222,7 +222,7 @@ def _variable(header: list[Group], wanted: str) -> str:
 
 
 def _units(header: list[Group]) -> tuple[str, float] | None:
-    """What $INSUNITS tells."""
+    """Return the units by $INSUNITS."""
     value = _variable(header, "$INSUNITS")
     return UNITS.get(int(value)) if value.isdigit() else None
 

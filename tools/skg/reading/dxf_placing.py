@@ -115,5 +115,5 @@ def swept(first: float, last: float) -> float:
 
 
 def is_full(turns: float) -> bool:
-    """Whether so many turns are whole ones that were rounded."""
+    """Tell whether so many turns are whole ones that were rounded."""
     return abs(turns - round(turns)) < _WHOLE and not _NONE < turns < _WHOLE

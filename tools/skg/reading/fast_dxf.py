@@ -100,7 +100,7 @@ def polyline(record: Record) -> Polyline | None:
 
 
 def _head(names: list[int], values: list[float]) -> dict[int, float]:
-    """What stands before the first vertex."""
+    """The groups before the first vertex."""
     until = names.index(10) if 10 in names else len(names)
     return dict(zip(names[:until], values[:until], strict=True))
 

@@ -1,4 +1,4 @@
-"""Which contours of a drawing touch, cross, overlap or repeat each other (shapely finds the pairs)."""
+"""Pairs of contours that touch, cross, overlap or repeat each other (found by shapely)."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:
 
 
 def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
-    """Which pairs of lines are the same."""
+    """Mark the pairs of lines that are the same."""
     found = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= 2 * tolerance
     found &= np.abs(shapely.length(ones) - shapely.length(others)) <= 1e-3 * shapely.length(ones) + tolerance
     found[found] = shapely.hausdorff_distance(ones[found], others[found], 0.5) <= 2 * tolerance + 2 * CHORD
@@ -119,7 +119,7 @@ def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDAr
 
 
 def _meeting(one: shapely.LineString, other: shapely.LineString, tolerance: float) -> tuple[str, XY]:
-    """What two closed lines do, and where."""
+    """Return how two closed lines meet, and where."""
     near = shapely.intersection(one, other.buffer(tolerance + 2 * CHORD, quad_segs=2))
     place = shapely.get_coordinates(shapely.shortest_line(one, other) if near.is_empty else near)[0]
     areas = shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in (one, other)]))

@@ -91,7 +91,7 @@ def _without_stubs(rest: list[Contour]) -> tuple[list[Contour], list[Contour], l
 
 
 def _ends(run: Contour) -> tuple[XY, XY]:
-    """Where a run begins and ends."""
+    """Return the ends of a run."""
     return run.edges[0].start, run.edges[-1].end
 
 
@@ -156,7 +156,7 @@ def _tail(edge: Edge) -> shapely.LineString:
 
 
 def _corner(one: shapely.LineString, other: shapely.LineString) -> tuple[XY, XY]:
-    """Where two ends meet, on each: where they cross, else where they are nearest."""
+    """Return the place on each of two ends where they cross, else where they are nearest."""
     common = shapely.get_coordinates(shapely.intersection(one, other))
     if len(common) == 1:
         place = (float(common[0][0]), float(common[0][1]))

@@ -101,7 +101,7 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Mapping[int, str]) -> R
 
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
-    """Whether a file says metres and cannot mean it: programs write so that were not told any units."""
+    """Tell whether a file says metres and cannot mean it: programs write so that were not told any units."""
     if report.units != "m" or report.units_from != TOLD:
         return False
     _measure(contours, report)
@@ -121,7 +121,7 @@ def _near_origin(reading: Reading) -> Reading:
 
 
 def layer_lines(data: bytes, name: str) -> list[str]:
-    """What is on each layer of a drawing file, a line each."""
+    """List the entities of each layer of a drawing file, a line each."""
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
     for entity in _content(data, name, Wishes())[0].entities:
         kinds[entity.layer][entity.kind] += 1
@@ -129,7 +129,7 @@ def layer_lines(data: bytes, name: str) -> list[str]:
 
 
 def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
-    """What a file holds, and an account that has its units."""
+    """Return a file's content, and an account that has its units."""
     if svg_file.is_svg(data, name):
         return _svg_content(data, name, wishes)
     file = dxf_file.load(data)
@@ -157,7 +157,7 @@ def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Accou
 
 
 def _nothing(content: Content, wishes: Wishes) -> str:
-    """Why there is nothing to cut."""
+    """Explain why there is nothing to cut."""
     where = f" on {', '.join(wishes.layers)}" if wishes.layers else ""
     reasons = Counter(f"{entity.kind}: {entity.left}" for entity in content.entities)
     found = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
@@ -169,7 +169,7 @@ def _nothing(content: Content, wishes: Wishes) -> str:
 
 
 def _no_outline(report: Account) -> str:
-    """Why no contour is left."""
+    """Explain why no contour remains."""
     if not report.rest and not report.open_ends:
         reasons = dict.fromkeys(reason for layer in report.layers for reason in layer.why if reason != NOTE)
         return f"nothing to cut, read in {report.units}: {', '.join(reasons)}; --units and --tolerance may help"

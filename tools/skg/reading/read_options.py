@@ -1,4 +1,4 @@
-"""How a drawing is to be read."""
+"""Options for reading a drawing."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ START = "START"
 
 @dataclass(frozen=True)
 class Wishes:
-    """How a drawing is to be read.
+    """Options for reading a drawing.
 
     `layers`: only these (none: all that are neither off nor frozen). `start_layer`: that of the start holes. `units`:
     one of `UNITS`, None: what the file says. `tolerance`: ends no further apart are one corner, mm. `fit_tolerance`:
@@ -44,11 +44,12 @@ class Wishes:
                 raise UserError(f"no layer {layer!r}{near or ','}{' It' if near else ' the drawing'} has {has}")
 
     def is_start(self, layer: str) -> bool:
-        """Whether a layer is that of the start holes."""
+        """Tell whether a layer is that of the start holes."""
         return layer.lower() == self.start_layer.lower()
 
     def unwanted(self, layer: str, state: str = "") -> str:
-        """Why what is on a layer is left; empty when it is not. `state`: "off" or "frozen" for one that is not seen."""
+        """Return the reason why a layer is not cut; empty when it is. `state`: "off" or "frozen" for one that is not
+        seen."""
         if self.layers:
             is_asked = self.is_start(layer) or layer.lower() in map(str.lower, self.layers)
             return "" if is_asked else _NOT_ASKED
@@ -58,5 +59,6 @@ class Wishes:
 
     @staticmethod
     def is_by_layer(reason: str) -> bool:
-        """Whether a reason of `unwanted` is that its layer is not asked for, or not seen: what it shows is there."""
+        """Tell whether a reason of `unwanted` is that its layer is not asked for, or not seen: what it shows is
+        there."""
         return reason == _NOT_ASKED or reason.startswith(_HIDDEN)

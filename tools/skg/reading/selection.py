@@ -1,4 +1,4 @@
-"""Which contours of a drawing are cut, and what becomes of everything else: each edge that is not cut has a reason."""
+"""Selection of the contours that are cut: each edge that is not cut has a reason."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ class Selection:
             self.report.notes.append(f"{counted(found.unseen, 'more pair')} of contours meet")
 
     def _wanted(self, kept: list[Contour], rest: list[Contour]) -> tuple[list[Contour], list[Contour]]:
-        """What is cut and what is left of outlines and the rest, by --open and --layer; open dashes are left."""
+        """Select outlines and the rest by --open and --layer; open dashes are left."""
         if self.wishes.open == "all":
             return kept + rest, []
         if self.wishes.open == "cut" and rest and not kept:
@@ -135,7 +135,7 @@ class Selection:
 
 
 class Fates:
-    """What becomes of each entity's edges. `doubles`: runs of those drawn twice, with an edge of what each was drawn
+    """The fate of each entity's edges. `doubles`: runs of those drawn twice, with an edge of what each was drawn
     on: where that one is left, they are left with it."""
 
     def __init__(self, content: Content, factor: float, tolerance: float) -> None:
@@ -165,7 +165,7 @@ class Fates:
         return tuple(dict.fromkeys(self.entities[edge.entity].layer for edge in contour.edges))
 
     def is_dashed(self, contour: Contour) -> bool:
-        """Whether a contour is drawn with dashes, all of it: an axis, or what lies behind."""
+        """Tell whether a contour is drawn with dashes, all of it: an axis, or what lies behind."""
         return all(self.entities[edge.entity].dashes for edge in contour.edges)
 
     def account(self, contours: list[Contour], report: Account) -> None:
@@ -224,7 +224,7 @@ class Fates:
 
 
 def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]:
-    """What is said of ends that run past corners, a line for each layer."""
+    """Report ends that run past corners, a line for each layer."""
     layers: dict[str, list[Overrun]] = defaultdict(list)
     for one in cuts:
         layers[content.entities[one.piece.entity].layer].append(one)
@@ -237,7 +237,7 @@ def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]
 
 
 def _between(runs: list[Contour], factor: float) -> Iterator[str]:
-    """What is said of lines that are left and divide what is cut."""
+    """Report uncut lines that divide a cut contour."""
     if runs:
         yield (
             f"{counted(len(runs), 'line')} from edge to edge of what is cut, as at "
@@ -246,7 +246,7 @@ def _between(runs: list[Contour], factor: float) -> Iterator[str]:
 
 
 def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool, factor: float) -> Iterator[str]:
-    """What is said when something that is left reaches around all contours that are cut, and is larger than each: one
+    """Report an uncut line that encloses all cut contours and is larger than each: one
     run, or all of them where they have gaps."""
     if not rest or len(kept) < 2:
         return
@@ -264,7 +264,7 @@ def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool, factor: fl
 
 
 def _reach_around(outer: Floats, boxes: Floats) -> bool:
-    """Whether the box around some boxes has the middles of all others in it, and is larger than each."""
+    """Tell whether the box around some boxes has the middles of all others in it, and is larger than each."""
     low, high = outer[:, :2].min(0), outer[:, 2:].max(0)
     middles = (boxes[:, :2] + boxes[:, 2:]) / 2
     sizes = boxes[:, 2:] - boxes[:, :2]
@@ -272,7 +272,7 @@ def _reach_around(outer: Floats, boxes: Floats) -> bool:
 
 
 def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> Iterator[str]:
-    """What is said of free ends in what is left that lie so near to a corner there that an outline may be open."""
+    """Report free ends of uncut lines so near to a corner that an outline may be open."""
     count = Counter(end for one in rest for edge in one.edges for end in (edge.start, edge.end))
     corners = list(count)
     near = [
@@ -318,6 +318,6 @@ def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float, fac
 
 
 def _shortest(edges: list[Edge], tolerance: float) -> float:
-    """How wide a tolerance may be that makes one point of no edge; those shorter than `tolerance` are lost already."""
+    """Return the largest tolerance that keeps every edge; edges shorter than `tolerance` are lost already."""
     wide = (distance(edge.start, edge.end) for edge in edges)
     return min((chord for chord in wide if chord > tolerance), default=inf)

@@ -74,7 +74,7 @@ def binary_groups(data: bytes) -> Iterator[Group]:
 
 
 def encoding(page: str) -> str:
-    """What Python calls a DXF file's code page."""
+    """Return Python's name of a DXF code page."""
     return toencoding(page)
 
 
@@ -130,7 +130,7 @@ def start(entity: DXFGraphic) -> Vec3:
 
 
 def is_through_places(entity: DXFGraphic) -> bool:
-    """Whether it is a spline that tells the places alone that it runs through."""
+    """Tell whether it is a spline that tells the places alone that it runs through."""
     return entity.dxftype() in ("SPLINE", "HELIX") and not len(entity.control_points)
 
 

@@ -49,7 +49,7 @@ UNREADABLE = (ValueError, TypeError, ArithmeticError, IndexError, KeyError, Attr
 
 
 def is_svg(data: bytes, name: str) -> bool:
-    """Whether a file is SVG: by its ending, unless its first lines are those of DXF; else by its first lines."""
+    """Tell whether a file is SVG: by its ending, unless its first lines are those of DXF; else by its first lines."""
     begin = data[:4096]
     return b"<svg" in begin or name.lower().endswith((".svg", ".svgz")) and _DXF.match(begin) is None
 
@@ -63,7 +63,7 @@ class _Frame:
     size: XY
 
     def holds(self, places: list[XY]) -> bool:
-        """Whether all of some places, in pixels, lie in it, or hardly outside."""
+        """Tell whether all of some places, in pixels, lie in it, or hardly outside."""
         if not self.matrix.determinant:
             return True
         (left, top), (width, height), near = self.at, self.size, _NEAR_FRAME * max(self.size)
@@ -79,7 +79,7 @@ class _Frame:
 
 @dataclass(frozen=True)
 class View:
-    """Where an element stands. `matrix`: from its coordinates to pixels; `size`: that of the view box, for
+    """The surroundings of an element. `matrix`: from its coordinates to pixels; `size`: that of the view box, for
     percentages; `hidden`: why nothing of it is seen; `is_clipped`: whether only a part of it may be seen; `frames`: of
     the nested drawings around it."""
 
@@ -102,7 +102,7 @@ class Drawn:
 
 
 class SvgFile:
-    """What an SVG file holds. `units`: the name of the page's units and mm in one, None when it does not tell; then
+    """The content of an SVG file. `units`: the name of the page's units and mm in one, None when it does not tell; then
     `guess` is mm in a pixel, and `guessed` says where that comes from. `animations`: how many there are."""
 
     def __init__(self, data: bytes) -> None:
@@ -193,7 +193,8 @@ class SvgFile:
         around: tuple[ElementTree.Element, ...],
         used: tuple[ElementTree.Element, ...],
     ) -> Iterator[Drawn]:
-        """What one element shows; `around`: those that it stands in, `used`: what is being used, the last innermost."""
+        """Yield the shapes that an element shows; `around`: those that it stands in, `used`: what is being used, the
+        last innermost."""
         style = self.sheet.style(element, (self.root, *used)[-1], view.style)
         layer = view.layer
         if name == "g" and (element.get(_MODE) == "layer" or len(around) == 1):
@@ -227,7 +228,7 @@ class SvgFile:
         around: tuple[ElementTree.Element, ...],
         used: tuple[ElementTree.Element, ...],
     ) -> Iterable[Drawn]:
-        """What a `use` shows."""
+        """Yield the shapes that a `use` shows."""
         link = (element.get("href") or element.get(_LINK) or "").strip()
         target = self.ids.get(link.removeprefix("#")) if link.startswith("#") else None
         if target is None or target in used:
@@ -253,7 +254,7 @@ def tag_of(element: ElementTree.Element) -> str:
 
 
 def _name_space(element: ElementTree.Element) -> str:
-    """What an element's name belongs to; nothing for a comment."""
+    """Return the name space of an element; empty for a comment."""
     return element.tag.rpartition("}")[0].removeprefix("{") if isinstance(element.tag, str) else ""
 
 
@@ -264,7 +265,7 @@ def _elsewhere(data: bytes, sheet: StyleSheet) -> list[str]:
 
 
 def _switched(group: ElementTree.Element) -> ElementTree.Element | None:
-    """What a `switch` shows: the first that asks for nothing that is not there."""
+    """Return the child that a `switch` shows: the first whose conditions hold."""
     for child in group:
         languages = child.get("systemLanguage", "en").replace(" ", "").split(",")
         is_english = any(language.partition("-")[0] == "en" for language in languages)

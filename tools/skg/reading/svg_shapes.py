@@ -233,7 +233,7 @@ class _SvgCollector:
         return found
 
     def _of_page(self) -> Iterator[str]:
-        """What of the page as a whole is passed over."""
+        """Report parts of the page that are not read."""
         if self.file.style.transform:
             yield f"the page itself is transformed ({self.file.style.transform}): passed over"
         if self.file.animations:

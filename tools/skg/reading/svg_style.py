@@ -1,4 +1,4 @@
-"""How SVG elements are drawn: attributes, style sheets, and what is handed down.
+"""Styles of SVG elements: attributes, style sheets, inheritance.
 
 tinycss2 takes style sheets apart, cssselect2 says which elements a rule means.
 """
@@ -47,7 +47,7 @@ _REMARK = re.compile(r"/\*.*?\*/", re.DOTALL)
 
 @dataclass(frozen=True)
 class Style:
-    """How an element is drawn, with what it has from those around it: fill, stroke, its width and dashes, visibility.
+    """The style of an element, inheritance included: fill, stroke, its width and dashes, visibility.
     `variables`: values that are told once, by their names (--ink) in lower case. `origin` and `box`: what its transform
     turns about, and whose sides percentages there are of. `geometry`: lengths of its form that are told as properties,
     not as attributes."""
@@ -73,17 +73,17 @@ class Style:
 
     @property
     def is_painted(self) -> bool:
-        """Whether it has a line or an area."""
+        """Tell whether it has a line or an area."""
         return self._has_area or self.width > 0
 
     @property
     def has_markers(self) -> bool:
-        """Whether something is drawn at its ends or corners."""
+        """Tell whether something is drawn at its ends or corners."""
         return any(marker != "none" for marker in self.markers)
 
     @property
     def width(self) -> float:
-        """How wide its line is, in its own pixels; 0 without one."""
+        """Width of its line, in its own pixels; 0 without one."""
         return 0.0 if self.is_stroke_clear or self._is_clear(self.stroke) else self.stroke_width
 
     @property
@@ -91,7 +91,7 @@ class Style:
         return not self.is_fill_clear and not self._is_clear(self.fill)
 
     def _is_clear(self, colour: str) -> bool:
-        """Whether nothing is seen of a line or an area of this colour."""
+        """Tell whether nothing is seen of a line or an area of this colour."""
         return _CLEAR.fullmatch(self.color if colour == "currentcolor" else colour) is not None
 
 
@@ -117,7 +117,7 @@ class StyleSheet:
                     raise UserError("a style sheet nested too deep to read") from None
 
     def _in(self, tree: Element) -> dict[Element, list[_Declared]]:
-        """What the rules declare of a tree's elements."""
+        """Apply the rules to a tree's elements."""
         if not self._rules.order:
             return {}
         if tree not in self._trees:
@@ -134,7 +134,7 @@ class StyleSheet:
         return self._trees[tree]
 
     def _is_seen(self, kind: str, condition: str) -> bool:
-        """Whether rules under a condition hold on a screen; one that is not understood is kept in mind."""
+        """Tell whether rules under a condition hold on a screen; one that is not understood is kept in mind."""
         if kind == "media" and condition.lower() in ("", "screen", "all", "print"):
             return condition.lower() != "print"
         self.missed.append(f"@{kind} {condition}".strip())
@@ -174,8 +174,8 @@ class StyleSheet:
         return (paint[2] or "none") if paint and paint[1] not in self.paints else told.lower()
 
     def style(self, element: Element, tree: Element, outer: Style) -> Style:
-        """How an element is drawn. `tree`: what rules know of around it, the whole page or all that is used with it;
-        `outer`: how that is drawn in which it is shown."""
+        """Return the style of an element. `tree`: what rules know of around it, the whole page or all that is used
+        with it; `outer`: how that is drawn in which it is shown."""
         found = [*self._in(tree).get(element, ()), _declared(element.get("style", ""))]
         declared: dict[str, str] = {}
         for one in found:
@@ -226,19 +226,19 @@ def _told(value: str, variables: dict[str, str]) -> str:
 
 
 def _is_nothing(opacity: str | None, outer: bool) -> bool:
-    """Whether an opacity is that of nothing; `outer`: where it is not told."""
+    """Tell whether an opacity is that of nothing; `outer`: where it is not told."""
     return outer if opacity is None else _NOTHING.fullmatch(opacity) is not None
 
 
 def _markers(told: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:
-    """What is drawn at the start, at corners and at the end; `marker` tells all of them."""
+    """Return the markers at start, corners and end; `marker` sets all of them."""
     return tuple(told.get(name, told.get("marker", old)) for name, old in zip(_MARKERS, outer, strict=True))
 
 
 def _selectors(
     tokens: list[ast.Node], namespaces: dict[str | None, str]
 ) -> list[cssselect2.compiler.CompiledSelector] | None:
-    """What a rule means; None if that is not understood."""
+    """Parse a rule; None if it is not understood."""
     # (what stands somewhere behind another would be looked for among all of 20,000, for each of 20,000)
     if "~" in tokens:
         return None

@@ -1,4 +1,4 @@
-"""Where a tape comes from: a .3b file, G-code (.nc, .ngc …), or a program (.skg, or a rival's) that is run first.
+"""Sources of tapes: a .3b file, G-code (.nc, .ngc …), or a program (.skg, or a rival's) that is run first.
 
 A milling program's tape is G-code.
 """
@@ -223,7 +223,7 @@ def _contour_at(text: str, line: int) -> str:
 
 
 def _reference(name: str, text: str, mills: bool = False) -> Result:
-    """What the reference makes of a program; one that ends in ERR is a `UserError`."""
+    """Run a program by the reference; one that ends in ERR is a `UserError`."""
     # (slow to import, and not needed for tapes)
     from skg.ref import mill, run
 

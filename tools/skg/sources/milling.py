@@ -14,7 +14,7 @@ _SYNTAX = 1
 
 
 def is_milling(text: str) -> bool:
-    """Whether a program has a statement that only the milling language knows."""
+    """Tell whether a program has a statement that only the milling language knows."""
     return any(
         _ADDED.match(_NOTHING.sub("", line).upper()) and _is_understood(line)
         for line in re.split(r"[\r\n]", text.partition("\x1a")[0])
@@ -22,7 +22,7 @@ def is_milling(text: str) -> bool:
 
 
 def _is_understood(line: str) -> bool:
-    """Whether the milling language has such a line."""
+    """Tell whether the milling language has such a line."""
     from skg.ref import mill  # which loads lark, and is not needed for most programs
 
     if not line.isascii():

@@ -70,7 +70,7 @@ def _foot(segment: Segment, wire: Point) -> XY:
 
 
 def _corner(one: Segment, other: Segment) -> XY:
-    """Where two neighbours' nominal curves meet."""
+    """Return the crossing of two neighbours' nominal curves."""
     wire = _xy(one.end)
     # A crossing much further away than the offsets explain belongs to another place of the same curves.
     reach = 50 * max(abs(float(one.offset)), abs(float(other.offset))) + 0.01

@@ -83,7 +83,7 @@ class Block:
 
     @property
     def start(self) -> tuple[int, int]:
-        """Where the block starts: a line at (0, 0), an arc relative to its centre."""
+        """Start of the block: of a line (0, 0), of an arc relative to its centre."""
         sign_x, sign_y = _STARTS[self.code]
         return sign_x * self.x, sign_y * self.y
 
@@ -110,8 +110,8 @@ class Block:
 
     @property
     def turn(self) -> int:
-        """Where the controller passes an axis on an arc: the least whole number whose square + 1 is x² + y²
-        or more. A tape without drift counts it as the radius (docs/drift.md).
+        """Coordinate at which the controller passes an axis on an arc: the least whole number whose square + 1 is x² +
+        y² or more. A tape without drift counts it as the radius (docs/drift.md).
         """
         square = self.x**2 + self.y**2 - 1
         return isqrt(square - 1) + 1 if square > 0 else 0
@@ -145,7 +145,7 @@ class Block:
 
     @property
     def end(self) -> tuple[int, int]:
-        """Where the block should end, relative to the same origin as `start`.
+        """Intended end of the block, relative to the same origin as `start`.
 
         On an arc J gives the coordinate along the count axis exactly; the other one is the nearest µm on the
         circle, but not so near 0 that the count direction would be the other one (a tape rounds ends off

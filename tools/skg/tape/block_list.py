@@ -63,7 +63,7 @@ class Blocks(Sequence[Block]):
 
     @property
     def rows(self) -> range:
-        """Which rows of the columns these blocks are."""
+        """Rows of the columns that these blocks are."""
         return range(len(self.columns[0])) if self._part is None else self._part
 
     @property

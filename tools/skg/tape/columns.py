@@ -157,8 +157,8 @@ class Columns:
 
     @cached_property
     def is_plainly_sound(self) -> Flags:
-        """Whether `Block.problems` finds nothing on a tape with drift. Arcs that are sound on one without drift alone
-        are left out."""
+        """Tell whether `Block.problems` finds nothing on a tape with drift. Arcs that are sound on one without drift
+        alone are left out."""
         is_odd, longer = self.quadrant % 2 == 1, np.maximum(self.x, self.y)
         counts_y = np.where(self.x == self.y, is_odd, self.y > self.x)
         is_line = (
@@ -224,7 +224,7 @@ def columns_of(tape: Tape) -> Columns:
 
 
 def kept(tape: Tape, name: str, find: Callable[[], _Found]) -> _Found:
-    """What was worked out of a tape's blocks once, and is kept with it."""
+    """Return a value computed from a tape's blocks, and cache it with the tape."""
     if name not in tape.kept:
         tape.kept[name] = find()
     return tape.kept[name]

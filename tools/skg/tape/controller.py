@@ -54,7 +54,7 @@ def library() -> ctypes.CDLL:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the controller made of one block; lengths in µm.
+    """The controller's outcome of one block; lengths in µm.
 
     `move` is where it went (dx, dy), `steps` in how many steps; `off_curve` the largest distance from the
     line or arc as it starts where the controller stands, `off_path` from where that line or arc should lie.

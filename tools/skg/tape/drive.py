@@ -1,4 +1,4 @@
-"""What a drive does with a tape: docs/spec/drive.md."""
+"""A drive's steps for a tape: docs/spec/drive.md."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ def drive_steps(tape: Tape) -> Iterator[bytes]:
 
 
 def stops_in_pairs(tape: Tape) -> bool:
-    """Whether what lies between the 1st stop and the 2nd, the 3rd and the 4th, … is positioning, and nothing else is.
+    """Tell whether what lies between the 1st stop and the 2nd, the 3rd and the 4th, … is positioning, and nothing else
+    is.
 
     Bit 7 is then on where the tape cuts, and nowhere else. A single stop at the tape's end is none.
     """

@@ -23,7 +23,7 @@ LAST_NUMBER = 9999
 
 
 def is_gcode(name: str) -> bool:
-    """Whether a file holds G-code, by its name."""
+    """Tell whether a file holds G-code, by its name."""
     return name.lower().endswith(ENDINGS)
 
 

@@ -47,7 +47,7 @@ def _by_radius(way: Spot, radius: float, sense: int, column: int) -> Spot:
 
 
 def is_no_way(modes: Modes, values: dict[str, Word], x: float, y: float) -> bool:
-    """Whether an arc, rounded to a full circle, ends so little ahead of where it begins: x and y less than 1."""
+    """Tell whether an arc, rounded to a full circle, ends so little ahead of where it begins: x and y less than 1."""
     if "R" in values:
         return modes.value(values, "R") > 0
     i, j = (float(modes.value(values, letter)) for letter in "IJ")
@@ -56,6 +56,6 @@ def is_no_way(modes: Modes, values: dict[str, Word], x: float, y: float) -> bool
 
 
 def is_flat(start: Spot, end: Spot, sense: int) -> bool:
-    """Whether controls take an arc for a full circle, though its ends, told from its centre, differ."""
+    """Tell whether controls take an arc for a full circle, though its ends, told from its centre, differ."""
     cross, dot = sense * (start[0] * end[1] - start[1] * end[0]), start[0] * end[0] + start[1] * end[1]
     return start != end and 0 <= cross < _LEAST_SWEEP * dot

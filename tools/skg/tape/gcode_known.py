@@ -41,5 +41,5 @@ EXPECTED = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 
 
 def is_of_board(number: Decimal) -> bool:
-    """Whether an M word is one of boards for printers: the words behind it are its own (`M92 X80`: steps)."""
+    """Tell whether an M word is one of boards for printers: the words behind it are its own (`M92 X80`: steps)."""
     return number >= _BOARDS or number in _BOARD

@@ -20,8 +20,8 @@ INCH, MILLIMETRE = Decimal(25400), Decimal(1000)
 
 @dataclass
 class GcodeLine:
-    """What a line says: places and feed by their letters, the numbers of its G and M words, its S, the output that its
-    P names; whether there is a G92, and a stop."""
+    """The content of a line: places and feed by their letters, the numbers of its G and M words, its S, the output
+    that its P names; whether there is a G92, and a stop."""
 
     values: dict[str, Word] = field(default_factory=dict)
     codes: list[Decimal] = field(default_factory=list)
@@ -33,7 +33,7 @@ class GcodeLine:
 
 
 class Modes:
-    """What is in force in a program that is being read. What stops a control, or is a guess, goes to `findings`."""
+    """Modal state of a program that is being read. Faults and guesses go to `findings`."""
 
     def __init__(self, findings: Findings, untold: Decimal | None) -> None:
         self.findings = findings
@@ -149,11 +149,11 @@ class Modes:
 
     @property
     def is_mixed(self) -> bool:
-        """Whether some numbers without G20 and G21 have a point, and some others none: then all are mm."""
+        """Tell whether some numbers without G20 and G21 have a point, and some others none: then all are mm."""
         return self.has_points and self.has_wholes
 
     def goal(self, values: dict[str, Word], letter: str, here: Decimal, origin: Decimal = Decimal(0)) -> Decimal:
-        """Where a coordinate goes to from `here`, µm; an absolute one is told from `origin`."""
+        """Return a coordinate's goal from `here`, µm; an absolute one counts from `origin`."""
         if letter not in values:
             return here
         if self.absolute is None:

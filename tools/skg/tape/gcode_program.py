@@ -1,4 +1,4 @@
-"""What G-code does in the plane: the program that `skg.tape.gcode_reader` reads, as routes, as a 3B tape, in words."""
+"""G-code programs as paths in the plane: read by `skg.tape.gcode_reader`; as routes, as a 3B tape, in words."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class GcodeRun:
 
 
 class GcodePath:
-    """What G-code does in the plane, in order: cuts, moves, holes, stops. Packed: it may have a million blocks."""
+    """A G-code path in the plane, in order: cuts, moves, holes, stops. Packed: it may have a million blocks."""
 
     def __init__(self) -> None:
         #: The blocks of cuts and moves; a cut's number counts the cuts.
@@ -69,7 +69,7 @@ class GcodePath:
         return [mark for _, mark in self._marks]
 
     def end(self, block: int) -> Spot:
-        """Where a block ends."""
+        """End of a block."""
         x, y = self._places[4 * block + 2 : 4 * block + 4]
         return x, y
 
@@ -99,7 +99,7 @@ class GcodePath:
 
 @dataclass(frozen=True)
 class GcodeProgram:
-    """What G-code does in the plane; `home` (µm) is where it begins.
+    """A G-code program in the plane; `home` (µm) is its start.
 
     `depths` and `travels`: the heights (µm) at which it cuts and at which it is moved, each once, in the order in which
     they come; empty where no height is known. `guesses`: how it is read where it does not say. `notes`: what of G1 to
@@ -116,12 +116,12 @@ class GcodeProgram:
 
     @property
     def holes(self) -> list[Spot]:
-        """Where it drills, each place once."""
+        """Drilled places, each once."""
         return list(dict.fromkeys(hole.place for hole in self._drilled))
 
     @property
     def stop_places(self) -> list[Spot]:
-        """Where it stops, each place once."""
+        """Places of stops, each once."""
         at, found = self.home, []
         for part in self.path.parts():
             if isinstance(part, Stop):
@@ -135,14 +135,14 @@ class GcodeProgram:
         return [mark for mark in self.path.marks if isinstance(mark, Drilled)]
 
     def routes(self) -> list[PlacedRoute]:
-        """What is cut and how it is moved between, as `skg.tape.layout.place` has it."""
+        """The routes, cuts and moves, as of `skg.tape.layout.place`."""
         from skg.tape.layout import PlacedRoute
 
         laid, parts = self.path.laid(), self.path.parts()
         return [PlacedRoute(laid[part.first : part.last], part.is_move) for part in parts if isinstance(part, GcodeRun)]
 
     def heights(self) -> str:
-        """What there is to say of the heights of cuts, holes and moves; empty where none is known."""
+        """Describe the heights of cuts, holes and moves; empty where none is known."""
         holes = self._drilled
         deep = list(dict.fromkeys(hole.depth for hole in holes if hole.depth is not None))
         said = [
@@ -153,7 +153,7 @@ class GcodeProgram:
         return ", ".join(filter(None, said))
 
     def left_out(self) -> tuple[str, ...]:
-        """What a 3B tape of the same path has no word for, to be said."""
+        """Describe what a 3B tape of the same path leaves out."""
         holes = len(self._drilled)
         said = [
             _counted_holes(holes) if holes else "",

@@ -92,7 +92,7 @@ class _Reader:
             self.mark(Stop(self.blocks))
 
     def is_apart(self, text: str) -> bool:
-        """Whether a line is no block of words: what begins and ends a file, or is between a person and GRBL."""
+        """Tell whether a line is no block of words: what begins and ends a file, or is between a person and GRBL."""
         if mark := _MARK.fullmatch(text):
             self.findings.warn(1, f"GRBL does not know {mark[1]}")
         elif system := _SYSTEM.fullmatch(text):
@@ -126,7 +126,7 @@ class _Reader:
             self.home = self.spot = _rounded(self.at)
 
     def move(self, values: dict[str, Word]) -> None:
-        """What a block that moves does."""
+        """Carry out a block that moves."""
         modes = self.modes
         column = next(iter(values.values())).column
         if modes.motion is None:
@@ -156,7 +156,7 @@ class _Reader:
         self.at, self.spot = goal, end
 
     def cuts(self, lowest: Decimal | None, feeds: bool, moves: bool) -> bool:
-        """Whether a move that comes down to `lowest` cuts; its height is one of cuts or of travel."""
+        """Tell whether a move that comes down to `lowest` cuts; its height is one of cuts or of travel."""
         if moves and lowest is not None and not feeds:
             self.tool.rapid_heights.add(lowest)
         cuts = feeds and not (moves and self.tool.is_idle(lowest))
@@ -165,7 +165,7 @@ class _Reader:
         return cuts
 
     def is_no_way(self, values: dict[str, Word], goal: tuple[Decimal, Decimal], end: Spot) -> bool:
-        """Whether an arc ends less than 1 µm ahead of where it begins: rounded it would be a full circle."""
+        """Tell whether an arc ends less than 1 µm ahead of where it begins: rounded it would be a full circle."""
         x, y = (float(to - here) for to, here in zip(goal, self.at, strict=True))
         return (x, y) != (0, 0) and end == self.spot and arcs.is_no_way(self.modes, values, x, y)
 
@@ -176,7 +176,7 @@ class _Reader:
             self.findings.warn(column, "cuts, and there has been no F")
 
     def place(self, values: dict[str, Word], feeds: bool) -> tuple[Decimal, Decimal]:
-        """Where a line goes to in the plane, µm."""
+        """Return a line's goal in the plane, µm."""
         goal = tuple(
             self.modes.goal(values, letter, here, self.origin[letter])
             for letter, here in zip("XY", self.at, strict=True)
@@ -270,12 +270,12 @@ class _Reader:
             self.path.lay(block, self.blocks, start, end, not cuts)
 
     def notes(self) -> tuple[str, ...]:
-        """What there is to say of what does not cut."""
+        """Describe what does not cut."""
         return (_GOES_ONLY,) if self.goes_only else self.tool.notes()
 
     @property
     def goes_only(self) -> bool:
-        """Whether there are rapids and nothing else."""
+        """Tell whether there are rapids and nothing else."""
         return self.has_rapids and not self.begun
 
 

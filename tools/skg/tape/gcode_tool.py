@@ -1,4 +1,4 @@
-"""What of G-code does not cut: when beam, spindle or pen are off, and above which height the tool is up.
+"""Moves of G-code that do not cut: beam, spindle or pen off, or the tool up.
 
 What a program says of them is gathered while it is read; only then it is known which moves with G1 to G3 do not cut,
 and it is read again with that.
@@ -31,8 +31,8 @@ _CHANGES = 3
 
 @dataclass(frozen=True)
 class Idle:
-    """Where G1 to G3 do not cut: while the beam that is switched by `beam` (one of `_SWITCHES`, empty: none) is off;
-    at the height `above` (µm) and over it (None: nowhere)."""
+    """Conditions under which G1 to G3 do not cut: while the beam that is switched by `beam` (one of `_SWITCHES`,
+    empty: none) is off; at the height `above` (µm) and over it (None: nowhere)."""
 
     beam: str = ""
     above: Decimal | None = None
@@ -75,7 +75,7 @@ class Tool:
             self.power = power
 
     def is_idle(self, height: Decimal | None) -> bool:
-        """Whether a move with G1 to G3, no lower than `height`, does not cut; counts it."""
+        """Tell whether a move with G1 to G3, no lower than `height`, does not cut; counts it."""
         self.feeds += 1
         for name, is_on in self.is_on.items():
             if not is_on or (name == _BEAM and self.power == 0):
@@ -95,7 +95,7 @@ class Tool:
         return is_dark or is_up
 
     def is_dark(self, beam: str) -> bool:
-        """Whether a beam is off."""
+        """Tell whether a beam is off."""
         return not self.is_on[beam] or (beam == _BEAM and self.power == 0)
 
     @property
@@ -104,7 +104,7 @@ class Tool:
         return {beam: line for beam, line in self.turned_on.items() if 0 < self.dark[beam] == self.feeds}
 
     def idle_in_all(self) -> Idle:
-        """Where G1 to G3 do not cut in a program that has been read through.
+        """Return the conditions under which G1 to G3 do not cut in a program that has been read through.
 
         A beam that some of them find on and others off. The height of the rapids, when all other heights are lower;
         without rapids in the plane the upper one of two heights, above 0, when it goes up and down between them.
@@ -121,7 +121,7 @@ class Tool:
         return Idle(beam if beam and 0 < self.dark[beam] < self.feeds else "", above if is_up else None)
 
     def notes(self) -> tuple[str, ...]:
-        """What there is to say of moves with G1 to G3 that do not cut."""
+        """Describe moves with G1 to G3 that do not cut."""
         up = "" if self.idle.above is None else f"the tool is up, {several([self.idle.above])}"
         why = " or ".join(filter(None, [self.idle.beam and f"the beam is off ({self.idle.beam})", up]))
         said = f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}" if self.idled else ""

@@ -16,7 +16,7 @@ _TEXTS = {117, 118}
 
 
 class Misread(Exception):
-    """What cannot be read, at a column, from 1."""
+    """A text that cannot be read, at a column, from 1."""
 
     def __init__(self, column: int, message: str) -> None:
         super().__init__(message)
@@ -41,18 +41,18 @@ class GcodeFinding:
 
 
 class Findings:
-    """What is wrong in a program that is being read; `line`, from 1, is the one that is read."""
+    """Findings in a program that is being read; `line`, from 1, is the current one."""
 
     def __init__(self) -> None:
         self.line = 0
         self.all: list[GcodeFinding] = []
 
     def misread(self, error: Misread) -> None:
-        """What cannot be read."""
+        """Add an error: a text that cannot be read."""
         self.all.append(GcodeFinding(self.line, error.column, str(error)))
 
     def warn(self, column: int, message: str, is_guess: bool = False) -> None:
-        """What can be read, and yet stops a control, or might be meant otherwise."""
+        """Add a warning: a text that stops some controls, or might be meant otherwise."""
         self.all.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
 
 

@@ -60,7 +60,7 @@ class PlacedRoute:
 
     @property
     def start(self) -> XY:
-        """Where the route begins, µm."""
+        """Start of the route, µm."""
         return self.blocks[0].start
 
     @property
@@ -209,7 +209,7 @@ def _apart(one: XY, other: XY) -> float:
 
 
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:
-    """Where the controller stops, µm, each place once; `home` is where the tape begins."""
+    """Places of stops, µm, each once; `home` is the start of the tape."""
     found, laid = [home], iter(routes)
     for first, last in tape.bounds[:-1]:
         found.append(next(laid).blocks[-1].end if first < last else found[-1])

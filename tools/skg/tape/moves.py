@@ -1,4 +1,4 @@
-"""Where the blocks of a tape should end, and where the controller goes with them (see `skg.tape.controller`)."""
+"""Moves of a tape's blocks: as programmed, and as the controller goes (see `skg.tape.controller`)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FIELDS = [name for name, _ in State._fields_]
 
 @dataclass(frozen=True)
 class Walk:
-    """What the controller made of blocks, a row for each: as `Outcome` of one."""
+    """The controller's outcome of blocks, a row for each: as `Outcome` of one."""
 
     moves: Whole
     steps: Whole
@@ -112,7 +112,7 @@ def walk(
 
 
 def machine_moves(tape: Tape) -> Whole:
-    """Where the controller goes with each block of a tape (n × 2); an arc that never ends is a `UserError`."""
+    """Return the controller's move of each block of a tape (n × 2); an arc that never ends is a `UserError`."""
     return kept(tape, "machine moves", lambda: _machine_moves(tape))
 
 
@@ -156,6 +156,6 @@ def _doubts(arcs: Columns, axis: int) -> Floats:
 
 
 def _may_give(arcs: Columns, axis: int, way: int) -> Flags:
-    """Whether the count direction is still right when an arc's end moves by a µm across it."""
+    """Tell whether the count direction is still right when an arc's end moves by a µm across it."""
     other, along = abs(arcs.ends[:, axis] + way), abs(arcs.ends[:, 1 - axis])
     return np.where(arcs.counts_y, along < other, along <= other)

@@ -1,4 +1,4 @@
-"""Where the blocks of a tape start: as it says, else as on a tape with drift."""
+"""Start positions of a tape's blocks: as its name or an option says, else as on a tape with drift."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ _MEANING = {"programmed": "with drift (programmed)", "machine": "without drift (
 
 @dataclass(frozen=True)
 class Decision:
-    """Where a tape's blocks start, "programmed" or "machine", and why (empty: the option said it, or both are the same
-    to the micrometre)."""
+    """Start positions of a tape's blocks, "programmed" or "machine", and why (empty: the option said it, or both are
+    the same to the micrometre)."""
 
     positions: str
     why: str = ""

@@ -76,7 +76,7 @@ class _StyleReader:
     blocks: int = 0
 
     def error(self, at: int, message: str) -> UserError:
-        """What is wrong at a place of the text."""
+        """Raise an error at a place of the text."""
         line = self.text.count("\n", 0, at) + 1
         column = at - (self.text.rfind("\n", 0, at) + 1) + 1
         return UserError(f"{self.name}: line {line}, column {column}: {message}")
@@ -158,7 +158,7 @@ class _StyleReader:
         self._note(end is None, "no DD at the end")
 
     def styled(self) -> bool:
-        """Whether the tape is in another style than the punch's own."""
+        """Tell whether the tape is in another style than the punch's own."""
         return any(self.seen.values())
 
     def _number(self, match: re.Match[str]) -> None:
@@ -223,7 +223,7 @@ class _StyleReader:
 
 
 def _found(text: str, at: int) -> str:
-    """What stands at a place, for a message."""
+    """Quote the text at a place, for a message."""
     if at >= len(text):
         return "the end of the tape"
     word = re.match(r"\w+|.", text[at:])[0][:20]

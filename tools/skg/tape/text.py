@@ -50,7 +50,7 @@ class _Scanner:
         raise _Unexpected(self.at, f"expected {expected or words[0]}, found {self.found()}")
 
     def found(self) -> str:
-        """What stands here, for a message."""
+        """Quote the text here, for a message."""
         if self.at >= len(self.text):
             return "the end of the line"
         character = self.text[self.at]
@@ -151,7 +151,7 @@ class _Reading:
             self._find(self.number, error.at, str(error))
 
     def _behind(self, rest: str) -> None:
-        """What stands behind DD."""
+        """Report text behind DD."""
         if rest:
             self._find(self.number, 0, f"expected nothing after DD, found {_Scanner(rest).found()}")
 
