@@ -1,4 +1,4 @@
-"""Tell whether the wire has been beside every place of the contours that it can reach: the second half of the check."""
+"""The second half of the check: the wire was beside every place of the contours that it can reach."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tell whether every place of the wire lies as far beside its contour as it should: the first half of the check.
+"""The first half of the check: every place of the wire lies at its distance beside the contour.
 
 At a sharp corner, outside, it lies so beside the line or circle there, and elsewhere on a way between start hole and
 contour. What comes near to other contours is gathered, too.
