@@ -152,8 +152,28 @@ def test_passes_on_the_contour(run: Run, tmp_path: Path) -> None:
     """Without an offset each contour is cut as often as is asked: the report and the sheet say so."""
     sheet = tmp_path / "sheet.svg"
     told = run("cut", BRACKET, "-o", tmp_path / "part.3b", "--passes", "0,0", "--sheet", sheet).stderr
-    assert "the wire's middle runs on the contours in 2 passes, every second one backwards: no --offset" in told
+    assert "the wire's middle runs on the contours in 2 passes, every second one backwards: " in told
     assert "2, every second one backwards" in sheet.read_text()
+
+
+@pytest.mark.parametrize(
+    ("shape", "words", "is_said"),
+    [("round", [], True), ("round", ["--offset", 0.1], False), ("round", ["--wire", 0.2], False), ("open", [], False)],
+)
+def test_closed_contours_without_a_wire_are_said(
+    run: Run, tmp_path: Path, shape: str, words: list[object], is_said: bool
+) -> None:
+    """The part comes out smaller by half the kerf: with --quiet, too. One start hole of a sheet is one."""
+    page = drawing()
+    if shape == "round":
+        page.modelspace().add_circle((0, 0), 20)
+    else:
+        page.modelspace().add_line((0, 0), (20, 0))
+    path, sheet = saved(page, tmp_path), tmp_path / "sheet.svg"
+    told = run("cut", path, "-o", tmp_path / "part.3b", *words, "--sheet", sheet, "--quiet").stderr
+    lines = [line for line in told.splitlines() if "--wire" in line and "--offset" in line]
+    assert len(lines) == is_said and all(line.startswith("take care") for line in lines)
+    assert "1, 1 start hole<" in sheet.read_text()
 
 
 def _cost(words: list[object]) -> tuple[float, int]:

@@ -13,6 +13,10 @@ from shapely.geometry import Point
 from test_cut import start_of
 from toolhelp import Run
 
+from skg.geometry.contour import Contour, Edge
+from skg.planning.islands import islands
+from skg.planning.route import PlannedContour
+
 OFFSET = 0.1
 PLATE = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]
 FRAME = [(-30.0, -30.0), (100.0, -30.0), (100.0, 100.0), (-30.0, 100.0)]
@@ -137,3 +141,18 @@ def test_layers_of_svg(run: Run, tmp_path: Path) -> None:
     )
     (ring,), told = ways(run, path, "--layer", "HOLES")
     assert shapely.Polygon(ring).area < 16 * 3.1416 and "take care: 1 opening" in told
+
+
+def test_what_goes_with_an_opening_that_is_left_out() -> None:
+    """What lies in it, deeper: not an opening beside it that crosses it, nor the part around it."""
+
+    def rectangle(left: float, low: float, right: float, high: float, depth: int) -> PlannedContour:
+        corners = [(left, low), (right, low), (right, high), (left, high)]
+        edges = map(Edge, corners, corners[1:] + corners[:1])
+        return PlannedContour(Contour(tuple(edges), True), corners[0], 0.5, 0.1, depth)
+
+    elsewhere, part = rectangle(100, 0, 110, 10, 1), rectangle(-50, -50, 60, 60, 2)
+    opening, inner, crossing = rectangle(0, 0, 10, 10, 3), rectangle(1, 1, 2, 2, 4), rectangle(2, 4, 12, 8, 3)
+    routes = [part, elsewhere, opening, inner, crossing]
+    assert islands(routes, [1, 2]) == {3: 2}
+    assert islands(routes, [1, 4]) == {} == islands(routes, [])

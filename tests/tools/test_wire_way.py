@@ -451,3 +451,31 @@ def test_what_the_wire_stays_off_is_said_beside_other_lines(run: Run, tmp_path: 
     lines = [line for line in words.splitlines() if "more such" in line or "lead along" in line or "stays" in line]
     assert sum("lead along an arc: it is straight" in line for line in lines) == 5
     assert "more such contour" in lines[5] and lines[6].startswith("take care: contour ")
+
+
+@pytest.mark.parametrize(
+    ("wide", "deep", "is_refused"),
+    [(1.9, 1.9, False), (1.9, 2.1, True), (1.9, 3.0, True), (1.9, 3.9, True), (1.9, 9.0, True), (2.1, 3.0, False)],
+)
+@pytest.mark.parametrize("r", [0.1, -0.1, 2.0])
+def test_a_slot_is_no_corner(wide: float, deep: float, is_refused: bool, r: float) -> None:
+    """A slot too narrow for the wire is passed over while its sides are no longer than two R: then it is a notch."""
+    half, deep, size = wide * abs(r) / 2, deep * abs(r), 40 * abs(r)
+    # The slot goes into the part from above; with R negative the wire runs on the left, so the way is turned round.
+    corners = [
+        (-size, 0),
+        (-size, -size),
+        (size, -size),
+        (size, 0),
+        (half, 0),
+        (half, -deep),
+        (-half, -deep),
+        (-half, 0),
+    ]
+    corners = corners if r > 0 else corners[::-1]
+    contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+    if is_refused:
+        with pytest.raises(NoRoom, match="does not come to"):
+            wire_way(contour, r)
+    else:
+        assert wire_way(contour, r)

@@ -135,6 +135,7 @@ def command(
     layers: tuple[str, ...],
     units: str | None,
     opened: str | None,
+    encoding: str | None,
     starts: tuple[XY, ...],
     start_layer: str,
     lead: float,
@@ -162,12 +163,14 @@ def command(
     from skg.cutting.settings import Settings
 
     if list_layers:
-        for line in layer_lines(read_bytes(file), file):
+        for line in layer_lines(read_bytes(file), file, Wishes(encoding=encoding)):
             click.echo(line)
         return
     distance = _offset(wire, gap, offset)
     form = picture_format(sheet, None) if sheet else ""
-    wishes = Wishes(layers, start_layer, units, tolerance, fit_tolerance, opened or ("refuse" if distance else "cut"))
+    wishes = Wishes(
+        layers, start_layer, units, tolerance, fit_tolerance, opened or ("refuse" if distance else "cut"), encoding
+    )
     data = read_bytes(file)
     reading = read(data, file, wishes)
     factor = reading.report.factor

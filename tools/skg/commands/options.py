@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 from collections.abc import Callable
 from functools import wraps
 from importlib.util import find_spec
@@ -162,6 +163,11 @@ def drawing_options(function: Callable) -> Callable:
             help="What becomes of open contours. Default: cut without an offset, refuse with one.",
         ),
         click.option(
+            "--encoding",
+            type=Encoding(),
+            help="Encoding of a DXF file's names, such as GBK. Default: what the file says, else guessed.",
+        ),
+        click.option(
             "--side",
             default="auto",
             show_default=True,
@@ -194,6 +200,19 @@ def drawing_options(function: Callable) -> Callable:
     )[::-1]:
         function = option(function)
     return function
+
+
+class Encoding(click.ParamType):
+    """The name of an encoding of text."""
+
+    name = "NAME"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the name as Python has it."""
+        try:
+            return codecs.lookup(str(value)).name
+        except LookupError:
+            self.fail(f"{value!r}: unknown, expected one such as GBK, Big5, Shift_JIS or Windows-1251", param, ctx)
 
 
 def skg80_option(function: Callable) -> Callable:

@@ -70,9 +70,12 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
     passes = next((route.passes for route in routes if any(route.passes)), ())
     on = sum(not any(route.passes) for route in routes)
     if not passes:
-        why = "they are open" if offset and not any(route.contour.is_closed for route in routes) else "--side on"
+        is_any_closed = any(route.contour.is_closed for route in routes)
         often = max(len(route.passes) for route in routes)
-        return [f"the wire's middle runs on the contours{_passes(often)}: {why if offset else 'no --offset'}"]
+        line = f"the wire's middle runs on the contours{_passes(often)}: "
+        if offset or not is_any_closed:
+            return [line + ("--side on" if is_any_closed else "they are open")]
+        return [f"take care: {line}no --wire and no --offset, outlines come out smaller by half a kerf all around"]
     lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours{_passes(len(passes))}"]
     if len(passes) > 1:
         free = [at + 1 for at, route in enumerate(routes) if route.contour.is_closed and not route.tab]

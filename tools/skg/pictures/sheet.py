@@ -27,7 +27,7 @@ from skg.pictures.plot import FEW, outlines
 from skg.planning.route import PlannedContour
 from skg.tape.layout import Laid
 from skg.tape.simulation import duration
-from skg.wording import short, shown
+from skg.wording import counted, short, shown
 
 #: The page lies on its side: A4, and A3 where A4 has no room for the table; mm.
 _A4, _A3 = (297.0, 210.0), (420.0, 297.0)
@@ -408,8 +408,8 @@ class SetupSheet:
             (
                 ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
                 ("read in", facts.units),
-                ("contours", f"{len(job.routes)}, {len(job.routes)} start holes"),
-                ("stops", f"{len(job.tape.stops)}; {len(job.tape.blocks)} blocks"),
+                ("contours", f"{len(job.routes)}, {counted(len(job.routes), 'start hole')}"),
+                ("stops", f"{len(job.tape.stops)}; {counted(len(job.tape.blocks), 'block')}"),
             ),
             (
                 ("wire", wire),

@@ -12,6 +12,8 @@ from skg.wording import counted, short, shown
 
 #: Why what only writes on a drawing, or fills what is drawn, is left.
 NOTE = "nothing to cut"
+#: No gap that is wider than the wires are was meant to be closed, mm.
+WIRE = 0.3
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
 
@@ -71,9 +73,10 @@ class OpenEnd:
     @property
     def advice(self) -> str:
         """Advice for closing the gap."""
-        if self.can_join:
+        if self.can_join and self.gap <= WIRE:
             return f"--tolerance {above(self.gap)} joins them"
-        return "wider than the shortest edge, so --tolerance is no help: close it in the drawing"
+        why = "a wire" if self.gap > WIRE else "the shortest edge"
+        return f"wider than {why}, so --tolerance is no help: close it in the drawing"
 
 
 @dataclass(frozen=True)

@@ -62,12 +62,13 @@ class DxfFile:
     notes: list[str] = field(default_factory=list)
 
 
-def load(data: bytes) -> DxfFile:
-    """Read a DXF file's bytes, text or binary; what is none is a `UserError`."""
+def load(data: bytes, encoding: str | None = None) -> DxfFile:
+    """Read a DXF file's bytes, text or binary; what is none is a `UserError`. `encoding`: of a text, None: as the file
+    says, else guessed."""
     found = DxfFile()
     section = ""
     block: Definition | None = None
-    for record in _records(_groups(data, found.notes)):
+    for record in _records(_groups(data, encoding, found.notes)):
         kind = record.kind
         if kind == "SECTION":
             section, block = record.value(2).strip().upper(), None
@@ -89,7 +90,7 @@ def load(data: bytes) -> DxfFile:
     return found
 
 
-def _groups(data: bytes, notes: list[str]) -> Iterator[Group]:
+def _groups(data: bytes, encoding: str | None, notes: list[str]) -> Iterator[Group]:
     """A file's groups, told by its first bytes what kind it is; what is odd about it goes to `notes`."""
     if data[:4] == b"AC10" and data[4:6].isdigit():
         raise UserError("a DWG file, expected DXF: save it as DXF")
@@ -100,7 +101,7 @@ def _groups(data: bytes, notes: list[str]) -> Iterator[Group]:
     if b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
         kind = kind_of(data)
         raise UserError(f"{kind}, expected a drawing" if kind else "not a DXF drawing, it has no SECTION")
-    return _of_text(_decoded(data), notes)
+    return _of_text(_decoded(data, encoding, notes), notes)
 
 
 def _of_tables(found: DxfFile, section: str, record: Record) -> None:
@@ -196,8 +197,15 @@ def _of_binary(data: bytes) -> Iterator[Group]:
         raise UserError(f"not a binary DXF drawing that can be read ({error or type(error).__name__})") from None
 
 
-def _decoded(data: bytes) -> str:
-    """The text of a file: UTF-8 where it is that, else the code page that it tells."""
+def _decoded(data: bytes, encoding: str | None, notes: list[str]) -> str:
+    """The text of a file: in an encoding, else UTF-8 where it is that, else in the code page that it tells or that is
+    guessed."""
+    if encoding:
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError as error:
+            line = data.count(b"\n", 0, error.start) + 1
+            raise UserError(f"line {line}: not in the encoding {encoding}") from None
     for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"\xef\xbb\xbf", "utf-8-sig")):
         if data.startswith(mark):
             return data.decode(encoding, "replace")
@@ -206,11 +214,25 @@ def _decoded(data: bytes) -> str:
     except UnicodeDecodeError:
         page = re.search(rb"\$DWGCODEPAGE\s+3\s+(\S+)", data)
         if not page:
-            return data.decode("cp1252", "replace")
+            guess = "gbk" if _is_chinese(data) else "cp1252"
+            name = {"gbk": "GBK", "cp1252": "Windows-1252"}[guess]
+            notes.append(f"the file does not tell its encoding: names read in {name}, --encoding sets another")
+            return data.decode(guess, "replace")
         from skg.reading import slow_dxf  # (as above)
 
         encoding = slow_dxf.encoding(page[1].decode("ascii", "replace"))
         return data.decode("cp1252" if encoding == "utf8" else encoding, "replace")
+
+
+def _is_chinese(data: bytes) -> bool:
+    """Tell whether what is not ASCII in a text is Chinese: pairs of bytes, most of them usual characters. (A western letter
+    and what follows it are a pair, too, but of a rare one.)"""
+    try:
+        found = [character.encode("gbk") for character in data.decode("gbk") if character > "\x7f"]
+    except UnicodeDecodeError:
+        return False
+    usual = sum(0xB0 <= first <= 0xD7 and second >= 0xA1 for first, second in found)
+    return 2 * usual > len(found)
 
 
 def _variable(header: list[Group], wanted: str) -> str:

@@ -35,6 +35,8 @@ USUAL = 3.0, 10_000.0
 DOUBTED = 25.4
 #: A larger part hardly lies on a wire machine, mm.
 LARGE = 1000.0
+#: A part that is larger is said unless its units were asked for, mm.
+HUGE = 2000.0
 #: No drawing that is cut has a larger side, mm.
 FARTHEST = 50_000.0
 #: The units that a drawing may be in. (In mil write programs for boards that do not tell it)
@@ -120,10 +122,10 @@ def _near_origin(reading: Reading) -> Reading:
     return Reading(contours, [shifted(at, by) for at in reading.starts], report, others)
 
 
-def layer_lines(data: bytes, name: str) -> list[str]:
+def layer_lines(data: bytes, name: str, wishes: Wishes) -> list[str]:
     """List the entities of each layer of a drawing file, a line each."""
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
-    for entity in _content(data, name, Wishes())[0].entities:
+    for entity in _content(data, name, wishes)[0].entities:
         kinds[entity.layer][entity.kind] += 1
     return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)]
 
@@ -131,8 +133,10 @@ def layer_lines(data: bytes, name: str) -> list[str]:
 def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """Return a file's content, and an account that has its units."""
     if svg_file.is_svg(data, name):
+        if wishes.encoding:
+            raise UserError("--encoding is for DXF: an SVG file tells its own")
         return _svg_content(data, name, wishes)
-    file = dxf_file.load(data)
+    file = dxf_file.load(data, wishes.encoding)
     unknown = f"{NOT_TOLD}; its $MEASUREMENT is that of inches" if file.is_imperial else NOT_TOLD
     units = (*file.units, TOLD) if file.units else ("mm", 1.0, unknown)
     if wishes.units:
@@ -210,7 +214,8 @@ def _check_size(report: Account) -> None:
             f"give --units, or --layer for a part{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
         )
     other = _in_other_units(report, LARGE) or _in_other_units(report) * (max(report.size) > USUAL[1])
-    if report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE:
+    is_odd = report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE
+    if is_odd:
         # (programs write the units that they were last set to)
         report.notes.append(f"take care: {width} x {height} mm is an odd size{other}: --units says so")
     if not is_told and other and max(report.size) < DOUBTED:
@@ -222,6 +227,8 @@ def _check_size(report: Account) -> None:
         report.notes.append(
             f"take care: {width} x {height} mm is large, and the units are guessed{other}: --units says so"
         )
+    elif max(report.size) > HUGE and not is_odd and report.units_from != ASKED:
+        report.notes.append(f"take care: {width} x {height} mm is more than {HUGE / 1000:g} m: --units sets others")
 
 
 def _in_other_units(report: Account, most: float = USUAL[1], units: tuple[str, ...] = GUESSED[:3]) -> str:

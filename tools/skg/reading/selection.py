@@ -28,6 +28,8 @@ PAST = "runs past a corner"
 OPENED = "of an open contour"
 #: What is short or drawn twice is cut with its neighbour, what runs past a corner is said by itself.
 _WITH_OTHERS = (SHORT, DOUBLE, PAST)
+#: What is left without anybody's asking for it; it is said when that is more than this part of what is cut.
+_UNASKED, _MUCH = (JUNCTION, DASHED, AXIS), 0.1
 #: Ends of what is left that are no further apart may be meant to meet, mm.
 _GAP = 0.1
 
@@ -122,9 +124,9 @@ class Selection:
         """Select outlines and the rest by --open and --layer; open dashes are left."""
         if self.wishes.open == "all":
             return kept + rest, []
-        if self.wishes.open == "cut" and rest and not kept:
+        if self.wishes.open == "cut" and rest and not any(one.is_closed for one in kept):
             self.report.notes.append("no closed outline: what meets at junctions or crosses is cut as it is drawn")
-            kept, rest = rest, []
+            kept, rest = kept + rest, []
         dashed = {at for at, one in enumerate(kept) if self.fates.is_dashed(one)}
         if self.wishes.layers or not any(one.is_closed and at not in dashed for at, one in enumerate(kept)):
             return kept, rest
@@ -136,7 +138,7 @@ class Selection:
 
 class Fates:
     """The fate of each entity's edges. `doubles`: runs of those drawn twice, with an edge of what each was drawn
-    on: where that one is left, they are left with it."""
+    on: where that one is left, they are left with it. `lost`: what is left of each layer unasked, mm."""
 
     def __init__(self, content: Content, factor: float, tolerance: float) -> None:
         self.entities = content.entities
@@ -145,11 +147,14 @@ class Fates:
         self.doubles: list[tuple[tuple[Edge, ...], Edge]] = []
         self.parts = Counter(edge.entity for edge in content.edges)
         self.gone: dict[int, Counter[str]] = defaultdict(Counter)
+        self.lost: dict[str, float] = defaultdict(float)
 
     def of_edges(self, edges: Iterable[Edge], why: str) -> None:
         """Say why edges are not cut."""
         for edge in edges:
             self.gone[edge.entity][why] += 1
+            if why in _UNASKED:
+                self.lost[self.entities[edge.entity].layer] += edge.length
 
     def of_pieces(self, pieces: list[Edge], why: str) -> None:
         """Say why pieces are not cut that edges were divided into."""
@@ -172,6 +177,7 @@ class Fates:
         """Put the sums of the layers into the report; one that does not agree is a `UserError`."""
         cut = Counter(edge.entity for contour in contours for edge in contour.edges)
         self._account_doubles(contours, cut, report)
+        report.notes += self._much_left(contours)
         sums: dict[str, LayerSum] = {}
         for at, entity in enumerate(self.entities):
             layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
@@ -203,6 +209,18 @@ class Fates:
                 dashed[entity.dashes].append(entity)
         for name, some in dashed.items():
             report.notes += said(some, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
+
+    def _much_left(self, contours: list[Contour]) -> Iterator[str]:
+        """Report that much of the layers that are cut is left, which nobody asked for."""
+        edges = [edge for contour in contours for edge in contour.edges]
+        layers = {self.entities[edge.entity].layer for edge in edges}
+        cut = sum(edge.length for edge in edges)
+        left = sum(length for layer, length in self.lost.items() if layer in layers)
+        if left > _MUCH * cut:
+            yield (
+                f"take care: {short(left)} mm on the layers that are cut are left, {short(cut)} mm are cut: --open all "
+                "cuts all of it"
+            )
 
     def _account_doubles(self, contours: list[Contour], cut: Counter[int], report: Account) -> None:
         """Say of what is drawn twice whether the other one is cut, and if not why."""
@@ -240,7 +258,7 @@ def _between(runs: list[Contour], factor: float) -> Iterator[str]:
     """Report uncut lines that divide a cut contour."""
     if runs:
         yield (
-            f"{counted(len(runs), 'line')} from edge to edge of what is cut, as at "
+            f"take care: {counted(len(runs), 'line')} from edge to edge of what is cut, as at "
             f"{shown(in_file(runs[0].edges[0].start, factor))}: if parts share such edges, --open all cuts them"
         )
 
