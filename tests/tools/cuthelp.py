@@ -58,7 +58,7 @@ def along(block: Block, at: XY) -> tuple[list[XY], XY]:
 
 
 def stretches(data: bytes, start: XY) -> Iterator[list[XY]]:
-    """The places of the wire between stops; moves between start holes are passed over."""
+    """The places of the wire between stops; moves between start holes are ignored."""
     at = start
     for number, blocks in enumerate(tapes.parse(data, "tape").stretches()):
         places = [at]

@@ -172,7 +172,7 @@ def test_work_for_each_block() -> None:
 @given(st.lists(st.builds(Block, *[st.integers(0, 30)] * 2, st.integers(0, 150), st.sampled_from("XY"),
                           st.sampled_from(CODES)), min_size=1), st.lists(blocks(), max_size=5))  # fmt: skip
 def test_what_is_plainly_sound_is_sound(any_: list[Block], sound: list[Block]) -> None:
-    """On any block: nothing that is wrong is passed over; and of sound ones it is most."""
+    """On any block: nothing that is wrong is ignored; and of sound ones it is most."""
     plainly = Columns.of([*any_, *sound]).is_plainly_sound.tolist()
     for block, is_sound in zip([*any_, *sound], plainly, strict=True):
         assert not (is_sound and (block.problems() or block.problems("programmed"))), block

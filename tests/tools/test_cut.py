@@ -120,11 +120,11 @@ def test_odd_options_are_refused(run: Run, tmp_path: Path, words: list[object], 
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["-o", ""], "output: a file without a name"),
-        (["-o", "part.3b", "--sheet", ""], "sheet: a file without a name"),
+        (["-o", ""], "output: empty file name"),
+        (["-o", "part.3b", "--sheet", ""], "sheet: empty file name"),
         (["-o", "part.3b", "--layer", "PRT"], "no layer 'PRT', did you mean PART? It has 0, Defpoints, NOTES, PART"),
-        (["--sheet", "-"], "-: the standard output is to be written twice"),
-        (["-o", "-", "--program", "-"], "-: the standard output is to be written twice"),
+        (["--sheet", "-"], "-: two files for the standard output"),
+        (["-o", "-", "--program", "-"], "-: two files for the standard output"),
     ],
 )
 def test_odd_names_are_refused(
@@ -437,7 +437,7 @@ def test_everyone_who_is_cut_into_is_named(run: Run, tmp_path: Path) -> None:
     words = ["cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--lead", 0.5]
     refused = run_failing(run, *words)
     assert re.search(
-        r"contour \d \(outline from \(\S+, \S+\), layer 0\): its wire would come 0.1 mm or more into contour \d "
+        r"contour \d \(outline from \(\S+, \S+\), layer 0\): its wire would gouge 0.1 mm or more into contour \d "
         r"\(outline from \(\S+, \S+\), layer 0\) at \(\S+, \S+\); 7 more cuts into other contours: .* --into cut$",
         refused.strip(),
     ), refused
@@ -466,7 +466,7 @@ def test_edges_that_are_cut_away_are_not_spoiled(run: Run, tmp_path: Path, windo
         assert LineString(way).distance(part) == pytest.approx(0.2, abs=LIMIT)
     polygon([(20.1, 7), (23, 7), (23, 10), (20.1, 10)], page)
     saved(page, tmp_path)
-    assert "its wire would come 0.2 mm or more into contour" in run_failing(run, *words, "--offset", 0.2)
+    assert "its wire would gouge 0.2 mm or more into contour" in run_failing(run, *words, "--offset", 0.2)
 
 
 @pytest.mark.parametrize(
@@ -489,7 +489,7 @@ def test_what_crosses_and_is_no_window_is_refused(run: Run, tmp_path: Path, othe
     for corners in ([(0, 0), (20, 0), (20, 15), (0, 15)], *others):
         polygon(corners, page)
     told = run_failing(run, "cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.2)
-    assert "its wire would come 0.2 mm or more into contour" in told and "; 1 more cut into" in told, told
+    assert "its wire would gouge 0.2 mm or more into contour" in told and "; 1 more cut into" in told, told
 
 
 def test_an_opening_that_crosses_itself_and_the_edge(run: Run, tmp_path: Path) -> None:
@@ -566,8 +566,8 @@ def test_what_is_left_out_of_a_drawing_that_says_metres(run: Run, tmp_path: Path
     ("side", "said"),
     [
         ("auto", []),
-        ("outside", ["outside of 1 opening (contour 1), as --side says: 0.4 mm wider than drawn"]),
-        ("inside", ["inside of 1 outline (contour 2), as --side says: 0.4 mm smaller than drawn"]),
+        ("outside", ["outside of 1 opening (contour 1): 0.4 mm wider than drawn, because of --side"]),
+        ("inside", ["inside of 1 outline (contour 2): 0.4 mm smaller than drawn, because of --side"]),
         ("on", []),
     ],
 )
@@ -664,8 +664,8 @@ def allow(limit: float, monkeypatch: pytest.MonkeyPatch) -> None:
     ("words", "advice"),
     [
         (["--rom", "standard"], "--rom no-drift is nearer"),
-        (["--offset", 0.2], "another --offset, --start or --side may do, or draw the line from (0, 0) to (20, 3) anew"),
-        ([], "draw the line from (0, 0) to (20, 3) anew, 20.2237 long, or what meets it"),
+        (["--offset", 0.2], "another --offset, --start or --side may do, or redraw the line from (0, 0) to (20, 3)"),
+        ([], "redraw the line from (0, 0) to (20, 3), 20.2237 long"),
     ],
 )
 def test_what_to_do_where_the_wire_is_off_is_said(

@@ -152,7 +152,7 @@ def test_any_arc_ends_where_it_is_said_to(given_arc: tuple[Grid, Grid, bool, flo
 
 def test_command_line(run: Run, tmp_path: Path) -> None:
     part = ROOT / "examples" / "skg06-belts.skg"
-    tape = tmp_path / "belts.3b"
+    tape = tmp_path / "belts.nodrift.3b"
     assert run("ref", "--no-drift", part, "-o", tape).exit_code == 0
     assert tape.read_bytes() != part.with_suffix(".3b").read_bytes()
     assert run("check", tape).exit_code == 0

@@ -542,7 +542,7 @@ def test_no_outline(run_program: Run, tmp_path: Path) -> None:
     branching().saveas(tmp_path / "star.dxf")
     result = program_by(run_program, tmp_path / "star.dxf")
     assert result.returncode == 0
-    assert "no closed outline: what meets at junctions or crosses is cut as it is drawn\n" in result.stderr
+    assert "no closed outline: lines that meet at junctions or cross are cut as drawn\n" in result.stderr
     assert result.stdout.count("CUT ") == 3
 
 

@@ -69,7 +69,7 @@ def test_boxes() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_contours_that_come_near(seed: int) -> None:
-    """None is passed over that lies within reach of another one, to the last bit; what lies by itself in a frame or a
+    """None is ignored that lies within reach of another one, to the last bit; what lies by itself in a frame or a
     circle is."""
     frame = ring([(-30, -30), (90, -30), (90, 90), (-30, 90)])
     alone, one_of_two, other = (ring([(x, 60), (x + 1, 60), (x + 1, 61)]) for x in (60, 70, 71.4))

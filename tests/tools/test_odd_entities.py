@@ -73,9 +73,7 @@ def test_old_line_in_space() -> None:
 def test_thickness_is_said() -> None:
     reading = checked(raw("CIRCLE 8 PART 10 5 20 5 40 4 39 12.5", "CIRCLE 8 PART 10 50 20 5 40 4 39 0.0"))
     assert len(reading.contours) == 2
-    assert notes(reading, "thickness") == [
-        "1 entity on layer PART with a thickness, as at (9, 5): what it stands on is cut"
-    ]
+    assert notes(reading, "thickness") == ["1 entity on layer PART with a thickness, as at (9, 5): its base is cut"]
 
 
 def test_faces_are_named() -> None:

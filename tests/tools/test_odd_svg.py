@@ -224,19 +224,19 @@ def test_what_is_kept_for_use_is_not_drawn(where: str) -> None:
          "1 shape on layer 0 outside the page, or partly, as at (10, -210): cut whole"),
         ('<g style="mask:url(#c)">%s</g>', "1 shape on layer 0 clipped or masked, as at (10, 90): cut whole"),
         ('<g stroke="red" stroke-width=".6" transform="scale(2) translate(-5,-5)">%s</g>',
-         "1 shape on layer 0 drawn with a line wider than 1 mm, as at (10, 90): the middle is cut"),
+         "1 shape on layer 0 drawn with a line wider than 1 mm, as at (10, 90): its centre line is cut"),
         ('<g stroke="red" stroke-dasharray="2,1">%s</g>',
          "1 entity on layer 0 drawn with dashes (stroke-dasharray), as at (10, 90): cut as it is"),
         ('<g fill="none">%s</g>',
          "1 shape on layer 0 drawn with neither line nor area, as at (10, 90): cut, there is nothing else"),
         ("<style>rect ~ rect{stroke:red} a:hover{color:red}</style>%s",
-         "1 rule of the style sheet not understood, as rect ~ rect: passed over"),
+         "1 rule of the style sheet not understood, as rect ~ rect: ignored"),
         ("<style>rect:odd(x), rect{stroke:red}</style>%s",
-         "1 rule of the style sheet not understood, as rect:odd(x), rect: passed over"),
+         "1 rule of the style sheet not understood, as rect:odd(x), rect: ignored"),
         ("<style>svg{fill:red; rect{fill:none}} a{cursor:text}</style>%s",
-         "1 rule of the style sheet not understood, as svg: passed over"),
+         "1 rule of the style sheet not understood, as svg: ignored"),
         ("<style>@media (min-width:9px){rect{fill:red}}</style>%s",
-         "1 rule of the style sheet not understood, as @media (min-width:9px): passed over"),
+         "1 rule of the style sheet not understood, as @media (min-width:9px): ignored"),
     ],
 )  # fmt: skip
 def test_what_is_guessed_is_said(content: str, note: str) -> None:
@@ -250,7 +250,7 @@ def test_what_is_guessed_is_said(content: str, note: str) -> None:
 @pytest.mark.parametrize("selector", ["a " * 3000 + "a", "a+" * 300 + "a", "|", "a:is()|"])
 def test_a_selector_that_breaks_its_reader_is_said(selector: str) -> None:
     (note,) = reading_of(page(f"<style>{selector}{{fill:red}}</style>{PART}")).report.notes
-    assert note == f"1 rule of the style sheet not understood, as {selector}: passed over"
+    assert note == f"1 rule of the style sheet not understood, as {selector}: ignored"
 
 
 @pytest.mark.parametrize("sheet", ["a{" * 3000, "@media screen{" * 3000, ":not(" * 3000 + "a" + ")" * 3000 + "{r:1}"])
@@ -265,13 +265,13 @@ def test_style_sheets_that_are_too_deep(sheet: str) -> None:
 )
 def test_style_sheets_in_other_files_are_said(before: str, content: str) -> None:
     reading = reading_of(before.encode() + page(content + PART))
-    assert reading.report.notes == ["the style sheet more.css is in another file: passed over"]
+    assert reading.report.notes == ["the style sheet more.css is in another file: ignored"]
     assert boxes(reading) == [WHERE]
 
 
 def test_a_page_that_is_transformed_itself_is_said() -> None:
     reading = reading_of(page(PART, 'width="100mm" height="100mm" viewBox="0 0 100 100" transform="scale(4)"'))
-    assert reading.report.notes == ["the page itself is transformed (scale(4)): passed over"]
+    assert reading.report.notes == ["the page itself is transformed (scale(4)): ignored"]
 
 
 @pytest.mark.parametrize(
@@ -328,7 +328,7 @@ def test_animations_are_said() -> None:
     moving = '<g><animateTransform attributeName="transform" type="scale" to="2"/>%s</g><set href="#a" to="1"/>'
     reading = reading_of(page(moving % PART))
     assert boxes(reading) == [WHERE]
-    assert reading.report.notes == ["2 animations: passed over, all is cut as it stands without"]
+    assert reading.report.notes == ["2 animations: ignored, all is cut as it stands without"]
 
 
 def test_parts_of_a_page_without_a_size_are_left() -> None:

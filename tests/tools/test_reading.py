@@ -479,7 +479,7 @@ def test_a_gap_in_what_is_left_is_said() -> None:
     reading = checked(drawing)
     assert left(reading) == {JUNCTION: 6}
     notes = "\n".join(reading.report.notes)
-    assert "2 ends of what is left up to 0.0125 mm from the next one, as at (20, 20" in notes
+    assert "2 ends of uncut lines up to 0.0125 mm from the next one, as at (20, 20" in notes
     wider = re.search(r"--tolerance ([0-9.]+) joins them", notes)
     assert wider
     again = checked(drawing, tolerance=float(wider[1]))
@@ -493,7 +493,7 @@ def test_an_outline_with_gaps_that_is_left_is_said() -> None:
     sides = [line(*p, *q) for p, q in pairwise(corners[:4])] + [line(0, 20, 0, 0.0125)]
     hanging = [line(x, y, x * 1.2 - 4, y * 1.2 - 2) for x, y in corners[:4]]
     circles = [f"CIRCLE 8 0 10 {x} 20 10 40 1" for x in (10, 30)]
-    said = "take care: what is left reaches around all that is cut: is it the outline, which has gaps?"
+    said = "take care: an uncut line encloses every cut contour: is it the outline, with gaps?"
     assert said in checked(raw(*sides, *hanging, *circles)).report.notes
     for some in ([*sides, *hanging, circles[0]], [*sides[:2], *hanging, *circles], [*square(0, 0, 40), *circles]):
         assert said not in checked(raw(*some)).report.notes
@@ -593,7 +593,7 @@ def test_no_outline_is_refused() -> None:
     # Where nothing else is asked for it is cut as it is drawn, with a word.
     reading = checked(star)
     assert len(reading.contours) == 3 and not left(reading)
-    assert "no closed outline: what meets at junctions or crosses is cut as it is drawn" in reading.report.notes
+    assert "no closed outline: lines that meet at junctions or cross are cut as drawn" in reading.report.notes
 
 
 @given(st.integers(0, 10**9))
@@ -689,13 +689,13 @@ def test_parts_of_unknown_units_are_doubted() -> None:
     def notes(side: float, wishes: Wishes | None = None) -> list[str]:
         return read(raw(*square(0, 0, side)), "a.dxf", wishes).report.notes
 
-    doubt = "take care: 8 x 8 mm is small, and the units are guessed; it would be 203.2 x 203.2 mm in inch"
-    assert notes(8) == [doubt + ", 80 x 80 mm in cm: --units says so"]
+    doubt = "take care: 8 x 8 mm is small, units unconfirmed; it would be 203.2 x 203.2 mm in inch"
+    assert notes(8) == [doubt + ", 80 x 80 mm in cm: set --units to change it"]
     assert len(notes(3)) == 1 and notes(8, Wishes(units="mm")) == [] and notes(26) == []
-    doubt = "take care: 3500 x 3500 mm is large, and the units are guessed; it would be 88.9 x 88.9 mm in mil: "
-    assert notes(3500) == [doubt + "--units says so"]
+    doubt = "take care: 3500 x 3500 mm is large, units unconfirmed; it would be 88.9 x 88.9 mm in mil: "
+    assert notes(3500) == [doubt + "set --units to change it"]
     assert notes(3500, Wishes(units="mm")) == [] and notes(1000) == []
-    with pytest.raises(UserError, match="and 15000 x 15000 mm is an odd size: .* it would be 381 x 381 mm in mil$"):
+    with pytest.raises(UserError, match="15000 x 15000 mm is an implausible size: .* 381 x 381 mm in mil$"):
         notes(15000)
 
 
@@ -706,12 +706,12 @@ def test_told_units_of_an_odd_size_are_doubted() -> None:
         data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{units}\n")
         return read(data, "a.dxf", wishes).report.notes
 
-    doubt = "take care: 2387.6 x 2387.6 mm is an odd size; it would be 94 x 94 mm in mm, 940 x 940 mm in cm: "
-    assert notes(1, 94) == [doubt + "--units says so"]
-    doubt = "take care: 2.5 x 2.5 mm is an odd size; it would be 63.5 x 63.5 mm in inch, 25 x 25 mm in cm: "
-    assert notes(4, 2.5) == [doubt + "--units says so"]
-    doubt = "take care: 38100 x 38100 mm is an odd size; it would be 1500 x 1500 mm in mm: --units says so"
-    assert notes(1, 1500) == [doubt]
+    doubt = "take care: 2387.6 x 2387.6 mm is an implausible size; it would be 94 x 94 mm in mm, 940 x 940 mm in cm: "
+    assert notes(1, 94) == [doubt + "set --units to change it"]
+    doubt = "take care: 2.5 x 2.5 mm is an implausible size; it would be 63.5 x 63.5 mm in inch, 25 x 25 mm in cm: "
+    assert notes(4, 2.5) == [doubt + "set --units to change it"]
+    (doubt,) = notes(1, 1500)
+    assert "38100 x 38100 mm is an implausible size" in doubt and "1500 x 1500 mm in mm" in doubt
     for units, side in ((1, 30), (4, 40), (4, 2000), (5, 60)):
         assert notes(units, side) == []
     assert notes(1, 94, Wishes(units="inch")) == []
@@ -1033,7 +1033,7 @@ def test_old_files() -> None:
     blank = raw(*square(0, 0, 9), "TEXT 8 0 10 1 20 1 1 A").replace(b"\n1\nA\n", b"\n1\n\n \n\n\n")
     reading = checked(blank)
     assert len(reading.contours) == 1 and left(reading) == {"nothing to cut": 1}
-    assert reading.report.notes == ["there are empty lines between the file's groups: passed over"]
+    assert reading.report.notes == ["there are empty lines between the file's groups: ignored"]
 
 
 @given(st.data())

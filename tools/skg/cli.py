@@ -19,7 +19,7 @@ from skg.errors import UserError
 #: Subcommand -> what it does, as `skg --help` lists it. Its click command is `command` in the module of its name.
 COMMANDS = {
     "cam": "Write the program that cuts a disc cam.",
-    "check": "Find everything on tapes that a controller would choke on.",
+    "check": "Check tapes for errors.",
     "cut": "Turn a drawing, DXF or SVG, into a checked tape.",
     "dxf": "Turn a tape or a program into a DXF drawing.",
     "gcode": "Turn a 3B tape into G-code, or back.",
@@ -30,7 +30,7 @@ COMMANDS = {
     "sim": "Follow tapes step by step as a controller does.",
     "tape": "Write a 3B tape of any style in another one.",
     "tekhtran": "Write the program that cuts a part in TEKHTRAN.",
-    "term": "Be the teletype of a board on a serial port.",
+    "term": "Act as the teletype of a board on a serial port.",
     "xy": "Write the program that cuts a part in XY.",
 }
 
@@ -145,7 +145,7 @@ def main() -> None:
     except BrokenPipeError:
         _leave(1)
     except OSError as error:
-        name = "standard output" if error.filename is None else error.filename or "a file without a name"
+        name = "standard output" if error.filename is None else error.filename or "empty file name"
         _fail(f"{name}: {error.strerror}")
     # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
     gc.freeze()

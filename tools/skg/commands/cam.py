@@ -20,7 +20,7 @@ MOST = 50_000.0
     required=True,
     metavar="MM",
     type=FiniteRange(0, MOST, min_open=True),
-    help="How far the follower is lifted.",
+    help="Lift of the follower.",
 )
 @click.option(
     "--rise", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Angle of the rise."

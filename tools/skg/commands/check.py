@@ -1,4 +1,4 @@
-"""`skg check`: everything on a tape that a controller would choke on."""
+"""`skg check`: errors on a tape."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MOST = 20
 @click.option("--all", "list_all", is_flag=True, help=f"List all findings, not the first {MOST} of a tape.")
 @positions_option
 def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: str) -> None:
-    """Find everything on TAPE that a controller would choke on: 3B, or G-code (.nc, .ngc, .gcode, .tap, .iso).
+    """Check TAPE for errors: 3B, or G-code (.nc, .ngc, .gcode, .tap, .iso).
 
     One line for each finding: file, block (of G-code: line), column, what was expected. Exit code 1 when there is any.
     A program (.skg, .xy, .tkh) is run first, a milling program by the mill ROM.

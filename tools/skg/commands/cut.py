@@ -70,7 +70,7 @@ class Passes(click.ParamType):
     show_default=True,
     metavar="MM",
     type=FiniteRange(1e-5),
-    help="How near FIT shall come to splines and ellipses.",
+    help="Largest distance of FIT from splines and ellipses.",
 )
 @click.option(
     "--lead-shape",
@@ -98,7 +98,7 @@ class Passes(click.ParamType):
     default="refuse",
     show_default=True,
     type=click.Choice(("refuse", "leave")),
-    help="What becomes of closed contours that are too small or narrow for the wire beside them, or too short for "
+    help="Refuse or leave closed contours that are too small or narrow for the wire beside them, or too short for "
     "the tab.",
 )
 @click.option(
@@ -106,7 +106,7 @@ class Passes(click.ParamType):
     default="refuse",
     show_default=True,
     type=click.Choice(("refuse", "cut")),
-    help="What becomes of closed contours whose wire would come into another one, since they cross or lie too near to "
+    help="Refuse or cut closed contours whose wire would gouge another one, since they cross or lie too near to "
     "each other.",
 )
 @click.option(
@@ -120,7 +120,7 @@ class Passes(click.ParamType):
     "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB."
 )
 @feed_option
-@click.option("--quiet", is_flag=True, help="No report but what to take care of.")
+@click.option("--quiet", is_flag=True, help="Print warnings alone.")
 def command(
     file: str,
     output: str,

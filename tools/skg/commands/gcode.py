@@ -56,7 +56,7 @@ def _heights(heights: tuple[float, ...] | None) -> tuple[int, int] | None:
 @click.option("--back", is_flag=True, help="FILE is G-code, whatever its name: write a 3B tape.")
 @click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM of a program, else 0,0.")
 @click.option(
-    "--feed", type=OneOrTwo(), help="Feed in mm/min, and downwards if that is another one.  [default: 100, and said]"
+    "--feed", type=OneOrTwo(), help="Feed in mm/min, and downwards if that is another one.  [default: 100, reported]"
 )
 @click.option(
     "--z",

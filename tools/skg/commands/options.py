@@ -99,11 +99,11 @@ def _refuse_onto(context: click.Context) -> None:
     for parameter in context.command.params:
         if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name]) is not None:
             if value == "":
-                raise UserError(f"{parameter.human_readable_name}: a file without a name")
+                raise UserError(f"{parameter.human_readable_name}: empty file name")
             is_read = isinstance(parameter, click.Argument) or parameter.name == "answers"
             (read if is_read else written).extend(map(str, value if isinstance(value, tuple) else [value]))
     if written.count("-") > 1:
-        raise UserError("-: the standard output is to be written twice")
+        raise UserError("-: two files for the standard output")
     real = [name for name in written if name != "-" and (not Path(name).exists() or Path(name).is_file())]
     for at, name in enumerate(real):
         if any(realpath(name) == realpath(other) for other in [*read, *real[:at]] if other != "-"):
@@ -117,7 +117,7 @@ def answers_option(function: Callable) -> Callable:
         "answers",
         metavar="FILE",
         type=click.Path(allow_dash=True),
-        help="What the operator answers to INPUT, one line each.",
+        help="Answers to INPUT, one line each.",
     )(function)
 
 
@@ -134,7 +134,7 @@ def feed_option(function: Callable) -> Callable:
         show_default=True,
         metavar="MM/MIN",
         type=FiniteRange(LEAST_FEED),
-        help="Feed, for the time.",
+        help="Feed, to compute the time.",
     )(function)
 
 
@@ -154,13 +154,14 @@ def drawing_options(function: Callable) -> Callable:
             show_default=True,
             metavar="MM",
             type=FiniteRange(0, min_open=True),
-            help="Ends no further apart than this are one corner.",
+            help="Join ends no further apart than this.",
         ),
         click.option(
             "--open",
             "opened",
             type=click.Choice(OPEN),
-            help="What becomes of open contours. Default: cut without an offset, refuse with one.",
+            help="Cut, leave or refuse open contours; all: cut every line as drawn. Default: cut without an offset, "
+            "refuse with one.",
         ),
         click.option(
             "--encoding",
@@ -172,7 +173,7 @@ def drawing_options(function: Callable) -> Callable:
             default="auto",
             show_default=True,
             type=click.Choice(SIDES),
-            help="Where the wire runs. auto: around outlines, within the openings in them.",
+            help="Side of the wire. auto: outside of outlines, inside of openings.",
         ),
         click.option("--reverse", is_flag=True, help="Cut in the other direction."),
         click.option(
@@ -195,7 +196,7 @@ def drawing_options(function: Callable) -> Callable:
             show_default=True,
             metavar="MM",
             type=FiniteRange(0, min_open=True),
-            help="From a chosen start hole to the contour, where there is room.",
+            help="Distance from a chosen start hole to the contour, room permitting.",
         ),
     )[::-1]:
         function = option(function)
@@ -220,7 +221,7 @@ def skg80_option(function: Callable) -> Callable:
     return click.option(
         "--skg80",
         metavar="FILE",
-        help="What runs programs: an emulator such as build/skg80, or `reference` for the reference "
+        help="Emulator that runs programs, such as build/skg80, or `reference` for the reference "
         "interpreter. Default: the board with the standard ROM, as in `skg run`.",
     )(function)
 

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.",
 )
 @click.option(
-    "--scale", metavar="N", type=FiniteRange(0, min_open=True), help="Drawing scale, 2 for 2:1. Default: what fits."
+    "--scale", metavar="N", type=FiniteRange(0, min_open=True), help="Drawing scale, 2 for 2:1. Default: fit the page."
 )
 @click.option("--title", default="", metavar="TEXT", help="A title above the drawing.")
 @positions_option

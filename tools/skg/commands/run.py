@@ -35,7 +35,7 @@ def _answers(name: str | None) -> Iterator[str]:
     "--rom",
     metavar="NAME|FILE",
     help=f"The ROM: {', '.join(ROMS)}, or an image of your own, .bin or Intel .hex.  [default: "
-    "standard; mill, and said, for a milling program]",
+    "standard; mill, reported, for a milling program]",
 )
 @click.option(
     "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB."

@@ -19,7 +19,7 @@ from skg.tape.styles import STYLES, to_style
     type=click.Choice(list(STYLES)),
     default="punch",
     show_default=True,
-    help="How blocks are written. punch: as the board does; spaced: with blanks; numbered: N 1: and blanks; "
+    help="Style of blocks. punch: as the board does; spaced: with blanks; numbered: N 1: and blanks; "
     "padded: with zeros to six digits; joined: all in one line.",
 )
 def command(file: str, output: str, style: str) -> None:

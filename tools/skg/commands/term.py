@@ -32,15 +32,15 @@ if TYPE_CHECKING:
     "--run",
     is_flag=True,
     help="Make the tape of the file: NEW, its lines, RUN. One that does not fit in the board's memory is sent again "
-    "without its line numbers, if it can be, and said. Without a file: RUN.",
+    "without its line numbers, if possible, and reported. Without a file: RUN.",
 )
 @click.option(
     "--unnumbered",
     is_flag=True,
     help="With --run: send a program without its line numbers at once, so that each line is carried out as it comes.",
 )
-@click.option("--record", metavar="FILE", type=click.Path(), help="Write what is punched to this file.")
-@click.option("--punch-port", metavar="PORT", help="Where the punch is connected, if not to PORT itself.")
+@click.option("--record", metavar="FILE", type=click.Path(), help="Write the punched tape to this file.")
+@click.option("--punch-port", metavar="PORT", help="Port of the punch, if not PORT itself.")
 @click.option(
     "--baud", default=9600, show_default=True, metavar="N", type=click.IntRange(50), help="Speed of both ports."
 )
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
     help="Leave when the board has answered the last line and the tape's DD was punched; nobody is at the keyboard.",
 )
 @click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS", type=FiniteRange(0, min_open=True),
-              help="How long --batch waits for more where no prompt tells it.")  # fmt: skip
+              help="Time that --batch waits for more without a prompt.")  # fmt: skip
 @click.option("--silence", default=120.0, show_default=True, metavar="SECONDS", type=FiniteRange(0, min_open=True),
               help="Give up a board that is silent this long and not back at its prompt.")  # fmt: skip
 @click.option(

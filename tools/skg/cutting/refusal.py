@@ -84,8 +84,8 @@ def without_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: 
     route = routes[at]
     message = f"{named(route, at, factor)}: {none[at]} {told_in_file(none[at].place, factor)}"
     if none[at].is_crossing:
-        message += ", there is no way beside it for the wire"
-        help_ = "mend it in the drawing"
+        message += ", the wire does not fit beside it"
+        help_ = "redraw it"
     else:
         message += f", {short(abs(route.widest))} mm beside it"
         if fit is not None:
@@ -174,7 +174,7 @@ def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float,
     """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
     message = (
-        f"{named(routes[worst.route], worst.route, factor)}: its wire would come {into(worst)} "
+        f"{named(routes[worst.route], worst.route, factor)}: its wire would gouge {into(worst)} "
         f"{named(routes[worst.other], worst.other, factor)} at {told_in_file(worst.place, factor)}"
     )
     if len(spoilt) > 1:
@@ -198,4 +198,4 @@ def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Setti
     ends = " to ".join(told_in_file(end, factor) for end in (edge.start, edge.end))
     what = "curve" if edge.nodes else "arc" if edge.centre else "line"
     others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
-    return f"{others}draw the {what} from {ends} anew, {short(edge.length / factor)} long, or what meets it"
+    return f"{others}redraw the {what} from {ends}, {short(edge.length / factor)} long, or its neighbour"

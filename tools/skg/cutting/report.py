@@ -87,9 +87,7 @@ def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
             )
     lines += _sides(routes)
     if on:
-        lines.append(
-            f"take care: the wire's middle runs on {counted(on, 'open contour')}, no side of them is the part's"
-        )
+        lines.append(f"take care: the wire's middle runs on {counted(on, 'open contour')}: offset not applied")
     return lines
 
 
@@ -110,8 +108,8 @@ def _sides(routes: list[PlannedContour]) -> Iterator[str]:
         some = [at for at, route in closed if route.is_opening is is_opening is route.is_outside]
         if some:
             yield (
-                f"take care: the wire runs {side} of {counted(len(some), noun)} {_contours(some)}, as --side says: "
-                f"{wide} mm {than} than drawn"
+                f"take care: the wire runs {side} of {counted(len(some), noun)} {_contours(some)}: "
+                f"{wide} mm {than} than drawn, because of --side"
             )
 
 

@@ -255,7 +255,7 @@ def _store(typist: Typist, lines: list[TypedLine], name: str, program: str) -> b
             return False
         if typist.teletype.losses == losses:
             return True
-        typist.teletype.say("sent again from its first line: nobody knows what the board has kept")
+        typist.teletype.say("sent again from its first line: board contents unknown")
     raise Stopped("the port goes away again and again")
 
 

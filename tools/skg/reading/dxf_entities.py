@@ -339,11 +339,11 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     else:
         for record in file.paper:
             collector.account(record, record.layer).left = "in paper space"
-    file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "the middle is cut")
+    file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "its centre line is cut")
     whole = [collector.content.entities[at] for at in _circles(collector.content, collector.whole, wishes.tolerance)]
     file.notes += said(whole, ("arc", "arcs"), "from an angle to the same angle", "a full turn is cut")
     file.notes += said(
         collector.through, ("spline", "splines"), "through points alone", "between them the curve is guessed"
     )
-    file.notes += said(collector.thick, ("entity", "entities"), "with a thickness", "what it stands on is cut")
+    file.notes += said(collector.thick, ("entity", "entities"), "with a thickness", "its base is cut")
     return collector.content

@@ -165,7 +165,7 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
             if lines[at].strip():
                 raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
             if not has_blanks:
-                notes.append("there are empty lines between the file's groups: passed over")
+                notes.append("there are empty lines between the file's groups: ignored")
             has_blanks = True
             at += 1
             continue

@@ -84,7 +84,7 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Mapping[int, str]) -> R
         # (in mm more ends meet, and the small ones are counted so)
         width, height = (short(side / UNITS["m"]) for side in report.size)
         reading = _read(data, name, replace(wishes, units="mm"), small)
-        reading.report.units_from = f"the file says m, but {width} x {height} m is no part; --units says otherwise"
+        reading.report.units_from = f"the file says m, but {width} x {height} m is no part; set --units to change it"
         return reading
     contours = selection.without_open(contours)
     fates = selection.fates
@@ -205,7 +205,7 @@ def _check_size(report: Account) -> None:
     is_told = not report.units_from.startswith(NOT_TOLD)
     if not is_told and not USUAL[0] <= max(report.size) <= USUAL[1]:
         raise UserError(
-            f"the file does not say its units, and {width} x {height} mm is an odd size: "
+            f"the file does not say its units, and {width} x {height} mm is an implausible size: "
             f"give --units ({', '.join(UNITS)}){_in_other_units(report, units=GUESSED)}"
         )
     if max(report.size) >= FARTHEST:
@@ -217,15 +217,15 @@ def _check_size(report: Account) -> None:
     is_odd = report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE
     if is_odd:
         # (programs write the units that they were last set to)
-        report.notes.append(f"take care: {width} x {height} mm is an odd size{other}: --units says so")
+        report.notes.append(f"take care: {width} x {height} mm is an implausible size{other}: set --units to change it")
     if not is_told and other and max(report.size) < DOUBTED:
         report.notes.append(
-            f"take care: {width} x {height} mm is small, and the units are guessed{other}: --units says so"
+            f"take care: {width} x {height} mm is small, units unconfirmed{other}: set --units to change it"
         )
     other = _in_other_units(report, LARGE, GUESSED)
     if not is_told and other and max(report.size) > LARGE:
         report.notes.append(
-            f"take care: {width} x {height} mm is large, and the units are guessed{other}: --units says so"
+            f"take care: {width} x {height} mm is large, units unconfirmed{other}: set --units to change it"
         )
     elif max(report.size) > HUGE and not is_odd and report.units_from != ASKED:
         report.notes.append(f"take care: {width} x {height} mm is more than {HUGE / 1000:g} m: --units sets others")

@@ -76,7 +76,7 @@ class Selection:
         self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance, self.report.factor)
         if opened and self.wishes.open == "refuse":
             count = counted(len(opened), "open contour")
-            raise UserError(f"{count}, {self.report.first_gap()}, or --open cut or leave tells what becomes of it")
+            raise UserError(f"{count}, {self.report.first_gap()}; choose --open cut or --open leave")
         if self.wishes.open != "leave":
             return contours
         for one in opened:
@@ -125,7 +125,7 @@ class Selection:
         if self.wishes.open == "all":
             return kept + rest, []
         if self.wishes.open == "cut" and rest and not any(one.is_closed for one in kept):
-            self.report.notes.append("no closed outline: what meets at junctions or crosses is cut as it is drawn")
+            self.report.notes.append("no closed outline: lines that meet at junctions or cross are cut as drawn")
             kept, rest = kept + rest, []
         dashed = {at for at, one in enumerate(kept) if self.fates.is_dashed(one)}
         if self.wishes.layers or not any(one.is_closed and at not in dashed for at, one in enumerate(kept)):
@@ -186,7 +186,7 @@ class Fates:
             if cut[at] + gone.total() != self.parts[at] or not (self.parts[at] or entity.left):
                 raise UserError(
                     f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: of its {self.parts[at]} parts "
-                    f"{cut[at] + gone.total()} are accounted for; a mistake in skg, please report it"
+                    f"{cut[at] + gone.total()} are accounted for; a bug in skg, please report it"
                 )
             lost = [why for why in gone if not cut[at] or why not in _WITH_OTHERS]
             if not lost and not entity.left:
@@ -250,7 +250,7 @@ def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]
         longest = max(one.piece.length for one in some)
         yield (
             f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
-            f"{shown(in_file(some[0].corner, factor))}: cut to the corner; --open all cuts all that is drawn"
+            f"{shown(in_file(some[0].corner, factor))}: overrun trimmed; --open all keeps it"
         )
 
 
@@ -258,7 +258,7 @@ def _between(runs: list[Contour], factor: float) -> Iterator[str]:
     """Report uncut lines that divide a cut contour."""
     if runs:
         yield (
-            f"take care: {counted(len(runs), 'line')} from edge to edge of what is cut, as at "
+            f"take care: {counted(len(runs), 'line')} from edge to edge of a cut contour, as at "
             f"{shown(in_file(runs[0].edges[0].start, factor))}: if parts share such edges, --open all cuts them"
         )
 
@@ -273,12 +273,12 @@ def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool, factor: fl
         if _reach_around(outer[at : at + 1], boxes):
             ends = (shown(in_file(end, factor)) for end in (run.edges[0].start, run.edges[-1].end))
             yield (
-                f"take care: what is left from {' to '.join(ends)} reaches around all that is cut: "
-                "is it the outline, which should close there?"
+                f"take care: an uncut line from {' to '.join(ends)} encloses every cut contour: "
+                "is it the outline, open there?"
             )
             return
     if has_gaps and _reach_around(outer, boxes):
-        yield "take care: what is left reaches around all that is cut: is it the outline, which has gaps?"
+        yield "take care: an uncut line encloses every cut contour: is it the outline, with gaps?"
 
 
 def _reach_around(outer: Floats, boxes: Floats) -> bool:
@@ -303,7 +303,7 @@ def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float, factor: floa
     if gaps:
         widest, place = gaps[-1]
         yield (
-            f"{counted(len(gaps), 'end')} of what is left up to {short(widest)} mm from the next one, as at "
+            f"{counted(len(gaps), 'end')} of uncut lines up to {short(widest)} mm from the next one, as at "
             f"{shown(in_file(place, factor))}: --tolerance {above(widest)} joins them"
         )
 

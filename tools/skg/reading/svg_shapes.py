@@ -228,21 +228,21 @@ class _SvgCollector:
             found.notes += said((one for one, _ in self.unpainted), some, _UNPAINTED, "cut, there is nothing else")
         found.notes += said(self.clipped, some, "clipped or masked", "cut whole")
         found.notes += said(self.outside, some, "outside the page, or partly", "cut whole")
-        found.notes += said(self.wide, some, f"drawn with a line wider than {_WIDE:g} mm", "the middle is cut")
+        found.notes += said(self.wide, some, f"drawn with a line wider than {_WIDE:g} mm", "its centre line is cut")
         found.notes += said(self.marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
         return found
 
     def _of_page(self) -> Iterator[str]:
         """Report parts of the page that are not read."""
         if self.file.style.transform:
-            yield f"the page itself is transformed ({self.file.style.transform}): passed over"
+            yield f"the page itself is transformed ({self.file.style.transform}): ignored"
         if self.file.animations:
-            yield f"{counted(self.file.animations, 'animation')}: passed over, all is cut as it stands without"
+            yield f"{counted(self.file.animations, 'animation')}: ignored, all is cut as it stands without"
         for name in self.file.elsewhere:
-            yield f"the style sheet {name} is in another file: passed over"
+            yield f"the style sheet {name} is in another file: ignored"
         if missed := self.file.sheet.missed:
             count = counted(len(missed), "rule", "rules")
-            yield f"{count} of the style sheet not understood, as {missed[0]}: passed over"
+            yield f"{count} of the style sheet not understood, as {missed[0]}: ignored"
 
 
 class _Shapes:

@@ -338,7 +338,7 @@ def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
 
 
 def read(text: str, name: str = "-") -> GcodeProgram:
-    """Return a program; what cannot be read is a `UserError` with line and column, what is guessed is among it."""
+    """Return a program; what cannot be read is a `UserError` with line and column, guesses are listed."""
     program, findings = scan(text, name)
     for finding in findings:
         if finding.is_fatal:
