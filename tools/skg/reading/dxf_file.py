@@ -225,8 +225,8 @@ def _decoded(data: bytes, encoding: str | None, notes: list[str]) -> str:
 
 
 def _is_chinese(data: bytes) -> bool:
-    """Tell whether what is not ASCII in a text is Chinese: pairs of bytes, most of them usual characters. (A western letter
-    and what follows it are a pair, too, but of a rare one.)"""
+    """Tell whether what is not ASCII in a text is Chinese: pairs of bytes, most of them usual characters. (A western
+    letter and what follows it are a pair, too, but of a rare one.)"""
     try:
         found = [character.encode("gbk") for character in data.decode("gbk") if character > "\x7f"]
     except UnicodeDecodeError:
