@@ -72,6 +72,14 @@ def examples() -> list[Example]:
     return found
 
 
+def test_heads() -> None:
+    """A fence ```head shows how an example of examples/circles begins."""
+    heads = re.findall(r"^```head (\S+)\n((?:(?!```).*\n)+)```$", PAGE.read_text(), re.M)
+    assert heads
+    for name, body in heads:
+        assert (ROOT / "examples" / "circles" / f"{name}.skg").read_text().startswith(body)
+
+
 def text_of(result: Result) -> str:
     return result.tape.decode("ascii").replace("\r\n", "\n")
 
