@@ -1,8 +1,9 @@
 ; cut.asm - the route: from items to corners, fillets and closing
 ; Offers: HELDN RITEMS RFILW RTURN FITN FITSM RUNINI RTNEW SCUT ITEM2 ITEM3 POSIT GETR SCALED CPYEL
-;         CPYPL RTDON1 ENDRT SFROM ROUTER XSENS XJC XONEL XNORM XNORMS XCHDA XXING SBACK SBACK1
+;         CPYPL RTDON1 ENDRT SFROM ROUTER XTRAV XSENS XJC XONEL XNORM XNORMS XCHDA XXING SBACK
+;         SBACK1
 ; Uses:   arc_3b arc_iso arc_nodrift calc consts fit float geom grid iso parser start tape value
-; Room:   1262 bytes
+; Room:   1323 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -151,11 +152,15 @@ ADDEL1: CALL    ITDONE
         JZ      CORDON          ; the same curve goes on: no corner
 ADDEL2: DB      CALC,QEPS,STL,QEND ; -             a corner is no `*`: curves that do cross do so
         CALL    OFFCHK
-        LDA     RFILW
+        LDA     RNAMED
+        ORA     A
+        JNZ     ADDEL3
+        CALL    CORND
+        DB      CALC,LKX,SPX,LKY,SPY,QEND ; -    P = the corner as drawn
+ADDEL3: LDA     RFILW
         ORA     A
         CNZ     FILLET
         CALL    JOINED
-        DB      CALC,LFI,SSG,QEND ; -
 ; (fall into CORDON)
 
 ; CORDON - the corner to come is not described yet; TL is as `*` has it
@@ -163,7 +168,7 @@ ADDEL2: DB      CALC,QEPS,STL,QEND ; -             a corner is no `*`: curves th
 CORDON: LXI     H,0
         SHLD    RFILW           ; and RTURN
         SHLD    RTURN           ; and RNAMED
-        DB      CALC,QMU,STL,Q0,SFI,QRET ; -
+        DB      CALC,QMU,STL,QRET ; -
 
 ; ITCHK - in check mode: refuses a fillet that the line itself shows to have no place: after
 ;         another one, and between an element and a point
@@ -282,9 +287,9 @@ SCAL1:  DB      LA0,LSC,QMUL,SA0 ; -
         DB      QRET
 
 ; JOINED - corner between C and N, C goes out, N is the current element
-; Clobbers all
+; In:  C, N, RTURN, RNAMED; P = the corner as drawn   Out: D = P   Clobbers all
 JOINED: CALL    CORNER
-        CALL    ADVANC
+        CALL    PASSP
         LXI     H,RELEMS
         MOV     A,M
         MVI     M,2
@@ -318,12 +323,8 @@ CPYPL:  MVI     A,PLCSIZ
 ;      without a turn)   Clobbers all
 ; The arc turns as the corner does; its centre is where the parallels at its signed
 ; radius FI cross (SKG book, formula 9-7).
-FILLET: DB      CALC,Q0,SO1,Q0,SO2 ; -
-        DB      QEND
-        CALL    CORNO
-        DB      CALC,QNORMS,QJN ; -
+FILLET: DB      CALC,LPX,LPY,QTOK,QNORMS,QJN ; -
         DB      FILL9-$
-        DB      LB0,ST4,LB1,ST5 ; -             t4 t5 = right normal of N at the corner
         DB      LCR,LNR,QE6D    ; -
         DB      LFI,QCRS,QSIG,QNEG ; -fi
         DB      QDUP,SO1,SO2    ; -
@@ -339,11 +340,7 @@ FILLET: DB      CALC,Q0,SO1,Q0,SO2 ; -
         LXI     H,RKEPT
         CALL    NCOPY
         DB      CALC,Q0,STL,QXING,QMU,STL ; -        a = centre of the arc, which touches both
-        DB      QXCH,QNA,QNORM  ; -             b = centre, a = right normal of N where they touch
-        DB      LA0,LT4,QSUB,LA1,LT5,QSUB,QHYP ; angle's chord
-        DB      LN2,LNR,QADD,QMUL,QABS ; chord  on the wire's path
-        DB      QMU,QADD,SFI    ; -             FI = the beginning of N that is left out (if it is a circle)
-        DB      LB0,SA0,LB1,SA1 ; -             a = b = centre
+        DB      QVEC,SB1,SB0    ; -             a = b = centre
         DB      LO1,QNEG,SA2,QEND ; -
         MVI     A,KCIR
         CALL    PUTN
@@ -355,7 +352,7 @@ FILLET: DB      CALC,Q0,SO1,Q0,SO2 ; -
 ; In:  DE -> element   Clobbers A, BC, DE, HL
 TON:    LXI     H,MNEXT
         JMP     CPYEL
-FILL9:  DB      QDOT,QE6N,Q0,SFI,QRET ; -       straight on, or straight back
+FILL9:  DB      QDOT,QE6N+QRET  ; -             straight on, or straight back
 
 ; PASSED - on the way along the circle C from its entry A, does the point T = b come before K?
 ;          All as seen from the centre
@@ -391,9 +388,14 @@ OFFCHK: DB      CALC,QNA,LNR,QSENS,QJN ; -
 OFFCH1: DB      QEND
         DB      ERROR,EOFFS
 
+; CORND - the corner between C and N as drawn
+; In:  C, N, RTURN, RNAMED, P   Out: K   Clobbers all
+CORND:  DB      CALC,Q0,Q0,QJMP ; 0 0
+        DB      CORN0-$
 ; CORNER - the corner between C and N as offset
 ; In:  C, N, RTURN, RNAMED, P   Out: K, O1, O2   Clobbers all
-CORNER: DB      CALC,LCR,SO1,LNR,SO2,QEND ; -
+CORNER: DB      CALC,LCR,LNR    ; o1 o2
+CORN0:  DB      SO2,SO1,QEND    ; -
 ; CORNO - the corner between C and N offset by O1 and O2
 ; In:  C, N, O1, O2, RTURN, RNAMED, P   Out: K   Clobbers all
 ; A named one is P itself when there is no offset; else of the crossings the one nearest to P,
@@ -455,7 +457,7 @@ FIRST:  CALL    OFFCHK
         CALL    NTOC
         LXI     H,MFIRST
         CALL    NCOPY
-        LXI     H,ENTER         ; (tape.asm) goes on when K is known
+        LXI     H,FIRST1        ; goes on when K is known
         PUSH    H
         LDA     RFSTP           ; set when a point was written before
         ORA     A
@@ -478,6 +480,11 @@ PLACE1: DB      QDIF,QFAR,QJN   ; r
         DB      LC0,SB0,LC1,SB1,QJMP ; r        b = centre
         DB      NAMED3-$
 PLACE2: DB      QABS,LC0,QADD,LC1,QTOK+QRET ; - the +X side
+
+; FIRST1 - the wire goes to the entry K; the contour as drawn begins in the same direction from a centre
+; In:  K   Out: D = G   Clobbers all
+FIRST1: CALL    ENTER           ; (tape.asm)
+        DB      CALC,LGX,SDX,LGY,SDY,QRET ; -
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
@@ -573,11 +580,12 @@ CLOSE4: LDA     CKIND           ; one element alone
         ORA     A
         JZ      CLOSE6
         CALL    PATC            ; by way of the last point
-        CALL    ADVANC
+        CALL    PASSP
 CLOSE6: LXI     H,RELEMS
         DCR     M               ; at the entry still: ADVANC takes the whole circle
 CLOSE7: CALL    NOFIL           ; there is no corner
-        DB      CALC,LGX,LGY,QTOK,QEND ; -           K = G, where the route was entered
+        DB      CALC,LGX,SPX,LGY,SPY ; -        the entry is the same, drawn and offset
+        DB      LGX,LGY,QTOK,QEND ; -           K = G, where the route was entered
 CLOSE8: CALL    ADVANC
 ; (fall into RTDONE)
 
@@ -626,8 +634,36 @@ ROUTER: LDA     RITEMS
         RZ
         JMP     STOP
 
+; PASSP - the wire travels C to K; the contour goes on from P, the corner as drawn
+; In:  as ADVANC, P   Out: as ADVANC, D = P   Clobbers all
+PASSP:  CALL    ADVANC
+        DB      CALC,LPX,SDX,LPY,SDY,QRET ; -
+
+; WRAP - demands that the travel on the circle C, from A to K, differs by no more than half a turn from the travel
+;        as drawn, from D to P: else the wire would leave the element out, or run round all of it
+; In:  C, A, K, D, P; on the float stack: negative when the wire travels more than half a turn   Out: ERR 06
+; Clobbers all
+; One of them must be less than half a turn, the other one more.  With a and b their cosines and sines,
+; they differ by more than half a turn when the sine of b less a has the sign of b's own.
+WRAP:   DB      CALC,ST3,QEND   ; -
+        LDA     FITSM           ; (arcs of one curve touch each other: their corners stay)
+        ORA     A
+        RNZ
+        DB      CALC,LDX,LDY,LPX,LPY,QTRAV ; c s
+        DB      LC2,QABS,QMU,QMUL,QADD ; c s    none when 1 um backwards
+        DB      LAX,LAY,LKX,LKY,QTRAV ; c s c s
+        DB      SA1,SA0,SB1,SB0 ; -             a = the wire's travel, b = that as drawn
+        DB      LT3,LB1,QMUL,QNEG,QJN ; -       both in one half
+        DB      WRAP1-$
+        DB      QCRS,LB1,QSIG,QNEG,QE6N+QRET ; -
+WRAP1:  DB      QRET
+
 ; Operations of the calculator that the route adds
 
+; QTRAV: x1 y1 x2 y2 -> c s: from the first direction to the second, as seen from the centre of C
+XTRAV:  DB      LC1,QSUB,SB1,LC0,QSUB,SB0 ; x1 y1
+        DB      LC1,QSUB,SA1,LC0,QSUB,SA0 ; -
+        DB      QDOT,QCRS,LC2,QSIG+QRET ; c s
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
 XSENS:  DB      QJC
         DB      XSENS1-$
@@ -707,15 +743,13 @@ ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      ADVAN3-$
         DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
         DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
-        DB      QDUP,QNEG,QJN   ; s
-        DB      ADVAN4-$
-        DB      LB0,LB1,QHYP,LSG,QSUB,QE6N ; s  K in what a fillet has left out
-        DB      QJMP
-        DB      ADVAN4-$
-ADVAN3: DB      QEND            ; no travel: the corner is the entry place
+        DB      QDUP,QEND       ; s s
+        CALL    WRAP
+        JMP     ARC
+ADVAN3: DB      Q1,QEND         ; 1             no travel: the corner is the entry place
+        CALL    WRAP
         LDA     RELEMS
         ORA     A
         RNZ
-        DB      CALC,QM1        ; s             as ARC takes it
-ADVAN4: DB      QEND            ; s
+        DB      CALC,QM1,QEND   ; s             as ARC takes it
         JMP     ARC

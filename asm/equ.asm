@@ -268,14 +268,17 @@ LBX     EQU 07AH
 SBX     EQU 0BAH        ; M58 block: x
 LBY     EQU 07BH
 SBY     EQU 0BBH        ; M59 block: y
+LDX     EQU 07AH
+SDX     EQU 0BAH        ; M58, M59 too: where the contour enters C as drawn, up to the block that C makes
+LDY     EQU 07BH
+SDY     EQU 0BBH
 LBJ     EQU 07CH
 SBJ     EQU 0BCH        ; M60 block: J
 LQO     EQU 07DH
 SQO     EQU 0BDH        ; M61 offset of the first item
 LTL     EQU 07EH
 STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as touching, mm
-LSG     EQU 07FH
-SSG     EQU 0BFH        ; M63 chord of the beginning of the circle C that a fillet has left out, mm; 0: there was none
+; M63 is free
 
 ; ---- RAM -------------------------------------------------------------------
 ;! FSTK & 0FFH == 0 -- CALINI, CALC and OOVR change the low byte of FSP alone

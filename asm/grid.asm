@@ -1,7 +1,7 @@
 ; grid.asm - where the wire goes, in whole micrometres (tape-3b.md, section "Rounding")
 ; Offers: XRND XVK XTOK
 ; Uses:   calc consts float start
-; Room:   37 bytes
+; Room:   35 bytes
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   DB      Q1000,QMUL         ; um
@@ -12,9 +12,8 @@ XRND:   DB      Q1000,QMUL         ; um
         DB      QSWP,QSIG+QRET          ; whole
 XRND1:  DB      QEND            ; um |whole|
         DB      ERROR,ETAPE
-; QVK: V = K in whole um; A = K, since the wire goes there (by no fillet, for all that is known here)
-XVK:    DB      Q0,SSG     ; -
-        DB      LKX,QDUP,SAX,QRND,SVX   ; -
+; QVK: V = K in whole um; A = K, since the wire goes there
+XVK:    DB      LKX,QDUP,SAX,QRND,SVX   ; -
         DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -
 ; QTOK: K = b = a point
 XTOK:   DB      QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -

@@ -2,7 +2,8 @@
 
 Four seams. The **board**: where things lie (`map_rom`), ports and their setting up (`io_6850`, `io_8251`), teletype
 (`io_port`), punch and reader (`io_punch`, `io_tty`), what is done when a block is complete and after an error
-(`io_ended`; `drive` follows the block), at reset and at the prompt (`reset`). **CP/M** fills these instead: `map_cpm`,
+(`io_ended`; `drive` follows the block), at reset and at the prompt (`reset`; `keep`
+saves the program through it, `keep_none` does not). **CP/M** fills these instead: `map_cpm`,
 `io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole micrometres (`tape`, and
 `arc_3b` or `arc_nodrift`). Whether spans of a curve are **held back**: `tol`, or `notol`. Words that not every image
 has are a set in words.txt.
@@ -27,7 +28,7 @@ class Image:
     restarts: bool = True
     ports: tuple[str, ...] = ("io_6850", "io_port")
     punch: tuple[str, ...] = ("io_punch", "io_ended")
-    start: str = "reset"
+    start: tuple[str, ...] = ("reset", "keep")
     post: tuple[str, ...] = ("grid", "arc_3b", "tape")
     hold: str = "tol"
     more: tuple[str, ...] = ()
@@ -39,13 +40,13 @@ class Image:
         return [
             self.map, "equ", "start", "ops", *self.ports, "io", *self.punch, "calc", "consts", "float",
             "decimal", "value", "geom", "parser", *self.post, "cut", "repeat", "fit", self.hold, "lexer", "program",
-            *self.more, "monitor", self.start, "words",
+            *self.more, "monitor", *self.start, "words",
         ]  # fmt: skip
 
     def for_cpm(self, tape: str) -> Image:
         """The same firmware as a program of CP/M; `tape` says of what type a tape's file is."""
         return replace(
-            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch=("io_disk",), start="cpm",
+            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch=("io_disk",), start=("cpm",),
             more=(*self.more, tape), words=(*self.words, "cpm"), forms=(".com",),
         )  # fmt: skip
 
@@ -59,8 +60,8 @@ IMAGES = {
     "skg-tty": Image(punch=("io_tty",)),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
     "skg-mill": MILL,
-    "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:])),
-    "skg-drive": Image(punch=("io_punch",), hold="notol", more=("drive",), words=("drive",)),
+    "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")),
+    "skg-drive": Image(punch=("io_punch",), hold="notol", more=("drive",), words=("drive",), start=("reset", "keep_none")),
     "skg-ram": Image(forms=(".hex",)),
     "skg.com": Image().for_cpm("type_3b"),
     "skgmill.com": MILL.for_cpm("type_nc"),

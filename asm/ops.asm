@@ -1,7 +1,7 @@
 ; ops.asm - the operations of the calculator: their numbers, and their routines
 ; Offers: names for all
 ; Uses:   calc cut fit float geom grid parser value
-; Room:   114 bytes
+; Room:   116 bytes
 ;
 ; Behind each number: what is on the float stack before and after, the top last; other effects.
 ; The numbers from OPPOP on pop one float; from OPBYTE on the routine is byte-code itself.
@@ -11,7 +11,7 @@
 ; one byte. Up to QTOK, but for jumps and QEND, that is possible.
 
 ;! OPTAB/100H == (OPEND-1)/100H -- CALC makes the low byte alone of a place in the table
-;! OPEND-OPTAB == 2*(QCHDA+1) -- every number has its routine
+;! OPEND-OPTAB == 2*(QTRAV+1) -- every number has its routine
 ;! QTOK+QRET == 0FFH -- the codes behind the constants are all used
 ;! (OPTAB & 0FFH) > 0 -- QRET leaves A not 0
 
@@ -74,6 +74,7 @@ QNORMS  EQU 35H         ; ->      a0 a1, b0 b1 = right normals of C and N at K; 
 QSENS   EQU 36H         ; R ->    negative when a is a circle that R would turn inside out
 QXING   EQU 37H         ; ->      a0 a1 = crossing of C and N as offset
 QCHDA   EQU 38H         ; x y -> dy dx  from a0 a1 to x y, times t0
+QTRAV   EQU 39H         ; x1 y1 x2 y2 -> c s  travel on C from one direction to another: cosine and sine, times the radii
 QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not 0, Z clear
 
 OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
@@ -84,5 +85,5 @@ OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
         DW      XCRS,XDOT,XDIF,XVEC,XSS,XHYP,XWAY
         DW      XALNG,XROTV,XUNIT,XE6D,XTOK
         DW      XMAX,XTURN,XCHRD,XBIAR,XMIRR,XLEG,XCENT
-        DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA
+        DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA,XTRAV
 OPEND:                          ; (its end)

@@ -1,10 +1,10 @@
 ; reset.asm - what a board does that is alone with the ROM: reset, SAVE to the punch
 ; Offers: RESET SSAVE BDRDY
-; Uses:   calc drive io io_ended io_punch io_tty monitor program start
-; Room:   115 bytes
+; Uses:   calc drive io io_ended io_punch io_tty keep keep_none monitor program start
+; Room:   60 bytes
 
 ; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is
-;         sound in it, signs on and goes to READY
+;         sound in it (keep.asm), or nothing, signs on and goes to READY
 RESET:  LXI     SP,STKTOP
         CALL    CALINI
         LXI     H,0
@@ -23,27 +23,7 @@ RESE2:  MOV     A,M             ; does this page keep what is written?
         INR     A               ; address and a length passes 0FFFFH
         JNZ     RESE2
 RESE3:  DCX     H               ; HL-> last byte of RAM
-        XCHG
-        LHLD    VTOP
-        CALL    CPHD
-        XCHG
-        SHLD    VTOP
-        CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
-        LXI     H,PROG
-RESE4:  SHLD    PEND            ; sound so far
-        MOV     A,M
-        ORA     A
-        JZ      RESE5
-        CALL    SUMREC
-        ORA     A
-        JZ      RESE4
-        LHLD    PEND
-        MVI     M,0             ; from here on it is lost
-        CALL    PUTSI
-        DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
-RESE5:  CALL    VARSUM
-        CNZ     CLEAR
-        CALL    CLEAR1          ; (once more does no harm)
+        CALL    KEEP
         CALL    PUTSI
         DB      CCR,CLF,"SKG",0A0H
         JMP     FREE

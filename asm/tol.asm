@@ -1,7 +1,7 @@
 ; tol.asm - TOL: few arcs for many nodes, spans of a curve are held back and tried as one (curves.md)
 ; Offers: STOL HOLD FLUSH
 ; Uses:   calc consts cut fit float geom parser start
-; Room:   223 bytes
+; Room:   222 bytes
 ;
 ; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
 ; has the places of the nodes behind that one, node 1's the last.  When node 2 comes and the
@@ -72,13 +72,12 @@ TRY1:   DB      QBIAR,QEND      ; -
         CALL    ARCW            ; w*w
         DB      CALC,QMIRR,ST2,ST3 ; -          t2 t3 = tangent at the joint
         DB      LMX,L1X,QADD,LT2,QMUL ; m
-        DB      LMY,L1Y,QADD,LT3,QMUL,QADD,SBX ; - bx = how far the joint lies along it
-        DB      LTO,QSQ,SBY,QEND ; -            by = d*d
+        DB      LMY,L1Y,QADD,LT3,QMUL,QADD,SO2,QEND ; - o2 = how far the joint lies along it
         LXI     D,HELD
 TRY2:   LXI     H,MT0
         CALL    CPYPL           ; t0 t1 = n
         PUSH    D
-        DB      CALC,LBX,LT0,LT2,QMUL,LT1,LT3,QMUL,QADD ; m n
+        DB      CALC,LO2,LT0,LT2,QMUL,LT1,LT3,QMUL,QADD ; m n
         DB      QSUB,SO1,QEND   ; -             o1 = how far n lies before the joint
         LXI     D,MNODE1
         LDA     MO1+1
@@ -88,7 +87,7 @@ TRY2:   LXI     H,MT0
 TRY3:   CALL    ARCW
         DB      CALC,QCRS,QSWP,QDIV ; k             half the curvature
         DB      LT0,LT4,LT1,LT5,QWAY ; k q*q    b = q: to n from the arc's node
-        DB      LBY,QSUB,QSWP,QDUP,ST0,QMUL ; k(q*q-d*d)  t0 = k
+        DB      LTO,QSQ,QSUB,QSWP,QDUP,ST0,QMUL ; k(q*q-d*d)  t0 = k
         DB      QCRS,QSUB,QDUP,ST1 ; g          t1 = g = k(q*q-d*d)-t*q
         DB      QABS,LTO,QSWP,QSUB,QJN ; -      d-|g|
         DB      TRY6-$
@@ -101,7 +100,7 @@ TRY5:   DB      QDOT,LO1,QSIG,QJN ; -           past the node, the wrong way
         JNZ     TRY2
         RET
 ; |g| > d: more than d off; but nothing lies too far inside an arc whose radius is below d
-TRY6:   DB      LT0,LBY,QMUL,QDBL ; 2kd*d
+TRY6:   DB      LT0,LTO,QSQ,QMUL,QDBL ; 2kd*d
         DB      LT1,QNEG,QSIG,LT1,QABS,QSUB ; +-2kd*d-|g|  + inside
         DB      QJN             ; -
         DB      TRY4-$

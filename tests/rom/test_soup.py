@@ -30,7 +30,7 @@ PROGRAMS_A_SHARE = int(os.environ.get("SKG_PROGRAMS", "20000")) // len(SHARES)
 MOST_ASIDE = 0.002
 MOST_ENDLESS = 0.002
 #: Programs of which a planted mistake must differ in one.
-PATIENCE = 2000
+PATIENCE = 20000
 
 
 def told(caught: Catch) -> str:

@@ -105,16 +105,14 @@ class Segment:
 
 @dataclass(frozen=True)
 class Element:
-    """A curve of the route that has been entered; after a fillet, which may be too short to be travelled, `corner`
-    is where that would have been without it, and `touch` where the fillet touches the curve, both as offset.
-    """
+    """A curve of the route that has been entered, at `start` as offset; `drawn`: the corner there as drawn, without
+    its fillet."""
 
     nominal: Curve
     offset: Real
     curve: Curve
     start: Point
-    corner: Point | None = None
-    touch: Point | None = None
+    drawn: Point
 
     def place(self, p: Point) -> Point:
         """A point of the nominal curve as offset."""
@@ -243,7 +241,8 @@ class Route:
         if self.element is None:
             self._enter(nominal, offset, curve)
         else:
-            self.element = self._go_over(Element(nominal, offset, curve, self.element.start), right)
+            before = self.element
+            self.element = self._go_over(Element(nominal, offset, curve, before.start, before.drawn), right)
         self.curves += 1
         self.point = None
 
@@ -251,7 +250,7 @@ class Route:
         p = self.point
         start = nearest(curve, self.hole) if p is None else place(nominal, p, offset)
         self.emit(Segment(self.wire, start, "entry"))
-        self.first = self.element = Element(nominal, offset, curve, start)
+        self.first = self.element = Element(nominal, offset, curve, start, start)
 
     def _is_same(self, entered: Element, nominal: Curve) -> bool:
         """Whether a curve goes on along the one that was entered."""
@@ -271,17 +270,18 @@ class Route:
         """From the open element over the next corner to f; returns f as it is entered there."""
         e, p, fillet = self.element, self.point, self.fillet
         self.fillet = None
-        arc = None if fillet is None else self._fillet(e, f, p, fillet, right)
+        drawn = p if p is not None else _chosen(crossings(e.nominal, f.nominal, TOUCH), right)
+        arc = None if fillet is None else self._fillet(e, f, drawn, fillet)
         if arc is None:
-            return replace(f, start=self._travel(e, self._corner(e, f, p, right), "cut"))
-        circle, touch_e, touch_f, corner = arc
+            return replace(f, start=self._travel(e, self._corner(e, f, p, right), "cut", drawn), drawn=drawn)
+        circle, touch_e, touch_f = arc
         if not _same_offset(e.offset, f.offset):
             raise Fault(Code.GEOMETRY)
-        rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start)
+        rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start, drawn)
         touch = (e if isinstance(e.nominal, Circle) else rounding).place(touch_e)
-        end = self._travel(e, touch, "cut")
+        end = self._travel(e, touch, "cut", drawn)
         start = self._travel(replace(rounding, start=end), rounding.place(touch_f), "fillet")
-        return replace(f, start=start, corner=f.place(corner), touch=f.place(touch_f))
+        return replace(f, start=start, drawn=drawn)
 
     def _corner(self, e: Element, f: Element, p: Point | None, right: bool) -> Point:
         """The corner between two elements as offset, p the point that names it."""
@@ -298,15 +298,12 @@ class Route:
             raise Fault(Code.GEOMETRY)
         return _nearest_crossing(crossings(e.curve, f.curve, ZERO), p)
 
-    def _fillet(
-        self, e: Element, f: Element, p: Point | None, radius: Real, right: bool
-    ) -> tuple[Circle, Point, Point, Point] | None:
-        """The arc that rounds the corner between the elements as drawn, its points on both, and the corner.
+    def _fillet(self, e: Element, f: Element, corner: Point, radius: Real) -> tuple[Circle, Point, Point] | None:
+        """The arc that rounds the corner between the elements as drawn, and its points on both.
 
         None where the corner turns too little; error 6 when it goes back, or when the arc does not fit. The centre
         is the crossing of both curves moved inwards by the radius (formula 9-7 of the SKG book).
         """
-        corner = p if p is not None else _chosen(crossings(e.nominal, f.nominal, TOUCH), right)
         turn = turn_angle(e.nominal, f.nominal, corner)
         near.note("fillet left out", (abs(turn) - SAME_WAY) / SAME_WAY, near.RELATIVE)
         if abs(turn) < SAME_WAY:
@@ -322,7 +319,7 @@ class Route:
         touch_f = _touching(arc, f.nominal, arc)
         if isinstance(e.curve, Circle):
             _check_order(e.curve, e.start, e.place(touch_e), e.place(corner), "fillet fits")
-        return arc, touch_e, touch_f, corner
+        return arc, touch_e, touch_f
 
     # Travel ---------------------------------------------------------------------------------------------
 
@@ -330,8 +327,11 @@ class Route:
         """Angle travelled on a circle from where it was entered; 0 for an end within 1 µm of that place."""
         return ZERO if same_point(e.start, end) else sweep(e.curve, e.start, end)
 
-    def _travel(self, e: Element, end: Point, role: str) -> Point:
-        """Put out e from where it was entered to its end; returns where the wire then is."""
+    def _travel(self, e: Element, end: Point, role: str, drawn: Point | None = None) -> Point:
+        """Put out e from where it was entered to its end; returns where the wire then is.
+
+        `drawn`: its end as drawn; None: the travel on a circle is not compared with that as drawn.
+        """
         if isinstance(e.curve, Line):
             back = -(end - e.start).dot(e.curve.direction)
             if not near.at_most(back, MICRON, "travel"):
@@ -339,8 +339,8 @@ class Route:
             self.emit(Segment(e.start, end, role, e.nominal, e.offset))
             return end
         angle = self._circle_travel(e, end)
-        if e.corner is not None:
-            _check_order(e.curve, e.corner, e.touch, end, "fillet fits")
+        if drawn is not None:
+            _check_half_turn(angle, _drawn_travel(e, drawn))
         if self.curves == 1 and role == "cut" and self.first_end is None:
             self.first_end = end
         if angle == 0:
@@ -410,7 +410,7 @@ class Route:
             overlap = _path_travel(e.curve, e.start, entry) + cut - 2 * real.mp.pi
             if not near.at_most(overlap * abs(e.curve.r), MICRON, "closing corner"):
                 raise Fault(Code.GEOMETRY)
-        self._travel(e, entry, "cut")
+        self._travel(e, entry, "cut", entry)
 
     def finish(self) -> Point:
         """End without BACK: close onto the first element if it was written last, else stop at the last point.
@@ -424,7 +424,7 @@ class Route:
             return self.first.start
         if self.point is None:
             raise Fault(Code.GEOMETRY)
-        return self._travel(self.element, self.element.place(self.point), "cut")
+        return self._travel(self.element, self.element.place(self.point), "cut", self.point)
 
 
 def _moved_inwards(curve: Curve, radius: Real) -> Curve:
@@ -433,6 +433,20 @@ def _moved_inwards(curve: Curve, radius: Real) -> Curve:
     if isinstance(curve, Circle) and near.at_most(moved.r if curve.r > 0 else -moved.r, MICRON, "fillet fits"):
         raise Fault(Code.GEOMETRY)
     return moved
+
+
+def _drawn_travel(e: Element, end: Point) -> Real:
+    """Angle travelled on a circle as drawn, radians: 0 for an end that lies up to 1 µm behind its entry."""
+    angle = sweep(e.nominal, e.drawn, end)
+    behind = (2 * real.mp.pi - angle) * abs(e.nominal.r)
+    return ZERO if near.at_most(behind, MICRON, "half a turn") else angle
+
+
+def _check_half_turn(travel: Real, drawn: Real) -> None:
+    """Error 6 when the travel on a circle differs by more than half a turn from the travel as drawn (radians): the wire
+    would leave the arc out, or run round the rest of its circle."""
+    if not near.at_most(abs(travel - drawn), real.mp.pi, "half a turn"):
+        raise Fault(Code.GEOMETRY)
 
 
 def _path_travel(path: Circle, start: Point, end: Point) -> Real:

@@ -1,0 +1,28 @@
+; keep.asm - what a reset leaves of program and variables: all that is sound
+; Offers: KEEP
+; Uses:   io monitor program start
+; Room:   58 bytes
+
+; KEEP - keeps the lines of the program up to the first one that has changed, and the variables when none has
+; In:  HL -> last byte of RAM   Out: VTOP   Clobbers all
+KEEP:   XCHG
+        LHLD    VTOP
+        CALL    CPHD
+        XCHG
+        SHLD    VTOP
+        CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
+        LXI     H,PROG
+KEEP1:  SHLD    PEND            ; sound so far
+        MOV     A,M
+        ORA     A
+        JZ      KEEP2
+        CALL    SUMREC
+        ORA     A
+        JZ      KEEP1
+        LHLD    PEND
+        MVI     M,0             ; from here on it is lost
+        CALL    PUTSI
+        DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
+KEEP2:  CALL    VARSUM
+        CNZ     CLEAR
+        JMP     CLEAR1          ; (once more does no harm)
