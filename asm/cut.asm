@@ -641,29 +641,29 @@ PASSP:  CALL    ADVANC
 
 ; WRAP - demands that the travel on the circle C, from A to K, differs by no more than half a turn from the travel
 ;        as drawn, from D to P: else the wire would leave the element out, or run round all of it
-; In:  C, A, K, D, P; on the float stack: negative when the wire travels more than half a turn   Out: ERR 06
+; In:  C, A, K, D, P; t3 negative when the wire travels more than half a turn   Out: ERR 06
 ; Clobbers all
 ; One of them must be less than half a turn, the other one more.  With a and b their cosines and sines,
 ; they differ by more than half a turn when the sine of b less a has the sign of b's own.
-WRAP:   DB      CALC,ST3,QEND   ; -
-        LDA     FITSM           ; (arcs of one curve touch each other: their corners stay)
+WRAP:   LDA     FITSM           ; (arcs of one curve touch each other: their corners stay)
         ORA     A
         RNZ
-        DB      CALC,LDX,LDY,LPX,LPY,QTRAV ; c s
-        DB      LC2,QABS,QMU,QMUL,QADD ; c s    none when 1 um backwards
-        DB      LAX,LAY,LKX,LKY,QTRAV ; c s c s
-        DB      SA1,SA0,SB1,SB0 ; -             a = the wire's travel, b = that as drawn
-        DB      LT3,LB1,QMUL,QNEG,QJN ; -       both in one half
+        DB      CALC,LDX,LDY,LPX,LPY,QTRAV ; s
+        DB      LC2,QABS,QMU,QMUL,QADD ; s      none when 1 um backwards
+        DB      QDUP,LT3,QSIG,QNEG,QJN ; s      both in one half
         DB      WRAP1-$
+        DB      QDOT            ; s c
+        DB      LAX,LAY,LKX,LKY,QTRAV,QDOT ; s c s c
+        DB      SA0,SA1,SB0,SB1 ; -             a = the wire's travel, b = that as drawn
         DB      QCRS,LB1,QSIG,QNEG,QE6N+QRET ; -
-WRAP1:  DB      QRET
+WRAP1:  DB      QDRP+QRET       ; -
 
 ; Operations of the calculator that the route adds
 
-; QTRAV: x1 y1 x2 y2 -> c s: from the first direction to the second, as seen from the centre of C
+; QTRAV: x1 y1 x2 y2 -> s: from the first direction to the second, as seen from the centre of C
 XTRAV:  DB      LC1,QSUB,SB1,LC0,QSUB,SB0 ; x1 y1
         DB      LC1,QSUB,SA1,LC0,QSUB,SA0 ; -
-        DB      QDOT,QCRS,LC2,QSIG+QRET ; c s
+        DB      QCRS,LC2,QSIG+QRET ; s
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
 XSENS:  DB      QJC
         DB      XSENS1-$
@@ -743,10 +743,10 @@ ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      ADVAN3-$
         DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
         DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
-        DB      QDUP,QEND       ; s s
+        DB      QDUP,ST3,QEND   ; s
         CALL    WRAP
         JMP     ARC
-ADVAN3: DB      Q1,QEND         ; 1             no travel: the corner is the entry place
+ADVAN3: DB      Q1,ST3,QEND     ; -             no travel: the corner is the entry place
         CALL    WRAP
         LDA     RELEMS
         ORA     A

@@ -74,7 +74,7 @@ QNORMS  EQU 35H         ; ->      a0 a1, b0 b1 = right normals of C and N at K; 
 QSENS   EQU 36H         ; R ->    negative when a is a circle that R would turn inside out
 QXING   EQU 37H         ; ->      a0 a1 = crossing of C and N as offset
 QCHDA   EQU 38H         ; x y -> dy dx  from a0 a1 to x y, times t0
-QTRAV   EQU 39H         ; x1 y1 x2 y2 -> c s  travel on C from one direction to another: cosine and sine, times the radii
+QTRAV   EQU 39H         ; x1 y1 x2 y2 -> s  travel on C: its sine times the radii; a, b = both places from the centre
 QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not 0, Z clear
 
 OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)

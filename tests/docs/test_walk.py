@@ -89,7 +89,7 @@ def test_the_walk_ends_in_the_block() -> None:
     """And shows the numbers that the block is made of."""
     _, bodies = sessions(PAGE.read_text())[-1]
     assert "B3000B4000B4000GYL1" in bodies[-1]
-    assert re.search(r"M58 BX +3000\nM59 BY +4000\n", bodies[-1])
+    assert re.search(r"M58 BX/DX +3000\nM59 BY/DY +4000\n", bodies[-1])
     assert re.search(r"M30 N0 +0\.8\nM31 N1 +-0\.6\n", "".join(bodies))
 
 
