@@ -27,6 +27,7 @@ include tests/rom/soup.mk
 include tests/mill/mill.mk
 include web/web.mk
 include tests/floats/floats.mk
+include release/release.mk
 
 # The virtual environment of the host tools and tests, made anew when the list of versions changes. The tools are installed as
 # a user has them, but editable: their modules, the ROM images and the libraries in C are those of this tree.

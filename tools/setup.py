@@ -10,6 +10,7 @@ from __future__ import annotations
 import atexit
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -45,11 +46,11 @@ LIBRARIES = {
 }
 
 
-def compiler() -> str:
+def compiler() -> list[str]:
     """The C compiler: $CC, else the first that is there."""
     for name in (os.environ.get("CC"), "cc", "gcc", "clang"):
-        if name and shutil.which(name.split()[0]):
-            return name
+        if name and shutil.which(shlex.split(name)[0]):
+            return shlex.split(name)
     raise SystemExit("skg: no C compiler; install one (Debian: apt-get install gcc) or name it in CC")
 
 
@@ -62,17 +63,23 @@ def compile_into(folder: Path) -> None:
         if not made.exists() or made.stat().st_mtime < newest:
             with tempfile.TemporaryDirectory() as scratch:
                 objects = translations(Path(scratch)) if "-DWITH_TRANSLATIONS" in options else []
-                run_compiler("-shared", "-fPIC", *options, "-o", made, *sources, *objects)
+                run_compiler(compiler(), "-shared", "-fPIC", *options, "-o", Path(scratch) / name, *sources, *objects)
+                # (a compiler for Windows leaves more beside it)
+                shutil.copy(Path(scratch) / name, made)
 
 
-def run_compiler(*words: str | Path) -> None:
+def run_compiler(command: list[str], *words: str | Path) -> None:
     """Compile, or raise what the compiler ended with; it says why itself."""
-    subprocess.run([*compiler().split(), *words], check=True)
+    subprocess.run([*command, *words], check=True)
 
 
 def translations(folder: Path) -> list[Path]:
-    """The ROMs that the board runs most often, translated into C and compiled."""
-    run_compiler(*listed("EMU_CFLAGS"), "-o", folder / "translate", *emulator_sources("EMU_TRANSLATE"))
+    """The ROMs that the board runs most often, translated into C and compiled.
+
+    The translator runs here: where $CC compiles for another system, $CC_FOR_BUILD compiles for this one.
+    """
+    here = shlex.split(os.environ.get("CC_FOR_BUILD", "")) or compiler()
+    run_compiler(here, *listed("EMU_CFLAGS"), "-o", folder / "translate", *emulator_sources("EMU_TRANSLATE"))
     parts = sorted((ABOVE / "examples").glob("*.skg"))
     objects = []
     for image in listed("TRANSLATED"):
@@ -80,7 +87,7 @@ def translations(folder: Path) -> list[Path]:
         with rows.open("wb") as file:
             subprocess.run([folder / "translate", ABOVE / "roms" / f"{image}.bin", *parts], stdout=file, check=True)
         names = [f"-DNAME=translation_{image.replace('-', '_')}", f'-DROWS="{rows}"']
-        run_compiler(*listed("EMU_CFLAGS"), "-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
+        run_compiler(compiler(), *listed("EMU_CFLAGS"), "-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
         objects.append(made)
     return objects
 
@@ -108,6 +115,7 @@ class BuildPackage(build_py):
         roms.mkdir(parents=True, exist_ok=True)
         for image in sorted((ABOVE / "roms").glob("*.bin")):
             shutil.copy(image, roms)
+        shutil.copy(ABOVE / "LICENSE", package)
 
 
 class Native(Distribution):
@@ -134,6 +142,7 @@ class SourceDistribution(sdist):
             target.mkdir(exist_ok=True)
             for file in sorted((ABOVE / folder).glob(pattern)):
                 shutil.copy(file, target)
+        shutil.copy(ABOVE / "LICENSE", base_dir)
 
 
 setup(

@@ -101,7 +101,7 @@ def test_wheel_is_complete(wheel: Path) -> None:
     modules = {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg").rglob("*.py")}
     images = {f"skg/machine/roms/{path.name}" for path in (ROOT / "roms").glob("*.bin")}
     grammars = {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg").rglob("*.lark")}
-    rest = {"skg/native/libskgsim.so", "skg/native/libskg80.so"} | grammars
+    rest = {"skg/native/libskgsim.so", "skg/native/libskg80.so", "skg/LICENSE"} | grammars
     assert len(grammars) >= 2
     assert len(images) >= 4
     assert {name for name in names if ".dist-info/" not in name} == modules | images | rest
