@@ -3,7 +3,7 @@
 The compiler is zig's (PyPI's ziglang), which brings the C library of every target along. Each wheel is built from the
 source distribution, in a folder of its own: what is in dist/ can be built again from what is in dist/.
 
-    release/build.py [--only PART]...       all, or files whose names have these parts (SHA256SUMS then lists what is there)
+    release/build.py [--only PART]...       all, or files whose names have these parts
 """
 
 from __future__ import annotations

@@ -1,0 +1,70 @@
+"""Tries an installed skg: cuts all examples, and calls every command as people do. Runs in that package's Python.
+
+trial.py FOLDER     FOLDER has the examples and a drawing; what the commands write, print and end with goes into it
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+#: Name -> a call of skg; `_` stands for a file of that name that the call writes.
+CALLS = {
+    "version": ["--version"],
+    "help": ["--help"],
+    "cut": ["cut", "bracket.dxf", "-o", "_bracket.3b", "--wire", "0.18", "--gap", "0.01", "--program", "_bracket.skg"],
+    "again": ["cut", "bracket.dxf", "-o", "_bracket.3b", "--wire", "0.2", "--gap", "0.01"],
+    "sheet": ["cut", "bracket.dxf", "-o", "_sheet.3b", "--wire", "0.18", "--sheet", "_sheet.pdf"],
+    "chinese": ["cut", "\u652f\u67b6.dxf", "-o", "_\u652f\u67b6.3b", "--wire", "0.18"],
+    "refused": ["cut", "wrench.3b", "-o", "_nothing.3b"],
+    "nothing": ["run", "not-there.skg"],
+    "check": ["check", "wrench.3b", "fit-gear.3b"],
+    "sim": ["sim", "wrench.3b"],
+    "json": ["sim", "--json", "wrench.3b"],
+    "plot": ["plot", "wrench.3b", "-o", "_wrench.svg"],
+    "picture": ["plot", "xy-star.skg", "-o", "_star.png"],
+    "gcode": ["gcode", "wrench.3b"],
+    "style": ["tape", "wrench.3b", "--style", "spaced"],
+    "dxf": ["dxf", "wrench.3b", "-o", "_wrench.dxf"],
+    "ref": ["ref", "fit-gear.skg"],
+    "run": ["run", "fit-gear.skg"],
+    "xy": ["xy", "xy-book-star.xy"],
+    "tekhtran": ["tekhtran", "tkh-maltese.tkh"],
+    "gear": ["gear", "--module", "2", "--teeth", "17"],
+    "cam": ["cam", "--base", "20", "--lift", "8"],
+    "term": ["term", "NO-PORT", "--batch"],
+}
+
+
+def cut_examples(out: Path) -> None:
+    """Cut every example by the installed board, in this process."""
+    import click
+
+    from skg.cli import cli
+
+    for part in sorted(Path.cwd().glob("*.skg")):
+        try:
+            cli.main(["run", part.name, "-o", str(out / f"{part.stem}.3b")], standalone_mode=False)
+        except (SystemExit, click.ClickException) as error:
+            print(f"{part.name}: {error!r}", file=sys.stderr)
+
+
+def main(folder: Path) -> None:
+    """Cut and call; each call in a process of its own, its output through pipes."""
+    os.chdir(folder)
+    out = folder / "out"
+    out.mkdir()
+    cut_examples(out)
+    for name, call in CALLS.items():
+        words = [str(out / word[1:]) if word.startswith("_") else word for word in call]
+        command = [sys.executable, "-c", "from skg.cli import main; main()", *words]
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
+        (out / f"{name}.stdout").write_bytes(done.stdout)
+        (out / f"{name}.stderr").write_bytes(done.stderr)
+        (out / f"{name}.code").write_text(str(done.returncode))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]).resolve())
