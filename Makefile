@@ -3,7 +3,7 @@
 #   make          the emulator, build/skg80: needs gcc alone
 #   make rom      roms/skg.bin .hex .sym and the other boards' images, build/skg.lst, from asm/: needs Python and node
 #   make t T=tests/rom/test_build.py     one test
-#   make format   Python and C as the formatters write them; make lint checks that, and both languages' warnings
+#   make format   Python, C and TypeScript as the formatters write them; make lint checks that, and their warnings
 #   make docs     tables, sessions and pictures of the pages, written anew
 #   make bench    the emulator's speed, cycles of the floats, cycles a block and a step over the examples
 #   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
@@ -61,13 +61,13 @@ RUFF      := --config tools/pyproject.toml tools asm tests release
 C_SOURCES := $(filter-out emu/terminal_windows.c,$(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c)))
 C_STYLED  := $(wildcard $(foreach folder,emu tests/emu tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]))
 
-format: venv
+format: venv web-format
 	$(VENV)/bin/ruff format -q $(RUFF)
 	$(VENV)/bin/clang-format -i $(C_STYLED)
 
 # A warning of the C compiler is an error here.
 lint: EMU_ROWS_OF = -I. -DNAME=translation -DROWS='"build/emu/skg.rows"'
-lint: venv emu
+lint: venv emu web-lint
 	$(VENV)/bin/ruff check $(RUFF)
 	$(VENV)/bin/ruff format --check $(RUFF)
 	$(VENV)/bin/clang-format --dry-run -Werror $(C_STYLED)

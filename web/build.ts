@@ -3,9 +3,10 @@ import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { build, type BuildOptions } from "esbuild";
+import { type BuildOptions, build } from "esbuild";
 import { Marked } from "marked";
-import { readNames, ROM_BYTES } from "./src/board.ts";
+import { ROM_BYTES, readNames } from "./src/board.ts";
+import { CATALOGUE } from "./src/catalogue.ts";
 import { pack } from "./src/link.ts";
 import type { Part } from "./src/parts.ts";
 import { layOut } from "./src/placed.ts";
@@ -17,7 +18,14 @@ const OUT = "web/dist";
 const TRANSLATORS: Record<string, string> = { ".xy": "xy", ".tkh": "tekhtran" };
 const SKG = process.env["SKG"] ?? ".venv/bin/skg";
 
-const common: BuildOptions = { bundle: true, minify: true, target: "es2022", charset: "utf8", legalComments: "none", logLevel: "warning" };
+const common: BuildOptions = {
+  bundle: true,
+  minify: true,
+  target: "es2022",
+  charset: "utf8",
+  legalComments: "none",
+  logLevel: "warning",
+};
 
 function programOf(path: string, ending: string): string {
   const command = TRANSLATORS[ending];
@@ -27,15 +35,16 @@ function programOf(path: string, ending: string): string {
 /** All of examples/: those with a tape and a program that the standard ROM runs. */
 function parts(): Part[] {
   const files = readdirSync("examples").sort();
-  return files.filter((file) => file.endsWith(".3b")).flatMap((tape) => {
-    const name = basename(tape, ".3b");
-    const ending = [".skg", ...Object.keys(TRANSLATORS)].find((each) => files.includes(name + each));
-    if (!ending) return [];
-    const program = programOf(join("examples", name + ending), ending);
-    const { items } = readTape(readFileSync(join("examples", tape), "latin1"));
-    const title = /^\d+\s*REM\s*(.*)$/im.exec(program)?.[1] ?? "";
-    return [{ name, title, program, picture: thumbnail(layOut(items).layout, 64) }];
-  });
+  return files
+    .filter((file) => file.endsWith(".3b"))
+    .flatMap((tape) => {
+      const name = basename(tape, ".3b");
+      const ending = [".skg", ...Object.keys(TRANSLATORS)].find((each) => files.includes(name + each));
+      if (!ending) return [];
+      const program = programOf(join("examples", name + ending), ending);
+      const { items } = readTape(readFileSync(join("examples", tape), "latin1"));
+      return [{ name, program, picture: thumbnail(layOut(items).layout, 64) }];
+    });
 }
 
 /** docs/manual.md as a page; behind every program of it stands a link that runs it. */
@@ -46,15 +55,21 @@ async function manual(): Promise<string> {
     links.set(program.trim(), `./#z=${await pack(program)}&run`);
   }
   const slug = (heading: string): string =>
-    heading.toLowerCase().replace(/<[^>]*>|&[a-z]+;|[^\p{L}\p{N} _-]/gu, "").trim().replace(/ /g, "-");
-  const escape = (code: string): string => code.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+    heading
+      .toLowerCase()
+      .replace(/<[^>]*>|&[a-z]+;|[^\p{L}\p{N} _-]/gu, "")
+      .trim()
+      .replace(/ /g, "-");
+  const escaped = (code: string): string => code.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
   const pages = new Marked({
     renderer: {
       code({ text: code, lang }) {
         const link = links.get(code.trim());
-        const attempt = (lang ?? "").startsWith("skg") && link
-          ? `<p class="try"><a href="${link}" aria-label="try this program in the machine">try</a></p>` : "";
-        return `<pre tabindex="0"><code>${escape(code)}</code></pre>\n${attempt}`;
+        const attempt =
+          (lang ?? "").startsWith("skg") && link
+            ? `<p class="try"><a href="${link}" aria-label="try this program in the machine">try</a></p>`
+            : "";
+        return `<pre tabindex="0"><code>${escaped(code)}</code></pre>\n${attempt}`;
       },
       heading({ tokens, depth, text: heading }) {
         return `<h${depth} id="${slug(heading)}">${this.parser.parseInline(tokens)}</h${depth}>\n`;
@@ -67,7 +82,7 @@ async function manual(): Promise<string> {
       image({ href, text: name }) {
         const picture = basename(href);
         copyFileSync(join("docs", href), join(OUT, picture));
-        return `<img src="${picture}" alt="${escape(name)}" loading="lazy">`;
+        return `<img src="${picture}" alt="${escaped(name)}" loading="lazy">`;
       },
     },
   });
@@ -81,31 +96,104 @@ async function manual(): Promise<string> {
 `;
 }
 
+/** Every part has its place in the catalogue. */
+function compare(found: string[], listed: string[]): void {
+  const odd = [...found, ...listed].filter(
+    (name) => !found.includes(name) || listed.filter((each) => each === name).length !== 1,
+  );
+  if (odd.length) throw new Error(`web/src/catalogue.ts and examples/ differ: ${[...new Set(odd)].join(" ")}`);
+}
+
+/** What lies in the one file as it is, in base64. */
+const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", "manual.html"];
+
+/** The whole page as one file, skg.html: it runs from a double click, too. */
+async function oneFile(): Promise<void> {
+  const bundle = await build({ ...common, format: "iife", entryPoints: ["web/src/main.ts"], write: false, outdir: OUT });
+  const script = (bundle.outputFiles[0]?.text ?? "").replace(/<\/script/g, "<\\/script");
+  const style = readFileSync(join(OUT, "style.css"), "utf8");
+  const icon = readFileSync(join(OUT, "icon.svg")).toString("base64");
+  const pieces = INSIDE.map((file) => {
+    const bytes = file === "manual.html" ? Buffer.from(manualAlone()) : readFileSync(join(OUT, file));
+    return `<script type="application/octet-stream" data-file="${file}">${bytes.toString("base64")}</script>`;
+  });
+  const hash = createHash("sha256").update(script).digest("base64");
+  const page = readFileSync("web/src/index.html", "utf8")
+    .replace(
+      /content="default-src[^"]*"/,
+      () =>
+        `content="default-src 'none'; script-src 'sha256-${hash}' blob: 'wasm-unsafe-eval'; worker-src blob:; connect-src blob: data:; style-src 'unsafe-inline'; img-src data: blob:; frame-src 'self' blob:; base-uri 'none'; form-action 'none'"`,
+    )
+    .replace(/<link rel="icon"[^>]*>/, () => `<link rel="icon" href="data:image/svg+xml;base64,${icon}">`)
+    .replace(/<link rel="manifest"[^>]*>\n/, "")
+    .replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${style}</style>`)
+    .replace(/<script type="module"[^>]*><\/script>\n/, "")
+    .replace("</body>", () => `${pieces.join("\n")}\n<script>${script}</script>\n</body>`);
+  writeFileSync(join(OUT, "skg.html"), page);
+}
+
+/** The manual with its style and pictures in itself. */
+function manualAlone(): string {
+  const style = readFileSync(join(OUT, "manual.css"), "utf8");
+  return readFileSync(join(OUT, "manual.html"), "utf8")
+    .replace(/<meta http-equiv[^>]*>\n/, "")
+    .replace(/<link rel="icon"[^>]*>/, "")
+    .replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${style}</style>`)
+    .replace(
+      /src="([\w-]+\.svg)"/g,
+      (_, file: string) => `src="data:image/svg+xml;base64,${readFileSync(join(OUT, file)).toString("base64")}"`,
+    );
+}
+
 async function main(): Promise<void> {
   rmSync(OUT, { recursive: true, force: true });
   mkdirSync(OUT, { recursive: true });
   if (readFileSync("roms/skg.bin").length !== ROM_BYTES) throw new Error(`roms/skg.bin has not ${ROM_BYTES} bytes`);
   const sym = readFileSync("roms/skg.sym", "latin1");
   readNames(sym); // (says what is missing)
-  writeFileSync(join(OUT, "skg.sym"), sym.split("\n").filter((line) => WANTED.test(line)).join("\n") + "\n");
+  writeFileSync(
+    join(OUT, "skg.sym"),
+    sym
+      .split("\n")
+      .filter((line) => WANTED.test(line))
+      .join("\n") + "\n",
+  );
   copyFileSync("roms/skg.bin", join(OUT, "skg.bin"));
   for (const wasm of ["board.wasm", "walk.wasm"]) copyFileSync(join("web/wasm", wasm), join(OUT, wasm));
   for (const file of ["index.html", "icon.svg", "manual.css"]) copyFileSync(join("web/src", file), join(OUT, file));
-  writeFileSync(join(OUT, "manifest.webmanifest"), JSON.stringify({
-    name: "SKG", short_name: "SKG", start_url: "./", display: "standalone", background_color: "#f4f4f1", theme_color: "#0b5394",
-    icons: [{ src: "icon.svg", sizes: "any", type: "image/svg+xml" }],
-  }));
-  writeFileSync(join(OUT, "parts.json"), JSON.stringify(parts()));
+  writeFileSync(
+    join(OUT, "manifest.webmanifest"),
+    JSON.stringify({
+      name: "SKG",
+      short_name: "SKG",
+      start_url: "./",
+      display: "standalone",
+      background_color: "#f4f4f1",
+      theme_color: "#0b5394",
+      icons: [{ src: "icon.svg", sizes: "any", type: "image/svg+xml" }],
+    }),
+  );
+  const found = parts();
+  compare(
+    found.map(({ name }) => name),
+    CATALOGUE.flatMap((group) => group.parts.map(({ name }) => name)),
+  );
+  writeFileSync(join(OUT, "parts.json"), JSON.stringify(found));
   writeFileSync(join(OUT, "manual.html"), await manual());
   await build({ ...common, format: "esm", entryPoints: ["web/src/main.ts", "web/src/style.css"], outdir: OUT });
   await build({ ...common, format: "iife", entryPoints: ["web/src/worker.ts"], outdir: OUT });
+  // (behind the list of what is kept for visits without a network: it is for those who take it away)
   const files = readdirSync(OUT).sort();
   const hash = createHash("sha256");
   for (const file of files) hash.update(file).update(readFileSync(join(OUT, file)));
   await build({
-    ...common, format: "iife", entryPoints: ["web/src/offline.ts"], outdir: OUT,
+    ...common,
+    format: "iife",
+    entryPoints: ["web/src/offline.ts"],
+    outdir: OUT,
     define: { FILES: JSON.stringify(["./", ...files]), VERSION: JSON.stringify(hash.digest("hex").slice(0, 12)) },
   });
+  await oneFile();
   if (!existsSync(join(OUT, "main.js"))) throw new Error("no main.js");
 }
 

@@ -28,8 +28,15 @@ web-tools:
 web-wasm:
 	web/wasm/build.sh
 
+# TypeScript as the formatter writes it, and what its linter finds (web/biome.json).
+web-lint: web-modules
+	cd web && node_modules/.bin/biome check --error-on-warnings .
+
+web-format: web-modules
+	cd web && node_modules/.bin/biome check --write .
+
 # In real browsers: Debian's chromium and firefox-esr, as far as they are there. Screenshots go to web/build/shots.
 test-web: web web/build/test/chromium.browser.mjs web/build/test/firefox.browser.mjs
 	node --test --test-reporter=spec web/build/test/*.browser.mjs
 
-.PHONY: web web-modules web-tools web-serve web-wasm test-web
+.PHONY: web web-modules web-lint web-format web-tools web-serve web-wasm test-web

@@ -2,7 +2,7 @@
 import type { Chooser } from "./choice.ts";
 import { chosenBlocks } from "./drawing.ts";
 import { onFrame } from "./frame.ts";
-import { nothing, type Layout } from "./placed.ts";
+import { type Layout, nothing } from "./placed.ts";
 import { blockText } from "./tape.ts";
 
 const ROW = 24;
@@ -67,7 +67,8 @@ export class BlockList {
       row.ariaSelected = String(isChosen);
       const stop = stops.some(({ after }) => after === placed.number);
       for (const [name, text] of [
-        ["number", String(placed.number).padStart(4, "0")], ["text", blockText(placed.block)],
+        ["number", String(placed.number).padStart(4, "0")],
+        ["text", blockText(placed.block)],
         ["line", this.describe(placed.line, stop)],
       ] as const) {
         const part = document.createElement("span");
@@ -102,7 +103,12 @@ export class BlockList {
     const { choice } = this.#chooser;
     const now = choice && "block" in choice ? choice.block : 0;
     const goal = {
-      ArrowDown: now + 1, ArrowUp: now - 1, PageDown: now + page, PageUp: now - page, Home: 1, End: blocks.length,
+      ArrowDown: now + 1,
+      ArrowUp: now - 1,
+      PageDown: now + page,
+      PageUp: now - page,
+      Home: 1,
+      End: blocks.length,
     }[event.key];
     if (goal === undefined || !blocks.length) return;
     event.preventDefault();

@@ -64,10 +64,12 @@ const CALL = 3;
 
 /** Addresses for `Names` from a .sym file: lines with a hexadecimal value and a name. A missing name is an Error. */
 export function readNames(sym: string): Names {
-  const values = new Map(sym.split("\n").map((line) => {
-    const [value = "", name = ""] = line.split(/\s+/);
-    return [name, parseInt(value, 16)] as const;
-  }));
+  const values = new Map(
+    sym.split("\n").map((line) => {
+      const [value = "", name = ""] = line.split(/\s+/);
+      return [name, parseInt(value, 16)] as const;
+    }),
+  );
   const value = (name: string): number => {
     const found = values.get(name);
     if (found === undefined) throw new Error(`skg.sym has no ${name}`);
@@ -75,9 +77,13 @@ export function readNames(sym: string): Names {
   };
   const register = value("SWX") - 0x80;
   return {
-    current: value("CURLIN"), direct: value("NXTP"), element: value("NTOC"), along: value("ADVANC"),
+    current: value("CURLIN"),
+    direct: value("NXTP"),
+    element: value("NTOC"),
+    along: value("ADVANC"),
     // Behind the call that ends its line: a line that is only looked at (10 RUN) does not come back from there.
-    run: value("SRUN") + CALL, wire: value("MREG") + 5 * register,
+    run: value("SRUN") + CALL,
+    wire: value("MREG") + 5 * register,
   };
 }
 
@@ -190,25 +196,56 @@ export class Board {
 
   /** The program that is in a RAM, as LIST prints it. (On a second board: the visitor's one does not notice.) */
   list(ram: Uint8Array): string {
-    if (!this.#scratch) {
-      this.#make(SCRATCH);
-      this.#scratch = true;
-    }
-    const wasm = this.#wasm;
-    const until = (): void => {
-      const end = wasm.page_cycles(SCRATCH) + PATIENCE;
-      while (wasm.page_cycles(SCRATCH) < end && REASONS[wasm.page_run(SCRATCH, 1_000_000)] !== "prompt");
-    };
-    wasm.page_restore(SCRATCH, this.#give(ram));
-    wasm.page_forget(SCRATCH);
-    wasm.page_reset(SCRATCH);
-    until();
-    wasm.page_take_paper(SCRATCH);
-    wasm.page_type(SCRATCH, this.#give(bytesOf("LIST\r")));
-    until();
-    const length = wasm.page_printed(SCRATCH);
-    const lines = ascii(this.#copy(wasm.page_take_paper(SCRATCH), length)).split("\r\n");
-    return lines.slice(1).filter((line) => /^\d/.test(line)).map((line) => `${line}\n`).join("");
+    this.#wasm.page_restore(this.#aside(), this.#give(ram));
+    this.#afresh();
+    const lines = this.#answer("LIST").split("\r\n");
+    return lines
+      .slice(1)
+      .filter((line) => /^\d/.test(line))
+      .map((line) => `${line}\n`)
+      .join("");
+  }
+
+  /** The lines of a program that the machine does not take, tried on the second board one after the other. A line without a
+   * number is a command and is not tried: that is for the page to say. */
+  check(program: string): { row: number; error: number; column: number }[] {
+    this.#wasm.page_restore(this.#aside(), this.#give(new Uint8Array(RAM_BYTES)));
+    this.#afresh();
+    return program.split(/\r?\n/).flatMap((line, row) => {
+      if (!/^\s*\d/.test(line)) return [];
+      const answer = this.#answer(line);
+      const error = /(?:^|\n)ERR (\d\d)/.exec(answer)?.[1];
+      // (the mark stands below the line as it was typed)
+      return error ? [{ row, error: Number(error), column: /\n( *)\^/.exec(answer)?.[1]?.length ?? -1 }] : [];
+    });
+  }
+
+  /** The second board, made when it is first wanted. */
+  #aside(): number {
+    if (!this.#scratch) this.#make(SCRATCH);
+    this.#scratch = true;
+    return SCRATCH;
+  }
+
+  /** Resets the second board and lets it come to its prompt. */
+  #afresh(): void {
+    this.#wasm.page_forget(SCRATCH);
+    this.#wasm.page_reset(SCRATCH);
+    this.#untilPrompt();
+    this.#wasm.page_take_paper(SCRATCH);
+  }
+
+  /** Types a line on the second board and returns what it prints. */
+  #answer(line: string): string {
+    this.#wasm.page_type(SCRATCH, this.#give(bytesOf(`${line}\r`)));
+    this.#untilPrompt();
+    const length = this.#wasm.page_printed(SCRATCH);
+    return ascii(this.#copy(this.#wasm.page_take_paper(SCRATCH), length));
+  }
+
+  #untilPrompt(): void {
+    const end = this.#wasm.page_cycles(SCRATCH) + PATIENCE;
+    while (this.#wasm.page_cycles(SCRATCH) < end && REASONS[this.#wasm.page_run(SCRATCH, 1_000_000)] !== "prompt");
   }
 
   #make(which: number): void {
@@ -238,8 +275,9 @@ export function ascii(bytes: Uint8Array): string {
 
 /** Bytes of a text; characters beyond ASCII become `?`. */
 export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
-  return Uint8Array.from(text, (character) => Math.min(character.codePointAt(0) ?? 63, 128)).map(
-    (byte) => (byte > 126 && byte !== 127 ? 63 : byte));
+  return Uint8Array.from(text, (character) => Math.min(character.codePointAt(0) ?? 63, 128)).map((byte) =>
+    byte > 126 && byte !== 127 ? 63 : byte,
+  );
 }
 
 function join(a: Uint8Array, b: Uint8Array): Uint8Array<ArrayBuffer> {

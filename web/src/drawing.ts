@@ -2,7 +2,7 @@
  * where the controller is. */
 import type { Choice, Chooser } from "./choice.ts";
 import { onFrame } from "./frame.ts";
-import { boxOf, directionAt, distanceFrom, isLine, nothing, placeAt, type Layout, type Placed } from "./placed.ts";
+import { boxOf, directionAt, distanceFrom, isLine, type Layout, nothing, type Placed, placeAt } from "./placed.ts";
 import type { XY } from "./tape.ts";
 import { View } from "./view.ts";
 
@@ -12,6 +12,12 @@ const NEAR = 0.4;
 /** Points of one path, and from how many blocks on all is drawn as thin as can be. */
 const POINTS = 200;
 const MANY = 2000;
+/** Pixels of lines that are drawn in one frame, and what the wire's cut may cost: points times its width. What is more comes in
+ * the next frames, and a wider cut is left out. */
+const FRAME_PIXELS = 1_500_000;
+const CUT_COST = 4_000_000;
+/** Marks of one kind that are drawn. */
+const MARKS = 3000;
 /** A pointer finds blocks within so many pixels. */
 const REACH = 12;
 const PAN_STEP = 60;
@@ -27,6 +33,7 @@ export interface Colours {
   chosen: string;
   walk: string;
   ruler: string;
+  grid: string;
 }
 
 /** Where the controller is, for the picture of the wire. */
@@ -44,7 +51,7 @@ export class Drawing {
   #layout: Layout = nothing();
   #boxes: Box[] = [];
   #extent: Box | undefined;
-  #colours: Colours = { wire: "#000", lead: "#000", chosen: "#000", walk: "#000", ruler: "#000" };
+  #colours: Colours = { wire: "#000", lead: "#000", chosen: "#000", walk: "#000", ruler: "#000", grid: "#ccc" };
   #wireWidth = 0;
   #walk: Wire | undefined;
   /** The visitor has looked closer: the window stays where it is. */
@@ -57,8 +64,11 @@ export class Drawing {
   #since = ARROWS;
   readonly #pointers = new Map<number, XY>();
   #moved = false;
-  /** Called with the place under the pointer, µm, or undefined. */
-  onPoint: ((place: XY | undefined) => void) | undefined;
+  #grid = false;
+  #from: XY | undefined;
+  #isMeasuring = false;
+  /** Called with the place under the pointer, µm, or undefined; `from`: where a measure began. */
+  onPoint: ((place: XY | undefined, from: XY | undefined) => void) | undefined;
 
   constructor(base: HTMLCanvasElement, over: HTMLCanvasElement, chooser: Chooser) {
     this.#base = base;
@@ -87,7 +97,7 @@ export class Drawing {
   /** The layout has more blocks than before; `again`: what was there is not the same either. */
   grown(again = false): void {
     this.#note();
-    if (!this.#isHeld && this.#extent && !this.#isInside(this.#extent)) this.fit();
+    if (!this.#isHeld && this.#extent && (again || !this.#isInside(this.#extent))) this.fit();
     else this.#ask(again);
   }
 
@@ -97,8 +107,12 @@ export class Drawing {
       const box = boxOf(blocks[at] as Placed);
       this.#boxes.push(box);
       this.#extent = this.#extent
-        ? [Math.min(this.#extent[0], box[0]), Math.min(this.#extent[1], box[1]),
-          Math.max(this.#extent[2], box[2]), Math.max(this.#extent[3], box[3])]
+        ? [
+            Math.min(this.#extent[0], box[0]),
+            Math.min(this.#extent[1], box[1]),
+            Math.max(this.#extent[2], box[2]),
+            Math.max(this.#extent[3], box[3]),
+          ]
         : box;
     }
   }
@@ -132,9 +146,37 @@ export class Drawing {
     this.#ask(true);
   }
 
+  /** Lines of a grid, and the axes. */
+  set grid(isOn: boolean) {
+    this.#grid = isOn;
+    this.#ask(true);
+  }
+
+  get isMeasuring(): boolean {
+    return this.#isMeasuring;
+  }
+
+  /** The next press is where a measure begins. */
+  set isMeasuring(isOn: boolean) {
+    this.#isMeasuring = isOn;
+    this.#from = undefined;
+    this.#ask(false);
+  }
+
   set walk(walk: Wire | undefined) {
     this.#walk = walk;
+    if (walk && this.#isHeld) this.#follow(walk.place);
     this.#ask(false);
+  }
+
+  /** The wire stays in the window, however close that is. */
+  #follow(place: XY): void {
+    const [x, y] = this.view.toPixel(place);
+    const [width, height] = this.#size;
+    const margin = Math.min(width, height) / 8;
+    if (x > margin && y > margin && x < width - margin && y < height - margin) return;
+    this.view.pan(width / 2 - x, height / 2 - y);
+    this.#ask(true);
   }
 
   #isInside([left, bottom, right, top]: Box): boolean {
@@ -173,13 +215,15 @@ export class Drawing {
       this.#needsAll = false;
       this.#drawn = 0;
       this.#since = ARROWS;
+      if (this.#grid) this.#gridLines(context);
       this.#rulers(context);
       this.#marks(context);
     }
     if (this.#drawn < blocks.length) {
       const from = this.#drawn;
-      this.#drawn = blocks.length;
-      this.#curves(context, from);
+      this.#drawn = this.#reach(from);
+      this.#curves(context, from, this.#drawn);
+      if (this.#drawn < blocks.length) this.#drawSoon();
     }
     this.#overlay();
     // (for who looks at the page from outside: the window, and how long this took, ms)
@@ -187,11 +231,25 @@ export class Drawing {
     Object.assign(this.#base.dataset, { window: `${scale} ${x} ${y} ${this.#pixels}`, took: String(performance.now() - began) });
   }
 
-  #curves(context: CanvasRenderingContext2D, from: number): void {
-    const cut = this.#trace(from, ({ role }) => role === "cut");
-    const leads = this.#trace(from, ({ role }) => role !== "cut");
+  /** The block behind the last one for which there is time in a frame. */
+  #reach(from: number): number {
+    const { blocks } = this.#layout;
+    const most = this.#size[0] + this.#size[1];
+    let pixels = 0;
+    let at = from;
+    for (; at < blocks.length && pixels < FRAME_PIXELS; at++) {
+      pixels += 4 + Math.min(most, (blocks[at] as Placed).length * this.view.scale);
+    }
+    return at;
+  }
+
+  #curves(context: CanvasRenderingContext2D, from: number, to: number): void {
+    const part = to < this.#layout.blocks.length || from ? this.#layout.blocks.slice(from, to) : this.#layout.blocks;
+    const cut = this.#trace(0, ({ role }) => role === "cut", part);
+    const leads = this.#trace(0, ({ role }) => role !== "cut", part);
     context.lineJoin = "round";
-    if (this.#wireWidth * this.view.scale > 1.5) {
+    const width = this.#wireWidth * this.view.scale;
+    if (width > 1.5 && cut.length * POINTS * Math.min(width, this.#size[0] + this.#size[1]) < CUT_COST) {
       context.save();
       context.globalAlpha = 0.25;
       context.lineCap = "round";
@@ -210,7 +268,7 @@ export class Drawing {
     context.strokeStyle = this.#colours.lead;
     for (const path of leads) context.stroke(path);
     context.setLineDash([]);
-    this.#arrows(context, from);
+    this.#arrows(context, from, to);
   }
 
   /** Paths of blocks, in pixels, none of many points: so they are drawn in a tenth of the time. Blocks outside of the window are
@@ -271,10 +329,10 @@ export class Drawing {
     }
   }
 
-  #arrows(context: CanvasRenderingContext2D, from: number): void {
+  #arrows(context: CanvasRenderingContext2D, from: number, to: number): void {
     const { blocks } = this.#layout;
     const [cut, leads] = [new Path2D(), new Path2D()];
-    for (let at = from; at < blocks.length; at++) {
+    for (let at = from; at < to; at++) {
       const placed = blocks[at] as Placed;
       const length = placed.length * this.view.scale;
       this.#since += length;
@@ -300,30 +358,66 @@ export class Drawing {
     context.strokeStyle = this.#colours.lead;
     context.fillStyle = this.#colours.lead;
     context.lineWidth = 1.25;
-    for (const hole of holes) {
-      const [x, y] = this.view.toPixel(hole);
+    for (const [x, y] of this.#apart(holes)) {
       context.beginPath();
       context.arc(x, y, 5, 0, 2 * Math.PI);
       context.stroke();
     }
-    for (const { at } of stops) {
-      const [x, y] = this.view.toPixel(at);
+    for (const [x, y] of this.#apart(stops.map(({ at }) => at))) {
       context.strokeRect(x - 7.5, y - 7.5, 15, 15);
     }
-    for (const placed of blocks) {
-      if (placed.role !== "in") continue;
-      const [x, y] = this.view.toPixel(placed.end);
+    const entries = blocks.filter(({ role }) => role === "in").map(({ end }) => end);
+    for (const [x, y] of this.#apart(entries)) {
       context.beginPath();
       context.arc(x, y, 3, 0, 2 * Math.PI);
       context.fill();
     }
   }
 
+  /** Pixels of places in the window, each once. */
+  #apart(places: readonly XY[]): XY[] {
+    const found = new Map<number, XY>();
+    for (const place of places) {
+      const [x, y] = this.view.toPixel(place);
+      if (x < -20 || y < -20 || x > this.#size[0] + 20 || y > this.#size[1] + 20) continue;
+      found.set(Math.round(x) * 65536 + Math.round(y), [x, y]);
+      if (found.size > MARKS) break;
+    }
+    return [...found.values()];
+  }
+
+  /** Lines at round places, no nearer to each other than a finger, and the axes. */
+  #gridLines(context: CanvasRenderingContext2D): void {
+    const step = round(40 / this.view.scale);
+    const [left, bottom] = this.view.toPlace([0, this.#size[1]]);
+    const [right, top] = this.view.toPlace([this.#size[0], 0]);
+    const lines = (isAxis: boolean): void => {
+      context.beginPath();
+      const wanted = (at: number): boolean => Math.abs(at) < step / 2 === isAxis;
+      for (let x = Math.ceil(left / step) * step; x <= right; x += step) {
+        if (!wanted(x)) continue;
+        const [px] = this.view.toPixel([x, 0]);
+        context.moveTo(px, 0);
+        context.lineTo(px, this.#size[1]);
+      }
+      for (let y = Math.ceil(bottom / step) * step; y <= top; y += step) {
+        if (!wanted(y)) continue;
+        const [, py] = this.view.toPixel([0, y]);
+        context.moveTo(0, py);
+        context.lineTo(this.#size[0], py);
+      }
+      context.stroke();
+    };
+    context.lineWidth = 1;
+    context.strokeStyle = this.#colours.grid;
+    lines(false);
+    context.strokeStyle = this.#colours.lead;
+    lines(true);
+  }
+
   /** A length below, to read sizes by; and the axes' crossing. */
   #rulers(context: CanvasRenderingContext2D): void {
-    const wanted = 110 / this.view.scale / 1000;
-    const ten = 10 ** Math.floor(Math.log10(wanted));
-    const length = ten * (wanted / ten >= 5 ? 5 : wanted / ten >= 2 ? 2 : 1);
+    const length = round(55 / this.view.scale) / 1000;
     const pixels = length * 1000 * this.view.scale;
     const [x, y] = [12, this.#size[1] - 12];
     context.strokeStyle = context.fillStyle = this.#colours.ruler;
@@ -340,8 +434,11 @@ export class Drawing {
     context.lineTo(ox, oy + 6);
     context.stroke();
     context.font = "12px system-ui, sans-serif";
-    context.fillText(length >= 0.01 ? `${Number(length.toPrecision(3))} mm` : `${Number((length * 1000).toPrecision(3))} µm`,
-      x + 4, y - 6);
+    context.fillText(
+      length >= 0.01 ? `${Number(length.toPrecision(3))} mm` : `${Number((length * 1000).toPrecision(3))} µm`,
+      x + 4,
+      y - 6,
+    );
   }
 
   #overlay(): void {
@@ -356,6 +453,14 @@ export class Drawing {
       context.lineWidth = 4;
       context.lineCap = "round";
       for (const path of this.#trace(0, (placed) => chosen.has(placed.number))) context.stroke(path);
+    }
+    if (this.#from) {
+      const [x, y] = this.view.toPixel(this.#from);
+      context.strokeStyle = this.#colours.chosen;
+      context.lineWidth = 2;
+      context.beginPath();
+      context.arc(x, y, 6, 0, 2 * Math.PI);
+      context.stroke();
     }
     const walk = this.#walk;
     if (!walk) return;
@@ -418,11 +523,15 @@ export class Drawing {
       const box = canvas.getBoundingClientRect();
       return [event.clientX - box.left, event.clientY - box.top];
     };
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      const lines = event.deltaMode ? event.deltaY * 30 : event.deltaY;
-      this.zoom(Math.exp(-Math.max(-300, Math.min(300, lines)) / 400), pixel(event));
-    }, { passive: false });
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        const lines = event.deltaMode ? event.deltaY * 30 : event.deltaY;
+        this.zoom(Math.exp(-Math.max(-300, Math.min(300, lines)) / 400), pixel(event));
+      },
+      { passive: false },
+    );
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       this.#pointers.set(event.pointerId, pixel(event));
@@ -433,14 +542,16 @@ export class Drawing {
       const before = this.#pointers.get(event.pointerId);
       if (before) this.#drag(event.pointerId, before, now);
       else this.#point(now);
-      this.onPoint?.(this.view.toPlace(now));
+      this.onPoint?.(this.view.toPlace(now), this.#from);
     });
     const lift = (event: PointerEvent): void => {
-      if (this.#pointers.delete(event.pointerId) && !this.#moved) this.#point(pixel(event));
+      if (!this.#pointers.delete(event.pointerId) || this.#moved) return;
+      if (this.#isMeasuring) this.#measure(pixel(event));
+      else this.#point(pixel(event));
     };
     canvas.addEventListener("pointerup", lift);
     canvas.addEventListener("pointercancel", lift);
-    canvas.addEventListener("pointerleave", () => this.onPoint?.(undefined));
+    canvas.addEventListener("pointerleave", () => this.onPoint?.(undefined, undefined));
     canvas.addEventListener("dblclick", () => this.fit());
     canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
@@ -461,16 +572,33 @@ export class Drawing {
     ArrowRight: () => this.pan(-PAN_STEP, 0),
     ArrowUp: () => this.pan(0, PAN_STEP),
     ArrowDown: () => this.pan(0, -PAN_STEP),
-    n: () => this.#step(1),
-    p: () => this.#step(-1),
+    n: () => this.step(1),
+    p: () => this.step(-1),
   };
 
   /** The next or the last block is chosen. */
-  #step(by: number): void {
+  step(by: number): void {
     const { choice } = this.#chooser;
     const at = choice && "block" in choice ? choice.block : by > 0 ? 0 : this.#layout.blocks.length + 1;
     const next = Math.min(this.#layout.blocks.length, Math.max(1, at + by));
     if (this.#layout.blocks.length) this.#chooser.choose({ block: next });
+  }
+
+  /** A measure begins at the end of a block that is near, else where the pointer is; the next press ends it. */
+  #measure(pixel: XY): void {
+    this.#from = this.#corner(pixel);
+    this.#ask(false);
+    this.onPoint?.(this.view.toPlace(pixel), this.#from);
+  }
+
+  #corner(pixel: XY): XY {
+    const block = this.#nearest(pixel);
+    const corners = block ? [block.start, block.end] : [];
+    const near = corners.find((corner) => {
+      const [x, y] = this.view.toPixel(corner);
+      return Math.hypot(x - pixel[0], y - pixel[1]) < REACH;
+    });
+    return near ?? this.view.toPlace(pixel);
   }
 
   #point(now: XY): void {
@@ -492,6 +620,12 @@ export class Drawing {
     this.view.pan((now[0] - before[0]) / 2, (now[1] - before[1]) / 2);
     this.zoom((is as number) / (was as number), [(now[0] + other[0]) / 2, (now[1] + other[1]) / 2]);
   }
+}
+
+/** The least of 1, 2, 5, 10… that is not less. */
+function round(wanted: number): number {
+  const ten = 10 ** Math.floor(Math.log10(wanted));
+  return ten * (wanted <= ten ? 1 : wanted <= 2 * ten ? 2 : wanted <= 5 * ten ? 5 : 10);
 }
 
 /** Numbers of the blocks that a choice means. */

@@ -1,18 +1,20 @@
 /** Files that come in: what they are, and what is wrong with them; and files that go out. */
 import type { Word } from "./language.ts";
-import { readEverything, type Everything } from "./store.ts";
-import { readTape, TapeError, type ReadTape } from "./tape.ts";
+import { layOutSteps, type Placer } from "./placed.ts";
+import { type Everything, readEverything } from "./store.ts";
+import { type ReadTape, readTapeSteps, TapeError } from "./tape.ts";
 
 /** What a file is; `refused`: a word of language.ts with its values, the file's name first. */
 export type Found =
   | { kind: "program"; text: string }
-  | { kind: "tape"; tape: ReadTape }
+  | { kind: "tape"; text: string }
   | { kind: "saved"; saved: Everything }
   | { kind: "refused"; why: Word; values: (string | number)[] };
 
 /** No program is longer: the board has 8 KiB. */
 const MOST_PROGRAM = 64 * 1024;
-const MOST = 16 * 1024 * 1024;
+/** A tape of some 150,000 blocks: so many are opened, drawn and walked through without a halt. */
+const MOST = 2 * 1024 * 1024;
 
 export const tooLarge = (name: string, size: number): Found | undefined =>
   size > MOST ? { kind: "refused", why: "badLarge", values: [name, MOST / 1024] } : undefined;
@@ -31,21 +33,43 @@ export function recognize(name: string, bytes: Uint8Array): Found {
   }
   // (an editor's mark at the start, a ctrl-Z at the end and blank tape are let pass)
   const plain = text.replace(/^\xef\xbb\xbf/, "").replace(/\x1a[^]*$/, "");
-  const isTape = /\.3b$/i.test(name) || (!/\.skg$/i.test(name) && /(^|[\s:])B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*G/i.test(plain));
-  if (isTape) {
-    try {
-      return { kind: "tape", tape: readTape(plain) };
-    } catch (error) {
-      if (!(error instanceof TapeError)) throw error;
-      return refuse("badTape", error.block, error.line, error.column, error.found);
-    }
-  }
+  const isTape =
+    /\.3b$/i.test(name) || (!/\.skg$/i.test(name) && /(^|[\s:])B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*G/i.test(plain));
+  if (isTape) return { kind: "tape", text: plain };
   const strange = /[^\t\n\r -~\0]/.exec(plain);
   if (!/\.skg$/i.test(name) && (strange || !/^[\s\0]*\d+\s*[A-Za-z]/.test(plain))) return refuse("badKind");
   if (strange) return refuse("badText", text.indexOf(strange[0]) + 1);
   if (!plain.trim()) return refuse("badEmpty");
   if (plain.length > MOST_PROGRAM) return refuse("badLarge", MOST_PROGRAM / 1024);
   return { kind: "program", text: plain };
+}
+
+/** Longest time that a file's reading holds the page up at a stretch, ms. */
+const SLICE = 12;
+
+/** Reads and lays out a tape, and lets the page go on meanwhile. */
+export async function readWhole(
+  name: string,
+  text: string,
+): Promise<{ tape: ReadTape; placer: Placer } | { why: Word; values: (string | number)[] }> {
+  try {
+    const tape = await inSlices(readTapeSteps(text));
+    return { tape, placer: await inSlices(layOutSteps(tape.items)) };
+  } catch (error) {
+    if (!(error instanceof TapeError)) throw error;
+    return { why: "badTape", values: [name, error.block, error.line, error.column, error.found] };
+  }
+}
+
+async function inSlices<T>(steps: Generator<undefined, T>): Promise<T> {
+  for (;;) {
+    const end = performance.now() + SLICE;
+    while (performance.now() < end) {
+      const step = steps.next();
+      if (step.done) return step.value;
+    }
+    await new Promise((resume) => setTimeout(resume));
+  }
 }
 
 /** Gives the visitor a file. */

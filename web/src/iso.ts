@@ -19,7 +19,8 @@ const grid = ([x, y]: XY): XY => [Math.round(x), Math.round(y)];
 
 const isSame = (one: XY, other: XY): boolean => one[0] === other[0] && one[1] === other[1];
 
-export function isoText(layout: Layout): string {
+/** Without M30 when the tape has no end. */
+export function isoText(layout: Layout, isWhole = true): string {
   const lines: string[] = [];
   const write = (words: string): number => lines.push(`N${(lines.length % LAST_NUMBER) + 1}${words}\r\n`);
   let at = grid(layout.blocks[0]?.start ?? [0, 0]);
@@ -59,8 +60,8 @@ export function isoText(layout: Layout): string {
       turn(placed, end);
     }
   }
-  stops.forEach(() => write("M0"));
-  write("M30");
+  for (const _ of stops) write("M0");
+  if (isWhole) write("M30");
   return lines.join("");
 }
 

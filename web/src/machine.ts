@@ -1,6 +1,6 @@
 /** The page's side of the board's worker. */
 import { bytesOf, type Punched } from "./board.ts";
-import type { News, Order, Speed, State } from "./worker.ts";
+import type { Images, News, Order, Refused, Speed, State } from "./runner.ts";
 
 export interface Listener {
   /** `seen` is to be called when all of it has been shown: the board waits for that. */
@@ -15,17 +15,21 @@ export class Machine {
   readonly #listener: Listener;
   /** How often it was loaded, restored or reset: what it did before is no news any more. */
   #taken = 0;
+  #asked = 0;
+  readonly #answers = new Map<number, (refused: Refused[]) => void>();
 
-  constructor(listener: Listener) {
+  constructor(address: string | URL, listener: Listener) {
     this.#listener = listener;
-    this.#worker = new Worker(new URL("worker.js", document.baseURI));
+    this.#worker = new Worker(address);
     this.#worker.onmessage = (event: MessageEvent<News>) => this.#hear(event.data);
     this.#worker.onerror = (event) => listener.failed(event.message || "worker");
   }
 
-  start(speed: Speed, kept?: { ram: Uint8Array | undefined; program: string; rom: string }): void {
+  start(speed: Speed, kept?: { ram: Uint8Array | undefined; program: string; rom: string }, images?: Images): void {
     this.#say({
-      kind: "start", speed,
+      kind: "start",
+      speed,
+      ...(images ? { images } : {}),
       ...(kept ? { program: kept.program, rom: kept.rom, ...(kept.ram ? { ram: kept.ram } : {}) } : {}),
     });
   }
@@ -48,6 +52,13 @@ export class Machine {
   /** Puts a saved RAM back; the program alone where it belongs to another ROM. */
   restore(ram: Uint8Array, program: string, rom: string): void {
     this.#take({ kind: "restore", ram, program, rom });
+  }
+
+  /** The lines of a text that the machine would not take; what is in it stays there. */
+  check(program: string): Promise<Refused[]> {
+    const id = ++this.#asked;
+    this.#say({ kind: "check", id, program });
+    return new Promise((answer) => this.#answers.set(id, answer));
   }
 
   reset(): void {
@@ -76,6 +87,10 @@ export class Machine {
         break;
       case "memory":
         this.#listener.memory(news.ram, news.program, news.rom);
+        break;
+      case "checked":
+        this.#answers.get(news.id)?.(news.refused);
+        this.#answers.delete(news.id);
         break;
       case "failed":
         this.#listener.failed(news.why);

@@ -1,5 +1,16 @@
 /** A tape laid out on the drawing: absolute lines and arcs, in µm. */
-import { closedMoves, isFullCircle, moveOf, startOf, sweepOf, type Block, type Item, type XY } from "./tape.ts";
+import {
+  type Block,
+  closedMovesSteps,
+  finish,
+  type Item,
+  isFullCircle,
+  moveOf,
+  STEP,
+  startOf,
+  sweepOf,
+  type XY,
+} from "./tape.ts";
 
 /** A block in its place. `sweep` is in radians, counter-clockwise positive, 0 for a line; `line` the program line that made it
  * (0: unknown), `number` its number on the tape from 1. */
@@ -109,6 +120,7 @@ export function boxOf(p: Placed): [number, number, number, number] {
 export class Placer {
   readonly layout: Layout = nothing();
   #at: XY = [0, 0];
+  #isUnsettled = false;
 
   /** `end`: where the firmware's wire stands behind the block, when that is known. */
   add(item: Item, line: number, end?: XY): void {
@@ -116,7 +128,7 @@ export class Placer {
     if (item === "D") {
       if (!blocks.length && end) this.#at = end;
       stops.push({ at: this.#at, after: blocks.length });
-      survey(this.layout);
+      this.#isUnsettled = true;
       return;
     }
     const move = moveOf(item);
@@ -133,9 +145,16 @@ export class Placer {
     blocks.push(placeBlock(item, start, this.#at, blocks.length + 1, line));
   }
 
+  /** Finds what each block is for, when a route has ended since this was done last: once for many stops. */
+  settle(): void {
+    if (this.#isUnsettled) survey(this.layout);
+    this.#isUnsettled = false;
+  }
+
   /** The tape ends: the last route's way back is known. */
   end(): void {
-    survey(this.layout);
+    this.#isUnsettled = true;
+    this.settle();
   }
 }
 
@@ -149,8 +168,9 @@ function survey(layout: Layout): void {
   const { blocks, stops } = layout;
   const ends = [...stops.map(({ after }) => after), blocks.length];
   const stretches = ends.map((last, at) => ({ first: ends[at - 1] ?? 0, last }));
-  const isStraight = stretches.map(({ first, last }) =>
-    last === first || (last === first + 1 && isLine(blocks[first] as Placed)));
+  const isStraight = stretches.map(
+    ({ first, last }) => last === first || (last === first + 1 && isLine(blocks[first] as Placed)),
+  );
   const isInside = (at: number): boolean => at > 0 && at < stretches.length - 1;
   const alternate = isStraight.every((straight, at) => straight || at % 2 === 0 || !isInside(at));
   layout.routes.length = layout.holes.length = 0;
@@ -169,9 +189,10 @@ function survey(layout: Layout): void {
  * several, one after the other, when a contour is cut more than once. */
 function markLeads(route: readonly Placed[]): void {
   let at = 0;
-  for (let back: number | undefined; (back = wayBack(route, at)) !== undefined; at = back + 1) {
+  for (let back = wayBack(route, at); back !== undefined; back = wayBack(route, at)) {
     (route[at] as Placed).role = "in";
     (route[back] as Placed).role = "back";
+    at = back + 1;
   }
 }
 
@@ -196,35 +217,43 @@ function wayBack(route: readonly Placed[], first: number): number | undefined {
 }
 
 /** Lays out a tape whose places are not known, from `start`. */
-export function layOut(items: readonly Item[], start: XY = [0, 0]): Placer {
+export const layOut = (items: readonly Item[], start: XY = [0, 0]): Placer => finish(layOutSteps(items, start));
+
+/** The same in steps of some hundred blocks. */
+export function* layOutSteps(items: readonly Item[], start: XY = [0, 0]): Generator<undefined, Placer> {
   const placer = new Placer();
-  const ends = placesOf(items, start);
-  items.forEach((item, at) => placer.add(item, 0, ends[at]));
+  const ends = yield* placesOf(items, start);
+  for (const [at, item] of items.entries()) {
+    if (at % STEP === STEP - 1) yield;
+    placer.add(item, 0, ends[at]);
+  }
+  yield;
   placer.end();
   return placer;
 }
 
 /** Where each item ends; a stop, where it stands. */
-function placesOf(items: readonly Item[], start: XY): XY[] {
+function* placesOf(items: readonly Item[], start: XY): Generator<undefined, XY[]> {
   const found: XY[] = [];
   let at = start;
   let route: Block[] = [];
-  const flush = (): void => {
-    for (const [dx, dy] of closedMoves(route)) {
+  function* flush(): Generator<undefined, void> {
+    for (const [dx, dy] of yield* closedMovesSteps(route)) {
       at = [at[0] + dx, at[1] + dy];
       found.push(at);
     }
     route = [];
-  };
-  for (const item of items) {
+  }
+  for (const [index, item] of items.entries()) {
+    if (index % STEP === STEP - 1) yield;
     if (item === "D") {
-      flush();
+      yield* flush();
       found.push(at);
     } else {
       route.push(item);
     }
   }
-  flush();
+  yield* flush();
   return found;
 }
 
@@ -233,9 +262,7 @@ export function extentOf(blocks: readonly Placed[]): [number, number, number, nu
   let found: [number, number, number, number] | undefined;
   for (const placed of blocks) {
     const [a, b, c, d] = boxOf(placed);
-    found = found
-      ? [Math.min(found[0], a), Math.min(found[1], b), Math.max(found[2], c), Math.max(found[3], d)]
-      : [a, b, c, d];
+    found = found ? [Math.min(found[0], a), Math.min(found[1], b), Math.max(found[2], c), Math.max(found[3], d)] : [a, b, c, d];
   }
   return found;
 }

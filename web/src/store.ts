@@ -1,4 +1,7 @@
 /** What the page keeps from visit to visit, in the browser's own store; where that refuses, it is told once. */
+import type { Punched } from "./board.ts";
+import type { KeptTape } from "./recording.ts";
+import type { Work } from "./works.ts";
 
 export interface Kept {
   /** The RAM at the last prompt in base64, the program in it as LIST prints it, and the ROM's name. */
@@ -6,6 +9,8 @@ export interface Kept {
   program: string;
   rom: string;
   paper: string;
+  /** A text in the editor that is not in the machine. */
+  draft?: string;
 }
 
 export type Theme = "auto" | "light" | "dark";
@@ -15,6 +20,9 @@ export interface Settings {
   language: string;
   theme: Theme;
   wire: number;
+  /** A change in the editor runs after a moment. */
+  auto: boolean;
+  grid: boolean;
 }
 
 /** Everything as one file. */
@@ -26,11 +34,17 @@ export interface Everything {
   tape: string;
 }
 
-const MACHINE = "skg.machine";
-const SETTINGS = "skg.settings";
+/** Names of the browser's store. Each copy of the page has its own, by the folder that it lies in: two on one server share nothing. */
+const FOLDER = new URL(".", globalThis.location?.href ?? "http://localhost/").pathname;
+const PREFIX = `skg:${FOLDER}:`;
+const [MACHINE, SETTINGS, WORKS, OWNER, TAPE] = ["machine", "settings", "works", "owner", "tape"];
+/** Before copies had names of their own; read, never written. */
+const COMMON = "skg.";
 
 export class Store {
   #refused: (() => void) | undefined;
+  readonly #me = String(Math.random());
+  #isMine = true;
 
   constructor(onRefused: () => void) {
     this.#refused = onRefused;
@@ -49,13 +63,57 @@ export class Store {
     return isKept(kept) ? kept : null;
   }
 
+  /** Written by the tab that has the machine alone. */
   set machine(kept: Kept | null) {
-    this.#write(MACHINE, kept);
+    if (this.#isMine) this.#write(MACHINE, kept);
+  }
+
+  /** The tape that was drawn last. */
+  get tape(): KeptTape | null {
+    const tape = this.#read<KeptTape>(TAPE);
+    return typeof tape?.made?.name === "string" && Array.isArray(tape.lines) && tape.lines.every(isPunched) ? tape : null;
+  }
+
+  set tape(tape: KeptTape | null) {
+    if (this.#isMine) this.#write(TAPE, tape);
+  }
+
+  get works(): Work[] {
+    const works = this.#read<Work[]>(WORKS);
+    return Array.isArray(works) ? works.filter(isWork) : [];
+  }
+
+  set works(works: Work[]) {
+    this.#write(WORKS, works);
+  }
+
+  /** Takes the machine that is kept for this tab; `lost` is called when another one takes it. */
+  own(lost: () => void): void {
+    this.#isMine = true;
+    this.#write(OWNER, this.#me);
+    window.addEventListener("storage", (event) => {
+      if (event.key !== PREFIX + OWNER || !this.#isMine || event.newValue === JSON.stringify(this.#me)) return;
+      this.#isMine = false;
+      lost();
+    });
+  }
+
+  /** Takes it back from another tab. */
+  ownAgain(): void {
+    this.#isMine = true;
+    this.#write(OWNER, this.#me);
+  }
+
+  /** Calls `changed` when another tab has written programs. */
+  watch(changed: () => void): void {
+    window.addEventListener("storage", (event) => {
+      if (event.key === PREFIX + WORKS) changed();
+    });
   }
 
   #read<T>(key: string): T | null {
     try {
-      return JSON.parse(localStorage.getItem(key) ?? "null") as T | null;
+      return JSON.parse(localStorage.getItem(PREFIX + key) ?? localStorage.getItem(COMMON + key) ?? "null") as T | null;
     } catch {
       return null;
     }
@@ -63,7 +121,7 @@ export class Store {
 
   #write(key: string, value: unknown): void {
     try {
-      localStorage.setItem(key, JSON.stringify(value));
+      localStorage.setItem(PREFIX + key, JSON.stringify(value));
     } catch {
       this.#refused?.();
       this.#refused = undefined;
@@ -71,16 +129,31 @@ export class Store {
   }
 }
 
+function isPunched(line: unknown): line is Punched {
+  const { text, line: number, x, y } = (line ?? {}) as Punched;
+  return typeof text === "string" && [number, x, y].every((each) => typeof each === "number");
+}
+
+function isWork(work: unknown): work is Work {
+  const { id, name, when, program } = (work ?? {}) as Work;
+  return [id, name, program].every((each) => typeof each === "string") && typeof when === "number";
+}
+
 const isKept = (kept: unknown): kept is Kept =>
-  typeof kept === "object" && kept !== null &&
+  typeof kept === "object" &&
+  kept !== null &&
   (["ram", "program", "rom", "paper"] as const).every((key) => typeof (kept as Kept)[key] === "string");
 
 /** The page that was exported; undefined where the text is none. */
 export function readEverything(text: string): Everything | undefined {
   try {
     const found = JSON.parse(text) as Everything;
-    const isOne = found.format === "skg-page" && found.version === 1 && (found.kept === null || isKept(found.kept)) &&
-      typeof found.settings === "object" && typeof found.tape === "string";
+    const isOne =
+      found.format === "skg-page" &&
+      found.version === 1 &&
+      (found.kept === null || isKept(found.kept)) &&
+      typeof found.settings === "object" &&
+      typeof found.tape === "string";
     return isOne ? found : undefined;
   } catch {
     return undefined;

@@ -38,20 +38,37 @@ export function svgText(layout: Layout, wire: number, title: string): string {
   const margin = 2 + wire;
   const [left, top] = [box[0] / 1000 - margin, -box[3] / 1000 - margin];
   const [width, height] = [(box[2] - box[0]) / 1000 + 2 * margin, (box[3] - box[1]) / 1000 + 2 * margin];
-  const cut = pathOf(layout.blocks.filter(({ role }) => role === "cut"), 0.001, exact);
-  const leads = pathOf(layout.blocks.filter(({ role }) => role !== "cut"), 0.001, exact);
+  const cut = pathOf(
+    layout.blocks.filter(({ role }) => role === "cut"),
+    0.001,
+    exact,
+  );
+  const leads = pathOf(
+    layout.blocks.filter(({ role }) => role !== "cut"),
+    0.001,
+    exact,
+  );
   const line = Math.max(width, height) / 800;
   const numbers = [width, height].map(exact);
   const escaped = title.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${numbers[0]}mm" height="${numbers[1]}mm" ` +
+  return (
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${numbers[0]}mm" height="${numbers[1]}mm" ` +
     `viewBox="${[left, top, width, height].map(exact).join(" ")}" fill="none" stroke-linejoin="round" stroke-linecap="round">\n` +
     `<title>${escaped}</title>\n` +
     (wire ? `<path id="kerf" stroke="#0072b2" stroke-opacity="0.25" stroke-width="${exact(wire)}" d="${cut}"/>\n` : "") +
     `<path id="wire" stroke="#0072b2" stroke-width="${exact(line)}" d="${cut}"/>\n` +
-    (leads ? `<path id="leads" stroke="#666" stroke-width="${exact(line)}" stroke-dasharray="${exact(4 * line)}" d="${leads}"/>\n` : "") +
-    layout.holes.map(([x, y]) => `<circle stroke="#666" stroke-width="${exact(line)}" ` +
-      `cx="${exact(x / 1000)}" cy="${exact(-y / 1000)}" r="${exact(6 * line)}"/>\n`).join("") +
-    "</svg>\n";
+    (leads
+      ? `<path id="leads" stroke="#666" stroke-width="${exact(line)}" stroke-dasharray="${exact(4 * line)}" d="${leads}"/>\n`
+      : "") +
+    layout.holes
+      .map(
+        ([x, y]) =>
+          `<circle stroke="#666" stroke-width="${exact(line)}" ` +
+          `cx="${exact(x / 1000)}" cy="${exact(-y / 1000)}" r="${exact(6 * line)}"/>\n`,
+      )
+      .join("") +
+    "</svg>\n"
+  );
 }
 
 /** Path data in a square of `size`, and nothing else: for the part list. */
@@ -61,11 +78,13 @@ export function thumbnail(layout: Layout, size: number): string {
   if (!box) return "";
   const scale = (size - 4) / Math.max(box[2] - box[0], box[3] - box[1], 1);
   const [dx, dy] = [size / 2 - ((box[0] + box[2]) / 2) * scale, size / 2 + ((box[1] + box[3]) / 2) * scale];
-  const moved = cut.map((placed): Placed => ({
-    ...placed,
-    start: [placed.start[0] + dx / scale, placed.start[1] - dy / scale],
-    end: [placed.end[0] + dx / scale, placed.end[1] - dy / scale],
-    centre: [placed.centre[0] + dx / scale, placed.centre[1] - dy / scale],
-  }));
+  const moved = cut.map(
+    (placed): Placed => ({
+      ...placed,
+      start: [placed.start[0] + dx / scale, placed.start[1] - dy / scale],
+      end: [placed.end[0] + dx / scale, placed.end[1] - dy / scale],
+      centre: [placed.centre[0] + dx / scale, placed.centre[1] - dy / scale],
+    }),
+  );
   return pathOf(moved, scale, (value) => String(Number(value.toFixed(1))));
 }

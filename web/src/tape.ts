@@ -16,7 +16,13 @@ export interface Block {
 /** A tape's lines in order; `D` is a stop. `DD`, its end, is none of them. */
 export type Item = Block | "D";
 
-const SIGNS: readonly XY[] = [[0, 0], [1, 1], [-1, 1], [-1, -1], [1, -1]];
+const SIGNS: readonly XY[] = [
+  [0, 0],
+  [1, 1],
+  [-1, 1],
+  [-1, -1],
+  [1, -1],
+];
 /** How far an arc may go on past a full circle: its ends are rounded. */
 const MAX_OVERLAP = 4;
 
@@ -26,8 +32,7 @@ export const blockText = (b: Block): string =>
 export const itemText = (item: Item): string => (item === "D" ? "D" : blockText(item));
 
 /** The bytes of a tape, as the punch makes them. */
-export const tapeText = (items: readonly Item[]): string =>
-  [...items.map(itemText), "DD"].map((line) => `${line}\r\n`).join("");
+export const tapeText = (items: readonly Item[]): string => [...items.map(itemText), "DD"].map((line) => `${line}\r\n`).join("");
 
 // Geometry -------------------------------------------------------------------------------------------------
 
@@ -53,8 +58,7 @@ function turnOf(b: Block): number {
   return square > 0n ? Number(root(square - 1n) + 1n) : 0;
 }
 
-export const isFullCircle = (b: Block): boolean =>
-  b.sense !== 0 && (b.j === 4 * radiusOf(b) || b.j === 4 * turnOf(b));
+export const isFullCircle = (b: Block): boolean => b.sense !== 0 && (b.j === 4 * radiusOf(b) || b.j === 4 * turnOf(b));
 
 /** Where the block starts: a line at (0, 0), an arc relative to its centre. */
 export function startOf(b: Block): XY {
@@ -64,8 +68,7 @@ export function startOf(b: Block): XY {
 }
 
 /** Whether the distance from the centre along `axis` shrinks on an arc in `quadrant`. */
-const shrinks = (axis: Axis, quadrant: number, sense: number): boolean =>
-  (axis === 0) === ((quadrant % 2 === 1) === sense > 0);
+const shrinks = (axis: Axis, quadrant: number, sense: number): boolean => (axis === 0) === ((quadrant % 2 === 1) === sense > 0);
 
 const nextQuadrant = (quadrant: number, sense: number): number => ((quadrant - 1 + sense + 4) % 4) + 1;
 
@@ -149,17 +152,27 @@ export function problem(b: Block): string {
  *
  * A block tells an arc's end exactly along the count axis, but across it only as well as its start gives the radius: where
  * those µm leave a gap that they can explain, the arcs whose end was the closest call give a µm each until it is gone. */
-export function closedMoves(blocks: readonly Block[]): XY[] {
-  const moves = blocks.map((b): [number, number] => [...moveOf(b)]);
+export function* closedMovesSteps(blocks: readonly Block[]): Generator<undefined, XY[]> {
+  const moves: [number, number][] = [];
+  const doubts: { at: number; doubt: number; across: Axis }[] = [];
+  for (const [at, b] of blocks.entries()) {
+    if (at % STEP === STEP - 1) yield;
+    moves.push([...moveOf(b)]);
+    if (b.sense && !isFullCircle(b)) doubts.push({ at, doubt: doubtOf(b), across: b.axis ? 0 : 1 });
+  }
   for (const axis of [0, 1] as const) {
     const gap = moves.reduce((sum, move) => sum + move[axis], 0);
-    const doubts = blocks.flatMap((b, at) =>
-      b.sense && !isFullCircle(b) && b.axis !== axis ? [{ at, doubt: doubtOf(b) }] : []);
-    if (Math.abs(gap) > doubts.length) continue;
+    const may = doubts.filter(({ across }) => across === axis);
+    if (Math.abs(gap) > may.length) continue;
     const way = gap > 0 ? -1 : 1;
-    doubts.sort((a, b) => way * (b.doubt - a.doubt));
-    const giving = doubts.filter(({ at }) => mayGive(blocks[at] as Block, axis, way));
-    for (const { at } of giving.slice(0, Math.abs(gap))) (moves[at] as [number, number])[axis] += way;
+    may.sort((a, b) => way * (b.doubt - a.doubt));
+    let left = Math.abs(gap);
+    for (const { at } of may) {
+      if (!left) break;
+      if (!mayGive(blocks[at] as Block, axis, way)) continue;
+      (moves[at] as [number, number])[axis] += way;
+      left--;
+    }
   }
   return moves;
 }
@@ -204,8 +217,12 @@ export function readBlock(text: string): Block | undefined {
 function blockOf(match: readonly (string | undefined)[]): Block {
   const [, x, y, j, g, kind, quadrant] = match;
   return {
-    x: Number(x || 0), y: Number(y || 0), j: Number(j || 0), axis: g?.toUpperCase() === "X" ? 0 : 1,
-    sense: kind?.[0]?.toUpperCase() === "L" ? 0 : kind?.[0]?.toUpperCase() === "N" ? 1 : -1, quadrant: Number(quadrant),
+    x: Number(x || 0),
+    y: Number(y || 0),
+    j: Number(j || 0),
+    axis: g?.toUpperCase() === "X" ? 0 : 1,
+    sense: kind?.[0]?.toUpperCase() === "L" ? 0 : kind?.[0]?.toUpperCase() === "N" ? 1 : -1,
+    quadrant: Number(quadrant),
   };
 }
 
@@ -218,10 +235,18 @@ export interface ReadTape {
 }
 
 export class TapeError extends Error {
-  constructor(readonly block: number, readonly line: number, readonly column: number, readonly found: string) {
+  constructor(
+    readonly block: number,
+    readonly line: number,
+    readonly column: number,
+    readonly found: string,
+  ) {
     super(`block ${block}, line ${line}, column ${column}: ${found}`);
   }
 }
+
+/** Blocks of a step. */
+export const STEP = 500;
 
 /** What stands between blocks of other packages' tapes: blanks, line ends, NULs, numbers before blocks (`N1:`, `0001`), and
  * comments from `;`, `(` or `/` to the end of the line. */
@@ -232,7 +257,18 @@ const STOP = /D(?![AC-Z])/iy;
 
 /** Reads a tape as this punch or another package writes it: also with blanks, in small letters, without line ends, with zeros
  * left out, with numbers in front of the blocks. What cannot be read is a `TapeError`. */
-export function readTape(text: string): ReadTape {
+export const readTape = (text: string): ReadTape => finish(readTapeSteps(text));
+
+/** Carries out what can be done in steps, in one go. */
+export function finish<T>(steps: Generator<undefined, T>): T {
+  for (;;) {
+    const step = steps.next();
+    if (step.done) return step.value;
+  }
+}
+
+/** The same in steps of some hundred blocks: between them the page may do something else. */
+export function* readTapeSteps(text: string): Generator<undefined, ReadTape> {
   const items: Item[] = [];
   let at = 0;
   let blocks = 0;
@@ -248,6 +284,7 @@ export function readTape(text: string): ReadTape {
     throw new TapeError(blocks + 1, before.length, (before.at(-1) ?? "").length + 1, found);
   };
   for (take(GAP); at < text.length; take(GAP)) {
+    if (items.length % STEP === STEP - 1) yield;
     if (take(END)) {
       hasNoEnd = false;
       take(GAP);

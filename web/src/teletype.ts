@@ -1,6 +1,6 @@
 /** The teletype: paper that scrolls back, and keys that type at the machine's pace. */
 import { FitAddon } from "@xterm/addon-fit";
-import { Terminal, type ITheme } from "@xterm/xterm";
+import { type ITheme, Terminal } from "@xterm/xterm";
 
 /** Keys that arrive at once, whatever waits to be typed: ctrl-C, ctrl-S, ctrl-Q. */
 const AT_ONCE = new Set([3, 17, 19]);
@@ -19,8 +19,14 @@ export class Teletype {
 
   constructor(box: HTMLElement, keys: Keys, name: string) {
     this.#terminal = new Terminal({
-      convertEol: false, cursorBlink: false, fontSize: 14, scrollback: 5000, screenReaderMode: true,
-      fontFamily: "ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace", rows: 12, cols: 60,
+      convertEol: false,
+      cursorBlink: false,
+      fontSize: 14,
+      scrollback: 5000,
+      screenReaderMode: true,
+      fontFamily: "ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace",
+      rows: 12,
+      cols: 60,
     });
     this.#terminal.loadAddon(this.#fit);
     this.#terminal.open(box);
@@ -32,8 +38,10 @@ export class Teletype {
     });
     // Tab leaves the teletype: the keyboard alone must get everywhere, and a tab means nothing to the machine.
     // Ctrl-V pastes, and ctrl-C copies where something is marked.
-    this.#terminal.attachCustomKeyEventHandler((event) => event.key !== "Tab" &&
-      !(event.ctrlKey && (event.key === "v" || (event.key === "c" && this.#terminal.hasSelection()))));
+    this.#terminal.attachCustomKeyEventHandler(
+      (event) =>
+        event.key !== "Tab" && !(event.ctrlKey && (event.key === "v" || (event.key === "c" && this.#terminal.hasSelection()))),
+    );
     new ResizeObserver(() => this.fit()).observe(box);
     this.fit();
   }

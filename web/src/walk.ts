@@ -102,7 +102,10 @@ export class Walk {
     this.#isMeasuring = result === MORE;
     if (result !== MORE) {
       this.#walked.push({
-        before: this.steps, steps: wasm.walk_steps(), from, to: standing(wasm, placed, from),
+        before: this.steps,
+        steps: wasm.walk_steps(),
+        from,
+        to: standing(wasm, placed, from),
         offPath: distanceOf(placed, wasm.walk_d_max(), wasm.walk_d_min()),
       });
     }
@@ -156,8 +159,7 @@ export class Walk {
 
 /** Puts a block in, the controller standing at `from`. */
 function set(wasm: Exports, { block, start }: Placed, from: XY): void {
-  wasm.walk_block(block.sense, block.quadrant, block.x, block.y, block.j, block.axis, from[0] - start[0],
-    from[1] - start[1]);
+  wasm.walk_block(block.sense, block.quadrant, block.x, block.y, block.j, block.axis, from[0] - start[0], from[1] - start[1]);
 }
 
 /** Where the controller stands. */
@@ -175,4 +177,3 @@ function distanceOf({ block }: Placed, highest: number, lowest: number): number 
   const square = block.x ** 2 + block.y ** 2;
   return Math.max(Math.sqrt(square + highest) - radius, radius - Math.sqrt(Math.max(0, square + lowest)));
 }
-

@@ -1,13 +1,17 @@
 /** The bar below the drawing: the controller's walk to play, stop and scrub. */
 import type { Drawing } from "./drawing.ts";
 import { t } from "./language.ts";
-import { nothing, type Layout } from "./placed.ts";
+import { type Layout, nothing } from "./placed.ts";
+import type { XY } from "./tape.ts";
 import { Stalled, Walk } from "./walk.ts";
 
 /** A machine's feed, mm a minute; the walk's speed is a multiple of it. */
 const FEED = 5;
 /** So long may the walk through all blocks hold the page up at a time, ms. */
 const PATIENCE = 6;
+
+/** A gap of so many µm comes of rounding. */
+const ROUNDED = 5;
 
 interface Parts {
   play: HTMLButtonElement;
@@ -87,8 +91,7 @@ export class WalkBar {
     play.textContent = t(this.#isPlaying ? "pause" : "play");
     play.disabled = scrub.disabled = !this.#layout.blocks.length;
     const gap = this.#walk.closing(this.#layout.routes);
-    closing.textContent = this.#problem ||
-      (isMeasuring ? t("measuring") : !gap ? "" : gap[0] || gap[1] ? t("gap", ...gap) : t("closes"));
+    closing.textContent = this.#problem || (isMeasuring ? t("measuring") : !gap ? "" : closingWords(gap));
     this.#show();
   }
 
@@ -134,11 +137,23 @@ export class WalkBar {
     const steps = this.#walk.walked[position.at]?.steps ?? 1;
     const part = steps ? position.step / steps : 1;
     const [x, y] = position.place;
-    const text = t("walkAt", position.at + 1, this.#layout.blocks.length, (x / 1000).toFixed(3), (y / 1000).toFixed(3),
-      position.off.toFixed(2));
+    const text = t(
+      "walkAt",
+      position.at + 1,
+      this.#layout.blocks.length,
+      (x / 1000).toFixed(3),
+      (y / 1000).toFixed(3),
+      position.off.toFixed(2),
+    );
     this.#parts.walked.textContent = text;
     this.#parts.scrub.ariaValueText = text;
     this.#drawing.walk = { place: position.place, at: position.at, done: part };
     this.#moved(position.at + 1, part);
   }
+}
+
+/** How well a contour closes: its arcs' ends are rounded, so a few µm are nothing to look for. */
+function closingWords(gap: XY): string {
+  const most = Math.max(...gap.map(Math.abs));
+  return !most ? t("closes") : most <= ROUNDED ? t("near", most) : t("gap", ...gap);
 }

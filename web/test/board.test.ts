@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
-import { ascii, Board, bytesOf, readNames, type Punched } from "../src/board.ts";
+import { ascii, Board, bytesOf, type Punched, readNames } from "../src/board.ts";
 
 const SYM = readFileSync("roms/skg.sym", "latin1");
 
@@ -42,7 +42,9 @@ const text = (punched: readonly Punched[]): string => punched.map((line) => `${l
 
 test("every example's tape, byte for byte", async () => {
   const board = await started();
-  const names = readdirSync("examples").filter((file, _, all) => file.endsWith(".skg") && all.includes(file.replace(/skg$/, "3b")));
+  const names = readdirSync("examples").filter(
+    (file, _, all) => file.endsWith(".skg") && all.includes(file.replace(/skg$/, "3b")),
+  );
   assert.ok(names.length > 40);
   for (const name of names) {
     const tape = readFileSync(`examples/${name.replace(/skg$/, "3b")}`, "latin1");
@@ -51,16 +53,42 @@ test("every example's tape, byte for byte", async () => {
 });
 
 test("which program line made a block, and where the wire stands behind it", async () => {
-  const punched = run(await started(), [
-    "10 FROM (0,-5)", "20 CUT X", "30 CUT Y:40,3", "40 CUT -X:30", "50 CUT -Y", "60 BACK", "70 FROM (10,10)",
-    "80 CUT (20,10):2", "90 BACK", "100 END", ""].join("\n"));
-  assert.deepEqual(punched.map(({ text: block, line, x, y }) => [block.slice(-4), line, x, y]), [
-    // the way in comes with the first element; each element's block is its own line's, a fillet its second element's
-    ["GYL2", 20, 0, 0], ["GXL1", 20, 40000, 0], ["GYL2", 30, 40000, 27000], ["XNR1", 40, 37000, 30000],
-    ["GXL3", 40, 0, 30000], ["GYL4", 50, 0, 0], ["GYL4", 60, 0, -5000], ["D", 70, 0, -5000], ["GYL1", 70, 10000, 10000],
-    ["D", 70, 10000, 10000], ["GXL1", 80, 18000, 10000], ["YNR3", 80, 18000, 10000], ["GXL3", 90, 10000, 10000],
-    ["DD", 100, 10000, 10000],
-  ]);
+  const punched = run(
+    await started(),
+    [
+      "10 FROM (0,-5)",
+      "20 CUT X",
+      "30 CUT Y:40,3",
+      "40 CUT -X:30",
+      "50 CUT -Y",
+      "60 BACK",
+      "70 FROM (10,10)",
+      "80 CUT (20,10):2",
+      "90 BACK",
+      "100 END",
+      "",
+    ].join("\n"),
+  );
+  assert.deepEqual(
+    punched.map(({ text: block, line, x, y }) => [block.slice(-4), line, x, y]),
+    [
+      // the way in comes with the first element; each element's block is its own line's, a fillet its second element's
+      ["GYL2", 20, 0, 0],
+      ["GXL1", 20, 40000, 0],
+      ["GYL2", 30, 40000, 27000],
+      ["XNR1", 40, 37000, 30000],
+      ["GXL3", 40, 0, 30000],
+      ["GYL4", 50, 0, 0],
+      ["GYL4", 60, 0, -5000],
+      ["D", 70, 0, -5000],
+      ["GYL1", 70, 10000, 10000],
+      ["D", 70, 10000, 10000],
+      ["GXL1", 80, 18000, 10000],
+      ["YNR3", 80, 18000, 10000],
+      ["GXL3", 90, 10000, 10000],
+      ["DD", 100, 10000, 10000],
+    ],
+  );
 });
 
 test("after an error, and by a direct statement", async () => {
@@ -68,7 +96,10 @@ test("after an error, and by a direct statement", async () => {
   run(board, "10 CUT X,Y:10\n20 CUT (50,50):1\n30 END\n");
   board.takePunched();
   const punched = run(board, "10 FROM (5,5)\n20 CUT (20,5):2\n30 BACK\n40 END\n");
-  assert.deepEqual(punched.map(({ line }) => line), [20, 20, 30, 40]);
+  assert.deepEqual(
+    punched.map(({ line }) => line),
+    [20, 20, 30, 40],
+  );
   type(board, "FROM (0,0)");
   type(board, "CUT (10,0):1");
   type(board, "BACK");
@@ -118,7 +149,10 @@ test("a line on the punch that is not whole yet waits", async () => {
     found.push(...board.takePunched().map((line) => line.text));
   }
   assert.equal(found[0], "RUN");
-  assert.deepEqual(found.filter((line) => line !== "RUN"), ["B15000B0B15000GXL1", "B5000B0B20000GYNR3", "B15000B0B15000GXL3", "DD"]);
+  assert.deepEqual(
+    found.filter((line) => line !== "RUN"),
+    ["B15000B0B15000GXL1", "B5000B0B20000GYNR3", "B15000B0B15000GXL3", "DD"],
+  );
   assert.ok(board.cycles > 2_000_000 * 5, "110 baud takes its time");
 });
 

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
-import { longTape, PATIENCE, serve, WHOLE, type Served } from "./served.ts";
+import { longTape, PATIENCE, type Served, serve, WHOLE } from "./served.ts";
 
 const FIREFOX = "/usr/bin/firefox-esr";
 const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
@@ -12,8 +12,8 @@ let browser: Browser;
 let served: Served;
 const said: string[] = [];
 
-const paper = (page: Page): Promise<string> => page.evaluate(() =>
-  [...document.querySelectorAll(".xterm-rows > div")].map((row) => row.textContent?.trimEnd()).join("\n"));
+const paper = (page: Page): Promise<string> =>
+  page.evaluate(() => [...document.querySelectorAll(".xterm-rows > div")].map((row) => row.textContent?.trimEnd()).join("\n"));
 
 async function until(page: Page, what: string, look: () => Promise<boolean>): Promise<void> {
   for (const end = Date.now() + PATIENCE; Date.now() < end; await new Promise((resume) => setTimeout(resume, 50))) {
@@ -26,8 +26,8 @@ const onPaper = (page: Page, text: string) => until(page, text, async () => (awa
 const sum = (page: Page) => page.$eval("#sum", (element) => element.textContent ?? "");
 
 /** Until what was done is drawn: the frame in which it is asked for, and the one behind it. */
-const drawn = (page: Page) => page.evaluate(() =>
-  new Promise((tell) => requestAnimationFrame(() => requestAnimationFrame(tell))));
+const drawn = (page: Page) =>
+  page.evaluate(() => new Promise((tell) => requestAnimationFrame(() => requestAnimationFrame(tell))));
 
 async function visit(hash = ""): Promise<Page> {
   const page = await browser.newPage();
@@ -44,8 +44,12 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
   before(async () => {
     served = await serve();
     browser = await puppeteer.launch({
-      browser: "firefox", executablePath: FIREFOX, headless: true, args: ["--no-sandbox"],
-      timeout: PATIENCE, protocolTimeout: PATIENCE,
+      browser: "firefox",
+      executablePath: FIREFOX,
+      headless: true,
+      args: ["--no-sandbox"],
+      timeout: PATIENCE,
+      protocolTimeout: PATIENCE,
     });
   });
   after(async () => {
@@ -64,8 +68,7 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
       const wanted = readFileSync(`examples/${name}.3b`, "latin1");
       const blocks = wanted.split("\r\n").filter((line) => line.startsWith("B"));
       await page.click(`[data-part="${name}"]`);
-      await until(page, name, async () => await page.$eval("#state", (element) => element.textContent) === "at its prompt");
-      await page.click("#run");
+      await until(page, name, async () => (await page.$eval("#state", (element) => element.textContent)) === "at its prompt");
       await until(page, name, async () => new RegExp(`^${blocks.length} blocks · [\\d.]+ mm$`).test(await sum(page)));
       // block by block down the list: that is the tape
       await page.focus("#list");
@@ -73,8 +76,13 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
       await drawn(page);
       const found: string[] = [];
       for (let at = 0; at < Math.min(blocks.length, 40); at++) {
-        await page.waitForFunction((id) => document.getElementById(id)?.ariaSelected === "true" ||
-          document.getElementById(id)?.getAttribute("aria-selected") === "true", {}, `block-${at + 1}`);
+        await page.waitForFunction(
+          (id) =>
+            document.getElementById(id)?.ariaSelected === "true" ||
+            document.getElementById(id)?.getAttribute("aria-selected") === "true",
+          {},
+          `block-${at + 1}`,
+        );
         found.push(await page.$eval(`#block-${at + 1} .text`, (element) => element.textContent ?? ""));
         await page.keyboard.press("ArrowDown");
       }
@@ -91,7 +99,7 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
     await page.screenshot({ path: `${SHOTS}/firefox.png` });
     await page.reload();
     await page.waitForSelector("body[data-ready]");
-    await until(page, "program kept", async () => (await page.$$("#lines > div")).length > 10);
+    await until(page, "program kept", async () => (await page.$$("#lines .cm-line")).length > 10);
     await page.close();
     const other = await visit("#part=scale&run");
     await until(other, "link", async () => /^\d+ blocks/.test(await sum(other)));
@@ -109,8 +117,9 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
       const canvas = document.getElementById("over") as HTMLElement;
       await new Promise((next) => requestAnimationFrame(next));
       let draws = 0;
-      new MutationObserver((found) => (draws += found.length)).observe(
-        document.getElementById("base") as HTMLElement, { attributeFilter: ["data-took"] });
+      new MutationObserver((found) => (draws += found.length)).observe(document.getElementById("base") as HTMLElement, {
+        attributeFilter: ["data-took"],
+      });
       const began = performance.now();
       for (let frames = 0; frames < 60; frames++) {
         canvas.dispatchEvent(new KeyboardEvent("keydown", { key: frames % 2 ? "ArrowLeft" : "ArrowRight" }));

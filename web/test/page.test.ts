@@ -5,6 +5,7 @@ import { recognize, tooLarge } from "../src/files.ts";
 import { isWord, preferred, t } from "../src/language.ts";
 import { LinkError, pack, readLink, unpack } from "../src/link.ts";
 import { fromBase64, readEverything, Store, toBase64 } from "../src/store.ts";
+import { readTape, TapeError } from "../src/tape.ts";
 import { View } from "../src/view.ts";
 
 const bytes = (text: string): Uint8Array => Uint8Array.from(text, (character) => character.charCodeAt(0));
@@ -34,14 +35,32 @@ test("a link cut short, at any place, or with a wrong character is no program", 
 test("files are what they are", () => {
   const kind = (name: string, text: string): string => {
     const found = recognize(name, bytes(text));
-    return found.kind === "refused" ? found.why : found.kind;
+    if (found.kind !== "tape") return found.kind === "refused" ? found.why : found.kind;
+    try {
+      readTape(found.text);
+      return "tape";
+    } catch (error) {
+      return error instanceof TapeError ? "badTape" : "";
+    }
   };
   for (const [name, text, expected] of [
-    ["a.skg", "10 CUT X\n", "program"], ["a.txt", "10 CUT X\r\n20 END", "program"], ["a.SKG", "REM direct\n10 A=1", "program"],
-    ["a.3b", "B1B2B2GYL1DD", "tape"], ["a.txt", "B 1 B 2 B 2 GY L1\nDD", "tape"], ["a.TXT", "N 1: B1B2B2GYL1", "tape"],
-    ["a.3b", "10 CUT X\n", "badTape"], ["a.3b", "", "badEmpty"], ["a.skg", " \n", "badEmpty"], ["a.skg", "10 REM \xe9\n", "badText"],
-    ["a.png", "\x89PNG\r\n\x1a\n", "badKind"], ["a.txt", "hello", "badKind"], ["a.dxf", "0\nSECTION", "noDxf"], ["a.xy", "(+)D(0,0)", "noXy"],
-    ["a.tkh", "x", "noXy"], ["a.json", "{}", "badSaved"], ["a.json", '{"format":"skg-page","version":1', "badSaved"],
+    ["a.skg", "10 CUT X\n", "program"],
+    ["a.txt", "10 CUT X\r\n20 END", "program"],
+    ["a.SKG", "REM direct\n10 A=1", "program"],
+    ["a.3b", "B1B2B2GYL1DD", "tape"],
+    ["a.txt", "B 1 B 2 B 2 GY L1\nDD", "tape"],
+    ["a.TXT", "N 1: B1B2B2GYL1", "tape"],
+    ["a.3b", "10 CUT X\n", "badTape"],
+    ["a.3b", "", "badEmpty"],
+    ["a.skg", " \n", "badEmpty"],
+    ["a.skg", "10 REM \xe9\n", "badText"],
+    ["a.png", "\x89PNG\r\n\x1a\n", "badKind"],
+    ["a.txt", "hello", "badKind"],
+    ["a.dxf", "0\nSECTION", "noDxf"],
+    ["a.xy", "(+)D(0,0)", "noXy"],
+    ["a.tkh", "x", "noXy"],
+    ["a.json", "{}", "badSaved"],
+    ["a.json", '{"format":"skg-page","version":1', "badSaved"],
     ["a.skg", "10 REM\n".repeat(20_000), "badLarge"],
     ["a.json", '{"format":"skg-page","version":1,"kept":null,"settings":{},"tape":""}', "saved"],
     ["a.json", '{"format":"skg-page","version":1,"kept":{"ram":1},"settings":{},"tape":""}', "badSaved"],
@@ -65,7 +84,9 @@ test("every word that the page asks for is there", () => {
 
 test("a browser that refuses to keep anything is told of once, and nothing else happens", () => {
   let refusals = 0;
-  const refuse = (): never => { throw new Error("no"); };
+  const refuse = (): never => {
+    throw new Error("no");
+  };
   Object.defineProperty(globalThis, "localStorage", { configurable: true, value: { getItem: refuse, setItem: refuse } });
   const store = new Store(() => refusals++);
   store.settings = { speed: "real" };
@@ -93,7 +114,10 @@ test("base64 and saved pages", () => {
 test("the window zooms about a pixel and shows all of a box", () => {
   const view = new View();
   view.fit([-1000, 0, 9000, 4000], 400, 300);
-  for (const corner of [[-1000, 0], [9000, 4000]] as const) {
+  for (const corner of [
+    [-1000, 0],
+    [9000, 4000],
+  ] as const) {
     const [x, y] = view.toPixel(corner);
     assert.ok(x >= 0 && x <= 400 && y >= 0 && y <= 300);
   }

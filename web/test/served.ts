@@ -5,12 +5,17 @@ import type { AddressInfo } from "node:net";
 import { gzipSync } from "node:zlib";
 
 const TYPES: Record<string, string> = {
-  html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", json: "application/json", wasm: "application/wasm",
-  svg: "image/svg+xml", webmanifest: "application/manifest+json",
+  html: "text/html; charset=utf-8",
+  js: "text/javascript",
+  css: "text/css",
+  json: "application/json",
+  wasm: "application/wasm",
+  svg: "image/svg+xml",
+  webmanifest: "application/manifest+json",
 };
 
 /** Nothing takes so long but what hangs, ms: a test waits for what it wants to see, however busy the machine is. */
-export const PATIENCE = 180_000;
+export const PATIENCE = Number(process.env["PATIENCE"] ?? 180_000);
 /** The same of all tests of a file. */
 export const WHOLE = 2_400_000;
 
@@ -18,6 +23,8 @@ export interface Served {
   url: string;
   /** Bytes of each file asked for since it was last emptied, gzipped. */
   sent: Map<string, number>;
+  /** Files that are served with another text than that of the folder. */
+  changed: Map<string, string>;
   /** Nobody gets through to it, or may again. */
   cut(isCut: boolean): void;
   stop(): Promise<void>;
@@ -26,11 +33,12 @@ export interface Served {
 /** Serves the page from a folder of its own. */
 export async function serve(folder = "web/dist"): Promise<Served> {
   const sent = new Map<string, number>();
+  const changed = new Map<string, string>();
   const server: Server = createServer((request, response) => {
-    const name = (request.url ?? "").replace(/^\/some\/folder\//, "").replace(/[?#].*/, "") || "index.html";
+    const name = (request.url ?? "").replace(/^\/[\w/]*\//, "").replace(/[?#].*/, "") || "index.html";
     try {
       if (/[/\\]/.test(name)) throw new Error(name);
-      const bytes = readFileSync(`${folder}/${name}`);
+      const bytes = Buffer.from(changed.get(name) ?? readFileSync(`${folder}/${name}`));
       sent.set(name, gzipSync(bytes, { level: 9 }).length);
       response.writeHead(200, { "content-type": TYPES[name.split(".").at(-1) ?? ""] ?? "application/octet-stream" });
       response.end(bytes);
@@ -43,15 +51,18 @@ export async function serve(folder = "web/dist"): Promise<Served> {
   server.on("connection", (socket) => isCut && socket.destroy());
   await new Promise<void>((started) => server.listen(0, "127.0.0.1", started));
   return {
-    url: `http://127.0.0.1:${(server.address() as AddressInfo).port}/some/folder/`, sent,
+    url: `http://127.0.0.1:${(server.address() as AddressInfo).port}/some/folder/`,
+    sent,
+    changed,
     cut(wanted) {
       isCut = wanted;
       if (isCut) server.closeAllConnections();
     },
-    stop: () => new Promise((stopped) => {
-      server.close(() => stopped());
-      server.closeAllConnections();
-    }),
+    stop: () =>
+      new Promise((stopped) => {
+        server.close(() => stopped());
+        server.closeAllConnections();
+      }),
   };
 }
 

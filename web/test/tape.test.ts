@@ -29,16 +29,29 @@ test("tapes are laid out, walked and written as by the tools in Python", () => {
     const { items, isForeign, hasNoEnd } = readTape(golden.tape);
     assert.deepEqual([isForeign, hasNoEnd, tapeText(items)], [false, false, golden.tape], name);
     const { layout } = layOut(items);
-    assert.deepEqual(layout.blocks.map(({ end }) => [...end]), golden.ends, name);
-    layout.blocks.forEach(({ sweep }, at) => assert.ok(Math.abs(sweep - (golden.sweeps[at] as number)) < 1e-9, `${name} ${at}`));
-    assert.deepEqual(layout.blocks.map(({ role }) => role), golden.roles, name);
+    assert.deepEqual(
+      layout.blocks.map(({ end }) => [...end]),
+      golden.ends,
+      name,
+    );
+    for (const [at, { sweep }] of layout.blocks.entries()) {
+      assert.ok(Math.abs(sweep - (golden.sweeps[at] as number)) < 1e-9, `${name} ${at}`);
+    }
+    assert.deepEqual(
+      layout.blocks.map(({ role }) => role),
+      golden.roles,
+      name,
+    );
     assert.equal(isoText(layout), golden.iso, name);
     writeFileSync(`${FOLDER}/${name}.dxf`, dxfText(layout));
     const walk = new Walk(MODULE);
     walk.begin(layout.blocks);
     while (!walk.measure(10_000));
-    assert.deepEqual(walk.walked.map(({ steps, from, to }) => ({ steps, really: [to[0] - from[0], to[1] - from[1]] })),
-      golden.simulated.map(({ steps, really }) => ({ steps, really })), name);
+    assert.deepEqual(
+      walk.walked.map(({ steps, from, to }) => ({ steps, really: [to[0] - from[0], to[1] - from[1]] })),
+      golden.simulated.map(({ steps, really }) => ({ steps, really })),
+      name,
+    );
     const offPath = Math.max(0, ...walk.walked.map((one) => one.offPath));
     assert.ok(Math.abs(offPath - golden.offPath) < 1e-9, name);
     const last = golden.simulated.at(-1)?.gap;
@@ -56,10 +69,16 @@ test("the walk can be scrubbed: every place is that of a walk without a stop", (
   }
   const steps = Array.from({ length: 200 }, (_, at) => Math.floor((there.steps * at) / 199));
   const places = steps.map((step) => there.locate(step));
-  assert.deepEqual([...steps].reverse().map((step) => back.locate(step)), [...places].reverse());
+  assert.deepEqual(
+    [...steps].reverse().map((step) => back.locate(step)),
+    [...places].reverse(),
+  );
   // (a block's end may lie a little past what the whole line or circle is measured by)
   const most = (GOLDEN["wrench"]?.offPath ?? 0) + 1;
-  assert.ok(places.every((one) => one && one.off <= most), "no farther from the contour than skg sim has it");
+  assert.ok(
+    places.every((one) => one && one.off <= most),
+    "no farther from the contour than skg sim has it",
+  );
   assert.deepEqual(places.at(-1)?.place, there.walked.at(-1)?.to);
 });
 
@@ -70,8 +89,11 @@ test("foreign forms of the same tape", () => {
     ["B9900 B0 B9900 GX L3 B0 B70100 B70100 GY L2 B50100 B100 B100000 GY NR1 D B2 B2 B2 GY L1 DD", false],
     ["b9900b0b9900gxl3b0b70100b70100gyl2b50100b100b100000gynr1db2b2b2gyl1dd", false],
     ["B9900BB9900GXL3\nBB70100B70100GYL2\nB50100B100B100000GYNR1\nD\nB2B2B2GYL1\n", true],
-    ["N   1: B   9900 B      0 B   9900 GX L3 ;  -9.900, 0.000\nN 2: B 0 B 70100 B 70100 GY L2\n" +
-      "N 3: B 50100 B 100 B 100000 GY NR1 (arc)\nD\nN 4: B 2 B 2 B 2 GY L1\nDD", false],
+    [
+      "N   1: B   9900 B      0 B   9900 GX L3 ;  -9.900, 0.000\nN 2: B 0 B 70100 B 70100 GY L2\n" +
+        "N 3: B 50100 B 100 B 100000 GY NR1 (arc)\nD\nN 4: B 2 B 2 B 2 GY L1\nDD",
+      false,
+    ],
     ["\0\0\0B009900B0B09900GXL3\rB0B70100B70100GYL2\rB50100B100B100000GYNR1\rD\rB2B2B2GYL1\rDD\r\0\0", false],
     ["0001 B9900B0B9900GXL3\n0002 B0B70100B70100GYL2\n0003 B50100B100B100000GYNR1\nD\n0004 B2B2B2GYL1\nE", false],
   ] as const) {
@@ -85,15 +107,27 @@ test("foreign forms of the same tape", () => {
 
 test("what is no tape is refused where it is wrong", () => {
   for (const [text, block, line, column] of [
-    ["", 1, 1, 1], ["hello", 1, 1, 1], ["B1B2B2GYL1\nB1B2B2GZL1", 2, 2, 1], ["B1B2B2GYL1 X", 2, 1, 12],
-    ["B1B2B2GYL1\nDD\nB1B2B2GYL1", 2, 3, 1], ["B123456789B0B1GXL1", 1, 1, 1], ["B5B5B4GYL1", 1, 1, 1], ["B1B1B9GXNR1", 1, 1, 1],
-    ["B0B0B0GXL1", 1, 1, 1], ["B10B0B10GXL2", 1, 1, 1], ["D", 1, 1, 2], ["B1B2B2GYL1DDD", 2, 1, 11],
+    ["", 1, 1, 1],
+    ["hello", 1, 1, 1],
+    ["B1B2B2GYL1\nB1B2B2GZL1", 2, 2, 1],
+    ["B1B2B2GYL1 X", 2, 1, 12],
+    ["B1B2B2GYL1\nDD\nB1B2B2GYL1", 2, 3, 1],
+    ["B123456789B0B1GXL1", 1, 1, 1],
+    ["B5B5B4GYL1", 1, 1, 1],
+    ["B1B1B9GXNR1", 1, 1, 1],
+    ["B0B0B0GXL1", 1, 1, 1],
+    ["B10B0B10GXL2", 1, 1, 1],
+    ["D", 1, 1, 2],
+    ["B1B2B2GYL1DDD", 2, 1, 11],
   ] as const) {
-    assert.throws(() => readTape(text), (error) => {
-      assert.ok(error instanceof TapeError, text);
-      assert.deepEqual([error.block, error.line, error.column], [block, line, column], text);
-      return true;
-    });
+    assert.throws(
+      () => readTape(text),
+      (error) => {
+        assert.ok(error instanceof TapeError, text);
+        assert.deepEqual([error.block, error.line, error.column], [block, line, column], text);
+        return true;
+      },
+    );
   }
   assert.equal(readBlock("B1B2B2GYL1 "), undefined);
   assert.equal(readBlock("DD"), undefined);
@@ -123,6 +157,8 @@ test("a picture in SVG is to scale, and has no foreign signs in it", () => {
 });
 
 test("all tapes of the examples are here", () => {
-  const tapes = readdirSync("examples").filter((file) => file.endsWith(".3b")).map((file) => file.slice(0, -3));
+  const tapes = readdirSync("examples")
+    .filter((file) => file.endsWith(".3b"))
+    .map((file) => file.slice(0, -3));
   assert.deepEqual(Object.keys(GOLDEN).sort(), tapes.sort());
 });

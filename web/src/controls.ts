@@ -1,0 +1,136 @@
+/** The page's buttons, menus, views and files' doors. */
+import { get, onClick } from "./dom.ts";
+import { tooLarge } from "./files.ts";
+import { t } from "./language.ts";
+import { hide, say } from "./message.ts";
+import type { Opening } from "./opening.ts";
+import { address, copy, save } from "./saving.ts";
+import type { Settings } from "./store.ts";
+import type { Teletype } from "./teletype.ts";
+import type { Workbench } from "./workbench.ts";
+
+/** On a small screen one section is seen at a time. */
+export function view(name: string): void {
+  document.body.dataset["view"] = name;
+  for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
+    button.ariaCurrent = button.dataset["view"] === name ? "true" : null;
+  }
+}
+
+export function bind(bench: Workbench, teletype: Teletype, opening: Opening, settings: Settings): void {
+  onClick("dismiss", hide);
+  onClick("question-yes", () => get<HTMLDialogElement>("question").close("yes"));
+  onClick("question-no", () => get<HTMLDialogElement>("question").close(""));
+  onClick("run", () => (bench.session.isRunning ? bench.session.stop() : void bench.run()));
+  // RETURN that is meant for a program that asks is no ctrl-C.
+  get("run").addEventListener("keydown", (event) => {
+    if (event.key === "Enter" && bench.session.isRunning) event.preventDefault();
+  });
+  onClick("revert", () => bench.revert());
+  onClick("reset", () => bench.session.reset());
+  onClick("tear", () => teletype.clear());
+  onClick("copy-link", () => void address(bench.editor.text, false).then(copy));
+  onClick(
+    "copy-embed",
+    () =>
+      void address(bench.editor.text, true).then((url) =>
+        copy(`<iframe src="${url}" title="SKG" width="800" height="500"></iframe>`),
+      ),
+  );
+  for (const button of document.querySelectorAll<HTMLElement>("[data-save]")) {
+    button.addEventListener("click", () => void save(button.dataset["save"] ?? "", bench, settings));
+  }
+  bindKeys(bench);
+  bindDrawing(bench);
+  bindFiles(bench, opening);
+  bindMenus();
+  for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
+    button.addEventListener("click", () => view(button.dataset["view"] ?? ""));
+  }
+  document.querySelector(".skip")?.addEventListener("click", (event) => {
+    event.preventDefault();
+    view("teletype");
+    teletype.focus();
+  });
+}
+
+function bindKeys({ session }: Workbench): void {
+  for (const button of document.querySelectorAll<HTMLElement>("[data-key]")) {
+    // (who types goes on typing: the teletype keeps the focus, and a phone its keyboard)
+    button.addEventListener("mousedown", (event) => event.preventDefault());
+    button.addEventListener("click", () => {
+      const key = Number(button.dataset["key"]);
+      if (key === 13 || key === 127) session.type(String.fromCharCode(key));
+      else session.press(key);
+    });
+  }
+}
+
+function bindDrawing({ pictures: { drawing } }: Workbench): void {
+  onClick("fit", () => drawing.fit());
+  onClick("closer", () => drawing.zoom(1.5));
+  onClick("farther", () => drawing.zoom(1 / 1.5));
+  onClick("before", () => drawing.step(-1));
+  onClick("next", () => drawing.step(1));
+  const button = get("measure");
+  const millimetres = (micrometres: number): string => (micrometres / 1000).toFixed(3);
+  onClick("measure", () => {
+    drawing.isMeasuring = !drawing.isMeasuring;
+    button.ariaPressed = String(drawing.isMeasuring);
+  });
+  drawing.onPoint = (place, from) => {
+    const words: string[] = [];
+    if (place) words.push(t("where", millimetres(place[0]), millimetres(place[1])));
+    if (place && from) {
+      const [dx, dy] = [place[0] - from[0], place[1] - from[1]];
+      words.push(t("measured", millimetres(Math.hypot(dx, dy)), millimetres(dx), millimetres(dy)));
+    }
+    get("place").textContent = words.join("  ");
+  };
+}
+
+function bindFiles({ session }: Workbench, opening: Opening): void {
+  const picker = get<HTMLInputElement>("file");
+  let picked = (file: File): void => void opening.file(file);
+  const pick = (use: (file: File) => void): void => {
+    picked = use;
+    picker.value = "";
+    picker.click();
+  };
+  const typeFile = async (file: File): Promise<void> => {
+    const large = tooLarge(file.name, file.size);
+    if (large?.kind === "refused") say(large.why, ...large.values);
+    else session.type(await file.text());
+  };
+  picker.addEventListener("change", () => {
+    const [file] = picker.files ?? [];
+    if (file) picked(file);
+  });
+  onClick("open", () => pick((file) => void opening.file(file)));
+  onClick("send", () => pick((file) => void typeFile(file)));
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event: DragEvent) => {
+    event.preventDefault();
+    const [file] = event.dataTransfer?.files ?? [];
+    if (file) void opening.file(file);
+  });
+}
+
+/** A menu closes when something else is pressed, and by Escape. */
+function bindMenus(): void {
+  for (const menu of document.querySelectorAll<HTMLDetailsElement>("details.menu")) {
+    menu.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape") return;
+      menu.open = false;
+      menu.querySelector("summary")?.focus();
+    });
+    menu.addEventListener("click", (event) => {
+      if ((event.target as HTMLElement).closest("button")) menu.open = false;
+    });
+  }
+  addEventListener("pointerdown", (event) => {
+    for (const menu of document.querySelectorAll<HTMLDetailsElement>("details.menu[open]")) {
+      if (!menu.contains(event.target as Node)) menu.open = false;
+    }
+  });
+}

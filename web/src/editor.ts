@@ -1,0 +1,213 @@
+/** The program as a text to edit in place: its words coloured, what is wrong said below its line, lines linked with blocks. */
+import { defaultKeymap, history, historyKeymap, undo } from "@codemirror/commands";
+import { EditorState, StateEffect, StateField, Transaction } from "@codemirror/state";
+import { Decoration, type DecorationSet, drawSelection, EditorView, keymap, WidgetType } from "@codemirror/view";
+import type { Chooser } from "./choice.ts";
+import { nextNumber, skg } from "./language-skg.ts";
+import type { Layout } from "./placed.ts";
+
+/** What is wrong with a line: its place in the text from 0, the column or -1, the sentence, and where to read more of it. */
+export interface Mark {
+  row: number;
+  column: number;
+  text: string;
+  more?: { label: string; open: () => void };
+}
+
+const setMarks = StateEffect.define<readonly Mark[]>();
+const setLine = StateEffect.define<number>();
+
+class Sentence extends WidgetType {
+  readonly #mark: Mark;
+
+  constructor(mark: Mark) {
+    super();
+    this.#mark = mark;
+  }
+
+  override eq(other: Sentence): boolean {
+    return other.#mark.text === this.#mark.text && other.#mark.column === this.#mark.column;
+  }
+
+  override toDOM(): HTMLElement {
+    const box = document.createElement("div");
+    box.className = "fault";
+    if (this.#mark.column >= 0) box.style.paddingLeft = `calc(${this.#mark.column}ch + 6px)`;
+    box.textContent = this.#mark.column >= 0 ? `↑ ${this.#mark.text} ` : `${this.#mark.text} `;
+    const { more } = this.#mark;
+    if (more) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = more.label;
+      button.addEventListener("click", more.open);
+      box.append(button);
+    }
+    return box;
+  }
+}
+
+function decorations(state: EditorState, marks: readonly Mark[]): DecorationSet {
+  return Decoration.set(
+    marks.flatMap((mark) => {
+      if (mark.row >= state.doc.lines) return [];
+      const line = state.doc.line(mark.row + 1);
+      return [
+        Decoration.line({ class: "wrong", attributes: { "aria-invalid": "true" } }).range(line.from),
+        Decoration.widget({ widget: new Sentence(mark), block: true, side: 1 }).range(line.to),
+      ];
+    }),
+    true,
+  );
+}
+
+const faults = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(value, transaction) {
+    const effect = transaction.effects.find((each) => each.is(setMarks));
+    return effect ? decorations(transaction.state, effect.value) : value.map(transaction.changes);
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+const chosen = Decoration.line({ class: "chosen" });
+const chosenLine = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(value, transaction) {
+    const effect = transaction.effects.find((each) => each.is(setLine));
+    if (!effect) return value.map(transaction.changes);
+    const row = rowOf(transaction.state, effect.value);
+    return row ? Decoration.set([chosen.range(row.from)]) : Decoration.none;
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+const numberOf = (text: string): number => Number(/^\s*(\d+)/.exec(text)?.[1] ?? 0);
+
+function rowOf(state: EditorState, number: number): { from: number; number: number } | undefined {
+  if (!number) return undefined;
+  for (let at = 1; at <= state.doc.lines; at++) if (numberOf(state.doc.line(at).text) === number) return state.doc.line(at);
+  return undefined;
+}
+
+/** RETURN begins the next line with its number. */
+function newLine(view: EditorView): boolean {
+  const { state } = view;
+  const line = state.doc.lineAt(state.selection.main.head);
+  if (state.selection.main.head !== line.to || !line.text.trim()) return false;
+  const number = nextNumber(line.text, line.number < state.doc.lines ? state.doc.line(line.number + 1).text : "");
+  if (number === undefined) return false;
+  const insert = `\n${number} `;
+  view.dispatch({
+    changes: { from: line.to, insert },
+    selection: { anchor: line.to + insert.length },
+    scrollIntoView: true,
+    userEvent: "input",
+  });
+  return true;
+}
+
+export interface Listener {
+  /** The visitor has changed the text. */
+  changed(): void;
+  /** Ctrl-Enter. */
+  run(): void;
+}
+
+export class Editor {
+  readonly #view: EditorView;
+
+  constructor(box: HTMLElement, chooser: Chooser, blocks: () => Layout, listener: Listener) {
+    const runs = (): boolean => {
+      listener.run();
+      return true;
+    };
+    const line = (): number => {
+      const { choice } = chooser;
+      if (!choice) return 0;
+      return "line" in choice ? choice.line : (blocks().blocks[choice.block - 1]?.line ?? 0);
+    };
+    this.#view = new EditorView({
+      parent: box,
+      state: EditorState.create({
+        extensions: [
+          history(),
+          drawSelection(),
+          keymap.of([{ key: "Mod-Enter", run: runs }, { key: "Enter", run: newLine }, ...historyKeymap, ...defaultKeymap]),
+          skg,
+          faults,
+          chosenLine,
+          EditorView.contentAttributes.of({ id: "text", tabindex: "0", autocapitalize: "characters", spellcheck: "false" }),
+          EditorView.updateListener.of((update) => {
+            if (update.docChanged && !update.transactions.some((each) => each.annotation(Transaction.remote))) listener.changed();
+            if (update.selectionSet && update.view.hasFocus) this.#choose(chooser, update.state.selection.main.head);
+          }),
+          EditorView.domEventHandlers({
+            mousemove: (event, view) => {
+              const at = view.posAtCoords({ x: event.clientX, y: event.clientY });
+              if (at !== null && !event.buttons) this.#choose(chooser, at);
+            },
+          }),
+        ],
+      }),
+    });
+    chooser.onChange((_, by) => {
+      const row = rowOf(this.#view.state, line());
+      const scroll = row && by !== this && !this.#view.hasFocus ? [EditorView.scrollIntoView(row.from)] : [];
+      this.#view.dispatch({ effects: [setLine.of(line()), ...scroll] });
+    });
+  }
+
+  #choose(chooser: Chooser, at: number): void {
+    const number = numberOf(this.#view.state.doc.lineAt(at).text);
+    if (number) chooser.choose({ line: number }, this);
+  }
+
+  get text(): string {
+    const text = this.#view.state.doc.toString();
+    return text && !text.endsWith("\n") ? `${text}\n` : text;
+  }
+
+  /** Another text, for undo one step; what it has in common with the present one stays where it is. */
+  set text(text: string) {
+    const [before, after] = [this.#view.state.doc.toString(), text.replace(/\n$/, "")];
+    if (before === after) return;
+    let from = 0;
+    while (from < before.length && before[from] === after[from]) from++;
+    let [to, end] = [before.length, after.length];
+    while (to > from && end > from && before[to - 1] === after[end - 1]) {
+      to--;
+      end--;
+    }
+    this.#view.dispatch({ changes: { from, to, insert: after.slice(from, end) }, annotations: Transaction.remote.of(true) });
+  }
+
+  /** What screen readers call it. */
+  set name(name: string) {
+    this.#view.contentDOM.setAttribute("aria-label", name);
+  }
+
+  set marks(marks: readonly Mark[]) {
+    this.#view.dispatch({ effects: setMarks.of(marks) });
+    const [first] = marks;
+    if (first && !this.#view.hasFocus && first.row < this.#view.state.doc.lines) {
+      this.#view.dispatch({ effects: EditorView.scrollIntoView(this.#view.state.doc.line(first.row + 1).from) });
+    }
+  }
+
+  /** The place of a program line in the text, from 0; -1 where there is none. */
+  rowOf(number: number): number {
+    return (rowOf(this.#view.state, number)?.number ?? 0) - 1;
+  }
+
+  get hasFocus(): boolean {
+    return this.#view.hasFocus;
+  }
+
+  focus(): void {
+    this.#view.focus();
+  }
+
+  undo(): void {
+    undo(this.#view);
+  }
+}

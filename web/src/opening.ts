@@ -1,0 +1,94 @@
+/** What comes in: parts of the list, links, files. */
+import { get } from "./dom.ts";
+import { readWhole, recognize, tooLarge } from "./files.ts";
+import { t } from "./language.ts";
+import { LinkError, readLink } from "./link.ts";
+import { say, show } from "./message.ts";
+import { markPart, type Part } from "./parts.ts";
+import type { Everything } from "./store.ts";
+import type { Workbench } from "./workbench.ts";
+
+export class Opening {
+  readonly #bench: Workbench;
+  readonly #bringBack: (saved: Everything) => void;
+  parts: Part[] = [];
+
+  constructor(bench: Workbench, bringBack: (saved: Everything) => void) {
+    this.#bench = bench;
+    this.#bringBack = bringBack;
+  }
+
+  /** The part is shown cut. */
+  part(part: Part, run = true): void {
+    markPart(get("part-list"), part.name);
+    void this.#bench.open(part.name, part.program, run, true);
+  }
+
+  /** Follows the address' `#…`; false where there is none. */
+  async link(hash: string): Promise<boolean> {
+    if (hash.length < 2) return false;
+    try {
+      const link = await readLink(hash);
+      const part = this.parts.find(({ name }) => name === link.part);
+      // (what is changed from here on is the visitor's: a reload does not bring the link's program again)
+      if (!link.embed) history.replaceState(null, "", location.pathname + location.search);
+      if (link.program !== undefined) await this.#bench.open("link", link.program, link.run);
+      else if (part) this.part(part, link.run);
+      else if (link.part !== undefined) say("badPart", link.part);
+      else return false;
+    } catch (error) {
+      if (!(error instanceof LinkError)) throw error;
+      say("badLink");
+    }
+    return true;
+  }
+
+  async file(file: File): Promise<void> {
+    const found = tooLarge(file.name, file.size) ?? recognize(file.name, new Uint8Array(await file.arrayBuffer()));
+    switch (found.kind) {
+      case "program":
+        markPart(get("part-list"), undefined);
+        await this.#bench.open(file.name, found.text, false);
+        break;
+      case "tape":
+        await this.#tape(file.name, found.text);
+        break;
+      case "saved":
+        this.#bringBack(found.saved);
+        say("imported", file.name);
+        break;
+      case "refused":
+        say(found.why, ...found.values);
+        break;
+    }
+  }
+
+  /** Shows a tape from a file; it is read a little at a time, however long it is. */
+  async #tape(name: string, text: string): Promise<void> {
+    if (text.length > 100_000) say("reading", name);
+    const read = await readWhole(name, text);
+    if ("why" in read) {
+      say(read.why, ...read.values);
+      return;
+    }
+    const { tape, placer } = read;
+    const { recording, pictures, chooser } = this.#bench;
+    recording.open(tape.items, placer, name.replace(/\.\w+$/, ""), !tape.hasNoEnd);
+    chooser.choose(undefined);
+    pictures.isStale = false;
+    pictures.begin();
+    pictures.grown(true);
+    const said = t(tape.isForeign ? "tapeForeign" : "tapeRead", name, recording.layout.blocks.length);
+    show(said + (tape.hasNoEnd ? t("tapeNoEnd") : ""));
+  }
+
+  /** Shows the tape of a page that was saved. */
+  async saved(tape: string): Promise<void> {
+    const read = tape ? await readWhole("saved", tape) : undefined;
+    if (!read || "why" in read) return;
+    const { recording, pictures } = this.#bench;
+    recording.open(read.tape.items, read.placer, this.#bench.name, !read.tape.hasNoEnd);
+    pictures.begin();
+    pictures.grown(true);
+  }
+}

@@ -1,0 +1,91 @@
+/** The tape's pictures: the drawing, the blocks, the punched tape, the controller's walk, and what is said of them. */
+import { BlockList } from "./blocklist.ts";
+import type { Chooser } from "./choice.ts";
+import { get } from "./dom.ts";
+import { Drawing } from "./drawing.ts";
+import { t } from "./language.ts";
+import { PunchedTape } from "./punched.ts";
+import type { Recording } from "./recording.ts";
+import { WalkBar } from "./walkbar.ts";
+
+/** A machine's feed, mm a minute. */
+const FEED = 5;
+
+export class Pictures {
+  readonly drawing: Drawing;
+  readonly list: BlockList;
+  readonly punched: PunchedTape;
+  readonly #recording: Recording;
+  #walkBar: WalkBar | undefined;
+  /** The tape's program is not the one that is seen. */
+  isStale = false;
+
+  constructor(chooser: Chooser, recording: Recording) {
+    this.#recording = recording;
+    this.drawing = new Drawing(get("base"), get("over"), chooser);
+    this.list = new BlockList(get("list"), chooser);
+    this.punched = new PunchedTape(get("punched"));
+    this.list.describe = (line, stop) => [stop ? t("stopAfter") : "", line ? t("byLine", line) : ""].filter(Boolean).join(" · ");
+  }
+
+  startWalk(module: WebAssembly.Module): void {
+    const parts = {
+      play: get<HTMLButtonElement>("play"),
+      scrub: get<HTMLInputElement>("scrub"),
+      pace: get<HTMLSelectElement>("pace"),
+      walked: get<HTMLOutputElement>("walked"),
+      closing: get<HTMLOutputElement>("closing"),
+    };
+    this.#walkBar = new WalkBar(parts, this.drawing, module, (number, part) => {
+      const { offsets, text } = this.#recording;
+      const first = offsets[number - 1] ?? 0;
+      this.punched.show(text, first + part * ((offsets[number] ?? text.length) - first));
+    });
+    if (!this.#recording.layout.blocks.length) return;
+    this.#walkBar.begin(this.#recording.layout);
+    void this.#walkBar.grown();
+  }
+
+  /** Another tape, empty or whole. */
+  begin(): void {
+    const { layout } = this.#recording;
+    this.drawing.show(layout);
+    this.list.show(layout);
+    this.#walkBar?.begin(layout);
+    this.say();
+  }
+
+  /** There is more of it; `again`: what was there is not the same either. */
+  grown(again: boolean): void {
+    this.drawing.grown(again);
+    this.list.grown(true);
+    void this.#walkBar?.grown();
+    this.say();
+  }
+
+  /** Writes what there is to say of it, in the present language. */
+  say(): void {
+    const { text, layout, isEmpty, isWhole, millimetres, made } = this.#recording;
+    this.punched.show(text, text.length);
+    get("no-blocks").hidden = !isEmpty;
+    get("sum").textContent = isEmpty
+      ? ""
+      : `${t("summary", layout.blocks.length, millimetres.toFixed(1))}${isWhole ? "" : ` · ${t("partial")}`}`;
+    get("time").textContent = isEmpty ? "" : t("time", Math.ceil(millimetres / FEED));
+    const source = get("made");
+    source.textContent = isEmpty
+      ? ""
+      : this.isStale
+        ? t("stale")
+        : made.program === undefined
+          ? t("fromFile", made.name)
+          : made.name;
+    source.classList.toggle("stale", this.isStale && !isEmpty);
+  }
+
+  retell(): void {
+    this.#walkBar?.say();
+    this.list.grown(false);
+    this.say();
+  }
+}

@@ -1,0 +1,36 @@
+/** The pieces of the page that are no part of its script: fetched beside it, or in the page itself where that is one file. */
+import { type Part, readParts } from "./parts.ts";
+import type { Images } from "./runner.ts";
+
+/** In skg.html: a piece in base64 by its name. */
+function inside(name: string): ArrayBuffer | undefined {
+  const text = document.querySelector(`script[data-file="${name}"]`)?.textContent;
+  return text ? Uint8Array.from(atob(text.trim()), (character) => character.charCodeAt(0)).buffer : undefined;
+}
+
+/** The text of a file that lies in the page. */
+export function insideText(name: string): string | undefined {
+  const bytes = inside(name);
+  return bytes && new TextDecoder().decode(bytes);
+}
+
+export function workerAddress(): string | URL {
+  const bytes = inside("worker.js");
+  return bytes ? URL.createObjectURL(new Blob([bytes], { type: "text/javascript" })) : new URL("worker.js", document.baseURI);
+}
+
+/** What the worker cannot fetch. */
+export function readImages(): Images | undefined {
+  const [code, rom, sym] = ["board.wasm", "skg.bin", "skg.sym"].map(inside);
+  return code && rom && sym ? { code, rom, sym } : undefined;
+}
+
+export async function readPartList(): Promise<Part[]> {
+  const text = insideText("parts.json");
+  return text === undefined ? readParts() : (JSON.parse(text) as Part[]);
+}
+
+export async function readWalk(): Promise<WebAssembly.Module> {
+  const code = inside("walk.wasm") ?? (await (await fetch("walk.wasm")).arrayBuffer());
+  return WebAssembly.compile(code);
+}

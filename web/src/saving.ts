@@ -1,0 +1,60 @@
+/** What the menu Save and the links give: files of the tape and the program, and everything as one. */
+import { dxfText } from "./dxf.ts";
+import { saveFile } from "./files.ts";
+import { isoText } from "./iso.ts";
+import { t } from "./language.ts";
+import { pack } from "./link.ts";
+import { ask, say } from "./message.ts";
+import type { Everything, Settings } from "./store.ts";
+import { svgText } from "./svg.ts";
+import type { Workbench } from "./workbench.ts";
+
+export function everything({ session, recording }: Workbench, settings: Settings): Everything {
+  return { format: "skg-page", version: 1, kept: session.kept, settings: { ...settings }, tape: recording.text };
+}
+
+/** Saves one kind of file. A tape without its end, or of another program than the one that is seen, is asked for first. */
+export async function save(kind: string, bench: Workbench, settings: Settings): Promise<void> {
+  const { recording, editor, name } = bench;
+  const { layout, made, isWhole } = recording;
+  if (kind === "json") {
+    saveFile(`${name}.json`, JSON.stringify(everything(bench, settings)));
+    return;
+  }
+  if (kind === "skg") {
+    if (editor.text) saveFile(`${name}.skg`, editor.text);
+    else say("noProgram");
+    return;
+  }
+  if (recording.isEmpty) {
+    say("noBlocks");
+    return;
+  }
+  const doubts = [...(isWhole ? [] : [t("askPartial")]), ...(bench.isStale ? [t("askStale")] : [])];
+  if (doubts.length && !(await ask(doubts.join(" "), t("saveAnyway")))) return;
+  const stem = `${made.name}${isWhole ? "" : "-unfinished"}`;
+  const texts: Record<string, () => [string, string]> = {
+    "3b": () => [".3b", recording.text],
+    iso: () => [".nc", isoText(layout, isWhole)],
+    svg: () => [".svg", svgText(layout, settings.wire, made.name)],
+    dxf: () => [".dxf", dxfText(layout)],
+  };
+  const [ending, text] = (texts[kind] as () => [string, string])();
+  saveFile(stem + ending, text);
+}
+
+/** The address of a page that runs this program. */
+export async function address(program: string, isEmbedded: boolean): Promise<string> {
+  const url = new URL(location.href);
+  url.hash = `z=${await pack(program)}&run${isEmbedded ? "&embed" : ""}`;
+  return url.href;
+}
+
+export async function copy(text: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+    say("copied");
+  } catch {
+    say("copyThis", text);
+  }
+}

@@ -1,0 +1,136 @@
+/** The machine as the page has it: what it does now, the program in it, its paper, and what is kept of it. */
+import type { Punched } from "./board.ts";
+import { Machine } from "./machine.ts";
+import type { Images, Refused, Speed, State } from "./runner.ts";
+import { fromBase64, type Kept, type Store, toBase64 } from "./store.ts";
+import type { Teletype } from "./teletype.ts";
+
+const CTRL_C = 3;
+
+export interface Hooks {
+  state(state: State): void;
+  punched(punched: readonly Punched[]): void;
+  /** The program in the machine is this, now. */
+  memory(program: string): void;
+  /** An ERR on the paper; line 0: of a command. */
+  error(number: string, line: number): void;
+  failed(why: string): void;
+}
+
+export class Session {
+  readonly #machine: Machine;
+  readonly #teletype: Teletype;
+  readonly #store: Store | undefined;
+  readonly #hooks: Hooks;
+  #kept: { ram: string; rom: string } | undefined;
+  #tail = "";
+  state: State = "busy";
+  program = "";
+  isAlive = true;
+  /** The text in the editor, where it is not the program. */
+  draft: string | undefined;
+
+  /** Without a store nothing is kept. */
+  constructor(worker: string | URL, teletype: Teletype, store: Store | undefined, hooks: Hooks) {
+    this.#teletype = teletype;
+    this.#store = store;
+    this.#hooks = hooks;
+    this.#machine = new Machine(worker, {
+      out: (paper, punched, seen) => {
+        teletype.print(paper, seen);
+        if (punched.length) hooks.punched(punched);
+        this.#lookForError(paper);
+      },
+      state: (state) => {
+        this.state = state;
+        hooks.state(state);
+      },
+      memory: (ram, program, rom) => {
+        this.program = program;
+        this.#kept = { ram: toBase64(ram), rom };
+        hooks.memory(program);
+        this.keep();
+      },
+      failed: (why) => {
+        this.isAlive = false;
+        hooks.failed(why);
+      },
+    });
+    addEventListener("pagehide", () => this.keep());
+    document.addEventListener("visibilitychange", () => {
+      if (document.visibilityState === "hidden") this.keep();
+    });
+  }
+
+  /** Ctrl-C gets it back to its prompt. */
+  get isRunning(): boolean {
+    return this.state !== "prompt" && this.state !== "halt";
+  }
+
+  /** Starts it with what was kept; false when that is not whole. */
+  start(speed: Speed, last: Kept | null, images?: Images): boolean {
+    const ram = last ? fromBase64(last.ram) : undefined;
+    if (last) this.#teletype.print(last.paper);
+    this.#machine.start(speed, last ? { ram, program: last.program, rom: last.rom } : undefined, images);
+    return !last || ram !== undefined;
+  }
+
+  get kept(): Kept | null {
+    if (!this.#kept) return null;
+    const { draft } = this;
+    return { ...this.#kept, program: this.program, paper: this.#teletype.paper, ...(draft === undefined ? {} : { draft }) };
+  }
+
+  keep(): void {
+    const { kept } = this;
+    if (kept && this.#store) this.#store.machine = kept;
+  }
+
+  bringBack(kept: Kept): void {
+    const ram = fromBase64(kept.ram);
+    this.#teletype.clear();
+    this.#teletype.print(kept.paper);
+    if (ram) this.#machine.restore(ram, kept.program, kept.rom);
+    else this.#machine.load(kept.program, false);
+  }
+
+  load(program: string, run: boolean): void {
+    this.#machine.load(program, run);
+  }
+
+  check(program: string): Promise<Refused[]> {
+    return this.isAlive ? this.#machine.check(program) : Promise.resolve([]);
+  }
+
+  run(): void {
+    this.#machine.type("RUN\r");
+  }
+
+  stop(): void {
+    this.#machine.press(CTRL_C);
+  }
+
+  type(text: string): void {
+    this.#machine.type(text);
+  }
+
+  press(key: number): void {
+    this.#machine.press(key);
+  }
+
+  reset(): void {
+    this.#machine.reset();
+  }
+
+  speed(speed: Speed): void {
+    this.#machine.speed(speed);
+  }
+
+  #lookForError(paper: string): void {
+    this.#tail = (this.#tail + paper).slice(-400);
+    const found = [...this.#tail.matchAll(/(?:^|\n)ERR (\d\d)(?: LINE (\d+))?\r\n/g)].at(-1);
+    if (!found) return;
+    this.#tail = this.#tail.slice((found.index ?? 0) + found[0].length);
+    this.#hooks.error(found[1] ?? "", Number(found[2] ?? 0));
+  }
+}

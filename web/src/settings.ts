@@ -1,0 +1,92 @@
+/** The settings and the menu where they are changed. */
+import { get } from "./dom.ts";
+import { type Language, speak, t } from "./language.ts";
+import type { Settings, Theme } from "./store.ts";
+import type { Teletype } from "./teletype.ts";
+import type { Workbench } from "./workbench.ts";
+
+/** Takes from what was kept or brought in what is a setting, and nothing else. */
+export function sound(found: Partial<Settings>): Partial<Settings> {
+  const { speed, language, theme, wire, auto, grid } = found;
+  return {
+    ...(speed === "fast" || speed === "real" ? { speed } : {}),
+    ...(language === "en" || language === "zh" ? { language } : {}),
+    ...(theme === "auto" || theme === "light" || theme === "dark" ? { theme } : {}),
+    ...(typeof wire === "number" && wire >= 0 && wire <= 5 ? { wire } : {}),
+    ...(typeof auto === "boolean" ? { auto } : {}),
+    ...(typeof grid === "boolean" ? { grid } : {}),
+  };
+}
+
+export class SettingsMenu {
+  readonly settings: Settings;
+  readonly #bench: Workbench;
+  readonly #teletype: Teletype;
+  readonly #isDarkSystem = matchMedia("(prefers-color-scheme: dark)");
+  /** Called when the language has changed: who writes of himself writes anew. */
+  onLanguage: () => void = () => undefined;
+
+  constructor(settings: Settings, bench: Workbench, teletype: Teletype, keep: (changed: Partial<Settings>) => void) {
+    this.settings = settings;
+    this.#bench = bench;
+    this.#teletype = teletype;
+    const change = (changed: Partial<Settings>): void => {
+      this.apply(changed);
+      keep(sound(changed));
+    };
+    const on = (id: string, read: (element: HTMLInputElement) => Partial<Settings>): void =>
+      get(id).addEventListener("change", () => change(read(get<HTMLInputElement>(id))));
+    on("speed", ({ value }) => ({ speed: value as Settings["speed"] }));
+    on("language", ({ value }) => ({ language: value }));
+    on("theme", ({ value }) => ({ theme: value as Theme }));
+    on("wire", ({ valueAsNumber }) => ({ wire: valueAsNumber || 0 }));
+    on("auto", ({ checked }) => ({ auto: checked }));
+    on("grid", ({ checked }) => ({ grid: checked }));
+    this.#isDarkSystem.addEventListener("change", () => this.#paint());
+  }
+
+  apply(changed: Partial<Settings>): void {
+    const { settings } = this;
+    Object.assign(settings, sound(changed));
+    for (const id of ["speed", "language", "theme"] as const) get<HTMLSelectElement>(id).value = settings[id];
+    for (const id of ["auto", "grid"] as const) get<HTMLInputElement>(id).checked = settings[id];
+    get<HTMLInputElement>("wire").value = String(settings.wire);
+    this.#bench.session.speed(settings.speed);
+    const { pictures, editor } = this.#bench;
+    pictures.drawing.wireWidth = settings.wire;
+    pictures.drawing.grid = settings.grid;
+    speak(settings.language as Language, document);
+    this.#teletype.name = t("teletype");
+    editor.name = t("editor");
+    pictures.retell();
+    this.onLanguage();
+    this.#paint();
+  }
+
+  #paint(): void {
+    const { theme } = this.settings;
+    const isDark = theme === "dark" || (theme === "auto" && this.#isDarkSystem.matches);
+    document.documentElement.dataset["theme"] = isDark ? "dark" : "light";
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name: string): string => style.getPropertyValue(`--${name}`).trim();
+    const { pictures } = this.#bench;
+    pictures.drawing.colours = {
+      wire: colour("wire"),
+      lead: colour("lead"),
+      chosen: colour("mark"),
+      walk: colour("walk"),
+      ruler: colour("dim"),
+      grid: colour("grid"),
+    };
+    this.#teletype.theme = {
+      background: colour("panel"),
+      foreground: colour("text"),
+      cursor: colour("strong"),
+      cursorAccent: colour("panel"),
+      selectionBackground: colour("chosen"),
+      selectionForeground: colour("chosen-text"),
+    };
+    pictures.punched.colours = { paper: colour("tape"), hole: colour("hole"), mark: colour("walk") };
+    pictures.say();
+  }
+}

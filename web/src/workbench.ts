@@ -1,0 +1,197 @@
+/** The program's text, the machine that runs it, and the tape that comes of it: what belongs together between them. */
+import type { Punched } from "./board.ts";
+import { Chooser } from "./choice.ts";
+import { get } from "./dom.ts";
+import { Editor } from "./editor.ts";
+import { isWord, t, type Word } from "./language.ts";
+import { hide, say, show } from "./message.ts";
+import { parametersOf, showParameters, withValue } from "./parameters.ts";
+import { Pictures } from "./pictures.ts";
+import { Proof } from "./proof.ts";
+import { type KeptTape, type Maker, Recording } from "./recording.ts";
+import type { Session } from "./session.ts";
+import { isSame, type Works } from "./works.ts";
+
+/** The editor's text is tried, and run where that is wanted, so long after the last key, ms. */
+const MOMENT = 500;
+/** The same for a slider. */
+const SHORT = 80;
+
+export interface Surroundings {
+  readonly works: Works;
+  /** A change runs by itself. */
+  isAuto(): boolean;
+  /** The manual, at a heading. */
+  openManual(heading: string): void;
+  /** The drawing is to be seen. */
+  showDrawing(): void;
+  changed(): void;
+}
+
+export class Workbench {
+  readonly chooser = new Chooser();
+  readonly recording = new Recording();
+  readonly pictures = new Pictures(this.chooser, this.recording);
+  readonly editor: Editor;
+  readonly #around: Surroundings;
+  readonly #proof: Proof;
+  session!: Session;
+  /** The program's name, for its files. */
+  name = "part";
+  #sent: string | undefined;
+  #wait: ReturnType<typeof setTimeout> | undefined;
+  /** The visitor has pressed RUN: who is asked for a number types it at the teletype. */
+  isByHand = false;
+
+  constructor(around: Surroundings) {
+    this.#around = around;
+    this.editor = new Editor(get("lines"), this.chooser, () => this.recording.layout, {
+      changed: () => this.#edited(),
+      run: () => void this.run(),
+    });
+    this.#proof = new Proof(this.editor, around.openManual);
+  }
+
+  get isDirty(): boolean {
+    return !isSame(this.editor.text, this.session.program);
+  }
+
+  #maker = (): Maker => ({ name: this.name, program: this.#sent ?? this.session.program });
+
+  punched(punched: readonly Punched[]): void {
+    const again = this.recording.take(punched, this.#maker, () => {
+      this.chooser.choose(undefined);
+      this.pictures.begin();
+      this.editor.marks = [];
+    });
+    this.pictures.isStale = this.isStale;
+    this.pictures.grown(again);
+  }
+
+  /** Shows the tape of the last visit. */
+  show({ made, lines }: KeptTape): void {
+    this.name = made.name;
+    this.recording.clear(made);
+    this.recording.take(
+      lines,
+      () => made,
+      () => undefined,
+    );
+    this.pictures.begin();
+    this.pictures.grown(true);
+  }
+
+  /** What is drawn was made by another program than the one that is seen. */
+  get isStale(): boolean {
+    const { made } = this.recording;
+    return made.program !== undefined && !isSame(made.program, this.editor.text);
+  }
+
+  /** The machine tells its program: the editor shows it, unless it holds a text that the machine has not. */
+  memory(program: string, before: string): void {
+    if (this.recording.isFresh) this.recording.made = { ...this.recording.made, program };
+    this.recording.isFresh = false;
+    const isSent = this.#sent !== undefined && isSame(this.#sent, this.editor.text);
+    if (isSent || isSame(before, this.editor.text)) this.editor.text = program;
+    this.#sent = undefined;
+    this.#around.works.keep(program);
+    if (!program) this.name = "part"; // (NEW at the teletype)
+    this.refresh();
+  }
+
+  refresh(): void {
+    this.session.draft = this.isDirty ? this.editor.text : undefined;
+    get("revert").hidden = !this.isDirty;
+    showParameters(get("parameters"), parametersOf(this.editor.text), (at, value) => this.#set(at, value));
+    get("no-program").hidden = this.editor.text !== "";
+    this.pictures.isStale = this.isStale;
+    this.pictures.say();
+    this.#around.changed();
+  }
+
+  /** A parameter has another value: the part is cut anew after a moment. */
+  #set(at: number, value: string): void {
+    const parameter = parametersOf(this.editor.text)[at];
+    if (!parameter) return;
+    this.editor.text = withValue(this.editor.text, parameter, value);
+    this.refresh();
+    clearTimeout(this.#wait);
+    this.#wait = setTimeout(() => void this.#tryText(true), SHORT);
+  }
+
+  #edited(): void {
+    this.refresh();
+    clearTimeout(this.#wait);
+    this.#wait = setTimeout(() => void this.#tryText(), MOMENT);
+  }
+
+  async #tryText(isAuto = this.#around.isAuto()): Promise<void> {
+    this.session.keep();
+    const isSound = await this.#proof.check(this.session);
+    if (isSound && this.isDirty && isAuto && this.editor.text) this.#send(true);
+  }
+
+  /** RUN: a text that was changed goes into the machine first, when all of it can. */
+  async run(): Promise<void> {
+    if (!this.session.isAlive || this.session.isRunning) return;
+    clearTimeout(this.#wait);
+    this.isByHand = true;
+    hide();
+    if (!this.isDirty) {
+      this.session.run();
+    } else if (await this.#proof.check(this.session)) {
+      this.#send(true);
+    } else {
+      say("notTaken");
+      return;
+    }
+    this.#around.showDrawing();
+  }
+
+  #send(run: boolean): void {
+    this.#sent = this.editor.text;
+    this.recording.leave(this.session.isRunning);
+    this.session.load(this.#sent, run);
+  }
+
+  /** Puts another program in the place of what is there, which is kept; one with faults stays a text. */
+  async open(name: string, text: string, run: boolean, isSound = false): Promise<void> {
+    if (!this.session.isAlive) return;
+    clearTimeout(this.#wait);
+    const { works } = this.#around;
+    works.keep(this.isDirty ? this.editor.text : this.session.program);
+    works.begin();
+    hide();
+    this.name = name.replace(/\.\w+$/, "").replace(/[^\p{L}\p{N}_-]+/gu, "-") || "part";
+    this.isByHand = run;
+    this.editor.text = text;
+    this.editor.marks = [];
+    this.recording.leave(this.session.isRunning);
+    this.recording.clear(this.#maker());
+    this.chooser.choose(undefined);
+    this.pictures.begin();
+    if (!isSound && !(await this.#proof.check(this.session, true))) {
+      this.refresh();
+      say("notTaken");
+      return;
+    }
+    this.#send(run);
+    if (run) this.#around.showDrawing();
+    this.refresh();
+  }
+
+  /** The machine's program again, in place of what was typed; undo brings that back. */
+  revert(): void {
+    this.editor.text = this.session.program;
+    this.editor.marks = [];
+    this.refresh();
+    this.editor.focus();
+  }
+
+  error(number: string, line: number): void {
+    const word = `err${number}`;
+    if (!isWord(word)) return;
+    if (line && !this.isDirty) this.#proof.ended(number, line);
+    show(t(line ? "endedLine" : "ended", number, t(word as Word), line || ""));
+  }
+}
