@@ -27,7 +27,7 @@ ALLOWED = {
     "tape": {COMMON, "native", "geometry"},
     "reading": {COMMON, "geometry"},
     "planning": {COMMON, "geometry", "job"},
-    "checking": {COMMON, "geometry", "tape", "planning"},
+    "checking": {COMMON, "geometry", "tape", "planning", "ref"},
     "cutting": {COMMON, "geometry", "tape", "planning", "checking", "machine"},
     "sources": {COMMON, "geometry", "tape", "machine", "ref", "rivals"},
     "pictures": {COMMON, "geometry", "tape", "planning", "checking", "cutting"},

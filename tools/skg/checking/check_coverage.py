@@ -41,7 +41,7 @@ def not_reached(
         for number, r in enumerate(offsets.T):
             aside = r[owners]
             places = on + aside[:, None] * square
-            free = _free(contours, which, part, aside) if widest else np.ones(len(places), bool)
+            free = has_room(contours, which, part, aside) if widest else np.ones(len(places), bool)
             # (a tab is cut in the last pass alone)
             free &= np.where(in_tabs[which], number + 1 == passes[owners], number < passes[owners])
             places = places[free]
@@ -64,7 +64,7 @@ def _looked_at(contours: Pieces, spacing: float) -> Flags:
     return (np.diff(along, prepend=-1) > 0) | (np.diff(contours.owner, prepend=-1) != 0)
 
 
-def _free(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.ndarray:
+def has_room(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.ndarray:
     """Tell whether the wire can be aside of places of contours: nothing of their own is nearer, and it would not be
     past another piece (in a cusp, where one goes back along the other)."""
     # (of an end a hair within the piece: there it is told which of two is nearer)

@@ -4,19 +4,27 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import click
 
+from skg.checking.wire_fit import Spoilt, look
 from skg.commands.options import positions_option
 from skg.errors import UserError
 from skg.file_type import TAPE, kind_of
 from skg.files import without_filling
-from skg.sources.load import iso_text, tape_bytes
+from skg.machine.feeding import as_run
+from skg.ref.drawn import routes_of
+from skg.rivals.languages import is_program, is_rival
+from skg.sources.load import iso_text, program_text, tape_bytes
+from skg.sources.milling import is_milling
 from skg.tape import gcode_reader
 from skg.tape.block import Tape
 from skg.tape.styles import read_any
 from skg.tape.text import Finding, scan
+from skg.wording import counted
+
+Found = Finding | gcode_reader.GcodeFinding | Spoilt
 
 #: So many findings of a tape are listed; one wrong in its style alone has some in every line.
 MOST = 20
@@ -31,10 +39,11 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     """Check TAPE for errors: 3B, or G-code (.nc, .ngc, .gcode, .tap, .iso).
 
     One line for each finding: file, block (of G-code: line), column, what was expected. Exit code 1 when there is any.
-    A program (.skg, .xy, .tkh) is run first, a milling program by the mill ROM.
+    A program (.skg, .xy, .tkh) is run first, a milling program by the mill ROM. Then its wire, or tool, is laid beside
+    the contours that it draws with R 0: one line for each place that is cut into, and that is not reached.
     TAPE - is the standard input.
     """
-    found: list[tuple[str, Finding | gcode_reader.GcodeFinding]] = []
+    found: list[tuple[str, Found]] = []
     for name in tapes_:
         text = iso_text(name)
         if text is not None:
@@ -49,13 +58,40 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
             if not as_json:
                 _list_3b(name, data, tape, findings, list_all)
         found += [(name, finding) for finding in findings]
+        if is_program(name):
+            misfits, count = _misfits(name)
+            if count and not as_json:
+                _list(name, misfits, f"the path beside {counted(count, 'contour')}", list_all)
+            found += [(name, misfit) for misfit in misfits]
     if as_json:
         click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in found]))
     if found:
         raise SystemExit(1)
 
 
-def _list(name: str, findings: Sequence[Finding | gcode_reader.GcodeFinding], size: str, list_all: bool) -> None:
+def _misfits(name: str) -> tuple[list[Spoilt], int]:
+    """Lay the wire of a program that runs beside what it draws: what it spoils, and how many contours it has."""
+    text = program_text(name)
+    program, runs = as_run(text)
+    mills = is_milling(text)
+    wires, _ = routes_of(program, runs, mills)
+    if not any(segment.offset for wire in wires for segment in wire):
+        return [], 0
+    drawn, error = routes_of(program, runs, mills, is_drawn=True)
+    if error:
+        number, line = error
+        raise UserError(
+            f"{name}: ERR {number:02d}{f' LINE {line}' if line is not None else ''} with R 0: there is no contour that "
+            "the wire could be laid beside"
+        )
+    misfits, count = look(wires, drawn, "cutter" if mills else "wire")
+    # (lines of a program that was translated are nobody's)
+    return [replace(one, line=None) for one in misfits] if is_rival(name) else misfits, count
+
+
+def _list(
+    name: str, findings: Sequence[Finding | gcode_reader.GcodeFinding | Spoilt], size: str, list_all: bool
+) -> None:
     """Write the findings of a tape, or that there is none."""
     if not findings:
         click.echo(f"{name}: {size}, nothing wrong")

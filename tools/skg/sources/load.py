@@ -112,7 +112,11 @@ def gcode_text(name: str) -> str:
 
 def tape_bytes(name: str, skg80: str | None = None) -> bytes:
     """Return a tape's bytes: those of a file (`-`: the standard input), or what its program punches."""
-    return _run(name, skg80, False)[0] if is_program(name) else read_bytes(name)
+    if not is_program(name):
+        return read_bytes(name)
+    text = program_text(name)
+    _say_given_up(name, text)
+    return _tape_of(name, text, skg80)
 
 
 def contour_of(name: str) -> tuple[Piece, ...]:

@@ -1,0 +1,251 @@
+"""The wire beside the contours that a program draws: where it cuts into them, where it does not come to.
+
+The reference draws each contour with R 0 and says where the wire goes with the program's R. Neither corners nor
+crossings are looked at: the wire is too near to a contour, or beside a place of it that has room for the wire it never
+was.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import copysign, pi
+
+import numpy as np
+
+from skg.checking.check_coverage import has_room
+from skg.checking.gouges import crossings
+from skg.checking.wire_path import LIMIT, place_of
+from skg.geometry.arrays import Floats
+from skg.geometry.nearest_pieces import Pieces
+from skg.geometry.piece import Piece
+from skg.geometry.plane import XY, distance
+from skg.ref.route import Segment
+from skg.ref.values import Curve, Point
+from skg.wording import short, shown
+
+#: Ends that are no further apart are one corner, mm.
+_CORNER = 1e-3
+#: Places on a path are looked at no more than this part of R from each other.
+_SPACING = 0.25
+#: The parts of a circle that the wire and the contour have may differ by so much, radians.
+_TURN = pi
+
+
+@dataclass(frozen=True)
+class Spoilt:
+    """A place (mm) of a contour that the wire spoils: `depth`, how far it cuts into it, mm, 0 where it does not come
+    to it. `line`: of the program, near it; None for one without a number. `is_other`: another contour's
+    wire does. `tool`: "wire" or "cutter"."""
+
+    place: XY
+    depth: float
+    line: int | None
+    is_other: bool = False
+    tool: str = "wire"
+
+    def __str__(self) -> str:
+        where = f"{shown(self.place)}{f', near line {self.line}' if self.line is not None else ''}"
+        if self.depth:
+            whose = " of another contour" * self.is_other
+            return f"{where}: the {self.tool}{whose} cuts {short(self.depth)} mm into the contour"
+        return f"{where}: the {self.tool} does not come to the contour there"
+
+
+@dataclass
+class _Run:
+    """A contour that the wire runs beside at a stretch: what is drawn, where the wire goes, its R of each element.
+
+    `leads`: the way from and to the start hole of its route.
+    """
+
+    drawn: list[Segment]
+    wire: list[Segment]
+    leads: list[Segment]
+    offsets: dict[Curve, float]
+    is_closed: bool = False
+
+    def r(self, segment: Segment) -> float:
+        """R beside a segment, mm, positive to the right."""
+        known = self.offsets.get(segment.nominal)
+        return next(iter(self.offsets.values())) if known is None else known
+
+
+def look(
+    wires: Sequence[Sequence[Segment]], drawn: Sequence[Sequence[Segment]], tool: str = "wire"
+) -> tuple[list[Spoilt], int]:
+    """Lay the wire of each route beside what it draws; return what it spoils, and the number of contours.
+
+    `wires`: the segments of the routes with the program's R; `drawn`: with R 0. `tool`: "wire" or "cutter".
+    """
+    runs = [run for wire, contour in zip(wires, drawn, strict=True) for run in _runs(wire, contour)]
+    if not runs:
+        return [], 0
+    contours = Pieces((_piece(one), at) for at, run in enumerate(runs) for one in run.drawn)
+    offsets = np.array([run.r(one) for run in runs for one in run.drawn])
+    lines = [one.line for run in runs for one in run.drawn]
+    found = [*_turned(runs)]
+    found += _cut_into(runs, contours, offsets, lines)
+    found += _into_others(runs, contours, lines)
+    found.sort(key=lambda one: -one.depth)
+    found += _not_reached(runs, contours, offsets, lines)
+    return [replace(one, tool=tool) for one in found], len(runs)
+
+
+def _runs(wire: Sequence[Segment], drawn: Sequence[Segment]) -> Iterator[_Run]:
+    """The contours of a route with R, in order."""
+    groups = [list(group) for group in _beside(wire, lambda one: one.offset != 0)]
+    offsets = {one.nominal: float(one.offset) for group in groups for one in group}
+    contours = [list(group) for group in _beside(drawn, lambda one: one.nominal in offsets)]
+    if len(groups) != len(contours):
+        # (an element so short that the wire passes it over has divided one of the two)
+        groups, contours = ([[one for group in some for one in group]] for some in (groups, contours))
+    leads = [one for one in wire if not one.offset]
+    for group, contour in zip(groups, contours, strict=True):
+        if not group or not contour:
+            continue
+        run = _Run(contour, group, leads, {one.nominal: float(one.offset) for one in group})
+        if loop := _loop(contour):
+            run.is_closed = True
+        else:
+            loop = _without_leads(contour, drawn)
+        if len(contour[loop]) < len(contour):
+            run.drawn = contour[loop]
+            known = {one.nominal for one in run.drawn}
+            run.leads = leads + [one for one in group if one.nominal not in known]
+            run.wire = [one for one in group if one.nominal in known]
+        yield run
+
+
+def _beside(segments: Iterable[Segment], is_beside: Callable[[Segment], bool]) -> Iterator[list[Segment]]:
+    """Stretches of segments that are elements of the contour with R."""
+    found: list[Segment] = []
+    for one in segments:
+        if one.nominal is not None and is_beside(one):
+            found.append(one)
+        elif found:
+            yield found
+            found = []
+    if found:
+        yield found
+
+
+def _loop(contour: Sequence[Segment]) -> slice | None:
+    """The longest stretch of a contour that ends where it begins: without the leads that are drawn with R."""
+    best = None
+    begins: dict[tuple[int, int], int] = {}
+    for at, one in enumerate(contour):
+        begins.setdefault(_cell(one.start), at)
+        x, y = _cell(one.end)
+        near = [
+            begin
+            for i in (-1, 0, 1)
+            for j in (-1, 0, 1)
+            if (begin := begins.get((x + i, y + j))) is not None
+            and distance(_xy(contour[begin].start), _xy(one.end)) <= _CORNER
+        ]
+        if near and (best is None or at + 1 - min(near) > best.stop - best.start):
+            best = slice(min(near), at + 1)
+    return best
+
+
+def _without_leads(contour: Sequence[Segment], drawn: Sequence[Segment]) -> slice:
+    """An open contour without the arcs that come to it from a line with R 0, or go to one (a part up to its tab)."""
+    places = {id(one): at for at, one in enumerate(drawn)}
+    first, last = places[id(contour[0])], places[id(contour[-1])]
+    begins = contour[0].is_arc and first > 0 and drawn[first - 1].role == "cut"
+    ends = contour[-1].is_arc and last + 1 < len(drawn) and drawn[last + 1].role == "cut"
+    return slice(int(begins), len(contour) - int(ends)) if len(contour) > begins + ends else slice(len(contour))
+
+
+def _cell(point: Point) -> tuple[int, int]:
+    return round(float(point.x) / _CORNER), round(float(point.y) / _CORNER)
+
+
+def _xy(point: Point) -> XY:
+    return float(point.x), float(point.y)
+
+
+def _piece(segment: Segment) -> Piece:
+    if not segment.is_arc:
+        return Piece(_xy(segment.start), _xy(segment.end))
+    sweep = copysign(float(segment.sweep), float(segment.radius))
+    return Piece(_xy(segment.start), _xy(segment.end), _xy(segment.centre), sweep)
+
+
+def _turned(runs: Sequence[_Run]) -> Iterator[Spoilt]:
+    """Circles that the wire goes around on the other side than they are drawn."""
+    for run in runs:
+        sweeps: dict[Curve, float] = {}
+        for sign, segments in ((1, run.wire), (-1, run.drawn)):
+            for one in segments:
+                if one.is_arc:
+                    sweeps[one.nominal] = sweeps.get(one.nominal, 0.0) + sign * float(one.sweep)
+        for one in run.drawn:
+            if one.is_arc and abs(sweeps.pop(one.nominal, 0.0)) > _TURN:
+                yield Spoilt(_xy(one.start), abs(run.r(one)), one.line)
+
+
+def _cut_into(runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Sequence[int | None]) -> Iterator[Spoilt]:
+    """The deepest place of each piece of a contour that its own wire comes into."""
+    least = [min(map(abs, run.offsets.values())) for run in runs]
+    parts = [
+        (_piece(one), at, abs(float(one.offset)) or least[at])
+        for at, run in enumerate(runs)
+        for one in (*run.wire, *(run.leads if run.is_closed else ()))
+    ]
+    wire, wanted = Pieces((piece, at) for piece, at, _ in parts), np.array([r for _, _, r in parts])
+    widest = float(np.abs(offsets).max())
+    deepest: dict[int, tuple[float, XY]] = {}
+    for which, part in wire.batches(_SPACING * float(np.abs(offsets).min()), 2):
+        places = wire.at(which, part)
+        near = contours.nearest(places, wire.owner[which], widest)
+        some = np.flatnonzero(near.own_at >= 0)
+        piece = near.own_at[some]
+        depth = np.minimum(wanted[which[some]], np.abs(offsets[piece])) - near.own[some]
+        for at in np.flatnonzero(depth > LIMIT).tolist():
+            own = int(piece[at])
+            if depth[at] > deepest.get(own, (0.0,))[0]:
+                deepest[own] = float(depth[at]), place_of(places[some[at]])
+    for own, (depth, _) in sorted(deepest.items()):
+        place = contours.at(np.array([own]), contours.part(np.array([deepest[own][1]]), np.array([own])))[0]
+        yield Spoilt(place_of(place), depth, lines[own])
+
+
+def _not_reached(
+    runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Sequence[int | None]
+) -> Iterator[Spoilt]:
+    """The middle one of the places of each piece of a contour that have room for the wire, which was never there."""
+    wire = Pieces((_piece(one), at) for at, run in enumerate(runs) for one in run.wire)
+    missed: dict[int, list[XY]] = defaultdict(list)
+    for which, part in contours.batches(_SPACING * float(np.abs(offsets).min()), 2):
+        aside = offsets[which]
+        is_free = has_room(contours, which, part, aside)
+        which, part, aside = which[is_free], part[is_free], aside[is_free]
+        on = contours.at(which, part)
+        places = on + aside[:, None] * contours.normal(which, part)
+        far = wire.nearest(places, contours.owner[which], 2 * LIMIT).own
+        for at in np.flatnonzero(far > LIMIT).tolist():
+            missed[int(which[at])].append(place_of(on[at]))
+    for piece, places in sorted(missed.items()):
+        yield Spoilt(places[len(places) // 2], 0.0, lines[piece])
+
+
+def _into_others(runs: Sequence[_Run], contours: Pieces, lines: Sequence[int | None]) -> Iterator[Spoilt]:
+    """The deepest place of each closed contour that another one's wire comes into."""
+    closed = [at for at, run in enumerate(runs) if run.is_closed]
+    if len(closed) < 2:
+        return
+    wire = Pieces((_piece(one), at) for at in closed for one in (*runs[at].wire, *runs[at].leads))
+    least = np.array([min(map(abs, run.offsets.values())) for run in runs])
+    others = np.array(closed)
+    is_right = np.zeros(len(runs))
+    for at in closed:
+        places = contours.start[contours.owner == at]
+        (x, y), (u, v) = places.T, np.roll(places, -1, 0).T
+        is_right[at] = (x * v - y * u).sum() * runs[at].r(runs[at].drawn[0])
+    every = np.arange(len(wire.owner))
+    for one in crossings(wire, every, contours, others, least, LIMIT, is_right < 0, is_right > 0):
+        nearest = contours.nearest(np.array([one.place]), np.array([one.other]), 2 * LIMIT).own_at[0]
+        yield Spoilt(one.place, one.depth, lines[nearest] if nearest >= 0 else None, is_other=True)

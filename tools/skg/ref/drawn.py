@@ -1,0 +1,83 @@
+"""The contours that a program draws, and the wire's path beside them: the same program run without R and with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from skg.ref.cutter import Cutter
+from skg.ref.interpreter import Interpreter, carry_out
+from skg.ref.mill.cutter import MillCutter
+from skg.ref.mill.interpreter import MillInterpreter
+from skg.ref.mill.iso import IsoPunch
+from skg.ref.near import Watch
+from skg.ref.real import ZERO, Real
+from skg.ref.route import Route, Segment
+from skg.ref.tape import Punch
+from skg.ref.values import Circle, Line, Point
+
+#: The segments of each route, from its entry to its return.
+Routes = list[list[Segment]]
+
+
+class _Recorded(Cutter):
+    """A cutter that keeps the segments of each route in `routes`. `is_drawn`: R is 0, whatever the program says."""
+
+    routes: Routes
+    is_drawn: bool
+
+    def _new_route(self) -> Route:
+        self.routes.append([])
+        return super()._new_route()
+
+    def _emit(self, segment: Segment) -> None:
+        super()._emit(segment)
+        if self.route is not None:
+            self.routes[-1].append(replace(segment, line=self.line))
+
+    def _r(self, offset: Real) -> Real:
+        return ZERO if self.is_drawn else offset
+
+    def _feed(self, value: Point | Circle | Line, offset: Real, right: bool = False) -> None:
+        super()._feed(value, self._r(offset), right)
+
+    def mirror(self, mirror: Line, right: bool, offset: Real) -> None:
+        """SYM."""
+        super().mirror(mirror, right, self._r(offset))
+
+    def repeat(self, count: int, angle: Real, about: Point, right: bool, offset: Real) -> None:
+        """REP."""
+        super().repeat(count, angle, about, right, self._r(offset))
+
+    def recut(self, offset: Real) -> None:
+        """RECUT."""
+        super().recut(self._r(offset))
+
+
+class _RecordedMill(_Recorded, MillCutter):
+    """The same of a milling machine's tool."""
+
+
+def routes_of(
+    program: str, runs: bool, mills: bool = False, is_drawn: bool = False
+) -> tuple[Routes, tuple[int, int | None] | None]:
+    """Return the routes of a program, without R when they are to be as drawn, and the error and line that ended it.
+
+    `runs`: the program is RUN once it is loaded. `mills`: it is one of the milling language.
+    """
+    routes: Routes = []
+
+    def machine(watch: Watch) -> Interpreter:
+        kind, cutter, punch = (
+            (MillInterpreter, _RecordedMill, IsoPunch()) if mills else (Interpreter, _Recorded, Punch())
+        )
+
+        class Recording(kind):
+            def _new_cutter(self) -> Cutter:
+                found = cutter(self.tape, self.path)
+                found.routes, found.is_drawn = routes, is_drawn
+                return found
+
+        return Recording((), watch, punch)
+
+    result = carry_out(machine, program, None, runs)
+    return routes, result.error
