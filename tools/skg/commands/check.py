@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, replace
+from typing import TYPE_CHECKING
 
 import click
 
-from skg.checking.wire_fit import Spoilt, look
 from skg.commands.options import positions_option
 from skg.errors import UserError
 from skg.file_type import TAPE, kind_of
 from skg.files import without_filling
-from skg.machine.feeding import as_run
-from skg.ref.drawn import routes_of
 from skg.rivals.languages import is_program, is_rival
 from skg.sources.load import iso_text, program_text, tape_bytes
 from skg.sources.milling import is_milling
@@ -24,7 +22,10 @@ from skg.tape.styles import read_any
 from skg.tape.text import Finding, scan
 from skg.wording import counted
 
-Found = Finding | gcode_reader.GcodeFinding | Spoilt
+if TYPE_CHECKING:
+    from skg.checking.wire_fit import Spoilt
+
+Found = "Finding | gcode_reader.GcodeFinding | Spoilt"
 
 #: So many findings of a tape are listed; one wrong in its style alone has some in every line.
 MOST = 20
@@ -71,6 +72,11 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
 
 def _misfits(name: str) -> tuple[list[Spoilt], int]:
     """Lay the wire of a program that runs beside what it draws: what it spoils, and how many contours it has."""
+    # (slow to import, and not needed for tapes)
+    from skg.checking.wire_fit import look
+    from skg.machine.feeding import as_run
+    from skg.ref.drawn import routes_of
+
     text = program_text(name)
     program, runs = as_run(text)
     mills = is_milling(text)
