@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from math import dist
 from pathlib import Path
 from random import Random
 
@@ -12,11 +11,11 @@ import shapely
 from cuthelp import drawing, polygon, saved, stretches
 from toolhelp import ROOT, Run
 
+from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.machine.feeding import feed
 
 NECK = "20 FROM O\n30 C=(3.6,0):.5\n40 CUT X:1,Y:2;X:.1;C;-X:.1;Y:2,-X:1,-Y:2\n70 BACK\n80 END\n"
-BULB = "30 R=-3\n40 FROM O\n50 C=(36,0):8\n60 CUT X:10,Y:20;X:2.5;C;-X:2.5;Y:20,-X:10,-Y:20\n70 BACK\n80 END\n"
 #: Examples whose wire spoils something, and why: one outline in two sizes at one place; both halves of a disc; the way
 #: from the start hole to the first element crosses the part's corner.
 TOLD = {"scale.skg", "skg07-line-circle.skg", "xy-die-set.xy"}
@@ -36,28 +35,51 @@ def contour(corners: list[XY], r: float, hole: XY) -> str:
     return f"R={r}\nFROM ({hole[0]},{hole[1]})\n{cuts}BACK\nEND\n"
 
 
+WALLS = {
+    "slot": [(0, 0), (10, 0), (10, 10), (5, 10), (5, 2), (4, 2), (4, 10), (0, 10)],
+    "mouth": [(0, 0), (10, 0), (10, 10), (5, 10), (5, 8), (8, 8), (8, 2), (2, 2), (2, 8), (4, 8), (4, 10), (0, 10)],
+}
+
+
+def wide(shape: str, width: float, scale: float = 1.0) -> list[XY]:
+    """The corners of a shape whose opening is so wide."""
+    return [((4 + (x - 4) * width if 4 <= x <= 5 else x) * scale, y * scale) for x, y in WALLS[shape]]
+
+
+def mouth(width: float, r: float = 0.1) -> str:
+    """A program for the mouth, as large as R asks for."""
+    scale = 10 * r if r > 1 else 1.0
+    return contour(wide("mouth", width / scale, scale), r, (5 * scale, -2 * scale))
+
+
+def numbered(program: str) -> str:
+    return "".join(f"{10 * at} {line}\n" for at, line in enumerate(program.splitlines(), 1))
+
+
 def test_a_neck_that_is_narrower_than_the_wire(run: Run, tmp_path: Path) -> None:
-    code, told = checked(run, tmp_path, f"10 R=-.11\n{NECK}")
-    assert code == 1
-    assert "near line 40: the wire does not come to the contour there" in told
-    assert "cuts 0.02 mm into the contour" in told
+    """The ROM refuses it: the arc between its corners vanishes."""
+    with pytest.raises(UserError, match="ERR 06 LINE"):
+        checked(run, tmp_path, f"10 R=-.11\n{NECK}")
     code, told = checked(run, tmp_path, f"10 R=-.09\n{NECK}")
     assert code == 0 and "beside 1 contour, nothing wrong" in told
 
 
 def test_as_json(run: Run, tmp_path: Path) -> None:
-    code, told = checked(run, tmp_path, f"10 R=-.11\n{NECK}", "--json")
+    code, told = checked(run, tmp_path, numbered(mouth(0.15)), "--json")
     found = json.loads(told)
-    assert code == 1 and {one["line"] for one in found} == {40} and {one["tool"] for one in found} == {"wire"}
-    # (the far side of the bulb)
-    assert any(dist(one["place"], (4.1, 0)) < 0.05 for one in found if not one["depth"])
-    assert max(one["depth"] for one in found) == pytest.approx(0.11, abs=1e-3)
+    assert code == 1 and {one["tool"] for one in found} == {"wire"}
+    assert all(isinstance(one["line"], int) for one in found)
+    assert max(one["depth"] for one in found) == pytest.approx(0.05, abs=1e-3)
+    # (both sides of the mouth)
+    assert all(4 <= one["place"][0] <= 4.15 and 8 <= one["place"][1] <= 10 for one in found if one["depth"])
 
 
 def test_a_cutter(run: Run, tmp_path: Path) -> None:
-    code, told = checked(run, tmp_path, f"10 Z -2,5\n20 F 300,60\n{BULB}")
-    assert code == 1 and "the cutter cuts" in told and "the cutter does not come to the contour" in told
-    code, told = checked(run, tmp_path, f"10 Z -2,5\n20 F 300,60\n{BULB}".replace("R=-3", "R=-2"))
+    """A milling program: the mouth is 5 mm wide."""
+    part = mouth(5.0, 3.0).replace("END\n", "")
+    code, told = checked(run, tmp_path, f"Z -2,5\nF 300,60\n{part}END\n")
+    assert code == 1 and "the cutter cuts 1 mm" in told
+    code, told = checked(run, tmp_path, f"Z -2,5\nF 300,60\n{mouth(5.0, 2.0)}")
     assert code == 0 and "1 contour" in told
 
 
@@ -83,17 +105,10 @@ def test_two_windows_with_a_wall_thinner_than_the_wire(run: Run, tmp_path: Path)
         assert told.count("the wire of another contour cuts 0.05") == 2 * is_into
 
 
-WALLS = {
-    "slot": [(0, 0), (10, 0), (10, 10), (5, 10), (5, 2), (4, 2), (4, 10), (0, 10)],
-    "mouth": [(0, 0), (10, 0), (10, 10), (5, 10), (5, 8), (8, 8), (8, 2), (2, 2), (2, 8), (4, 8), (4, 10), (0, 10)],
-}
-
-
 @pytest.mark.parametrize("width", [0.15, 0.19, 0.21, 0.3])
 @pytest.mark.parametrize("shape", WALLS)
 def test_walls_that_are_no_neighbours(run: Run, tmp_path: Path, shape: str, width: float) -> None:
-    corners = [(4 + (x - 4) * width if 4 <= x <= 5 else x, y) for x, y in WALLS[shape]]
-    program, fits = contour(corners, 0.1, (5, -2)), width > 0.2
+    program, fits = contour(wide(shape, width), 0.1, (5, -2)), width > 0.2
     if feed(program, "standard", 8).error:
         assert not fits
         return
