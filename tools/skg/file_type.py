@@ -39,6 +39,6 @@ def named(data: bytes) -> str:
 
 def refuse_others(data: bytes, name: str, expected: str) -> None:
     """Raise a `UserError` when a file shows that it is not what is expected, such as `TAPE`, but of another kind."""
-    found = kind_of(data)
-    if found not in ("", expected):
-        raise UserError(f"{name}: {found}, expected {expected}")
+    kind = kind_of(data)
+    if kind not in ("", expected):
+        raise UserError(f"{name}: {kind}, expected {expected}")

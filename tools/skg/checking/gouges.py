@@ -7,20 +7,18 @@ window, that edge is cut away, whatever the wire does there. A window is smaller
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from skg.geometry.arrays import Flags, Floats, Whole
+from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.nearest_pieces import Pieces, spread
 from skg.geometry.plane import XY
 
 Shapes = NDArray[np.object_]
 
-#: The chords that stand for an arc leave it by no more than this, mm.
-_CHORD = 2e-4
 #: Contours cross when each has more than this inside the other one and outside; what is this near to a window's edge is
 #: on it, mm.
 _HAIR = 1e-3
@@ -110,7 +108,6 @@ def _lines(pieces: Pieces, which: Whole) -> Shapes:
     arcs = np.flatnonzero(pieces.is_arc[which])
     for at in arcs.tolist():
         piece = which[at]
-        step = 2 * acos(max(0.9, 1 - _CHORD / pieces.radius[piece]))
-        spaces[at] = max(2, int(abs(pieces.sweep[piece]) / step) + 1)
+        spaces[at] = chords_of(pieces.radius[piece], pieces.sweep[piece], MEASURED)
     of, part = spread(spaces, 0, len(spaces))
     return shapely.linestrings(pieces.at(which[of], part), indices=of)

@@ -38,12 +38,12 @@ class Passes(click.ParamType):
         """Return the numbers."""
         if isinstance(value, tuple):
             return value
-        found = numbers_in(value)
-        if not found or not all(0 <= more <= MOST_OFFSET for more in found):
+        result = numbers_in(value)
+        if not result or not all(0 <= more <= MOST_OFFSET for more in result):
             self.fail(f"{value!r}: expected lengths in mm with commas between them, such as 0.06,0.02,0", param, ctx)
-        if any(after > before for before, after in pairwise(found)):
+        if any(after > before for before, after in pairwise(result)):
             self.fail(f"{value!r}: a pass that leaves more than the one before it cuts nothing", param, ctx)
-        return found
+        return result
 
 
 @click.command(name="cut")

@@ -37,12 +37,12 @@ def picture_format(output: str, form: str | None, also: str = "") -> str:
 
     `also`: what else may tell it.
     """
-    found = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
-    if found not in FORMATS:
+    result = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
+    if result not in FORMATS:
         raise UserError(f"{output}: expected a name that ends in .svg, .png or .pdf{also}")
     if find_spec("matplotlib") is None:
         raise UserError(f"{output}: pictures need matplotlib, install it beside skg (pipx inject skg-nc matplotlib)")
-    return found
+    return result
 
 
 def decided(tape: Tape, positions: str) -> str:
@@ -105,8 +105,8 @@ def _refuse_onto(context: click.Context) -> None:
     if written.count("-") > 1:
         raise UserError("-: two files for the standard output")
     real = [name for name in written if name != "-" and (not Path(name).exists() or Path(name).is_file())]
-    for at, name in enumerate(real):
-        if any(realpath(name) == realpath(other) for other in [*read, *real[:at]] if other != "-"):
+    for index, name in enumerate(real):
+        if any(realpath(name) == realpath(other) for other in [*read, *real[:index]] if other != "-"):
             raise UserError(f"{name}: to be written, and read or written by the same command")
 
 
@@ -269,9 +269,9 @@ class Coordinates(click.ParamType):
         """Return the two numbers."""
         if isinstance(value, tuple):
             return value
-        found = numbers_in(value, self.number)
-        if len(found) != 2:
+        result = numbers_in(value, self.number)
+        if len(result) != 2:
             self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
-        if not all(abs(ordinate) < 10**MAX_DIGITS for ordinate in found):
+        if not all(abs(ordinate) < 10**MAX_DIGITS for ordinate in result):
             self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
-        return found
+        return result

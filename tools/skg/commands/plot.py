@@ -77,16 +77,16 @@ def command(
     from skg.pictures.plot import COLOURS, Picture
 
     laid = [
-        _laid(name, start[at] if at < len(start) else None, positions, skg80, show_offset)
-        for at, name in enumerate(files)
+        _laid(name, start[index] if index < len(start) else None, positions, skg80, show_offset)
+        for index, name in enumerate(files)
     ]
     sheets, stops = [sheet for sheet, _ in laid], [places for _, places in laid]
     if not any(sheet.routes for sheet in sheets):
         raise UserError(f"{files[0]}: nothing to draw, the tape has no blocks")
     picture = Picture(sheets, scale, title)
-    for at, sheet in enumerate(sheets):
-        picture.draw(sheet, COLOURS[at % len(COLOURS)], f"tape-{at + 1}", wire, not no_arrows, blocks)
-        picture.stops(stops[at], f"tape-{at + 1}")
+    for index, sheet in enumerate(sheets):
+        picture.draw(sheet, COLOURS[index % len(COLOURS)], f"tape-{index + 1}", wire, not no_arrows, blocks)
+        picture.stops(stops[index], f"tape-{index + 1}")
     if picture.left_out:
         click.echo(f"skg: {output}: {picture.left_out} block numbers left out, there is no room for them", err=True)
     if len(sheets) > 1:

@@ -9,11 +9,14 @@ from math import cos, hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from skg.geometry.chords import chords_of
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY, cross, distance, shifted
 
 #: Places (m, 2), mm.
 Places = NDArray[np.float64]
+#: Chords between the points of an arc turn by no more than this, radians: they leave it by 0.08 % of its radius.
+_COARSE = 0.08
 #: An edge that is no curve has no samples.
 _NONE: Places = np.empty((0, 2))
 
@@ -92,12 +95,13 @@ class Edge(Piece):
             return self.nodes[-1 if part else 0].angle
         return super().direction(part)
 
-    @property
-    def chords(self) -> int:
-        """Number of chords between `points`."""
+    def chords(self, off: float | None = None) -> int:
+        """Number of chords between `points`, or of those that leave an arc by no more than `off`, mm."""
         if self.nodes:
             return len(self.samples) - 1
-        return 1 if self.centre is None else max(2, int(abs(self.sweep) / 0.08) + 1)
+        if self.centre is None:
+            return 1
+        return max(2, int(abs(self.sweep) / _COARSE) + 1) if off is None else chords_of(self.radius, self.sweep, off)
 
     def points(self) -> list[XY]:
         """Points along the edge, both ends included: a chord is never further than 0.1 % of a radius away."""
@@ -105,7 +109,7 @@ class Edge(Piece):
             return list(map(tuple, self.samples.tolist()))
         if self.centre is None:
             return [self.start, self.end]
-        pieces = self.chords
+        pieces = self.chords()
         (x, y), radius, first = self.centre, self.radius, self.angles[0]
         angles = [first + k / pieces * self.sweep for k in range(1, pieces)]
         return [self.start, *[(x + radius * cos(angle), y + radius * sin(angle)) for angle in angles], self.end]

@@ -15,25 +15,25 @@ from skg.geometry.piece import Piece
 _ARCS = 1000
 
 
-def points_of(contours: Sequence[Contour]) -> tuple[Floats, Whole]:
+def points_of(contours: Sequence[Contour], off: float | None = None) -> tuple[Floats, Whole]:
     """The points of contours one after the other, to the last bit those of `Contour.points`, and how many each has."""
     edges = [edge for contour in contours for edge in contour.edges]
     # A contour has its edges' points but the last of each, and its end.
-    counts = np.array([edge.chords for edge in edges], np.int64)
+    counts = np.array([edge.chords(off) for edge in edges], np.int64)
     first = np.cumsum([0, *(len(contour.edges) for contour in contours)])
     per_contour = np.add.reduceat(counts, first[:-1]) + 1 if edges else counts
     at = np.cumsum(counts) - counts + np.repeat(np.arange(len(contours)), np.diff(first))
-    found = np.empty((int(per_contour.sum()), 2))
-    found[at] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
-    found[np.cumsum(per_contour) - 1] = np.array([contour.edges[-1].end for contour in contours]).reshape(-1, 2)
+    points = np.empty((int(per_contour.sum()), 2))
+    points[at] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
+    points[np.cumsum(per_contour) - 1] = np.array([contour.edges[-1].end for contour in contours]).reshape(-1, 2)
     arcs = [number for number, edge in enumerate(edges) if not edge.is_line and not edge.nodes]
     for begin in range(0, len(arcs), _ARCS):
         some = arcs[begin : begin + _ARCS]
-        _inner_points([edges[number] for number in some], at[some], counts[some], found)
+        _inner_points([edges[number] for number in some], at[some], counts[some], points)
     for number, edge in enumerate(edges):
         if edge.nodes:
-            found[at[number] : at[number] + counts[number]] = edge.samples[:-1]
-    return found, per_contour
+            points[at[number] : at[number] + counts[number]] = edge.samples[:-1]
+    return points, per_contour
 
 
 def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> None:
@@ -54,15 +54,15 @@ def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> 
 
 def rows_of(pieces: Sequence[Piece]) -> Floats:
     """Lines and arcs as rows (n, 9): start, end, centre, radius, angle at the start, sweep; a line has zeros there."""
-    found = np.zeros((len(pieces), 9))
-    found[:, 0:2] = np.array([piece.start for piece in pieces]).reshape(-1, 2)
-    found[:, 2:4] = np.array([piece.end for piece in pieces]).reshape(-1, 2)
+    rows = np.zeros((len(pieces), 9))
+    rows[:, 0:2] = np.array([piece.start for piece in pieces]).reshape(-1, 2)
+    rows[:, 2:4] = np.array([piece.end for piece in pieces]).reshape(-1, 2)
     arcs = [at for at, piece in enumerate(pieces) if piece.centre is not None]
-    found[arcs, 4:6] = np.array([pieces[at].centre for at in arcs]).reshape(-1, 2)
-    found[arcs, 8] = [pieces[at].sweep for at in arcs]
-    out = found[arcs, 0:2] - found[arcs, 4:6]
-    found[arcs, 6], found[arcs, 7] = hypots(*out.T), directions(out)
-    return found
+    rows[arcs, 4:6] = np.array([pieces[at].centre for at in arcs]).reshape(-1, 2)
+    rows[arcs, 8] = [pieces[at].sweep for at in arcs]
+    out = rows[arcs, 0:2] - rows[arcs, 4:6]
+    rows[arcs, 6], rows[arcs, 7] = hypots(*out.T), directions(out)
+    return rows
 
 
 def boxes_of(contours: Sequence[Contour]) -> tuple[Floats, Floats]:
@@ -82,7 +82,10 @@ def _boxes_of_edges(edges: Sequence[Edge]) -> Floats:
     for angle, axis, ends, way in ((0, 0, high, 1), (pi / 2, 1, high, 1), (pi, 0, low, -1), (-pi / 2, 1, low, -1)):
         is_there = (sweep != 0) & (np.mod(angle - begin, 2 * pi) <= np.abs(sweep))
         ends[is_there, axis] = (centres[:, axis] + way * radius)[is_there]
-    for at, edge in enumerate(edges):
+    for index, edge in enumerate(edges):
         if edge.nodes:
-            low[at], high[at] = np.minimum(low[at], edge.samples.min(0)), np.maximum(high[at], edge.samples.max(0))
+            low[index], high[index] = (
+                np.minimum(low[index], edge.samples.min(0)),
+                np.maximum(high[index], edge.samples.max(0)),
+            )
     return np.column_stack((low, high))

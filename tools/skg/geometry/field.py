@@ -91,7 +91,7 @@ class Field:
     def _look(self, places: Floats, ends: Floats, aside: Floats, measure: Measure) -> Floats:
         """The least that is measured from each of n places to the chords in a box: around it and its end, and so far
         aside. `measure` is given which chords and which places."""
-        found = np.full(len(places), inf)
+        result = np.full(len(places), inf)
         low, high = np.minimum(places, ends) - aside[:, None], np.maximum(places, ends) + aside[:, None]
 
         def look(first: int) -> None:
@@ -107,7 +107,7 @@ class Field:
                 one = np.repeat(of[part], counts)
                 starts = np.flatnonzero(np.diff(one, prepend=-1))
                 least = np.minimum.reduceat(measure(at, one), starts)
-                found[one[starts]] = np.minimum(found[one[starts]], least)
+                result[one[starts]] = np.minimum(result[one[starts]], least)
 
         firsts = range(0, len(places), _BOXES)
         if len(firsts) > 1:
@@ -116,7 +116,7 @@ class Field:
                 list(threads.map(look, firsts))
         else:
             list(map(look, firsts))
-        return found
+        return result
 
     def _near_pieces(self, of: Whole, runs: Whole, low: Floats, high: Floats) -> tuple[Whole, Whole]:
         """Of places whose boxes, from `low` to `high`, some runs come into: the pieces of these runs that do."""
@@ -179,14 +179,14 @@ class Field:
 
     def _sizes(self) -> Floats:
         """The areas of all contours, mm²."""
-        found = np.empty(len(self.contours))
+        sizes = np.empty(len(self.contours))
         for some, points, begins, counts in self._parts():
             x, y = (column - np.repeat(column[begins], counts) for column in points.T)
             turned = np.zeros(len(x))
             turned[1:] = x[:-1] * y[1:] - x[1:] * y[:-1]
             # (each begins at 0, 0: what comes to it from the one before is nothing)
-            found[some] = np.abs(np.add.reduceat(turned, begins)) / 2
-        return found
+            sizes[some] = np.abs(np.add.reduceat(turned, begins)) / 2
+        return sizes
 
     def _inner(self, height: float, aside: float) -> tuple[Whole, Floats]:
         """Four places inside each closed contour: a part of its height from its ends, and in the widest stretch across
@@ -221,11 +221,11 @@ class Field:
 
     def around(self, places: Sequence[XY]) -> list[list[int]]:
         """The closed contours around each of some places, by their numbers."""
-        found: list[list[int]] = [[] for _ in places]
+        result: list[list[int]] = [[] for _ in places]
         of, holding = self._holding(np.array(places, float).reshape(-1, 2), np.full(len(places), -1))
         for at, one in sorted(zip(of.tolist(), holding.tolist(), strict=True)):
-            found[at].append(one)
-        return found
+            result[at].append(one)
+        return result
 
     def _holding(self, places: Floats, on: Whole) -> tuple[Whole, Whole]:
         """The pairs of one of n places (n, 2) and a closed contour around it; `on`: the contour that each lies on."""
@@ -245,7 +245,7 @@ class Field:
 
     def _hold(self, contours: Whole, places: Floats, of: Whole) -> Flags:
         """Mark the pairs of a closed contour and a place inside it (`_holds`)."""
-        found = np.zeros(len(of), bool)
+        result = np.zeros(len(of), bool)
         points = self._first[contours + 1] - self._first[contours]
         few = np.flatnonzero(points <= _FEW)
         chords = points[few] - 1
@@ -258,13 +258,13 @@ class Field:
             at, pair = at[is_over], pair[is_over]
             (x1, y1), (x2, y2) = columns_at(self._points, at), columns_at(self._points, at + 1)
             is_right = x[pair] < x1 + (y[pair] - y1) / (y2 - y1) * (x2 - x1)
-            found[some] = np.bincount(pair[is_right], minlength=len(some)) % 2 == 1
+            result[some] = np.bincount(pair[is_right], minlength=len(some)) % 2 == 1
         many = np.flatnonzero(points > _FEW)
         many = many[np.argsort(contours[many], kind="stable")]
         numbers, begins = np.unique(contours[many], return_index=True)
         for at, some in zip(numbers.tolist(), np.split(many, begins[1:]), strict=len(numbers) > 0):
-            found[some] = self._holds(at, places[of[some]])
-        return found
+            result[some] = self._holds(at, places[of[some]])
+        return result
 
     def nearest(self, place: XY, without: Collection[int]) -> int:
         """The contour that has a point nearest to a place, of all but some."""
@@ -276,7 +276,7 @@ class Field:
     def _holds(self, at: int, places: Floats) -> Flags:
         """Mark the places inside a closed contour (counts crossings of rays to the right)."""
         points = self._points[self._first[at] : self._first[at + 1]]
-        found = np.zeros(len(places), bool)
+        is_inside = np.zeros(len(places), bool)
         order = np.argsort(places[:, 1])
         size = max(1, min(_PAIRS // len(points), 64 if len(points) > 64 else len(places)))
         bottom, top = np.minimum(points[:-1, 1], points[1:, 1]), np.maximum(points[:-1, 1], points[1:, 1])
@@ -286,8 +286,8 @@ class Field:
             (x1, y1), (x2, y2) = points[beside].T[:, :, None], points[beside + 1].T[:, :, None]
             with np.errstate(divide="ignore", invalid="ignore"):
                 is_right = x < x1 + (y - y1) / (y2 - y1) * (x2 - x1)
-            found[some] = np.count_nonzero(((y1 > y) != (y2 > y)) & is_right, axis=0) % 2
-        return found
+            is_inside[some] = np.count_nonzero(((y1 > y) != (y2 > y)) & is_right, axis=0) % 2
+        return is_inside
 
 
 def _stretches(first: Whole, last: Whole, size: int) -> tuple[tuple[Whole, Whole], Whole]:

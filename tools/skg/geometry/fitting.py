@@ -9,6 +9,7 @@ from math import ceil, cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 
+from skg.geometry.chords import MEASURED
 from skg.geometry.contour import CurveNode, Edge, Places
 from skg.geometry.plane import XY, distance, dot, minus, turn
 
@@ -19,8 +20,8 @@ Heading = Callable[[float], float]
 _BEND = 1.2
 #: The part of a tolerance that the tried places take: between them the curve may be a little further away.
 _SPARE = 0.9
-#: The chords between samples are about this far from the curve, mm; a span has no more samples than the second.
-_NEAR, _MOST = 5e-5, 4096
+#: A span has no more samples than this.
+_MOST = 4096
 #: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm
 #: (language.md, section 5).
 FLAT, STRAIGHT = 0.002, 50_000.0
@@ -112,7 +113,7 @@ def _samples(at: At, low: float, high: float, bend: float) -> Places:
     """Places along a span that bends by an angle, or a part of it without a break in it, both ends included: so many
     that the chords between them are near the curve."""
     # n chords of a span of length l that bends by θ are lθ/8n² away from it, where it is run through evenly.
-    pieces = ceil(sqrt(distance(*at([low, high])) * bend / 8 / _NEAR) / 2) + 1
+    pieces = ceil(sqrt(distance(*at([low, high])) * bend / 8 / MEASURED) / 2) + 1
     places = np.array(at([low + k / pieces * (high - low) for k in range(pieces + 1)]))
     while True:
         between = np.array(at([low + (k + 0.5) / pieces * (high - low) for k in range(pieces)]))
@@ -121,7 +122,7 @@ def _samples(at: At, low: float, high: float, bend: float) -> Places:
         both = np.empty((pieces + 1, 2))
         both[::2], both[1::2] = places, between
         places = both
-        if off <= 4 * _NEAR or pieces > _MOST:
+        if off <= 4 * MEASURED or pieces > _MOST:
             return places
 
 

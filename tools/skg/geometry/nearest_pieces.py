@@ -57,15 +57,15 @@ class Pieces:
     @classmethod
     def of_columns(cls, start: Floats, end: Floats, centre: Floats, sweep: Floats, owner: Whole) -> Pieces:
         """Pieces as columns; where nothing is swept, a line."""
-        found = cls.__new__(cls)
-        found._room(len(start))
-        found.start[:], found.end[:], found.owner[:] = start, end, owner
+        result = cls.__new__(cls)
+        result._room(len(start))
+        result.start[:], result.end[:], result.owner[:] = start, end, owner
         is_arc = sweep != 0
-        found.centre[is_arc], found.sweep[is_arc] = centre[is_arc], sweep[is_arc]
-        out = found.start[is_arc] - found.centre[is_arc]
-        found.radius[is_arc], found.first[is_arc] = hypots(*out.T), directions(out)
-        found._measure()
-        return found
+        result.centre[is_arc], result.sweep[is_arc] = centre[is_arc], sweep[is_arc]
+        out = result.start[is_arc] - result.centre[is_arc]
+        result.radius[is_arc], result.first[is_arc] = hypots(*out.T), directions(out)
+        result._measure()
+        return result
 
     def _room(self, count: int) -> None:
         """Arrays of zeros for so many pieces (zeros that nobody writes to take no memory)."""
@@ -85,21 +85,21 @@ class Pieces:
     def at(self, which: Whole, part: Floats) -> Floats:
         """The places at parts of the lengths of pieces."""
         start = self.start[which]
-        found = start + part[:, None] * (self.end[which] - start)
+        result = start + part[:, None] * (self.end[which] - start)
         arcs = np.flatnonzero(self.is_arc[which])
         arc = which[arcs]
-        found[arcs] = self.centre[arc] + self.radius[arc, None] * self._out(arc, part[arcs])
-        return found
+        result[arcs] = self.centre[arc] + self.radius[arc, None] * self._out(arc, part[arcs])
+        return result
 
     def normal(self, which: Whole, part: Floats) -> Floats:
         """Unit vectors to the right of travel at parts of the lengths of pieces."""
         way = self.end[which] - self.start[which]
         length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
-        found = np.stack((way[:, 1], -way[:, 0]), 1) / length[:, None]
+        result = np.stack((way[:, 1], -way[:, 0]), 1) / length[:, None]
         arcs = np.flatnonzero(self.is_arc[which])
         arc = which[arcs]
-        found[arcs] = self._out(arc, part[arcs]) * np.sign(self.sweep[arc])[:, None]
-        return found
+        result[arcs] = self._out(arc, part[arcs]) * np.sign(self.sweep[arc])[:, None]
+        return result
 
     def _out(self, arcs: Whole, part: Floats) -> Floats:
         """Unit vectors from the centres of arcs to parts of their lengths."""
@@ -133,11 +133,11 @@ class Pieces:
 
     def from_place(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from its piece."""
-        found = np.empty(len(places))
+        result = np.empty(len(places))
         is_arc = self.is_arc[which]
         for mask, measure in ((~is_arc, self._from_line), (is_arc, self._from_arc)):
-            found[mask] = measure(places[mask], which[mask])
-        return found
+            result[mask] = measure(places[mask], which[mask])
+        return result
 
     def _from_line(self, places: Floats, which: Whole) -> Floats:
         (x, y), (u, v) = columns_at(self.start, which), columns_at(self.end, which)
@@ -149,12 +149,12 @@ class Pieces:
     def _from_arc(self, places: Floats, which: Whole) -> Floats:
         x, y = (column - middle for column, middle in zip(places.T, columns_at(self.centre, which), strict=True))
         ahead = (np.arctan2(y, x) - self.first[which]) * np.sign(self.sweep[which])
-        found = np.abs(np.hypot(x, y) - self.radius[which])
+        result = np.abs(np.hypot(x, y) - self.radius[which])
         beyond = np.flatnonzero(np.mod(ahead, 2 * pi) > np.abs(self.sweep[which]))
         which, places = which[beyond], places[beyond]
         ends = (columns_at(side, which) for side in (self.start, self.end))
-        found[beyond] = np.minimum(*(np.hypot(places[:, 0] - x, places[:, 1] - y) for x, y in ends))
-        return found
+        result[beyond] = np.minimum(*(np.hypot(places[:, 0] - x, places[:, 1] - y) for x, y in ends))
+        return result
 
     def from_carrier(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place from the whole line or circle that its piece lies on."""
@@ -173,13 +173,13 @@ class Pieces:
     def nearest(self, places: Floats, owners: Whole, reach: float) -> Nearest:
         """Find the nearest pieces within `reach` of each of m places, and maybe a little beyond; `owners`: of the
         places."""
-        found = Nearest(*(np.full(len(places), nothing) for nothing in (np.inf, -1, np.inf, -1)))
+        result = Nearest(*(np.full(len(places), nothing) for nothing in (np.inf, -1, np.inf, -1)))
         if not len(self.length) or not len(places):
-            return found
+            return result
         grid = self._grid(max(1.5 * reach, float(self.length.sum()) / _MOST_CELLS, 1e-6))
         for low in range(0, len(places), _PLACES):
-            self._look(grid, places, owners, low, reach, found)
-        return found
+            self._look(grid, places, owners, low, reach, result)
+        return result
 
     def nearest_own(self, places: Floats, owners: Whole, reach: float) -> Whole:
         """The `own_at` of `nearest`, of pieces that stand in the order of their owners: what others own is not looked
@@ -195,11 +195,11 @@ class Pieces:
 
     def _some(self, numbers: Whole) -> Pieces:
         """Some of the pieces."""
-        found = Pieces.__new__(Pieces)
+        result = Pieces.__new__(Pieces)
         for name in ("start", "end", "centre", "radius", "first", "sweep", "owner", "is_chord"):
-            setattr(found, name, getattr(self, name)[numbers])
-        found._measure()
-        return found
+            setattr(result, name, getattr(self, name)[numbers])
+        result._measure()
+        return result
 
     def _grid(self, cell: float) -> _Grid:
         """The pieces laid out on cells."""

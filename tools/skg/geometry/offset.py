@@ -17,13 +17,11 @@ from math import acos, atan2, cos, floor, hypot, pi, sin, sqrt
 import numpy as np
 import shapely
 
+from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.fitting import biarc_joint
-from skg.geometry.piece import chords_of
 from skg.geometry.plane import XY, cross, distance, dot, minus, polar, turn
 
-#: Chords that stand for arcs while the edges are looked for are this near, mm.
-_CHORD = 5e-5
 #: The wire follows nothing that is shorter, mm: the ROM would take its ends for one place.
 _LEAST = 2e-3
 #: A slot that is narrower than two R by less than twice this is wide enough, mm: the machine's own step is twice that.
@@ -250,7 +248,7 @@ def _chords(edge: Edge) -> list[XY]:
     """Places along an edge, the last one left out."""
     if edge.centre is None:
         return [edge.start]
-    return edge.parted(chords_of(edge.radius, edge.sweep, _CHORD, 0.9))[:-1]
+    return edge.parted(chords_of(edge.radius, edge.sweep, MEASURED))[:-1]
 
 
 def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, XY]]:
@@ -272,13 +270,13 @@ def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, 
     if len(runs) > 1 and runs[0][0] == runs[-1][0]:
         runs[0] = runs.pop()
         travel[0] += travel.pop()
-    found: list[tuple[_Beside, XY]] = []
+    result: list[tuple[_Beside, XY]] = []
     for run, length in zip(runs, travel, strict=True):
-        if length >= _LEAST / 2 and not (found and found[-1][0] == run[0]):
-            found.append(run)
-    if len(found) > 1 and found[0][0] == found[-1][0]:
-        found[0] = found.pop()
-    return found
+        if length >= _LEAST / 2 and not (result and result[-1][0] == run[0]):
+            result.append(run)
+    if len(result) > 1 and result[0][0] == result[-1][0]:
+        result[0] = result.pop()
+    return result
 
 
 def _beside(edges: list[Edge], at: int, place: XY, r: float) -> _Beside:
@@ -430,12 +428,12 @@ def _nearest(way: tuple[Edge, ...], place: XY, is_within: bool) -> tuple[int, fl
     found = []
     # (of a very short edge what is left behind the entry would be lost)
     short = min(10 * _LEAST, max(edge.length for edge in way)) if is_within else 0.0
-    for at, edge in enumerate(way):
+    for index, edge in enumerate(way):
         if edge.length < short:
             continue
         part = edge.nearest(place)
         if is_within and not edge.is_circle:
             margin = min(_INSIDE, 10 * _LEAST / edge.length)
             part = min(1 - margin, max(margin, part))
-        found.append((distance(edge.at(part), place), at, part))
+        found.append((distance(edge.at(part), place), index, part))
     return min(found)[1:]

@@ -7,7 +7,7 @@ reference has segments of its own, with 50 digits.)
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import acos, atan2, ceil, copysign, pi
+from math import atan2, ceil, copysign, pi
 
 from skg.geometry.plane import XY, distance, dot, minus, polar
 
@@ -69,12 +69,12 @@ class Piece:
 
     def extremes(self) -> list[XY]:
         """The ends, and where an arc is farthest left, right, up or down."""
-        found = [self.start, self.end]
+        extremes = [self.start, self.end]
         if self.centre is not None:
             low, high = sorted(self.angles)
             quarters = range(ceil(low / (pi / 2)), int(high // (pi / 2)) + 1)
-            found += [polar(self.centre, self.radius, quarter * pi / 2) for quarter in quarters]
-        return found
+            extremes += [polar(self.centre, self.radius, quarter * pi / 2) for quarter in quarters]
+        return extremes
 
     def nearest(self, place: XY) -> float:
         """The part of the piece that lies nearest to a place."""
@@ -99,9 +99,3 @@ class Piece:
         radius, first = self.radius, self.angles[0]
         inner = (polar(self.centre, radius, first + k / pieces * self.sweep) for k in range(1, pieces))
         return [self.start, *inner, self.end]
-
-
-def chords_of(radius: float, sweep: float, off: float, coarsest: float = 0.5) -> int:
-    """Number of chords that leave an arc (its sweep in radians) by no more than `off`, in the unit of the
-    radius: two at least, and none whose half angle has a cosine below `coarsest`."""
-    return max(2, ceil(abs(sweep) / (2 * acos(max(coarsest, 1 - off / radius)))))

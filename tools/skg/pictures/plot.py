@@ -210,15 +210,15 @@ class Picture:
         if len(sheet.routes) > FEW:
             self._many_routes(cuts, [route for route in sheet.routes if route.is_move], colour, name, wire)
         else:
-            for at, route in enumerate(sheet.routes, 1):
-                self._route(route, colour, f"{name}-route-{at}", wire)
+            for index, route in enumerate(sheet.routes, 1):
+                self._route(route, colour, f"{name}-route-{index}", wire)
         if arrows:
             self._heads([head for route in cuts for head in self._arrows(route)], colour)
         if numbers:
             for route in sheet.routes:
                 self._numbers(route, colour)
-        for at, place in enumerate(sheet.holes, 1):
-            self._hole(place, colour, f"{name}-hole-{at}")
+        for index, place in enumerate(sheet.holes, 1):
+            self._hole(place, colour, f"{name}-hole-{index}")
         if sheet.contour:
             curve = _path(sheet.contour)
             patch = PathPatch(curve, fill=False, edgecolor="#555555", linewidth=0.5, zorder=1.5)
@@ -316,9 +316,9 @@ class Picture:
         if len(places) > FEW:
             self._marks(Outline([*corners, corners[0]], closed=True), places, f"{name}-stops", colour, width)
             return
-        for at, place in enumerate(places, 1):
+        for index, place in enumerate(places, 1):
             mark = Polygon(place + corners, fill=False, edgecolor=colour, linewidth=width, zorder=4)
-            mark.set_gid(f"{name}-stop-{at}")
+            mark.set_gid(f"{name}-stop-{index}")
             self.axes.add_artist(mark)
 
     def _arrows(self, route: PlacedRoute) -> Iterator[list[XY]]:
@@ -326,10 +326,10 @@ class Picture:
         laid, spacing = Laid.of(route.blocks), 25_000 / self.scale
         lengths = laid.lengths()
         behind, last = np.cumsum(lengths), -inf
-        for at in np.flatnonzero(lengths * self.scale >= 4000):
-            if behind[at] - last < spacing:
+        for index in np.flatnonzero(lengths * self.scale >= 4000):
+            if behind[index] - last < spacing:
                 continue
-            last, placed = behind[at], laid[int(at)]
+            last, placed = behind[index], laid[int(index)]
             x, y = (ordinate / 1000 for ordinate in placed.at(0.5))
             way, size = placed.direction(0.5), self.on_paper(1.3)
             yield [(x + size * 1.4 * cos(way + turn), y + size * 1.4 * sin(way + turn)) for turn in (0, 2.5, -2.5)]
@@ -360,8 +360,8 @@ class Picture:
     def legend(self, names: list[str]) -> None:
         """Name the tapes at the top left, each in its colour."""
         top = self.high[1] + self.on_paper(self.head - 3)
-        for at, name in enumerate(names):
-            place, colour = (self.low[0], top - self.on_paper(3) * at), COLOURS[at % len(COLOURS)]
+        for index, name in enumerate(names):
+            place, colour = (self.low[0], top - self.on_paper(3) * index), COLOURS[index % len(COLOURS)]
             self.axes.text(*place, **as_it_stands(name), va="top", fontsize=6, color=colour)
 
     def save(self, output: str, form: str) -> None:

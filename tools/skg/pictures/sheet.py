@@ -313,7 +313,7 @@ class SetupSheet:
                 # (add_patch would look for its bounds)
                 self.axes.add_artist(mark)
         marks = _Marks(places, np.array(radii))
-        return len(places) - sum(self._number(at, marks) for at in range(min(len(places), _MOST_NUMBERS)))
+        return len(places) - sum(self._number(index, marks) for index in range(min(len(places), _MOST_NUMBERS)))
 
     def _radii(self, places: np.ndarray) -> np.ndarray:
         """The radii of the marks at these places: a mark covers neither its contour nor the next mark."""
@@ -373,16 +373,16 @@ class SetupSheet:
         shown = min(len(routes), self.columns * self.per_column)
         top = self.page[1] - _MARGIN - 2
         right = self.page[0] - _MARGIN
-        for at in range(shown):
-            column, row = divmod(at, self.per_column)
+        for index in range(shown):
+            column, row = divmod(index, self.per_column)
             x = right - (self.columns - column) * _COLUMN
             if row == 0:
                 self._row(x, top, ("no.", "x, mm", "y, mm", "contour", "mm cut"), _GREY)
-            route = routes[at]
+            route = routes[index]
             # (-0.0001 is 0.000)
             x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
-            cells = (str(at + 1), x_, y_, _called(route))
-            self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[at]:.{lengths[at] < 1e5:d}f}"), _INK)
+            cells = (str(index + 1), x_, y_, _called(route))
+            self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[index]:.{lengths[index] < 1e5:d}f}"), _INK)
         if shown < len(routes):
             more = f"and {len(routes) - shown} more: the program has them"
             self._text((right, _MARGIN + _HEAD + 1), more, _LEAST, _INK, ha="right")

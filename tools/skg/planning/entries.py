@@ -46,18 +46,18 @@ def nearest_entry(contour: Contour, place: XY, offset: float, with_curves: bool 
     `with_curves`: False prefers lines and arcs to a nearer curve. `offset`: R, mm.
     """
     best = (inf, EntryAt(0))
-    for at, edge in enumerate(contour.edges):
+    for index, edge in enumerate(contour.edges):
         if edge.nodes:
             if with_curves:
                 nodes = range(1, len(edge.nodes) - 1) if len(edge.nodes) > 2 else [0]
-                best = min(best, *((distance(edge.nodes[k].point, place), EntryAt(at, node=k)) for k in nodes))
+                best = min(best, *((distance(edge.nodes[k].point, place), EntryAt(index, node=k)) for k in nodes))
             continue
         margin = min(0.4, (2 * abs(offset) + 0.05) / edge.length)
         part = edge.nearest(place)
         if not edge.is_circle:
             part = min(1 - margin, max(margin, part))
         # A full circle is entered by a straight radial move; elsewhere any place of the edge will do.
-        best = min(best, (distance(edge.at(part), place), EntryAt(at, part)))
+        best = min(best, (distance(edge.at(part), place), EntryAt(index, part)))
     return best[1] if best[0] < inf else next(_entries_on_curve(contour))
 
 

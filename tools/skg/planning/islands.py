@@ -23,9 +23,9 @@ def islands(routes: Sequence[PlannedContour], openings: Collection[int]) -> dict
     places = places_in([routes[at].contour for at in others])
     areas = areas_of([routes[at].contour for at in around])
     one, other = shapely.STRtree(places).query(areas, predicate="contains")
-    found: dict[int, int] = {}
+    islands: dict[int, int] = {}
     for opening, inner in zip(one.tolist(), other.tolist(), strict=True):
         # (the openings come in the order of their depths)
         if routes[others[inner]].depth > routes[around[opening]].depth:
-            found[others[inner]] = around[opening]
-    return found
+            islands[others[inner]] = around[opening]
+    return islands

@@ -11,16 +11,14 @@ from math import cos, inf, pi, sin
 import numpy as np
 import shapely
 
+from skg.geometry.chords import CUT, chords_of
 from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.offset import part_between, roomy_place, wire_way
-from skg.geometry.piece import chords_of
 from skg.geometry.plane import XY, distance, minus, polar, turn
 from skg.planning.nesting import Around
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
-#: The chords that an arc or a curve is cut along, where it cannot be cut as one, are this near to it, mm.
-_FLAT = 3e-4
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
 #: entry for a lead that is an arc.
 _SQUARE = 1e-6
@@ -151,13 +149,13 @@ class PlannedContour:
             yield from self._with_tab(edges, passes)
         else:
             lead = self._lead(self.start, edges[0]) if self.is_arc else None
-            for at, r in enumerate(passes):
-                falls = "IS" if at == 1 and len(passes) > 1 else ""
+            for index, r in enumerate(passes):
+                falls = "IS" if index == 1 and len(passes) > 1 else ""
                 stop = falls and ("TAKE THE SLUG OUT" if self.is_opening else "THE PART IS FREE")
                 # (what is repeated would have the lead too)
                 copies = 1 if lead or self.part else self.contour.copies
-                run = self._way(at, Way(edges, r, lead, lead, stop, copies))
-                yield _backwards(run) if at % 2 else run
+                run = self._way(index, Way(edges, r, lead, lead, stop, copies))
+                yield _backwards(run) if index % 2 else run
 
     def _lead(self, hole: XY, edge: Edge, at_end: bool = False) -> Lead:
         way = edge.direction(1.0 if at_end else 0.0)
@@ -168,9 +166,9 @@ class PlannedContour:
         """The passes up to the tab, forth and back, then the tab."""
         main, tab = split_at_end(edges, self.tab)
         into, out = self._lead(self.start, main[0]), self._lead(self.tab_hole, main[-1], True)
-        for at, r in enumerate(passes):
-            run = self._way(at, Way(main, r, into, out))
-            yield _backwards(run) if at % 2 else run
+        for index, r in enumerate(passes):
+            run = self._way(index, Way(main, r, into, out))
+            yield _backwards(run) if index % 2 else run
         is_there = len(passes) % 2 == 1
         last = self._way(-1, Way(tab, passes[-1], out, into, "HOLD THE PART, THE NEXT CUT FREES IT"))
         yield last if is_there else _backwards(last)
@@ -178,12 +176,12 @@ class PlannedContour:
     def with_wire_ways(self) -> PlannedContour:
         """The same, cut along the wire's own ways; `NoRoom` where there are none (skg.geometry.offset)."""
         traced = self._wire_ways
-        found = replace(self, traced=traced)
+        result = replace(self, traced=traced)
         if self.is_outside or self.room == inf:
-            return found
+            return result
         # (a start hole that was chosen, square to the contour, may be where the wire does not come to)
         place = roomy_place(traced[self.passes.index(self.widest)], self.start)
-        return found if place == self.start else replace(found, start=place, is_moved=True)
+        return result if place == self.start else replace(result, start=place, is_moved=True)
 
     @cached_property
     def _wire_ways(self) -> tuple[tuple[Edge, ...], ...]:
@@ -223,9 +221,9 @@ def _chords(edge: Edge) -> list[Edge]:
     if edge.is_line:
         return [edge]
     if edge.nodes:
-        line = shapely.LineString(edge.samples).simplify(_FLAT)
+        line = shapely.LineString(edge.samples).simplify(CUT)
         return [Edge(start, end, entity=edge.entity) for start, end in pairwise(line.coords)]
-    places = edge.parted(chords_of(edge.radius, edge.sweep, _FLAT))
+    places = edge.parted(chords_of(edge.radius, edge.sweep, CUT))
     return [Edge(start, end, entity=edge.entity) for start, end in pairwise(places)]
 
 

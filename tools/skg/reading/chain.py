@@ -25,8 +25,8 @@ from math import asin, atan2, copysign, hypot, pi
 import numpy as np
 import shapely
 
+from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.contour import Contour, CurveNode, Edge
-from skg.geometry.piece import chords_of
 from skg.geometry.plane import XY, distance, dot, minus, turn
 
 #: Shorter edges of one polyline (mm) go into their neighbour: the ROM takes such places for one.
@@ -35,8 +35,6 @@ _LEAST = 1e-3
 _EXACT = 1e-6
 #: Directions within this (radians) run straight on.
 _STRAIGHT_ON = 0.02
-#: The chords that stand for an arc that is bent are this near to it, mm.
-_CHORD = 1e-4
 #: An arc whose ends were moved may leave the drawn one by this, mm; else it is bent at its ends alone.
 _BENT = 1e-3
 
@@ -119,7 +117,7 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
     pieces = max(3, int(abs(edge.sweep) / 0.5) + 1)
     nodes = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
     nodes[0], nodes[-1] = CurveNode(start, nodes[0].angle), CurveNode(end, nodes[-1].angle)
-    fine = max(pieces, chords_of(edge.radius, edge.sweep, _CHORD))
+    fine = max(pieces, chords_of(edge.radius, edge.sweep, MEASURED))
     samples = [start, *edge.parted(fine)[1:-1], end]
     return Edge(start, end, nodes=tuple(nodes), samples=np.array(samples), entity=edge.entity)
 
@@ -152,7 +150,7 @@ def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chain
 
     `styles`: of each entity how it is drawn; empty where all are drawn alike.
     """
-    found = Chains()
+    result = Chains()
     loose: list[Edge] = []
     groups: dict[int, list[Edge]] = defaultdict(list)
     for edge in edges:
@@ -162,11 +160,11 @@ def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chain
         if not kept:
             loose += group
             continue
-        found.short += short
-        found.contours.append(Contour(tuple(kept), True))
-    _Graph(loose, tolerance, found).chain(styles)
-    found.contours.sort(key=lambda contour: min(edge.entity for edge in contour.edges))
-    return found
+        result.short += short
+        result.contours.append(Contour(tuple(kept), True))
+    _Graph(loose, tolerance, result).chain(styles)
+    result.contours.sort(key=lambda contour: min(edge.entity for edge in contour.edges))
+    return result
 
 
 def _is_ring(group: list[Edge], tolerance: float) -> bool:

@@ -164,11 +164,11 @@ class _Spline:
 
     def parameters(self, ways: list[float]) -> list[float]:
         """The parameters at some ways along the curve."""
-        found = []
+        parameters = []
         for way in ways:
             begin, length, first, more = self._table[self.span_at(way)]
-            found.append(first + (way - begin) / length * more)
-        return found
+            parameters.append(first + (way - begin) / length * more)
+        return parameters
 
     def curve(self, first: int, behind: int, tolerance: float) -> Edge:
         """The spans from number `first` to the one before `behind`, which have no corner, as a curve for FIT."""

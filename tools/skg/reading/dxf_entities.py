@@ -114,12 +114,12 @@ class _Collector:
 
     def account(self, record: Record, layer: str) -> Entity:
         """Add an account of a record."""
-        found = Entity(record.kind, layer, self.place(record))
+        result = Entity(record.kind, layer, self.place(record))
         self.placing.entity = len(self.content.entities)
-        self.content.entities.append(found)
+        self.content.entities.append(result)
         if len(self.content.entities) > _MOST:
             raise UserError(f"more than {_MOST:,} entities, expected a drawing")
-        return found
+        return result
 
     def one(self, record: Record, layer: str, hidden: str) -> None:
         """Add what is no block reference."""

@@ -45,18 +45,18 @@ class Placing:
 
     def _on_drawing(self, points: Sequence[XYZ]) -> Sequence[XYZ]:
         """Places of the present block on the drawing; those of different heights are refused."""
-        found = points if self.matrix is None else list(self.matrix.transform_vertices(points))
-        heights = [point[2] for point in found]
+        result = points if self.matrix is None else list(self.matrix.transform_vertices(points))
+        heights = [point[2] for point in result]
         if heights and (max(heights) - min(heights)) * self.factor > LEVEL:
             raise NotFlat(LEAVES)
-        return found
+        return result
 
     def points(self, points: Sequence[XYZ]) -> list[XY]:
         """Places of the present block in mm."""
-        found = [(point[0] * self.factor, point[1] * self.factor) for point in self._on_drawing(points)]
-        if not all(is_number(x) and is_number(y) for x, y in found):
+        result = [(point[0] * self.factor, point[1] * self.factor) for point in self._on_drawing(points)]
+        if not all(is_number(x) and is_number(y) for x, y in result):
             raise NotFlat("a place of it is no number")
-        return found
+        return result
 
     def line(self, start: XYZ, end: XYZ) -> Edge:
         """A line."""

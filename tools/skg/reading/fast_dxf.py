@@ -68,11 +68,11 @@ class Polyline(NamedTuple):
 def numbers(record: Record) -> list[float] | None:
     """A LINE's two places, a CIRCLE's or ARC's centre, radius and angles (degrees): places with x, y and z. None if the
     record is not plain."""
-    found = _told(record)
-    if found is None or tuple(found[0]) not in _FORMS[record.kind]:
+    numbers = _told(record)
+    if numbers is None or tuple(numbers[0]) not in _FORMS[record.kind]:
         return None
-    values = found[1]
-    if 30 in found[0]:
+    values = numbers[1]
+    if 30 in numbers[0]:
         return values
     return [*values[:2], 0.0, *values[2:], 0.0] if record.kind == "LINE" else [*values[:2], 0.0, *values[2:]]
 
@@ -107,18 +107,18 @@ def _head(names: list[int], values: list[float]) -> dict[int, float]:
 
 def _listed(codes: list[int], values: list[float]) -> list[tuple[float, float, float]] | None:
     """The vertices of an LWPOLYLINE: each a place, and maybe a bulge."""
-    begins = [at for at, code in enumerate(codes) if code == 10]
-    found = []
+    begins = [index for index, code in enumerate(codes) if code == 10]
+    result = []
     for begin, end in pairwise([*begins, len(codes)]):
         if tuple(codes[begin:end]) not in (_PLACE, (*_PLACE, 42)):
             return None
-        found.append((values[begin], values[begin + 1], values[begin + 2] if end - begin == 3 else 0.0))
-    return found
+        result.append((values[begin], values[begin + 1], values[begin + 2] if end - begin == 3 else 0.0))
+    return result
 
 
 def _parts(record: Record) -> list[tuple[float, float, float]] | None:
     """The vertices of a POLYLINE, which are records of their own."""
-    found = []
+    parts = []
     for part in record.parts:
         if part.kind == "SEQEND":
             continue
@@ -128,8 +128,8 @@ def _parts(record: Record) -> list[tuple[float, float, float]] | None:
         values = dict(zip((code for code in told[0] if not isinstance(code, str)), told[1], strict=True))
         if values.get(70):
             return None
-        found.append((values[10], values[20], values.get(42, 0.0)))
-    return found
+        parts.append((values[10], values[20], values.get(42, 0.0)))
+    return parts
 
 
 def _told(record: Record) -> tuple[list[int | str], list[float]] | None:

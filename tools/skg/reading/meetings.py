@@ -11,8 +11,9 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from skg.geometry.areas import CHORD, lines_of
+from skg.geometry.areas import lines_of
 from skg.geometry.arrays import Flags, Floats, Whole
+from skg.geometry.chords import SEEN
 from skg.geometry.contour import Contour
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY
@@ -41,33 +42,33 @@ class Relations:
 
 def relations(contours: list[Contour], tolerance: float) -> Relations:
     """Find which contours meet: are nowhere further apart than `tolerance`, mm."""
-    found = Relations()
+    relations = Relations()
     is_closed = np.array([contour.is_closed for contour in contours], bool)
     # (the chords of 20,000 circles would take 100 MB: most drawings have few contours that come near to others)
-    near = _near_others(contours, tolerance + 2 * CHORD)
+    near = _near_others(contours, tolerance + 2 * SEEN)
     lines = np.full(len(contours), None)
     lines[near] = lines_of([contours[at] for at in near.tolist()])
     one, other = near[
-        shapely.STRtree(lines[near]).query(lines[near], predicate="dwithin", distance=tolerance + 2 * CHORD)
+        shapely.STRtree(lines[near]).query(lines[near], predicate="dwithin", distance=tolerance + 2 * SEEN)
     ]
     one, other = one[one < other], other[one < other]
     repeats = _repeats(lines[one], lines[other], tolerance) & (is_closed[one] == is_closed[other])
     for second, at in sorted(zip(other[repeats].tolist(), one[repeats].tolist(), strict=True)):
-        found.repeated.setdefault(second, found.repeated.get(at, at))
-    gone = set(found.repeated)
+        relations.repeated.setdefault(second, relations.repeated.get(at, at))
+    gone = set(relations.repeated)
     for at, second in sorted(zip(one.tolist(), other.tolist(), strict=True)):
         if at in gone or second in gone:
             continue
-        found.touched |= {number for number in (at, second) if not is_closed[number]}
-        if is_closed[at] and is_closed[second] and len(found.meetings) >= _MOST:
-            found.unseen += 1
+        relations.touched |= {number for number in (at, second) if not is_closed[number]}
+        if is_closed[at] and is_closed[second] and len(relations.meetings) >= _MOST:
+            relations.unseen += 1
         elif is_closed[at] and is_closed[second]:
             what, place = _meeting(lines[at], lines[second], tolerance)
-            found.meetings.append((what, at, second, place))
+            relations.meetings.append((what, at, second, place))
     for at, place in _crossing_themselves(contours):
         if at not in gone:
-            found.meetings.append(("cross", at, at, place))
-    return found
+            relations.meetings.append(("cross", at, at, place))
+    return relations
 
 
 def _near_others(contours: list[Contour], reach: float) -> Whole:
@@ -92,7 +93,7 @@ def _near_boxes(boxes: Floats, owners: Whole, is_circle: Flags, reach: float) ->
     apart = np.hypot(*(middle[one] - middle[other]).T)
     gap = np.maximum(apart - radius[one] - radius[other], np.abs(radius[one] - radius[other]) - apart)
     # (chords of circles may be nearer to each other than the circles)
-    is_near = ~(is_circle[one] & is_circle[other]) | (gap <= reach + 2 * CHORD)
+    is_near = ~(is_circle[one] & is_circle[other]) | (gap <= reach + 2 * SEEN)
     return np.unique(owners[one[is_near]])
 
 
@@ -112,15 +113,15 @@ def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:
 
 def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
     """Mark the pairs of lines that are the same."""
-    found = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= 2 * tolerance
-    found &= np.abs(shapely.length(ones) - shapely.length(others)) <= 1e-3 * shapely.length(ones) + tolerance
-    found[found] = shapely.hausdorff_distance(ones[found], others[found], 0.5) <= 2 * tolerance + 2 * CHORD
-    return found
+    repeats = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= 2 * tolerance
+    repeats &= np.abs(shapely.length(ones) - shapely.length(others)) <= 1e-3 * shapely.length(ones) + tolerance
+    repeats[repeats] = shapely.hausdorff_distance(ones[repeats], others[repeats], 0.5) <= 2 * tolerance + 2 * SEEN
+    return repeats
 
 
 def _meeting(one: shapely.LineString, other: shapely.LineString, tolerance: float) -> tuple[str, XY]:
     """Return how two closed lines meet, and where."""
-    near = shapely.intersection(one, other.buffer(tolerance + 2 * CHORD, quad_segs=2))
+    near = shapely.intersection(one, other.buffer(tolerance + 2 * SEEN, quad_segs=2))
     place = shapely.get_coordinates(shapely.shortest_line(one, other) if near.is_empty else near)[0]
     areas = shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in (one, other)]))
     common = shapely.intersection(*areas).area
@@ -139,14 +140,14 @@ def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> 
     runs that end on one, or where others end, at both ends."""
     if not runs or not contours:
         return {}, set()
-    reach = tolerance + 2 * CHORD
+    reach = tolerance + 2 * SEEN
     starts, ends = [run.edges[0].start for run in runs], [run.edges[-1].end for run in runs]
     places = [shapely.points(some) for some in (starts, ends, [run.edges[0].at(0.5) for run in runs])]
     around = shapely.STRtree(shapely.box(*boxes_of(contours)[0].T))
     some = np.unique(around.query(np.concatenate(places), predicate="dwithin", distance=reach)[1])
     lines = lines_of([contours[at] for at in some.tolist()])
     tree = shapely.STRtree(lines)
-    near = [set(zip(*tree.query(one, predicate="dwithin", distance=reach).tolist(), strict=True)) for one in places]
+    near = [set(zip(*tree.query(place, predicate="dwithin", distance=reach).tolist(), strict=True)) for place in places]
     covered = {run: int(some[at]) for run, at in _covered(runs, lines, set.intersection(*near), reach).items()}
     count = Counter(starts + ends)
     held = [
@@ -159,12 +160,12 @@ def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> 
 def _covered(runs: list[Contour], lines: NDArray[Any], pairs: set[tuple[int, int]], reach: float) -> dict[int, int]:
     """Of pairs of a run and a line near its ends and middle: the runs that lie within reach of one all along, and the
     first such line."""
-    found: dict[int, int] = {}
+    result: dict[int, int] = {}
     for run, at in sorted(pairs):
         (line,) = lines_of([runs[run]])
-        if run not in found and lines[at].buffer(reach, quad_segs=2).covers(line):
-            found[run] = at
-    return found
+        if run not in result and lines[at].buffer(reach, quad_segs=2).covers(line):
+            result[run] = at
+    return result
 
 
 def nearest(places: list[XY]) -> list[XY | None]:
@@ -173,7 +174,7 @@ def nearest(places: list[XY]) -> list[XY | None]:
         return []
     points = shapely.points(places)
     at, other = shapely.STRtree(points).query_nearest(points, exclusive=True, all_matches=False)
-    found: list[XY | None] = [None] * len(places)
+    result: list[XY | None] = [None] * len(places)
     for number, neighbour in zip(at.tolist(), other.tolist(), strict=True):
-        found[number] = places[neighbour]
-    return found
+        result[number] = places[neighbour]
+    return result

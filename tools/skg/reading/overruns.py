@@ -41,16 +41,16 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
     `styles`: see `chain`.
     """
     freed, rest, cuts = _without_stubs(chains.rest)
-    found = dict(enumerate([contour for contour in chains.contours if not contour.is_closed] + freed))
-    for pair in _pairs(found, tolerance):
-        shorter = [_without(found[at], is_last, corner) for (at, is_last), corner in pair]
+    opened = dict(enumerate([contour for contour in chains.contours if not contour.is_closed] + freed))
+    for pair in _pairs(opened, tolerance):
+        shorter = [_without(opened[at], is_last, corner) for (at, is_last), corner in pair]
         for ((at, is_last), corner), (edge, piece) in zip(pair, shorter, strict=True):
-            edges = found[at].edges
-            found[at] = replace(found[at], edges=(*edges[:-1], edge) if is_last else (edge, *edges[1:]))
+            edges = opened[at].edges
+            opened[at] = replace(opened[at], edges=(*edges[:-1], edge) if is_last else (edge, *edges[1:]))
             cuts += [Overrun(piece, corner)] * (piece is not None)
     if not cuts:
         return chains, []
-    again = chain((edge for contour in found.values() for edge in contour.edges), tolerance, styles)
+    again = chain((edge for contour in opened.values() for edge in contour.edges), tolerance, styles)
     if not any(contour.is_closed for contour in again.contours):
         return chains, []
     closed = [contour for contour in chains.contours if contour.is_closed]
@@ -102,7 +102,7 @@ def _last(run: Contour, corner: XY) -> Edge:
 
 def _parts(runs: list[Contour], corners: dict[XY, list[int]]) -> list[set[int]]:
     """The runs that hang together, by their numbers."""
-    found: list[set[int]] = []
+    parts: list[set[int]] = []
     seen: set[int] = set()
     for begin in range(len(runs)):
         if begin in seen:
@@ -113,9 +113,9 @@ def _parts(runs: list[Contour], corners: dict[XY, list[int]]) -> list[set[int]]:
             more = {*corners[first], *corners[last]} - part
             part |= more
             open_ones += more
-        found.append(part)
+        parts.append(part)
         seen |= part
-    return found
+    return parts
 
 
 #: An end of a contour: the contour's number, and whether it is the end of its last edge; with the corner near it.
@@ -138,14 +138,14 @@ def _pairs(contours: dict[int, Contour], tolerance: float) -> list[list[tuple[_E
     one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=_NEAR * tolerance)
     meeting = [(p, q) for p, q in zip(one.tolist(), other.tolist(), strict=True) if p < q]
     count = Counter(end for pair in meeting for end in pair)
-    found = []
+    pairs = []
     for p, q in meeting:
         # (the two ends of a single edge are no corner)
         is_same = ends[p][0] == ends[q][0] and len(contours[ends[p][0]].edges) == 1
         if count[p] == count[q] == 1 and not is_same:
             places = _corner(lines[p], lines[q])
-            found.append(list(zip((ends[p], ends[q]), places, strict=True)))
-    return found
+            pairs.append(list(zip((ends[p], ends[q]), places, strict=True)))
+    return pairs
 
 
 def _tail(edge: Edge) -> shapely.LineString:

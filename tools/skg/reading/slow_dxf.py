@@ -241,8 +241,8 @@ def _tags(groups: list[Group]) -> list[DXFTag]:
         kept = _together(kept, codes)
     # (the tag behind the last one makes ezdxf let go of the place or the entity before it)
     tags = iter([*kept, DXFTag(0, "EOF")])
-    *found, _ = tag_compiler(tags)
-    return found
+    *result, _ = tag_compiler(tags)
+    return result
 
 
 def _together(tags: list[DXFTag], codes: tuple[int, int, int]) -> list[DXFTag]:

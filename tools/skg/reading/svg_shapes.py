@@ -108,10 +108,10 @@ def _path(data: str) -> svgelements.Path:
 def _points(element: ElementTree.Element) -> list[XY]:
     """The points of a polyline or polygon."""
     numbers = element.get("points", "").replace(",", " ")
-    found = [float(number) for number in re.findall(NUMBER, numbers)]
-    if re.sub(NUMBER, "", numbers).strip() or len(found) % 2:
+    points = [float(number) for number in re.findall(NUMBER, numbers)]
+    if re.sub(NUMBER, "", numbers).strip() or len(points) % 2:
         raise ValueError("its points")
-    return list(zip(found[::2], found[1::2], strict=True))
+    return list(zip(points[::2], points[1::2], strict=True))
 
 
 def _lines(points: list[XY]) -> list[svgelements.Line]:
@@ -219,18 +219,18 @@ class _SvgCollector:
 
     def content(self) -> Content:
         """All that was found, with what is to be said of it."""
-        found, some = self.found, ("shape", "shapes")
-        found.notes += self._of_page()
-        if not found.edges:
+        result, some = self.found, ("shape", "shapes")
+        result.notes += self._of_page()
+        if not result.edges:
             for account, edges in self.unpainted:
                 account.left = ""
-                found.edges += edges
-            found.notes += said((one for one, _ in self.unpainted), some, _UNPAINTED, "cut, there is nothing else")
-        found.notes += said(self.clipped, some, "clipped or masked", "cut whole")
-        found.notes += said(self.outside, some, "outside the page, or partly", "cut whole")
-        found.notes += said(self.wide, some, f"drawn with a line wider than {_WIDE:g} mm", "its centre line is cut")
-        found.notes += said(self.marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
-        return found
+                result.edges += edges
+            result.notes += said((one for one, _ in self.unpainted), some, _UNPAINTED, "cut, there is nothing else")
+        result.notes += said(self.clipped, some, "clipped or masked", "cut whole")
+        result.notes += said(self.outside, some, "outside the page, or partly", "cut whole")
+        result.notes += said(self.wide, some, f"drawn with a line wider than {_WIDE:g} mm", "its centre line is cut")
+        result.notes += said(self.marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
+        return result
 
     def _of_page(self) -> Iterator[str]:
         """Report parts of the page that are not read."""

@@ -251,13 +251,13 @@ def _selectors(
 
 def _strings(tokens: list[ast.Node]) -> list[str]:
     """The strings among some tokens, and the addresses, quoted or not."""
-    found = []
+    strings = []
     for token in tokens:
         if token.type in ("string", "url"):
-            found.append(token.value)
+            strings.append(token.value)
         elif token.type == "function" and token.lower_name == "url":
-            found += _strings(token.arguments)
-    return found
+            strings += _strings(token.arguments)
+    return strings
 
 
 class _Declared(NamedTuple):
@@ -269,11 +269,11 @@ class _Declared(NamedTuple):
 
 def _declared(text: str) -> _Declared:
     """The declarations in a text."""
-    found = _Declared({}, {})
+    result = _Declared({}, {})
     for declaration in _REMARK.sub("", text).split(";"):
         name, colon, value = declaration.partition(":")
         value, mark, important = value.partition("!")
         if colon:
-            some = found.important if mark and important.strip().lower() == "important" else found.usual
+            some = result.important if mark and important.strip().lower() == "important" else result.usual
             some[name.strip().lower()] = value.strip()
-    return found
+    return result

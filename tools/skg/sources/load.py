@@ -217,13 +217,13 @@ def _failure(name: str, text: str, number: int, line: int | None) -> UserError:
 
 def _contour_at(text: str, line: int) -> str:
     """The contour that a line cuts, as the REM over it has it in a program that was made of a drawing; else nothing."""
-    found = ""
+    result = ""
     for number, statement in re.findall(r"^\s*(\d+)\s*(.*?)\s*$", text, re.M):
         if len(number) > 4 or int(number) > line:
             break
         title = re.match(r"REM (\d+\. .*)", statement)
-        found = title[1] if title else "" if statement == "END" else found
-    return found
+        result = title[1] if title else "" if statement == "END" else result
+    return result
 
 
 def _reference(name: str, text: str, mills: bool = False) -> Result:

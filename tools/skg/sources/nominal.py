@@ -32,10 +32,10 @@ def _contour(run: list[Segment]) -> list[Piece]:
     corners = [_foot(run[0], run[0].start)]
     corners += [_corner(one, other) for one, other in pairwise(run)]
     corners.append(_foot(run[-1], run[-1].end))
-    found = []
+    result = []
     for segment, (start, end) in zip(run, pairwise(corners), strict=True):
         if not segment.is_arc:
-            found.append(Piece(start, end))
+            result.append(Piece(start, end))
             continue
         centre = float(segment.centre.x), float(segment.centre.y)
         sense = 1 if segment.radius > 0 else -1
@@ -43,8 +43,8 @@ def _contour(run: list[Segment]) -> list[Piece]:
         sweep = sense * float(segment.sweep)
         for at, wire, side in ((end, segment.end, 1), (start, segment.start, -1)):
             sweep += side * _turn(centre, _xy(wire), at)
-        found.append(Piece(start, end, centre, sweep))
-    return found
+        result.append(Piece(start, end, centre, sweep))
+    return result
 
 
 def _xy(point: Point) -> XY:

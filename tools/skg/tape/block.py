@@ -218,44 +218,44 @@ class Block:
         return round_sqrt(max(0, self.x**2 + self.y**2 - distance**2))
 
     def _line_problems(self) -> list[str]:
-        found = []
+        problems = []
         along = ("x", self.x) if self.quadrant % 2 else ("y", self.y)
         if along[1] == 0:
-            found.append(f"{self.code} needs {along[0]} > 0: wrong quadrant for its x and y")
+            problems.append(f"{self.code} needs {along[0]} > 0: wrong quadrant for its x and y")
         longer = max(self.x, self.y)
         if self.j != longer:
             relation = "less" if self.j < longer else "more"
-            found.append(f"J = {self.j} is {relation} than the larger of x and y, {longer}")
+            problems.append(f"J = {self.j} is {relation} than the larger of x and y, {longer}")
         axis = _line_axis(self.x, self.y, self.quadrant)
         if self.axis != axis:
-            found.append(f"G{self.axis} counts the wrong axis, expected G{axis}")
-        return found
+            problems.append(f"G{self.axis} counts the wrong axis, expected G{axis}")
+        return problems
 
     def _arc_problems(self, positions: str) -> list[str]:
-        found = []
+        problems = []
         # The coordinate that shrinks in a quadrant cannot be 0 at the start: that is the next quadrant.
         axis = "X" if is_decreasing("X", self.quadrant, self.sense) else "Y"
         if (self.x if axis == "X" else self.y) == 0:
-            found.append(f"{self.code} needs {axis.lower()} > 0: wrong quadrant for its x and y")
+            problems.append(f"{self.code} needs {axis.lower()} > 0: wrong quadrant for its x and y")
         counts = {"programmed": [self.radius], "machine": [max(self.turn, 1)]}
         radii = counts.get(positions, [self.radius, max(self.turn, 1)])
         if self.j == 0:
-            found.append("J is 0")
+            problems.append("J is 0")
         elif self.j > 4 * max(self.radius, self.turn) + MAX_OVERLAP:
-            found.append(f"J = {self.j} is more than a full circle, {4 * self.radius}")
+            problems.append(f"J = {self.j} is more than a full circle, {4 * self.radius}")
         elif self.is_full_circle:
             if self.j not in [4 * radius for radius in radii]:
-                found.append(f"J = {self.j} is a full circle by the other count, expected {4 * radii[0]}")
+                problems.append(f"J = {self.j} is a full circle by the other count, expected {4 * radii[0]}")
         else:
             # What a tape without drift counts differs by up to 4 (docs/drift.md): one of the two must fit.
             ends = [self.count_end(radius)[0] for radius in radii]
             if all(distance > self._beside(distance) + 3 for distance in ends):
                 axis = "Y" if self.axis == "X" else "X"
-                found.append(
+                problems.append(
                     f"J = {self.j} ends at {self.axis.lower()} = {ends[0]}, the larger coordinate "
                     f"of the end: expected G{axis}"
                 )
-        return found
+        return problems
 
 
 @dataclass(frozen=True)
@@ -323,8 +323,11 @@ class Tape:
         stretches = self.stretches()
         is_straight = [not blocks or (len(blocks) == 1 and blocks[0].is_line) for blocks in stretches]
         if all(is_straight[1:-1:2]):
-            return [at % 2 == 1 and at < len(stretches) - 1 for at in range(len(stretches))]
-        return [bool(blocks) and is_straight[at] and 0 < at < len(stretches) - 1 for at, blocks in enumerate(stretches)]
+            return [index % 2 == 1 and index < len(stretches) - 1 for index in range(len(stretches))]
+        return [
+            bool(blocks) and is_straight[index] and 0 < index < len(stretches) - 1
+            for index, blocks in enumerate(stretches)
+        ]
 
 
 def micrometres(length: float) -> int:

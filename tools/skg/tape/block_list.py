@@ -27,10 +27,10 @@ class Blocks(Sequence[Block]):
     @classmethod
     def of(cls, blocks: Iterable[Block]) -> Blocks:
         """Pack blocks."""
-        found = cls()
+        result = cls()
         for block in blocks:
-            found.add(block.x, block.y, block.j, block.axis, block.code, block.number)
-        return found
+            result.add(block.x, block.y, block.j, block.axis, block.code, block.number)
+        return result
 
     def add(self, x: int, y: int, j: int, axis: str, code: str, number: int) -> None:
         """Add a block behind all others, as `Block` has it; a number of more than 64 bits is an `OverflowError`."""
@@ -45,10 +45,10 @@ class Blocks(Sequence[Block]):
     @classmethod
     def joined(cls, parts: Iterable[Blocks]) -> Blocks:
         """The blocks of several, one after the other."""
-        found = cls()
+        result = cls()
         for part in parts:
-            found.extend(part)
-        return found
+            result.extend(part)
+        return result
 
     def extend(self, more: Blocks) -> None:
         """Add other blocks behind all of these."""
@@ -57,9 +57,9 @@ class Blocks(Sequence[Block]):
 
     def numbered(self) -> Blocks:
         """The same blocks, with the numbers that they have on a tape."""
-        found = Blocks.joined([self])
-        found.columns[-1][:] = array(found.columns[-1].typecode, range(1, len(found) + 1))
-        return found
+        result = Blocks.joined([self])
+        result.columns[-1][:] = array(result.columns[-1].typecode, range(1, len(result) + 1))
+        return result
 
     @property
     def rows(self) -> range:

@@ -75,9 +75,9 @@ class Columns:
 
     def __getitem__(self, rows: slice | Flags | Whole) -> Columns:
         """Some of the rows, with what has been worked out of them."""
-        found = Columns.__new__(Columns)
-        found.__dict__.update({name: column[rows] for name, column in self.__dict__.items()})
-        return found
+        result = Columns.__new__(Columns)
+        result.__dict__.update({name: column[rows] for name, column in self.__dict__.items()})
+        return result
 
     def alike(self) -> tuple[Whole, Whole]:
         """Rows of which no two have the same fields, in their order, and for each row which of these it is like."""
@@ -141,7 +141,7 @@ class Columns:
     def _counted(self) -> Whole:
         """As `Block.count_end` of arcs (n × 2); the start of all others."""
         along = np.where(self.counts_y, self.y, self.x)
-        found = np.column_stack([along, self.quadrant])
+        result = np.column_stack([along, self.quadrant])
         rows = np.flatnonzero(self.is_arc)
         along, left, quadrants, radii = along[rows], self.j[rows], self.quadrant[rows], self.radii[rows]
         while len(rows):
@@ -150,10 +150,10 @@ class Columns:
             room = np.where(shrinks, along, radii - along)
             on = left > room
             ends = np.where(shrinks, along - left, along + left)
-            found[rows[~on]] = np.column_stack([ends, quadrants])[~on]
+            result[rows[~on]] = np.column_stack([ends, quadrants])[~on]
             left, along = (left - room)[on], np.where(shrinks, 0, radii)[on]
             quadrants, radii, rows = ((quadrants - 1 + sense) % 4 + 1)[on], radii[on], rows[on]
-        return found
+        return result
 
     @cached_property
     def is_plainly_sound(self) -> Flags:
@@ -193,15 +193,15 @@ class Columns:
     @cached_property
     def sweeps(self) -> Floats:
         """As `Block.sweep`."""
-        found = 2 * pi * self.sense
+        sweeps = 2 * pi * self.sense
         rows = np.flatnonzero(self.is_arc)
         arcs = self[rows]
         turn = arcs.sense * (directions(arcs.ends) - directions(arcs.starts)) % (2 * pi)
         is_first = (arcs._counted[:, 1] - arcs.quadrant) * arcs.sense % 4 == 0
         turn = np.where(is_first & (turn > 3 * pi / 2) & (arcs.j < 2 * arcs.radii), 0.0, turn)
         turn = np.where(is_first & (turn < pi / 2) & (arcs.j > 2 * arcs.radii), turn + 2 * pi, turn)
-        found[rows] = arcs.sense * turn
-        return found
+        sweeps[rows] = arcs.sense * turn
+        return sweeps
 
     @cached_property
     def lengths(self) -> Floats:
@@ -213,9 +213,9 @@ class Columns:
         rows, across = np.arange(len(self)), self.across
         along, beside = places[rows, 1 - across], places[rows, across]
         moved = np.sqrt(np.maximum(0, self.squares - along * along).astype(float)) * np.where(beside >= 0, 1, -1)
-        found = np.empty((len(self), 2))
-        found[rows, across], found[rows, 1 - across] = moved, along
-        return found
+        on_circles = np.empty((len(self), 2))
+        on_circles[rows, across], on_circles[rows, 1 - across] = moved, along
+        return on_circles
 
 
 def columns_of(tape: Tape) -> Columns:

@@ -43,13 +43,13 @@ class State(ctypes.Structure):
 @cache
 def library() -> ctypes.CDLL:
     """The library, its functions declared."""
-    found = load("skgsim")
-    found.skgsim_run.argtypes = [ctypes.POINTER(State), ctypes.c_int64,
+    result = load("skgsim")
+    result.skgsim_run.argtypes = [ctypes.POINTER(State), ctypes.c_int64,
                                     ctypes.POINTER(ctypes.c_int64), ctypes.c_char_p]  # fmt: skip
-    found.skgsim_run.restype = ctypes.c_int
-    found.skgsim_walk.argtypes = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p]
-    found.skgsim_walk.restype = ctypes.c_int64
-    return found
+    result.skgsim_run.restype = ctypes.c_int
+    result.skgsim_walk.argtypes = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p]
+    result.skgsim_walk.restype = ctypes.c_int64
+    return result
 
 
 @dataclass(frozen=True)

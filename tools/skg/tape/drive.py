@@ -32,4 +32,4 @@ def stops_in_pairs(tape: Tape) -> bool:
     Bit 7 is then on where the tape cuts, and nowhere else. A single stop at the tape's end is none.
     """
     stretches, moves = tape.stretches(), tape.positioning()
-    return all(is_move == (at % 2 == 1) for at, is_move in enumerate(moves) if stretches[at])
+    return all(is_move == (index % 2 == 1) for index, is_move in enumerate(moves) if stretches[index])

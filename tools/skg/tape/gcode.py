@@ -105,8 +105,8 @@ def write(
     if heights:
         writer.to_height(0, heights[1])
     writer.rapid(start)
-    for at, (blocks, is_move) in enumerate(zip(stretches, moves, strict=True)):
-        if at and not (heights and (is_move or moves[at - 1])):
+    for index, (blocks, is_move) in enumerate(zip(stretches, moves, strict=True)):
+        if index and not (heights and (is_move or moves[index - 1])):
             writer.block("M0")
         for placed in next(routes).blocks if blocks else ():
             if is_move:

@@ -122,13 +122,13 @@ class GcodeProgram:
     @property
     def stop_places(self) -> list[Spot]:
         """Places of stops, each once."""
-        at, found = self.home, []
+        at, stop_places = self.home, []
         for part in self.path.parts():
             if isinstance(part, Stop):
-                found.append(at)
+                stop_places.append(at)
             else:
                 at = part.place if isinstance(part, Drilled) else self.path.end(part.last - 1)
-        return list(dict.fromkeys(found))
+        return list(dict.fromkeys(stop_places))
 
     @property
     def _drilled(self) -> list[Drilled]:
@@ -201,9 +201,9 @@ class GcodeProgram:
 
         laid = self.path.laid()
         off = abs(hypots(*(laid.ends - laid.centres).T) - hypots(*(laid.starts - laid.centres).T))
-        for at in np.flatnonzero(~laid.is_line & (off > OFF_BLOCK) & (np.array(self.path.moves) == 0)).tolist():
-            number = self.path.blocks[at].number
-            raise UserError(f"{self.name}: block {number}: the arc's end is {off[at]:.0f} µm off its circle")
+        for index in np.flatnonzero(~laid.is_line & (off > OFF_BLOCK) & (np.array(self.path.moves) == 0)).tolist():
+            number = self.path.blocks[index].number
+            raise UserError(f"{self.name}: block {number}: the arc's end is {off[index]:.0f} µm off its circle")
 
 
 def _counted_holes(number: int) -> str:

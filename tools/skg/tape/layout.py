@@ -89,18 +89,18 @@ class PlacedRoute:
         if not lead.is_line:
             return None
         (dx, dy), arcs = lead.block.move, 0
-        for at, placed in enumerate(self.blocks[first + 1 :], first + 1):
+        for index, placed in enumerate(self.blocks[first + 1 :], first + 1):
             if not placed.is_line:
                 arcs += 1
                 continue
             ex, ey = placed.block.move
             # Each arc between them may have ended beside its place; two lines alone enclose nothing.
             if (
-                at > first + 1
+                index > first + 1
                 and max(abs(dx + ex), abs(dy + ey)) <= 1
                 and _apart(placed.start, lead.end) <= 2 * (arcs + 1)
             ):
-                return at
+                return index
         return None
 
 
@@ -210,7 +210,7 @@ def _apart(one: XY, other: XY) -> float:
 
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:
     """Places of stops, µm, each once; `home` is the start of the tape."""
-    found, laid = [home], iter(routes)
+    stop_places, laid = [home], iter(routes)
     for first, last in tape.bounds[:-1]:
-        found.append(next(laid).blocks[-1].end if first < last else found[-1])
-    return list(dict.fromkeys(found[1:]))
+        stop_places.append(next(laid).blocks[-1].end if first < last else stop_places[-1])
+    return list(dict.fromkeys(stop_places[1:]))

@@ -81,8 +81,8 @@ def walk(
     def follow(part: slice) -> int:
         """Follow some of the blocks; returns the number of steps, with those of their like."""
         states = np.zeros((part.stop - part.start, len(_FIELDS)), np.int64)
-        for at, column in enumerate(given):
-            states[:, at] = column[part]
+        for index, column in enumerate(given):
+            states[:, index] = column[part]
         states[0, 6:8] = drift
         wanted = None if should is None else np.ascontiguousarray(should[part], np.int64)
         address = None if wanted is None else ctypes.c_void_p(wanted.ctypes.data)
@@ -119,9 +119,9 @@ def machine_moves(tape: Tape) -> Whole:
 def _machine_moves(tape: Tape) -> Whole:
     columns = columns_of(tape)
     # (a line ends where it should)
-    found, rows = columns.moves.copy(), np.flatnonzero(~columns.is_line)
-    found[rows] = walk(tape, rows).moves
-    return found
+    machine_moves, rows = columns.moves.copy(), np.flatnonzero(~columns.is_line)
+    machine_moves[rows] = walk(tape, rows).moves
+    return machine_moves
 
 
 def closed_moves(tape: Tape) -> Whole:
@@ -141,8 +141,8 @@ def _closed_moves(columns: Columns, bounds: list[tuple[int, int]]) -> Whole:
         firsts, lasts = np.array(bounds).T
         sums, counts = (np.concatenate([[0], np.cumsum(column)]) for column in (moves[:, axis], gives))
         gaps = sums[lasts] - sums[firsts]
-        for at in np.flatnonzero((gaps != 0) & (abs(gaps) <= counts[lasts] - counts[firsts])):
-            gap, rows = gaps[at], firsts[at] + np.flatnonzero(gives[firsts[at] : lasts[at]])
+        for index in np.flatnonzero((gaps != 0) & (abs(gaps) <= counts[lasts] - counts[firsts])):
+            gap, rows = gaps[index], firsts[index] + np.flatnonzero(gives[firsts[index] : lasts[index]])
             way, arcs = -1 if gap > 0 else 1, columns[rows]
             may_give = _may_give(arcs, axis, way)
             ranked = np.argsort(-way * _doubts(arcs, axis), kind="stable")

@@ -215,11 +215,11 @@ class _StyleReader:
         return Block(given.x, given.y, given.j, given.axis, f"{given.code[:2]}{quadrant}", given.number)
 
     def _notes(self) -> tuple[str, ...]:
-        found = [what for what, count in self.seen.items() if count]
+        notes = [what for what, count in self.seen.items() if count]
         steps = {later - earlier for earlier, later in zip(self.numbers, self.numbers[1:], strict=False)}
         if len(steps) > 1:
-            found.append("block numbers that do not go on evenly: is a line missing?")
-        return (f"written in another style: {', '.join(found)}",) if found else ()
+            notes.append("block numbers that do not go on evenly: is a line missing?")
+        return (f"written in another style: {', '.join(notes)}",) if notes else ()
 
 
 def _found(text: str, at: int) -> str:

@@ -191,7 +191,7 @@ def _doubtful(tape: Tape, positions: str) -> Iterable[Block]:
 
     from skg.tape.columns import columns_of
 
-    return [tape.blocks[at] for at in np.flatnonzero(~columns_of(tape).is_plainly_sound)]
+    return [tape.blocks[index] for index in np.flatnonzero(~columns_of(tape).is_plainly_sound)]
 
 
 def parse(data: bytes, name: str = "-") -> Tape:
