@@ -17,7 +17,7 @@ PAGES  := tests/floats/bounds.py tests/tools/test_drift.py tests/tools/test_dxf.
           tests/rom/test_circles.py tests/docs/test_curves.py tests/docs/test_manual.py tests/docs/test_walk.py
 PART   ?= examples/xy-fig1-loop.skg
 
-all: emu
+all: build/skg80
 
 include emu/emu.mk
 include asm/asm.mk

@@ -4,9 +4,7 @@
  *
  * - run_fast keeps the registers in locals and jumps from handler to handler through code[], which holds one
  *   handler address for every memory address. Most addresses start as `undecoded`; decode() puts in the handler
- *   for the opcode found there, or one for a chain of two or three instructions (i8080_chains.h) that begins
- *   there. A chain saves the jumps between its handlers and nothing else: after each of its instructions it may be left,
- *   because the slice is over or the next one needs care. Operands are not decoded but read when they are needed.
+ *   for the opcode found there. Operands are not decoded but read when they are needed.
  * - run_careful does one instruction after the other from memory and has everything that is rare: ports, EI and DI,
  *   HLT, writes to anything but plain RAM, breakpoints, watching. The fast loop leaves to it every
  *   instruction that touches one of these, before that instruction has changed anything.
@@ -18,7 +16,6 @@
  * must undo that), breakpoint, mirrored, translated. Zero is plain RAM, and one test of it is all that a fast write costs.
  */
 #include "i8080.h"
-#include "i8080_chains.h"
 #include "i8080_words.h"
 
 #include <string.h>
@@ -34,7 +31,6 @@ enum {
 };
 
 enum {
-    CHAIN_SPAN = 7,         /* a chain's last opcode is less than so many bytes behind its first */
     MIRRORED = 4,           /* bytes at 0000 that are kept a second time past FFFF */
     SLICE = 1 << 25         /* cycles; less than 4 * 2^24, so that instructions never overflow their 24 bits */
 };
@@ -45,19 +41,8 @@ enum {
     HANDLE_CAREFUL,             /* leave the instruction to run_careful */
     HANDLE_WRAP,                /* PC has run past FFFF */
     HANDLE_TRANSLATED,          /* an entry of the translation */
-    HANDLE_CHAINS               /* then the chains in their order */
+    HANDLERS
 };
-
-#define CHAIN2(p, q) { 2, { 0x##p, 0x##q, 0 } },
-#define CHAIN3(p, q, r) { 3, { 0x##p, 0x##q, 0x##r } },
-static const struct {
-    uint8_t length, opcode[3];
-} chains[] = { EVERY_CHAIN(CHAIN2, CHAIN3) };
-#undef CHAIN2
-#undef CHAIN3
-
-enum { CHAINS = sizeof chains / sizeof *chains };
-_Static_assert(CHAINS <= 256, "first_chain[] has bytes");
 
 /* ---- memory ---- */
 
@@ -83,9 +68,7 @@ static void forget_code(i8080 *c, unsigned address)
     if (c->mark[address] & MARK_TRANSLATED) {
         end_translation(c);
     }
-    for (unsigned k = 0; k < CHAIN_SPAN; k++) {
-        c->code[(address - k) & 0xffff] = c->handlers[HANDLE_UNDECODED];
-    }
+    c->code[address] = c->handlers[HANDLE_UNDECODED];
     c->mark[address] &= (uint8_t)~MARK_CODE;
 }
 
@@ -258,23 +241,7 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 
 /* ---- the fast loop ---- */
 
-/* True when a chain begins at `address`; marks its opcodes. */
-static bool find_chain(i8080 *c, unsigned address, unsigned chain)
-{
-    unsigned length = chains[chain].length, at[3];
-    for (unsigned k = 0; k < length; k++) {
-        at[k] = k ? at[k - 1] + instruction_length[chains[chain].opcode[k - 1]] : address;
-        if (at[k] >= I8080_SPACE || c->mem[at[k]] != chains[chain].opcode[k] || (c->mark[at[k]] & MARK_BREAK)) {
-            return false;
-        }
-    }
-    for (unsigned k = 0; k < length; k++) {
-        c->mark[at[k]] |= MARK_CODE;
-    }
-    return true;
-}
-
-/* The handler for what is at `address`; marks the opcodes it depends on. */
+/* The handler for what is at `address`; marks its opcode. */
 static unsigned decode(i8080 *c, unsigned address)
 {
     uint8_t opcode = c->mem[address];
@@ -283,11 +250,6 @@ static unsigned decode(i8080 *c, unsigned address)
     }
     if (c->mark[address] & MARK_ENTRY) {
         return HANDLE_TRANSLATED;
-    }
-    for (unsigned i = c->first_chain[opcode]; i < CHAINS && chains[i].opcode[0] == opcode; i++) {
-        if (find_chain(c, address, i)) {
-            return HANDLE_CHAINS + i;
-        }
     }
     c->mark[address] |= MARK_CODE;
     return opcode;
@@ -308,18 +270,13 @@ static unsigned decode(i8080 *c, unsigned address)
  * gives away the table of its handlers. */
 static bool run_fast(i8080 *c, bool labels)
 {
-    static const void *const handlers[HANDLE_CHAINS + CHAINS] = {
+    static const void *const handlers[HANDLERS] = {
 #define LABEL(op) [0x##op] = &&op_##op,
-#define CHAIN2(p, q) &&chain_##p##_##q,
-#define CHAIN3(p, q, r) &&chain_##p##_##q##_##r,
         EVERY_OPCODE(LABEL)
         [HANDLE_UNDECODED] = &&undecoded,
         [HANDLE_CAREFUL] = &&careful,
         [HANDLE_WRAP] = &&wrap,
         [HANDLE_TRANSLATED] = &&translated,
-        EVERY_CHAIN(CHAIN2, CHAIN3)
-#undef CHAIN2
-#undef CHAIN3
     };
 
     REGISTERS;
@@ -333,27 +290,11 @@ static bool run_fast(i8080 *c, bool labels)
     COUNT_SLICE;
     NEXT;
 
-#define ON                                  \
-    if (UNLIKELY(left < 0)) {               \
-        goto leave;                         \
-    }
 #define HANDLER(op)                         \
     op_##op:                                \
     ROW(OP_##op)                            \
     NEXT;
-#define CHAIN2(p, q)                        \
-    chain_##p##_##q:                        \
-    ROW(OP_##p) ON                          \
-    ROW(OP_##q)                             \
-    NEXT;
-#define CHAIN3(p, q, r)                     \
-    chain_##p##_##q##_##r:                  \
-    ROW(OP_##p) ON                          \
-    ROW(OP_##q) ON                          \
-    ROW(OP_##r)                             \
-    NEXT;
     EVERY_OPCODE(HANDLER)
-    EVERY_CHAIN(CHAIN2, CHAIN3)
 
 wrap:
     pc &= 0xffff;
@@ -441,9 +382,6 @@ void i8080_init(i8080 *c, i8080_in_fn *in, i8080_out_fn *out, void *user)
     for (unsigned v = 0; v < 256; v++) {
         bool even = !__builtin_parity(v);
         c->szp[v] = (uint8_t)((v & FLAG_S) | (v ? 0 : FLAG_Z) | (even ? FLAG_P : 0));
-    }
-    for (unsigned i = CHAINS; i--;) {
-        c->first_chain[chains[i].opcode[0]] = (uint8_t)i;
     }
     run_fast(c, true);
     forget_all(c);

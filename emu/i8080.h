@@ -85,7 +85,6 @@ struct i8080 {
     uint64_t slice_end;
     const i8080_translation *translation;   /* in use; NULL: none */
     const void *const *handlers;    /* of the fast loop, see i8080.c */
-    uint8_t first_chain[256];       /* in the list of i8080_chains.h, by its first opcode */
     uint8_t szp[256];               /* S, Z and P of a result */
     uint8_t mem[I8080_SPACE + I8080_PAD];   /* the first bytes again at the end: a 16-bit read may run over */
     uint8_t skew1[1024];            /* keeps mem[x] and mark[x] out of each other's way in the host's cache */

@@ -97,7 +97,7 @@ def _listed(name: str) -> list[str]:
 def skg80(target: Target) -> Path:
     """The emulator for a system, its ROM built in."""
     made = DIST / f"skg80-{VERSION}-{target.skg80}"
-    sources = ["emu/i8080.c", *_listed("EMU_PROGRAM")]
+    sources = [f"emu/{name}" for name in _listed("EMU_PROGRAM")]
     if "windows" in target.zig:
         sources = [source.replace("terminal_posix", "terminal_windows") for source in sources]
     rom = ["-DSKG80_BUILT_IN_ROM", '-DSKG80_ROM="roms/skg.bin"', '-DSKG80_SYM="roms/skg.sym"', "emu/rom.S"]

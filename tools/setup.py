@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import atexit
 import os
-import re
 import shlex
 import shutil
 import subprocess
@@ -28,21 +27,19 @@ ABOVE = HERE if (HERE / "emu").is_dir() else HERE.parent
 EMU = ABOVE / "emu"
 
 
+#: For the emulator's C files.
+OPTIONS = ["-O2", "-std=c11", "-D_DEFAULT_SOURCE"]
+
+
 def listed(name: str) -> list[str]:
-    """The words of a list in emu/emu.mk: what developers build by is built here too, where there need be no make."""
-    lines = (EMU / "emu.mk").read_text().replace("\\\n", " ")
-    return re.search(rf"^{name} *:=(.*)$", lines, re.M)[1].split()
-
-
-def emulator_sources(name: str) -> list[Path]:
-    """The processor, and a list of C files in emu/emu.mk."""
-    return [ABOVE / source for source in ("emu/i8080.c", *listed(name))]
+    """The words of a list that emu/emu.mk reads, too."""
+    return (EMU / name).read_text().split()
 
 
 #: Library -> its sources and the compiler's options; tools.mk has the first for developers.
 LIBRARIES = {
     "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3", "-std=c11"]),
-    "libskg80.so": (emulator_sources("EMU_LIBRARY"), [*listed("EMU_CFLAGS"), "-DWITH_TRANSLATIONS"]),
+    "libskg80.so": ([EMU / source for source in listed("library.txt")], [*OPTIONS, "-DWITH_TRANSLATIONS"]),
 }
 
 
@@ -79,15 +76,16 @@ def translations(folder: Path) -> list[Path]:
     The translator runs here: where $CC compiles for another system, $CC_FOR_BUILD compiles for this one.
     """
     here = shlex.split(os.environ.get("CC_FOR_BUILD", "")) or compiler()
-    run_compiler(here, *listed("EMU_CFLAGS"), "-o", folder / "translate", *emulator_sources("EMU_TRANSLATE"))
+    sources = [EMU / source for source in ("translate.c", *listed("library.txt"))]
+    run_compiler(here, *OPTIONS, "-o", folder / "translate", *sources)
     parts = sorted((ABOVE / "examples").glob("*.skg"))
     objects = []
-    for image in listed("TRANSLATED"):
+    for image in listed("translated.txt"):
         rows, made = folder / f"{image}.rows", folder / f"{image}.o"
         with rows.open("wb") as file:
             subprocess.run([folder / "translate", ABOVE / "roms" / f"{image}.bin", *parts], stdout=file, check=True)
         names = [f"-DNAME=translation_{image.replace('-', '_')}", f'-DROWS="{rows}"']
-        run_compiler(compiler(), *listed("EMU_CFLAGS"), "-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
+        run_compiler(compiler(), *OPTIONS, "-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
         objects.append(made)
     return objects
 
@@ -137,7 +135,7 @@ class SourceDistribution(sdist):
 
     def make_release_tree(self, base_dir: str, files: list[str]) -> None:
         super().make_release_tree(base_dir, files)
-        for folder, pattern in (("emu", "*.[ch]"), ("emu", "emu.mk"), ("roms", "*.bin"), ("examples", "*.skg")):
+        for folder, pattern in (("emu", "*.[ch]"), ("emu", "*.txt"), ("roms", "*.bin"), ("examples", "*.skg")):
             target = Path(base_dir) / folder
             target.mkdir(exist_ok=True)
             for file in sorted((ABOVE / folder).glob(pattern)):

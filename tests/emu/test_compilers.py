@@ -18,13 +18,17 @@ TREE = [
     "emu",
     "roms",
     "tools/skg/native",
-    "tests/emu/plain8080.h",
     "examples/xy-star.skg",
     *(str(path.relative_to(ROOT)) for part in ("asm", "tools", "web", "tests/*") for path in ROOT.glob(f"{part}/*.mk")),
 ]
 MINGW = "x86_64-w64-mingw32-gcc"
-#: What the package builds -> its list in emu/emu.mk, beside the processor; None: the controller's steps.
-PARTS = {"skg80": "EMU_LIBRARY", "translate": "EMU_TRANSLATE", "skgsim": None}
+LIBRARY = [f"emu/{name}" for name in (ROOT / "emu" / "library.txt").read_text().split()]
+#: What the package builds -> its C files.
+PARTS = {
+    "skg80": LIBRARY,
+    "translate": ["emu/translate.c", *LIBRARY],
+    "skgsim": ["tools/skg/native/skgsim.c"],
+}
 
 
 def need(compiler: str, package: str) -> None:
@@ -46,20 +50,11 @@ def test_clang(tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (0, (ROOT / "examples" / "xy-star.3b").read_bytes())
 
 
-def sources(name: str | None) -> list[str]:
-    """The C files of a list, as make has them."""
-    if name is None:
-        return ["tools/skg/native/skgsim.c"]
-    rule = f"--eval=listed: ; @echo $({name})"
-    files = subprocess.run(["make", "-s", rule, "listed"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    return ["emu/i8080.c", *files.split()]
-
-
 @pytest.mark.parametrize("name", PARTS)
 def test_mingw(tmp_path: Path, name: str) -> None:
     need(MINGW, "gcc-mingw-w64-x86-64")
     library = tmp_path / f"{name}.dll"
     command = [MINGW, "-O0", "-std=c11", "-D_DEFAULT_SOURCE", "-Wall", "-Wextra", "-Werror", "-shared", "-o", library]
-    done = subprocess.run([*command, *sources(PARTS[name])], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run([*command, *PARTS[name]], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert library.read_bytes().startswith(b"MZ")

@@ -1,14 +1,13 @@
 # The ROM under random typing. `make fuzz` goes on where the tests stop: BYTES to type, SEED another one each time.
-FUZZ_SOURCES := tests/fuzz/fuzz.c tests/fuzz/noise.c emu/board.c emu/drive.c emu/image.c
-FUZZ_HEADERS := tests/fuzz/noise.h $(EMU_HEADERS)
+FUZZ_OBJECTS := board.o drive.o image.o i8080.o
 BYTES        ?= 200000000
 SEED         ?= $(shell date +%s)
 
-build/fuzz: $(FUZZ_SOURCES) $(FUZZ_HEADERS) build/emu/i8080.o
-	$(EMU_CC) -o $@ $(FUZZ_SOURCES) build/emu/i8080.o
+build/fuzz: $(wildcard tests/fuzz/*.[ch]) $(FUZZ_OBJECTS:%=build/emu/%)
+	$(EMU_CC) -o $@ $(filter-out %.h,$^)
 
-build/asan/fuzz-rom: $(FUZZ_SOURCES) $(FUZZ_HEADERS) build/asan/i8080.o
-	$(EMU_CC) $(EMU_ASAN) -O1 -o $@ $(FUZZ_SOURCES) build/asan/i8080.o
+build/asan/fuzz-rom: $(wildcard tests/fuzz/*.[ch]) $(FUZZ_OBJECTS:%=build/asan/%)
+	$(EMU_CC) $(EMU_ASAN) -O1 -o $@ $(filter-out %.h,$^)
 
 fuzz: build/fuzz build/asan/fuzz-rom build/skg.lst
 	build/asan/fuzz-rom --lst build/skg.lst --seed $(SEED) --bytes $$(($(BYTES) / 20)) examples/*.skg
