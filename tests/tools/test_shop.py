@@ -1,0 +1,50 @@
+"""What docs/shop.md shows happens; run as a program, this writes the page anew."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from test_docs import EXAMPLE, ROOT, indented, printed
+
+PAGE = ROOT / "docs" / "shop.md"
+#: Only a picture is written of these.
+_PICTURE = re.compile(r"(-o|--sheet) docs/pictures/\S+")
+
+
+def test_page(tmp_path: Path) -> None:
+    """All commands in their order, in one folder: later ones read what earlier ones wrote."""
+    for name in ("docs", "examples"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    examples = list(EXAMPLE.finditer(PAGE.read_text()))
+    assert len(examples) >= 12
+    for example in examples:
+        command = _PICTURE.sub(rf"\1 {tmp_path}/picture.svg", example["command"])
+        assert indented(printed(command, tmp_path)) == example["output"], command
+
+
+def test_report_is_explained() -> None:
+    """What the table has of the report's lines is in the report."""
+    text = PAGE.read_text()
+    report = re.search(r"\$ skg cut docs/pictures/bracket.*\n((?:    .*\n)+)", text)[1]
+    told = re.search(r"\| the report says .*\n\|---.*\n((?:\|.*\n)+)", text)[1]
+    words = re.findall(r"^\| `(.+?)` \|", told, re.M)
+    assert len(words) == len(told.splitlines()) >= 8
+    for word in words:
+        assert all(part.strip() in report for part in word.split("…")), word
+
+
+def test_page_is_short() -> None:
+    assert len(PAGE.read_text().splitlines()) <= 250
+
+
+def test_names_of_files() -> None:
+    """The version of the wheels is the package's."""
+    version = re.search(r'^version = "(.+)"$', (ROOT / "tools" / "pyproject.toml").read_text(), re.M)[1]
+    assert set(re.findall(r"skg_nc-([\d.]+)-", PAGE.read_text())) == {version}
+
+
+if __name__ == "__main__":
+    PAGE.write_text(
+        EXAMPLE.sub(lambda match: f"    $ {match['command']}\n{indented(printed(match['command']))}", PAGE.read_text())
+    )
