@@ -20,6 +20,7 @@ from functools import cache
 from io import BytesIO
 from pathlib import Path
 
+import trial
 from elftools.elf.elffile import ELFFile
 from macholib.MachO import MachO
 
@@ -80,15 +81,11 @@ def check_sums() -> str:
 
 
 def trial_folder(name: str) -> Path:
-    """A new folder with the examples, a drawing, and it again under a Chinese name."""
+    """A new folder for trial.py."""
     folder = BUILD / "trials" / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for file in (ROOT / "examples").iterdir():
-        if file.is_file():
-            shutil.copy(file, folder)
-    for drawing in ("bracket.dxf", "\u652f\u67b6.dxf"):
-        shutil.copy(ROOT / "docs" / "pictures" / "bracket.dxf", folder / drawing)
+    trial.fill(folder)
     return folder
 
 
@@ -116,9 +113,7 @@ def compare_trials(name: str, folder: Path, encoding: str = "utf-8") -> str:
     if differ:
         lines = [f"{key}:\n  {str(expected.get(key))[:200]}\n  {str(there.get(key))[:200]}" for key in differ]
         raise Failed(f"{name} differs in {len(differ)} of {len(expected)} results\n" + "\n".join(lines))
-    tapes = [part.with_suffix(".3b") for part in EXAMPLES]
-    right = sum((folder / "out" / tape.name).read_bytes() == tape.read_bytes() for tape in tapes if tape.exists())
-    return f"{right} of {len(tapes)} examples; {len(list(folder.glob('out/*.code')))} calls as here"
+    return f"{trial.judged(folder)}, as here"
 
 
 @cache

@@ -1,14 +1,20 @@
 """Tries an installed skg: cuts all examples, and calls every command as people do. Runs in that package's Python.
 
-trial.py FOLDER     FOLDER has the examples and a drawing; what the commands write, print and end with goes into it
+Without an argument in a folder of its own, and the tapes are compared with examples/. With a folder, which has the
+examples and a drawing, what the commands write, print and end with goes into it.
 """
 
 from __future__ import annotations
 
 import os
+import platform
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
 
 #: Name -> a call of skg; `_` stands for a file of that name that the call writes.
 CALLS = {
@@ -36,6 +42,30 @@ CALLS = {
     "cam": ["cam", "--base", "20", "--lift", "8"],
     "term": ["term", "NO-PORT", "--batch"],
 }
+
+
+#: Calls that must be refused.
+REFUSED = {"refused", "nothing", "term"}
+
+
+def fill(folder: Path) -> None:
+    """Copy the examples, a drawing, and it again under a Chinese name."""
+    for file in (ROOT / "examples").iterdir():
+        if file.is_file():
+            shutil.copy(file, folder)
+    for drawing in ("bracket.dxf", "\u652f\u67b6.dxf"):
+        shutil.copy(ROOT / "docs" / "pictures" / "bracket.dxf", folder / drawing)
+
+
+def judged(folder: Path) -> str:
+    """How many tapes are right; a wrong one, or a call that did not end as it should, is an error."""
+    out = folder / "out"
+    tapes = {part.with_suffix(".3b").name for part in (ROOT / "examples").glob("*.skg")}
+    wrong = [name for name in sorted(tapes) if (out / name).read_bytes() != (ROOT / "examples" / name).read_bytes()]
+    wrong += [name for name in CALLS if (out / f"{name}.code").read_text() != ("2" if name in REFUSED else "0")]
+    if wrong or len(tapes) < 40:
+        raise SystemExit(f"not as they should be: {', '.join(wrong)}")
+    return f"{len(tapes)} of {len(tapes)} examples, {len(CALLS)} calls"
 
 
 def cut_examples(out: Path) -> None:
@@ -67,4 +97,11 @@ def main(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]).resolve())
+    if len(sys.argv) > 1:
+        main(Path(sys.argv[1]).resolve())
+    else:
+        with tempfile.TemporaryDirectory(prefix="skg-trial-") as own:
+            fill(Path(own).resolve())
+            main(Path(own).resolve())
+            print(f"Python {platform.python_version()}, {platform.platform()}: {judged(Path(own).resolve())}")
+            os.chdir(ROOT)
