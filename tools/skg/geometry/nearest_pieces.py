@@ -234,7 +234,7 @@ class _Grid:
 
     def __init__(self, pieces: Pieces, cell: float) -> None:
         self.cell = cell
-        #: A piece is nowhere further from a place that was laid out.
+        #: Sampling distance: the farthest that a piece lies from its next sample.
         self.apart = cell / 8
         beside = 2 * pieces.radius.max() + 2 * cell
         self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - beside

@@ -41,7 +41,7 @@ class Relations:
 
 
 def relations(contours: list[Contour], tolerance: float) -> Relations:
-    """Find which contours meet: are nowhere further apart than `tolerance`, mm."""
+    """Find the contours that meet: somewhere no further apart than `tolerance`, mm."""
     relations = Relations()
     is_closed = np.array([contour.is_closed for contour in contours], bool)
     # (the chords of 20,000 circles would take 100 MB: most drawings have few contours that come near to others)

@@ -200,7 +200,7 @@ def _count(contours: list[Contour], report: Account) -> None:
 
 
 def _check_size(report: Account) -> None:
-    """Refuse an odd size that nobody vouches for, and what is too large for a tape."""
+    """Refuse an implausible size with unconfirmed units, and a drawing too large for a tape."""
     width, height = map(short, report.size)
     is_told = not report.units_from.startswith(NOT_TOLD)
     if not is_told and not USUAL[0] <= max(report.size) <= USUAL[1]:

@@ -70,7 +70,7 @@ def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Mad
 def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
     """The G-code in a file, told by its name's end, or that of a milling program; else None.
 
-    What is odd about it but can be read is no matter here, what is guessed is said. `skg80` as in `load`.
+    Odd things that can be read are ignored, guesses are reported. `skg80` as in `load`.
     """
     text = iso_text(name, skg80)
     return None if text is None else iso_of(text, name)

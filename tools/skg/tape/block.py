@@ -204,7 +204,7 @@ class Block:
         return hypot(self.x, self.y) * (1 if self.is_line else abs(self.sweep))
 
     def problems(self, positions: str = "auto") -> list[str]:
-        """Return what a controller would choke on in this block, in words; empty when it is sound.
+        """Return the errors of this block in words; empty when it is sound.
 
         `positions`: "programmed" on a tape with drift, "machine" on one without, which count J in their own way
         (docs/drift.md); "auto": either is right.

@@ -156,7 +156,7 @@ class _Reader:
         self.at, self.spot = goal, end
 
     def cuts(self, lowest: Decimal | None, feeds: bool, moves: bool) -> bool:
-        """Tell whether a move that comes down to `lowest` cuts; its height is one of cuts or of travel."""
+        """Tell whether a move that comes down to `lowest` cuts; record its height as cutting or travel."""
         if moves and lowest is not None and not feeds:
             self.tool.rapid_heights.add(lowest)
         cuts = feeds and not (moves and self.tool.is_idle(lowest))
