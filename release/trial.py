@@ -6,6 +6,8 @@ examples and a drawing, what the commands write, print and end with goes into it
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import platform
 import shutil
@@ -75,10 +77,14 @@ def cut_examples(out: Path) -> None:
     from skg.cli import cli
 
     for part in sorted(Path.cwd().glob("*.skg")):
+        paper = io.StringIO()
         try:
-            cli.main(["run", part.name, "-o", str(out / f"{part.stem}.3b")], standalone_mode=False)
+            with contextlib.redirect_stderr(paper):
+                code = cli.main(["run", part.name, "-o", str(out / f"{part.stem}.3b")], standalone_mode=False)
         except (SystemExit, click.ClickException) as error:
-            print(f"{part.name}: {error!r}", file=sys.stderr)
+            code = getattr(error, "code", 2)
+        if code:
+            print(f"{part.name}: exit {code}\n{paper.getvalue()}", file=sys.stderr)
 
 
 def main(folder: Path) -> None:
