@@ -83,14 +83,14 @@ class Pages:
         self.pages = [file for file in files if file.suffix == ".md"]
 
     def find(self, name: str, citing: Path) -> Path | None:
-        """The page of that name: beside the citing file, from the root, or the only one of that base name."""
+        """The page of that name: beside the citing file, from the root, or the only English one of that base name."""
         for folder in (citing.parent, Path()):
             place = Path(*_normal(folder / name))
             if place in self.pages:
                 return place
         if "/" in name:
             return None
-        same = [page for page in self.pages if page.name == name]
+        same = [page for page in self.pages if page.name == name and page.parent.name != "zh"]
         return same[0] if len(same) == 1 else None
 
     def citations(self, citing: Path) -> list[Citation]:

@@ -16,21 +16,12 @@ from skg.ref.tape import Punch
 from skg.ref.values import Circle, Line, Point, Value
 from skg.rivals import making, tekhtran, tekhtran_making
 
-PAGE = (
-    (ROOT / "docs" / "rivals.md")
-    .read_text()
-    .partition("## Every definition\n")[2]
-    .partition("\n## ")[0]
-)
+PAGE = (ROOT / "docs" / "rivals.md").read_text().partition("## Every definition\n")[2].partition("\n## ")[0]
 ROW = re.compile(r"^\| (?P<rival>`.+`) \| `(?P<skg>[^`]+)` \| [^|]+ \|$", re.M)
 TABLES = [[(re.findall("`([^`]+)`", row["rival"]), row["skg"]) for row in ROW.finditer(part)]
           for part in re.split(r"^\| TEKHTRAN", PAGE, flags=re.M)]  # fmt: skip
 XY_ROWS, TKH_ROWS = TABLES
-ROUTINE = (
-    (ROOT / "examples" / "circles" / "touch-circles.skg")
-    .read_text()
-    .partition("\n800 ")
-)
+ROUTINE = (ROOT / "examples" / "circles" / "touch-circles.skg").read_text().partition("\n800 ")
 XY_SCENE = (
     "⊕D(3,4)⇒D1;⊕D(20,-6)⇒D2;⊕D(11,9)⇒D3;⊕D(8,18)⇒D4;⊕X(0,0,30)⇒X1;⊕X(10,0,120)⇒X2;⊕X(40,0,170)⇒X3;"
     "⊕X(0,30,180)⇒X4;⊕Y(10,8,5)⇒Y1;⊕Y(16,10,7)⇒Y2;⊕Y(30,-3,4)⇒Y3;"
@@ -60,9 +51,7 @@ def same(one: Value, other: Value, signed: bool = True) -> bool:
     """Equal, or, unsigned, equal but for the direction of a line."""
     a, b = numbers(one), numbers(other)
     ways = [b] if signed or not isinstance(other, Line) else [b, [-n for n in b]]
-    return any(
-        max(abs(m - n) for m, n in zip(a, way, strict=True)) < NEAR for way in ways
-    )
+    return any(max(abs(m - n) for m, n in zip(a, way, strict=True)) < NEAR for way in ways)
 
 
 def with_skg(program: str, lines: list[str], tail: str = "") -> dict[str, Value]:
@@ -73,10 +62,7 @@ def with_skg(program: str, lines: list[str], tail: str = "") -> dict[str, Value]
         machine = Interpreter([], watch, Punch())
         assert machine.load(text) is None, (text, machine.paper)
         assert machine.run() is None, (text, machine.paper)
-    return {
-        f"{letter}{number}": value
-        for (letter, number), value in machine.variables.items()
-    }
+    return {f"{letter}{number}": value for (letter, number), value in machine.variables.items()}
 
 
 def kind_of(definition: str) -> str:
@@ -96,9 +82,7 @@ def test_xy(definitions: list[str], skg: str) -> None:
         program = rivalhelp.xy.translate(f"{XY_SCENE}{frame}⊕{definition}⇒{kind}90;")
         if skg == "SUB":
             found = with_skg(program, subroutine(definition), "800 " + ROUTINE[2])
-            assert same(found["C90"], found["T1"]) or same(found["C90"], found["T2"]), (
-                definition
-            )
+            assert same(found["C90"], found["T1"]) or same(found["C90"], found["T2"]), definition
         else:
             found = with_skg(program, [f"{letter}91={skg}"])
             assert same(found[f"{letter}90"], found[f"{letter}91"]), definition

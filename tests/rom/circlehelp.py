@@ -1,7 +1,7 @@
 """Circles that touch three elements, to 50 digits, by a method of their own.
 
-An element is a word and numbers: `P x y`, `C x y r`, `S x1 y1 x2 y2` (the line from the first point to the second), `M` the
-same line, on which the centre lies, `A r` the radius. All of it in mm; senses by sign, as the language has them.
+An element is a word and numbers: `P x y`, `C x y r`, `S x1 y1 x2 y2` (the line from the first point to the second), `M`
+the same line, on which the centre lies, `A r` the radius. All of it in mm; senses by sign, as the language has them.
 Each element is one linear equation in x, y, r and the power x²+y²−r²; three of them leave a pencil, and of that
 come the circles. (The subroutine in examples/circles takes an origin of its own instead, and planes.)
 """
@@ -53,12 +53,7 @@ def pencil(elements: list[Element]) -> list[list[mpf]]:
     """Two vectors that solve the three equations; none when the equations are not independent."""
     rows, pivots = [equation(element) for element in elements], []
     for i in range(3):
-        size, k, c = max(
-            (abs(rows[k][c]), k, c)
-            for k in range(i, 3)
-            for c in range(5)
-            if c not in pivots
-        )
+        size, k, c = max((abs(rows[k][c]), k, c) for k in range(i, 3) for c in range(5) if c not in pivots)
         if size < NOTHING:
             return []
         rows[i], rows[k] = rows[k], rows[i]
@@ -66,9 +61,7 @@ def pencil(elements: list[Element]) -> list[list[mpf]]:
         pivots.append(c)
         for k in range(3):
             if k != i:
-                rows[k] = [
-                    a - rows[k][c] * b for a, b in zip(rows[k], rows[i], strict=True)
-                ]
+                rows[k] = [a - rows[k][c] * b for a, b in zip(rows[k], rows[i], strict=True)]
     found = []
     for free in set(range(5)) - set(pivots):
         vector = [mpf(c == free) for c in range(5)]
@@ -94,9 +87,7 @@ def solutions(elements: list[Element]) -> list[Circle] | None:
         q = -b - (1 if b >= 0 else -1) * sqrt(max(under, mpf(0)))
         found: list[Circle] = []
         for s, t in ((q, a), (c, q)):
-            x, y, r, _, one = (
-                s * each + t * other for each, other in zip(u, v, strict=True)
-            )
+            x, y, r, _, one = (s * each + t * other for each, other in zip(u, v, strict=True))
             if abs(one) * LINE > max(abs(x), abs(y), abs(r)):
                 circle = (x / one, y / one, r / one)
                 if all(apart(circle, other) > mpf(10) ** -12 for other in found):

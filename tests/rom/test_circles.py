@@ -37,10 +37,7 @@ ON = ("M", 0, 0, 40, 20)
 #: The elements of each circle that an example prints.
 TOUCHED: dict[str, list[list[Element]]] = {
     "touch-circles": [
-        [("C", 0, 0, 10), ("C", 40, 6, a), ("C", 14, 32, d)]
-        for a in (8, -8)
-        for d in (6, -6)
-        for _ in range(2)
+        [("C", 0, 0, 10), ("C", 40, 6, a), ("C", 14, 32, d)] for a in (8, -8) for d in (6, -6) for _ in range(2)
     ],
     "touch-lines": [
         [A1, B, C],
@@ -61,10 +58,7 @@ TOUCHED: dict[str, list[list[Element]]] = {
         [X, ("C", 180, 12, -5), ("C", 205, 9, -7)],
     ],
     "touch-radius": [
-        [("A", 5), ("S", 0, 0, s, 0), ("C", 0, 3, c)]
-        for c in (14, -14)
-        for s in (1, -1)
-        for _ in range(2)
+        [("A", 5), ("S", 0, 0, s, 0), ("C", 0, 3, c)] for c in (14, -14) for s in (1, -1) for _ in range(2)
     ],
     "touch-centred": [
         *[[ON, X, ("C", 50, 10, -8)]] * 2,
@@ -80,11 +74,7 @@ TOUCHED: dict[str, list[list[Element]]] = {
 
 def printed(paper: str) -> list[Circle]:
     """The circles on the paper."""
-    rows = [
-        line.strip("()").split(",")
-        for line in paper.splitlines()
-        if line.startswith("(")
-    ]
+    rows = [line.strip("()").split(",") for line in paper.splitlines() if line.startswith("(")]
     return [(mpf(x), mpf(y), mpf(r)) for x, y, r in rows]
 
 
@@ -139,10 +129,7 @@ def firmware(board: Board, elements: list[Element]) -> tuple[int | None, list[Ci
     outcome = board.outcome(program(elements))
     pairs = [line.split() for line in outcome.paper if not line.startswith("ERR")]
     numbers = [mpf(whole) + mpf(rest) for whole, rest in pairs]
-    circles = [
-        (numbers[i], numbers[i + 1], numbers[i + 2])
-        for i in range(0, len(numbers) - 2, 3)
-    ]
+    circles = [(numbers[i], numbers[i + 1], numbers[i + 2]) for i in range(0, len(numbers) - 2, 3)]
     return (outcome.error.number if outcome.error else None), circles
 
 
@@ -152,9 +139,7 @@ def triples(seed: int, count: int, whole: bool) -> Iterator[list[Element]]:
     size = 6 if whole else 50
 
     def number() -> float:
-        return (
-            dice.randint(-size, size) if whole else round(dice.uniform(-size, size), 4)
-        )
+        return dice.randint(-size, size) if whole else round(dice.uniform(-size, size), 4)
 
     def radius() -> float:
         return next(r for r in iter(number, None) if abs(r) > 0.5)
@@ -197,18 +182,12 @@ def judge(board: Board, elements: list[Element]) -> str:
     for circle in circles:
         size = max(map(abs, circle))
         if size < 100:
-            assert (
-                min(apart(circle, each) for each in exact) < 1e-6
-                or miss(elements, circle) < 3e-6
-            ), elements
+            assert min(apart(circle, each) for each in exact) < 1e-6 or miss(elements, circle) < 3e-6, elements
         if size < 500:
             assert miss(elements, circle) < 1e-4, (elements, circle)
     for each in exact:
         size = max(map(abs, each))
-        assert (
-            size > LINE / 10
-            or min(apart(each, circle) for circle in circles) < 1e-3 * size
-        ), (elements, each)
+        assert size > LINE / 10 or min(apart(each, circle) for circle in circles) < 1e-3 * size, (elements, each)
     return "touching" if len(exact) == 1 else "two"
 
 
@@ -252,24 +231,15 @@ def test_exchanging_two_elements_gives_the_other() -> None:
         if error is None and max(abs(n) for circle in circles for n in circle) < 1000:
             first, second, third = elements
             _, swapped = firmware(board, [second, first, third])
-            assert (
-                max(
-                    apart(a, b) for a, b in zip(circles, reversed(swapped), strict=True)
-                )
-                < 1e-4
-            ), elements
+            assert max(apart(a, b) for a, b in zip(circles, reversed(swapped), strict=True)) < 1e-4, elements
             _, turned = firmware(board, [second, third, first])
-            assert (
-                max(apart(a, b) for a, b in zip(circles, turned, strict=True)) < 1e-4
-            ), elements
+            assert max(apart(a, b) for a, b in zip(circles, turned, strict=True)) < 1e-4, elements
             tried += 1
     assert tried > 20
 
 
 def plot(path: Path, picture: Path) -> None:
-    done = CliRunner().invoke(
-        cli, ["plot", str(path), "--skg80", "reference", "-o", str(picture)]
-    )
+    done = CliRunner().invoke(cli, ["plot", str(path), "--skg80", "reference", "-o", str(picture)])
     assert done.exit_code == 0, done.output
 
 
