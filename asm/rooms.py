@@ -17,6 +17,7 @@ The line Room: says how many bytes a file may have.
 from __future__ import annotations
 
 import re
+import signal
 import sys
 import textwrap
 from collections import defaultdict
@@ -271,6 +272,8 @@ def merged(images: dict[str, dict[str, Room]]) -> dict[str, Room]:
 
 def main() -> None:
     """Command line."""
+    if hasattr(signal, "SIGPIPE"):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # `rooms.py | head` ends quietly
     images = every()
     rooms = merged(images)
     if sys.argv[1:] == ["--headers"]:

@@ -2,7 +2,7 @@
 WEB_BIN := web/node_modules/.bin
 
 web-modules: web/node_modules/.package-lock.json
-web/node_modules/.package-lock.json: web/package.json web/package-lock.json
+web/node_modules/.package-lock.json: web/package.json web/package-lock.json | $(NODE)
 	npm ci --prefix web --silent --no-audit --no-fund --ignore-scripts
 	touch $@
 
