@@ -1,9 +1,12 @@
-"""What all tests share: the programs that they run are built once."""
+"""The programs that all tests run, built once; node of the virtual environment; one line about what was skipped."""
 
 from __future__ import annotations
 
 import fcntl
+import os
 import subprocess
+import sys
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,6 +20,19 @@ settings.register_profile("hunt", settings.get_profile("same"), derandomize=Fals
 settings.load_profile("same")
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# Node, where it came out of a Python package (make).
+os.environ["PATH"] += os.pathsep + str(Path(sys.executable).parent)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print one line: how many tests were skipped for want of what, which their reasons say."""
+    reports = terminalreporter.stats.get("skipped", [])
+    reasons = Counter(str(report.longrepr[2]).removeprefix("Skipped: ") for report in reports)
+    if reasons:
+        terminalreporter.write_line(
+            "Skipped: " + "; ".join(f"{count}: {why}" for why, count in sorted(reasons.items()))
+        )
 
 
 @pytest.fixture(scope="session")

@@ -194,7 +194,6 @@ def on_the_board(source: str, answers: list[str], folder: Path) -> tuple[str, st
     done = subprocess.run(
         [SKG80, "--rom", ROM, "--input", folder / "answers", folder / "part.skg"],
         capture_output=True,
-        timeout=60,
         check=False,
     )
     said = done.stderr.decode().replace("\r", "").partition(">RUN\n")[2]
@@ -224,7 +223,7 @@ def test_operations_on_the_board(tmp_path: Path) -> None:
 def test_error_on_the_board(row: re.Match[str], tmp_path: Path) -> None:
     """The examples of the table of errors, as a program; what error 1 refuses it refuses when it is loaded."""
     (tmp_path / "part.skg").write_text(program_of(row["example"]))
-    done = subprocess.run([SKG80, "--rom", ROM, tmp_path / "part.skg"], capture_output=True, timeout=60, check=False)
+    done = subprocess.run([SKG80, "--rom", ROM, tmp_path / "part.skg"], capture_output=True, check=False)
     assert done.returncode == 1
     errors = re.findall(r"^ERR (\d\d)", done.stderr.decode(), re.M)
     assert errors == [row["number"]]
@@ -249,7 +248,6 @@ def said_by_the_board(session: str, reader: str = "", punched: list[str] | None 
             [SKG80, "--rom", ROM, "--tape", tape, "--punch", punch],
             input=typed.encode(),
             capture_output=True,
-            timeout=60,
             check=False,
         )
         if punched is not None:
@@ -291,7 +289,7 @@ def test_readme_session() -> None:
 @pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
 def test_first_light() -> None:
     """The free bytes that docs/boards.md promises."""
-    done = subprocess.run([SKG80, "--rom", ROM], input=b"", capture_output=True, timeout=60, check=False)
+    done = subprocess.run([SKG80, "--rom", ROM], input=b"", capture_output=True, check=False)
     free = re.search(rb"SKG (\d+)", done.stdout)
     assert free
     assert f"the board says `SKG` and the free bytes ({free[1].decode()} with 8 KiB of RAM)" in BOARDS.read_text()

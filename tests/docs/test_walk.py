@@ -29,7 +29,7 @@ def session(part: str, commands: list[str]) -> list[str]:
         path = Path(scratch) / "one.skg"
         path.write_text(part)
         done = subprocess.run([SKG80, "--debug", path], input="\n".join([*commands, ""]),
-                              capture_output=True, text=True, timeout=60)  # fmt: skip
+                              capture_output=True, text=True)  # fmt: skip
     text = done.stderr.replace("\r\n", "\n").replace("\r", "")
     answers = []
     for command in commands:

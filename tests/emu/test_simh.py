@@ -50,13 +50,13 @@ def program(seed: int) -> bytes:
     return assemble(text)[0]
 
 
-@pytest.mark.skipif(ALTAIR is None, reason="SIMH is not installed and could not be (make altairz80)")
+@pytest.mark.skipif(ALTAIR is None, reason="no SIMH: apt-get install simh")
 @pytest.mark.parametrize("seed", [1, 2])
 def test_same_crc_as_simh(tmp_path: Path, seed: int) -> None:
     """A CRC over the states after some hundred thousand instructions."""
     image = tmp_path / "mix.com"
     image.write_bytes(program(seed))
-    ours = subprocess.run([ROOT / "build/skg80", "--com", image], capture_output=True, text=True, timeout=60)
+    ours = subprocess.run([ROOT / "build/skg80", "--com", image], capture_output=True, text=True)
     assert ours.returncode == 0
     # At 0 HLT, at 5 MOV A,E  OUT 11H  RET: the 2SIO's data port is the console.
     script = tmp_path / "run.ini"
@@ -65,6 +65,6 @@ def test_same_crc_as_simh(tmp_path: Path, seed: int) -> None:
         "deposit 0 76\ndeposit 5 7b\ndeposit 6 d3\ndeposit 7 11\ndeposit 8 c9\ngo 100\nquit\n"
     )
     assert ALTAIR
-    theirs = subprocess.run([ALTAIR, script], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
+    theirs = subprocess.run([ALTAIR, script], capture_output=True, text=True, stdin=subprocess.DEVNULL)
     assert len(ours.stdout) == 8
     assert ours.stdout in theirs.stdout, theirs.stdout

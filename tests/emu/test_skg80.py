@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from asm8080 import assemble
-from emuhelp import ROM_SIZE, ROMS, ROOT, SKG80, TIMEOUT, Skg80, complaint, without_sign_on
+from emuhelp import ROM_SIZE, ROMS, ROOT, SKG80, Skg80, complaint, without_sign_on
 
 from skg.machine import Machine, symbols
 
@@ -272,7 +272,7 @@ def test_standard_output_is_full(part: Part, tmp_path: Path, arguments: list[str
     files = {"PART": part("10 END\n"), "COM": com(tmp_path, HELLO.format(end="RET"))}
     command = [SKG80, *(files.get(argument, argument) for argument in arguments)]
     with Path("/dev/full").open("wb") as full:
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=full, stderr=subprocess.PIPE, timeout=TIMEOUT)
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=full, stderr=subprocess.PIPE)
     assert complaint(done, 2) == FULL
 
 
@@ -281,7 +281,7 @@ def test_standard_error_is_full(part: Part, options: list[str]) -> None:
     """The paper or the statistics are lost: exit 2, though nobody can be told why."""
     command = [SKG80, *options, part("10 END\n")]
     with Path("/dev/full").open("wb") as full:
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=full, timeout=TIMEOUT)
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=full)
     assert done.returncode == 2
 
 
@@ -289,11 +289,11 @@ def test_closed_standard_streams(part: Part, tmp_path: Path) -> None:
     """A file that is opened never becomes a standard stream; without standard error the tape is whole."""
     tape, paper = tmp_path / "tape", tmp_path / "paper"
     line = f"{SKG80} --tty {paper} {part(TWO_LINES + '30 END')} "
-    done = subprocess.run(["sh", "-c", f"{line} >&-"], stderr=subprocess.PIPE, timeout=TIMEOUT)
+    done = subprocess.run(["sh", "-c", f"{line} >&-"], stderr=subprocess.PIPE)
     assert complaint(done, 2) == "cannot write: Bad file descriptor"
     assert b"\nB0B1000B1000GYL4" not in paper.read_bytes()
     for closed in ("2>&-", "<&-", "2>&- <&-"):
-        done = subprocess.run(["sh", "-c", f"{line} {closed} > {tape}"], timeout=TIMEOUT)
+        done = subprocess.run(["sh", "-c", f"{line} {closed} > {tape}"])
         assert (done.returncode, tape.read_bytes()) == (0, b"".join(BLOCKS) + STOPS), closed
 
 

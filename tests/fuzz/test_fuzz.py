@@ -33,7 +33,7 @@ def fuzz(program: str, seed: int, count: int, *options: str | Path) -> subproces
     """Type `count` bytes at the ROM, or at the one that `options` name."""
     labels = ROM.with_suffix(".sym")
     command = [ROOT / program, "--rom", ROM, "--sym", labels, "--seed", str(seed), "--bytes", str(count)]
-    return subprocess.run([*command, *options, *EXAMPLES], capture_output=True, text=True, timeout=500)
+    return subprocess.run([*command, *options, *EXAMPLES], capture_output=True, text=True)
 
 
 def listed(*options: str | Path) -> list[str | Path]:

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SKG80 = ROOT / "build" / "skg80"
 ROMS = ROOT / "roms"
 #: Seconds; only what hangs takes so long, on a busy machine too.
-PATIENCE = 120
+PATIENCE = 600
 
 #: What GRBL says when its line is opened.
 GREETING = b"\r\nGrbl 1.1h ['$' for help]\r\n"
@@ -109,7 +109,7 @@ class Driven:
 
     def wait(self) -> int:
         """The exit code, when it has ended by itself."""
-        return self.process.wait(timeout=PATIENCE)
+        return self.process.wait()
 
     def printed(self) -> list[str]:
         """The lines of the paper."""

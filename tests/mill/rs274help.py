@@ -16,7 +16,7 @@ FOLDER = ROOT / "build" / "linuxcnc"
 RS274 = FOLDER / "usr" / "bin" / "rs274"
 LIBRARIES = os.pathsep.join(str(FOLDER / "usr" / "lib" / name) for name in ("", "x86_64-linux-gnu"))
 
-needs_rs274 = pytest.mark.skipif(not RS274.exists(), reason="no LinuxCNC interpreter: make rs274")
+needs_rs274 = pytest.mark.skipif(not RS274.exists(), reason="no LinuxCNC: make rs274")
 
 CALL = re.compile(r"(?m)^ *\d+ N\S* +([A-Z_0-9]+)\(([^)]*)\)")
 
@@ -40,7 +40,6 @@ def calls(tape: bytes, folder: Path) -> list[tuple[str, list[str]]]:
         env={**os.environ, "LD_LIBRARY_PATH": LIBRARIES},
         capture_output=True,
         text=True,
-        timeout=60,
     )
     if done.returncode not in (0, 1) or "PROGRAM_END" not in done.stdout or done.stderr.replace(NOISE, "").strip():
         raise Refused(f"exit {done.returncode}: {done.stderr}{done.stdout[-300:]}")

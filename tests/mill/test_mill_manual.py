@@ -52,7 +52,7 @@ def test_example(example: re.Match[str]) -> None:
 def test_example_on_the_board(example: re.Match[str], tmp_path: Path) -> None:
     part = tmp_path / "part.skg"
     part.write_text(example["program"])
-    done = subprocess.run([SKG80, "--rom", ROM, part], capture_output=True, timeout=60, check=False)
+    done = subprocess.run([SKG80, "--rom", ROM, part], capture_output=True, check=False)
     assert done.returncode == 0, done.stderr
     assert done.stdout.decode().replace("\r\n", "\n") == example["tape"]
 

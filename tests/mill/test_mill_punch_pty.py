@@ -48,7 +48,7 @@ def test_the_tape_goes_to_the_line(tmp_path: Path) -> None:
 def test_nobody_reads(part: Path) -> None:
     """Blocks that nobody takes are not lost without a word."""
     part.write_text((ROOT / "examples" / "xy-star.skg").read_text())
-    done = subprocess.run([SKG80, "--punch-pty", part], capture_output=True, text=True, timeout=PATIENCE)
+    done = subprocess.run([SKG80, "--punch-pty", part], capture_output=True, text=True)
     assert done.returncode == 2
     assert done.stderr.endswith(f"skg80: {done.stdout.strip()}: nobody reads what is punched\n")
 
@@ -58,7 +58,7 @@ def test_nobody_reads(part: Path) -> None:
     (["--punch-pty", "--com", "x.com"], "--com goes with --stats and --max-cycles alone"),
 ])  # fmt: skip
 def test_wrong_usage(options: list[str], wrong: str) -> None:
-    done = subprocess.run([SKG80, *options], capture_output=True, text=True, timeout=PATIENCE)
+    done = subprocess.run([SKG80, *options], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (2, f"skg80: {wrong}\n")
 
 

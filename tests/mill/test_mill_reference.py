@@ -272,7 +272,7 @@ def test_arcs(statements: list[str], wanted: list[str]) -> None:
 
 
 def skg(*arguments: str | Path) -> subprocess.CompletedProcess:
-    return subprocess.run([SKG, "ref", *arguments], capture_output=True, timeout=120)
+    return subprocess.run([SKG, "ref", *arguments], capture_output=True)
 
 
 def test_command(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ SKG = Path(sys.executable).with_name("skg")
 
 
 def skg(*arguments: str | Path, stdin: bytes = b"") -> subprocess.CompletedProcess:
-    return subprocess.run([SKG, "ref", *arguments], input=stdin, capture_output=True, timeout=120)
+    return subprocess.run([SKG, "ref", *arguments], input=stdin, capture_output=True)
 
 
 @pytest.fixture

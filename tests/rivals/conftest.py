@@ -24,6 +24,6 @@ def run_skg() -> Callable[..., subprocess.CompletedProcess[str]]:
 
     def call(*arguments: str) -> subprocess.CompletedProcess[str]:
         program = Path(sys.executable).with_name("skg")
-        return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60)
+        return subprocess.run([program, *arguments], capture_output=True, text=True)
 
     return call

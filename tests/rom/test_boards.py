@@ -135,7 +135,7 @@ def test_skg80(kind: str, name: str) -> None:
     """The emulator's program with this board's ROM LOADs and RUNs an example."""
     part = ROOT / "examples" / f"{name}.skg"
     command = [ROOT / "build" / "skg80", *OPTIONS[kind], "--rom", image(kind), part]
-    done = subprocess.run(command, capture_output=True, timeout=60)
+    done = subprocess.run(command, capture_output=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout == part.with_suffix(".3b").read_bytes()
 
@@ -144,6 +144,6 @@ def test_skg80(kind: str, name: str) -> None:
 def test_the_wrong_rom_is_noticed(kind: str, other: str) -> None:
     """The boards are really two."""
     command = [ROOT / "build" / "skg80", "--board", other, "--rom", image(kind), EXAMPLES[0]]
-    done = subprocess.run(command, capture_output=True, timeout=60)
+    done = subprocess.run(command, capture_output=True)
     assert (done.returncode, done.stdout) == (2, b""), done.stderr
     assert b"is this ROM for" in done.stderr

@@ -22,7 +22,7 @@ DISTANCE = re.compile(r"(\w+)-\$")
 
 def debugged(part: Path, *commands: str) -> list[str]:
     """What each command brings, one session for all of them."""
-    done = subprocess.run([SKG80, "--rom", ROM, "--debug", part], input="\n".join([*commands, ""]), timeout=120,
+    done = subprocess.run([SKG80, "--rom", ROM, "--debug", part], input="\n".join([*commands, ""]),
                           capture_output=True, text=True)  # fmt: skip
     assert done.returncode == 0
     text = done.stderr.replace("\r\n", "\n")
@@ -121,7 +121,7 @@ def test_constants_and_registers_have_their_values_and_places(nothing: Path) -> 
 def traced(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[str], str]:
     """The trace of an example, line by line, and what --stats says; the tape is what it should be."""
     path = tmp_path_factory.mktemp("trace") / "trace"
-    done = subprocess.run([SKG80, "--rom", ROM, "--stats", "--trace", path, EXAMPLE], capture_output=True, timeout=300)
+    done = subprocess.run([SKG80, "--rom", ROM, "--stats", "--trace", path, EXAMPLE], capture_output=True)
     assert done.returncode == 0
     assert done.stdout == EXAMPLE.with_suffix(".3b").read_bytes()
     return path.read_text().splitlines(), done.stderr.decode()
@@ -252,7 +252,7 @@ def test_all_breakpoints_of_a_run_are_reached(traced: tuple[list[str], str]) -> 
     wanted = sum(bool(re.match(r"\d+ \S+ PUTB1 ", line)) for line in traced[0])
     assert wanted == 3 * EXAMPLE.with_suffix(".3b").read_text().count("G"), "x, y and J of every block"
     done = subprocess.run([SKG80, "--rom", ROM, "--break", "PUTB1", EXAMPLE], input="continue\n" * (wanted + 5),
-                          capture_output=True, text=True, timeout=120)  # fmt: skip
+                          capture_output=True, text=True)  # fmt: skip
     assert len(re.findall(r"^\d+ \S+ PUTB1 ", done.stderr, re.M)) == wanted
     assert done.stdout.replace("\n", "\r\n").encode() == EXAMPLE.with_suffix(".3b").read_bytes()
 

@@ -29,14 +29,14 @@ def test_tape(part: Path) -> None:
 @pytest.mark.parametrize("name", ["xy-fig1-loop", "cad-tape", "plate-fillets", "skg09-link"])
 def test_skg80_punches_the_tape(name: str) -> None:
     part = ROOT / "examples" / f"{name}.skg"
-    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=60)
+    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout == part.with_suffix(".3b").read_bytes()
 
 
 def test_skg80_lists_the_blocks_on_the_paper() -> None:
     part = ROOT / "examples" / "xy-fig1-loop.skg"
-    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=60)
+    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True)
     listed = re.findall(r"^(\d{4} B\S+|DD?)\r$", done.stderr.decode(), re.M)
     *blocks, end = part.with_suffix(".3b").read_text().split()
     assert listed == [*(f"{n:04d} {block}" for n, block in enumerate(blocks, start=1)), end]
@@ -45,7 +45,7 @@ def test_skg80_lists_the_blocks_on_the_paper() -> None:
 def test_skg80_says_that_a_run_ended_in_err(tmp_path: Path) -> None:
     part = tmp_path / "wrong.skg"
     part.write_text("10 A=1/0\n")
-    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=60)
+    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True)
     assert (done.returncode, done.stdout) == (1, b"")
     assert "ERR 05 LINE 10" in done.stderr.decode()
 
@@ -53,5 +53,5 @@ def test_skg80_says_that_a_run_ended_in_err(tmp_path: Path) -> None:
 def test_skg80_takes_an_empty_file_for_an_empty_program(tmp_path: Path) -> None:
     part = tmp_path / "empty.skg"
     part.write_text("")
-    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True, timeout=60)
+    done = subprocess.run([ROOT / "build" / "skg80", "--rom", ROM, part], capture_output=True)
     assert (done.returncode, done.stdout) == (0, b"DD\r\n")

@@ -40,7 +40,7 @@ def run_program() -> Callable[..., subprocess.CompletedProcess[str]]:
 
     def call(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[str]:
         program = Path(sys.executable).with_name("skg")
-        return subprocess.run([program, *map(str, arguments)], input=stdin, capture_output=True, text=True, timeout=60)
+        return subprocess.run([program, *map(str, arguments)], input=stdin, capture_output=True, text=True)
 
     return call
 

@@ -38,7 +38,6 @@ def printed(command: str, folder: Path = ROOT) -> str:
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
-        timeout=60,
     )
     return done.stdout
 

@@ -85,7 +85,7 @@ def skg(user: Path) -> Shell:
 
     def call(*words: object, program: str = "skg") -> subprocess.CompletedProcess[str]:
         command = [str(user / "env" / "bin" / program), *map(str, words)]
-        return subprocess.run(command, cwd=cwd, env=variables, capture_output=True, text=True, timeout=60)
+        return subprocess.run(command, cwd=cwd, env=variables, capture_output=True, text=True)
 
     return call
 

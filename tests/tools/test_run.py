@@ -26,7 +26,7 @@ def built(build: Callable[..., None]) -> None:
 
 
 def by_skg80(*words: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([SKG80, *map(str, words)], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    return subprocess.run([SKG80, *map(str, words)], cwd=ROOT, capture_output=True, text=True)
 
 
 def same(ours: subprocess.CompletedProcess[str], theirs: subprocess.CompletedProcess[str], part: object) -> None:

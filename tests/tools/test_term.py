@@ -151,9 +151,7 @@ def machine(tmp_path: Path) -> Iterator[Machine]:
 
 
 def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run(
-        [SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True, timeout=PATIENCE
-    )
+    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True)
 
 
 def test_sends_and_records(machine: Machine, tmp_path: Path) -> None:
@@ -250,7 +248,7 @@ def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:
     os.write(outer, b"PRINT 2\r")
     read_until(outer, b"PRINT 2\r\n>")
     os.write(outer, b"\x1d")
-    assert process.wait(timeout=PATIENCE) == 0
+    assert process.wait() == 0
     assert machine.lines == ["NEW", *PROGRAM.splitlines()[:2], "PRINT 2"]
     for descriptor in (inner, outer):
         os.close(descriptor)
@@ -306,7 +304,7 @@ def test_punch_on_a_port_of_its_own(machine: Machine, tmp_path: Path) -> None:
     )
     machine.greet(process)
     os.write(punch.master, CAD_TAPE)
-    process.communicate(timeout=PATIENCE)
+    process.communicate()
     punch.stop()
     assert process.returncode == 0
     assert tape.read_bytes() == CAD_TAPE
@@ -329,7 +327,7 @@ def test_survives_the_port_going_away(machine: Machine, tmp_path: Path) -> None:
     time.sleep(0.7)
     assert process.poll() is None
     machine.plug()
-    errors = process.communicate(timeout=PATIENCE)[1].decode()
+    errors = process.communicate()[1].decode()
     assert process.returncode == 0, errors
     assert "went away" in errors
     assert "is back" in errors
@@ -348,7 +346,7 @@ def test_gives_up(machine: Machine) -> None:
     )
     machine.greet(process)
     machine.unplug()
-    errors = process.communicate(timeout=PATIENCE)[1].decode()
+    errors = process.communicate()[1].decode()
     assert process.returncode == 2
     assert errors.splitlines()[-1] == f"skg: {machine.link}: no such file or directory, given up"
 
@@ -378,7 +376,7 @@ def test_in_a_terminal(machine: Machine) -> None:
     os.write(outer, b"PRINT 2\r")
     read_until(outer, b"PRINT 2\r\n>")
     os.write(outer, b"\x1d")
-    assert process.wait(timeout=PATIENCE) == 0
+    assert process.wait() == 0
     assert machine.lines == ["PRINT 2"]
     for descriptor in (inner, outer):
         os.close(descriptor)
@@ -392,7 +390,7 @@ def test_the_terminal_goes_away(machine: Machine) -> None:
     for descriptor in (inner, outer):
         os.close(descriptor)
     try:
-        assert process.communicate(timeout=PATIENCE)[1] == b""
+        assert process.communicate()[1] == b""
     finally:
         process.kill()
     assert process.returncode == 0
@@ -408,7 +406,7 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
     while not machine.lines:
         time.sleep(0.01)
     os.write(outer, b"\x03")
-    assert process.communicate(timeout=PATIENCE)[1].decode().splitlines()[-1].strip() == "skg term: broken off"
+    assert process.communicate()[1].decode().splitlines()[-1].strip() == "skg term: broken off"
     assert process.returncode == 1
     for descriptor in (inner, outer):
         os.close(descriptor)

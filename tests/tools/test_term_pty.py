@@ -49,7 +49,7 @@ class Emulator:
         """Switch it off; its pseudo-terminal goes with it."""
         self.link.unlink()
         self.process.terminate()
-        self.process.wait(timeout=60)
+        self.process.wait()
         assert self.process.stdout
         self.process.stdout.close()
 
@@ -66,7 +66,7 @@ def emulator(directory: Path, rom: str = "skg", *options: str) -> Iterator[Emula
 
 
 def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True, timeout=60)
+    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True)
 
 
 @pytest.mark.parametrize("name", PARTS)
@@ -122,7 +122,7 @@ def test_the_machine_goes_away_and_comes_back(tmp_path: Path) -> None:
         time.sleep(0.7)
         assert sender.poll() is None
         machine.plug()
-        paper, errors = sender.communicate(timeout=60)
+        paper, errors = sender.communicate()
         assert sender.returncode == 0, errors
         assert b"went away" in errors and b"is back" in errors
         assert paper.rstrip(b">").endswith(b"399 REM LINE\r\n")
@@ -281,9 +281,7 @@ def test_paper_that_nobody_takes(output: str, code: int, tmp_path: Path) -> None
     with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
         words = f'"$@" {output}'
         command = [SKG, "term", machine.link, "--send", part, "--run", "--batch", "--record", tape]
-        done = subprocess.run(
-            ["bash", "-o", "pipefail", "-c", words, "bash", *command], capture_output=True, text=True, timeout=60
-        )
+        done = subprocess.run(["bash", "-o", "pipefail", "-c", words, "bash", *command], capture_output=True, text=True)
     assert done.returncode == code, done.stderr
     assert "Traceback" not in done.stderr
     if code:
@@ -324,7 +322,7 @@ def test_the_port_goes_away_while_a_tape_is_made(tmp_path: Path) -> None:
                 seen += sender.stdout.read1(4096)
             machine.unplug()
             machine.plug()
-            errors = sender.communicate(timeout=60)[1]
+            errors = sender.communicate()[1]
         assert sender.returncode == (0 if numbered else 1), errors
         if numbered:
             assert b"sent again from its first line" in errors

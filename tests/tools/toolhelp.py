@@ -12,7 +12,7 @@ from click.testing import Result
 
 ROOT = Path(__file__).parents[2]
 #: Seconds; only what hangs takes so long, on a busy machine too.
-PATIENCE = 120
+PATIENCE = 600
 
 T = TypeVar("T")
 
