@@ -28,11 +28,8 @@ export const CATALOGUE: readonly Group[] = [
         "改一个过渡圆：第 180 行 P5 后面的 8。",
       ]),
       part("wrench", "Wrench", "扳手", ["Change the hexagon: line 50, the 8.5.", "改六角孔：第 50 行的 8.5。"]),
-      part("fit-gear", "Spur gear, 20 teeth", "直齿轮，20 齿", [
-        "Change the bore of the tooth gaps: line 60, the 17.5.",
-        "改齿根圆：第 60 行的 17.5。",
-      ]),
-      part("fit-cam", "Disc cam", "盘形凸轮", ["Change the lift: line 80, the 4.", "改升程：第 80 行的 4。"]),
+      part("set-gear", "Spur gear", "直齿轮", ["Move the sliders: module and teeth.", "拖动滑块：模数和齿数。"]),
+      part("set-cam", "Disc cam", "盘形凸轮", ["Move the sliders: lift and base radius.", "拖动滑块：升程和基圆半径。"]),
     ],
   },
   {
@@ -67,6 +64,8 @@ export const CATALOGUE: readonly Group[] = [
     title: ["Curves", "曲线"],
     parts: [
       part("fit-ellipse", "Ellipse", "椭圆"),
+      part("fit-gear", "Spur gear, 20 teeth", "直齿轮，20 齿"),
+      part("fit-cam", "Disc cam, two passes", "盘形凸轮，两次切割"),
       part("fit-parabola", "Parabolic mirror", "抛物面镜"),
       part("fit-cycloid", "Cycloid", "摆线"),
       part("fit-epicycloid", "Epicycloid of five arches", "五瓣外摆线"),

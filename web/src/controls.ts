@@ -66,7 +66,11 @@ function bindKeys({ session }: Workbench): void {
   }
 }
 
-function bindDrawing({ pictures: { drawing } }: Workbench): void {
+function bindDrawing({
+  stage: {
+    pictures: { drawing },
+  },
+}: Workbench): void {
   onClick("fit", () => drawing.fit());
   onClick("closer", () => drawing.zoom(1.5));
   onClick("farther", () => drawing.zoom(1 / 1.5));

@@ -62,6 +62,8 @@ export class Drawing {
   #pixels = 1;
   #size: XY = [300, 200];
   #since = ARROWS;
+  /** Where arrow heads are drawn already. */
+  readonly #heads = new Set<number>();
   readonly #pointers = new Map<number, XY>();
   #moved = false;
   #grid = false;
@@ -215,6 +217,7 @@ export class Drawing {
       this.#needsAll = false;
       this.#drawn = 0;
       this.#since = ARROWS;
+      this.#heads.clear();
       if (this.#grid) this.#gridLines(context);
       this.#rulers(context);
       this.#marks(context);
@@ -339,6 +342,9 @@ export class Drawing {
       if (this.#since < ARROWS || length < 14) continue;
       this.#since = 0;
       const [x, y] = this.view.toPixel(placeAt(placed, 0.5));
+      const cell = Math.round(x / 8) * 65536 + Math.round(y / 8);
+      if (this.#heads.has(cell) || this.#heads.size > MARKS) continue;
+      this.#heads.add(cell);
       const way = -directionAt(placed, 0.5);
       const heads = placed.role === "cut" ? cut : leads;
       heads.moveTo(x + 7 * Math.cos(way), y + 7 * Math.sin(way));

@@ -14,7 +14,7 @@ import { type Everything, type Settings, Store } from "./store.ts";
 import { Teletype } from "./teletype.ts";
 import { isUpdated } from "./update.ts";
 import { Workbench } from "./workbench.ts";
-import { isSame, showWorks, Works } from "./works.ts";
+import { isAlike, showWorks, Works } from "./works.ts";
 
 const WIRE = 0.18;
 /** What a first visit shows. */
@@ -43,7 +43,7 @@ const settings: Settings = {
 
 const works = new Works(
   isEmbedded ? { works: [] } : store,
-  (program) => opening.parts.some((part) => isSame(part.program, program)),
+  (program) => opening.parts.some((part) => isAlike(part.program, program)),
   tellWorks,
 );
 const bench = new Workbench({
@@ -51,7 +51,6 @@ const bench = new Workbench({
   isAuto: () => settings.auto,
   openManual,
   showDrawing: () => view("drawing"),
-  changed: () => undefined,
 });
 const teletype = new Teletype(get("terminal"), { type: (text) => session.type(text), press: (key) => session.press(key) }, "");
 let isSaid: Word | undefined;
@@ -63,6 +62,7 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
     before = program;
   },
   error: (number, line) => bench.error(number, line),
+  strange: (character) => say("notAscii", character),
   failed: (why) => {
     say("noMachine", why);
     for (const id of ["run", "reset", "send"]) get<HTMLButtonElement>(id).disabled = true;
@@ -81,8 +81,8 @@ get("manual").addEventListener("click", (event) => {
 
 /** Where something is asked, the keys go there. */
 function showState(state: State): void {
-  if (state === "prompt") bench.recording.leave(false);
-  if (state === "prompt" && !isEmbedded) store.tape = bench.recording.kept;
+  if (state === "prompt") bench.stage.recording.leave(false);
+  if (state === "prompt" && !isEmbedded) store.tape = bench.stage.recording.kept;
   const word = STATES[state];
   get("run").textContent = t(session.isRunning ? "stop" : "run");
   if (word === isSaid) return;
@@ -119,7 +119,10 @@ menu.onLanguage = () => {
 };
 
 function tellParts(): void {
-  showParts(get("part-list"), opening.parts, (part) => opening.part(part));
+  showParts(get("part-list"), opening.parts, (part) => {
+    get("welcome").hidden = true;
+    opening.part(part);
+  });
 }
 
 /** Another tab has the machine that is kept. */
@@ -146,14 +149,17 @@ async function begin(): Promise<void> {
   if (!session.start(settings.speed, last, readImages())) say("badKept");
   if (last?.draft !== undefined) bench.editor.text = last.draft;
   const tape = last && store.tape;
-  if (tape) bench.show(tape);
+  if (tape) {
+    bench.name = tape.made.name;
+    bench.stage.show(tape);
+  }
   if (isEmbedded) {
     const full = get<HTMLAnchorElement>("full");
     full.hidden = false;
     full.href = location.href.replace(/&embed\b/, "");
   }
   const walking = readWalk().then(
-    (module) => bench.pictures.startWalk(module),
+    (module) => bench.stage.pictures.startWalk(module),
     (error: unknown) => say("noWalk", String(error)),
   );
   await Promise.all([reading, walking]);

@@ -72,13 +72,9 @@ export class Opening {
       return;
     }
     const { tape, placer } = read;
-    const { recording, pictures, chooser } = this.#bench;
-    recording.open(tape.items, placer, name.replace(/\.\w+$/, ""), !tape.hasNoEnd);
-    chooser.choose(undefined);
-    pictures.isStale = false;
-    pictures.begin();
-    pictures.grown(true);
-    const said = t(tape.isForeign ? "tapeForeign" : "tapeRead", name, recording.layout.blocks.length);
+    const { stage } = this.#bench;
+    stage.open(tape.items, placer, name.replace(/\.\w+$/, ""), !tape.hasNoEnd);
+    const said = t(tape.isForeign ? "tapeForeign" : "tapeRead", name, stage.recording.layout.blocks.length);
     show(said + (tape.hasNoEnd ? t("tapeNoEnd") : ""));
   }
 
@@ -86,9 +82,6 @@ export class Opening {
   async saved(tape: string): Promise<void> {
     const read = tape ? await readWhole("saved", tape) : undefined;
     if (!read || "why" in read) return;
-    const { recording, pictures } = this.#bench;
-    recording.open(read.tape.items, read.placer, this.#bench.name, !read.tape.hasNoEnd);
-    pictures.begin();
-    pictures.grown(true);
+    this.#bench.stage.open(read.tape.items, read.placer, this.#bench.name, !read.tape.hasNoEnd);
   }
 }

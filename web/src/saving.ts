@@ -9,13 +9,14 @@ import type { Everything, Settings } from "./store.ts";
 import { svgText } from "./svg.ts";
 import type { Workbench } from "./workbench.ts";
 
-export function everything({ session, recording }: Workbench, settings: Settings): Everything {
+export function everything({ session, stage: { recording } }: Workbench, settings: Settings): Everything {
   return { format: "skg-page", version: 1, kept: session.kept, settings: { ...settings }, tape: recording.text };
 }
 
 /** Saves one kind of file. A tape without its end, or of another program than the one that is seen, is asked for first. */
 export async function save(kind: string, bench: Workbench, settings: Settings): Promise<void> {
-  const { recording, editor, name } = bench;
+  const { editor, name } = bench;
+  const { recording } = bench.stage;
   const { layout, made, isWhole } = recording;
   if (kind === "json") {
     saveFile(`${name}.json`, JSON.stringify(everything(bench, settings)));

@@ -15,6 +15,8 @@ export interface Hooks {
   /** An ERR on the paper; line 0: of a command. */
   error(number: string, line: number): void;
   failed(why: string): void;
+  /** Something was typed that the machine has no character for. */
+  strange(character: string): void;
 }
 
 export class Session {
@@ -110,8 +112,11 @@ export class Session {
     this.#machine.press(CTRL_C);
   }
 
+  /** Types at the machine's pace; a character that it has not is left out, and said. */
   type(text: string): void {
-    this.#machine.type(text);
+    const strange = /[^\x00-\x7f]/u.exec(text)?.[0];
+    if (strange !== undefined) this.#hooks.strange(strange);
+    this.#machine.type(text.replace(/[^\x00-\x7f]/gu, ""));
   }
 
   press(key: number): void {

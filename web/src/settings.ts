@@ -52,7 +52,8 @@ export class SettingsMenu {
     for (const id of ["auto", "grid"] as const) get<HTMLInputElement>(id).checked = settings[id];
     get<HTMLInputElement>("wire").value = String(settings.wire);
     this.#bench.session.speed(settings.speed);
-    const { pictures, editor } = this.#bench;
+    const { editor } = this.#bench;
+    const { pictures } = this.#bench.stage;
     pictures.drawing.wireWidth = settings.wire;
     pictures.drawing.grid = settings.grid;
     speak(settings.language as Language, document);
@@ -69,7 +70,7 @@ export class SettingsMenu {
     document.documentElement.dataset["theme"] = isDark ? "dark" : "light";
     const style = getComputedStyle(document.documentElement);
     const colour = (name: string): string => style.getPropertyValue(`--${name}`).trim();
-    const { pictures } = this.#bench;
+    const { pictures } = this.#bench.stage;
     pictures.drawing.colours = {
       wire: colour("wire"),
       lead: colour("lead"),

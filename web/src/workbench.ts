@@ -1,15 +1,14 @@
 /** The program's text, the machine that runs it, and the tape that comes of it: what belongs together between them. */
 import type { Punched } from "./board.ts";
-import { Chooser } from "./choice.ts";
 import { get } from "./dom.ts";
 import { Editor } from "./editor.ts";
 import { isWord, t, type Word } from "./language.ts";
 import { hide, say, show } from "./message.ts";
 import { parametersOf, showParameters, withValue } from "./parameters.ts";
-import { Pictures } from "./pictures.ts";
 import { Proof } from "./proof.ts";
-import { type KeptTape, type Maker, Recording } from "./recording.ts";
+import type { Maker } from "./recording.ts";
 import type { Session } from "./session.ts";
+import { Stage } from "./stage.ts";
 import { isSame, type Works } from "./works.ts";
 
 /** The editor's text is tried, and run where that is wanted, so long after the last key, ms. */
@@ -25,13 +24,10 @@ export interface Surroundings {
   openManual(heading: string): void;
   /** The drawing is to be seen. */
   showDrawing(): void;
-  changed(): void;
 }
 
 export class Workbench {
-  readonly chooser = new Chooser();
-  readonly recording = new Recording();
-  readonly pictures = new Pictures(this.chooser, this.recording);
+  readonly stage = new Stage();
   readonly editor: Editor;
   readonly #around: Surroundings;
   readonly #proof: Proof;
@@ -45,7 +41,7 @@ export class Workbench {
 
   constructor(around: Surroundings) {
     this.#around = around;
-    this.editor = new Editor(get("lines"), this.chooser, () => this.recording.layout, {
+    this.editor = new Editor(get("lines"), this.stage.chooser, () => this.stage.recording.layout, {
       changed: () => this.#edited(),
       run: () => void this.run(),
     });
@@ -59,40 +55,25 @@ export class Workbench {
   #maker = (): Maker => ({ name: this.name, program: this.#sent ?? this.session.program });
 
   punched(punched: readonly Punched[]): void {
-    const again = this.recording.take(punched, this.#maker, () => {
-      this.chooser.choose(undefined);
-      this.pictures.begin();
+    this.stage.pictures.isStale = this.isStale;
+    this.stage.punched(punched, this.#maker, () => {
+      this.stage.pictures.isStale = this.isStale;
       this.editor.marks = [];
     });
-    this.pictures.isStale = this.isStale;
-    this.pictures.grown(again);
-  }
-
-  /** Shows the tape of the last visit. */
-  show({ made, lines }: KeptTape): void {
-    this.name = made.name;
-    this.recording.clear(made);
-    this.recording.take(
-      lines,
-      () => made,
-      () => undefined,
-    );
-    this.pictures.begin();
-    this.pictures.grown(true);
   }
 
   /** What is drawn was made by another program than the one that is seen. */
   get isStale(): boolean {
-    const { made } = this.recording;
-    return made.program !== undefined && !isSame(made.program, this.editor.text);
+    return this.stage.isOther(this.editor.text);
   }
 
   /** The machine tells its program: the editor shows it, unless it holds a text that the machine has not. */
   memory(program: string, before: string): void {
-    if (this.recording.isFresh) this.recording.made = { ...this.recording.made, program };
-    this.recording.isFresh = false;
+    // (in the middle of a long LOAD it has a part of it alone)
+    if (this.#sent !== undefined && !hasLinesOf(program, this.#sent) && this.session.isRunning) return;
+    this.stage.tell(program);
     const isSent = this.#sent !== undefined && isSame(this.#sent, this.editor.text);
-    if (isSent || isSame(before, this.editor.text)) this.editor.text = program;
+    if (isSent ? hasLinesOf(program, this.editor.text) : isSame(before, this.editor.text)) this.editor.text = program;
     this.#sent = undefined;
     this.#around.works.keep(program);
     if (!program) this.name = "part"; // (NEW at the teletype)
@@ -104,9 +85,8 @@ export class Workbench {
     get("revert").hidden = !this.isDirty;
     showParameters(get("parameters"), parametersOf(this.editor.text), (at, value) => this.#set(at, value));
     get("no-program").hidden = this.editor.text !== "";
-    this.pictures.isStale = this.isStale;
-    this.pictures.say();
-    this.#around.changed();
+    this.stage.pictures.isStale = this.isStale;
+    this.stage.pictures.say();
   }
 
   /** A parameter has another value: the part is cut anew after a moment. */
@@ -150,7 +130,7 @@ export class Workbench {
 
   #send(run: boolean): void {
     this.#sent = this.editor.text;
-    this.recording.leave(this.session.isRunning);
+    this.stage.recording.leave(this.session.isRunning);
     this.session.load(this.#sent, run);
   }
 
@@ -166,10 +146,7 @@ export class Workbench {
     this.isByHand = run;
     this.editor.text = text;
     this.editor.marks = [];
-    this.recording.leave(this.session.isRunning);
-    this.recording.clear(this.#maker());
-    this.chooser.choose(undefined);
-    this.pictures.begin();
+    this.stage.clear(this.#maker(), this.session.isRunning);
     if (!isSound && !(await this.#proof.check(this.session, true))) {
       this.refresh();
       say("notTaken");
@@ -194,4 +171,12 @@ export class Workbench {
     if (line && !this.isDirty) this.#proof.ended(number, line);
     show(t(line ? "endedLine" : "ended", number, t(word as Word), line || ""));
   }
+}
+
+/** The machine's program has all the lines of a text. */
+function hasLinesOf(program: string, text: string): boolean {
+  const numbers = (lines: string): string[] =>
+    [...lines.matchAll(/^\s*(\d+)[ \t]*\S/gm)].map(([, number]) => String(Number(number)));
+  const there = new Set(numbers(program));
+  return numbers(text).every((number) => there.has(number));
 }

@@ -23,6 +23,12 @@ export function titleOf(program: string): string {
 
 export const isSame = (a: string, b: string): boolean => a.replace(/\s/g, "") === b.replace(/\s/g, "");
 
+/** The same but for digits that the machine's numbers have not: as it lists a program that was loaded. */
+export const isAlike = (a: string, b: string): boolean => isSame(rounded(a), rounded(b));
+
+const rounded = (program: string): string =>
+  program.replace(/\d*\.\d+/g, (number) => String(Number(Number(number).toPrecision(8))));
+
 /** A change of the same program keeps half of its lines; what keeps fewer is another program. */
 function isChangeOf(before: string, after: string): boolean {
   const lines = before.split("\n").filter(Boolean);

@@ -1145,4 +1145,23 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     assert.deepEqual(said, []);
     await context.close();
   });
+
+  test("numbers to set: a slider cuts the part anew, and the program is plain SKG", async () => {
+    const { page, context, said } = await visit();
+    await runPart(page, "set-gear");
+    assert.equal(await saved(page, "3b"), readFileSync("examples/set-gear.3b", "latin1"));
+    assert.equal(await page.isVisible("#works"), false, "an example is none of the visitor's programs, however it is listed");
+    const teeth = page.locator("#parameters input[type=range]").nth(1);
+    assert.equal(await teeth.getAttribute("aria-label"), "teeth");
+    assert.equal(await teeth.inputValue(), "16");
+    await teeth.focus();
+    for (let more = 0; more < 4; more++) await page.keyboard.press("ArrowRight");
+    await page.waitForFunction(() => /50 I1=20/.test(document.querySelector(".cm-content")?.textContent ?? ""));
+    await wholeTape(page, 603); // (as the gear of 20 teeth in the field below)
+    await says(page, "#made", "set-gear");
+    assert.equal(await page.evaluate(() => (document.activeElement as HTMLInputElement).type), "range");
+    assert.match(await saved(page, "skg"), /^50 I1=20$/m);
+    assert.deepEqual(said, []);
+    await context.close();
+  });
 });

@@ -131,4 +131,37 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
     assert.equal(rate.draws, 60);
     await page.close();
   });
+
+  test("a first visit is cut; a typo marks its line, and the machine keeps its program; one's own programs are kept", async () => {
+    const page = await visit("#part=wrench&run");
+    await until(page, "cut", async () => /^29 blocks · [\d.]+ mm$/.test(await sum(page)));
+    await page.click("#lines .cm-line:nth-child(3)");
+    await page.keyboard.press("Home");
+    await page.keyboard.down("Shift");
+    await page.keyboard.press("End");
+    await page.keyboard.up("Shift");
+    await page.keyboard.type("30 FRAM O");
+    const text = (selector: string) => page.$eval(selector, (element) => element.textContent ?? "").catch(() => "");
+    await until(page, "marked", async () => /ERR 01/.test(await text("#lines .fault")));
+    await page.keyboard.down("Control");
+    await page.keyboard.press("Enter");
+    await page.keyboard.up("Control");
+    await until(page, "said", async () => /machine keeps its program/.test(await text("#message span")));
+    await page.reload();
+    await page.waitForSelector("body[data-ready]");
+    await until(page, "text kept", async () => (await text("#lines .cm-line:nth-child(3)")) === "30 FRAM O");
+    await page.click('[data-part="die"]');
+    await until(page, "in the list", async () => /A wrench/.test(await text(".work b")));
+    await page.close();
+  });
+
+  test("one file, from a double click", async () => {
+    const page = await browser.newPage();
+    await page.setViewport({ width: 1400, height: 900 });
+    await page.goto(`file://${process.cwd()}/web/dist/skg.html`);
+    await page.waitForSelector("body[data-ready]");
+    await page.click('[data-part="die"]');
+    await until(page, "cut", async () => /^\d+ blocks · [\d.]+ mm$/.test(await sum(page)));
+    await page.close();
+  });
 });

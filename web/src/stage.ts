@@ -1,0 +1,64 @@
+/** The tape that is shown and its pictures: one at a time, the machine's, a file's, or that of the last visit. */
+import type { Punched } from "./board.ts";
+import { Chooser } from "./choice.ts";
+import { Pictures } from "./pictures.ts";
+import type { Placer } from "./placed.ts";
+import { type KeptTape, type Maker, Recording } from "./recording.ts";
+import type { Item } from "./tape.ts";
+import { isSame } from "./works.ts";
+
+export class Stage {
+  readonly chooser = new Chooser();
+  readonly recording = new Recording();
+  readonly pictures = new Pictures(this.chooser, this.recording);
+
+  /** Nothing, until `made` punches; what a run that is broken off still punches is left out. */
+  clear(made: Maker, isLeaving: boolean): void {
+    this.recording.leave(isLeaving);
+    this.recording.clear(made);
+    this.#begin();
+  }
+
+  /** Takes what the machine punches; `begun` is called for each tape that begins. */
+  punched(punched: readonly Punched[], maker: () => Maker, begun: () => void): void {
+    const again = this.recording.take(punched, maker, () => {
+      this.#begin();
+      begun();
+    });
+    this.pictures.grown(again);
+  }
+
+  /** Shows a tape from a file. */
+  open(items: readonly Item[], placer: Placer, name: string, isWhole: boolean): void {
+    this.recording.open(items, placer, name, isWhole);
+    this.pictures.isStale = false;
+    this.#begin();
+    this.pictures.grown(true);
+  }
+
+  /** Shows the tape of the last visit. */
+  show({ made, lines }: KeptTape): void {
+    this.recording.clear(made);
+    const begun = (): void => undefined;
+    this.recording.take(lines, () => made, begun);
+    this.#begin();
+    this.pictures.grown(true);
+  }
+
+  /** The machine has told its program: it is that of the run that began last. */
+  tell(program: string): void {
+    if (this.recording.isFresh) this.recording.made = { ...this.recording.made, program };
+    this.recording.isFresh = false;
+  }
+
+  /** It was made by another program than this one. */
+  isOther(text: string): boolean {
+    const { program } = this.recording.made;
+    return program !== undefined && !isSame(program, text);
+  }
+
+  #begin(): void {
+    this.chooser.choose(undefined);
+    this.pictures.begin();
+  }
+}
