@@ -308,3 +308,11 @@ def test_every_command_says_what_is_given_up(run_program: Program, tmp_path: Pat
         done = run_program(*words, part)
         assert done.returncode == 0
         assert done.stderr.count("given up by line 3") == 1, words
+
+
+def test_a_broken_run_leaves_its_tape_without_an_end(run_program: Program, tmp_path: Path) -> None:
+    part, tape = tmp_path / "part.skg", tmp_path / "part.3b"
+    part.write_text("10 FROM O\n20 CUT (10,0);(10,10)\n30 CUT (20,10);(20,20)\n40 CUT X,(5,5):1\n50 BACK\n60 END\n")
+    assert run_program("run", part, "-o", tape).returncode == 1
+    lines = tape.read_bytes().split()
+    assert len(lines) > 2 and lines[-1] == b"D" and b"DD" not in lines

@@ -23,7 +23,8 @@ export function recognize(name: string, bytes: Uint8Array): Found {
   const refuse = (why: Word, ...values: (string | number)[]): Found => ({ kind: "refused", why, values: [name, ...values] });
   const large = tooLarge(name, bytes.length);
   if (large) return large;
-  if (/\.(dxf|dwg)$/i.test(name)) return refuse("noDxf");
+  if (/\.(dxf|dwg|svg)$/i.test(name)) return refuse("noDxf");
+  if (/\.(nc|iso|ngc|gcode|cnc|tap)$/i.test(name)) return refuse("noIso");
   if (/\.(xy|tkh)$/i.test(name)) return refuse("noXy");
   if (!bytes.length) return refuse("badEmpty");
   const text = new TextDecoder("latin1").decode(bytes);

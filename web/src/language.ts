@@ -116,6 +116,10 @@ const WORDS = {
     "Drawings are not opened here: skg cut --program makes a program of {0}.",
     "此处不能打开图纸：请用 skg cut --program 将 {0} 转成程序。",
   ],
+  noIso: [
+    "G-code is not opened here: skg gcode --back makes a tape of {0}.",
+    "此处不能打开 G 代码：请用 skg gcode --back 将 {0} 转成纸带。",
+  ],
   noXy: [
     "{0} is in another language, which the page does not translate: skg xy and skg tekhtran do.",
     "{0} 是另一种语言，本页不翻译：请用 skg xy 或 skg tekhtran。",

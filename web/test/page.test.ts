@@ -57,6 +57,8 @@ test("files are what they are", () => {
     ["a.png", "\x89PNG\r\n\x1a\n", "badKind"],
     ["a.txt", "hello", "badKind"],
     ["a.dxf", "0\nSECTION", "noDxf"],
+    ["a.svg", "<svg/>", "noDxf"],
+    ["a.NC", "N1G17", "noIso"],
     ["a.xy", "(+)D(0,0)", "noXy"],
     ["a.tkh", "x", "noXy"],
     ["a.json", "{}", "badSaved"],
