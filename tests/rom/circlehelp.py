@@ -87,6 +87,8 @@ def solutions(elements: list[Element]) -> list[Circle] | None:
         q = -b - (1 if b >= 0 else -1) * sqrt(max(under, mpf(0)))
         found: list[Circle] = []
         for s, t in ((q, a), (c, q)):
+            if max(abs(s), abs(t)) ** 2 < NOTHING:  # that one is the other
+                continue
             x, y, r, _, one = (s * each + t * other for each, other in zip(u, v, strict=True))
             if abs(one) * LINE > max(abs(x), abs(y), abs(r)):
                 circle = (x / one, y / one, r / one)
