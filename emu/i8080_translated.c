@@ -1,7 +1,7 @@
 /* A program in ROM as C: its i8080_translation is called NAME, and ROWS is the file that translate.c has written of it.
  *
- * A row is an instruction with its operand, and does what the table (i8080_ops.h) says. So the compiler sees which flags
- * nobody asks for, and where a jump goes. Rows stand in blocks, which are entered at their tops alone:
+ * A row is an instruction with its operand; the table (i8080_ops.h) says what it does. The compiler sees which flags
+ * are never read, and where a jump goes. Rows stand in blocks, which are entered at their tops alone:
  *
  *      BLOCK(at, cycles, count)                                a block of so many instructions begins; an entry
  *      STEP(at, length, op, operand, cycles, count)            an instruction; cycles and count: of the block, from it on
@@ -9,9 +9,8 @@
  *      ON_TO(at)                                               the block is over, and goes on with that one
  *      ELSEWHERE(at)                                           what there is at an address was not translated
  *
- * A block takes all its cycles from `left` at its top, as if no jump were taken, and is not begun when the slice might be
- * over in its middle; who leaves it earlier gives back the rest. Whatever is rare, and what is not here, is left to the
- * fast loop: run() comes back in front of that instruction.
+ * A block is charged at entry, as if no jump were taken; an early exit refunds the rest. A block that may outlast the slice is
+ * not entered. Before rare instructions, and before what was not translated, run() returns to the fast loop.
  */
 #include "i8080.h"
 #include "i8080_words.h"
@@ -29,7 +28,8 @@
         goto away;                          \
     } while (0)
 
-/* A port sees the counts at the instruction's start. Where it wants to be looked at, the block is left behind it. */
+/* A port sees the counts at the instruction's start. If the port stops the run or raises an interrupt, leave the block
+ * after this instruction. */
 #undef IN
 #undef OUT
 #define PORT(access)                        \

@@ -2,8 +2,8 @@
  *
  *      translate ROM.bin PART...
  *
- * Which bytes of a ROM are instructions nobody can tell by looking. So the board LOADs each part and RUNs it: what it
- * fetches is an instruction, and so is what follows one or is jumped to. Behind a CALL or RST that holds only where
+ * A ROM does not show which of its bytes are instructions. So the board LOADs and RUNs each part: what it fetches is an
+ * instruction, and so is what follows one or is jumped to. Behind a CALL or RST that holds only where
  * somebody came back: there may be bytes that the subroutine reads.
  */
 #include "board.h"
