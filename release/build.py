@@ -101,6 +101,9 @@ def skg80(target: Target) -> Path:
     if "windows" in target.zig:
         sources = [source.replace("terminal_posix", "terminal_windows") for source in sources]
     rom = ["-DSKG80_BUILT_IN_ROM", '-DSKG80_ROM="roms/skg.bin"', '-DSKG80_SYM="roms/skg.sym"', "emu/rom.S"]
+    # (zig's cache does not see what .incbin takes in: another ROM is another command)
+    taken_in = b"".join((ROOT / "roms" / name).read_bytes() for name in ("skg.bin", "skg.sym"))
+    rom.append(f"-DTAKEN_IN={hashlib.sha256(taken_in).hexdigest()}")
     version = f'-DSKG80_VERSION="{VERSION}"'
     options = [*_listed("EMU_CFLAGS"), "-Werror", version]
     with tempfile.TemporaryDirectory(prefix="skg-skg80-") as folder:
