@@ -1,5 +1,5 @@
 ; decimal.asm - numbers as decimal digits: read, printed
-; Offers: DECOUT DECOU1 PRDEC DECIN LEXDEC TEN DIGIT LEXCH
+; Offers: DECOUT PRDEC DECIN LEXDEC TEN DIGIT LEXCH
 ; Uses:   calc consts float start
 ; Room:   454 bytes
 ;

@@ -1,6 +1,6 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
-; Uses:   cut decimal io io_6850 io_port io_punch monitor reset start tape value
+; Uses:   cut decimal io io_6850 io_port io_punch io_reader monitor reset start tape value
 ; Room:   685 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
@@ -201,7 +201,6 @@ SDRI1:  LXI     H,SDRI1         ; every character returns there
         IN      TTYST
         ANI     TXRDY           ; (no step waits for the teletype)
         CNZ     BDREAD
-        ANI     7FH
         RZ
         STA     DCHAR
         DB      PUTC
@@ -334,7 +333,7 @@ DSYN7:  DB      0,CZERO
 
 ; DSTEP - steps of the block in hand, until there is something else to see to
 ; In:  C = mask of J's low byte: what it leaves out is how long a slice may be, less 1
-; Out: Z: no block is in hand any more, A = 0; ERR 10 when the operator or bit 1 stops it: the steps to go are typed
+; Out: Z: no block is in hand any more, A = 0; ERR 10 when the operator or bit 1 stops it, HL-> KEYB
 ; Clobbers all
 DSTEP:  LHLD    DCOUNT
         MOV     A,H
@@ -364,11 +363,11 @@ DSTE2:  MVI     L,(DREST+3)&255
         ANA     M
         MOV     M,A
 DSTE3:  CALL    POLL
-        JZ      DSTE4           ; a break
+        JZ      BROKEN          ; (BDOFF puts the machine off)
         IN      DRIVE
         RAR
         RAR
-        JC      DSTE4           ; bit 1
+        JC      BROKEN          ; bit 1
         LXI     H,DHIGH
         ANA     M
         RM                      ; the clock is still high
@@ -397,32 +396,6 @@ DSTE3:  CALL    POLL
         MOV     M,B
         ORA     H               ; (not 0)
         RET
-DSTE4:  XRA     A
-        MOV     C,A             ; (no power of ten)
-        MOV     M,A             ; no key is typed ahead
-        OUT     DRIVE
-        CALL    CRLF
-        LHLD    DCOUNT
-        MOV     A,M             ; not 0, so that one less than the steps to go is made of two parts
-        CMA
-        MVI     L,(DREST+3)&255
-        ORA     M
-        DCR     L
-        MOV     B,M
-        DCR     L
-        MOV     E,M
-        DCR     L
-        MOV     D,M
-        MOV     H,B
-        MOV     L,A
-        INX     H
-        MOV     A,H
-        ORA     L
-        JNZ     DSTE5
-        INX     D
-DSTE5:  CALL    DECOU1
-        DB      ERROR,ETAPE
-
 ; DSTOP - the line begins with D: the end of the tape, or off, and a key comes before the next block
 ; Out: ERR 10   Clobbers all
 DSTOP:  CALL    DNEXT

@@ -33,6 +33,9 @@ CEOF    EQU 1AH         ; ctrl-Z, end of a program tape
 CBLANK  EQU 20H
 CQUOTE  EQU 22H
 CRUB    EQU 7FH
+;! (CXON & NOKEY) == 0 and (CXOFF & NOKEY) == 0 -- ctrl-Q and ctrl-S take no key's place
+NOKEY   EQU 0ECH        ; bits of a key that waits: of it, no other one may take the place
+CLOST   EQU 0BFH        ; a character has been lost here; it is printed as a question mark
 CLPAR   EQU 28H         ; (
 CRPAR   EQU 29H         ; )
 CCOMMA  EQU 2CH         ; ,
@@ -61,7 +64,6 @@ CLESS   EQU     3CH
 CGT     EQU     3EH
 CLBRK   EQU     5BH
 CLOWA   EQU     61H             ; a
-CBEL    EQU     07H
 CPOINT  EQU 2EH         ; .
 CPLUS   EQU 2BH         ; +
 CLTE    EQU 45H

@@ -26,8 +26,8 @@ class Image:
 
     map: str = "map_rom"
     restarts: bool = True
-    ports: tuple[str, ...] = ("io_6850", "io_port")
-    punch: tuple[str, ...] = ("io_punch", "io_ended")
+    ports: tuple[str, ...] = ("io_6850", "io_held", "io_tape")
+    punch: tuple[str, ...] = ("hold", "io_punch", "io_ended")
     start: tuple[str, ...] = ("reset", "keep")
     post: tuple[str, ...] = ("grid", "arc_3b", "tape")
     hold: str = "tol"
@@ -46,22 +46,41 @@ class Image:
     def for_cpm(self, tape: str) -> Image:
         """The same firmware as a program of CP/M; `tape` says of what type a tape's file is."""
         return replace(
-            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch=("io_disk",), start=("cpm",),
+            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch=("nohold", "io_disk"), start=("cpm",),
             more=(*self.more, tape), words=(*self.words, "cpm"), forms=(".com",),
         )  # fmt: skip
 
 
 #: The image that all others are variants of: it alone has a table of symbols, and its bytes are printed file by file.
 STANDARD = "skg"
-MILL = Image(post=("io_send", "grid", "arc_iso", "iso"), more=("mill",), words=("mill",))
+#: No handshake, where room is short.
+UNHELD = {
+    "ports": ("io_6850", "io_port"),
+    "punch": ("nohold", "io_punch", "io_reader", "io_ended"),
+}
+MILL = Image(
+    **UNHELD,
+    post=("io_send", "grid", "arc_iso", "iso"),
+    more=("mill",),
+    words=("mill",),
+)
 IMAGES = {
     STANDARD: Image(),
-    "skg-8251": Image(ports=("io_8251", "io_port")),
-    "skg-tty": Image(punch=("io_tty",)),
+    "skg-8251": Image(ports=("io_8251", "io_held", "io_tape")),
+    "skg-tty": Image(ports=("io_6850", "io_held", "io_key"), punch=("hold", "io_tty")),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
     "skg-mill": MILL,
-    "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")),
-    "skg-drive": Image(punch=("io_punch",), hold="notol", more=("drive",), words=("drive",), start=("reset", "keep_none")),
+    "skg-grbl": replace(
+        MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")
+    ),
+    "skg-drive": Image(
+        ports=UNHELD["ports"],
+        punch=("nohold", "io_punch", "io_reader"),
+        hold="notol",
+        more=("drive",),
+        words=("drive",),
+        start=("reset", "keep_none"),
+    ),
     "skg-ram": Image(forms=(".hex",)),
     "skg.com": Image().for_cpm("type_3b"),
     "skgmill.com": MILL.for_cpm("type_nc"),

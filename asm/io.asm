@@ -1,6 +1,6 @@
 ; io.asm - the teletype: what is printed, the keyboard
-; Offers: PUTC1 PAPON BREAK ERTAPE CRLF PUTSI PUTS PUT2D PUT1D
-; Uses:   io_cpm io_port start
+; Offers: PUTC1 PAPON BREAK BROKEN ERTAPE CRLF PUTSI PUTS PUT2D PUT1D
+; Uses:   io_cpm io_held io_port start
 ; Room:   73 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
@@ -17,10 +17,8 @@ PUTC1:  MOV     B,A
         JNZ     PUTC3
         DCR     M               ; (255 and more are all the same)
 PUTC3:  DCX     H
-        MOV     A,M             ; OUTSEL
-        MOV     C,A
-        ORA     A
-        CNZ     PAPER
+        MOV     C,M             ; OUTSEL
+        CALL    PAPER
         POP     B
         POP     H
         POP     PSW
@@ -37,7 +35,9 @@ PAPON:  MVI     A,2
 BREAK:  CALL    POLL
         CPI     CCTLC
         RNZ
-        MVI     M,0
+; BROKEN - he has: that key is done with, error 10
+; In:  HL-> KEYB   Clobbers all
+BROKEN: MVI     M,0
 ERTAPE: DB      ERROR,ETAPE
 
 ; CRLF - ends the paper's line

@@ -1,7 +1,7 @@
 ; io_8251.asm - ports of the board: two Intel 8251
-; Offers: TTYDT TTYST PUNDT PUNST TXRDY RXRDY BDINIT
+; Offers: TTYDT TTYST PUNDT PUNST TXRDY RXRDY RXOVR SIO8N2 SIOHLD BDINIT RXKEY RXTAP
 ; Uses:   io_ended
-; Room:   23 bytes
+; Room:   54 bytes
 
 TTYDT   EQU 10H         ; teletype: data
 TTYST   EQU 11H         ; teletype: status and control
@@ -9,8 +9,11 @@ PUNDT   EQU 12H         ; punch and reader: data
 PUNST   EQU 13H         ; punch and reader: status and control
 TXRDY   EQU 01H         ; transmitter empty
 RXRDY   EQU 02H         ; receiver full
+RXOVR   EQU 10H         ; overrun: in front of the character that is there, others were lost
 
-USARUN  EQU 37H         ; command: transmitter and receiver on
+USARUN  EQU 37H         ; command: transmitter and receiver on, /RTS low, errors reset
+SIO8N2  EQU 27H         ; the same without resetting errors
+SIOHLD  EQU 07H         ; and with /RTS high: wait
 
 ; BDINIT - readies both ports, then goes to BDREST
 BDINIT: LXI     H,BDTAB
@@ -26,3 +29,28 @@ BDTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for
         DB      40H             ; reset
         DB      0CEH            ; mode: 8 bits, no parity, 2 stop bits, clock / 16
         DB      USARUN
+
+; RXKEY - judges a character that the teletype's receiver had
+; In:  A = character, Z clear: one is lost   Out: A = it without parity, 0 and Z for NUL; CLOST, but ctrl-C goes first
+; Clobbers nothing else
+RXKEY:  JZ      RXGOOD
+        PUSH    PSW
+        MVI     A,USARUN
+        OUT     TTYST
+        JMP     RXLOST
+
+; RXTAP - the same for the reader's receiver; RXLOST and RXGOOD: RXKEY goes on there, to
+;         RXLOST with PSW on the stack
+; Clobbers nothing
+RXTAP:  JZ      RXGOOD
+        PUSH    PSW
+        MVI     A,USARUN
+        OUT     PUNST
+RXLOST: POP     PSW
+        ANI     7FH
+        CPI     CCTLC
+        RZ
+        MVI     A,CLOST
+        RET
+RXGOOD: ANI     7FH
+        RET

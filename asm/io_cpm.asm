@@ -1,7 +1,7 @@
 ; io_cpm.asm - the teletype's characters, through the BIOS of CP/M
 ; Offers: BSELDK OFILE PAPER POLL UNKEY
 ; Uses:   io_disk start
-; Room:   190 bytes
+; Room:   200 bytes
 ;
 ; The BIOS, not the BDOS, which would act on ctrl-S, ctrl-P and ctrl-C itself.  Keys that come while
 ; a statement works wait in KEYQ; at the prompt no key is taken before it is needed, so that what is
@@ -34,6 +34,8 @@ BIOS1:  POP     B
 ; PAPER - prints a character, which the tape's file gets too when the punch is on
 ; In:  B = it, C = OUTSEL   Clobbers A, BC, HL
 PAPER:  MOV     A,C
+        ORA     A
+        RZ
         CPI     OFILE
         JZ      BDPUN
         LDA     CHKF

@@ -2,7 +2,7 @@
 ; Offers: CQUEST FALL FDRIVE FFIRST FNEXT FDEL FWHICH FDMA FERMOD WTAPE WSAVE WLOST FCALL FILE
 ;         ONEFIL FBLOCK FCOPY WOPEN WDROP WCLOSE BDPUN BDREAD SLOAD TYPSKG PUNOFF PUNON BDOFF BDZERO
 ; Uses:   io io_cpm start
-; Room:   780 bytes
+; Room:   790 bytes
 ;
 ; A file is written under its name with the type $$$ and takes its own when it is whole: what was there
 ; before stays until then.  WMODE says what is written.  READY (BDRDY, cpm.asm) closes a tape, also after
@@ -412,6 +412,7 @@ BDRE1:  LXI     H,RBUF
         INR     A
         STA     RPOS
         MOV     A,M
+        ANI     7FH
         CPI     CEOF
         JNZ     BDRE4
 BDRE2:  XRA     A

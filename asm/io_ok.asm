@@ -1,7 +1,7 @@
 ; io_ok.asm - blocks go out with LF alone, each waits for the machine's ok (milling.md, section "Handshake")
 ; Offers: BLKON BLKOFF
-; Uses:   io io_ended io_punch start
-; Room:   106 bytes
+; Uses:   io io_ended io_punch io_reader start
+; Room:   109 bytes
 ;
 ; A line of the machine is judged when it is over, and typed from memory: the teletype is slower than the
 ; machine's line, and the receiver holds one character.  LINBUF is free while a statement works.
@@ -28,6 +28,8 @@ BLKOF4: CALL    BDREAD
         JZ      BLKOF3
         CPI     CBLANK
         JC      BLKOF5          ; CR, LF: it is over
+        ORA     A
+        JM      ERTAPE          ; a character is lost
         STAX    D
         INR     E
         JNZ     BLKOF4
@@ -45,7 +47,7 @@ BLKOF5: XRA     A
         JNZ     BLKOF2          ; it means nothing
         LXI     H,LINBUF
         CALL    PUTS
-        JMP     ERTAPE
+        DB      ERROR,ETAPE
 
 ; SAID - does the machine's line begin with a text?
 ; In:  HL-> text, bit 7 of its last character set   Out: Z: yes   Clobbers A, DE, HL

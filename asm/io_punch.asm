@@ -1,7 +1,7 @@
 ; io_punch.asm - punch and reader on a port of their own
-; Offers: BDPUT BDREAD SLOAD PUNON
-; Uses:   io io_6850 io_8251 start
-; Room:   40 bytes
+; Offers: BDPUT SLOAD PUNON
+; Uses:   hold io_6850 io_8251 nohold start
+; Room:   32 bytes
 
 ; BDPUT - punches a character
 ; In:  B   Clobbers A
@@ -12,21 +12,13 @@ BDPUT:  IN      PUNST
         OUT     PUNDT
         RET
 
-; BDREAD - a character from the reader
-; Out: A = it and Z clear; 0 and Z when there is none   Clobbers nothing else
-BDREAD: IN      PUNST
-        ANI     RXRDY
-        RZ
-        IN      PUNDT
-        RET
-
 ; SLOAD - command: LOAD; waits for the tape's first character, then lines come from it
 SLOAD:  DB      CHKEND
-SLOA1:  CALL    BREAK
+SLOA1:  CALL    LISTEN
         IN      PUNST
         ANI     RXRDY
         JZ      SLOA1
-        INX     H               ; BREAK leaves HL-> KEYB: the next is LOADF
+        INX     H               ; LISTEN leaves HL-> KEYB: the next is LOADF
         MVI     M,1
         RET
 

@@ -1,6 +1,6 @@
 ; io_tty.asm - punch and reader are the teletype's own, switched by DC1 to DC4
 ; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDREST BDOFF
-; Uses:   io reset start
+; Uses:   hold io reset start
 ; Room:   43 bytes
 
 ; BDREAD - a character from the reader: what the keyboard has sent
@@ -13,10 +13,10 @@ BDREAD: MOV     A,M
 SLOAD:  DB      CHKEND
         MVI     A,CXON
         DB      PUTC
-SLOA1:  CALL    BREAK
+SLOA1:  CALL    LISTEN
         ORA     A
         JZ      SLOA1
-        INX     H               ; BREAK leaves HL-> KEYB: the next is LOADF
+        INX     H               ; LISTEN leaves HL-> KEYB: the next is LOADF
         MVI     M,1
         RET
 

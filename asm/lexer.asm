@@ -1,7 +1,9 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LISTLN PRNUM PRNUM1 BLANK
-; Uses:   decimal drive io io_disk io_ended io_punch io_tty monitor start value
-; Room:   455 bytes
+; Uses:   decimal drive hold io io_disk io_ended io_reader io_tape io_tty monitor nohold start value
+; Room:   467 bytes
+;
+;! (LINBUF/100H & 1) == 0 and (TOKS/100H & 1) == 1 -- GETL6 knows by B's lowest bit that the line has lost a character
 ;
 ; The tokens are in equ.asm, the words and theirs in words.asm.  Words come before names; a character that begins
 ; neither a word nor a name nor a number stands for itself, and the parser refuses
@@ -9,7 +11,7 @@
 ; its distance from the line's start; what is longer than the page is refused after LEX, the
 ; stack having room for what the longest line can make.
 
-WAIT2   EQU     15500           ; turns of INCH1 in two seconds (130 us each)
+WAIT2   EQU     10000           ; turns of INCH1 in two seconds (200 us each at most)
 
 ; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
 ;          nothing is printed (OUTSEL = 0).  A control character that is no editing key
@@ -22,7 +24,7 @@ GETLIN: LXI     B,LINBUF
 GETL3:  LXI     H,GETL3         ; every key returns there
         PUSH    H
         LXI     D,WAIT2         ; waits for the next character, from the reader for a line of LOAD,
-INCH1:  CALL    BREAK           ; else (INPUT's answers too) from the teletype
+INCH1:  CALL    LISTEN          ; else (INPUT's answers too) from the teletype
         INX     H               ; LOADF, behind KEYB
         LDA     CHKF            ; (1 at the prompt, 0 in INPUT)
         ANA     M
@@ -34,12 +36,12 @@ INCH1:  CALL    BREAK           ; else (INPUT's answers too) from the teletype
         ORA     E
         JZ      GETL5           ; the reader has stopped
         CALL    BDREAD
-        ANI     7FH
         CPI     CEOF            ; a tape's; of the teletype's keys it is none
         JZ      GETL5
-INCH2:  ORA     A               ; (HL-> KEYB, from BREAK)
+INCH2:  ORA     A               ; (HL-> KEYB, from LISTEN)
         JZ      INCH1
         MVI     M,0             ; (in LOAD keys do not count)
+        JM      GETL7
         CPI     CCR             ; (HL-> KEYB for every key)
         JZ      GETL6
         CPI     CLF
@@ -56,8 +58,6 @@ INCH2:  ORA     A               ; (HL-> KEYB, from BREAK)
         INR     C               ; (LINBUF ends with a page)
         JNZ     PUTC0
         DCR     C               ; full: stays, so that the line is refused
-        MVI     A,CBEL
-        DB      PUTC
         RET
 GETL4:  INX     H               ; take one back; a tape's RUBOUTs mean nothing
         MOV     A,M             ; LOADF
@@ -70,18 +70,23 @@ GETL4:  INX     H               ; take one back; a tape's RUBOUTs mean nothing
         RET
 GETL5:  MOV     A,C             ; the tape ends: at a line's start?
         ADD     A
-        CNZ     CRLF            ; (not printed; ERR looks at LASTC)
         JNZ     ERTAPE
         CALL    BDOFF
         JMP     READY
+GETL7:  STAX    B               ; a character is lost: the line ends here, the rest goes to TOKS
+        MVI     B,TOKS/256
+        RET
 GETL6:  POP     H
-        CALL    CRLF
+        CALL    ENDLIN
         XRA     A
         STAX    B
         STA     OUTSEL
         STA     LEXAT+1
         LXI     H,TOKS
         SHLD    TXTP
+        MOV     A,B
+        RRC                     ; is it TOKS/256?
+        JC      ERLOST
         INR     C
         JZ      ERMEM
         CALL    LEX
@@ -110,7 +115,7 @@ LEX1:   INX     D
         RC                      ; TXTP reached
         LXI     B,LEX1          ; every token returns there
         PUSH    B
-        CALL    LEXCH
+        CALL    LEXTOK
         SHLD    LEXAT
         STAX    D               ; (stays when no token comes of it: the parser refuses it)
         ORA     A

@@ -1,9 +1,9 @@
 ; monitor.asm - prompt, commands, running the program, errors, reset
-; Offers: ERR ERR5 READY CHKED SFREE FREE LNEND SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT SDATA SREST
-;         SREAD SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
-; Uses:   calc cpm cut decimal drive float io io_disk io_ended io_tty iso lexer parser program reset
-;         start tape value
-; Room:   733 bytes
+; Offers: ERR ERR5 READY CHKED ERLOST SFREE FREE LNEND SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT
+;         SDATA SREST SREAD SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
+; Uses:   calc cpm cut decimal drive float hold io io_disk io_ended io_tty iso lexer nohold parser
+;         program reset start tape value
+; Room:   741 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
 ;! COLS == OUTSEL+1 and LASTC == COLS+1 -- PUTC1 walks back from LASTC
@@ -50,7 +50,7 @@ ERR:    MOV     B,A
         JNZ     ERRLX
         DB      SKIP1           ; skips the DAD
 ERR1:   DAD     H               ; (1 becomes 2: no mark)
-        MOV     C,L
+ERR6:   MOV     C,L
         PUSH    B
         LXI     H,0202H         ; paper on; an error while the mark is made needs none
         SHLD    CHKF
@@ -142,6 +142,12 @@ CHKED:  LXI     H,TOKS
         CALL    RTNEW           ; the route buffer began at PEND
         CALL    CLRPTR
         JMP     READY
+
+; ERLOST - the line has lost a character: it is printed up to there.  Error 10, goes to READY
+; Out: as ERR while a line is parsed; in INPUT as ERR while a statement works
+ERLOST: MVI     B,ETAPE
+        LHLD    CHKF
+        JMP     ERR6
 
 ; SFREE - command: FREE
 SFREE:  DB      CHKEND
@@ -283,7 +289,7 @@ RUNLP:  LHLD    NXTP
         SHLD    NXTP
         XCHG
         SHLD    CURLIN
-        CALL    BREAK
+        CALL    LISTEN
 DIRECT: LXI     SP,STKTOP       ; (CHKED comes in here with a line that has no number)
         LXI     H,0200H
         SHLD    CHKF            ; (nothing new to a line of the program)

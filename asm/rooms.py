@@ -40,6 +40,7 @@ HOOKS = {
     "CHKED": "restart 7: the monitor stores the line or carries it out",
     "BDPUN": "the teletype's characters go to the punch too: the board's",
     "BDRDY": "the prompt is there: the board's",
+    "ERLOST": "a line has lost a character: the monitor says so",
     "READY": "the reader has stopped: the prompt",
     "PUNOFF": "a block is complete: the board's, which may follow it",
     "BDOFF": "after an error: the board's",

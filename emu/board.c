@@ -9,7 +9,7 @@ enum {
     PORT_AUX = 0x12,        /* of the punch's and reader's */
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
-    POLL_GAP = 300,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
+    POLL_GAP = 500,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
     VAIN_READS = 1000,      /* so often a chip may be read before it is readied (its receiver may be emptied) */
     NO_ANSWER = 0xff        /* what an open bus reads */
 };
@@ -17,12 +17,12 @@ enum {
 enum { DC1 = 0x11, DC2 = 0x12, DC3 = 0x13, DC4 = 0x14 };
 
 /* Bits of the 6850's status and control, and of the 8251's status, mode and command. */
-enum { ACIA_RDRF = 0x01, ACIA_TDRE = 0x02, ACIA_RESET = 0x03 };
+enum { ACIA_RDRF = 0x01, ACIA_TDRE = 0x02, ACIA_OVRN = 0x20, ACIA_RESET = 0x03, ACIA_RTS = 0x60, ACIA_RTS_HIGH = 0x40 };
 enum {
     // clang-format off
-    USART_TXRDY = 0x01, USART_RXRDY = 0x02, USART_TXE = 0x04, USART_DSR = 0x80,
+    USART_TXRDY = 0x01, USART_RXRDY = 0x02, USART_TXE = 0x04, USART_OE = 0x10, USART_DSR = 0x80,
     MODE_BAUD = 0x03, MODE_ONE_SYNC = 0x80,
-    COMMAND_TXEN = 0x01, COMMAND_RXEN = 0x04, COMMAND_RESET = 0x40
+    COMMAND_TXEN = 0x01, COMMAND_RXEN = 0x04, COMMAND_ER = 0x10, COMMAND_RTS = 0x20, COMMAND_RESET = 0x40
     // clang-format on
 };
 
@@ -107,6 +107,96 @@ static uint64_t character_time(const board *b)
     return (uint64_t)(bits * b->hz / b->baud);
 }
 
+/* ---- senders that do not wait ---- */
+
+static double sender_time(const board *b, const board_sender *s)
+{
+    return b->hz / s->cps;
+}
+
+static void receive(board *b, board_uart *u, uint8_t c)
+{
+    if (u->full) {
+        b->lost++;
+        if (b->kind == BOARD_6850) {
+            u->lost = true;
+            return;
+        }
+        u->overrun = true;
+    }
+    u->received = c;
+    u->full = true;
+}
+
+/* Puts into the receiver what has come since it was looked at last. */
+static void send_what_is_due(board *b, board_uart *u, board_sender *s, board_queue *q)
+{
+    if (s->cps <= 0) {
+        return;
+    }
+    while (s->running && s->due <= (double)b->cpu.cycles) {
+        if (queue_empty(q)) {
+            s->running = false;
+        } else if (u->holds && s->lag >= 0 && s->late >= s->lag) {
+            break;
+        } else {
+            s->late += u->holds;
+            receive(b, u, queue_take(q));
+            s->due += sender_time(b, s);
+        }
+    }
+}
+
+/* The same for all that the port's receiver hears. */
+static void hear(board *b, board_uart *u)
+{
+    if (!u->receives) {
+        return;
+    }
+    if (u == &b->aux) {
+        send_what_is_due(b, u, &b->reading, &b->tape);
+        return;
+    }
+    send_what_is_due(b, u, &b->typing, &b->typed);
+    if (b->punch_tty && b->reader_on) {
+        send_what_is_due(b, u, &b->reading, &b->tape);
+    }
+}
+
+/* The board asks: who has something and is not held begins. */
+static void start(const board *b, const board_uart *u, board_sender *s, const board_queue *q)
+{
+    if (s->cps > 0 && !s->running && !u->holds && !queue_empty(q)) {
+        s->running = true;
+        s->due = (double)b->cpu.cycles + sender_time(b, s);
+    }
+}
+
+static void let_go_on(const board *b, board_sender *s)
+{
+    double soonest = s->cps > 0 ? (double)b->cpu.cycles + sender_time(b, s) : 0;
+    if (s->lag >= 0 && s->late >= s->lag && s->due < soonest) {
+        s->due = soonest;
+    }
+    s->late = 0;
+}
+
+/* The board moves /RTS. */
+static void set_hold(board *b, board_uart *u, bool holds)
+{
+    if (holds == u->holds) {
+        return;
+    }
+    hear(b, u);
+    u->holds = holds;
+    if (u == &b->aux || b->punch_tty) {
+        let_go_on(b, &b->reading);
+    }
+    if (u == &b->tty) {
+        let_go_on(b, &b->typing);
+    }
+}
+
 /* Puts the next character of the operator's into the receiver if it is due. */
 static void tty_arrive(board *b)
 {
@@ -117,11 +207,11 @@ static void tty_arrive(board *b)
     board_queue *from = NULL;
     if (!queue_empty(&b->pressed)) {
         from = &b->pressed;
-    } else if (b->polls >= POLLS_TO_TYPE) {
+    } else if (b->polls >= POLLS_TO_TYPE && !u->holds) {
         if (!queue_empty(&b->typed)) {
-            from = &b->typed;
+            from = b->typing.cps > 0 ? NULL : &b->typed;
         } else if (b->punch_tty && b->reader_on && !queue_empty(&b->tape)) {
-            from = &b->tape;
+            from = b->reading.cps > 0 ? NULL : &b->tape;
         }
     }
     if (from) {
@@ -135,6 +225,7 @@ static void tty_arrive(board *b)
 static void count_poll(board *b, bool idle)
 {
     uint64_t now = b->cpu.cycles;
+    idle = idle && !b->tty.holds;
     b->polls = idle && now - b->polled_at <= POLL_GAP ? b->polls + 1 : 0;
     b->polled_at = now;
     if (b->polls >= POLLS_TO_WAIT && board_idle(b) && !(b->punch_tty && b->reader_on && !queue_empty(&b->tape))) {
@@ -161,15 +252,22 @@ static bool has_received(board *b, board_uart *u)
     if (!u->receives) {
         return false;
     }
+    hear(b, u);
     if (is_tty(b, u)) {
+        start(b, u, &b->typing, &b->typed);
+        if (b->punch_tty && b->reader_on) {
+            start(b, u, &b->reading, &b->tape);
+        }
         tty_arrive(b);
         if (!u->full) {
             count_poll(b, can_send(b, u));
         }
-    } else if (!u->full && !queue_empty(&b->tape)) {
+    } else if (b->reading.cps > 0 && !queue_empty(&b->tape)) {
+        start(b, u, &b->reading, &b->tape);
+    } else if (!u->full && !u->holds && !queue_empty(&b->tape)) {
         u->received = queue_take(&b->tape);
         u->full = true;
-    } else if (!u->full) {
+    } else if (!u->full && queue_empty(&b->tape)) {
         if (b->cpu.cycles - b->reader_asked_at > POLL_GAP) {
             b->reader_asked_since = b->cpu.cycles;
         }
@@ -183,7 +281,14 @@ static uint8_t read_data(board *b, board_uart *u)
     if (u->full && is_tty(b, u)) {
         drive_key(&b->drive);
     }
-    u->full = false;
+    hear(b, u);
+    if (b->kind == BOARD_6850) {
+        u->full = u->lost;              /* the character stays, and OVRN is shown */
+        u->overrun = u->lost;
+        u->lost = false;
+    } else {
+        u->full = false;
+    }
     return u->received;
 }
 
@@ -205,9 +310,10 @@ static uint8_t read_status(board *b, board_uart *u)
     bool full = has_received(b, u);
     bool empty = can_send(b, u);
     if (b->kind == BOARD_6850) {
-        return (uint8_t)((full ? ACIA_RDRF : 0) | (empty ? ACIA_TDRE : 0));
+        return (uint8_t)((full ? ACIA_RDRF : 0) | (empty ? ACIA_TDRE : 0) | (u->overrun ? ACIA_OVRN : 0));
     }
-    return (uint8_t)((full ? USART_RXRDY : 0) | (empty ? USART_TXRDY | USART_TXE : 0) | USART_DSR);
+    return (uint8_t)((full ? USART_RXRDY : 0) | (empty ? USART_TXRDY | USART_TXE : 0) | (u->overrun ? USART_OE : 0)
+                     | USART_DSR);
 }
 
 static void uart_reset(board *b, board_uart *u)
@@ -216,15 +322,16 @@ static void uart_reset(board *b, board_uart *u)
     u->state = b->kind == BOARD_6850 ? UART_DEAD : UART_RESET;
 }
 
-static void acia_control(board_uart *u, uint8_t word)
+static void acia_control(board *b, board_uart *u, uint8_t word)
 {
     if ((word & ACIA_RESET) == ACIA_RESET) {
         u->state = UART_RESET;
-        u->full = false;
+        u->full = u->lost = u->overrun = false;
     } else if (u->state != UART_DEAD) {
         u->state = UART_READY;
     }
     u->sends = u->receives = u->state == UART_READY;
+    set_hold(b, u, (word & ACIA_RTS) == ACIA_RTS_HIGH);
 }
 
 static void usart_control(board *b, board_uart *u, uint8_t word)
@@ -245,6 +352,8 @@ static void usart_control(board *b, board_uart *u, uint8_t word)
         } else {
             u->sends = word & COMMAND_TXEN;
             u->receives = word & COMMAND_RXEN;
+            u->overrun = u->overrun && !(word & COMMAND_ER);
+            set_hold(b, u, !(word & COMMAND_RTS));
         }
     }
 }
@@ -299,8 +408,11 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     board *b = user;
     bool control;
     board_uart *u = find_uart(b, port, &control);
-    b->polls = 0;
-    b->reader_asked_at = 0;
+    bool asks = control && (!u || u->state == UART_READY);  /* it moves /RTS while it asks */
+    if (!asks) {
+        b->polls = 0;
+        b->reader_asked_at = 0;
+    }
     if (port == DRIVE_PORT) {
         drive_out(&b->drive, value, b->cpu.cycles, b->user);
     }
@@ -310,7 +422,7 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     if (!control) {
         write_data(b, u, value);
     } else if (b->kind == BOARD_6850) {
-        acia_control(u, value);
+        acia_control(b, u, value);
     } else {
         usart_control(b, u, value);
     }
@@ -386,13 +498,15 @@ bool board_tape(board *b, const uint8_t *bytes, size_t length)
 void board_take_tape(board *b)
 {
     b->tape.first = b->tape.end;
-    b->aux.full = false;
+    b->reading.running = false;
+    b->aux.full = b->aux.lost = b->aux.overrun = false;
 }
 
 void board_forget_typed(board *b)
 {
     b->typed.first = b->typed.end;
     b->pressed.first = b->pressed.end;
+    b->typing.running = false;
 }
 
 void board_reader(board *b, bool on)

@@ -20,16 +20,22 @@
  * (or the operator's lever) to DC3, and the reader's characters come in like typed ones.
  *
  * The operator types with care: a character arrives when the board waits for one, that is, when it has asked
- * POLLS_TO_TYPE times in close succession and could have sent if it had wanted to. Pressed keys (ctrl-C, ctrl-S, ctrl-Q)
- * arrive at once. The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
+ * POLLS_TO_TYPE times in close succession and could have sent if it had wanted to, and /RTS is low. Pressed keys (ctrl-C,
+ * ctrl-S, ctrl-Q) arrive at once. The reader's tape waits likewise.
+ *
+ * With a `board_sender` whose `cps` is not 0, what is typed, or the tape, comes as fast as that and waits for nobody: what the receiver
+ * has no place for is lost. A 6850 keeps the old character then and shows OVRN behind it, with that character once
+ * more; an 8251 keeps the new one, and OE stays until a command resets it. A sender that looks at /RTS stops `lag`
+ * characters late. The tape starts when the board first asks for it.
+ *
+ * The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
  * asked in one run or in many short ones.
  *
  * A ROM made for another board asks ports where there is nothing, or a chip that it has never readied, and would ask for
  * ever: board_run says so (BOARD_NOBODY). Writes to such ports are lost without a word, as on a real board.
  *
- * NOT IMPLEMENTED: interrupts of the 6850 and 8251; errors on the line (parity, framing, overrun: the operator never
- * types over a character that has not been read); modem lines (CTS, DCD, DSR are always on); synchronous mode's data;
- * loss of bits that the control word's format leaves out.
+ * NOT IMPLEMENTED: interrupts of the 6850 and 8251; parity and framing errors; modem lines that come in (CTS, DCD, DSR
+ * are always on); synchronous mode's data; loss of bits that the control word's format leaves out.
  */
 #ifndef BOARD_H
 #define BOARD_H
@@ -66,11 +72,23 @@ typedef struct {
 
 typedef enum { BOARD_6850, BOARD_8251 } board_kind;
 
+/* How characters come into a receiver. */
+typedef struct {
+    double cps;                     /* characters a second; 0: each one waits until the board wants it */
+    int lag;                        /* so many come after /RTS has risen; negative: the sender does not look at it */
+    bool running;                   /* the next one is under way, */
+    double due;                     /* at this cycle it is there */
+    int late;                       /* since /RTS has risen */
+} board_sender;
+
 /* One serial port. */
 typedef struct {
     enum { UART_DEAD, UART_RESET, UART_SYNC2, UART_SYNC1, UART_READY } state;
     bool sends, receives;
+    bool holds;                     /* /RTS is high */
     bool full;                      /* a received character has not been read */
+    bool lost;                      /* behind it others have been lost, which the status does not show yet (6850), */
+    bool overrun;                   /* or shows */
     uint8_t received;
     unsigned asked_in_vain;         /* reads since it was reset, while it was not ready */
     uint64_t sent_at, arrived_at;   /* cycle at which the line is free again for the next character */
@@ -89,6 +107,8 @@ typedef struct board {
     void *user;                     /* of these two and of the drive's */
     drive drive;
 
+    board_sender typing, reading;   /* of what is typed, and of the tape */
+    uint64_t lost;                  /* characters for which a receiver had no place */
     board_queue typed, pressed, tape;
     bool reader_on;                 /* the teletype's own reader (punch_tty) */
     bool punch_on;                  /* the teletype's own punch (punch_tty) */

@@ -86,6 +86,16 @@ board *machine_board(machine *m)
     return m->board;
 }
 
+void machine_sender(machine *m, bool typed, double cps, int lag)
+{
+    *(typed ? &m->board->typing : &m->board->reading) = (board_sender){ .cps = cps, .lag = lag };
+}
+
+uint64_t machine_lost(const machine *m)
+{
+    return m->board->lost;
+}
+
 void machine_feed(machine *m, double hz)
 {
     m->board->drive.feed_hz = hz;

@@ -45,6 +45,13 @@ machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int ki
 void machine_free(machine *m);
 board *machine_board(machine *m);
 
+/* What is typed (`typed`), or the tape, comes at so many characters a second whether the board is ready or not, and stops
+ * `lag` characters after /RTS has risen (negative: never). 0: it waits for the board. */
+void machine_sender(machine *m, bool typed, double cps, int lag);
+
+/* Characters for which a receiver had no place. */
+uint64_t machine_lost(const machine *m);
+
 /* The drive: its feed clock (0: full speed), and when its stop line, which is down now, rises: at a
  * step counted since power-on (0: never). Those that came together with their direction (drive.h). */
 void machine_feed(machine *m, double hz);

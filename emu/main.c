@@ -225,6 +225,8 @@ static int set_board(session *s)
     double mhz = s->o.mhz > 0 ? s->o.mhz : s->o.baud && operator_waits ? BOARD_HZ / 1e6 : 0;
     s->board->hz = mhz > 0 ? mhz * 1e6 : BOARD_HZ;
     s->board->baud = s->o.baud;
+    s->board->reading = (board_sender){ .cps = s->o.reader_cps, .lag = s->o.lag };
+    s->board->typing = (board_sender){ .cps = s->o.keyboard_cps, .lag = s->o.lag };
     s->board->punch_tty = s->o.punch_tty;
     s->board->paper = output_print;
     s->board->punch = output_punch;

@@ -32,6 +32,9 @@ static const char USAGE[] =
     "  --board KIND      6850 or 8251 (6850)\n"
     "  --punch-tty       a teletype alone: its own punch and reader\n"
     "  --punch-pty       punch and reader are a pseudo-terminal, whose name is printed: a machine behind it answers\n"
+    "  --reader-cps N    the reader does not wait: N characters a second, some are lost\n"
+    "  --keyboard-cps N  what is typed or piped does not wait either\n"
+    "  --cts N           both stop N characters after /RTS has risen (they do not look at it)\n"
     "  --drive FILE      draw what the drive was told, as SVG; with a part, DRIVE 1 is typed before RUN, and a key at each D\n"
     "  --steps FILE      write each step of the drive's: one byte, the port's value\n"
     "  --feed HZ         the drive's feed clock (full speed)\n"
@@ -74,6 +77,9 @@ static const char *misfit(const options *o)
     }
     if (o->punch_tty && o->punch_pty) {
         return "--punch-pty is a port of its own: a teletype alone has none";
+    }
+    if (o->lag >= 0 && !(o->reader_cps > 0 || o->keyboard_cps > 0)) {
+        return "--cts needs --reader-cps or --keyboard-cps: without them every sender waits";
     }
     if (o->input && !o->part) {
         return "--input needs a part";
@@ -198,6 +204,24 @@ static bool read_drive(const char *text, options *o)
     return !dot || !strcasecmp(dot, ".svg");
 }
 
+static bool read_reader_cps(const char *text, options *o)
+{
+    return decimal_number(text, 0.1, 100000, &o->reader_cps);
+}
+
+static bool read_keyboard_cps(const char *text, options *o)
+{
+    return decimal_number(text, 0.1, 100000, &o->keyboard_cps);
+}
+
+static bool read_cts(const char *text, options *o)
+{
+    uint64_t lag = 0;
+    bool fits = whole_number(text, 0, 1000, &lag);
+    o->lag = (int)lag;
+    return fits;
+}
+
 static bool read_feed(const char *text, options *o)
 {
     return decimal_number(text, 0.01, 1e6, &o->feed);
@@ -257,6 +281,9 @@ static const option_rule RULES[] = {
     { "board",      VALUE, 0, read_board, "not 6850 or 8251" },
     { "punch-tty",  FLAG,  SETS(punch_tty) },
     { "punch-pty",  FLAG,  SETS(punch_pty) },
+    { "reader-cps", VALUE, 0, read_reader_cps, "not 0.1 to 100000" },
+    { "keyboard-cps", VALUE, 0, read_keyboard_cps, "not 0.1 to 100000" },
+    { "cts",        VALUE, 0, read_cts, "not 0 to 1000" },
     { "drive",      VALUE, 0, read_drive, "what it draws is SVG: expected a name that ends in .svg" },
     { "steps",      TEXT,  SETS(steps) },
     { "feed",       VALUE, 0, read_feed, "not 0.01 to 1000000" },
@@ -340,7 +367,7 @@ int options_read(int argc, char **argv, options *o)
 {
     struct option list[RULE_COUNT + 1];
     getopt_list(list);
-    *o = (options){ .ram_kib = BOARD_RAM_KIB, .max_cycles = UINT64_MAX, .kind = BOARD_6850 };
+    *o = (options){ .ram_kib = BOARD_RAM_KIB, .max_cycles = UINT64_MAX, .kind = BOARD_6850, .lag = -1 };
     opterr = 0;
     for (int option; (option = getopt_long(argc, argv, ":", list, NULL)) != -1;) {
         if (option == ':') {

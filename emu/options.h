@@ -14,6 +14,8 @@ typedef struct {
     unsigned ram_kib, baud;
     double mhz;                     /* 0: no time is kept */
     double feed;                    /* 0: full speed */
+    double reader_cps, keyboard_cps; /* 0: characters wait for the board */
+    int lag;                        /* of both, behind /RTS; negative: they do not look at it */
     uint64_t max_cycles;
     uint64_t stop_at;               /* 0: never */
     board_kind kind;

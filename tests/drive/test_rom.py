@@ -187,7 +187,7 @@ def test_a_stop_in_a_run(board: Driver) -> None:
     board.go("DRIVE 1")
     machine.stop_at(5000)
     board.clear()
-    assert "4000\r\nD\r\nERR 10 LINE 20\r\n" in board.go("RUN")
+    assert "D\r\nERR 10 LINE 20\r\n" in board.go("RUN")
     machine.type("DRIVE\r")
     assert machine.run() == "wait"
     machine.type(" ")
@@ -210,7 +210,6 @@ def test_a_thousand_stops(board: Driver) -> None:
         if board.steps != way:
             assert board.steps == way[:at], (tape, at)
             assert paper.endswith("ERR 10\r\n>"), paper
-            assert re.search(r"\d+\r\nERR 10", paper), paper
             board.go("DRIVE")
         else:
             # With the last step before a D, which waits for a key anyway, or of the tape.
@@ -425,7 +424,8 @@ def test_feed_clock_paces_the_steps(board: Driver) -> None:
     tape = "B40B30B40GXL1\r\nB30B40B85GXNR1\r\nDD\r\n"
     board.go("DRIVE", tape)
     assert board.steps == follow(tape)
-    edges = [cycles // 4000 for cycles in board.machine.step_cycles]
+    # The clock rises in the middle of each 4000 cycles; the board looks a little later.
+    edges = [(cycles - 1000) // 4000 for cycles in board.machine.step_cycles]
     assert [after - before for before, after in pairwise(edges)] == [1] * (len(edges) - 1)
 
 

@@ -14,7 +14,7 @@ import rooms
 import build
 
 #: Bytes of the ROM that are kept for what is to come.
-KEPT = 300
+KEPT = 285
 IMAGES = rooms.every()
 ALL = rooms.merged(IMAGES)
 

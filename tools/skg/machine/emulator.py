@@ -105,6 +105,8 @@ def _library() -> ctypes.CDLL:
         "machine_board": (pointer, [pointer]),
         "machine_output": (size, [pointer, flag, ctypes.POINTER(pointer)]),
         "machine_clear": (None, [pointer]),
+        "machine_sender": (None, [pointer, flag, ctypes.c_double, ctypes.c_int]),
+        "machine_lost": (ctypes.c_uint64, [pointer]),
         "machine_feed": (None, [pointer, ctypes.c_double]),
         "machine_stop_at": (None, [pointer, ctypes.c_uint64, flag]),
         "machine_drive": (ctypes.c_uint8, [pointer]),
@@ -223,6 +225,22 @@ class Machine:
     def reader(self, on: bool) -> None:
         """Move the lever of the teletype's own reader (boards with `punch_tty` only)."""
         self._lib.board_reader(self._board, on)
+
+    def reader_cps(self, cps: float, cts: int | None = None) -> None:
+        """Let the reader send `cps` characters a second whether the board is ready or not; 0: it waits.
+
+        It stops `cts` characters after /RTS has risen; None: it does not look at /RTS.
+        """
+        self._lib.machine_sender(self._machine, False, cps, -1 if cts is None else cts)
+
+    def keyboard_cps(self, cps: float, cts: int | None = None) -> None:
+        """Let what is typed come like that."""
+        self._lib.machine_sender(self._machine, True, cps, -1 if cts is None else cts)
+
+    @property
+    def lost(self) -> int:
+        """Characters for which a receiver had no place, since power-on."""
+        return self._lib.machine_lost(self._machine)
 
     def feed(self, hz: float) -> None:
         """The drive's feed clock, a square wave of so many Hz of the board's time; 0: full speed."""

@@ -1,0 +1,206 @@
+"""Readers and keyboards that do not wait: a lost character is error 10 with its line; /RTS held, none is lost."""
+
+from __future__ import annotations
+
+import random
+import subprocess
+from pathlib import Path
+
+import pytest
+from romhelp import BOARDS, EXAMPLES, ROOT, RUN_LIMIT, Board, image
+
+#: 9600 to 110 baud.
+SPEEDS = [960, 480, 240, 120, 60, 30, 15, 10]
+CTRL_C, CTRL_Z = 3, 26
+SECOND = 2_000_000
+
+every_board = pytest.mark.parametrize("kind", BOARDS)
+
+
+def tape_of(part: Path, end: str = "\r\n", nuls: int = 0) -> bytes:
+    """A program as a tape, `nuls` NULs behind each line."""
+    return b"".join(
+        f"{line}{end}".encode() + bytes(nuls) for line in part.read_text().splitlines()
+    )
+
+
+def listed(part: Path, lines: dict[Path, list[str]] = {}) -> list[str]:  # noqa: B006 (kept from test to test)
+    """What LIST prints of a program that came at leisure."""
+    if part not in lines:
+        board = Board()
+        board.load(part.read_text())
+        lines[part] = board.listing()
+    return lines[part]
+
+
+def loaded(board: Board, tape: bytes, cps: float, cts: int | None) -> str:
+    """LOAD a tape from a reader that does not wait; what is printed."""
+    machine = board.machine
+    machine.reader_cps(cps, cts)
+    machine.tape(tape)
+    start = len(machine.tty)
+    machine.type("LOAD\r")
+    assert machine.run(RUN_LIMIT, patience=10 * SECOND) in ("prompt", "wait")
+    machine.take_tape()
+    machine.reader_cps(0)
+    paper = machine.tty[start:]
+    machine.type(
+        "\x15\r"
+    )  # what came behind an error stands at the teletype's own prompt
+    machine.run(RUN_LIMIT)
+    return paper
+
+
+def pasted(board: Board, text: bytes, cps: float, cts: int | None) -> str:
+    """Type a text at a speed of its own; what is printed."""
+    machine = board.machine
+    machine.keyboard_cps(cps, cts)
+    start = len(machine.tty)
+    machine.type(text.decode())
+    assert machine.run(RUN_LIMIT, patience=10 * SECOND) in ("prompt", "wait")
+    machine.keyboard_cps(0)
+    machine.type("\r")  # the last line's own may be lost
+    machine.run(RUN_LIMIT)
+    return machine.tty[start:]
+
+
+@every_board
+@pytest.mark.parametrize("part", EXAMPLES, ids=lambda part: part.stem)
+def test_whoever_obeys_rts_loses_nothing(kind: str, part: Path) -> None:
+    """Within 2 characters, at a speed and with line ends drawn for each part: reader and paste."""
+    dice = random.Random(f"{kind}{part.stem}")
+    for cps in (960, dice.choice(SPEEDS)):
+        for way in (loaded, pasted):
+            cts, end = dice.randint(0, 2), dice.choice(["\r\n", "\n", "\r"])
+            board = Board(kind=kind)
+            paper = way(
+                board,
+                tape_of(part, end) + (bytes([CTRL_Z]) if way is loaded else b""),
+                cps,
+                cts,
+            )
+            assert "ERR" not in paper, (cps, cts, end, paper)
+            assert board.machine.lost == 0, (cps, cts, end)
+            assert board.listing() == listed(part), (cps, cts, end)
+
+
+@every_board
+@pytest.mark.parametrize("cps", SPEEDS)
+def test_no_loss_is_silent(kind: str, cps: int) -> None:
+    """Without /RTS a program is right, or error 10 has said that it is not; so with an error in mid-tape."""
+    dice, lost = random.Random(cps), 0
+    for part in EXAMPLES[cps % 5 :: 5]:
+        for way in (loaded, pasted):
+            board = Board(kind=kind)
+            paper = way(
+                board,
+                tape_of(part, nuls=dice.choice([0, 0, 3, 12])) + bytes([CTRL_Z]),
+                cps,
+                None,
+            )
+            lost += board.machine.lost
+            assert board.listing() == listed(part) or "ERR 10" in paper, (
+                part.stem,
+                way.__name__,
+                paper,
+            )
+            assert not board.machine.lost or "ERR 10" in paper or way is pasted, (
+                part.stem,
+                way.__name__,
+                paper,
+            )
+            wrong = set(board.listing()) - set(listed(part))
+            assert way is pasted or not wrong, (part.stem, wrong)
+    assert lost or cps <= 10
+
+
+@every_board
+@pytest.mark.parametrize(("cps", "nuls"), [(10, 4), (20, 12)])
+def test_a_reader_without_handshake_needs_nuls(kind: str, cps: int, nuls: int) -> None:
+    """As many as board.md says."""
+    for part in EXAMPLES:
+        board = Board(kind=kind)
+        paper = loaded(board, tape_of(part, nuls=nuls) + bytes([CTRL_Z]), cps, None)
+        assert "ERR" not in paper and board.listing() == listed(part), (
+            part.stem,
+            paper,
+        )
+
+
+@every_board
+def test_the_line_is_shown_up_to_the_loss(kind: str) -> None:
+    board = Board(kind=kind)
+    paper = loaded(
+        board, b"10 A=1\r\n" + b"20 REM LONG, LONG, LONG, LONG, LONG\r\n" * 50, 960, None
+    )
+    assert "?\r\n" in paper and "ERR 10" in paper
+    assert board.listing() in ([], ["10 A=1"])
+
+
+@pytest.mark.parametrize(
+    "kind", ["skg", "skg-8251", "skg-mill", "skg-grbl", "skg-drive", "skg-nodrift"]
+)
+def test_images_without_handshake_say_it_too(kind: str) -> None:
+    for part in EXAMPLES[::7]:
+        board = Board(kind=kind)
+        paper = loaded(board, tape_of(part), 960, None)
+        assert board.machine.lost and "ERR 10" in paper
+        assert set(board.listing()) <= set(listed(part))
+
+
+@pytest.mark.parametrize("cps", [960, 240, 60])
+def test_drive_refuses_a_block_that_lost_a_character(cps: int) -> None:
+    board = Board(kind="skg-drive")
+    board.machine.reader_cps(cps)
+    board.machine.tape(b"B4000B3000B4000GXL1\r\n" * 20 + b"DD\r\n")
+    board.machine.type("DRIVE\r")
+    board.machine.run(RUN_LIMIT, patience=10 * SECOND)
+    assert board.machine.lost and board.machine.tty.endswith("ERR 10\r\n>")
+
+
+def test_one_key_waits_while_a_statement_works() -> None:
+    """A second one is a loss; ctrl-C always gets through."""
+    board = Board()
+    for line in ("10 A=A+1", "20 IF A<300 GOTO 10"):
+        assert board.type(line) == []
+    for keys, error in (("X", False), ("XY", True)):
+        board.machine.type("5 A=0\rRUN\r")
+        board.machine.run(SECOND // 2)
+        for key in keys:
+            board.machine.press(key)
+            board.machine.run(SECOND // 10)
+        board.machine.run(RUN_LIMIT)
+        board.machine.type("=1\r")
+        board.machine.run(RUN_LIMIT)
+        assert board.machine.tty.endswith("ERR 10\r\n>") == error, board.machine.tty[
+            -80:
+        ]
+    board.machine.type("RUN\r")
+    board.machine.run(SECOND // 2)
+    board.machine.press("X")
+    board.machine.run(SECOND // 10)
+    board.machine.press(CTRL_C)
+    assert board.machine.run(SECOND) == "prompt"
+    assert "ERR 10" in board.machine.tty[-30:]
+
+
+@pytest.mark.parametrize("options", [[], ["--cts", "2"]])
+def test_skg80(options: list[str]) -> None:
+    part = ROOT / "examples" / "wrench.skg"
+    command = [
+        ROOT / "build" / "skg80",
+        "--rom",
+        image("skg"),
+        "--reader-cps",
+        "960",
+        *options,
+        part,
+    ]
+    done = subprocess.run(command, capture_output=True, timeout=60)
+    if options:
+        assert (done.returncode, done.stdout) == (
+            0,
+            part.with_suffix(".3b").read_bytes(),
+        ), done.stderr
+    else:
+        assert (done.returncode, done.stdout) == (1, b"") and b"ERR 10" in done.stderr
