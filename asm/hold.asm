@@ -1,7 +1,7 @@
 ; hold.asm - whoever sends is held while a line is worked on
 ; Offers: LISTEN ENDLIN LEXTOK
 ; Uses:   decimal io io_6850 io_8251 io_held
-; Room:   52 bytes
+; Room:   46 bytes
 ;
 ; /RTS is high from a line's end until the next character is wanted or a program runs.  A sender stops two characters
 ; late: KEYB takes the first one, the receiver keeps the second.

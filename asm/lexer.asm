@@ -1,7 +1,7 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LISTLN PRNUM PRNUM1 BLANK
 ; Uses:   decimal drive hold io io_disk io_ended io_reader io_tape io_tty monitor nohold start value
-; Room:   467 bytes
+; Room:   459 bytes
 ;
 ;! (LINBUF/100H & 1) == 0 and (TOKS/100H & 1) == 1 -- GETL6 knows by B's lowest bit that the line has lost a character
 ;

@@ -22,7 +22,7 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.3b"))
 PARTS = [part for part in sorted((ROOT / "examples").glob("*.skg")) if "fit-tol" not in part.name]
 CTRL_C = 3
 #: Limits of drive.md, in cycles.
-STEP_LIMIT = 300
+STEP_LIMIT = 302
 #: What a gap takes whose block has been read ahead; 650 of it where an arc ends on an axis.
 GAP_LIMIT = 2100
 #: An example's longest route takes a minute of the board's time; what needs more hangs.
