@@ -577,7 +577,7 @@ def test_load_ends_when_the_reader_is_silent(board: Board) -> None:
 
 def test_load_of_a_torn_tape(board: Board) -> None:
     board.machine.tape("10 END\r\n20 PRI")
-    assert board.type("LOAD") == ["ERR 10"]
+    assert board.type("LOAD") == ["", "ERR 10"]
     assert board.listing() == ["10 END"]
 
 
