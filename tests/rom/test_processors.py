@@ -25,7 +25,7 @@ DC1, DC2, DC3, DC4, CTRL_Z = 0x11, 0x12, 0x13, 0x14, 0x1A
 #: So often the board looks at the teletype in vain before the next character is there.
 POLLS = 20
 #: The most ticks for one command: 4 minutes at 2 MHz.
-PATIENCE = 500_000_000
+PATIENCE = 2_000_000_000
 
 PROCESSORS = {"8080": z80.I8080Machine, "Z80": z80.Z80Machine}
 #: Image, and the numbers of its ports: the teletype's status and data, the punch's and reader's; then the bits of
