@@ -1147,3 +1147,27 @@ def test_sheet_of_a_file_with_an_odd_name(run: Run, tmp_path: Path, name: str) -
     shown = name.replace("\udcff", "?").replace("\n", "?").replace("\x01", "?")
     ends = [one.partition("…")[::2] for one in texts if len(one) > 6]
     assert any(shown.startswith(first) and shown.endswith(last) for first, last in ends)
+
+
+def test_a_contour_keeps_its_fillets_whatever_its_neighbour_needs(run: Run, tmp_path: Path) -> None:
+    """Plates with rounded corners beside a part whose inner fillet the wire cannot follow: this one has the wire's own
+    way, the plates are written as if they were alone."""
+    page, alone = drawing(), drawing()
+    quarter = tan(pi / 8)
+    for one in (page, alone):
+        for x in (0, 40, 80):
+            corners = [(3, 0, 0), (27, 0, quarter), (30, 3, 0), (30, 17, quarter), (27, 20, 0), (3, 20, quarter)]
+            corners += [(0, 17, 0), (0, 3, quarter)]
+            one.modelspace().add_lwpolyline([(x + at, y, bulge) for at, y, bulge in corners], "xyb", close=True)
+    inner = [(0, 0, 0), (30, 0, 0), (30, 10, 0), (10.09, 10, -quarter), (10, 10.09, 0), (10, 20, 0), (0, 20, 0)]
+    page.modelspace().add_lwpolyline([(x + 120, y, bulge) for x, y, bulge in inner], "xyb", close=True)
+    found = []
+    for name, one in (("both", page), ("alone", alone)):
+        (tmp_path / name).mkdir()
+        program = tmp_path / name / "part.skg"
+        words = ["-o", tmp_path / name / "part.3b", "--offset", 0.1, "--program", program]
+        assert run("cut", saved(one, tmp_path / name), *words).exit_code == 0
+        routes = program.read_text().split("OUTLINE")[1:4]
+        found.append([re.sub(r"(?m)^\d+ |\d+\. ?$|REM.*", "", route) for route in routes])
+    assert all(line.count(",3") == 4 for route in found[0] for line in route.splitlines() if line.startswith("CUT"))
+    assert found[0] == [route.replace("END\n", "") for route in found[1]]

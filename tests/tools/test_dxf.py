@@ -87,15 +87,9 @@ def contours_of(edges: list[Edge]) -> list[Contour]:
 
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
     contours = contours_of(edges_of(make))
-    return write(
-        plan(
-            contours,
-            content_of(make).starts,
-            Wanted(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse"))),
-        ),
-        make.__name__,
-        bool(wishes.get("fillets", True)),
-    )
+    wanted = Wanted(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
+    routes = plan(contours, content_of(make).starts, wanted)
+    return write([replace(route, has_fillets=bool(wishes.get("fillets", True))) for route in routes], make.__name__)
 
 
 def points_along(edges: list[Edge]) -> Iterator[XY]:

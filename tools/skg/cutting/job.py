@@ -10,7 +10,7 @@ from math import inf
 from skg.checking.check import Checked, check
 from skg.checking.wire_path import Misfit
 from skg.cutting import refusal
-from skg.cutting.program import Program, Step
+from skg.cutting.program import Program, Step, writes_fillets
 from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom, has_spike
@@ -42,7 +42,7 @@ class Left:
 
 
 @dataclass(frozen=True)
-class Job:
+class CutResult:
     """A tape that was checked, the program that made it, how it went into the board; `left`: what it does not cut."""
 
     routes: list[PlannedContour]
@@ -71,9 +71,8 @@ def make(
     title: str,
     factor: float,
     settings: Settings,
-    fillets: bool = True,
     left: tuple[Left, ...] = (),
-) -> Job:
+) -> CutResult:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
     Where a contour has edges that the wire cannot follow, the program has the wire's own way along it. `factor`: mm in
@@ -94,47 +93,56 @@ def make(
         except UserError:
             # (all that have no way are said at once)
             helped, more = _helped(routes, set(range(len(routes))), factor, settings)
-        return make(helped, title, factor, settings, fillets, left + more)
-    program = Program(routes, title, fillets)
+        return make(helped, title, factor, settings, left + more)
+    program = Program(routes, title)
     text, is_stored, fed = _through(program, settings)
-    if fed.error and (one_by_one := _one_by_one(routes)):
-        # A tooth may be too much for the board's memory of a route, which REP needs.
-        return make(one_by_one, title, factor, settings, fillets, left)
-    if fed.error and fillets:
-        # A rounded corner without room to round it may still go as an arc.
-        return make(routes, title, factor, settings, False, left)
     if fed.error:
-        helped, more = _helped(routes, _refused(program, settings), factor, settings)
+        refused = _refused(program, settings) or set(range(len(routes)))
+        if (simpler := _simpler(routes, refused)) != routes:
+            return make(simpler, title, factor, settings, left)
+        helped, more = _helped(routes, refused, factor, settings)
         if helped == routes:
             raise UserError(_located(program, fed.error, factor, settings))
-        return make(helped, title, factor, settings, False, left + more)
+        return make(helped, title, factor, settings, left + more)
     tape = tapes.parse(fed.tape, title)
     checked = check(tape, routes, settings.is_without_drift)
-    if checked.faults and (one_by_one := _one_by_one(routes)):
-        return make(one_by_one, title, factor, settings, fillets, left)
     if checked.faults:
-        helped, more = _helped(routes, {fault.route for fault in checked.faults}, factor, settings)
+        faulty = {fault.route for fault in checked.faults}
+        if (one_by_one := _one_by_one(routes, faulty)) != routes:
+            return make(one_by_one, title, factor, settings, left)
+        helped, more = _helped(routes, faulty, factor, settings)
         if helped == routes and settings.small == "leave":
             no_room = {fault.route: why for fault in checked.faults if (why := refusal.why_no_room(fault, factor))}
             helped, more = _without(routes, no_room, factor)
         if helped == routes:
             helped = _in_chords(routes, checked.faults)
         if helped != routes:
-            return make(helped, title, factor, settings, fillets, left + more)
+            return make(helped, title, factor, settings, left + more)
     if not checked.faults and (around := _around_spikes(routes)) != routes:
         with suppress(UserError):
-            job = make(around, title, factor, settings, fillets, left)
+            job = make(around, title, factor, settings, left)
             if job.left == left:
                 return job
     refusal.refuse(checked, routes, factor, settings)
-    return Job(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings, left)
+    return CutResult(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings, left)
 
 
-def _one_by_one(routes: list[PlannedContour]) -> list[PlannedContour]:
-    """The routes with every copy of a tooth written out; none where there are no copies."""
-    if all(route.contour.copies == 1 for route in routes):
-        return []
-    return [route.one_by_one() for route in routes]
+def _simpler(routes: list[PlannedContour], which: set[int]) -> list[PlannedContour]:
+    """The routes, some written in a simpler way: a tooth may be too much for the board's memory of a route, which REP
+    needs; a rounded corner without room to round it may still go as an arc."""
+    if (one_by_one := _one_by_one(routes, which)) != routes:
+        return one_by_one
+    return [
+        replace(route, has_fillets=False) if at in which and writes_fillets(route) else route
+        for at, route in enumerate(routes)
+    ]
+
+
+def _one_by_one(routes: list[PlannedContour], which: set[int]) -> list[PlannedContour]:
+    """The routes, some with every copy of a tooth written out."""
+    return [
+        route.one_by_one() if at in which and route.contour.copies > 1 else route for at, route in enumerate(routes)
+    ]
 
 
 def _around_spikes(routes: list[PlannedContour]) -> list[PlannedContour]:

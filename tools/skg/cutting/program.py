@@ -158,7 +158,7 @@ def _out(lead: Lead) -> Iterator[float | _Item]:
     yield _point(lead.hole)
 
 
-def _pieces(route: PlannedContour, fillets: bool) -> Iterator[str | float | _Item | Edge]:
+def _pieces(route: PlannedContour) -> Iterator[str | float | _Item | Edge]:
     """A route as statements (text), offsets from here on (numbers), items of CUTs, and curves."""
     here: XY | None = None
     for at, run in enumerate(route.runs()):
@@ -172,7 +172,7 @@ def _pieces(route: PlannedContour, fillets: bool) -> Iterator[str | float | _Ite
             here = None
         parts = [
             *(_into(run.into, run.offset) if run.into else ()),
-            *(_items(run, fillets) if run.copies == 1 else _repeated(run, fillets)),
+            *(_items(run, route.has_fillets) if run.copies == 1 else _repeated(run, route.has_fillets)),
             *(_out(run.out) if run.out else ()),
         ]
         for part in parts:
@@ -276,11 +276,10 @@ class _Writer:
 
 @dataclass
 class Program:
-    """A program that cuts routes; `title` goes into its first line. `fillets`: arcs between lines are fillet radii."""
+    """A program that cuts routes; `title` goes into its first line."""
 
     routes: list[PlannedContour]
     title: str
-    fillets: bool = True
 
     def __post_init__(self) -> None:
         plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
@@ -291,13 +290,13 @@ class Program:
         yield [self.head]
         writer = _Writer(False)
         for at, route in enumerate(self.routes):
-            writer.write(_title(at, route), _pieces(route, self.fillets))
+            writer.write(_title(at, route), _pieces(route))
             yield writer.taken()
         yield [Step("END")]
 
     def numbered(self) -> str:
         """The program with line numbers; too many lines are a `UserError`."""
-        pieces = [list(_pieces(route, self.fillets)) for route in self.routes]
+        pieces = [list(_pieces(route)) for route in self.routes]
         writer = _Writer(True)
         writer.uses.update((piece.letter, piece.text) for some in pieces for piece in some if isinstance(piece, _Item))
         for at, route in enumerate(self.routes):
@@ -368,6 +367,12 @@ def describe(route: PlannedContour) -> str:
     return f"{'OPENING' if route.is_opening else 'OUTLINE'}, {way}: {parts}"
 
 
-def write(routes: list[PlannedContour], title: str, fillets: bool = True) -> str:
+def writes_fillets(route: PlannedContour) -> bool:
+    """Tell whether an arc between lines of a route is written as a fillet's radius."""
+    edges = (run.edges for run in route.runs())
+    return route.has_fillets and any(_fillet(some, at) is not None for some in edges for at in range(len(some)))
+
+
+def write(routes: list[PlannedContour], title: str) -> str:
     """Return the numbered program that cuts the routes; `title` goes into its first line."""
-    return Program(routes, title, fillets).numbered()
+    return Program(routes, title).numbered()

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 from skg.checking.follow import Threading
 from skg.checking.wire_path import LIMIT
-from skg.cutting.job import Job
+from skg.cutting.job import CutResult
 from skg.cutting.refusal import into, kind, told_in_file
 from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
 from skg.geometry.plane import XY
@@ -23,7 +23,7 @@ _PLACES = 5
 _PAIRS = 100
 
 
-def report(job: Job, factor: float, offset: float = 0.0) -> list[str]:
+def report(job: CutResult, factor: float, offset: float = 0.0) -> list[str]:
     """Return the report on a tape, line by line. `offset`: as asked for, mm."""
     settings, routes = job.settings, job.routes
     kinds = Counter(kind(route) for route in routes)
@@ -168,7 +168,7 @@ def _first(lines: list[str]) -> list[str]:
     return lines[:_PLACES] + [f"and {counted(more, 'more such contour')}"] * (more > 0)
 
 
-def _how(job: Job) -> str:
+def _how(job: CutResult) -> str:
     how = (
         "a stored program"
         if job.is_stored

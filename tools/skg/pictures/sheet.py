@@ -17,7 +17,7 @@ from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.transforms import Affine2D
 
 from skg.checking.check import drawn
-from skg.cutting.job import Job
+from skg.cutting.job import CutResult
 from skg.cutting.refusal import kind
 from skg.geometry.arrays import numbers_up_to
 from skg.geometry.contour import Places
@@ -139,7 +139,7 @@ class _Marks:
 class SetupSheet:
     """A page with a job on it."""
 
-    def __init__(self, job: Job, facts: Facts) -> None:
+    def __init__(self, job: CutResult, facts: Facts) -> None:
         self.job, self.facts = job, facts
         rows = len(job.routes)
         per_column = [int((page[1] - 2 * _MARGIN - _HEAD - 8) / _ROW) for page in (_A4, _A3)]
@@ -464,7 +464,7 @@ def _fitted(text: str, width: float) -> tuple[str, float]:
     return f"{text[:first]}…{text[last:]}", size
 
 
-def write_sheet(job: Job, facts: Facts, output: str, form: str) -> None:
+def write_sheet(job: CutResult, facts: Facts, output: str, form: str) -> None:
     """Write the setup sheet of a job; `form` is "pdf", "svg" or "png"."""
     sheet = SetupSheet(job, facts)
     sheet.draw()

@@ -85,6 +85,7 @@ class PlannedContour:
     not; see `with_wire_ways` and `in_chords`.
     `is_moved`: they are entered where they are nearest to the start hole.
     `is_around`: they are there for tips alone, which the wire goes around.
+    `has_fillets`: arcs between lines are written as radii of fillets, where these make them.
     `around`: what lies around it and is not cut.
     `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
     """
@@ -105,6 +106,7 @@ class PlannedContour:
     is_cramped: bool = False
     is_around: bool = False
     is_short: bool = False
+    has_fillets: bool = True
     around: Around | None = None
 
     @property
