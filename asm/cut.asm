@@ -12,7 +12,7 @@
 ; between two points comes a line, beside an element a point names the corner.  So
 ; two elements and a point are all the state of a route of any length; for closing
 ; it keeps the first element F, the place G where that was entered, and the first
-; item Q when it was a point.
+; item Q when it was a point.  D is where the contour, as drawn, enters C, and P the corner as drawn.
 ;
 ; Distances up to 1 um (QMU) are taken as none.
 

@@ -746,7 +746,7 @@ FCOS:   DB      CALC,QABS,Q90,QSWP,QSUB      ; 90-|x|
 FSIN:   MOV     A,M
         CPI     0A2H
         JNC     FOVF
-        DB      CALC,QDUP,QI180,QMUL    ; x x/180
+        DB      CALC,QDUP,Q90,QDBL,QDIV ; x x/180
         DB      QHALF,QADD,QFLR         ; x k           k half turns
         DB      Q90,QMUL,QDBL,QSUB      ; r             -90...90
         DB      QI64,QMUL,QEND          ; r/64

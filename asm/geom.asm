@@ -19,8 +19,12 @@ BINOPK: LXI     H,VKIND
 ; BINOP - carries out an operator
 ; In:  B = kind of a, VKIND = kind of b, C = rank of the operator (parser.asm)
 ; Out: a0 a1 a2, VKIND; ERR 04 when the kinds do not combine   Clobbers all
-BINOP:  CALL    CHECK
-        JNZ     BIN5
+BINOP:  MOV     A,C
+        DCR     A
+        CNZ     CHKRET
+        CALL    CHECK
+        MVI     A,KPNT          ; in check mode what a comma makes is taken for a point (ITCHK, cut.asm)
+        JNZ     SETK
         MOV     A,C
         ADD     A
         ADD     A
@@ -56,11 +60,6 @@ BIN3:   PUSH    B
         CALL    RUNBC
         POP     B
 BIN4:   MOV     A,B             ; (OPNAM ends here too)
-        JMP     SETK
-BIN5:   DCR     C               ; in check mode: what a comma makes is taken for a point (ITCHK, cut.asm)
-        MVI     A,KPNT
-        JZ      SETK
-        MVI     A,KTURN         ; any other kind is not known
         JMP     SETK
 
 ; GEOTAB - which byte-code serves which operands.  It goes along the byte-codes, as they

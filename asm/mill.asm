@@ -69,35 +69,40 @@ NOROUT: LDA     RITEMS
         DB      ERROR,EGEOM
 
 ; WHOLE - takes the number of an M, G or T
-; Out: Z, the number on the float stack, L = it (in check mode any); ERR 04, ERR 05   Clobbers all
+; Out: Z, DE = the number, on the float stack, too (in check mode any); ERR 04, ERR 05   Clobbers all
 WHOLE:  CALL    EVINT
+        PUSH    H
         LXI     D,-LASTW-1
-        XCHG
         DAD     D
         JC      ERRNG
-        PUSH    D
         DB      CALC,LB0,QEND   ; n             (EVINT leaves it there)
-        POP     H
+        POP     D
         RET
 
 ; SPREP - statement: G n; G n, number.  SMISC - statement: M n; M n, number
-SPREP:  MVI     E,GTAB & 255
-        DB      SKIP2           ; skips the MVI
-SMISC:  MVI     E,MTAB & 255
-        MVI     D,GTAB/256
-        PUSH    D
-        CALL    WHOLE           ; n
-        POP     D
-WORD1:  LDAX    D
-        CMP     L
-        JZ      ERRNG           ; the program's own
-        INX     D
-        ORA     A
-        JP      WORD1
-        MOV     B,A             ; B = letter, with bit 7
-        LDAX    D
-        MOV     C,A             ; C = the other number's
-        MOV     A,L
+; The CALL is followed by the letter with bit 7 set, that of what may follow, and limits: numbers from the first one
+; up to the second (without it) are not the program's, nor those from the third up to the fourth ...  The CALL
+; behind the last limit is above all numbers
+SPREP:  CALL    WORD
+        DB      CLTG+80H,CLTP
+        DB      0,4,17,22,33,34,38,39,40,43,73,92,93,94,95,96
+SMISC:  CALL    WORD
+        DB      CLTM+80H,CLTS
+        DB      2,3,30,31
+WORD:   CALL    WHOLE           ; n
+        POP     H
+        MOV     B,M             ; B = letter, with bit 7
+        INX     H
+        MOV     C,M             ; C = the other number's
+WORD1:  INR     D               ; D = limits up to n, and 1 (it was 0)
+        INX     H
+        MOV     A,E
+        CMP     M
+        JNC     WORD1
+        MOV     A,D
+        RAR
+        JNC     ERRNG           ; not the program's
+        MOV     A,E
         ADI     CLTS-6
         CMP     C
         JNZ     WORD2
@@ -122,8 +127,7 @@ WORD4:  DB      CHKEND
         CPI     CLTS
         LXI     H,FSTK+5
         CNC     PUTNUM          ; S and T stand in front of M
-        POP     B
-        MOV     A,B
+        POP     PSW             ; A = letter; C stays
         LXI     H,FSTK
         CALL    PUTNUM
         MOV     A,C
@@ -132,12 +136,7 @@ WORD4:  DB      CHKEND
         JMP     BLKOFF
 
 ;! PLCSIZ == 2*5 -- PAIR: a place is two floats, too
-;! GTAB/100H == MTAB/100H -- SPREP and SMISC differ in the low byte
 ;! CLTT == CLTS+1 and CLTP == CLTS-3 -- M6 has a T; G3 is the program's own
-
-; Numbers that are the program's own, then the letter with bit 7 set, then that of what may follow
-GTAB:   DB      0,1,2,3,17,18,19,20,21,40,41,42,90,91,93,95,CLTG+80H,CLTP
-MTAB:   DB      2,30,CLTM+80H,CLTS
 
 ; SHOLE - statement: HOLE point, point ...
 SHOLE:  CALL    EVPNT

@@ -2,12 +2,12 @@
 ; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   583 bytes
+; Room:   588 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
 ;   operand    = number | name | "(" expression ")" | "-" operand
-;              | function operand
+;              | "+" operand | function operand
 ;   name       = two bytes | letter index, expression, "]"
 ;
 ; The current value stands in a0 a1 a2 (unused ones zero), its kind in
@@ -84,6 +84,8 @@ OPND:   LXI     H,-STKLOW-STKGAP
         JZ      OPPAR
         CPI     CMINUS
         JZ      OPNEG
+        CPI     CPLUS           ; changes nothing
+        JZ      OPND
         CPI     TSQR
         JC      OPNAM
         CPI     TK3+1
@@ -317,9 +319,8 @@ PRVAL:  CALL    CHKRET
         LXI     H,MA
         LXI     B,8*256+2       ; B = digits, C = floats
         CALL    NOTURN
-        ORA     A
-        JZ      PRNUM
         DCR     A
+        JM      PRNUM
         JZ      PRV1            ; a point
         INR     C
 PRV1:   MVI     A,CLPAR

@@ -19,6 +19,9 @@ SKG = Path(sys.executable).with_name("skg")
 HEAD = "N1G17G21G90G94"
 #: A square of 10 mm from its corner, three sides.
 SIDES = ["CUT O,(10,0),(10,10),(0,10)"]
+#: Numbers of words that are punched as they stand: neither the tape's own, nor END's, nor moves.
+USERS_G = [*range(4, 17), *range(22, 33), *range(34, 38), 39, *range(43, 73), 92, 94, *range(96, 100)]
+USERS_M = [n for n in range(100) if n not in (2, 30)]
 
 
 def program(*statements: str) -> str:
@@ -67,6 +70,9 @@ def test_the_tape_of_the_specification() -> None:
     (["M 3,1200", "G 4,.5", "M 6,2", "M 6", "M 8", "G 54", "F 20", "CUT O,(1,0)", "M 5"], [(6, 90)]),
     (["M 3,1200", "G 4,.5", "M 6,2", "M 6", "M 8", "G 54", "M 4,0.001", "M 0", "M 99,99999999"],
      ["S1200M3", "G4P0.5", "T2M6", "M6", "M8", "G54", "S0.001M4", "M0", "S99999999M99", "M30"]),
+    # All that are nobody's but the user's.
+    ([f"G {n}" for n in USERS_G], [*(f"G{n}" for n in USERS_G), "M30"]),
+    ([f"M {n}" for n in USERS_M], [*(f"M{n}" for n in USERS_M), "M30"]),
     # F in mid-route: the element that is still open goes out with it, then the next ones.
     (["F 300", "CUT O,(10,0),(10,10)", "F 50", "CUT (0,10)"],
      ["G0X0Y0", "G1X10Y0F300", "G1X10Y10F50", "G1X0Y10", "M30"]),
@@ -140,6 +146,10 @@ def test_blocks(statements: list[str], wanted: list) -> None:
     (["G 4,0"], 5, []),
     (["CUT O", "G 4"], 6, ["M0"]),
     *[([f"G {n}"], 5, []) for n in (0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 41, 42, 90, 91, 93, 95, 100)],
+    # Moves that need places: threads, probing, canned cycles.
+    *[([f"G {n}"], 5, []) for n in (33, 38, *range(73, 90))],
+    (["G 83,1"], 5, []),
+    (["CUT O", "G 81"], 5, ["M0"]),
     # HOLE
     (["HOLE O"], 3, []),
     (["Z 0", "HOLE O,O"], 3, ["G0Z5", "G0X0Y0"]),

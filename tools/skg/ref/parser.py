@@ -97,6 +97,10 @@ class Tree(Transformer):
         return Minus(operand)
 
     @v_args(inline=True)
+    def plus(self, _: Token, operand: Expression) -> Expression:
+        return operand
+
+    @v_args(inline=True)
     def function(self, token: Token, argument: Expression) -> Function:
         return Function(token.rstrip("␣"), argument)
 

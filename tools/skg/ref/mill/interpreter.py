@@ -14,9 +14,10 @@ from skg.ref.tape import micrometres
 
 #: The largest number of an M, a G and a T word.
 LARGEST = 99
-#: M words that are END's, G words that the tape's own blocks set.
+#: M words of END; G words of the tape's own blocks; those with a move of their own (threads, probing, canned cycles).
 ENDS = {2, 30}
 OWN = {0, 1, 2, 3, 17, 18, 19, 20, 21, 40, 41, 42, 90, 91, 93, 95}
+CYCLES = {33, 38, *range(73, 90)}
 #: The M word for a tool change.
 TOOL_CHANGE = 6
 
@@ -50,7 +51,7 @@ class MillInterpreter(interpreter.Interpreter):
             case Miscellaneous(number, value):
                 self._miscellaneous(number, value)
             case Preparatory(number, value):
-                n = self._word_number(number, OWN)
+                n = self._word_number(number, OWN | CYCLES)
                 words = f"G{n}" + ("" if value is None else f"P{decimal(self.number(value))}")
                 self.cutter.refuse_in_route()
                 self.tape.block(words)
