@@ -1,7 +1,7 @@
 ; consts.asm - constants of the calculator
 ; Offers: Q1 Q0 QM1 QI64 QHALF QMU Q90 Q1000 QNEAR Q502 QEPS Q8DIG Q10 CONTAB
 ; Uses:   nothing
-; Room:   80 bytes
+; Room:   75 bytes
 ;
 ; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see
 ; float.asm).  Add new ones at the end.

@@ -3,7 +3,7 @@
 ;         CPYPL RTDON1 ENDRT SFROM ROUTER XTRAV XSENS XJC XONEL XNORM XNORMS XCHDA XXING SBACK
 ;         SBACK1
 ; Uses:   arc_3b arc_iso arc_nodrift calc consts fit float geom grid iso parser start tape value
-; Room:   1323 bytes
+; Room:   1317 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -741,8 +741,7 @@ ADVANC: DB      CALC,LKX,LAX,QSUB,SB0 ; -
 ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -
         DB      ADVAN3-$
-        DB      LAX,LC0,QSUB,SA0,LAY,LC1,QSUB,SA1 ; -
-        DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
+        DB      LAX,LAY,LKX,LKY,QTRAV ; s       < 0: more than half a turn
         DB      QDUP,ST3,QEND   ; s
         CALL    WRAP
         JMP     ARC

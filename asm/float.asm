@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FITOF FTOI16 FWHOLE FFLR FSQR FTG FCOS FSIN FATG
 ; Uses:   calc consts start
-; Room:   1090 bytes
+; Room:   1091 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+

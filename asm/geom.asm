@@ -2,7 +2,7 @@
 ; Offers: BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XALNG
 ;         XROTV XTURN XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   524 bytes
+; Room:   520 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one

@@ -1,7 +1,7 @@
 ; io.asm - the teletype: what is printed, the keyboard
 ; Offers: PUTC1 PAPON BREAK BROKEN ERTAPE CRLF PUTSI PUTS PUT2D PUT1D
 ; Uses:   io_cpm io_held io_port start
-; Room:   73 bytes
+; Room:   71 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it

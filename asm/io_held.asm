@@ -1,7 +1,7 @@
 ; io_held.asm - the teletype's characters, through the board's ports; KEYB takes what the reader sends, too, when lines come from there
 ; Offers: PAPER POLL
-; Uses:   io_6850 io_8251 io_ended io_key io_tape io_tty
-; Room:   68 bytes
+; Uses:   io_6850 io_8251 io_ended io_key io_tape io_tty start
+; Room:   67 bytes
 
 ; PAPER - prints a character, which the punch gets too when it is on; where nothing is printed it only looks who sends
 ; In:  B = it, C = OUTSEL   Clobbers A, C, HL
@@ -28,8 +28,7 @@ POLL:   LXI     H,KEYB
         RZ                      ; a break waits
         ORA     A
         JZ      POLL1
-        LDA     CHKF
-        ORA     A
+        CALL    CHECK
         JNZ     POLL3
 POLL1:  IN      TTYST
         ANI     RXRDY+RXOVR

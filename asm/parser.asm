@@ -2,7 +2,7 @@
 ; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   588 bytes
+; Room:   587 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2

@@ -207,6 +207,9 @@ static board_reason run(fuzz *f, uint64_t cycles)
 static void to_prompt(fuzz *f)
 {
     if (run(f, PATIENCE) != BOARD_PROMPT) {
+        if (!f->board->cpu.watching) {
+            check_fetches(f);
+        }
         fail(f, "no prompt", 0);
     }
 }

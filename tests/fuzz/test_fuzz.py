@@ -76,7 +76,7 @@ FAULTS = {
     "write to the ROM": ("SREP", f"{PARSED} 32 34 12 C9", "wrote to the ROM"),
     "stack that grows": ("SBACK", "E5 C3 SBACK", "(SP out of its room|wrote to the ROM|fetched .*)"),
     "stack that leaves its room for a moment": (
-        "SSYM", f"{PARSED} 21 00 00 39 31 A0 23 E5 E1 F9 C9", "the stack left its room"),
+        "SBACK", "FF 21 00 00 39 31 A0 23 E5 E1 F9 C9", "the stack left its room"),
     "no prompt after ctrl-C": ("SRETN", "C3 SRETN", "no prompt"),
     "PRINT that changes the program": ("SPRINT", f"{PARSED} 21 A4 26 34 C9", "the program (has changed|is not sound)"),
     "RUN that forgets the program": ("SRUN", "C3 SNEW", "the program has changed"),

@@ -39,10 +39,56 @@ KINDS = "DPCS"
 SMALL = ["0", "1", "2", "3", "4", "5", "6", "8", "10"]
 #: Coordinates: mostly whole; halves of a micrometre, and places just inside and outside of one.
 COORDINATES = SMALL * 4 + ["-1", "-2", "-3", "-4", "-5", "-6", "-8", "-10"] * 4
-COORDINATES += ["0.5", "-2.5", "7.5", "0.0005", "5.0005", "-3.0005", "0.0004", "4.9994", "0.0015", "13", "-12", "20"]
-RADII = ["1", "2", "3", "4", "5", "5", "5", "10", "13", "0.5", "2.5", "-1", "-2", "-3", "-5", "-5", "-10", "0"]
+COORDINATES += [
+    "0.5",
+    "-2.5",
+    "7.5",
+    "0.0005",
+    "5.0005",
+    "-3.0005",
+    "0.0004",
+    "4.9994",
+    "0.0015",
+    "13",
+    "-12",
+    "20",
+]
+RADII = [
+    "1",
+    "2",
+    "3",
+    "4",
+    "5",
+    "5",
+    "5",
+    "10",
+    "13",
+    "0.5",
+    "2.5",
+    "-1",
+    "-2",
+    "-3",
+    "-5",
+    "-5",
+    "-10",
+    "0",
+]
 FILLETS = ["1", "1", "2", "3", "5", "0.5", "0.5", "0.1", "10", "0.0005", "0", "-1"]
-OFFSETS = ["1", "-1", "0.5", "-0.5", "0.1", "-0.1", "2", "-2", "5", "-5", "0", "0.0005", "10"]
+OFFSETS = [
+    "1",
+    "-1",
+    "0.5",
+    "-0.5",
+    "0.1",
+    "-0.1",
+    "2",
+    "-2",
+    "5",
+    "-5",
+    "0",
+    "0.0005",
+    "10",
+]
 ANGLES = [
     "0", "30", "45", "60", "90", "90", "120", "135", "180", "180", "270", "360", "-45", "-90", "-180", "450", "36",
 ]  # fmt: skip
@@ -56,7 +102,8 @@ TRIPLES = [
 ROWS = {
     "D": [
         "({P},{P})", "({P},{S})", "({S},{P})", "({S},{S})", "{D}*{D}", "{P}*{P}", "{D}/{D}", "{D}+{D}", "{D}-{D}",
-        "-{D}", "+{D}", "SQR {D}", "SQR({D})", "SIN {D}", "COS {D}", "TG {D}", "ATG {D}", "ABS {D}", "INT {D}", "INT({D}/{D})",
+        "-{D}", "+{D}",
+        "SQR {D}", "SQR({D})", "SIN {D}", "COS {D}", "TG {D}", "ATG {D}", "ABS {D}", "INT {D}", "INT({D}/{D})",
         "K1 {P}", "K2 {P}", "K1 {C}", "K2 {C}", "K3 {C}", "K1 {S}", "K2 {S}", "K3 {S}", "({D})", "({P}#{D},{P})",
     ],
     "P": [
@@ -91,7 +138,9 @@ class _Cook:
     """One program on its way."""
 
     rng: Random
-    known: dict[str, list[str]] = field(default_factory=lambda: {"D": [], "P": ["O"], "C": [], "S": ["X", "Y"]})
+    known: dict[str, list[str]] = field(
+        default_factory=lambda: {"D": [], "P": ["O"], "C": [], "S": ["X", "Y"]}
+    )
     answers: list[str] = field(default_factory=list)
 
     # Expressions ----------------------------------------------------------------------------------------
@@ -108,7 +157,9 @@ class _Cook:
         rng = self.rng
         name = rng.choice(NAMES[kind])
         needs = re.search(r"\[(\w)", name)
-        if (name in PREDEFINED or (needs and needs[1] not in self.known["D"])) and rng.random() < 0.97:
+        if (
+            name in PREDEFINED or (needs and needs[1] not in self.known["D"])
+        ) and rng.random() < 0.97:
             name = NAMES[kind][0]
         return name
 
@@ -202,7 +253,9 @@ class _Cook:
                     case 0:
                         items.append(f"({x},{y}):({x + dx},{y + dy})")
                     case 1:  # half round
-                        items.append(f"{rng.choice(['', '-'])}(({x + dx / 2:g},{y + dy / 2:g})/({x},{y}))")
+                        items.append(
+                            f"{rng.choice(['', '-'])}(({x + dx / 2:g},{y + dy / 2:g})/({x},{y}))"
+                        )
                     case 2:  # a quarter round
                         middle = f"({x + (dx - dy) / 2:g},{y + (dy + dx) / 2:g})"
                         items.append(f"{rng.choice(['', '-'])}({middle}/({x},{y}))")
@@ -238,7 +291,9 @@ class _Cook:
         """Anything beside anything."""
         rng = self.rng
         items: list[str] = []
-        kinds = rng.choice(["P", "PC", "PS", "CS", "CS", "PCS", "PCS", "DPCS", "S", "C"])
+        kinds = rng.choice(
+            ["P", "PC", "PS", "CS", "CS", "PCS", "PCS", "DPCS", "S", "C"]
+        )
         for _ in range(rng.choice([1, 1, 2, 2, 3, 3, 4])):
             kind = rng.choice(kinds)
             if items and rng.random() < 0.12:
@@ -269,11 +324,16 @@ class _Cook:
         nodes = [self.leaf("P") for _ in range(rng.choice([1, 2, 3, 3, 4, 5]))]
         if rng.random() < 0.2:
             nodes.append(nodes[0])
-        return [f"FIT {node}" + (f",{rng.choice(ANGLES)}" if rng.random() < 0.25 else "") for node in nodes]
+        return [
+            f"FIT {node}" + (f",{rng.choice(ANGLES)}" if rng.random() < 0.25 else "")
+            for node in nodes
+        ]
 
     def rep(self) -> str:
         rng = self.rng
-        count = rng.choice(["2", "2", "3", "4", "4", "5", "6", "8", "1", "0", "-1", "2.5", "I", "D/2"])
+        count = rng.choice(
+            ["2", "2", "3", "4", "4", "5", "6", "8", "1", "0", "-1", "2.5", "I", "D/2"]
+        )
         about = rng.choice(["", "", ":O", f":{self.leaf('P')}"])
         return f"REP {rng.choice(['', '', ';'])}{count},{rng.choice(ANGLES)}{about}"
 
@@ -300,7 +360,10 @@ class _Cook:
             names.append(rng.choice(NAMES[rng.choice(KINDS)]))
         reads = [f"READ {','.join(names)}"]
         if rng.random() < 0.25:
-            reads += [rng.choice(["RESTORE", "RESTORE 20", "RESTORE 9999", "RESTORE 0"]), f"READ {names[0]}"]
+            reads += [
+                rng.choice(["RESTORE", "RESTORE 20", "RESTORE 9999", "RESTORE 0"]),
+                f"READ {names[0]}",
+            ]
         return data + reads if rng.random() < 0.7 else reads[:1] + data + reads[1:]
 
     def asked(self) -> str:
@@ -330,17 +393,33 @@ class _Cook:
         if rng.random() < 0.5:
             lines.append(f"FROM {self.leaf('P')}")
         if rng.random() < 0.06:
-            lines.append(f"SCALE {rng.choice(['2', '0.5', '10', '3', '0', '-1', '0.1'])}")
+            lines.append(
+                f"SCALE {rng.choice(['2', '0.5', '10', '3', '0', '-1', '0.1'])}"
+            )
         if rng.random() < 0.14:
             if rng.random() < 0.3:
-                lines.append(f"TOL {rng.choice(['0.01', '0.1', '1', '0', '0.5', '-1'])}")
+                lines.append(
+                    f"TOL {rng.choice(['0.01', '0.1', '1', '0', '0.5', '-1'])}"
+                )
             lines += self.fit()
             if rng.random() < 0.4:
                 lines.append(self.cut())
         else:
             lines.append(self.cut())
         for _ in range(rng.choice([0, 0, 0, 1, 2])):
-            lines.append(rng.choice([self.offset, self.cut, self.sym, self.rep, self.cut, self.rep, self.sym])())
+            lines.append(
+                rng.choice(
+                    [
+                        self.offset,
+                        self.cut,
+                        self.sym,
+                        self.rep,
+                        self.cut,
+                        self.rep,
+                        self.sym,
+                    ]
+                )()
+            )
         lines += rng.choice(
             [
                 ["BACK"], ["BACK"], ["BACK"], [], ["END"], ["BACK", "RECUT"], [f"FROM {self.leaf('P')}"],
@@ -370,7 +449,10 @@ class _Cook:
         if rng.random() < 0.3:
             lines.append(f"I={rng.choice(SMALL)}")
             self.known["D"].append("I")
-        lines += [self.assign(rng.choice("PCCSS")) for _ in range(rng.choice([0, 1, 2, 2, 3, 4]))]
+        lines += [
+            self.assign(rng.choice("PCCSS"))
+            for _ in range(rng.choice([0, 1, 2, 2, 3, 4]))
+        ]
         if rng.random() < 0.75:
             for _ in range(rng.choice([1, 1, 1, 2])):
                 lines += self.route()
@@ -382,7 +464,11 @@ class _Cook:
         if rng.random() < 0.04 and lines:  # a loop
             at = rng.randrange(len(lines))
             lines.insert(0, "J9=0")
-            lines[at + 1 :] = [*lines[at + 1 :], "J9=J9+1", f"IF J9<{rng.choice('23')} GOTO {{loop{at}}}"]
+            lines[at + 1 :] = [
+                *lines[at + 1 :],
+                "J9=J9+1",
+                f"IF J9<{rng.choice('23')} GOTO {{loop{at}}}",
+            ]
         if rng.random() < 0.02:
             deep = rng.randint(1, 40)
             lines.append(
@@ -415,7 +501,9 @@ class _Cook:
     def program(self) -> str:
         rng = self.rng
         lines = self.statements()
-        direct = rng.choice([0, 0, 0, 0, 0, 0.15, 1])  # share of lines that are carried out at once
+        direct = rng.choice(
+            [0, 0, 0, 0, 0, 0.15, 1]
+        )  # share of lines that are carried out at once
         numbers = [10 * (n + 1) for n in range(len(lines))]
         out = []
         for number, line in zip(numbers, lines, strict=True):
@@ -433,7 +521,12 @@ class _Cook:
         if rng.random() < 0.03:
             rng.shuffle(out)
         if rng.random() < 0.04:
-            out = [line.lower() if rng.random() < 0.5 else line.replace("=", " = ").replace(",", " ,") for line in out]
+            out = [
+                line.lower()
+                if rng.random() < 0.5
+                else line.replace("=", " = ").replace(",", " ,")
+                for line in out
+            ]
         return "\n".join(out) + "\n"
 
 

@@ -14,7 +14,7 @@ import rooms
 import build
 
 #: Bytes of the ROM that are kept for what is to come.
-KEPT = 285
+KEPT = 300
 IMAGES = rooms.every()
 ALL = rooms.merged(IMAGES)
 

@@ -216,9 +216,9 @@ def test_board_breaks_off_input_without_answers() -> None:
 
 
 def test_board_says_why_it_stopped() -> None:
-    board = skg.Board(max_cycles=5_000_000)
+    board = skg.Board(max_cycles=10_000_000)
     board.load("10 GOTO 10\n")
-    with pytest.raises(skg.BoardStopped, match="not done after 5000000 cycles") as stopped:
+    with pytest.raises(skg.BoardStopped, match="not done after 10000000 cycles") as stopped:
         board.run()
     assert stopped.value.reason == "cycles"
     board.machine.press("\x03")

@@ -70,7 +70,7 @@ def read_rom(path: str) -> tuple[bytes, list[int]]:
     One that cannot be read, or is not that long, is a `UserError`.
     """
     try:
-        with Path(path).open("rb") as file:
+        with open(path, "rb") as file:  # noqa: PTH123  (a Path forgets a "/" at the end)
             data = file.read(_ROM_FILE + 1)
     except OSError as error:
         raise UserError(f"{path}: {error.strerror}") from None
