@@ -131,7 +131,10 @@ def test_a_reader_without_handshake_needs_nuls(kind: str, cps: int, nuls: int) -
 def test_the_line_is_shown_up_to_the_loss(kind: str) -> None:
     board = Board(kind=kind)
     paper = loaded(
-        board, b"10 A=1\r\n" + b"20 REM LONG, LONG, LONG, LONG, LONG\r\n" * 50, 960, None
+        board,
+        b"10 A=1\r\n" + b"20 REM LONG, LONG, LONG, LONG, LONG\r\n" * 50,
+        960,
+        None,
     )
     assert "?\r\n" in paper and "ERR 10" in paper
     assert board.listing() in ([], ["10 A=1"])
