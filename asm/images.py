@@ -70,9 +70,7 @@ IMAGES = {
     "skg-tty": Image(ports=("io_6850", "io_held", "io_key"), punch=("hold", "io_tty")),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
     "skg-mill": MILL,
-    "skg-grbl": replace(
-        MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")
-    ),
+    "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")),
     "skg-drive": Image(
         ports=UNHELD["ports"],
         punch=("nohold", "io_punch", "io_reader"),

@@ -138,9 +138,7 @@ class _Cook:
     """One program on its way."""
 
     rng: Random
-    known: dict[str, list[str]] = field(
-        default_factory=lambda: {"D": [], "P": ["O"], "C": [], "S": ["X", "Y"]}
-    )
+    known: dict[str, list[str]] = field(default_factory=lambda: {"D": [], "P": ["O"], "C": [], "S": ["X", "Y"]})
     answers: list[str] = field(default_factory=list)
 
     # Expressions ----------------------------------------------------------------------------------------
@@ -157,9 +155,7 @@ class _Cook:
         rng = self.rng
         name = rng.choice(NAMES[kind])
         needs = re.search(r"\[(\w)", name)
-        if (
-            name in PREDEFINED or (needs and needs[1] not in self.known["D"])
-        ) and rng.random() < 0.97:
+        if (name in PREDEFINED or (needs and needs[1] not in self.known["D"])) and rng.random() < 0.97:
             name = NAMES[kind][0]
         return name
 
@@ -253,9 +249,7 @@ class _Cook:
                     case 0:
                         items.append(f"({x},{y}):({x + dx},{y + dy})")
                     case 1:  # half round
-                        items.append(
-                            f"{rng.choice(['', '-'])}(({x + dx / 2:g},{y + dy / 2:g})/({x},{y}))"
-                        )
+                        items.append(f"{rng.choice(['', '-'])}(({x + dx / 2:g},{y + dy / 2:g})/({x},{y}))")
                     case 2:  # a quarter round
                         middle = f"({x + (dx - dy) / 2:g},{y + (dy + dx) / 2:g})"
                         items.append(f"{rng.choice(['', '-'])}({middle}/({x},{y}))")
@@ -291,9 +285,7 @@ class _Cook:
         """Anything beside anything."""
         rng = self.rng
         items: list[str] = []
-        kinds = rng.choice(
-            ["P", "PC", "PS", "CS", "CS", "PCS", "PCS", "DPCS", "S", "C"]
-        )
+        kinds = rng.choice(["P", "PC", "PS", "CS", "CS", "PCS", "PCS", "DPCS", "S", "C"])
         for _ in range(rng.choice([1, 1, 2, 2, 3, 3, 4])):
             kind = rng.choice(kinds)
             if items and rng.random() < 0.12:
@@ -324,16 +316,11 @@ class _Cook:
         nodes = [self.leaf("P") for _ in range(rng.choice([1, 2, 3, 3, 4, 5]))]
         if rng.random() < 0.2:
             nodes.append(nodes[0])
-        return [
-            f"FIT {node}" + (f",{rng.choice(ANGLES)}" if rng.random() < 0.25 else "")
-            for node in nodes
-        ]
+        return [f"FIT {node}" + (f",{rng.choice(ANGLES)}" if rng.random() < 0.25 else "") for node in nodes]
 
     def rep(self) -> str:
         rng = self.rng
-        count = rng.choice(
-            ["2", "2", "3", "4", "4", "5", "6", "8", "1", "0", "-1", "2.5", "I", "D/2"]
-        )
+        count = rng.choice(["2", "2", "3", "4", "4", "5", "6", "8", "1", "0", "-1", "2.5", "I", "D/2"])
         about = rng.choice(["", "", ":O", f":{self.leaf('P')}"])
         return f"REP {rng.choice(['', '', ';'])}{count},{rng.choice(ANGLES)}{about}"
 
@@ -393,14 +380,10 @@ class _Cook:
         if rng.random() < 0.5:
             lines.append(f"FROM {self.leaf('P')}")
         if rng.random() < 0.06:
-            lines.append(
-                f"SCALE {rng.choice(['2', '0.5', '10', '3', '0', '-1', '0.1'])}"
-            )
+            lines.append(f"SCALE {rng.choice(['2', '0.5', '10', '3', '0', '-1', '0.1'])}")
         if rng.random() < 0.14:
             if rng.random() < 0.3:
-                lines.append(
-                    f"TOL {rng.choice(['0.01', '0.1', '1', '0', '0.5', '-1'])}"
-                )
+                lines.append(f"TOL {rng.choice(['0.01', '0.1', '1', '0', '0.5', '-1'])}")
             lines += self.fit()
             if rng.random() < 0.4:
                 lines.append(self.cut())
@@ -449,10 +432,7 @@ class _Cook:
         if rng.random() < 0.3:
             lines.append(f"I={rng.choice(SMALL)}")
             self.known["D"].append("I")
-        lines += [
-            self.assign(rng.choice("PCCSS"))
-            for _ in range(rng.choice([0, 1, 2, 2, 3, 4]))
-        ]
+        lines += [self.assign(rng.choice("PCCSS")) for _ in range(rng.choice([0, 1, 2, 2, 3, 4]))]
         if rng.random() < 0.75:
             for _ in range(rng.choice([1, 1, 1, 2])):
                 lines += self.route()
@@ -501,9 +481,7 @@ class _Cook:
     def program(self) -> str:
         rng = self.rng
         lines = self.statements()
-        direct = rng.choice(
-            [0, 0, 0, 0, 0, 0.15, 1]
-        )  # share of lines that are carried out at once
+        direct = rng.choice([0, 0, 0, 0, 0, 0.15, 1])  # share of lines that are carried out at once
         numbers = [10 * (n + 1) for n in range(len(lines))]
         out = []
         for number, line in zip(numbers, lines, strict=True):
@@ -521,12 +499,7 @@ class _Cook:
         if rng.random() < 0.03:
             rng.shuffle(out)
         if rng.random() < 0.04:
-            out = [
-                line.lower()
-                if rng.random() < 0.5
-                else line.replace("=", " = ").replace(",", " ,")
-                for line in out
-            ]
+            out = [line.lower() if rng.random() < 0.5 else line.replace("=", " = ").replace(",", " ,") for line in out]
         return "\n".join(out) + "\n"
 
 

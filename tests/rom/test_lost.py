@@ -19,9 +19,7 @@ every_board = pytest.mark.parametrize("kind", BOARDS)
 
 def tape_of(part: Path, end: str = "\r\n", nuls: int = 0) -> bytes:
     """A program as a tape, `nuls` NULs behind each line."""
-    return b"".join(
-        f"{line}{end}".encode() + bytes(nuls) for line in part.read_text().splitlines()
-    )
+    return b"".join(f"{line}{end}".encode() + bytes(nuls) for line in part.read_text().splitlines())
 
 
 def listed(part: Path, lines: dict[Path, list[str]] = {}) -> list[str]:  # noqa: B006 (kept from test to test)
@@ -44,9 +42,7 @@ def loaded(board: Board, tape: bytes, cps: float, cts: int | None) -> str:
     machine.take_tape()
     machine.reader_cps(0)
     paper = machine.tty[start:]
-    machine.type(
-        "\x15\r"
-    )  # what came behind an error stands at the teletype's own prompt
+    machine.type("\x15\r")  # what came behind an error stands at the teletype's own prompt
     machine.run(RUN_LIMIT)
     return paper
 
@@ -140,9 +136,7 @@ def test_the_line_is_shown_up_to_the_loss(kind: str) -> None:
     assert board.listing() in ([], ["10 A=1"])
 
 
-@pytest.mark.parametrize(
-    "kind", ["skg", "skg-8251", "skg-mill", "skg-grbl", "skg-drive", "skg-nodrift"]
-)
+@pytest.mark.parametrize("kind", ["skg", "skg-8251", "skg-mill", "skg-grbl", "skg-drive", "skg-nodrift"])
 def test_images_without_handshake_say_it_too(kind: str) -> None:
     for part in EXAMPLES[::7]:
         board = Board(kind=kind)
@@ -175,9 +169,7 @@ def test_one_key_waits_while_a_statement_works() -> None:
         board.machine.run(RUN_LIMIT)
         board.machine.type("=1\r")
         board.machine.run(RUN_LIMIT)
-        assert board.machine.tty.endswith("ERR 10\r\n>") == error, board.machine.tty[
-            -80:
-        ]
+        assert board.machine.tty.endswith("ERR 10\r\n>") == error, board.machine.tty[-80:]
     board.machine.type("RUN\r")
     board.machine.run(SECOND // 2)
     board.machine.press("X")
