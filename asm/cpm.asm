@@ -1,7 +1,7 @@
 ; cpm.asm - the program of CP/M: start, command line, files, the way back
 ; Offers: BDINIT BDRDY SBYE SPUNCH SSAVE SDIR
 ; Uses:   calc io io_cpm io_disk monitor start type_3b type_nc
-; Room:   670 bytes
+; Room:   677 bytes
 ;
 ; The jump at 0 leads to REBOOT while the program runs: there the BDOS goes after an error on a disk,
 ; when the operator has read what it says.
@@ -181,11 +181,19 @@ REBOOT: LXI     SP,STKTOP
         CALL    ANEW            ; (what it has not written is not on the disk)
         DB      ERROR,ETAPE
 
+; NEWFIL - takes the name of a file that is to be written, and demands the statement's end
+; In, Out: as ONEFIL (io_disk.asm); ERR 10 when it would be its own $$$   Clobbers all
+NEWFIL: CALL    ONEFIL
+        LDA     FNAME+9
+        CPI     CDOLLR
+        RNZ
+        DB      ERROR,ETAPE
+
 ; SPUNCH - command: PUNCH "NAME", PUNCH
 SPUNCH: DB      PEEK
         JZ      SPUN1
         LXI     H,TAPTYP
-        CALL    ONEFIL
+        CALL    NEWFIL
         LXI     H,FNAME
         LXI     D,PNAME
         MVI     B,12
@@ -201,7 +209,7 @@ SPUN1:  DB      CHKEND
 
 ; SSAVE - command: SAVE "NAME"
 SSAVE:  LXI     H,TYPSKG
-        CALL    ONEFIL
+        CALL    NEWFIL
         MVI     A,WSAVE
         CALL    WOPEN
         MVI     A,OFILE
@@ -287,12 +295,10 @@ SDIR7:  ANI     3
 
 ; ANEW - the BDOS forgets what it knows of the disks, as at a warm boot
 ; Clobbers all
-ANEW:   MVI     C,FWHICH
+ANEW:   MVI     C,FALL
         CALL    CPBDOS
-        PUSH    PSW
-        MVI     C,FALL
-        CALL    CPBDOS
-        POP     PSW
+        LDA     CPDRV           ; (the BDOS knows it no more when it gave up while it looked at another)
+        ANI     0FH
         MOV     E,A
         MVI     C,FDRIVE
         JMP     CPBDOS

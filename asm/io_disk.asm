@@ -1,5 +1,5 @@
 ; io_disk.asm - punch and reader are files of CP/M
-; Offers: CQUEST FALL FDRIVE FFIRST FNEXT FDEL FWHICH FDMA FERMOD WTAPE WSAVE WLOST FCALL FILE
+; Offers: CQUEST CDOLLR FALL FDRIVE FFIRST FNEXT FDEL FDMA FERMOD WTAPE WSAVE WLOST FCALL FILE
 ;         ONEFIL FBLOCK FCOPY WOPEN WDROP WCLOSE BDPUN BDREAD SLOAD TYPSKG PUNOFF PUNON BDOFF BDZERO
 ; Uses:   io io_cpm start
 ; Room:   790 bytes
@@ -234,9 +234,6 @@ WOPEN:  PUSH    PSW
         LXI     D,WNAME
         MVI     B,12
         CALL    FCOPY
-        LDA     WNAME+9
-        CPI     CDOLLR
-        JZ      ERTAPE          ; would be its own $$$
         LXI     H,WNAME
         LXI     D,WFCB
         CALL    FBLOCK

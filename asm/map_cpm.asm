@@ -5,6 +5,7 @@
 ; of the command line at 80H.
 
 CPWBT   EQU 0001H       ; -> the BIOS's entry for a warm boot
+CPDRV   EQU 0004H       ; the present drive, low half
 CPBDOS  EQU 0005H       ; the BDOS; the address of the jump there ends the memory
 CPTAIL  EQU 0080H       ; length and text of the command line
 

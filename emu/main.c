@@ -9,8 +9,8 @@
  *              2   wrong usage, a file that cannot be read or written, or a ROM that does not fit the board
  *              3   --max-cycles were not enough
  *
- * The teletype alone has no punch of its own in a terminal: without --punch FILE what is punched is lost, since the
- * firmware lists every block on the paper anyway.
+ * The teletype alone has no punch of its own in a terminal: without --punch FILE what is punched is lost, which is said
+ * once. (The firmware lists every block on the paper anyway.)
  *
  * With --punch-pty the punch and the reader are a pseudo-terminal with a machine behind it; standard output has its name
  * (behind that of --pty), and what is punched goes to --punch FILE alone besides. A part is read before the machine
@@ -18,7 +18,7 @@
  *
  * The drive's options take the operator's part too: with a part he types DRIVE 1 before RUN, and a key at each `D`.
  *
- * NOT IMPLEMENTED: the tape reader's and punch's own speed; characters that a machine loses when nobody asks; saving the state of the machine.
+ * NOT IMPLEMENTED: the punch's own speed; saving the state of the machine.
  */
 #include "board.h"
 #include "com.h"

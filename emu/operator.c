@@ -207,6 +207,15 @@ static int watch_reader(const session *s, bool *told)
     return 0;
 }
 
+/* At the prompt: says once that nothing keeps what was punched. */
+static void watch_punch(const session *s, bool *told)
+{
+    if (s->punched_nowhere && !*told) {
+        remark("nothing keeps what was punched (--punch FILE does)");
+        *told = true;
+    }
+}
+
 /* Listens to the terminal, so many ms (-1: until something comes); false: no memory. */
 static bool hear_operator(session *s, int wait)
 {
@@ -230,7 +239,7 @@ int operator_terminal(session *s)
     i8080 *c = &s->board->cpu;
     terminal *t = &s->terminal;
     uint64_t since_end = 0;
-    bool told = false;
+    bool told = false, punch_told = false;
     for (;;) {
         if (!hear_machine(s)) {
             return complain(EXIT_ERR, "out of memory");
@@ -245,6 +254,7 @@ int operator_terminal(session *s)
         }
         switch (reason) {
         case BOARD_PROMPT:
+            watch_punch(s, &punch_told);
             if (t->ended) {
                 return 0;
             }

@@ -60,6 +60,7 @@ void output_print(void *user, uint8_t c)
 void output_punch(void *user, uint8_t byte)
 {
     session *s = user;
+    s->punched_nowhere = !s->punch && !s->o.punch_pty;
     if (s->punch) {
         put(s, byte, s->punch);
     }

@@ -31,6 +31,7 @@ typedef struct {
     FILE *picture;                  /* of the drive; NULL: none */
     drawn *drawn;                   /* what goes onto it, */
     uint64_t steps_drawn;           /* and how many steps are there already */
+    bool punched_nowhere;           /* bytes were punched, and nothing keeps them */
     uint64_t printed;               /* characters on the paper */
     char printing[ERROR_LINE + 1];  /* how the present line of it begins */
     size_t line_length;             /* and how long it is */

@@ -59,13 +59,19 @@ class Console:
 
 
 class Drive(cpm80.DiskDrive):
-    """A drive whose disk can be made unwritable by hand: the BIOS says that a sector is bad."""
+    """A drive whose disk can be made unwritable, or taken out, by hand: the BIOS says that a sector is bad."""
 
-    broken = False
+    broken = is_empty = False
+
+    def read_sector(self) -> bytes:
+        """Read, or fail."""
+        if self.is_empty:
+            raise cpm80.Error("no disk")
+        return super().read_sector()
 
     def write_sector(self, data: bytes | bytearray | memoryview) -> None:
         """Write, or fail."""
-        if self.broken:
+        if self.broken or self.is_empty:
             raise cpm80.Error("bad sector")
         super().write_sector(data)
 

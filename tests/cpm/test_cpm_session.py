@@ -335,6 +335,12 @@ def test_what_is_no_command(cpm: Cpm, line: str) -> None:
     assert cpm.said(line)[-1] == "ERR 01"
 
 
+def test_a_type_that_is_not_for_writing(cpm: Cpm) -> None:
+    """It would be its own $$$: PUNCH says so at once, not at the first block."""
+    assert cpm.said('PUNCH "X.$$$"') == ["ERR 10"]
+    assert cpm.said('SAVE "X.$A"') == ["ERR 10"]
+
+
 def test_a_file_that_is_not_there(cpm: Cpm) -> None:
     cpm.said("10 END")
     assert cpm.said('LOAD "NONE"') == ["ERR 10"]
@@ -404,6 +410,20 @@ def test_a_disk_that_fails(lines: list[str]) -> None:
     keeps(cpm, ["OLD.SKG", "SKG.COM"])
     assert cpm.said('SAVE "OLD"') == []
     assert cpm.read("OLD.SKG") == b"10 CUT (0,0),(1,0)\r\n"
+
+
+@pytest.mark.parametrize("lines", [['LOAD "B:X"'], ['SAVE "B:X"'], ['DIR "B:"'], ['PUNCH "B:X"', "GOTO 10"]], ids=str)
+def test_a_drive_without_a_disk(lines: list[str]) -> None:
+    """The BDOS tells it once; one ctrl-C, and all is as it was, on the present drive."""
+    cpm = prepared()
+    cpm.drives[1].is_empty = True
+    cpm.console.after = [(b"Bad Sector", b"\x03")] * 9
+    said = sum((written(cpm, line) for line in lines), [])
+    assert said in (["Bdos Err On B: Bad Sector", error] for error in ("ERR 10", "ERR 10 LINE 10"))
+    keeps(cpm, ["OLD.SKG", "SKG.COM"])
+    assert cpm.said("PUNCH") == []
+    assert cpm.said('LOAD "OLD"') == []
+    assert cpm.said("DIR") != []
 
 
 def test_a_disk_that_cannot_be_read(cpm: Cpm) -> None:

@@ -129,6 +129,8 @@ class Walk:
                 waiting.append(1 + next(n for n in range(at + 3, len(self.image)) if self.image[n] & 0x80))
             elif name == "CALL" and target in map(self.names.get, ("DNEXT", "DNEXZ")):
                 waiting.append(at + 5)
+            elif name == "CALL" and target == self.names.get("WORD"):
+                pass  # (it takes the table behind the CALL, and does not come back)
             elif name not in ("JMP", "RET", "PCHL", "RST 1", "HLT"):
                 waiting.append(at + length)
 

@@ -18,6 +18,9 @@ from skg.files import read_bytes, without_mark
 if TYPE_CHECKING:
     from skg.machine.teletype import Port, Teletype
 
+#: Seconds that a port may stay away when nobody is at the keyboard.
+UNATTENDED_PATIENCE = 60.0
+
 
 @click.command(name="term")
 @click.argument("port")
@@ -65,10 +68,9 @@ if TYPE_CHECKING:
               help="Give up a board that is silent this long and not back at its prompt.")  # fmt: skip
 @click.option(
     "--patience",
-    default=0.0,
     metavar="SECONDS",
     type=FiniteRange(0),
-    help="Give up a port that stays away this long. Default: never.",
+    help="Give up a port that stays away this long, 0: never. Default: 60 with --batch or without a terminal, else never.",
 )
 def command(
     port: str,
@@ -83,7 +85,7 @@ def command(
     batch: bool,
     quiet: float,
     silence: float,
-    patience: float,
+    patience: float | None,
 ) -> None:
     """Be the teletype of the board on PORT (a device, or any address that pyserial knows).
 
@@ -103,6 +105,8 @@ def command(
     if punch_port and os.path.realpath(punch_port) == os.path.realpath(port):
         raise UserError(f"{punch_port}: the teletype's port too: --punch-port is for a punch on one of its own")
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
+    if patience is None:
+        patience = 0.0 if is_attended else UNATTENDED_PATIENCE
     lines = lines_to_type(without_mark(read_bytes(file)), file) if file else []
     keyed = (
         [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), "standard input")
