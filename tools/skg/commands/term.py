@@ -70,7 +70,7 @@ UNATTENDED_PATIENCE = 60.0
     "--patience",
     metavar="SECONDS",
     type=FiniteRange(0),
-    help="Give up a port that stays away this long, 0: never. Default: 60 with --batch or without a terminal, else never.",
+    help="Give up a port that stays away this long, 0: never. Default: 60 with --batch or without a terminal, else 0.",
 )
 def command(
     port: str,
