@@ -248,12 +248,12 @@ def label_files(texts: dict[str, str]) -> dict[str, str]:
     return {label.upper(): file for file, text in texts.items() for label in re.findall(r"^(\w+):", text, re.M)}
 
 
-def intel_hex(image: bytes) -> str:
-    """Intel hex, 16 bytes a record."""
+def intel_hex(image: bytes, origin: int) -> str:
+    """Intel hex, 16 bytes a record, from an address on."""
     records = []
     for start in range(0, len(image), 16):
         data = image[start : start + 16]
-        record = bytes([len(data), start >> 8, start & 255, 0]) + data
+        record = bytes([len(data), *(origin + start).to_bytes(2, "big"), 0]) + data
         records.append(f":{record.hex().upper()}{-sum(record) & 255:02X}")
     return "\n".join([*records, ":00000001FF", ""])
 
@@ -297,7 +297,7 @@ def main() -> None:
         parser.error("the name of the image is missing: OUT")
     image, symbols, listing, texts = build(args.image)
     forms = IMAGES[args.image].forms
-    left = f"   left {ROM_SIZE - len(image)} of {ROM_SIZE}" if ".com" not in forms else ""
+    left = f"   left {ROM_SIZE - len(image)} of {ROM_SIZE}" if IMAGES[args.image].restarts else ""
     if args.image == STANDARD:
         for file, size in bytes_of(texts, symbols).items():
             print(f"  {file + '.asm':12} {size:5}")
@@ -306,7 +306,7 @@ def main() -> None:
         fail(f"{len(image) - ROM_SIZE} bytes too many")
     padded = image.ljust(ROM_SIZE, b"\xff") if ".bin" in forms else image
     for form in forms:
-        write(args.out.with_suffix(form), intel_hex(padded).encode() if form == ".hex" else padded)
+        write(args.out.with_suffix(form), intel_hex(padded, symbols["ORIGIN"]).encode() if form == ".hex" else padded)
     if args.listing:
         write(args.listing, listing.encode())
     if args.sym:

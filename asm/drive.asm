@@ -1,6 +1,7 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
-; Uses:   cut decimal io io_6850 io_port io_punch io_reader monitor reset start tape value
+; Uses:   cut decimal io io_6850 io_port io_punch io_reader monitor ports_2sio reset start tape
+;         value
 ; Room:   685 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH

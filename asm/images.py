@@ -1,9 +1,10 @@
 """Every image: which files it is made of. No source file has an IF: what differs is a file of its own.
 
-Four seams. The **board**: where things lie (`map_rom`), ports and their setting up (`io_6850`, `io_8251`), teletype
-(`io_port`), punch and reader (`io_punch`, `io_tty`), what is done when a block is complete and after an error
-(`io_ended`; `drive` follows the block), at reset and at the prompt (`reset`; `keep`
-saves the program through it, `keep_none` does not). **CP/M** fills these instead: `map_cpm`,
+Four seams. The **board**: where things lie (`map_rom`, `map_rc2014`, `map_rc2014_ram`), ports and their setting up
+(`ports_2sio` or `ports_rc2014` with `io_6850`; `io_8251`), teletype (`io_held`, `io_port`), punch and reader
+(`io_punch`, `io_tty`), what is done when a block is complete and after an error (`io_ended`; `drive` follows the
+block), at reset and at the prompt (`reset`; `keep` saves the program through it, `keep_none` does not).
+**CP/M** fills these instead: `map_cpm`,
 `io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole micrometres (`tape`, and
 `arc_3b` or `arc_nodrift`). Whether spans of a curve are **held back**: `tol`, or `notol`. Words that not every image
 has are a set in words.txt.
@@ -26,7 +27,7 @@ class Image:
 
     map: str = "map_rom"
     restarts: bool = True
-    ports: tuple[str, ...] = ("io_6850", "io_held", "io_tape")
+    ports: tuple[str, ...] = ("ports_2sio", "io_6850", "io_held", "io_tape")
     punch: tuple[str, ...] = ("hold", "io_punch", "io_ended")
     start: tuple[str, ...] = ("reset", "keep")
     post: tuple[str, ...] = ("grid", "arc_3b", "tape")
@@ -55,9 +56,11 @@ class Image:
 STANDARD = "skg"
 #: No handshake, where room is short.
 UNHELD = {
-    "ports": ("io_6850", "io_port"),
+    "ports": ("ports_2sio", "io_6850", "io_port"),
     "punch": ("nohold", "io_punch", "io_reader", "io_ended"),
 }
+#: One line, which is the teletype, its punch and its reader.
+RC2014 = {"ports": ("ports_rc2014", "io_6850", "io_held", "io_key"), "punch": ("hold", "io_tty")}
 MILL = Image(
     **UNHELD,
     post=("io_send", "grid", "arc_iso", "iso"),
@@ -67,7 +70,9 @@ MILL = Image(
 IMAGES = {
     STANDARD: Image(),
     "skg-8251": Image(ports=("io_8251", "io_held", "io_tape")),
-    "skg-tty": Image(ports=("io_6850", "io_held", "io_key"), punch=("hold", "io_tty")),
+    "skg-tty": Image(ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("hold", "io_tty")),
+    "skg-rc2014": Image(map="map_rc2014", **RC2014),
+    "skg-rc2014-ram": Image(map="map_rc2014_ram", restarts=False, forms=(".hex",), **RC2014),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
     "skg-mill": MILL,
     "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")),

@@ -1,22 +1,17 @@
-; io_6850.asm - ports of the board: two Motorola 6850 (MITS 88-2SIO)
-; Offers: TTYST TTYDT PUNST PUNDT RXRDY RXOVR TXRDY SIO8N2 SIOHLD BDINIT RXKEY RXTAP
-; Uses:   drive io_ended io_tty
-; Room:   29 bytes
+; io_6850.asm - the board's receivers and transmitters: Motorola 6850
+; Offers: RXRDY RXOVR TXRDY BDINIT RXKEY RXTAP
+; Uses:   drive io_ended io_tty ports_2sio ports_rc2014
+; Room:   30 bytes
 
-TTYST   EQU 10H         ; teletype: status and control
-TTYDT   EQU 11H         ; teletype: data
-PUNST   EQU 12H         ; punch and reader: status and control
-PUNDT   EQU 13H         ; punch and reader: data
 RXRDY   EQU 01H         ; receiver full
 RXOVR   EQU 20H         ; overrun: behind the character that was read last, others were lost
 TXRDY   EQU 02H         ; transmitter empty
 
 SIORST  EQU 03H         ; control: reset
-SIO8N2  EQU 11H         ; control: 8 bits, no parity, 2 stop bits, clock / 16; /RTS low: send
-SIOHLD  EQU 51H         ; the same with /RTS high: wait
 
 ; BDINIT - readies both ports, then goes to BDREST
-BDINIT: MVI     A,SIORST
+BDINIT: DI                      ; (a monitor that has loaded the firmware may use interrupts)
+        MVI     A,SIORST
         OUT     TTYST
         OUT     PUNST
         MVI     A,SIO8N2

@@ -27,7 +27,7 @@ from pathlib import Path
 
 ASM = Path(__file__).resolve().parent
 #: Belong to everybody: names, the operations of the calculator and the words with their routines (words.py).
-COMMON = ("equ", "map_rom", "map_cpm", "ops", "words")
+COMMON = ("equ", "map_rom", "map_rc2014", "map_rc2014_ram", "map_cpm", "ops", "words")
 #: Names that a file calls upwards, each at one place that says so. Who is called there depends on the image, or is
 #: somebody who could not be below.
 HOOKS = {

@@ -7,6 +7,7 @@
 enum {
     PORT_TTY = 0x10,        /* first port of the teletype's pair */
     PORT_AUX = 0x12,        /* of the punch's and reader's */
+    PORT_RC2014 = 0x80,     /* of an RC2014's only pair */
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
     POLL_GAP = 500,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
@@ -118,7 +119,7 @@ static void receive(board *b, board_uart *u, uint8_t c)
 {
     if (u->full) {
         b->lost++;
-        if (b->kind == BOARD_6850) {
+        if (b->kind != BOARD_8251) {
             u->lost = true;
             return;
         }
@@ -282,7 +283,7 @@ static uint8_t read_data(board *b, board_uart *u)
         drive_key(&b->drive);
     }
     hear(b, u);
-    if (b->kind == BOARD_6850) {
+    if (b->kind != BOARD_8251) {
         u->full = u->lost;              /* the character stays, and OVRN is shown */
         u->overrun = u->lost;
         u->lost = false;
@@ -309,7 +310,7 @@ static uint8_t read_status(board *b, board_uart *u)
 {
     bool full = has_received(b, u);
     bool empty = can_send(b, u);
-    if (b->kind == BOARD_6850) {
+    if (b->kind != BOARD_8251) {
         return (uint8_t)((full ? ACIA_RDRF : 0) | (empty ? ACIA_TDRE : 0) | (u->overrun ? ACIA_OVRN : 0));
     }
     return (uint8_t)((full ? USART_RXRDY : 0) | (empty ? USART_TXRDY | USART_TXE : 0) | (u->overrun ? USART_OE : 0)
@@ -319,7 +320,7 @@ static uint8_t read_status(board *b, board_uart *u)
 static void uart_reset(board *b, board_uart *u)
 {
     memset(u, 0, sizeof *u);
-    u->state = b->kind == BOARD_6850 ? UART_DEAD : UART_RESET;
+    u->state = b->kind != BOARD_8251 ? UART_DEAD : UART_RESET;
 }
 
 static void acia_control(board *b, board_uart *u, uint8_t word)
@@ -362,6 +363,9 @@ static void usart_control(board *b, board_uart *u, uint8_t word)
 static board_uart *find_uart(board *b, uint8_t port, bool *control)
 {
     *control = (port & 1) == (b->kind == BOARD_8251);
+    if (b->kind == BOARD_RC2014) {
+        return (port & ~1) == PORT_RC2014 ? &b->tty : NULL;
+    }
     switch (port & ~1) {
     case PORT_TTY:
         return &b->tty;
@@ -421,7 +425,7 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     }
     if (!control) {
         write_data(b, u, value);
-    } else if (b->kind == BOARD_6850) {
+    } else if (b->kind != BOARD_8251) {
         acia_control(b, u, value);
     } else {
         usart_control(b, u, value);
@@ -429,6 +433,17 @@ static void port_out(void *user, uint8_t port, uint8_t value)
 }
 
 /* ---- the board's face ---- */
+
+unsigned board_ram_start(board_kind kind)
+{
+    return kind == BOARD_RC2014 ? 0x8000 : 0x2000;
+}
+
+unsigned board_ram_end(board_kind kind, unsigned ram_kib)
+{
+    unsigned end = board_ram_start(kind) + ram_kib * 1024;
+    return end < I8080_SPACE ? end : I8080_SPACE;
+}
 
 board *board_new(board_kind kind, unsigned ram_kib)
 {
@@ -441,7 +456,11 @@ board *board_new(board_kind kind, unsigned ram_kib)
     drive_init(&b->drive);
     i8080_init(&b->cpu, port_in, port_out, b);
     i8080_map(&b->cpu, 0, BOARD_ROM_SIZE - 1, I8080_ROM);
-    unsigned ram_end = BOARD_RAM_START + ram_kib * 1024;
+    b->punch_tty = kind == BOARD_RC2014;
+    unsigned ram_start = board_ram_start(kind), ram_end = board_ram_end(kind, ram_kib);
+    if (ram_start > BOARD_ROM_SIZE) {
+        i8080_map(&b->cpu, BOARD_ROM_SIZE, (uint16_t)(ram_start - 1), I8080_OPEN);
+    }
     if (ram_end < I8080_SPACE) {
         i8080_map(&b->cpu, (uint16_t)ram_end, 0xffff, I8080_OPEN);
     }

@@ -7,6 +7,8 @@
  *      13H     punch and reader  6850 data             punch and reader  8251 status / mode, command
  *      14H     drive (drive.h)                         drive
  *
+ *      BOARD=RC2014: one 6850, status and control at 80H, data at 81H, which is the teletype, its punch and its reader; RAM from 8000.
+ *
  *                      b7    b6    b5    b4    b3    b2    b1    b0
  *      6850 status     IRQ   PE    OVRN  FE    CTS   DCD   TDRE  RDRF      control xxxxxx11: master reset
  *      8251 status     DSR   SYN   FE    OE    PE    TxE   RxRDY TxRDY     command x1xxxxxx: reset, a mode follows
@@ -45,7 +47,6 @@
 
 enum {
     BOARD_ROM_SIZE = 0x2000,
-    BOARD_RAM_START = 0x2000,
     BOARD_RAM_MIN_KIB = 2,
     BOARD_RAM_MAX_KIB = 56,
     BOARD_RAM_KIB = 8,
@@ -70,7 +71,8 @@ typedef struct {
     size_t first, end, size;
 } board_queue;
 
-typedef enum { BOARD_6850, BOARD_8251 } board_kind;
+/* The standard board; one with two 8251s; an RC2014 with one 6850 at 80H and RAM from 8000 (`punch_tty` is its only line). */
+typedef enum { BOARD_6850, BOARD_8251, BOARD_RC2014 } board_kind;
 
 /* How characters come into a receiver. */
 typedef struct {
@@ -127,6 +129,10 @@ typedef struct board {
     uint64_t end;
     bool waiting;
 } board;
+
+/* Where a board's RAM begins, and the address behind the end of so many KiB of it. */
+unsigned board_ram_start(board_kind kind);
+unsigned board_ram_end(board_kind kind, unsigned ram_kib);
 
 /* A board with that much RAM (KiB), all of it zero, and nothing in its ROM; NULL without memory. Free with
  * board_free. */

@@ -57,7 +57,7 @@ machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int ki
         free(m);
         return NULL;
     }
-    m->board->punch_tty = punch_tty;
+    m->board->punch_tty |= punch_tty;
     m->board->baud = baud;
     m->board->paper = keep_paper;
     m->board->punch = keep_punch;

@@ -227,7 +227,7 @@ static int set_board(session *s)
     s->board->baud = s->o.baud;
     s->board->reading = (board_sender){ .cps = s->o.reader_cps, .lag = s->o.lag };
     s->board->typing = (board_sender){ .cps = s->o.keyboard_cps, .lag = s->o.lag };
-    s->board->punch_tty = s->o.punch_tty;
+    s->board->punch_tty |= s->o.punch_tty;
     s->board->paper = output_print;
     s->board->punch = output_punch;
     s->board->user = s;

@@ -44,11 +44,14 @@ static int report_nobody(const session *s)
     const board *b = s->board;
     if (b->nobody_chip) {
         return complain(EXIT_USAGE, "port %02X is read, and its %s was never readied: is this ROM for --board %s?",
-                        b->nobody_port, b->kind == BOARD_6850 ? "6850" : "8251",
-                        b->kind == BOARD_6850 ? "8251" : "6850");
+                        b->nobody_port, b->kind == BOARD_8251 ? "8251" : "6850",
+                        b->kind == BOARD_8251 ? "6850" : "8251");
     }
     return complain(EXIT_USAGE, "port %02X is read, and nobody serves it%s", b->nobody_port,
-                    b->punch_tty ? " with --punch-tty: is this ROM for a punch and reader of their own?" : "");
+                    b->nobody_port >> 1 == 0x80 >> 1 ? ": is this ROM for --board rc2014?"
+                    : b->kind == BOARD_RC2014        ? " on an RC2014: is this ROM for --board 6850 or 8251?"
+                    : b->punch_tty ? " with --punch-tty: is this ROM for a punch and reader of their own?"
+                                   : "");
 }
 
 /* What ended the machine's work without an answer from the operator. */

@@ -136,7 +136,7 @@ void output_counts(uint64_t cycles, uint64_t instructions)
 static void print_untouched(const session *s, unsigned end)
 {
     unsigned first = end, length = 0;
-    for (unsigned at = BOARD_RAM_START, run = 0; at < end; at++) {
+    for (unsigned at = board_ram_start(s->o.kind), run = 0; at < end; at++) {
         run = s->written[at] ? 0 : run + 1;
         if (run > length) {
             length = run;
@@ -152,7 +152,7 @@ void output_stats(const session *s)
     const i8080 *c = &s->board->cpu;
     complain_end_line();
     output_counts(c->cycles, c->instructions);
-    print_untouched(s, BOARD_RAM_START + s->o.ram_kib * 1024);
+    print_untouched(s, board_ram_end(s->o.kind, s->o.ram_kib));
     fprintf(stderr, "stack         down to %04X\n", c->lowest_sp);
     const drive *d = &s->board->drive;
     if (d->gaps) {

@@ -18,7 +18,12 @@ from skg.machine.board import find_error as fault
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))
 #: The boards that there is a ROM for, by its image's name, and what `skg.Board` must know of each.
-BOARDS: dict[str, dict[str, Any]] = {"skg": {}, "skg-8251": {"board": "8251"}, "skg-tty": {"punch_tty": True}}
+BOARDS: dict[str, dict[str, Any]] = {
+    "skg": {},
+    "skg-8251": {"board": "8251"},
+    "skg-tty": {"punch_tty": True},
+    "skg-rc2014": {"board": "rc2014"},
+}
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 
 #: A program that is still at work after so many cycles (16 minutes of the 2 MHz board) hangs.

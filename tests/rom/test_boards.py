@@ -1,4 +1,4 @@
-"""The ROM of every board: two 6850s, two 8251s, a teletype alone with its own punch and reader."""
+"""The ROM of every board: two 6850s, two 8251s, a teletype alone with its own punch and reader, an RC2014."""
 
 from __future__ import annotations
 
@@ -10,9 +10,16 @@ import pytest
 from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, Board, image
 from test_examples import EXAMPLES, stem
 
+from skg.machine.emulator import Machine
+
 CTRL_C, XON, DC2, XOFF, DC4, CTRL_Z = 3, 0x11, 0x12, 0x13, 0x14, 26
 SECOND = 2_000_000
-OPTIONS = {"skg": [], "skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"]}
+OPTIONS = {
+    "skg": [],
+    "skg-8251": ["--board", "8251"],
+    "skg-tty": ["--punch-tty"],
+    "skg-rc2014": ["--board", "rc2014"],
+}
 #: A route that goes on until somebody breaks in.
 ENDLESS = ["10 CUT (0,0)", "20 I=I+1", "30 CUT (I,I/3),(0,I)", "40 GOTO 20", "5 I=0"]
 
@@ -127,6 +134,28 @@ def test_a_teletype_alone_is_told_what_to_do() -> None:
     board.machine.clear()
     assert board.type("PRINT A")[-1].endswith("ERR 03")
     assert off in board.machine.tty and chr(XOFF) in board.machine.tty
+
+
+def loaded_at_9000() -> Machine:
+    """An RC2014 whose ROM goes to 9000, where a monitor has loaded the firmware, at its first prompt."""
+    machine = Machine(b"\xc3\x00\x90", 32, board="rc2014", punch_tty=True)  # JMP 9000H
+    for row in image("skg").with_name("skg-rc2014-ram.hex").read_text().split():
+        record = bytes.fromhex(row[1:])
+        if record[3] == 0:
+            machine.poke(int.from_bytes(record[1:3], "big"), record[4:-1])
+    assert machine.run() == "prompt"
+    return machine
+
+
+@pytest.mark.parametrize("part", EXAMPLES, ids=stem)
+def test_loaded_by_a_monitor(part: Path) -> None:
+    machine = loaded_at_9000()
+    machine.tape(part.read_bytes() + bytes([CTRL_Z]))
+    for line in ("LOAD", "RUN"):
+        machine.type(f"{line}\r")
+        machine.clear()
+        assert machine.run(RUN_LIMIT) == "prompt"
+    assert machine.punch == part.with_suffix(".3b").read_bytes()
 
 
 @every_board

@@ -216,7 +216,7 @@ def memory(name: str) -> bytes:
     form = VARIANTS[name][0]
     data = (ROMS / name).with_suffix(form).read_bytes()
     if form == ".hex":
-        return b"".join(bytes.fromhex(row[9:-2]) for row in data.decode().split())
+        data = b"".join(bytes.fromhex(row[9:-2]) for row in data.decode().split())
     return bytes(labels(name)["ORIGIN"]) + data
 
 

@@ -61,10 +61,11 @@ class BoardStopped(UserError):
 class Board:
     """An SKG board at its prompt, with an operator.
 
-    `rom`: "standard", "no-drift", "mill", "drive", "8251", "tty", the path of an image (.bin or .hex), or its bytes.
-    `ram_kib`: 2 to 56. `board` "6850" or "8251" and `punch_tty` (a teletype alone, its own punch and reader) tell what
-    an image of one's own is made for. `max_cycles`: how long one line or one program may take, in cycles of the 2 MHz
-    board (None: for ever). `on_paper` is called with all that is printed, as it is printed.
+    `rom`: "standard", "no-drift", "mill", "drive", "8251", "tty", "rc2014", the path of an image (.bin or .hex), or its
+    bytes.
+    `ram_kib`: 2 to 56. `board` "6850", "8251" or "rc2014" and `punch_tty` (a teletype alone, its own punch and reader)
+    tell what an image of one's own is made for. `max_cycles`: how long one line or one program may take, in cycles of
+    the 2 MHz board (None: for ever). `on_paper` is called with all that is printed, as it is printed.
 
     A board that stops anywhere but at its prompt raises `BoardStopped`. `machine` is the emulator underneath: memory,
     registers, cycles.

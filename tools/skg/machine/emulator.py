@@ -34,12 +34,11 @@ if TYPE_CHECKING:
 REASONS = ("cycles", "prompt", "input", "wait", "halt", "break", "nobody")
 #: How a call may end, in the order of `machine_end` (emu/machine.h).
 ENDS = ("returned", "cycles", "stop", "halt", "wait")
-BOARDS = {"6850": 0, "8251": 1}
+BOARDS = {"6850": 0, "8251": 1, "rc2014": 2}
 
 ROM_SIZE = 0x2000
 #: Bytes that a file with an image may have: IMAGE_FILE_LIMIT of emu/image.h.
 _ROM_FILE = 1 << 20
-RAM_START = 0x2000
 
 #: The registers, as `machine_registers` lays them out, and how numpy names their sizes.
 REGISTERS = {"a": "u1", "f": "u1", "bc": "u2", "de": "u2", "hl": "u2", "sp": "u2", "pc": "u2"}
@@ -102,6 +101,7 @@ def _library() -> ctypes.CDLL:
             [ctypes.c_char_p, size, ctypes.c_uint, ctypes.c_int, flag, ctypes.c_uint],
         ),
         "machine_free": (None, [pointer]),
+        "board_ram_end": (ctypes.c_uint, [ctypes.c_int, ctypes.c_uint]),
         "machine_board": (pointer, [pointer]),
         "machine_output": (size, [pointer, flag, ctypes.POINTER(pointer)]),
         "machine_clear": (None, [pointer]),
@@ -193,7 +193,7 @@ class Machine:
             raise MemoryError
         self._board = self._lib.machine_board(self._machine)
         #: First address past the RAM.
-        self.ram_end = RAM_START + ram_kib * 1024
+        self.ram_end = self._lib.board_ram_end(BOARDS[board], ram_kib)
 
     def __del__(self) -> None:
         if getattr(self, "_machine", None):

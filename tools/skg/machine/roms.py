@@ -28,6 +28,7 @@ ROMS = {
     "drive": Rom("skg-drive.bin"),
     "8251": Rom("skg-8251.bin", board="8251"),
     "tty": Rom("skg-tty.bin", punch_tty=True),
+    "rc2014": Rom("skg-rc2014.bin", board="rc2014", punch_tty=True),
 }
 
 
