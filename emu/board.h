@@ -76,24 +76,24 @@ typedef enum { BOARD_6850, BOARD_8251, BOARD_RC2014 } board_kind;
 
 /* How characters come into a receiver. */
 typedef struct {
-    double cps;                     /* characters a second; 0: each one waits until the board wants it */
-    int lag;                        /* so many come after /RTS has risen; negative: the sender does not look at it */
-    bool running;                   /* the next one is under way, */
-    double due;                     /* at this cycle it is there */
-    int late;                       /* since /RTS has risen */
+    double cps; /* characters a second; 0: each one waits until the board wants it */
+    int lag; /* so many come after /RTS has risen; negative: the sender does not look at it */
+    bool running; /* the next one is under way, */
+    double due; /* at this cycle it is there */
+    int late; /* since /RTS has risen */
 } board_sender;
 
 /* One serial port. */
 typedef struct {
     enum { UART_DEAD, UART_RESET, UART_SYNC2, UART_SYNC1, UART_READY } state;
     bool sends, receives;
-    bool holds;                     /* /RTS is high */
-    bool full;                      /* a received character has not been read */
-    bool lost;                      /* behind it others have been lost, which the status does not show yet (6850), */
-    bool overrun;                   /* or shows */
+    bool holds; /* /RTS is high */
+    bool full; /* a received character has not been read */
+    bool lost; /* behind it others have been lost, which the status does not show yet (6850), */
+    bool overrun; /* or shows */
     uint8_t received;
-    unsigned asked_in_vain;         /* reads since it was reset, while it was not ready */
-    uint64_t sent_at, arrived_at;   /* cycle at which the line is free again for the next character */
+    unsigned asked_in_vain; /* reads since it was reset, while it was not ready */
+    uint64_t sent_at, arrived_at; /* cycle at which the line is free again for the next character */
 } board_uart;
 
 typedef void board_sink(void *user, uint8_t byte);
@@ -103,28 +103,28 @@ typedef struct board {
     board_kind kind;
     /* Set these before the first run. */
     bool punch_tty;
-    double hz;                      /* the processor's clock */
-    unsigned baud;                  /* the teletype's line; 0: no time at all */
-    board_sink *paper, *punch;      /* what the teletype prints (7 bits), what the punch punches (8 bits) */
-    void *user;                     /* of these two and of the drive's */
+    double hz; /* the processor's clock */
+    unsigned baud; /* the teletype's line; 0: no time at all */
+    board_sink *paper, *punch; /* what the teletype prints (7 bits), what the punch punches (8 bits) */
+    void *user; /* of these two and of the drive's */
     drive drive;
 
-    board_sender typing, reading;   /* of what is typed, and of the tape */
-    uint64_t lost;                  /* characters for which a receiver had no place */
+    board_sender typing, reading; /* of what is typed, and of the tape */
+    uint64_t lost; /* characters for which a receiver had no place */
     board_queue typed, pressed, tape;
-    bool reader_on;                 /* the teletype's own reader (punch_tty) */
-    bool punch_on;                  /* the teletype's own punch (punch_tty) */
-    char line[BOARD_LINE + 1];      /* the paper's present line */
+    bool reader_on; /* the teletype's own reader (punch_tty) */
+    bool punch_on; /* the teletype's own punch (punch_tty) */
+    char line[BOARD_LINE + 1]; /* the paper's present line */
     size_t line_length;
-    unsigned error_lines;           /* lines on the paper that begin with `ERR ` */
-    uint8_t nobody_port;            /* the port of the last BOARD_NOBODY, */
-    bool nobody_chip;               /* and whether a chip is there, which has never been readied */
+    unsigned error_lines; /* lines on the paper that begin with `ERR ` */
+    uint8_t nobody_port; /* the port of the last BOARD_NOBODY, */
+    bool nobody_chip; /* and whether a chip is there, which has never been readied */
 
     /* The rest is the board's own. */
     board_uart tty, aux;
-    bool nobody;                    /* BOARD_NOBODY is to be said */
+    bool nobody; /* BOARD_NOBODY is to be said */
     uint64_t reader_asked_at, reader_asked_since;
-    unsigned polls;                 /* questions in close succession */
+    unsigned polls; /* questions in close succession */
     uint64_t polled_at;
     uint64_t end;
     bool waiting;
