@@ -391,7 +391,7 @@ static void session(fuzz *f, uint64_t bytes)
     f->board->user = f;
     board_rom(f->board, f->rom, sizeof f->rom);
     if (noise_random(&f->noise, 2)) {
-        for (unsigned at = BOARD_RAM_START; at < I8080_SPACE; at++) {
+        for (unsigned at = board_ram_start(f->kind); at < I8080_SPACE; at++) {
             i8080_poke(&f->board->cpu, (uint16_t)at, (uint8_t)noise_random(&f->noise, 256));
         }
     }

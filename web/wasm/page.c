@@ -290,13 +290,13 @@ EXPORT(page_save) uint8_t *page_save(uint32_t which)
 {
     uint8_t *bytes = page_buffer(RAM);
     for (unsigned i = 0; bytes && i < RAM; i++) {
-        bytes[i] = i8080_peek(&boards[which].board->cpu, (uint16_t)(BOARD_RAM_START + i));
+        bytes[i] = i8080_peek(&boards[which].board->cpu, (uint16_t)(board_ram_start(BOARD_6850) + i));
     }
     return bytes;
 }
 EXPORT(page_restore) void page_restore(uint32_t which, uint32_t length)
 {
     for (unsigned i = 0; i < RAM && i < length; i++) {
-        i8080_poke(&boards[which].board->cpu, (uint16_t)(BOARD_RAM_START + i), buffer.bytes[i]);
+        i8080_poke(&boards[which].board->cpu, (uint16_t)(board_ram_start(BOARD_6850) + i), buffer.bytes[i]);
     }
 }
