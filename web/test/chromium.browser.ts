@@ -1022,6 +1022,9 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
   test("INPUT: who pressed RUN types at the teletype, and RETURN never presses Stop", async () => {
     const { page, context } = await visitEmpty();
     await page.keyboard.type("10 INPUT D\r20 PRINT D*2\r30 END\r");
+    // (while it takes lines the button says Stop, and RETURN does not press that)
+    await hasLines(page, ["10 INPUT D", "20 PRINT D*2", "30 END"]);
+    await prompt(page);
     await page.focus("#run");
     await page.keyboard.press("Enter");
     await state(page, "asks for a number");
