@@ -23,7 +23,7 @@ Record = Callable[[str, object], None]
 
 #: The work is cut into shares, so that several test processes can take them.
 SHARES = range(8)
-BYTES_A_SHARE = 1_250_000
+BYTES_A_SHARE = 625_000
 SANITIZED_A_SHARE = 125_000
 BYTES_A_BOARD = 500_000
 BOARDS = {"skg-8251": ["--board", "8251"], "skg-tty": ["--punch-tty"], "skg-nodrift": [], "skg-mill": []}
