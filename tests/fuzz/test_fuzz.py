@@ -1,4 +1,4 @@
-"""The ROM under random typing (fuzz.c): ten million bytes, a tenth of it again under the sanitizers."""
+"""The ROM under random typing (fuzz.c): five million bytes, a tenth of it again under the sanitizers."""
 
 from __future__ import annotations
 
