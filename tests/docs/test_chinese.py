@@ -1,11 +1,12 @@
-"""The Chinese manual has every section of the English one, with its programs, tapes, prompts, pictures and tables.
+"""Each Chinese page has every section of the English one, with its programs, commands, tapes, pictures and tables.
 
-Run as a program, this copies what may not differ (fences, pictures) from the English manual. The words are written by
-hand.
+Run as a program, this copies what may not differ (fences, commands with what they print, pictures) from the English
+pages. The words are written by hand.
 """
 
 from __future__ import annotations
 
+import os
 import re
 from collections import Counter
 from dataclasses import dataclass
@@ -14,12 +15,19 @@ from pathlib import Path
 
 import pytest
 
-DOCS = Path(__file__).parents[2] / "docs"
-ENGLISH = DOCS / "manual.md"
-CHINESE = DOCS / "zh" / "manual.md"
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+#: Pages, English and Chinese.
+PAGES = [
+    (DOCS / "manual.md", DOCS / "zh" / "manual.md"),
+    (DOCS / "shop.md", DOCS / "zh" / "shop.md"),
+    (ROOT / "README.md", ROOT / "README.zh.md"),
+]
 
-#: A fence, or a picture on a line of its own.
-BLOCK = re.compile(r"^```.*\n(?:(?!```).*\n)*```$|^!\[(?P<caption>.*)\]\((?P<picture>.*)\)$", re.M)
+#: A fence, commands and what they print, or a picture on a line of its own.
+BLOCK = re.compile(r"^```.*\n(?:(?!```).*\n)*```$|(?:^    \S.*\n)+|^!\[(?P<caption>.*)\]\((?P<picture>.*)\)$", re.M)
+#: What is said of a command behind it is translated.
+REMARK = re.compile(r"(?m)^(    (?:make|py|python3) .*?\S) {3,}\S.*$")
 HEADING = re.compile(r"^(#+) (.*)$", re.M)
 CODE = re.compile(r"`([^`\n]+)`")
 #: Words that stand in code and are translated.
@@ -50,9 +58,9 @@ class Section:
 
     @property
     def blocks(self) -> list[str]:
-        """Fences as they stand; of a picture, its file."""
+        """Fences and commands as they stand, without remarks; of a picture, its file."""
         return [
-            str((self.folder / block["picture"]).resolve()) if block["picture"] else block[0]
+            str((self.folder / block["picture"]).resolve()) if block["picture"] else REMARK.sub(r"\1", block[0])
             for block in BLOCK.finditer(self.body)
         ]
 
@@ -81,19 +89,19 @@ def sections(page: Path) -> list[Section]:
     ]
 
 
-PAIRS = list(zip_longest(sections(ENGLISH), sections(CHINESE)))
+PAIRS = [pair for english, chinese in PAGES for pair in zip_longest(sections(english), sections(chinese))]
 pairs = pytest.mark.parametrize(("english", "chinese"), PAIRS, ids=lambda each: each.title if each else "missing")
 
 
 def test_there_is_enough() -> None:
-    assert len(PAIRS) > 40
+    assert len(PAIRS) > 60
     assert sum(len(english.blocks) for english, _ in PAIRS) > 100
 
 
 @pairs
 def test_section_has_its_counterpart(english: Section | None, chinese: Section | None) -> None:
-    assert english is not None, f"only the Chinese manual has: {chinese.title}"
-    assert chinese is not None, f"the Chinese manual has not: {english.title}"
+    assert english is not None, f"only the Chinese page has: {chinese.title}"
+    assert chinese is not None, f"the Chinese page has not: {english.title}"
     assert chinese.level == english.level
     number = re.match(r"\d+\.|", english.title)[0]
     assert chinese.title.startswith(number)
@@ -132,26 +140,31 @@ def test_is_chinese(english: Section, chinese: Section) -> None:
 
 
 def test_captions_are_chinese() -> None:
-    captions = [block["caption"] for block in BLOCK.finditer(CHINESE.read_text()) if block["picture"]]
+    captions = [block["caption"] for _, page in PAGES for block in BLOCK.finditer(page.read_text()) if block["picture"]]
     assert len(captions) > 20
     assert [caption for caption in captions if not re.search("[\u4e00-\u9fff]", caption)] == []
 
 
-def rewritten(chinese: str, english: str) -> str:
-    """The Chinese page with the English one's fences and pictures in their places."""
-    blocks = list(BLOCK.finditer(english))
-    if len(blocks) != len(BLOCK.findall(chinese)):
-        raise SystemExit(f"{CHINESE}: {len(BLOCK.findall(chinese))} fences and pictures, {ENGLISH} has {len(blocks)}")
+def rewritten(chinese: Path, english: Path) -> str:
+    """The Chinese page with the English one's fences, commands and pictures in their places; remarks stay."""
+    text = chinese.read_text()
+    blocks = list(BLOCK.finditer(english.read_text()))
+    if len(blocks) != len(list(BLOCK.finditer(text))):
+        raise SystemExit(
+            f"{chinese}: {len(list(BLOCK.finditer(text)))} blocks and pictures, {english} has {len(blocks)}"
+        )
     following = iter(blocks)
 
     def block(match: re.Match[str]) -> str:
         other = next(following)
         if other["picture"]:
-            return f"![{match['caption'] or other['caption']}](../{other['picture']})"
-        return other[0]
+            place = os.path.relpath((english.parent / other["picture"]), chinese.parent)
+            return f"![{match['caption'] or other['caption']}]({place})"
+        return match[0] if REMARK.search(other[0]) else other[0]
 
-    return BLOCK.sub(block, chinese)
+    return BLOCK.sub(block, text)
 
 
 if __name__ == "__main__":
-    CHINESE.write_text(rewritten(CHINESE.read_text(), ENGLISH.read_text()))
+    for english, chinese in PAGES:
+        chinese.write_text(rewritten(chinese, english))
