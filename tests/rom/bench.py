@@ -56,8 +56,8 @@ def table(kind: str, mark: bytes, marks: int, head: str = "") -> None:
         blocks_run, cycles_run = blocks_run + blocks, cycles_run + cycles
         worst, stack = max(worst, (cycles / blocks, part.stem)), min(stack, low)
     print(
-        f"mean without {' and '.join(sorted(COMPUTED))} {cycles_run / blocks_run:,.0f} cycles a block of {blocks_run} (limit 400,000), "
-        f"most {worst[0]:,.0f} ({worst[1]}), stack down to {stack:X}"
+        f"mean without {' and '.join(sorted(COMPUTED))} {cycles_run / blocks_run:,.0f} cycles a block of {blocks_run} "
+        f"(limit 400,000), most {worst[0]:,.0f} ({worst[1]}), stack down to {stack:X}"
     )
 
 
