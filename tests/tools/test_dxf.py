@@ -31,6 +31,7 @@ from skg.cutting.program import write
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, distance, minus, polar
+from skg.job.read_options import Wishes
 from skg.job.wanted import Wanted
 from skg.pictures.dxf import draw
 from skg.pictures.dxf import write as write_drawing
@@ -38,7 +39,6 @@ from skg.planning.plan import plan
 from skg.reading import dxf_entities, dxf_file
 from skg.reading.account import Content
 from skg.reading.chain import chain, merged
-from skg.reading.read_options import Wishes
 from skg.ref import run as run_reference
 from skg.sources import load
 from skg.sources.load import lay_out

@@ -7,12 +7,12 @@ from collections import Counter
 
 import pytest
 
+from skg.job.read_options import Wishes
 from skg.reading import fast_dxf
 from skg.reading.account import Content
 from skg.reading.dxf_entities import collect
 from skg.reading.dxf_file import DxfFile
 from skg.reading.dxf_record import Group, Record
-from skg.reading.read_options import Wishes
 
 ENTITY, PLACE, OTHER = [(5, "1F"), (330, "A"), (100, "AcDbEntity")], [(10, "1.5"), (20, "-2")], [(11, "4"), (21, "7e0")]
 LAYER: list[Group] = [(8, "A"), (62, "   7")]

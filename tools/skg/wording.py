@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 
 def in_file(place: tuple[float, float], factor: float) -> tuple[float, float]:
     """A place (mm) in the file's own units."""
@@ -22,3 +24,18 @@ def shown(place: tuple[float, float]) -> str:
 def counted(count: int, noun: str, nouns: str = "") -> str:
     """A number with its noun."""
     return f"{count} {noun if count == 1 else nouns or noun + 's'}"
+
+
+@dataclass(frozen=True)
+class ReportLine:
+    """A line of a report. `contour`: the number (from 0) of the contour, among those that were read, that it is about;
+    `place`: where, mm."""
+
+    text: str
+    contour: int | None = None
+    place: tuple[float, float] | None = None
+
+    @property
+    def is_care(self) -> bool:
+        """Tell whether somebody should take care."""
+        return self.text.startswith("take care")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from os.path import realpath
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from skg.commands.options import (
-    MOST_OFFSET,
     FiniteRange,
     RomName,
     drawing_options,
@@ -22,11 +22,12 @@ from skg.commands.options import (
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.geometry.plane import XY
-from skg.job.wanted import LEAD_SHAPES, Wanted
-from skg.planning.plan import plan
-from skg.reading.read import Wishes, layer_lines, read
-from skg.reading.selection import SMALL, WITHIN
-from skg.wording import short
+from skg.job import file as job_files
+from skg.job import values
+from skg.job.job import INTO, ROMS, SMALL, Job, MachineSetup
+from skg.job.values import MOST_OFFSET
+from skg.job.wanted import LEAD_SHAPES, Partial, Wanted
+from skg.reading.read import Wishes, layer_lines
 
 
 class Passes(click.ParamType):
@@ -36,14 +37,27 @@ class Passes(click.ParamType):
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
         """Return the numbers."""
-        if isinstance(value, tuple):
-            return value
-        result = numbers_in(value)
-        if not result or not all(0 <= more <= MOST_OFFSET for more in result):
-            self.fail(f"{value!r}: expected lengths in mm with commas between them, such as 0.06,0.02,0", param, ctx)
-        if any(after > before for before, after in pairwise(result)):
-            self.fail(f"{value!r}: a pass that leaves more than the one before it cuts nothing", param, ctx)
-        return result
+        try:
+            return values.passes(value if isinstance(value, tuple) else numbers_in(value))
+        except values.Wrong as wrong:
+            return self.fail(f"{value!r}: {wrong}", param, ctx)
+
+
+class Words(click.ParamType):
+    """A text of one line."""
+
+    name = "text"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the text."""
+        try:
+            return values.text(value)
+        except values.Wrong as wrong:
+            return self.fail(f"{value!r}: {wrong}", param, ctx)
+
+
+#: What may stand beside a job file: what is written, and how much is said.
+_BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job", "quiet")
 
 
 @click.command(name="cut")
@@ -69,7 +83,7 @@ class Passes(click.ParamType):
     default=0.0002,
     show_default=True,
     metavar="MM",
-    type=FiniteRange(1e-5),
+    type=FiniteRange(values.LEAST_FIT),
     help="Largest distance of FIT from splines and ellipses.",
 )
 @click.option(
@@ -97,7 +111,7 @@ class Passes(click.ParamType):
     "--small",
     default="refuse",
     show_default=True,
-    type=click.Choice(("refuse", "leave")),
+    type=click.Choice(SMALL),
     help="Refuse or leave closed contours that are too small or narrow for the wire beside them, or too short for "
     "the tab.",
 )
@@ -105,7 +119,7 @@ class Passes(click.ParamType):
     "--into",
     default="refuse",
     show_default=True,
-    type=click.Choice(("refuse", "cut")),
+    type=click.Choice(INTO),
     help="Refuse or cut closed contours whose wire would gouge another one, since they cross or lie too near to "
     "each other.",
 )
@@ -113,20 +127,83 @@ class Passes(click.ParamType):
     "--rom",
     default="no-drift",
     show_default=True,
-    type=RomName(("no-drift", "standard")),
+    type=RomName(ROMS),
     help="The ROM that makes the tape. On a standard tape the misses of the arcs add up.",
 )
 @click.option(
-    "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB."
+    "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(*values.RAM), help="The board's RAM, KiB."
 )
 @feed_option
+@click.option("--material", metavar="TEXT", type=Words(), help="Material of the stock, for the setup sheet.")
+@click.option("--thickness", metavar="TEXT", type=Words(), help="Thickness of the stock, for the setup sheet.")
+@click.option(
+    "--save-job", metavar="FILE", type=click.Path(), help="Also write what was asked for, as a job file: .job.toml."
+)
 @click.option("--quiet", is_flag=True, help="Print warnings alone.")
+@click.pass_context
 def command(
+    context: click.Context,
     file: str,
     output: str,
     list_layers: bool,
     program: str | None,
     sheet: str | None,
+    save_job: str | None,
+    quiet: bool,
+    **options: object,
+) -> None:
+    """Cut a drawing: FILE (.dxf or .svg) becomes a 3B tape.
+
+    Lines, arcs, circles, polylines, ellipses and splines are chained into contours. Openings are cut before the outline
+    around them, each from a start hole of its own. The program runs on the board in this process, and the tape is
+    followed with the controller's simulation and compared with the drawing before it is written. The report goes to
+    standard error. FILE - is the standard input.
+    """
+    from skg.pipeline.steps import cut_drawing, open_drawing, written
+
+    if list_layers:
+        for line in layer_lines(read_bytes(file), file, Wishes(encoding=options["encoding"])):
+            click.echo(line)
+        return
+    form = picture_format(sheet, None) if sheet else ""
+    if is_job_file(file):
+        job, path = _loaded(file, context)
+        _refuse_onto_drawing(path, (output, program, sheet, save_job))
+    else:
+        job, path = _asked(file, **options), file
+    if save_job:
+        _refuse_elsewhere(save_job, path)
+    drawn = open_drawing(job, read_bytes(path), path)
+    cut = cut_drawing(job, drawn)
+    if program:
+        write_bytes(program, cut.result.program.encode("ascii"))
+    if sheet:
+        from skg.pictures.sheet import Facts, write_sheet
+
+        tape = Path(output).name if output != "-" else "-"
+        drawing = Path(path).name if path != "-" else "-"
+        machine = job.machine
+        facts = Facts(drawing, tape, machine.wire, machine.gap or 0.0, cut.reading.report.units)
+        write_sheet(cut.result, facts, sheet, form)
+    if save_job:
+        write_bytes(save_job, job_files.encoded(written(job, drawn)))
+    write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
+    lines = [line.text for line in cut.lines]
+    if quiet:
+        lines = [line for line in lines if line.startswith(("take care", "not cut"))]
+    else:
+        lines += unmarked(output, cut.result.tape, job.machine.rom)
+    for line in lines:
+        click.echo(line, err=True)
+
+
+def is_job_file(name: str) -> bool:
+    """Tell whether a file is a job, by its name."""
+    return name.lower().endswith(".toml")
+
+
+def _asked(
+    file: str,
     wire: float | None,
     gap: float,
     offset: float | None,
@@ -149,79 +226,45 @@ def command(
     rom: str,
     ram: int,
     feed: float,
-    quiet: bool,
-) -> None:
-    """Cut a drawing: FILE (.dxf or .svg) becomes a 3B tape.
-
-    Lines, arcs, circles, polylines, ellipses and splines are chained into contours. Openings are cut before the outline
-    around them, each from a start hole of its own. The program runs on the board in this process, and the tape is
-    followed with the controller's simulation and compared with the drawing before it is written. The report goes to
-    standard error. FILE - is the standard input.
-    """
-    from skg.cutting.job import make
-    from skg.cutting.report import report
-    from skg.cutting.settings import Settings
-
-    if list_layers:
-        for line in layer_lines(read_bytes(file), file, Wishes(encoding=encoding)):
-            click.echo(line)
-        return
-    distance = _offset(wire, gap, offset)
-    form = picture_format(sheet, None) if sheet else ""
-    wishes = Wishes(
-        layers, start_layer, units, tolerance, fit_tolerance, opened or ("refuse" if distance else "cut"), encoding
-    )
-    data = read_bytes(file)
-    reading = read(data, file, wishes)
-    factor = reading.report.factor
-    settings = Settings(rom, ram, feed, small, into)
+    material: str | None,
+    thickness: str | None,
+) -> Job:
+    """The job that the options ask for."""
+    read = Wishes(layers, start_layer, units, tolerance, fit_tolerance, opened, encoding)
     try:
-        routes = plan(
-            reading.contours,
-            list(starts) or reading.starts,
-            Wanted(True, distance, side, reverse, passes or (0.0,), tab, lead, lead_shape),
-            reading.others,
-        )
-        job = make(routes, "standard input" if file == "-" else Path(file).name, factor, settings)
+        machine = MachineSetup(wire, gap or None, offset, rom, ram, feed, small, into, material or "", thickness or "")
     except UserError as error:
-        raise UserError(f"{file}: {error}") from None
-    if job.left:
-        reading = read(data, file, wishes, {one.number: WITHIN if one.is_within else SMALL for one in job.left})
-    if program:
-        write_bytes(program, job.program.encode("ascii"))
-    if sheet:
-        from skg.pictures.sheet import Facts, write_sheet
-
-        names = (Path(path).name if path != "-" else "-" for path in (file, output))
-        write_sheet(job, Facts(*names, wire, gap, reading.report.units), sheet, form)
-    write_bytes(output, job.data)  # last: no tape where something else could not be written
-    lines = [*reading.report.lines(), *report(job, factor, distance)]
-    if passes and passes[-1]:
-        lines.append(f"take care: the last pass leaves {short(passes[-1])} mm more than the offset, as --passes says")
-    if tab and not any(route.tab for route in job.routes):
-        lines.append("take care: no contour has a tab: none is a part that is cut from outside")
-    if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
-        from skg.checking.split_parts import said
-
-        lines += said(job.routes, factor)
-    if quiet:
-        lines = [line for line in lines if line.startswith(("take care", "not cut"))]
-    else:
-        lines += unmarked(output, job.tape, rom)
-    for line in lines:
-        click.echo(line, err=True)
+        raise UserError(f"--{error}") from None
+    asked = Wanted(side=side, reverse=reverse, passes=passes or (0.0,), tab=tab, lead=lead, lead_shape=lead_shape)
+    usual = Wanted()
+    default = {key: value for key, value in vars(asked).items() if value != getattr(usual, key)}
+    return Job(
+        "standard input" if file == "-" else Path(file).name, "", None, read, machine, starts, Partial(**default)
+    )
 
 
-def _offset(wire: float | None, gap: float, offset: float | None) -> float:
-    """The wire's distance from the contour, mm."""
-    if offset is not None and (wire is not None or gap):
-        raise UserError("--offset and --wire with --gap say the same thing: give one of them")
-    if gap and wire is None:
-        raise UserError("--gap goes with --wire")
-    if wire is None:
-        return offset or 0.0
-    if wire / 2 + gap > MOST_OFFSET:
-        raise UserError(
-            f"--wire and --gap put the wire {wire / 2 + gap:g} mm beside the contour, at most {MOST_OFFSET:g}"
-        )
-    return wire / 2 + gap
+def _loaded(file: str, context: click.Context) -> tuple[Job, str]:
+    """The job of a file, and where its drawing is; an option beside it that says what is wanted is a `UserError`."""
+    for parameter in context.command.params:
+        is_given = context.get_parameter_source(parameter.name) is ParameterSource.COMMANDLINE
+        if is_given and parameter.name not in _BESIDE_A_JOB:
+            raise UserError(f"{file}: {parameter.opts[0]} stands in the job file: change it there")
+    job = job_files.decoded(read_bytes(file), file)
+    path = Path(file).parent / job.drawing
+    if not path.is_file():
+        raise UserError(f"{file}: its drawing {job.drawing} is not beside it: put it there, or change drawing")
+    return job, str(path)
+
+
+def _refuse_onto_drawing(path: str, written: tuple[str | None, ...]) -> None:
+    for name in filter(None, written):
+        if name != "-" and realpath(name) == realpath(path):
+            raise UserError(f"{name}: to be written, and read by the same command")
+
+
+def _refuse_elsewhere(save_job: str, path: str) -> None:
+    """A job names its drawing, which lies beside it."""
+    if not is_job_file(save_job):
+        raise UserError(f"{save_job}: expected a name that ends in .job.toml")
+    if path == "-" or Path(realpath(save_job)).parent != Path(realpath(path)).parent:
+        raise UserError(f"{save_job}: a job file lies beside its drawing: {path}")

@@ -12,13 +12,10 @@ from pathlib import Path
 import click
 
 from skg.errors import UserError
+from skg.job.values import LEAST_FEED, MOST_OFFSET
 from skg.tape.block import MAX_DIGITS, Tape
 from skg.tape.positions import POSITIONS, WITHOUT_DRIFT, decide, depends
 
-#: No wire with its spark gap is wider than twice this, mm.
-MOST_OFFSET = 5.0
-#: No machine cuts more slowly, mm/min.
-LEAST_FEED = 0.001
 #: Formats of pictures, by the ending of a file's name.
 FORMATS = ("svg", "png", "pdf")
 
@@ -140,8 +137,8 @@ def feed_option(function: Callable) -> Callable:
 
 def drawing_options(function: Callable) -> Callable:
     """Give a command the options for how a drawing is read, and how its contours are entered and run through."""
+    from skg.job.read_options import OPEN, START, UNITS
     from skg.job.wanted import LEAD, SIDES
-    from skg.reading.read_options import OPEN, START, UNITS
 
     for option in (
         click.option(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 #: The side of a contour that the wire runs on.
 SIDES = ("auto", "inside", "outside", "left", "right", "on")
@@ -44,3 +44,28 @@ class Wanted:
     def widest(self) -> float:
         """The distance between wire and contour in the pass that is furthest aside, mm."""
         return self.offset + max(self.passes) if self.side != "on" else 0.0
+
+
+@dataclass(frozen=True)
+class Partial:
+    """What is said of a `Wanted`, for all contours, those of a layer, or one; None: nothing."""
+
+    cut: bool | None = None
+    offset: float | None = None
+    side: str | None = None
+    reverse: bool | None = None
+    passes: tuple[float, ...] | None = None
+    tab: float | None = None
+    lead: float | None = None
+    lead_shape: str | None = None
+    start: tuple[float, float] | None = None
+    entry: tuple[float, float] | None = None
+    order: int | None = None
+
+    def said(self) -> dict[str, object]:
+        """What it says, by the names of the fields."""
+        return {name: value for name, value in vars(self).items() if value is not None}
+
+    def over(self, wanted: Wanted) -> Wanted:
+        """What is wanted where this is said beside it."""
+        return replace(wanted, **self.said())

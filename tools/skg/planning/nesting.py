@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ import shapely
 
 from skg.geometry.areas import areas_of
 from skg.geometry.contour import Contour
+from skg.geometry.field import Field
 from skg.wording import counted
 
 #: One that is no larger than this is the same contour, drawn on another layer.
@@ -26,6 +28,33 @@ class Around(NamedTuple):
 
     layers: tuple[str, ...]
     is_frame: bool
+
+
+@dataclass(frozen=True)
+class Nesting:
+    """Contours, and what lies in what. `field`: where they lie; `depths`: how many lie around each, an uncut outline
+    among these; `around`: the uncut contours that some lie in, see `around_all`."""
+
+    contours: Sequence[Contour]
+    field: Field
+    depths: list[int]
+    around: dict[int, Around]
+
+    @classmethod
+    def of(cls, contours: Sequence[Contour], others: Sequence[Contour] = ()) -> Nesting:
+        """Find what lies in what; `others`: closed contours on layers that are not cut."""
+        field = Field(list(contours))
+        depths = field.depths()
+        around = around_all(contours, depths, others)
+        if openings := [at for at, one in around.items() if not one.is_frame]:
+            depths = deeper(contours, depths, openings)
+        return cls(contours, field, depths, around)
+
+    def kind(self, at: int) -> str:
+        """What a contour is: "outline", "opening" or "open"."""
+        if not self.contours[at].is_closed:
+            return "open"
+        return "opening" if self.depths[at] % 2 else "outline"
 
 
 def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Sequence[Contour]) -> dict[int, Around]:

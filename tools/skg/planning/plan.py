@@ -17,7 +17,7 @@ from skg.geometry.field import Field
 from skg.geometry.plane import XY, distance
 from skg.job.wanted import Wanted
 from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
-from skg.planning.nesting import around_all, deeper
+from skg.planning.nesting import Nesting
 from skg.planning.order import nearest_order
 from skg.planning.route import PlannedContour, chain_from, split_at_end
 
@@ -102,13 +102,13 @@ class _Columns(NamedTuple):
 class _Planner:
     """Plans contours, each by itself; knows what lies around them. All contours look around together."""
 
-    def __init__(self, contours: list[Contour]) -> None:
-        self.field = Field(contours)
+    def __init__(self, nesting: Nesting) -> None:
+        self.nesting = nesting
+        self.field = nesting.field
 
-    def plan(
-        self, contours: Sequence[Contour], wanted: Sequence[Wanted], depths: Sequence[int], given: dict[int, XY]
-    ) -> list[PlannedContour]:
+    def plan(self, wanted: Sequence[Wanted], given: dict[int, XY]) -> list[PlannedContour]:
         """Plan the contours that are wanted; `given`: the start holes that some of them have."""
+        contours, depths = self.nesting.contours, self.nesting.depths
         done: dict[int, PlannedContour] = {}
         choices: list[_Choice] = []
         for number, (drawn, want, depth) in enumerate(zip(contours, wanted, depths, strict=True)):
@@ -349,30 +349,31 @@ def _part_at(edge: Edge, place: XY) -> float:
 
 
 def plan(
-    contours: list[Contour],
+    contours: Sequence[Contour],
     starts: Sequence[XY],
     wanted: Wanted | Sequence[Wanted],
     others: Sequence[Contour] = (),
 ) -> list[PlannedContour]:
+    """Plan contours that nobody has looked at; `others`: closed contours on layers that are not cut. See
+    `plan_nested`."""
+    each = [wanted] * len(contours) if isinstance(wanted, Wanted) else wanted
+    return plan_nested(Nesting.of(contours, others), starts, each)
+
+
+def plan_nested(nesting: Nesting, starts: Sequence[XY], wanted: Sequence[Wanted]) -> list[PlannedContour]:
     """Return the contours in the order in which they are cut: inner ones first, and then the nearest.
 
-    `wanted`: how all contours are cut, or each. Each of the `starts` (mm) goes to the innermost contour around it that
-    is cut from inside and has no start hole yet, else to the nearest one. `others`: closed contours on layers that are
-    not cut; what lies in one is an opening of it, or a part in a frame. Raises `UserError` for a start hole in the
-    part, and for an order that cuts a contour before what lies in it.
+    `wanted`: how each is cut. Each of the `starts` (mm) goes to the innermost contour around it that is cut from inside
+    and has no start hole yet, else to the nearest one. What lies in an uncut contour is an opening of it, or a part in
+    a frame. Raises `UserError` for a start hole in the part, and for an order that cuts a contour before what lies in
+    it.
     """
-    each = [wanted] * len(contours) if isinstance(wanted, Wanted) else list(wanted)
-    planner = _Planner(contours)
-    depths = planner.field.depths()
-    around = around_all(contours, depths, others)
-    if openings := [at for at, one in around.items() if not one.is_frame]:
-        depths = deeper(contours, depths, openings)
-    given = _given_starts(planner.field, depths, each, list(starts))
-    routes = planner.plan(contours, each, depths, given)
-    if around:
-        found = {at: one for at, one in around.items() if each[at].side == "auto"}
+    given = _given_starts(nesting, wanted, list(starts))
+    routes = _Planner(nesting).plan(wanted, given)
+    if nesting.around:
+        found = {at: one for at, one in nesting.around.items() if wanted[at].side == "auto"}
         routes = [replace(route, around=found.get(route.number)) for route in routes]
-    return _as_wanted(_ordered(routes), each, planner.field)
+    return _as_wanted(_ordered(routes), wanted, nesting.field)
 
 
 def _oriented(contour: Contour, wanted: Wanted, depth: int) -> tuple[Contour, float]:
@@ -435,8 +436,9 @@ def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
                 raise UserError(f"order: contour {first} would be cut before contour {second}, which lies in it")
 
 
-def _given_starts(field: Field, depths: list[int], wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
+def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
     """Assign each given start hole to a contour (by its number)."""
+    field, depths = nesting.field, nesting.depths
     found = {at: want.start for at, want in enumerate(wanted) if want.cut and want.start is not None}
     taken = {at for at, want in enumerate(wanted) if not want.cut} | set(found)
     if len(starts) > len(depths) - len(taken):

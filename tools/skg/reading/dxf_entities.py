@@ -15,13 +15,13 @@ import shapely
 from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
+from skg.job.read_options import Wishes
 from skg.reading import fast_dxf
 from skg.reading.account import NOTE, Content, Entity, said
 from skg.reading.curves import is_number
 from skg.reading.dxf_file import Definition, DxfFile
 from skg.reading.dxf_placing import LEAVES, NotFlat, Placing, is_full, swept
 from skg.reading.dxf_record import Record
-from skg.reading.read_options import Wishes
 
 if TYPE_CHECKING:
     from ezdxf.entities import DXFGraphic

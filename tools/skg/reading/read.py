@@ -18,12 +18,12 @@ from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
+from skg.job.read_options import OPEN, START, UNITS, Wishes
 
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
 from skg.reading import dxf_entities, dxf_file, svg_file, svg_shapes
 from skg.reading.account import NOTE, Account, Content, listed
 from skg.reading.chain import merged
-from skg.reading.read_options import OPEN, START, UNITS, Wishes
 from skg.reading.selection import Selection
 from skg.wording import counted, short, shown
 

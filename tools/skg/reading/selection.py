@@ -12,11 +12,11 @@ from skg.geometry.arrays import Floats
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, distance
+from skg.job.read_options import Wishes
 from skg.reading.account import Account, Content, LayerSum, OpenEnd, Overlap, above, said
 from skg.reading.chain import Chains, chain
 from skg.reading.meetings import Relations, lying_on, nearest, relations
 from skg.reading.overruns import Overrun, without_overruns
-from skg.reading.read_options import Wishes
 from skg.wording import counted, in_file, short, shown
 
 #: Why an edge is not cut.

@@ -17,9 +17,9 @@ import svgelements
 from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, cross, distance, minus
+from skg.job.read_options import Wishes
 from skg.reading.account import NOTE, Content, Entity, said
 from skg.reading.curves import conic, is_number, spline_edges
-from skg.reading.read_options import Wishes
 from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Drawn, SvgFile, View, length_of, property_of, tag_of
 from skg.wording import counted
 

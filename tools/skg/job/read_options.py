@@ -24,8 +24,8 @@ class Wishes:
 
     `layers`: only these (none: all that are neither off nor frozen). `start_layer`: that of the start holes. `units`:
     one of `UNITS`, None: what the file says. `tolerance`: ends no further apart are one corner, mm. `fit_tolerance`:
-    how near FIT shall come to splines and ellipses, mm. `open`: one of `OPEN`, what becomes of open contours.
-    `encoding`: of a DXF file's text, None: what the file says, else guessed.
+    how near FIT shall come to splines and ellipses, mm. `open`: one of `OPEN`, what becomes of open contours, None: not
+    chosen. `encoding`: of a DXF file's text, None: what the file says, else guessed.
     """
 
     layers: tuple[str, ...] = ()
@@ -33,7 +33,7 @@ class Wishes:
     units: str | None = None
     tolerance: float = 0.005
     fit_tolerance: float = 0.0002
-    open: str = "cut"
+    open: str | None = "cut"
     encoding: str | None = None
 
     def check_layers(self, known: Iterable[str]) -> None:

@@ -1,0 +1,269 @@
+"""Job files: TOML, and the same as plain data; every key with the check of its value.
+
+job = load(text, "part.job.toml")
+text = dump(job)
+"""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import replace
+from difflib import get_close_matches
+from typing import Any
+
+from skg.errors import UserError
+from skg.job import values
+from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup
+from skg.job.read_options import OPEN, UNITS, Wishes
+from skg.job.wanted import LEAD_SHAPES, SIDES, Partial
+
+#: The version of the file's form.
+SCHEMA = 1
+#: Names of a drawing's layers may have bytes that are no text: they stay what they are.
+_ODD = "surrogateescape"
+
+_READ: dict[str, values.Check] = {
+    "units": values.choice(UNITS),
+    "open": values.choice(OPEN),
+    "tolerance": values.number(0.0, is_open=True),
+    "start_layer": values.name,
+    "fit_tolerance": values.number(values.LEAST_FIT),
+    "encoding": values.text,
+    "layers": values.names,
+}
+_MACHINE: dict[str, values.Check] = {
+    "wire": values.number(0.0, 2 * values.MOST_OFFSET, is_open=True),
+    "gap": values.number(0.0, values.MOST_OFFSET),
+    "offset": values.number(0.0, values.MOST_OFFSET),
+    "rom": values.choice(ROMS),
+    "ram": values.whole(*values.RAM),
+    "feed": values.number(values.LEAST_FEED),
+    "small": values.choice(SMALL),
+    "into": values.choice(INTO),
+    "material": values.text,
+    "thickness": values.text,
+}
+_DEFAULT: dict[str, values.Check] = {
+    "cut": values.flag,
+    "side": values.choice(SIDES),
+    "passes": values.passes,
+    "tab": values.number(0.0),
+    "lead": values.number(0.0, is_open=True),
+    "lead_shape": values.choice(LEAD_SHAPES),
+    "reverse": values.flag,
+}
+_OFTEN = _DEFAULT | {"offset": values.number(0.0, values.MOST_OFFSET)}
+_LAYER = {"name": values.name} | _OFTEN
+_CONTOUR: dict[str, values.Check] = {
+    "layer": values.name,
+    "kind": values.choice(KINDS),
+    "at": values.place,
+    "size": values.size,
+    **_OFTEN,
+    "start": values.place,
+    "entry": values.place,
+    "order": values.whole(1, 1_000_000),
+}
+_TOP: dict[str, values.Check] = {
+    "schema": values.whole(SCHEMA, SCHEMA),
+    "drawing": values.file_name,
+    "sha256": values.checksum,
+    "box": values.box,
+    "starts": values.places,
+}
+#: The tables of a file, with their keys; those of lists.
+_TABLES = {"read": _READ, "machine": _MACHINE, "default": _DEFAULT}
+_LISTS = {"layer": _LAYER, "contour": _CONTOUR}
+
+
+def load(text: str, name: str) -> Job:
+    """Read a job file's text; `name` is the file's name, for messages."""
+    try:
+        data = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        # (an int of more than 4,300 digits is a plain ValueError)
+        raise UserError(f"{name}: no TOML: {error or 'nested too deeply'}") from None
+    return from_data(data, name)
+
+
+def decoded(data: bytes, name: str) -> Job:
+    """Read a job file's bytes: UTF-8."""
+    try:
+        text = data.decode("utf-8-sig", _ODD)
+    except UnicodeDecodeError as error:
+        raise UserError(f"{name}: byte {error.start + 1} is no UTF-8") from None
+    return load(text, name)
+
+
+def encoded(job: Job) -> bytes:
+    """The bytes of a job file."""
+    return dump(job).encode("utf-8", _ODD)
+
+
+def from_data(data: object, name: str) -> Job:
+    """Make the job of plain data; what is wrong with these is a `UserError` that begins with the name and the place."""
+    top = _table(data, name)
+    _refuse_unknown(top, {**_TOP, **_TABLES, **_LISTS}, name)
+    said = _checked({key: value for key, value in top.items() if key in _TOP}, _TOP, name)
+    for key in ("schema", "drawing"):
+        if key not in said:
+            raise UserError(f"{name}: {key} is missing" + f": schema = {SCHEMA}" * (key == "schema"))
+    del said["schema"]
+    tables = {
+        key: _checked(_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
+        for key, keys in _TABLES.items()
+    }
+    layers = _layers(_list(top, "layer", name), name)
+    contours = tuple(_chosen(one, where) for one, where in _list(top, "contour", name))
+    _refuse_twins(contours, name)
+    try:
+        machine = MachineSetup(**tables["machine"])
+    except UserError as error:
+        raise UserError(f"{name}: [machine]: {error}") from None
+    read = Wishes(**{"open": None, **tables["read"]})
+    return Job(
+        read=read, machine=machine, default=Partial(**tables["default"]), layers=layers, contours=contours, **said
+    )
+
+
+def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Partial]:
+    found: dict[str, Partial] = {}
+    for one, where in entries:
+        layer = _required(one, ("name",), where)[0]
+        if layer.lower() in map(str.lower, found):
+            raise UserError(f"{where}: layer {layer} is there twice")
+        found[layer] = Partial(**one)
+    return found
+
+
+def _chosen(one: dict[str, Any], where: str) -> Chosen:
+    layer, kind, place, size = _required(one, ("layer", "kind", "at", "size"), where)
+    return Chosen(layer, kind, place, size, Partial(**one))
+
+
+def _required(one: dict[str, Any], keys: tuple[str, ...], where: str) -> list[Any]:
+    """Take values out that must be there."""
+    for key in keys:
+        if key not in one:
+            raise UserError(f"{where}: {key} is missing")
+    return [one.pop(key) for key in keys]
+
+
+def _refuse_twins(contours: tuple[Chosen, ...], name: str) -> None:
+    seen: dict[Chosen, int] = {}
+    for number, one in enumerate(contours, 1):
+        first = seen.setdefault(replace(one, partial=Partial()), number)
+        if first != number:
+            raise UserError(f"{name}: [[contour]] {number}: it is the same one as [[contour]] {first}")
+
+
+def _list(top: Mapping[str, Any], key: str, name: str) -> list[tuple[dict[str, Any], str]]:
+    """The entries of a list of tables, checked, each with its place."""
+    entries = top.get(key, [])
+    if not isinstance(entries, list):
+        raise UserError(f"{name}: {key}: expected [[{key}]], a list of tables")
+    found = []
+    for number, one in enumerate(entries, 1):
+        where = f"{name}: [[{key}]] {number}"
+        found.append((_checked(_table(one, where), _LISTS[key], where), where))
+    return found
+
+
+def _table(data: object, where: str) -> dict[str, Any]:
+    if not isinstance(data, dict):
+        raise UserError(f"{where}: expected a table of keys")
+    return data
+
+
+def _refuse_unknown(data: Mapping[str, Any], keys: Mapping[str, object], where: str) -> None:
+    for key in data:
+        if key not in keys:
+            near = get_close_matches(str(key), keys, 1, 0.5)
+            hint = f"did you mean {near[0]}?" if near else f"expected {', '.join(keys)}"
+            raise UserError(f"{where}: unknown key {str(key)[:40]!r}, {hint}")
+
+
+def _checked(data: Mapping[str, Any], keys: Mapping[str, values.Check], where: str) -> dict[str, Any]:
+    """The values, as the checks return them."""
+    _refuse_unknown(data, keys, where)
+    found = {}
+    for key, value in data.items():
+        try:
+            found[key] = keys[key](value)
+        except values.Wrong as wrong:
+            raise UserError(f"{where}: {key} = {_told(value)}: {wrong}") from None
+    return found
+
+
+def _told(value: object) -> str:
+    """A value in a message, the beginning of a long one."""
+    told = " ".join(repr(value).split())
+    return told if len(told) <= 40 else f"{told[:40]}…"
+
+
+def to_data(job: Job) -> dict[str, Any]:
+    """The job as plain data: what is not said is left out."""
+    read = {key: value for key, value in vars(job.read).items() if value != getattr(Wishes(open=None), key)}
+    machine = {key: value for key, value in vars(job.machine).items() if value != getattr(MachineSetup(), key)}
+    return {
+        "schema": SCHEMA,
+        "drawing": job.drawing,
+        **{key: value for key in ("sha256", "box", "starts") if (value := _plain(getattr(job, key)))},
+        **{
+            key: {name: _plain(value) for name, value in table.items()}
+            for key, table in (("read", read), ("machine", machine), ("default", job.default.said()))
+            if table
+        },
+        **_lists(job),
+    }
+
+
+def _lists(job: Job) -> dict[str, Any]:
+    layers = [
+        {"name": name, **{key: _plain(value) for key, value in partial.said().items()}}
+        for name, partial in job.layers.items()
+    ]
+    contours = [
+        {
+            "layer": one.layer,
+            "kind": one.kind,
+            "at": list(one.place),
+            "size": list(one.size),
+            **{key: _plain(value) for key, value in one.partial.said().items()},
+        }
+        for one in job.contours
+    ]
+    return {key: some for key, some in (("layer", layers), ("contour", contours)) if some}
+
+
+def _plain(value: object) -> object:
+    """A value with lists in place of tuples."""
+    return [_plain(one) for one in value] if isinstance(value, tuple) else value
+
+
+def dump(job: Job) -> str:
+    """The text of a job file."""
+    lines: list[str] = []
+    data = to_data(job)
+    for key in (*_TOP, *_TABLES, *_LISTS):
+        value = data.get(key)
+        if isinstance(value, dict):
+            lines += ["", f"[{key}]", *_pairs(value)]
+        elif key in _LISTS:
+            for one in value or []:
+                lines += ["", f"[[{key}]]", *_pairs(one)]
+        elif value is not None:
+            lines += _pairs({key: value})
+    return "\n".join(lines) + "\n"
+
+
+def _pairs(table: Mapping[str, object]) -> list[str]:
+    return [f"{key} = {_in_toml(value)}" for key, value in table.items()]
+
+
+def _in_toml(value: object) -> str:
+    """A value as TOML has it: JSON's texts, lists, numbers, true and false are the same there (no text of a job has a
+    character that is not printable)."""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -1,0 +1,110 @@
+"""The job: a drawing, how it is read, the machine, and what is wanted of its layers and contours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from skg.errors import UserError
+from skg.geometry.plane import XY
+from skg.job.read_options import Wishes
+from skg.job.values import MOST_OFFSET
+from skg.job.wanted import Partial, Wanted
+
+#: A box: its smallest x and y, its largest x and y, mm.
+Box = tuple[float, float, float, float]
+#: The ROMs that make a tape from a drawing.
+ROMS = ("no-drift", "standard")
+#: What becomes of contours that are too small for the wire, or whose wire comes into others.
+SMALL, INTO = ("refuse", "leave"), ("refuse", "cut")
+#: What a contour is: cut from outside, from inside, or along.
+KINDS = ("outline", "opening", "open")
+
+
+@dataclass(frozen=True)
+class MachineSetup:
+    """The wire, the board that makes the tape, the stock.
+
+    `wire`: its diameter, `gap`: the spark gap on each side, `offset`: the wire's distance from the contours instead of
+    these, all mm, None: not told. `rom`: one of `ROMS`; `ram`: KiB; `feed`: mm/min. `small`, `into`: what becomes of
+    contours without room. `material`, `thickness`: texts for the setup sheet.
+    """
+
+    wire: float | None = None
+    gap: float | None = None
+    offset: float | None = None
+    rom: str = ROMS[0]
+    ram: int = 8
+    feed: float = 5.0
+    small: str = SMALL[0]
+    into: str = INTO[0]
+    material: str = ""
+    thickness: str = ""
+
+    def __post_init__(self) -> None:
+        if self.offset is not None and (self.wire is not None or self.gap):
+            raise UserError("offset and wire with gap say the same thing: give one of them")
+        if self.gap and self.wire is None:
+            raise UserError("gap goes with wire")
+        if self.distance > MOST_OFFSET:
+            raise UserError(
+                f"wire and gap put the wire {self.distance:g} mm beside the contour, at most {MOST_OFFSET:g}"
+            )
+
+    @property
+    def distance(self) -> float:
+        """The wire's distance from the contours, mm."""
+        return self.wire / 2 + (self.gap or 0.0) if self.wire is not None else self.offset or 0.0
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """One contour, and what is said of it. `layer`: one that it is on; `kind`: one of `KINDS`. It is found again by a
+    `place` on it and by its `size`, mm."""
+
+    layer: str
+    kind: str
+    place: XY
+    size: XY
+    partial: Partial = Partial()
+
+    @property
+    def name(self) -> str:
+        """What a message calls it."""
+        (x, y), (width, height) = self.place, self.size
+        return f"{self.kind} of {width:.10g} x {height:.10g} mm at ({x:.10g}, {y:.10g}) on layer {self.layer}"
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is wanted of a drawing; all lengths in mm.
+
+    `drawing`: a file's name, `sha256` of its bytes, `box` around its contours; these are empty, or None, where nobody
+    has read it. `starts`: start holes instead of those that are drawn. A contour beats its layer, a layer
+    beats `default`; of a contour's layers the one that comes first in `layers`.
+    """
+
+    drawing: str
+    sha256: str = ""
+    box: Box | None = None
+    read: Wishes = Wishes(open=None)
+    machine: MachineSetup = MachineSetup()
+    starts: tuple[XY, ...] = ()
+    default: Partial = Partial()
+    layers: Mapping[str, Partial] = field(default_factory=dict)
+    contours: tuple[Chosen, ...] = ()
+
+    def of(self, layers: Iterable[str], chosen: Chosen | None = None) -> Wanted:
+        """What is wanted of a contour on some layers."""
+        wanted = self.default.over(Wanted(offset=self.machine.distance))
+        on = {layer.lower() for layer in layers}
+        for name, partial in reversed(self.layers.items()):
+            if name.lower() in on:
+                wanted = partial.over(wanted)
+        return chosen.partial.over(wanted) if chosen else wanted
+
+    @property
+    def is_beside(self) -> bool:
+        """Tell whether the wire runs beside contours somewhere."""
+        every = (self.default, *self.layers.values(), *(one.partial for one in self.contours))
+        return bool(self.machine.distance) or any(partial.offset for partial in every)

@@ -1,0 +1,165 @@
+"""Contours of a drawing that was saved anew, found again by a place on them and by their size."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import hypot, inf
+
+import numpy as np
+import shapely
+
+from skg.geometry.arrays import Floats
+from skg.geometry.contour import Contour
+from skg.geometry.edge_arrays import boxes_of
+from skg.geometry.plane import XY, shifted
+from skg.job.job import Box, Chosen
+from skg.job.wanted import Partial
+
+#: A contour is no farther from where it was than this, mm, or than this part of its width and height; it is so many
+#: times as near as the next one.
+_LEAST, _PART, _CLEARLY = 0.5, 0.1, 2.0
+#: A contour that was found farther away than this, mm, is to be confirmed.
+DOUBTED = 0.5
+#: A drawing whose box has moved by less has not moved; one whose corners moved by the same, to this, has moved as a
+#: whole, mm.
+_STILL = 0.01
+#: A place in a job has so many decimals; so many edges of a contour are tried for one that tells it from others.
+_DECIMALS, _TRIED = 6, 8
+
+
+@dataclass(frozen=True)
+class Match:
+    """A chosen contour in the drawing: its number there, None where it is lost, and how far it has moved and grown,
+    mm."""
+
+    number: int | None
+    moved: float = 0.0
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Tell whether somebody should look at it."""
+        return self.number is not None and self.moved > DOUBTED
+
+
+@dataclass(frozen=True)
+class Matches:
+    """What was found of all chosen contours; `shift`: how far the whole drawing has moved, mm."""
+
+    found: tuple[Match, ...] = ()
+    shift: XY = (0.0, 0.0)
+
+    @property
+    def lost(self) -> list[int]:
+        """The chosen contours that are not there, by their places in the job."""
+        return [at for at, match in enumerate(self.found) if match.number is None]
+
+
+class Known:
+    """The contours of a drawing, as they are looked for. `kinds`: what each is, one of `KINDS`."""
+
+    def __init__(self, contours: Sequence[Contour], kinds: Sequence[str]) -> None:
+        self.contours, self.kinds = contours, np.array(kinds)
+        self.boxes, _ = boxes_of(contours)
+        self.sizes = self.boxes[:, 2:] - self.boxes[:, :2]
+        self.layers = [{layer.lower() for layer in one.layers} for one in contours]
+        self._tree = shapely.STRtree(shapely.box(*self.boxes.T))
+
+    @property
+    def box(self) -> Box:
+        """The box around all contours."""
+        (left, low), (right, high) = self.boxes[:, :2].min(0).tolist(), self.boxes[:, 2:].max(0).tolist()
+        return left, low, right, high
+
+    def find(self, chosen: Sequence[Chosen], box: Box | None) -> Matches:
+        """Find contours of a drawing that had a box: where they were, or where they are when all of it has moved.
+
+        Two ways that find all of them, and not the same ones, are doubtful.
+        """
+        if not chosen:
+            return Matches()
+        tried = [Matches(self._all_found(chosen, shift), shift) for shift in self._shifts(box)]
+        best = min(tried, key=lambda one: len(one.lost))
+        for other in tried:
+            if len(other.lost) == len(best.lost) and _numbers(other) != _numbers(best):
+                apart = hypot(other.shift[0] - best.shift[0], other.shift[1] - best.shift[1])
+                found = (replace(one, moved=max(one.moved, apart)) for one in best.found)
+                return replace(best, found=tuple(found))
+        return best
+
+    def _shifts(self, box: Box | None) -> list[XY]:
+        """How far the drawing may have moved, the likeliest first."""
+        if box is None:
+            return [(0.0, 0.0)]
+        left, low, right, high = (now - then for now, then in zip(self.box, box, strict=True))
+        moves = [move for move in ((left, low), (right, high)) if hypot(*move) > _STILL]
+        if len(moves) == 2 and hypot(left - right, low - high) <= _STILL:
+            return [moves[0], (0.0, 0.0)]
+        return [(0.0, 0.0), *moves]
+
+    def _all_found(self, chosen: Sequence[Chosen], shift: XY) -> tuple[Match, ...]:
+        """Find each by itself; of two that are the same contour the nearer one is, where it clearly is."""
+        found = [_clear(costs) for costs in self._costs(chosen, shift)]
+        claims: dict[int, list[tuple[float, int]]] = {}
+        for at, match in enumerate(found):
+            if match.number is not None:
+                claims.setdefault(match.number, []).append((match.moved, at))
+        for number, claim in claims.items():
+            winner = _clear(sorted(claim))
+            for moved, at in claim:
+                found[at] = Match(number, moved) if at == winner.number else Match(None)
+        return tuple(found)
+
+    def _costs(self, chosen: Sequence[Chosen], shift: XY) -> list[list[tuple[float, int]]]:
+        """How far contours are from the places, and how much their sizes differ: the sum, mm, and the number of each
+        that may be meant or taken for it, the nearest first."""
+        places = np.array([one.place for one in chosen], float) + shift
+        sizes = np.array([one.size for one in chosen], float)
+        reach = _CLEARLY * _limits(sizes)
+        of, which = self._tree.query(
+            shapely.box(*(places - reach[:, None]).T, *(places + reach[:, None]).T), predicate="intersects"
+        )
+        grown = np.abs(self.sizes[which] - sizes[of]).sum(1)
+        kinds = np.array([one.kind for one in chosen])
+        some = np.flatnonzero((grown <= reach[of]) & (self.kinds[which] == kinds[of]))
+        costs: list[list[tuple[float, int]]] = [[] for _ in chosen]
+        for at, number, more in zip(of[some].tolist(), which[some].tolist(), grown[some].tolist(), strict=True):
+            if chosen[at].layer.lower() in self.layers[number]:
+                far = min(edge.far(shifted(chosen[at].place, shift)) for edge in self.contours[number].edges)
+                costs[at].append((far + more, number))
+        limits = _limits(sizes).tolist()
+        # (the nearest is too far: none is meant)
+        return [sorted(some) if some and min(some)[0] <= most else [] for some, most in zip(costs, limits, strict=True)]
+
+    def choose(self, number: int, partial: Partial) -> Chosen:
+        """Describe a contour by the middle of its longest edge, or of another one that tells it from its neighbours."""
+        contour = self.contours[number]
+        width, height = np.round(self.sizes[number], _DECIMALS).tolist()
+        best: tuple[float, Chosen] | None = None
+        for edge in sorted(contour.edges, key=lambda edge: -edge.length)[:_TRIED]:
+            x, y = (round(ordinate, _DECIMALS) + 0.0 for ordinate in edge.at(0.5))
+            one = Chosen(contour.layers[0], str(self.kinds[number]), (x, y), (width, height), partial)
+            others = [cost for cost, other in self._costs([one], (0.0, 0.0))[0] if other != number]
+            clear = min(others, default=inf)
+            if best is None or clear > best[0]:
+                best = clear, one
+            if clear >= _LEAST:
+                break
+        return best[1]
+
+
+def _limits(sizes: Floats) -> Floats:
+    """How far away, in mm, contours of some sizes are still found."""
+    return np.maximum(_LEAST, _PART * sizes.sum(1))
+
+
+def _clear(costs: Sequence[tuple[float, int]]) -> Match:
+    """The nearest of some, if it is clearly nearer than the next one."""
+    if not costs or len(costs) > 1 and (_CLEARLY * costs[0][0] > costs[1][0] or costs[0][0] == costs[1][0]):
+        return Match(None)
+    moved, number = costs[0]
+    return Match(number, moved)
+
+
+def _numbers(matches: Matches) -> list[int | None]:
+    return [match.number for match in matches.found]

@@ -1,0 +1,1 @@
+"""The pipeline: a job and its drawing become planned contours, and these a checked tape."""

@@ -1,0 +1,202 @@
+"""A job, step by step: its drawing is read, its contours are found in it, planned, and cut.
+
+    drawn = open_drawing(job, data)
+    plan_drawing(job, drawn)
+    result = cut_drawing(job, drawn)
+
+The command line and the page make a `Job` and call these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from hashlib import sha256
+
+from skg.cutting.job import CutResult, make
+from skg.cutting.report import report
+from skg.cutting.settings import Settings
+from skg.errors import UserError
+from skg.geometry.contour import Contour
+from skg.job.job import Chosen, Job
+from skg.job.matching import Known, Matches
+from skg.job.wanted import Partial, Wanted
+from skg.planning.nesting import Nesting
+from skg.planning.plan import plan_nested
+from skg.planning.route import PlannedContour
+from skg.reading.read import Reading, read
+from skg.reading.selection import SMALL, WITHIN
+from skg.wording import ReportLine, counted, short
+
+#: Told how far a step is: its name, how much of it is done, of how much.
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class DrawnJob:
+    """A job's drawing, read, with what lies in what, and where the contours that the job has settings for are.
+
+    `name`: what messages call it.
+    """
+
+    name: str
+    data: bytes
+    reading: Reading
+    nesting: Nesting
+    known: Known
+    matches: Matches
+
+    @property
+    def contours(self) -> list[Contour]:
+        """The contours, by their numbers."""
+        return self.reading.contours
+
+    @cached_property
+    def sha256(self) -> str:
+        """The sum of the file's bytes."""
+        return sha256(self.data).hexdigest()
+
+    def chosen(self, job: Job) -> dict[int, Chosen]:
+        """What the job says of contours, by their numbers."""
+        return {
+            match.number: one
+            for one, match in zip(job.contours, self.matches.found, strict=True)
+            if match.number is not None
+        }
+
+
+@dataclass(frozen=True)
+class CutDrawing:
+    """A checked tape with its report. `reading`: the drawing, with what was left out among what is not cut."""
+
+    result: CutResult
+    reading: Reading
+    lines: list[ReportLine]
+
+
+def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
+    """Read a job's drawing and find the contours that it has settings for. `name`: what messages call the drawing."""
+    name = name or job.drawing
+    wishes = replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"))
+    reading = read(data, name, wishes)
+    nesting = Nesting.of(reading.contours, reading.others)
+    known = Known(reading.contours, [nesting.kind(at) for at in range(len(reading.contours))])
+    return DrawnJob(name, data, reading, nesting, known, known.find(job.contours, job.box))
+
+
+def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
+    """What is wanted of each contour; places are where the drawing is now."""
+    chosen = {number: _moved(one, drawn.matches) for number, one in drawn.chosen(job).items()}
+    return [job.of(contour.layers, chosen.get(number)) for number, contour in enumerate(drawn.contours)]
+
+
+def _moved(chosen: Chosen, matches: Matches) -> Chosen:
+    """A chosen contour with its start hole and its entry in a drawing that has moved."""
+    partial, (x, y) = chosen.partial, matches.shift
+    if (x, y) == (0.0, 0.0):
+        return chosen
+    places = {key: (u + x, v + y) for key in ("start", "entry") if (place := getattr(partial, key)) for u, v in [place]}
+    return replace(chosen, partial=replace(partial, **places))
+
+
+def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
+    """The contours in the order in which they are cut. A contour that is lost, or that cannot be planned, is a
+    `UserError`."""
+    for at in drawn.matches.lost:
+        raise UserError(_lost(job, at, drawn))
+    x, y = drawn.matches.shift
+    starts = [(u + x, v + y) for u, v in job.starts] or drawn.reading.starts
+    try:
+        return plan_nested(drawn.nesting, starts, wanted_of(job, drawn))
+    except UserError as error:
+        raise _named(error, drawn) from None
+
+
+def _lost(job: Job, at: int, drawn: DrawnJob) -> str:
+    """Tell that a contour is not there."""
+    more = len(drawn.matches.lost) - 1
+    return (
+        f"{drawn.name}: contour {at + 1} of the job, {job.contours[at].name}, is not there any more"
+        + f", nor {'is' if more == 1 else 'are'} {counted(more, 'other')}" * (more > 0)
+        + ": choose it anew, or delete it from the job"
+    )
+
+
+def _named(error: UserError, drawn: DrawnJob) -> UserError:
+    """The error with the name of the drawing."""
+    return UserError(f"{drawn.name}: {error}", error.contour, error.place)
+
+
+def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress | None = None) -> CutDrawing:
+    """Make the tape and check it; nothing is returned that is wrong."""
+    progress = progress or (lambda _stage, _done, _of: None)
+    count = len(drawn.contours)
+    progress("plan", 0, count)
+    routes = plan_drawing(job, drawn)
+    progress("board", 0, len(routes))
+    machine, reading = job.machine, drawn.reading
+    factor = reading.report.factor
+    settings = Settings(machine.rom, machine.ram, machine.feed, machine.small, machine.into)
+    try:
+        result = make(routes, job.drawing, factor, settings)
+    except UserError as error:
+        raise _named(error, drawn) from None
+    if result.left:
+        small = {one.number: WITHIN if one.is_within else SMALL for one in result.left}
+        wishes = replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"))
+        reading = read(drawn.data, drawn.name, wishes, small)
+    return CutDrawing(result, reading, _lines(job, drawn, reading, result))
+
+
+def _lines(job: Job, drawn: DrawnJob, reading: Reading, result: CutResult) -> list[ReportLine]:
+    """The report, line by line."""
+    factor = reading.report.factor
+    lines = [*map(ReportLine, reading.report.lines()), *_matched(job, drawn)]
+    lines += map(ReportLine, report(result, factor, job.machine.distance))
+    wanted = wanted_of(job, drawn)
+    if left := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
+        lines.append(
+            ReportLine(f"take care: the last pass leaves {short(left)} mm more than the offset, as --passes says")
+        )
+    if any(want.tab and want.cut for want in wanted) and not any(route.tab for route in result.routes):
+        lines.append(ReportLine("take care: no contour has a tab: none is a part that is cut from outside"))
+    if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
+        from skg.checking.split_parts import said
+
+        lines += map(ReportLine, said(result.routes, factor))
+    return lines
+
+
+def _matched(job: Job, drawn: DrawnJob) -> list[ReportLine]:
+    """Tell how contours were found in a drawing that has changed."""
+    if not job.sha256 or job.sha256 == drawn.sha256:
+        return []
+    x, y = drawn.matches.shift
+    moved = f", moved by ({short(x)}, {short(y)}) mm" if (x, y) != (0.0, 0.0) else ""
+    lines = [ReportLine(f"take care: {job.drawing} has changed since the job was written{moved}")]
+    for one, match in zip(job.contours, drawn.matches.found, strict=True):
+        if match.is_doubtful:
+            place = drawn.contours[match.number].edges[0].start
+            lines.append(
+                ReportLine(
+                    f"take care: {one.name} is taken for one {short(match.moved)} mm from there", match.number, place
+                )
+            )
+    return lines
+
+
+def written(job: Job, drawn: DrawnJob) -> Job:
+    """The job as a file has it: with the drawing's sum and box, its contours as they are now."""
+    contours = tuple(
+        drawn.known.choose(match.number, _moved(one, drawn.matches).partial)
+        for one, match in zip(job.contours, drawn.matches.found, strict=True)
+        if match.number is not None
+    )
+    box = tuple(round(bound, 6) + 0.0 for bound in drawn.known.box)
+    return replace(job, sha256=drawn.sha256, box=box, contours=contours)
+
+
+def choose(drawn: DrawnJob, number: int, **wanted: object) -> Chosen:
+    """Settings for a contour, by its number."""
+    return drawn.known.choose(number, Partial(**wanted))
