@@ -2,6 +2,7 @@
  * where the controller is. */
 import type { Choice, Chooser } from "./choice.ts";
 import { onFrame } from "./frame.ts";
+import { listenTo } from "./gestures.ts";
 import { boxOf, directionAt, distanceFrom, isLine, type Layout, nothing, type Placed, placeAt } from "./placed.ts";
 import type { XY } from "./tape.ts";
 import { View } from "./view.ts";
@@ -64,8 +65,6 @@ export class Drawing {
   #since = ARROWS;
   /** Where arrow heads are drawn already. */
   readonly #heads = new Set<number>();
-  readonly #pointers = new Map<number, XY>();
-  #moved = false;
   #grid = false;
   #from: XY | undefined;
   #isMeasuring = false;
@@ -525,39 +524,15 @@ export class Drawing {
 
   #listen(): void {
     const canvas = this.#over;
-    const pixel = (event: MouseEvent): XY => {
-      const box = canvas.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
-    canvas.addEventListener(
-      "wheel",
-      (event) => {
-        event.preventDefault();
-        const lines = event.deltaMode ? event.deltaY * 30 : event.deltaY;
-        this.zoom(Math.exp(-Math.max(-300, Math.min(300, lines)) / 400), pixel(event));
+    listenTo(canvas, {
+      pan: (dx, dy) => this.pan(dx, dy),
+      zoom: (by, about) => this.zoom(by, about),
+      hover: (pixel, isPressed) => {
+        if (pixel && !isPressed) this.#point(pixel);
+        this.onPoint?.(pixel && this.view.toPlace(pixel), pixel && this.#from);
       },
-      { passive: false },
-    );
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      this.#pointers.set(event.pointerId, pixel(event));
-      this.#moved = false;
+      tap: (pixel) => (this.#isMeasuring ? this.#measure(pixel) : this.#point(pixel)),
     });
-    canvas.addEventListener("pointermove", (event) => {
-      const now = pixel(event);
-      const before = this.#pointers.get(event.pointerId);
-      if (before) this.#drag(event.pointerId, before, now);
-      else this.#point(now);
-      this.onPoint?.(this.view.toPlace(now), this.#from);
-    });
-    const lift = (event: PointerEvent): void => {
-      if (!this.#pointers.delete(event.pointerId) || this.#moved) return;
-      if (this.#isMeasuring) this.#measure(pixel(event));
-      else this.#point(pixel(event));
-    };
-    canvas.addEventListener("pointerup", lift);
-    canvas.addEventListener("pointercancel", lift);
-    canvas.addEventListener("pointerleave", () => this.onPoint?.(undefined, undefined));
     canvas.addEventListener("dblclick", () => this.fit());
     canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
@@ -610,21 +585,6 @@ export class Drawing {
   #point(now: XY): void {
     const found = this.#nearest(now);
     if (found) this.#chooser.choose({ block: found.number }, this);
-  }
-
-  /** One pointer pans; two zoom and pan. */
-  #drag(id: number, before: XY, now: XY): void {
-    const other = [...this.#pointers].find(([each]) => each !== id)?.[1];
-    if (Math.hypot(now[0] - before[0], now[1] - before[1]) < 3 && !this.#moved) return;
-    this.#moved = true;
-    this.#pointers.set(id, now);
-    if (!other) {
-      this.pan(now[0] - before[0], now[1] - before[1]);
-      return;
-    }
-    const [was, is] = [before, now].map(([x, y]) => Math.max(1, Math.hypot(x - other[0], y - other[1])));
-    this.view.pan((now[0] - before[0]) / 2, (now[1] - before[1]) / 2);
-    this.zoom((is as number) / (was as number), [(now[0] + other[0]) / 2, (now[1] + other[1]) / 2]);
   }
 }
 

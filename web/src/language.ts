@@ -215,26 +215,31 @@ export function preferred(languages: readonly string[]): Language {
   return "en";
 }
 
-export function t(word: Word, ...values: readonly (string | number)[]): string {
-  return WORDS[word][present === "en" ? 0 : 1].replace(/\{(\d)\}/g, (_, at: string) => String(values[Number(at)] ?? ""));
+/** What is written in both languages, in the present one, with values for `{0}`, `{1}`… */
+export function phrase(both: readonly [string, string], ...values: readonly (string | number)[]): string {
+  return both[present === "en" ? 0 : 1].replace(/\{(\d)\}/g, (_, at: string) => String(values[Number(at)] ?? ""));
 }
+
+export const t = (word: Word, ...values: readonly (string | number)[]): string => phrase(WORDS[word], ...values);
 
 /** The language that the page speaks now. */
 export const spoken = (): Language => present;
 
 export const isWord = (word: string): word is Word => word in WORDS;
 
-/** Puts the page into a language. */
-export function speak(language: Language, page: Document): void {
+/** Puts the page into a language; `find`: what a name of data-t or data-l means in it. */
+export function speak(language: Language, page: Document, find = ofPage): void {
   present = language;
   page.documentElement.lang = language === "zh" ? "zh-CN" : "en";
-  page.title = t("title");
+  page.title = find("title") ?? "";
   for (const element of page.querySelectorAll<HTMLElement>("[data-t], [data-l]")) {
-    const { t: text, l: name } = element.dataset;
-    if (text && isWord(text)) element.textContent = t(text);
-    if (name && isWord(name)) {
-      element.setAttribute("aria-label", t(name));
-      if (element instanceof HTMLButtonElement) element.title = t(name);
+    const [text, name] = [element.dataset["t"], element.dataset["l"]].map((word) => (word ? find(word) : undefined));
+    if (text) element.textContent = text;
+    if (name) {
+      element.setAttribute("aria-label", name);
+      if (element instanceof HTMLButtonElement) element.title = name;
     }
   }
 }
+
+const ofPage = (word: string): string | undefined => (isWord(word) ? t(word) : undefined);

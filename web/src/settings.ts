@@ -3,6 +3,7 @@ import { get } from "./dom.ts";
 import { type Language, speak, t } from "./language.ts";
 import type { Settings, Theme } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
+import { onSystemTheme, paint } from "./theme.ts";
 import type { Workbench } from "./workbench.ts";
 
 /** Takes from what was kept or brought in what is a setting, and nothing else. */
@@ -22,7 +23,6 @@ export class SettingsMenu {
   readonly settings: Settings;
   readonly #bench: Workbench;
   readonly #teletype: Teletype;
-  readonly #isDarkSystem = matchMedia("(prefers-color-scheme: dark)");
   /** Called when the language has changed: who writes of himself writes anew. */
   onLanguage: () => void = () => undefined;
 
@@ -42,7 +42,7 @@ export class SettingsMenu {
     on("wire", ({ valueAsNumber }) => ({ wire: valueAsNumber || 0 }));
     on("auto", ({ checked }) => ({ auto: checked }));
     on("grid", ({ checked }) => ({ grid: checked }));
-    this.#isDarkSystem.addEventListener("change", () => this.#paint());
+    onSystemTheme(() => this.#paint());
   }
 
   apply(changed: Partial<Settings>): void {
@@ -65,11 +65,7 @@ export class SettingsMenu {
   }
 
   #paint(): void {
-    const { theme } = this.settings;
-    const isDark = theme === "dark" || (theme === "auto" && this.#isDarkSystem.matches);
-    document.documentElement.dataset["theme"] = isDark ? "dark" : "light";
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name: string): string => style.getPropertyValue(`--${name}`).trim();
+    const colour = paint(this.settings.theme);
     const { pictures } = this.#bench.stage;
     pictures.drawing.colours = {
       wire: colour("wire"),

@@ -23,7 +23,7 @@ interface Parts {
 
 export class WalkBar {
   readonly #parts: Parts;
-  readonly #drawing: Drawing;
+  readonly #drawing: Pick<Drawing, "walk">;
   readonly #walk: Walk;
   readonly #moved: (block: number, part: number) => void;
   #layout: Layout = nothing();
@@ -35,7 +35,12 @@ export class WalkBar {
   #problem = "";
 
   /** `moved` is called with the number of the block under way and how much of it is done. */
-  constructor(parts: Parts, drawing: Drawing, module: WebAssembly.Module, moved: (block: number, part: number) => void) {
+  constructor(
+    parts: Parts,
+    drawing: Pick<Drawing, "walk">,
+    module: WebAssembly.Module,
+    moved: (block: number, part: number) => void,
+  ) {
     this.#parts = parts;
     this.#drawing = drawing;
     this.#walk = new Walk(module);
