@@ -1,26 +1,17 @@
-/** The page's buttons, menus, views and files' doors. */
+/** The page's buttons and files' doors. */
 import { get, onClick } from "./dom.ts";
 import { tooLarge } from "./files.ts";
 import { t } from "./language.ts";
-import { hide, say } from "./message.ts";
+import { say } from "./message.ts";
 import type { Opening } from "./opening.ts";
 import { address, copy, save } from "./saving.ts";
+import { bindShell, view } from "./shell.ts";
 import type { Settings } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
 import type { Workbench } from "./workbench.ts";
 
-/** On a small screen one section is seen at a time. */
-export function view(name: string): void {
-  document.body.dataset["view"] = name;
-  for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
-    button.ariaCurrent = button.dataset["view"] === name ? "true" : null;
-  }
-}
-
 export function bind(bench: Workbench, teletype: Teletype, opening: Opening, settings: Settings): void {
-  onClick("dismiss", hide);
-  onClick("question-yes", () => get<HTMLDialogElement>("question").close("yes"));
-  onClick("question-no", () => get<HTMLDialogElement>("question").close(""));
+  bindShell();
   onClick("run", () => (bench.session.isRunning ? bench.session.stop() : void bench.run()));
   // RETURN that is meant for a program that asks is no ctrl-C.
   get("run").addEventListener("keydown", (event) => {
@@ -43,10 +34,6 @@ export function bind(bench: Workbench, teletype: Teletype, opening: Opening, set
   bindKeys(bench);
   bindDrawing(bench);
   bindFiles(bench, opening);
-  bindMenus();
-  for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
-    button.addEventListener("click", () => view(button.dataset["view"] ?? ""));
-  }
   document.querySelector(".skip")?.addEventListener("click", (event) => {
     event.preventDefault();
     view("teletype");
@@ -117,24 +104,5 @@ function bindFiles({ session }: Workbench, opening: Opening): void {
     event.preventDefault();
     const [file] = event.dataTransfer?.files ?? [];
     if (file) void opening.file(file);
-  });
-}
-
-/** A menu closes when something else is pressed, and by Escape. */
-function bindMenus(): void {
-  for (const menu of document.querySelectorAll<HTMLDetailsElement>("details.menu")) {
-    menu.addEventListener("keydown", (event) => {
-      if (event.key !== "Escape") return;
-      menu.open = false;
-      menu.querySelector("summary")?.focus();
-    });
-    menu.addEventListener("click", (event) => {
-      if ((event.target as HTMLElement).closest("button")) menu.open = false;
-    });
-  }
-  addEventListener("pointerdown", (event) => {
-    for (const menu of document.querySelectorAll<HTMLDetailsElement>("details.menu[open]")) {
-      if (!menu.contains(event.target as Node)) menu.open = false;
-    }
   });
 }

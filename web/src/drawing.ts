@@ -4,6 +4,7 @@ import type { Choice, Chooser } from "./choice.ts";
 import { onFrame } from "./frame.ts";
 import { listenTo } from "./gestures.ts";
 import { boxOf, directionAt, distanceFrom, isLine, type Layout, nothing, type Placed, placeAt } from "./placed.ts";
+import { drawRuler, roundLength } from "./ruler.ts";
 import type { XY } from "./tape.ts";
 import { View } from "./view.ts";
 
@@ -218,7 +219,7 @@ export class Drawing {
       this.#since = ARROWS;
       this.#heads.clear();
       if (this.#grid) this.#gridLines(context);
-      this.#rulers(context);
+      drawRuler(context, this.view, this.#size, this.#colours.ruler);
       this.#marks(context);
     }
     if (this.#drawn < blocks.length) {
@@ -393,7 +394,7 @@ export class Drawing {
 
   /** Lines at round places, no nearer to each other than a finger, and the axes. */
   #gridLines(context: CanvasRenderingContext2D): void {
-    const step = round(40 / this.view.scale);
+    const step = roundLength(40 / this.view.scale);
     const [left, bottom] = this.view.toPlace([0, this.#size[1]]);
     const [right, top] = this.view.toPlace([this.#size[0], 0]);
     const lines = (isAxis: boolean): void => {
@@ -418,32 +419,6 @@ export class Drawing {
     lines(false);
     context.strokeStyle = this.#colours.lead;
     lines(true);
-  }
-
-  /** A length below, to read sizes by; and the axes' crossing. */
-  #rulers(context: CanvasRenderingContext2D): void {
-    const length = round(55 / this.view.scale) / 1000;
-    const pixels = length * 1000 * this.view.scale;
-    const [x, y] = [12, this.#size[1] - 12];
-    context.strokeStyle = context.fillStyle = this.#colours.ruler;
-    context.lineWidth = 1;
-    context.beginPath();
-    context.moveTo(x, y - 5);
-    context.lineTo(x, y);
-    context.lineTo(x + pixels, y);
-    context.lineTo(x + pixels, y - 5);
-    const [ox, oy] = this.view.toPixel([0, 0]);
-    context.moveTo(ox - 6, oy);
-    context.lineTo(ox + 6, oy);
-    context.moveTo(ox, oy - 6);
-    context.lineTo(ox, oy + 6);
-    context.stroke();
-    context.font = "12px system-ui, sans-serif";
-    context.fillText(
-      length >= 0.01 ? `${Number(length.toPrecision(3))} mm` : `${Number((length * 1000).toPrecision(3))} µm`,
-      x + 4,
-      y - 6,
-    );
   }
 
   #overlay(): void {
@@ -586,12 +561,6 @@ export class Drawing {
     const found = this.#nearest(now);
     if (found) this.#chooser.choose({ block: found.number }, this);
   }
-}
-
-/** The least of 1, 2, 5, 10… that is not less. */
-function round(wanted: number): number {
-  const ten = 10 ** Math.floor(Math.log10(wanted));
-  return ten * (wanted <= ten ? 1 : wanted <= 2 * ten ? 2 : wanted <= 5 * ten ? 5 : 10);
 }
 
 /** Numbers of the blocks that a choice means. */

@@ -74,9 +74,9 @@ async function inSlices<T>(steps: Generator<undefined, T>): Promise<T> {
 }
 
 /** Gives the visitor a file. */
-export function saveFile(name: string, text: string): void {
+export function saveFile(name: string, content: BlobPart): void {
   const link = document.createElement("a");
-  const url = URL.createObjectURL(new Blob([text], { type: "application/octet-stream" }));
+  const url = URL.createObjectURL(new Blob([content], { type: "application/octet-stream" }));
   link.href = url;
   link.download = name;
   link.click();

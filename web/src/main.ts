@@ -1,5 +1,5 @@
 /** The page: puts its parts together and starts the machine. */
-import { bind, view } from "./controls.ts";
+import { bind } from "./controls.ts";
 import { get, onClick } from "./dom.ts";
 import { preferred, t, type Word } from "./language.ts";
 import { closeManual, openManual } from "./manual.ts";
@@ -10,6 +10,7 @@ import { readImages, readPartList, readWalk, workerAddress } from "./pieces.ts";
 import type { State } from "./runner.ts";
 import { Session } from "./session.ts";
 import { SettingsMenu, sound } from "./settings.ts";
+import { view } from "./shell.ts";
 import { type Everything, type Settings, Store } from "./store.ts";
 import { Teletype } from "./teletype.ts";
 import { isUpdated } from "./update.ts";

@@ -1,0 +1,40 @@
+/** What a page has around its contents: views, menus, the message and the question. */
+import { get, onClick } from "./dom.ts";
+import { hide } from "./message.ts";
+
+/** On a small screen one section is seen at a time. */
+export function view(name: string): void {
+  document.body.dataset["view"] = name;
+  for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
+    button.ariaCurrent = button.dataset["view"] === name ? "true" : null;
+  }
+}
+
+export function bindShell(): void {
+  onClick("dismiss", hide);
+  onClick("question-yes", () => get<HTMLDialogElement>("question").close("yes"));
+  onClick("question-no", () => get<HTMLDialogElement>("question").close(""));
+  for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
+    button.addEventListener("click", () => view(button.dataset["view"] ?? ""));
+  }
+  bindMenus();
+}
+
+/** A menu closes when something else is pressed, and by Escape. */
+function bindMenus(): void {
+  for (const menu of document.querySelectorAll<HTMLDetailsElement>("details.menu")) {
+    menu.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape") return;
+      menu.open = false;
+      menu.querySelector("summary")?.focus();
+    });
+    menu.addEventListener("click", (event) => {
+      if ((event.target as HTMLElement).closest("button")) menu.open = false;
+    });
+  }
+  addEventListener("pointerdown", (event) => {
+    for (const menu of document.querySelectorAll<HTMLDetailsElement>("details.menu[open]")) {
+      if (!menu.contains(event.target as Node)) menu.open = false;
+    }
+  });
+}
