@@ -68,4 +68,4 @@ def command(
     from skg.cutting.cam import Cam
 
     cam = Cam(base, lift, rise, dwell, fall, law, roller)
-    write_shape(f"cam, {law}, lift {lift:g}", cam.contours, output, offset, tab, tape)
+    write_shape(f"cam, {law}, lift {lift:g}", cam, output, offset, tab, tape)

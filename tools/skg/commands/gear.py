@@ -76,4 +76,4 @@ def command(
         raise UserError("--keyway goes with --bore")
     gear = Gear(module, teeth, pressure_angle, shift, clearance, fillet, bore, *keyway)
     name = f"gear, module {module:g}, {teeth} teeth, {pressure_angle:g} degrees"
-    write_shape(name, gear.contours, output, offset, tab, tape)
+    write_shape(name, gear, output, offset, tab, tape)

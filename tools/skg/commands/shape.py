@@ -1,15 +1,19 @@
-"""`skg gear` and `skg cam`: what both do with the contours that they make."""
+"""`skg gear` and `skg cam`: their common options, and the files that they write."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import click
 
 from skg.commands.options import FiniteRange, offset_option, output_option
 from skg.errors import UserError
 from skg.files import write_bytes
-from skg.geometry.contour import Contour
+
+if TYPE_CHECKING:
+    from skg.cutting.cam import Cam
+    from skg.cutting.gear import Gear
 
 
 def shape_options(function: Callable) -> Callable:
@@ -26,18 +30,13 @@ def shape_options(function: Callable) -> Callable:
     return function
 
 
-def write_shape(
-    name: str, contours: Callable[[], list[Contour]], output: str, offset: float | None, tab: float, tape: str | None
-) -> None:
-    """Write the program that cuts contours; it is run and its tape compared with the exact curves before."""
-    from skg.cutting.job import make
+def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None, tab: float, tape: str | None) -> None:
+    """Write the program that cuts a shape; it is run and its tape compared with the exact curves before."""
     from skg.cutting.report import report
-    from skg.cutting.settings import Settings
     from skg.job.wanted import Wanted
-    from skg.planning.plan import plan
 
     try:
-        job = make(plan(contours(), [], Wanted(offset=offset or 0.0, tab=tab)), name, 1.0, Settings())
+        job = shape.cut(name, Wanted(offset=offset or 0.0, tab=tab))
     except UserError as error:
         raise UserError(f"{name}: {error}") from None
     if any(route.traced and any(route.passes) for route in job.routes):

@@ -1,4 +1,4 @@
-"""Disc cams as contours: a follower's motion law over the turn of the cam."""
+"""Disc cams: a follower's motion law over the turn of the cam."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ from dataclasses import dataclass
 from itertools import accumulate
 from math import atan2, cos, hypot, pi, radians, sin
 
+from skg.cutting.job import CutResult, make
+from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY
+from skg.job.wanted import Wanted
+from skg.planning.plan import plan
 
 #: What FIT may be off the cam between its nodes, mm.
 TOLERANCE = 0.0002
@@ -103,6 +107,10 @@ class Cam:
                 parts = [low + (high - low) * k / 4 for k in range(5)]
                 edges.append(curve_edge(self.places, self.heading, parts, TOLERANCE))
         return [Contour(tuple(edges), True)]
+
+    def cut(self, name: str, wanted: Wanted) -> CutResult:
+        """Make a tape of the cam."""
+        return make(plan(self.contours(), [], wanted), name, 1.0, Settings())
 
     def _refuse_undercut(self) -> None:
         """Refuse a roller's path that bends more than the roller: it would cut into the profile."""

@@ -1,17 +1,25 @@
-"""Involute gears as contours."""
+"""Involute gears: contours, and the program that cuts them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import chain
 from math import acos, asin, atan2, cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 
+from skg.cutting.job import CutResult, make, run
+from skg.cutting.program import Part, Program, parts_of
+from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY, polar
+from skg.job.wanted import Wanted
+from skg.planning.plan import plan
+from skg.planning.route import PlannedContour
 from skg.tape.block import MAX_DIGITS
 
 #: What FIT may be off the involute between its nodes, mm.
@@ -74,6 +82,30 @@ class Gear:
         self._refuse()
         return [self._outline(), *([self._bore()] if self.bore else [])]
 
+    def cut(self, name: str, wanted: Wanted) -> CutResult:
+        """Make a tape of the gear. The program has one tooth, and REP for the others; all of them with a tab, whose
+        lead would be repeated, and where the board has no room for so long a tooth."""
+        routes = plan(self.contours(), [], wanted)
+        if not wanted.tab:
+            routes = [route if route.number else self._from_a_tip(route, wanted.lead) for route in routes]
+            with suppress(UserError):
+                return run(Program(routes, name, self._parts), 1.0, Settings())
+        return make(routes, name, 1.0, Settings())
+
+    def _from_a_tip(self, route: PlannedContour, lead: float) -> PlannedContour:
+        """The outline, entered where a tooth begins: there the next one goes on."""
+        outline = self._outline()
+        start = polar((0, 0), self.tip_radius + lead + route.offset, -self.half_angle(self.tip_radius))
+        return replace(route, contour=outline, start=start, part=0.0)
+
+    def _parts(self, route: PlannedContour) -> Iterator[Part]:
+        """The bore, and of the outline one tooth with its copies."""
+        if route.number:
+            return parts_of(route)
+        edges = route.contour.edges
+        tooth = replace(route, contour=Contour(edges[: len(edges) // self.teeth], False))
+        return chain(parts_of(tooth), [f"REP {self.teeth},360/{self.teeth}", "BACK"])
+
     def _refuse(self) -> None:
         if self.tip_radius >= _TOO_LARGE:
             # (which its tip circle's blocks would have in them)
@@ -132,7 +164,7 @@ class Gear:
             gap = pitch - 2 * angle
             root = Edge(polar((0, 0), rf, angle), polar((0, 0), rf, pitch - angle), (0.0, 0.0), gap)
             edges += [_turned(edge, turned) for edge in (top, *other, *([root] if gap > 1e-9 else []), *next_half)]
-        return Contour(tuple(edges), True, copies=self.teeth)
+        return Contour(tuple(edges), True)
 
     def _bore(self) -> Contour:
         radius = self.bore / 2

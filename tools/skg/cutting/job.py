@@ -1,7 +1,8 @@
-"""From planned contours to a tape that was checked: program, board, controller; what is tried when one is refused."""
+"""From planned contours to a tape that was checked: program, board, controller; remedies, contour by contour."""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import tee
@@ -66,178 +67,246 @@ class CutResult:
         return self.cut_length / self.settings.feed * 60
 
 
-def make(
-    routes: list[PlannedContour],
-    title: str,
-    factor: float,
-    settings: Settings,
-    left: tuple[Left, ...] = (),
-) -> CutResult:
+#: Why a contour does not go through: an error of the ROM, or what the check finds wrong.
+_Trouble = ErrorLine | list[Misfit]
+
+
+def make(routes: list[PlannedContour], title: str, factor: float, settings: Settings) -> CutResult:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
-    Where a contour has edges that the wire cannot follow, the program has the wire's own way along it. `factor`: mm in
-    a unit of the file, for the places that a `UserError` names. `left`: what is left out already. Nothing is returned
-    that is wrong: a contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
+    Each contour is written as it is drawn, unless the ROM or the check refuses that; then the remedies of `_RUNGS`
+    follow, for this contour alone. `factor`: mm in a unit of the file, for the places that a `UserError` names. Nothing
+    is returned that is wrong: a contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
     """
-    if short_ones := {at: longest_tab(route.contour) for at, route in enumerate(routes) if route.is_short}:
-        if settings.small != "leave":
-            raise UserError(refusal.without_tab(routes, short_ones, factor, settings))
-        routes, more = _without(routes, {at: refusal.too_short(fit) for at, fit in short_ones.items()}, factor)
-        left += more
-    if not routes:
-        raise UserError(f"no contour is left to cut: {left[0].name}: {left[0].why}")
-    if wild := _wild(routes):
-        # (a wire that runs off for metres would be followed and compared first)
-        try:
-            helped, more = _helped(routes, wild, factor, settings)
-        except UserError:
+    ladder = _Ladder(routes, title, factor, settings)
+    ladder.leave_short()
+    ladder.tame()
+    job = ladder.around_tips(ladder.through())
+    refusal.refuse(job.checked, job.routes, factor, settings)
+    return replace(job, left=tuple(ladder.left))
+
+
+def run(program: Program, factor: float, settings: Settings) -> CutResult:
+    """Let the board run a program, check the tape; one that is refused, or wrong, is a `UserError`."""
+    job = _tried(program, settings)
+    if isinstance(job, ErrorLine):
+        raise UserError(refusal.meaning(job.number))
+    refusal.refuse(job.checked, job.routes, factor, settings)
+    return job
+
+
+def _arcs_for_fillets(route: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
+    """A rounded corner without room to round it may still go as an arc."""
+    if isinstance(trouble, ErrorLine) and writes_fillets(route):
+        return replace(route, has_fillets=False)
+    return None
+
+
+def _straight_lead(route: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
+    """An arc that comes to the contour takes more room than a line."""
+    if route.is_arc and route.contour.is_closed:
+        return replace(route, is_arc=False, is_cramped=True)
+    return None
+
+
+def _own_way(route: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
+    """The wire's own way, without R; `NoRoom` where there is none."""
+    return route.with_wire_ways() if _may_be_traced(route) else None
+
+
+def _in_chords(route: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
+    """Chords of arcs and curves that the controller is a little off, without an offset."""
+    is_off = not isinstance(trouble, ErrorLine) and any(
+        fault.off < inf and not fault.is_into and not fault.is_missed for fault in trouble
+    )
+    is_bent = any(not edge.is_line for edge in route.contour.edges)
+    return route.in_chords() if is_off and is_bent and not any(route.passes) and not route.traced else None
+
+
+#: The remedies, in the order in which they are tried; each is None where it does not help, or has been tried.
+_RUNGS = (_arcs_for_fillets, _straight_lead, _own_way, _in_chords)
+
+
+class _Ladder:
+    """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `left`: those that
+    are not cut."""
+
+    def __init__(self, routes: list[PlannedContour], title: str, factor: float, settings: Settings) -> None:
+        self.routes = dict(enumerate(routes))
+        self.left: list[Left] = []
+        self.title = title
+        self.factor = factor
+        self.settings = settings
+
+    def leave_short(self) -> None:
+        """Leave outlines that are too short for their tab; a `UserError` where they are refused."""
+        fits = {number: longest_tab(route.contour) for number, route in self.routes.items() if route.is_short}
+        if fits and self.settings.small != "leave":
+            raise UserError(refusal.without_tab(self.routes, fits, self.factor, self.settings))
+        self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
+
+    def tame(self) -> None:
+        """Give those their own way whose wire would run off for a thousand R and more: it would be followed and
+        compared first."""
+        no_room: dict[int, NoRoom] = {}
+        for number, route in self.routes.items():
+            if not (_may_be_traced(route) and has_spike(route.contour, route.offset, _WILD)):
+                continue
+            why = _no_room(route)
+            if why is None:
+                self.routes[number] = _own_way(_straight_lead(route, []) or route, [])
+            elif why.is_crossing:
+                no_room[number] = why
+        if no_room and self.settings.small != "leave":
             # (all that have no way are said at once)
-            helped, more = _helped(routes, set(range(len(routes))), factor, settings)
-        return make(helped, title, factor, settings, left + more)
-    program = Program(routes, title)
-    text, is_stored, fed = _through(program, settings)
-    if fed.error:
-        refused = _refused(program, settings) or set(range(len(routes)))
-        if (simpler := _simpler(routes, refused)) != routes:
-            return make(simpler, title, factor, settings, left)
-        helped, more = _helped(routes, refused, factor, settings)
-        if helped == routes:
-            raise UserError(_located(program, fed.error, factor, settings))
-        return make(helped, title, factor, settings, left + more)
-    tape = tapes.parse(fed.tape, title)
-    checked = check(tape, routes, settings.is_without_drift)
-    if checked.faults:
-        faulty = {fault.route for fault in checked.faults}
-        if (one_by_one := _one_by_one(routes, faulty)) != routes:
-            return make(one_by_one, title, factor, settings, left)
-        helped, more = _helped(routes, faulty, factor, settings)
-        if helped == routes and settings.small == "leave":
-            no_room = {fault.route: why for fault in checked.faults if (why := refusal.why_no_room(fault, factor))}
-            helped, more = _without(routes, no_room, factor)
-        if helped == routes:
-            helped = _in_chords(routes, checked.faults)
-        if helped != routes:
-            return make(helped, title, factor, settings, left + more)
-    if not checked.faults and (around := _around_spikes(routes)) != routes:
-        with suppress(UserError):
-            job = make(around, title, factor, settings, left)
-            if job.left == left:
+            no_room = {number: why for number, route in self.routes.items() if (why := _no_room(route))}
+        self._leave_without_room(no_room)
+
+    def through(self) -> CutResult:
+        """Try all contours, and those by themselves that did not go through, until all do."""
+        some = list(self.routes)
+        while True:
+            job, troubles = self._try({number: self.routes[number] for number in some})
+            if troubles:
+                self._climb(troubles)
+            elif len(some) == len(self.routes):
                 return job
-    refusal.refuse(checked, routes, factor, settings)
-    return CutResult(routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings, left)
+            again = [number for number in troubles if number in self.routes]
+            some = again if 0 < 2 * len(again) < len(self.routes) else list(self.routes)
 
+    def around_tips(self, job: CutResult) -> CutResult:
+        """The tape of which the wire goes around the tips that it would run far past, with its own way, where that is
+        right; else the one that there is."""
+        around: dict[int, PlannedContour] = {}
+        for number, route in self.routes.items():
+            with suppress(NoRoom):
+                if _may_be_traced(route) and has_spike(route.contour, route.offset):
+                    around[number] = replace(route.with_wire_ways(), is_around=True)
+        while around:
+            found, troubles = self._try(self.routes | around)
+            if not troubles:
+                with suppress(UserError):
+                    refusal.refuse(found.checked, found.routes, self.factor, self.settings)
+                    return found
+            around = {number: route for number, route in around.items() if number not in troubles} if troubles else {}
+        return job
 
-def _simpler(routes: list[PlannedContour], which: set[int]) -> list[PlannedContour]:
-    """The routes, some written in a simpler way: a tooth may be too much for the board's memory of a route, which REP
-    needs; a rounded corner without room to round it may still go as an arc."""
-    if (one_by_one := _one_by_one(routes, which)) != routes:
-        return one_by_one
-    return [
-        replace(route, has_fillets=False) if at in which and writes_fillets(route) else route
-        for at, route in enumerate(routes)
-    ]
+    def _try(self, routes: dict[int, PlannedContour]) -> tuple[CutResult | None, dict[int, _Trouble]]:
+        """Cut some contours: what comes of it, and which do not go through."""
+        numbers, program = list(routes), Program(list(routes.values()), self.title)
+        job = _tried(program, self.settings)
+        if isinstance(job, ErrorLine):
+            refused = _refused(program, self.settings) or dict.fromkeys(range(len(numbers)), job)
+            return None, {numbers[at]: error for at, error in refused.items()}
+        troubles: dict[int, _Trouble] = defaultdict(list)
+        for fault in job.checked.faults:
+            troubles[numbers[fault.route]].append(fault)
+        return job, troubles
 
-
-def _one_by_one(routes: list[PlannedContour], which: set[int]) -> list[PlannedContour]:
-    """The routes, some with every copy of a tooth written out."""
-    return [
-        route.one_by_one() if at in which and route.contour.copies > 1 else route for at, route in enumerate(routes)
-    ]
-
-
-def _around_spikes(routes: list[PlannedContour]) -> list[PlannedContour]:
-    """The routes; those whose wire would run far past a tip go around it, with the wire's own way."""
-    found = list(routes)
-    for at, route in enumerate(routes):
-        with suppress(NoRoom):
-            if _may_be_traced(route) and has_spike(route.contour, route.offset):
-                found[at] = replace(route.with_wire_ways(), is_around=True)
-    return found
-
-
-def _wild(routes: list[PlannedContour]) -> set[int]:
-    """The routes whose wire would run off for a thousand R and more, where it has a way of its own, or none at all."""
-    found: set[int] = set()
-    for at, route in enumerate(routes):
-        if _may_be_traced(route) and has_spike(route.contour, route.offset, _WILD):
+    def _climb(self, troubles: dict[int, _Trouble]) -> None:
+        """Put each contour on the next rung that helps; one that has none is left or a `UserError`."""
+        no_room: dict[int, NoRoom] = {}
+        stuck: dict[int, str] = {}
+        for number in sorted(troubles):
+            route, trouble = self.routes[number], troubles[number]
             try:
-                route.with_wire_ways()
-            except NoRoom as no_room:
-                if not no_room.is_crossing:
-                    continue
-            found.add(at)
-    return found
+                helped = next(filter(None, (rung(route, trouble) for rung in _RUNGS)), None)
+            except NoRoom as why:
+                no_room[number] = why
+                continue
+            if helped:
+                self.routes[number] = helped
+            else:
+                stuck[number] = self._reason(trouble)
+        self._leave_without_room(no_room)
+        if lost := [number for number, reason in stuck.items() if not reason]:
+            number = min(lost, key=lambda number: not _is_into(troubles[number]))
+            raise UserError(self._lost(number, troubles[number]))
+        self._leave(stuck)
+
+    def _reason(self, trouble: _Trouble) -> str:
+        """Explain why a contour that nothing helps is left; empty where it may not be."""
+        if self.settings.small != "leave" or isinstance(trouble, ErrorLine):
+            return ""
+        return next(filter(None, (refusal.why_no_room(fault, self.factor) for fault in trouble)), "")
+
+    def _lost(self, number: int, trouble: _Trouble) -> str:
+        """Report a contour that nothing helps."""
+        route = self.routes[number]
+        if not isinstance(trouble, ErrorLine):
+            return refusal.off_drawing(trouble, route, number, self.factor, self.settings)
+        _, steps, _ = Program([route], "").unnumbered()
+        fed, done = feed_lines([_text([step]) for step in steps], self.settings.rom, self.settings.ram_kib)
+        if not fed.error:
+            return refusal.meaning(trouble.number)
+        places = [step.place for step in steps[: done + 1] if step.place] or [route.entry]
+        return (
+            f"{refusal.named(route, number, self.factor)}, near {refusal.told_in_file(places[-1], self.factor)}: "
+            f"{refusal.meaning(fed.error.number)}"
+        )
+
+    def _leave_without_room(self, no_room: dict[int, NoRoom]) -> None:
+        """Leave contours that the wire does not get around; a `UserError` where they are refused."""
+        if no_room and self.settings.small != "leave":
+            raise UserError(refusal.without_room(self.routes, no_room, self.factor, self.settings))
+        self._leave(
+            {number: f"{why} {refusal.told_in_file(why.place, self.factor)}" for number, why in no_room.items()}
+        )
+
+    def _leave(self, reasons: dict[int, str]) -> None:
+        """Leave contours, and what lies in those that are openings."""
+        names = {number: refusal.called(self.routes[number], self.factor) for number in reasons}
+        within = islands(self.routes, reasons)
+        for number, reason in reasons.items():
+            self.left.append(Left(self.routes.pop(number).number, names[number], reason))
+        for number, opening in within.items():
+            route = self.routes.pop(number)
+            reason = f"it lies in the {names[opening]}, which is left out"
+            self.left.append(Left(route.number, refusal.called(route, self.factor), reason, is_within=True))
+        if not self.routes:
+            raise UserError(f"no contour is left to cut: {self.left[0].name}: {self.left[0].why}")
 
 
 def _may_be_traced(route: PlannedContour) -> bool:
-    return route.contour.is_closed and route.contour.copies == 1 and all(route.passes) and not route.traced
+    return route.contour.is_closed and all(route.passes) and not route.traced
 
 
-def _refused(program: Program, settings: Settings) -> set[int]:
+def _is_into(trouble: _Trouble) -> bool:
+    """Tell whether the wire would come into its own contour."""
+    return not isinstance(trouble, ErrorLine) and any(fault.is_into for fault in trouble)
+
+
+def _no_room(route: PlannedContour) -> NoRoom | None:
+    """Return why the wire has no way of its own around a contour; None where it has one."""
+    try:
+        _own_way(route, [])
+    except NoRoom as why:
+        return why
+    return None
+
+
+def _tried(program: Program, settings: Settings) -> CutResult | ErrorLine:
+    """Let the board run a program, and check the tape; the error where the ROM refuses it."""
+    text, is_stored, fed = _through(program, settings)
+    if fed.error:
+        return fed.error
+    tape = tapes.parse(fed.tape, program.title)
+    checked = check(tape, program.routes, settings.is_without_drift)
+    return CutResult(program.routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings)
+
+
+def _refused(program: Program, settings: Settings) -> dict[int, ErrorLine]:
     """The routes that the ROM refuses; behind one of these a new board goes on."""
     _, *routes, _ = program.unnumbered()
-    refused: set[int] = set()
+    refused: dict[int, ErrorLine] = {}
     at = 0
     while at < len(routes):
         fed, done = feed_lines(map(_text, routes[at:]), settings.rom, settings.ram_kib)
         at += done
         if fed.error:
-            refused.add(at)
+            refused[at] = fed.error
         at += 1
     return refused
-
-
-def _helped(
-    routes: list[PlannedContour], which: set[int], factor: float, settings: Settings
-) -> tuple[list[PlannedContour], tuple[Left, ...]]:
-    """The routes, some with a straight lead or with the wire's own way, and those that are left out; the same routes
-    where none of these can be helped.
-
-    A contour that the wire does not get around is a `UserError`, or it is left out.
-    """
-    found = list(routes)
-    none: dict[int, NoRoom] = {}
-    for at in sorted(which):
-        route = routes[at]
-        if route.is_arc and route.contour.is_closed:
-            # (an arc that comes to the contour takes more room than a line)
-            found[at] = replace(route, is_arc=False, is_cramped=True)
-        elif route.contour.is_closed and all(route.passes) and not route.traced:
-            try:
-                found[at] = route.with_wire_ways()
-            except NoRoom as no_room:
-                none[at] = no_room
-    if none and settings.small != "leave":
-        raise UserError(refusal.without_room(routes, none, factor, settings))
-    return _without(
-        found, {at: f"{no_room} {refusal.told_in_file(no_room.place, factor)}" for at, no_room in none.items()}, factor
-    )
-
-
-def _in_chords(routes: list[PlannedContour], faults: list[Misfit]) -> list[PlannedContour]:
-    """The routes; those without an offset that the controller is a little off are cut along chords of their arcs and
-    curves. The same routes where there are none of these."""
-    off = {fault.route for fault in faults if fault.off < inf and not fault.is_into and not fault.is_missed}
-    return [
-        route.in_chords() if at in off and not any(route.passes) and not route.traced and _is_bent(route) else route
-        for at, route in enumerate(routes)
-    ]
-
-
-def _is_bent(route: PlannedContour) -> bool:
-    return any(not edge.is_line for edge in route.contour.edges)
-
-
-def _without(
-    routes: list[PlannedContour], why: dict[int, str], factor: float
-) -> tuple[list[PlannedContour], tuple[Left, ...]]:
-    """The routes without some, and without what lies in those that are openings; these with the reason."""
-    left = [Left(routes[at].number, refusal.called(routes[at], factor), reason) for at, reason in why.items()]
-    within = islands(routes, why)
-    for at, opening in within.items():
-        reason = f"it lies in the {refusal.called(routes[opening], factor)}, which is left out"
-        left.append(Left(routes[at].number, refusal.called(routes[at], factor), reason, is_within=True))
-    return [route for at, route in enumerate(routes) if at not in why and at not in within], tuple(left)
 
 
 def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
@@ -257,16 +326,3 @@ def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
 
 def _text(statements: list[Step]) -> str:
     return "".join(f"{statement.text}\n" for statement in statements)
-
-
-def _located(program: Program, error: ErrorLine, factor: float, settings: Settings) -> str:
-    """An error of the ROM as a contour and its place: route by route, then statement by statement."""
-    _, *routes, _ = program.unnumbered()
-    fed, at = feed_lines(map(_text, routes), settings.rom, settings.ram_kib)
-    message = refusal.meaning((fed.error or error).number)
-    if fed.error is None:
-        return message
-    _, done = feed_lines([_text([one]) for one in routes[at]], settings.rom, settings.ram_kib)
-    route = program.routes[at]
-    places = [one.place for one in routes[at][: done + 1] if one.place] or [route.entry]
-    return f"{refusal.named(route, at, factor)}, near {refusal.told_in_file(places[-1], factor)}: {message}"

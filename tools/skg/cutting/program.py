@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from math import degrees, pi, tan
 from typing import NamedTuple
 
@@ -129,13 +129,6 @@ def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
         at += 1
 
 
-def _repeated(run: Way, fillets: bool) -> Iterator[_Item | Edge | str]:
-    """The first of the copies that a run has, and REP: each next one begins where the one before it ends."""
-    first = run.edges[: len(run.edges) // run.copies]
-    yield from _items(replace(run, edges=first), fillets)
-    yield f"REP {run.copies},360/{run.copies}"
-
-
 def _into(lead: Lead, r: float) -> Iterator[float | _Item]:
     """From the start hole to the contour: straight pieces are the wire's own path, without an offset."""
     yield 0.0
@@ -158,8 +151,12 @@ def _out(lead: Lead) -> Iterator[float | _Item]:
     yield _point(lead.hole)
 
 
-def _pieces(route: PlannedContour) -> Iterator[str | float | _Item | Edge]:
-    """A route as statements (text), offsets from here on (numbers), items of CUTs, and curves."""
+#: A part of a route: a statement (text), an offset from here on (a number), an item of a CUT, a curve.
+Part = str | float | _Item | Edge
+
+
+def parts_of(route: PlannedContour) -> Iterator[Part]:
+    """A route in parts."""
     here: XY | None = None
     for at, run in enumerate(route.runs()):
         hole = run.into.hole if run.into else route.start
@@ -172,7 +169,7 @@ def _pieces(route: PlannedContour) -> Iterator[str | float | _Item | Edge]:
             here = None
         parts = [
             *(_into(run.into, run.offset) if run.into else ()),
-            *(_items(run, route.has_fillets) if run.copies == 1 else _repeated(run, route.has_fillets)),
+            *_items(run, route.has_fillets),
             *(_out(run.out) if run.out else ()),
         ]
         for part in parts:
@@ -223,7 +220,7 @@ class _Writer:
             self.say(f"{self.names[key]}={item.text}", item.place)
         return self.names[key]
 
-    def write(self, title: str, pieces: Iterable[str | float | _Item | Edge]) -> None:
+    def write(self, title: str, pieces: Iterable[Part]) -> None:
         """Write a route."""
         self.say(f"REM {title}")
         if not self.is_stored and self.r == 0:
@@ -276,10 +273,11 @@ class _Writer:
 
 @dataclass
 class Program:
-    """A program that cuts routes; `title` goes into its first line."""
+    """A program that cuts routes; `title` goes into its first line, `parts_of` tells what each route is written as."""
 
     routes: list[PlannedContour]
     title: str
+    parts_of: Callable[[PlannedContour], Iterable[Part]] = parts_of
 
     def __post_init__(self) -> None:
         plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
@@ -290,13 +288,13 @@ class Program:
         yield [self.head]
         writer = _Writer(False)
         for at, route in enumerate(self.routes):
-            writer.write(_title(at, route), _pieces(route))
+            writer.write(_title(at, route), self.parts_of(route))
             yield writer.taken()
         yield [Step("END")]
 
     def numbered(self) -> str:
         """The program with line numbers; too many lines are a `UserError`."""
-        pieces = [list(_pieces(route)) for route in self.routes]
+        pieces = [list(self.parts_of(route)) for route in self.routes]
         writer = _Writer(True)
         writer.uses.update((piece.letter, piece.text) for some in pieces for piece in some if isinstance(piece, _Item))
         for at, route in enumerate(self.routes):

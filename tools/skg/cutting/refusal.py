@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
 from math import copysign, floor, inf
 
@@ -69,7 +70,7 @@ def too_short(fit: float) -> str:
     return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
 
 
-def without_tab(routes: list[PlannedContour], fits: dict[int, float], factor: float, settings: Settings) -> str:
+def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], factor: float, settings: Settings) -> str:
     """Report outlines that their tab does not fit: the shortest one."""
     at = min(fits, key=lambda one: fits[one])
     message = f"{named(routes[at], at, factor)}: {too_short(fits[at])}"
@@ -78,7 +79,9 @@ def without_tab(routes: list[PlannedContour], fits: dict[int, float], factor: fl
     return f"{message}: take a shorter --tab{_or_leave(settings)}"
 
 
-def without_room(routes: list[PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings) -> str:
+def without_room(
+    routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings
+) -> str:
     """Report contours that the wire does not get around: the tightest one."""
     at, fit = _tightest(routes, none)
     route = routes[at]
@@ -107,7 +110,7 @@ def _in_passes(route: PlannedContour, fit: float) -> str:
     )
 
 
-def _tightest(routes: list[PlannedContour], none: dict[int, NoRoom]) -> tuple[int, float | None]:
+def _tightest(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom]) -> tuple[int, float | None]:
     """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
     it, mm; None when that is not looked for."""
     found: tuple[int, float] | None = None
@@ -141,23 +144,26 @@ def why_no_room(fault: Misfit, factor: float) -> str:
     return f"the wire does not come to {place}" if fault.is_missed else ""
 
 
+def off_drawing(faults: list[Misfit], route: PlannedContour, number: int, factor: float, settings: Settings) -> str:
+    """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
+    fault = min(faults, key=lambda fault: not fault.is_into)
+    name = named(route, number, factor)
+    if why := why_no_room(fault, factor):
+        return (
+            f"{name}: {why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
+            f"take a smaller one or a thinner wire{_or_leave(settings)}"
+        )
+    place, off = told_in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
+    where = f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
+    return f"{name}: the wire would be {where}: nothing was written; {_advice(fault, route, factor, settings)}"
+
+
 def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settings: Settings) -> None:
     """Raise what is wrong with a tape, if anything is, as a `UserError`."""
-    for fault in sorted(checked.faults, key=lambda fault: (not fault.is_into, fault.route)):
-        route = routes[fault.route]
-        name = named(route, fault.route, factor)
-        if why := why_no_room(fault, factor):
-            raise UserError(
-                f"{name}: {why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
-                f"take a smaller one or a thinner wire{_or_leave(settings)}"
-            )
-        place, off = told_in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
-        where = (
-            f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
-        )
-        raise UserError(
-            f"{name}: the wire would be {where}: nothing was written; {_advice(fault, route, factor, settings)}"
-        )
+    if checked.faults:
+        first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.route)).route
+        faults = [fault for fault in checked.faults if fault.route == first]
+        raise UserError(off_drawing(faults, routes[first], first, factor, settings))
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):

@@ -146,14 +146,12 @@ def part_of(edge: Edge, first: float, last: float) -> Edge:
 class Contour:
     """Edges that follow each other; the last one's end is the first one's start when it is closed.
 
-    `layers`: the drawing's layers that its edges come from, in their order along it. `copies`: more than 1 where the
-    edges are those of one tooth so many times, turned about O from one to the next, counter-clockwise.
+    `layers`: the drawing's layers that its edges come from, in their order along it.
     """
 
     edges: tuple[Edge, ...]
     is_closed: bool
     layers: tuple[str, ...] = ()
-    copies: int = 1
 
     def points(self) -> list[XY]:
         """Points along the contour, see `Edge.points`."""
@@ -166,8 +164,8 @@ class Contour:
 
     def reversed(self) -> Contour:
         """The same contour, run through backwards."""
-        return replace(self, edges=tuple(edge.reversed() for edge in reversed(self.edges)), copies=1)
+        return replace(self, edges=tuple(edge.reversed() for edge in reversed(self.edges)))
 
     def shifted(self, by: XY) -> Contour:
         """The same contour elsewhere."""
-        return replace(self, edges=tuple(edge.shifted(by) for edge in self.edges), copies=1)
+        return replace(self, edges=tuple(edge.shifted(by) for edge in self.edges))

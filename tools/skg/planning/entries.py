@@ -37,7 +37,7 @@ class EntryAt(NamedTuple):
         if not self.node:
             return turned
         before, after = split_curve(turned.edges[0], self.node)
-        return replace(contour, edges=(after, *turned.edges[1:], before), copies=1)
+        return replace(contour, edges=(after, *turned.edges[1:], before))
 
 
 def nearest_entry(contour: Contour, place: XY, offset: float, with_curves: bool = False) -> EntryAt:
@@ -88,14 +88,11 @@ def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]
     """Yield possible starts of a closed contour: in its longest lines, else in its longest arcs, else on a curve.
 
     The tab lies before the entry, on the same edge where there is one that is long enough. `widest`: the largest R.
-    Copies of a tooth are entered where one of them begins: there the next one goes on.
     """
     if not tab and len(contour.edges) == 1 and contour.edges[0].is_circle:
         # (there is nothing to choose from)
         yield from _on_edges(contour, [(0, contour.edges[0].length)], tab)
         return
-    if contour.copies > 1 and not tab:
-        yield EntryAt(0)
     lengths = [edge.length for edge in contour.edges]
     ranked = sorted(
         (at for at, edge in enumerate(contour.edges) if not edge.nodes),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping
 
 import shapely
 
@@ -11,13 +11,13 @@ from skg.planning.nesting import places_in
 from skg.planning.route import PlannedContour
 
 
-def islands(routes: Sequence[PlannedContour], openings: Collection[int]) -> dict[int, int]:
+def islands(routes: Mapping[int, PlannedContour], openings: Collection[int]) -> dict[int, int]:
     """The routes (by their numbers) that lie in some openings, other routes, and the innermost of these for each."""
     around = sorted((at for at in openings if routes[at].is_opening), key=lambda at: routes[at].depth)
     if not around:
         return {}
     least = routes[around[0]].depth
-    others = [at for at, route in enumerate(routes) if at not in openings and route.depth > least]
+    others = [at for at, route in routes.items() if at not in openings and route.depth > least]
     if not others:
         return {}
     places = places_in([routes[at].contour for at in others])

@@ -57,7 +57,7 @@ class Way:
 
     `offset` is R for this direction. `into`, `out`: how the wire comes from its start hole and goes to one; without
     them a closed run begins and ends at the start hole of its route (BACK), an open one at its own ends. `stop`: what
-    the operator is to do before it, the machine stops for it; empty: nothing. `copies`: see `Contour`.
+    the operator is to do before it, the machine stops for it; empty: nothing.
     """
 
     edges: tuple[Edge, ...]
@@ -65,7 +65,6 @@ class Way:
     into: Lead | None = None
     out: Lead | None = None
     stop: str = ""
-    copies: int = 1
 
     @property
     def is_closed(self) -> bool:
@@ -154,9 +153,7 @@ class PlannedContour:
             for index, r in enumerate(passes):
                 falls = "IS" if index == 1 and len(passes) > 1 else ""
                 stop = falls and ("TAKE THE SLUG OUT" if self.is_opening else "THE PART IS FREE")
-                # (what is repeated would have the lead too)
-                copies = 1 if lead or self.part else self.contour.copies
-                run = self._way(index, Way(edges, r, lead, lead, stop, copies))
+                run = self._way(index, Way(edges, r, lead, lead, stop))
                 yield _backwards(run) if index % 2 else run
 
     def _lead(self, hole: XY, edge: Edge, at_end: bool = False) -> Lead:
@@ -211,11 +208,7 @@ class PlannedContour:
         if into and out:
             into = replace(into, entry=edges[0].start, is_arc=into.is_arc and distance(edges[0].start, first) < _SQUARE)
             out = replace(out, entry=edges[-1].end, is_arc=out.is_arc and distance(edges[-1].end, last) < _SQUARE)
-        return replace(run, edges=edges, offset=0.0, into=into, out=out, copies=1)
-
-    def one_by_one(self) -> PlannedContour:
-        """The same, every copy with edges of its own in the program."""
-        return replace(self, contour=replace(self.contour, copies=1))
+        return replace(run, edges=edges, offset=0.0, into=into, out=out)
 
 
 def _chords(edge: Edge) -> list[Edge]:
