@@ -142,7 +142,7 @@ class _Ladder:
         """Leave outlines that are too short for their tab; a `UserError` where they are refused."""
         fits = {number: longest_tab(route.contour) for number, route in self.routes.items() if route.is_short}
         if fits and self.settings.small != "leave":
-            raise UserError(refusal.without_tab(self.routes, fits, self.factor, self.settings))
+            raise refusal.without_tab(self.routes, fits, self.factor, self.settings)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
 
     def tame(self) -> None:
@@ -171,7 +171,7 @@ class _Ladder:
                 self._climb(troubles)
             elif len(some) == len(self.routes):
                 return job
-            again = [number for number in troubles if number in self.routes]
+            again = [number for number in self.routes if number in troubles]
             some = again if 0 < 2 * len(again) < len(self.routes) else list(self.routes)
 
     def around_tips(self, job: CutResult) -> CutResult:
@@ -221,7 +221,7 @@ class _Ladder:
         self._leave_without_room(no_room)
         if lost := [number for number, reason in stuck.items() if not reason]:
             number = min(lost, key=lambda number: not _is_into(troubles[number]))
-            raise UserError(self._lost(number, troubles[number]))
+            raise self._lost(number, troubles[number])
         self._leave(stuck)
 
     def _reason(self, trouble: _Trouble) -> str:
@@ -230,7 +230,7 @@ class _Ladder:
             return ""
         return next(filter(None, (refusal.why_no_room(fault, self.factor) for fault in trouble)), "")
 
-    def _lost(self, number: int, trouble: _Trouble) -> str:
+    def _lost(self, number: int, trouble: _Trouble) -> UserError:
         """Report a contour that nothing helps."""
         route = self.routes[number]
         if not isinstance(trouble, ErrorLine):
@@ -238,17 +238,19 @@ class _Ladder:
         _, steps, _ = Program([route], "").unnumbered()
         fed, done = feed_lines([_text([step]) for step in steps], self.settings.rom, self.settings.ram_kib)
         if not fed.error:
-            return refusal.meaning(trouble.number)
-        places = [step.place for step in steps[: done + 1] if step.place] or [route.entry]
-        return (
-            f"{refusal.named(route, number, self.factor)}, near {refusal.told_in_file(places[-1], self.factor)}: "
-            f"{refusal.meaning(fed.error.number)}"
+            return UserError(refusal.meaning(trouble.number), route.number)
+        place = [route.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
+        return UserError(
+            f"{refusal.named(route, number, self.factor)}, near {refusal.told_in_file(place, self.factor)}: "
+            f"{refusal.meaning(fed.error.number)}",
+            route.number,
+            place,
         )
 
     def _leave_without_room(self, no_room: dict[int, NoRoom]) -> None:
         """Leave contours that the wire does not get around; a `UserError` where they are refused."""
         if no_room and self.settings.small != "leave":
-            raise UserError(refusal.without_room(self.routes, no_room, self.factor, self.settings))
+            raise refusal.without_room(self.routes, no_room, self.factor, self.settings)
         self._leave(
             {number: f"{why} {refusal.told_in_file(why.place, self.factor)}" for number, why in no_room.items()}
         )

@@ -70,18 +70,21 @@ def too_short(fit: float) -> str:
     return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
 
 
-def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], factor: float, settings: Settings) -> str:
+def without_tab(
+    routes: Mapping[int, PlannedContour], fits: dict[int, float], factor: float, settings: Settings
+) -> UserError:
     """Report outlines that their tab does not fit: the shortest one."""
-    at = min(fits, key=lambda one: fits[one])
-    message = f"{named(routes[at], at, factor)}: {too_short(fits[at])}"
+    at = min(fits, key=fits.__getitem__)
+    route = routes[at]
+    message = f"{named(route, at, factor)}: {too_short(fits[at])}"
     if len(fits) > 1:
         message += f"; {counted(len(fits) - 1, 'more contour')} without room for the tab"
-    return f"{message}: take a shorter --tab{_or_leave(settings)}"
+    return UserError(f"{message}: take a shorter --tab{_or_leave(settings)}", route.number, route.entry)
 
 
 def without_room(
     routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings
-) -> str:
+) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
     at, fit = _tightest(routes, none)
     route = routes[at]
@@ -97,7 +100,7 @@ def without_room(
         help_ = "take a smaller offset or a thinner wire"
     if len(none) > 1:
         message += f"; {counted(len(none) - 1, 'more contour')} without room for the wire"
-    return f"{message}: {help_}{_or_leave(settings)}"
+    return UserError(f"{message}: {help_}{_or_leave(settings)}", route.number, none[at].place)
 
 
 def _in_passes(route: PlannedContour, fit: float) -> str:
@@ -144,18 +147,23 @@ def why_no_room(fault: Misfit, factor: float) -> str:
     return f"the wire does not come to {place}" if fault.is_missed else ""
 
 
-def off_drawing(faults: list[Misfit], route: PlannedContour, number: int, factor: float, settings: Settings) -> str:
+def off_drawing(
+    faults: list[Misfit], route: PlannedContour, number: int, factor: float, settings: Settings
+) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
-    name = named(route, number, factor)
     if why := why_no_room(fault, factor):
-        return (
-            f"{name}: {why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
+        message = (
+            f"{why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
             f"take a smaller one or a thinner wire{_or_leave(settings)}"
         )
-    place, off = told_in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
-    where = f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
-    return f"{name}: the wire would be {where}: nothing was written; {_advice(fault, route, factor, settings)}"
+    else:
+        place, off = told_in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
+        where = (
+            f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
+        )
+        message = f"the wire would be {where}: nothing was written; {_advice(fault, route, factor, settings)}"
+    return UserError(f"{named(route, number, factor)}: {message}", route.number, fault.place)
 
 
 def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settings: Settings) -> None:
@@ -163,20 +171,22 @@ def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settin
     if checked.faults:
         first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.route)).route
         faults = [fault for fault in checked.faults if fault.route == first]
-        raise UserError(off_drawing(faults, routes[first], first, factor, settings))
+        raise off_drawing(faults, routes[first], first, factor, settings)
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
             raise UserError(
                 f"{named(route, cut.route, factor)}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
-                "controller: draw its longest arc as two"
+                "controller: draw its longest arc as two",
+                route.number,
+                route.entry,
             )
     spoilt = [one for one in checked.crossings if all(routes[at].contour.is_closed for at in (one.route, one.other))]
     if spoilt and settings.into != "cut":
-        raise UserError(_spoilt(spoilt, routes, factor, settings))
+        raise _spoilt(spoilt, routes, factor, settings)
 
 
-def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float, settings: Settings) -> str:
+def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float, settings: Settings) -> UserError:
     """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
     message = (
@@ -185,10 +195,11 @@ def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float,
     )
     if len(spoilt) > 1:
         message += f"; {counted(len(spoilt) - 1, 'more cut')} into other contours"
-    return (
-        f"{message}: these cross, or lie nearer to each other than the wire is wide; move them apart, take a thinner "
+    message += (
+        ": these cross, or lie nearer to each other than the wire is wide; move them apart, take a thinner "
         f"wire or some of the layers{', or cut them all the same with --into cut' * bool(settings.into)}"
     )
+    return UserError(message, routes[worst.route].number, worst.place)
 
 
 def into(crossing: Crossing) -> str:

@@ -25,6 +25,7 @@ from skg.job.wanted import Partial, Wanted
 from skg.planning.nesting import Nesting
 from skg.planning.plan import plan_nested
 from skg.planning.route import PlannedContour
+from skg.reading.account import Account
 from skg.reading.read import Reading, read
 from skg.reading.selection import SMALL, WITHIN
 from skg.wording import ReportLine, counted, short
@@ -68,10 +69,10 @@ class DrawnJob:
 
 @dataclass(frozen=True)
 class CutDrawing:
-    """A checked tape with its report. `reading`: the drawing, with what was left out among what is not cut."""
+    """A checked tape with its report. `account`: that of the drawing, with what was left out among what is not cut."""
 
     result: CutResult
-    reading: Reading
+    account: Account
     lines: list[ReportLine]
 
 
@@ -142,17 +143,16 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress | None = None) -> 
         result = make(routes, job.drawing, factor, settings)
     except UserError as error:
         raise _named(error, drawn) from None
+    account = reading.report
     if result.left:
-        small = {one.number: WITHIN if one.is_within else SMALL for one in result.left}
-        wishes = replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"))
-        reading = read(drawn.data, drawn.name, wishes, small)
-    return CutDrawing(result, reading, _lines(job, drawn, reading, result))
+        account = reading.account({one.number: WITHIN if one.is_within else SMALL for one in result.left})
+    return CutDrawing(result, account, _lines(job, drawn, account, result))
 
 
-def _lines(job: Job, drawn: DrawnJob, reading: Reading, result: CutResult) -> list[ReportLine]:
+def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[ReportLine]:
     """The report, line by line."""
-    factor = reading.report.factor
-    lines = [*map(ReportLine, reading.report.lines()), *_matched(job, drawn)]
+    factor = account.factor
+    lines = [*map(ReportLine, account.lines()), *_matched(job, drawn)]
     lines += map(ReportLine, report(result, factor, job.machine.distance))
     wanted = wanted_of(job, drawn)
     if left := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
@@ -161,7 +161,7 @@ def _lines(job: Job, drawn: DrawnJob, reading: Reading, result: CutResult) -> li
         )
     if any(want.tab and want.cut for want in wanted) and not any(route.tab for route in result.routes):
         lines.append(ReportLine("take care: no contour has a tab: none is a part that is cut from outside"))
-    if any(overlap.what != "drawn twice" for overlap in reading.report.overlaps):
+    if any(overlap.what != "drawn twice" for overlap in account.overlaps):
         from skg.checking.split_parts import said
 
         lines += map(ReportLine, said(result.routes, factor))

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import floor
 
 from skg.errors import UserError
@@ -24,7 +25,7 @@ from skg.job.read_options import OPEN, START, UNITS, Wishes
 from skg.reading import dxf_entities, dxf_file, svg_file, svg_shapes
 from skg.reading.account import NOTE, Account, Content, listed
 from skg.reading.chain import merged
-from skg.reading.selection import Selection
+from skg.reading.selection import Fates, Selection
 from skg.wording import counted, short, shown
 
 __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
@@ -49,30 +50,45 @@ AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 
 @dataclass(frozen=True)
 class Reading:
-    """A drawing that was read: contours in the order of the file (mm), start holes (mm), and the report; `others`: the
-    closed contours that are left because of their layers."""
+    """A drawing that was read: contours in the order of the file (mm), start holes (mm); `others`: the closed contours
+    that are left because of their layers. `begun`: the report but for what becomes of the entities, `fates` has that;
+    `drawn`: the contours as the entities have their edges."""
 
     contours: list[Contour]
     starts: list[XY]
-    report: Account
     others: list[Contour]
+    begun: Account
+    fates: Fates
+    drawn: list[Contour]
+
+    @cached_property
+    def report(self) -> Account:
+        """The report on all contours."""
+        return self.account({})
+
+    def account(self, left: Mapping[int, str]) -> Account:
+        """The report where some contours (by their numbers) are left, and why."""
+        report = self.fates.account(self.drawn, left, self.begun)
+        cut = [contour for number, contour in enumerate(self.contours) if number not in left]
+        report.closed = sum(contour.is_closed for contour in cut)
+        report.open = len(cut) - report.closed
+        report.length = sum(edge.length for contour in cut for edge in contour.edges)
+        return report
 
 
-def read(data: bytes, name: str, wishes: Wishes | None = None, small: Mapping[int, str] | None = None) -> Reading:
+def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
     """Read a drawing file's bytes; `name` is the file's name, for messages and for its ending.
 
-    `small`: numbers of contours, as they are read without it, that turned out to have no room for the wire, and why
-    they are left: the report has them among what is, and the contours are without them. A drawing without anything to
-    cut, or one that is refused, is a `UserError` that begins with the name.
+    A drawing without anything to cut, or one that is refused, is a `UserError` that begins with the name.
     """
     wishes = wishes or Wishes()
     try:
-        return _read(data, name, wishes, small or {})
+        return _read(data, name, wishes)
     except UserError as error:
         raise UserError(f"{name}: {error}") from None
 
 
-def _read(data: bytes, name: str, wishes: Wishes, small: Mapping[int, str]) -> Reading:
+def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     content, report = _content(data, name, wishes)
     if not content.edges:
         raise UserError(_nothing(content, wishes))
@@ -83,23 +99,16 @@ def _read(data: bytes, name: str, wishes: Wishes, small: Mapping[int, str]) -> R
     if contours and _is_in_odd_metres(contours, report):
         # (in mm more ends meet, and the small ones are counted so)
         width, height = (short(side / UNITS["m"]) for side in report.size)
-        reading = _read(data, name, replace(wishes, units="mm"), small)
-        reading.report.units_from = f"the file says m, but {width} x {height} m is no part; set --units to change it"
+        reading = _read(data, name, replace(wishes, units="mm"))
+        reading.begun.units_from = f"the file says m, but {width} x {height} m is no part; set --units to change it"
         return reading
-    contours = selection.without_open(contours)
-    fates = selection.fates
-    for at, why in small.items():
-        fates.of_edges(contours[at].edges, why)
-    cut = [one for at, one in enumerate(contours) if at not in small]
-    fates.account(cut, report)
-    if not contours:
-        raise UserError(_no_outline(report))
-    # (the size, and with it where the drawing lies, is the same without the small ones)
-    _measure(contours, report)
-    found = [replace(merged(one), layers=fates.layers(one)) for one in cut]
-    _count(found, report)
+    drawn, fates = selection.without_open(contours), selection.fates
+    if not drawn:
+        raise UserError(_no_outline(fates.account([], {}, report)))
+    _measure(drawn, report)
     _check_size(report)
-    return _near_origin(Reading(found, content.starts, report, selection.others()))
+    contours = [replace(merged(contour), layers=fates.layers(contour)) for contour in drawn]
+    return _near_origin(Reading(contours, content.starts, selection.others(), report, fates, drawn))
 
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
@@ -112,14 +121,14 @@ def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
 
 def _near_origin(reading: Reading) -> Reading:
     """A drawing with a map's coordinates is moved by whole millimetres: the ROM has no places that far."""
-    report = reading.report
+    report = reading.begun
     if max(map(abs, (*report.low, *report.high))) < FARTHEST:
         return reading
     by = -floor(report.low[0]), -floor(report.low[1])
     report.notes.append(f"moved by {shown(by)} mm: the drawing lies too far from its origin for a tape")
     report.low, report.high = shifted(report.low, by), shifted(report.high, by)
     contours, others = ([one.shifted(by) for one in some] for some in (reading.contours, reading.others))
-    return Reading(contours, [shifted(at, by) for at in reading.starts], report, others)
+    return replace(reading, contours=contours, starts=[shifted(at, by) for at in reading.starts], others=others)
 
 
 def layer_lines(data: bytes, name: str, wishes: Wishes) -> list[str]:
@@ -190,13 +199,6 @@ def _measure(contours: list[Contour], report: Account) -> None:
     """The box around the contours."""
     boxes, _ = boxes_of(contours)
     report.low, report.high = (tuple(place.tolist()) for place in (boxes[:, :2].min(0), boxes[:, 2:].max(0)))
-
-
-def _count(contours: list[Contour], report: Account) -> None:
-    """Number and length of the contours."""
-    report.closed = sum(contour.is_closed for contour in contours)
-    report.open = len(contours) - report.closed
-    report.length = sum(edge.length for contour in contours for edge in contour.edges)
 
 
 def _check_size(report: Account) -> None:

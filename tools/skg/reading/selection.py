@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from copy import copy
 from dataclasses import replace
 from math import inf
 
@@ -13,7 +14,7 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, distance
 from skg.job.read_options import Wishes
-from skg.reading.account import Account, Content, LayerSum, OpenEnd, Overlap, above, said
+from skg.reading.account import Account, Content, Entity, LayerSum, OpenEnd, Overlap, above, said
 from skg.reading.chain import Chains, chain
 from skg.reading.meetings import Relations, lying_on, nearest, relations
 from skg.reading.overruns import Overrun, without_overruns
@@ -173,16 +174,28 @@ class Fates:
         """Tell whether a contour is drawn with dashes, all of it: an axis, or what lies behind."""
         return all(self.entities[edge.entity].dashes for edge in contour.edges)
 
-    def account(self, contours: list[Contour], report: Account) -> None:
-        """Put the sums of the layers into the report; one that does not agree is a `UserError`."""
+    def account(self, contours: list[Contour], left: Mapping[int, str], begun: Account) -> Account:
+        """The report with the sums of the layers, where some contours (by their numbers) are left, and why; a sum that
+        does not agree is a `UserError`. `begun`: what else it has."""
+        fates, report = copy(self), replace(begun, notes=[*begun.notes], overlaps=[*begun.overlaps])
+        fates.gone = defaultdict(Counter, {at: Counter(gone) for at, gone in self.gone.items()})
+        fates.lost = self.lost.copy()
+        for number, why in left.items():
+            fates.of_edges(contours[number].edges, why)
+        fates._sum_up([contour for number, contour in enumerate(contours) if number not in left], report)
+        return report
+
+    def _sum_up(self, contours: list[Contour], report: Account) -> None:
         cut = Counter(edge.entity for contour in contours for edge in contour.edges)
         self._account_doubles(contours, cut, report)
         report.notes += self._much_left(contours)
         sums: dict[str, LayerSum] = {}
+        rest: list[Entity] = []
+        odd: list[Entity] = []
         for at, entity in enumerate(self.entities):
             layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
             layer.read += 1
-            gone = self.gone[at]
+            gone = self.gone.get(at) or Counter()
             if cut[at] + gone.total() != self.parts[at] or not (self.parts[at] or entity.left):
                 raise UserError(
                     f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: of its {self.parts[at]} parts "
@@ -192,16 +205,17 @@ class Fates:
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
-            entity.left = entity.left or " and ".join(lost)
+            entity = replace(entity, left=entity.left or " and ".join(lost))
             if cut[at]:
                 layer.part += 1
             else:
                 layer.left += 1
             layer.why[entity.left][entity.kind] += 1
             if JUNCTION in gone:
-                report.rest.append(entity)
+                rest.append(entity)
             elif entity.is_odd:
-                report.not_understood.append(entity)
+                odd.append(entity)
+        report.rest, report.not_understood = rest, odd
         report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
         dashed = defaultdict(list)
         for at, entity in enumerate(self.entities):
