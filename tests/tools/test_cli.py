@@ -38,7 +38,7 @@ some = pytest.mark.parametrize("words", [COMMANDS[name] for name in WRITERS], id
 def test_every_command_is_tried() -> None:
     from skg.cli import COMMANDS as there
 
-    assert set(there) - set(COMMANDS) == {"term"}  # its output is a terminal's, see test_term.py
+    assert set(there) - set(COMMANDS) == {"term", "ui"}  # what they show: test_term.py, tests/ui
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,7 @@ COMMANDS = {
     "tape": "Write a 3B tape of any style in another one.",
     "tekhtran": "Write the program that cuts a part in TEKHTRAN.",
     "term": "Act as the teletype of a board on a serial port.",
+    "ui": "Show a drawing in the browser, and cut it.",
     "xy": "Write the program that cuts a part in XY.",
 }
 

@@ -19,8 +19,10 @@ from skg.cutting.report import report
 from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour
+from skg.geometry.plane import XY
 from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
+from skg.job.read_options import Wishes
 from skg.job.wanted import Partial, Wanted
 from skg.planning.nesting import Nesting
 from skg.planning.plan import plan_nested
@@ -79,11 +81,15 @@ class CutDrawing:
 def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
     """Read a job's drawing and find the contours that it has settings for. `name`: what messages call the drawing."""
     name = name or job.drawing
-    wishes = replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"))
-    reading = read(data, name, wishes)
+    reading = read(data, name, wishes_of(job))
     nesting = Nesting.of(reading.contours, reading.others)
     known = Known(reading.contours, [nesting.kind(at) for at in range(len(reading.contours))])
     return DrawnJob(name, data, reading, nesting, known, known.find(job.contours, job.box))
+
+
+def wishes_of(job: Job) -> Wishes:
+    """How the drawing is read: open contours are refused where the wire runs beside contours, if nobody says more."""
+    return replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"))
 
 
 def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
@@ -104,14 +110,23 @@ def _moved(chosen: Chosen, matches: Matches) -> Chosen:
 def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
     """The contours in the order in which they are cut. A contour that is lost, or that cannot be planned, is a
     `UserError`."""
-    for at in drawn.matches.lost:
-        raise UserError(_lost(job, at, drawn))
-    x, y = drawn.matches.shift
-    starts = [(u + x, v + y) for u, v in job.starts] or drawn.reading.starts
+    refuse_lost(job, drawn)
     try:
-        return plan_nested(drawn.nesting, starts, wanted_of(job, drawn))
+        return plan_nested(drawn.nesting, starts_of(job, drawn), wanted_of(job, drawn))
     except UserError as error:
         raise _named(error, drawn) from None
+
+
+def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
+    """The start holes, where the drawing is now."""
+    x, y = drawn.matches.shift
+    return [(u + x, v + y) for u, v in job.starts] or drawn.reading.starts
+
+
+def refuse_lost(job: Job, drawn: DrawnJob) -> None:
+    """Refuse a job with settings for a contour that is not there."""
+    for at in drawn.matches.lost:
+        raise UserError(_lost(job, at, drawn))
 
 
 def _lost(job: Job, at: int, drawn: DrawnJob) -> str:
@@ -187,11 +202,11 @@ def _matched(job: Job, drawn: DrawnJob) -> list[ReportLine]:
 
 
 def written(job: Job, drawn: DrawnJob) -> Job:
-    """The job as a file has it: with the drawing's sum and box, its contours as they are now."""
+    """The job as a file has it: with the drawing's sum and box, its contours as they are now (but those that are
+    lost)."""
     contours = tuple(
-        drawn.known.choose(match.number, _moved(one, drawn.matches).partial)
+        one if match.number is None else drawn.known.choose(match.number, _moved(one, drawn.matches).partial)
         for one, match in zip(job.contours, drawn.matches.found, strict=True)
-        if match.number is not None
     )
     box = tuple(round(bound, 6) + 0.0 for bound in drawn.known.box)
     return replace(job, sha256=drawn.sha256, box=box, contours=contours)

@@ -171,7 +171,9 @@ class _Planner:
         u, v = contour.edges[0].start
         raise UserError(
             f"the start hole ({x:g}, {y:g}) {what} the contour from ({u:.3f}, {v:.3f}), which is cut from "
-            f"{'outside' if is_outside else 'inside'} (mm): give another one, or another --side"
+            f"{'outside' if is_outside else 'inside'} (mm): give another one, or another --side",
+            made.number,
+            made.start,
         )
 
     def _entered(self, made: PlannedContour, place: XY | None, is_right: bool) -> PlannedContour:
@@ -180,7 +182,7 @@ class _Planner:
         contour, part = entry.begun(made.contour), entry.part
         if not made.tab:
             return replace(made, contour=contour, part=part)
-        contour, part = self._tab_before(contour, part, made.tab)
+        contour, part = self._tab_before(contour, part, made)
         end, reach = _before_tab(contour, part, made.tab), distance(made.start, contour.edges[0].at(part))
         one = (np.array([what]) for what in (is_right, reach, abs(made.widest), made.is_arc))
         ((x, y),) = self._tab_holes([end], *one).tolist()
@@ -257,8 +259,8 @@ class _Planner:
                 places[at], ways[at] = edge.at(1.0), edge.direction(1.0)
         return self._holes(places, ways, rows, is_right, reach, widest, is_arc)
 
-    def _tab_before(self, contour: Contour, part: float, tab: float) -> tuple[Contour, float]:
-        edge = contour.edges[0]
+    def _tab_before(self, contour: Contour, part: float, made: PlannedContour) -> tuple[Contour, float]:
+        edge, tab = contour.edges[0], made.tab
         aside = tab / edge.length
         if edge.is_circle:
             return contour, part
@@ -268,7 +270,9 @@ class _Planner:
             x, y = edge.start
             raise UserError(
                 f"the edge from ({x:.3f}, {y:.3f}), which the start hole is at, has no room for a tab of "
-                f"{tab:g} mm: a shorter --tab, or another start hole"
+                f"{tab:g} mm: a shorter --tab, or another start hole",
+                made.number,
+                made.start,
             )
         return contour, min(0.95, max(part, aside + 0.05))
 
@@ -433,7 +437,9 @@ def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
             outer = routes[turn[number]] if number in turn else None
             if outer and outer.depth < route.depth and turn[number] < turn[route.number]:
                 first, second = outer.number + 1, route.number + 1
-                raise UserError(f"order: contour {first} would be cut before contour {second}, which lies in it")
+                raise UserError(
+                    f"order: contour {first} would be cut before contour {second}, which lies in it", outer.number
+                )
 
 
 def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:

@@ -1,0 +1,45 @@
+"""Fixtures of the tests of `skg ui`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from threading import Thread
+
+import pytest
+from uihelp import Page
+
+from skg.ui.server import Server
+from skg.ui.session import Session
+
+
+@pytest.fixture(scope="session", autouse=True)
+def libraries(build: Callable[..., None]) -> None:
+    """The libraries in C: the board and the simulator."""
+    build("emu", "tools")
+
+
+@pytest.fixture
+def serve() -> Iterator[Callable[[Path | None], Server]]:
+    """Begin a server, with a file or without."""
+    servers = []
+
+    def begin(path: Path | None = None) -> Server:
+        session = Session()
+        session.begin(path)
+        server = Server(0, session)
+        servers.append(server)
+        Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
+        return server
+
+    yield begin
+    for server in servers:
+        server.shutdown()
+        server.server_close()
+        server.session.close()
+
+
+@pytest.fixture
+def page(serve: Callable[[], Server]) -> Page:
+    """A page of a server that has nothing open."""
+    return Page(serve())

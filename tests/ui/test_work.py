@@ -1,0 +1,358 @@
+"""The page's calls as a page makes them: open, plan, ways, cut, save; and the tape is the command line's."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from threading import Timer
+
+import ezdxf
+import pytest
+from click.testing import CliRunner
+from ezdxf import units
+from uihelp import Json, Page, plate, until
+
+from skg.cli import cli
+from skg.ui.server import Server
+
+ROOT = Path(__file__).parents[2]
+
+
+def skg(*words: object) -> str:
+    """Run a command that must end well; what it says."""
+    result = CliRunner(mix_stderr=False).invoke(cli, [str(word) for word in words], catch_exceptions=False)
+    assert result.exit_code == 0, result.stderr
+    return result.stderr
+
+
+def test_nothing_is_open(page: Page) -> None:
+    state = page.done("GET", "/api/state")
+    assert (state["name"], state["can_save"]) == (None, False)
+    for method, path, body in (
+        ("PUT", "/api/job", {"rev": state["rev"], "job": {"schema": 1, "drawing": "x.dxf"}}),
+        ("POST", "/api/ways", {"rev": state["rev"], "ids": [0]}),
+        ("GET", "/api/job", None),
+        ("GET", "/api/run/1", None),
+        ("DELETE", "/api/run/1", None),
+        ("GET", "/api/run/1/tape", None),
+        ("POST", "/api/save", {"run": 1, "what": ["tape"]}),
+    ):
+        answer = page.call(method, path, body)
+        assert answer.status == 400 and answer.message, path
+    run = page.cut(state["rev"])[1]
+    assert run["state"] == "failed" and "no drawing" in run["error"]["message"]
+
+
+def test_drawing(page: Page, tmp_path: Path) -> None:
+    state = page.open(plate(tmp_path))
+    assert (state["name"], state["size"], state["low"], state["units"]) == ("plate.dxf", [60, 30], [0, 0], "mm")
+    assert [(layer["name"], layer["contours"]) for layer in state["layers"]] == [("HOLES", [1, 2]), ("PART", [0])]
+    assert [(one["id"], one["kind"], one["depth"], one["size"]) for one in state["contours"]] == [
+        (0, "outline", 0, [60, 30]),
+        (1, "opening", 1, [12, 12]),
+        (2, "opening", 1, [12, 12]),
+    ]
+    assert state["contours"][0]["edges"][0] == [0, 0, 60, 0]
+    (circle,) = state["contours"][1]["edges"]
+    assert circle[4:6] == [15, 15] and abs(circle[6]) == pytest.approx(6.283185)
+    assert page.state() == state
+
+
+def test_plan_and_ways(page: Page, tmp_path: Path) -> None:
+    state = page.open(plate(tmp_path))
+    state |= page.put(state, machine={"wire": 0.18, "gap": 0.01}, default={"passes": [0.05, 0], "tab": 4})
+    assert state["plan"]["order"][-1] == 0
+    outline = state["plan"]["contours"]["0"]
+    assert (outline["number"], outline["passes"], outline["radius"]) == (3, [0.15, 0.1], 0.1)
+    assert outline["values"]["tab"] == 4 and outline["tab"] and outline["tab_hole"]
+    ways = page.done("POST", "/api/ways", {"rev": state["rev"], "ids": [0, 1]})["ways"]
+    # (two passes and the tab; two passes)
+    assert [len(ways[name]) for name in ("0", "1")] == [3, 2]
+    for way, aside in zip(ways["0"][:2], (0.15, 0.1), strict=True):
+        assert {round(-aside, 4), round(30 + aside, 4)} <= {edge[1] for edge in way if edge[1] == edge[3]}
+    for way in ways["0"]:
+        assert way[0][:2] in (outline["hole"], outline["tab_hole"])
+        assert all(before[2:4] == after[0:2] for before, after in zip(way, way[1:], strict=False))
+
+
+def test_contour_by_itself(page: Page, tmp_path: Path) -> None:
+    """What is said of a contour goes over its layer's, and that over all."""
+    state = page.open(plate(tmp_path))
+    first, second = ({key: one[key] for key in ("layer", "kind", "at", "size")} for one in state["contours"][1:])
+    state |= page.put(
+        state,
+        machine={"offset": 0.1},
+        layer=[{"name": "HOLES", "offset": 0.2, "side": "inside"}],
+        contour=[second | {"cut": False}, first | {"start": [16, 15], "entry": [15, 21], "offset": 0.3}],
+    )
+    assert state["plan"]["order"] == [1, 0] and "error" not in state["plan"]
+    contours = state["plan"]["contours"]
+    assert contours["2"]["cut"] is False and contours["2"]["values"]["offset"] == 0.2
+    assert contours["1"]["hole"] == [16, 15] and contours["1"]["entry"] == [15, 21]
+    assert [contours[name]["values"]["offset"] for name in "012"] == [pytest.approx(0.1), 0.3, 0.2]
+    assert [(one["chosen"], one["id"]) for one in state["matches"]] == [(0, 2), (1, 1)]
+
+
+def test_errors_of_a_contour(page: Page, tmp_path: Path) -> None:
+    """What is wrong with one contour is told with its number, and the others are planned all the same."""
+    state = page.open(plate(tmp_path))
+    which = {key: state["contours"][0][key] for key in ("layer", "kind", "at", "size")}
+    state |= page.put(state, machine={"offset": 0.1}, contour=[which | {"start": [30, 28]}])
+    plan = state["plan"]
+    assert plan["error"]["contour"] == 0 and plan["contours"]["0"]["error"] == plan["error"]["message"]
+    assert sorted(plan["order"]) == [0, 1, 2]
+    run = page.cut(state["rev"])[1]
+    assert run["state"] == "failed" and run["error"]["contour"] == 0
+
+
+def test_bad_jobs(page: Page, tmp_path: Path) -> None:
+    state = page.open(plate(tmp_path))
+    for job, fact in (
+        ({"tabb": 1}, "tabb"),
+        ({"default": {"tabb": 1}}, "tab"),
+        ({"machine": {"wire": -1}}, "wire"),
+        ({"machine": {"wire": "thick"}}, "wire"),
+        ({"drawing": "other.dxf"}, "other.dxf"),
+        ({"drawing": "../plate.dxf"}, "drawing"),
+        ({"contour": [{"layer": "PART"}]}, "kind"),
+        ({"schema": 99}, "schema"),
+    ):
+        answer = page.call("PUT", "/api/job", {"rev": state["rev"], "job": state["job"] | job})
+        assert answer.status == 400 and fact in answer.message
+    assert page.state()["rev"] == state["rev"]
+
+
+def test_other_units(page: Page, tmp_path: Path) -> None:
+    """Where the job asks for another reading, the drawing is read anew."""
+    state = page.open(plate(tmp_path))
+    answer = page.put(state, read={"units": "inch"})
+    assert answer["size"] == [60 * 25.4, 30 * 25.4] and answer["drawn"] > state["drawn"]
+    back = page.put(answer, read={})
+    assert back["size"] == [60, 30]
+
+
+def test_drawing_that_cannot_be_read(page: Page, tmp_path: Path) -> None:
+    """It is open, and says what is wrong; other options of reading may do."""
+    path = plate(tmp_path)
+    document = ezdxf.readfile(path)
+    document.header["$INSUNITS"] = units.MM
+    document.modelspace().add_line((100, 0), (120, 0))
+    document.saveas(path)
+    state = page.open(path)
+    answer = page.put(state, machine={"offset": 0.1})
+    assert "open" in answer["error"]["message"] and answer["contours"] == []
+    assert page.call("POST", "/api/ways", {"rev": answer["rev"], "ids": [0]}).status == 400
+    answer = page.put(answer, read={"open": "leave"})
+    assert len(answer["contours"]) == 3 and not answer.get("error")
+    for data in (b"", b"no drawing", bytes(1000), b"\xff" * 1000):
+        state = page.done("POST", "/api/open", data, X_Name="x.dxf")
+        assert state["error"]["message"] and state["contours"] == [] and state["name"] == "x.dxf"
+
+
+def test_two_tabs(page: Page, tmp_path: Path) -> None:
+    """The second one's change is refused, and it is told what is now."""
+    state = page.open(plate(tmp_path))
+    new = page.put(state, machine={"offset": 0.1})
+    for method, path, body in (
+        ("PUT", "/api/job", {"job": state["job"]}),
+        ("POST", "/api/ways", {"ids": [0]}),
+        ("POST", "/api/cut", {}),
+    ):
+        answer = page.call(method, path, body | {"rev": state["rev"]})
+        assert answer.status == 409 and answer.json["state"]["rev"] == new["rev"]
+        assert answer.json["state"]["job"]["machine"] == {"offset": 0.1}
+
+
+def test_news(page: Page, tmp_path: Path) -> None:
+    """Who asks for news gets them when they come; the drawing only when it is another one."""
+    state = page.open(plate(tmp_path))
+    Timer(0.5, page.put, (state,), {"machine": {"offset": 0.1}}).start()
+    news = page.done("GET", f"/api/state?after={state['rev']}&drawn={state['drawn']}")
+    assert news["rev"] > state["rev"] and news["job"]["machine"] == {"offset": 0.1}
+    assert news["drawn"] != state["drawn"] or "contours" not in news
+    state = page.state()
+    Timer(0.5, page.put, (state,), {"default": {"lead": 2}}).start()
+    news = page.done("GET", f"/api/state?after={state['rev']}&drawn={state['drawn']}")
+    assert news["drawn"] == state["drawn"] and "contours" not in news and news["plan"]
+    assert "contours" in page.done("GET", f"/api/state?after=0&drawn={state['drawn'] - 1}")
+
+
+def test_no_news(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
+    from skg.ui import server
+
+    monkeypatch.setattr(server, "PATIENCE", 0.5)
+    monkeypatch.setattr(server, "GLANCE", 0.1)
+    rev = page.done("GET", "/api/state")["rev"]
+    answer = page.call("GET", f"/api/state?after={rev}")
+    assert (answer.status, answer.body) == (204, b"")
+
+
+def test_cut(page: Page, tmp_path: Path) -> None:
+    """The tape and what belongs to it, as `skg cut` makes them."""
+    path = plate(tmp_path)
+    state = page.open(path)
+    rev = page.put(state, machine={"wire": 0.18, "gap": 0.01})["rev"]
+    number, run = page.cut(rev)
+    assert run["state"] == "done", run
+    tape, program = tmp_path / "one.nodrift.3b", tmp_path / "one.skg"
+    said = skg("cut", path, "--wire", 0.18, "--gap", 0.01, "-o", tape, "--program", program).splitlines()
+    assert page.get(f"/api/run/{number}/tape").body == tape.read_bytes()
+    assert page.get(f"/api/run/{number}/program").body == program.read_bytes()
+    assert [line["text"] for line in run["result"]["lines"]] == said
+    assert run["result"]["blocks"] == tape.read_bytes().count(b"G")
+    assert run["result"]["tape_name"] == "plate.nodrift.3b"
+    assert page.get(f"/api/run/{number}/sheet").body.startswith(b"%PDF")
+    assert b"<svg" in page.get(f"/api/run/{number}/sheet.svg").body
+    (tmp_path / "plate.job.toml").write_bytes(page.get(f"/api/run/{number}/job").body)
+    skg("cut", tmp_path / "plate.job.toml", "-o", tmp_path / "two.nodrift.3b")
+    assert (tmp_path / "two.nodrift.3b").read_bytes() == tape.read_bytes()
+    state = page.state()
+    assert (state["run"], state["run_rev"]) == (number, rev)
+
+
+def test_runs_that_are_over(page: Page, tmp_path: Path) -> None:
+    state = page.open(plate(tmp_path))
+    first, _ = page.cut(state["rev"])
+    second, run = page.cut(state["rev"])
+    assert second > first
+    assert page.call("GET", f"/api/run/{first}").status == 400
+    assert page.done("GET", f"/api/run/{second}?after={run['k']}")["state"] == "done"
+    assert page.done("DELETE", f"/api/run/{second}")["state"] == "done"
+    assert page.get(f"/api/run/{second}/tape").status == 200
+
+
+def test_dropped_is_not_saved(page: Page, tmp_path: Path) -> None:
+    state = page.open(plate(tmp_path))
+    number, _ = page.cut(state["rev"])
+    answer = page.call("POST", "/api/save", {"run": number, "what": ["tape"], "overwrite": True})
+    assert answer.status == 400 and not list(tmp_path.glob("*.3b"))
+
+
+@pytest.fixture
+def saving(serve: Callable[[Path], Server], tmp_path: Path) -> tuple[Page, Json, int]:
+    """A page of a drawing that was named on the command line, its state, and a run that is done."""
+    page = Page(serve(plate(tmp_path)))
+    state = page.state()
+    assert state["can_save"]
+    return page, state, page.cut(state["rev"])[0]
+
+
+def test_save(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
+    page, _, number = saving
+    every = {"run": number, "what": ["tape", "program", "sheet", "job"], "overwrite": False}
+    names = page.done("POST", "/api/save", every)["written"]
+    assert sorted(names) == ["plate.job.toml", "plate.nodrift.3b", "plate.pdf", "plate.skg"]
+    for name, what in (("plate.nodrift.3b", "tape"), ("plate.skg", "program"), ("plate.job.toml", "job")):
+        assert (tmp_path / name).read_bytes() == page.get(f"/api/run/{number}/{what}").body
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*names, "plate.dxf"])
+
+
+def test_save_asks(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
+    """Nothing is written over what is there unless it is said, and then all of it takes the old one's place."""
+    page, _, number = saving
+    (tmp_path / "plate.skg").write_text("mine")
+    (tmp_path / "plate.nodrift.3b").mkdir()
+    body = {"run": number, "what": ["tape", "program"], "overwrite": False}
+    answer = page.call("POST", "/api/save", body)
+    assert answer.status == 409 and sorted(answer.json["exists"]) == ["plate.nodrift.3b", "plate.skg"]
+    for false in (None, 0, "yes", 1, [True]):
+        assert page.call("POST", "/api/save", body | {"overwrite": false}).status == 409
+    assert (tmp_path / "plate.skg").read_text() == "mine"
+    answer = page.call("POST", "/api/save", body | {"overwrite": True})
+    # (the program is written, the tape is a folder)
+    assert answer.status == 400 and "plate.nodrift.3b" in answer.message and "plate.skg is written" in answer.message
+    (tmp_path / "plate.nodrift.3b").rmdir()
+    assert page.done("POST", "/api/save", body | {"overwrite": True})["written"] == ["plate.skg", "plate.nodrift.3b"]
+    for what in (["exe"], [None], [["tape"]], [7], ["tape", "../x"]):
+        assert page.call("POST", "/api/save", body | {"what": what}).status == 400
+
+
+def test_save_of_the_job_alone(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
+    page, state, _ = saving
+    page.put(state, default={"lead": 2})
+    assert page.done("POST", "/api/save", {"run": None, "what": ["job"]})["written"] == ["plate.job.toml"]
+    assert "lead = 2" in (tmp_path / "plate.job.toml").read_text()
+    assert page.get("/api/job").body == (tmp_path / "plate.job.toml").read_bytes()
+    assert page.call("POST", "/api/save", {"run": None, "what": ["tape"]}).status == 400
+
+
+def test_standard_rom_has_another_name(saving: tuple[Page, Json, int]) -> None:
+    page, state, _ = saving
+    rev = page.put(state, machine={"rom": "standard"})["rev"]
+    assert page.cut(rev)[1]["result"]["tape_name"] == "plate.3b"
+
+
+def test_job_file(serve: Callable[[Path], Server], tmp_path: Path, page: Page) -> None:
+    """A job file from the command line, and one that is dropped on its drawing."""
+    drawing = plate(tmp_path)
+    job = tmp_path / "mine.job.toml"
+    job.write_text('schema = 1\ndrawing = "plate.dxf"\n[machine]\nwire = 0.2\n')
+    state = Page(serve(job)).state()
+    assert (state["name"], state["job"]["machine"], state["can_save"]) == ("plate.dxf", {"wire": 0.2}, True)
+    one = Page(serve(job))
+    one.state()
+    assert one.call("POST", "/api/save", {"run": None, "what": ["job"]}).json["exists"] == ["mine.job.toml"]
+    assert page.call("POST", "/api/open", job.read_bytes(), X_Name="mine.job.toml").status == 400
+    page.open(drawing)
+    assert page.open(job)["job"]["machine"] == {"wire": 0.2}
+    for text in (
+        "schema = 1",
+        "[[[",
+        'schema = 1\ndrawing = "x.dxf"',
+        "\0",
+        'schema = 1\ndrawing = "plate.dxf"\ntab=1',
+    ):
+        answer = page.call("POST", "/api/open", text.encode(), X_Name="mine.job.toml")
+        assert answer.status == 400 and answer.message
+    assert page.state()["job"]["machine"] == {"wire": 0.2}
+
+
+def test_saved_again(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    """When the drawing's file changes it is read again, and its contours are found in it."""
+    page = Page(serve(plate(tmp_path)))
+    state = page.state()
+    which = {key: state["contours"][1][key] for key in ("layer", "kind", "at", "size")}
+    state |= page.put(state, contour=[which | {"cut": False}])
+    assert state["plan"]["order"] == [2, 0]
+    plate(tmp_path, holes=1)
+    new = page.done("GET", f"/api/state?after={state['rev']}")
+    assert len(new["contours"]) == 2 and new["drawn"] > state["drawn"] and new["sha256"] != state["sha256"]
+    assert new["matches"] == [{"chosen": 0, "id": 1, "moved": 0, "confirm": False}]
+    assert new["plan"]["order"] == [0] and new["job"]["contour"][0]["cut"] is False
+    # (the page of before is told)
+    assert page.call("POST", "/api/cut", {"rev": state["rev"]}).status == 409
+
+
+def test_saved_again_without_a_contour(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    page = Page(serve(plate(tmp_path)))
+    state = page.state()
+    which = {key: state["contours"][2][key] for key in ("layer", "kind", "at", "size")}
+    state |= page.put(state, contour=[which | {"cut": False}])
+    plate(tmp_path, holes=1)
+    new = page.done("GET", f"/api/state?after={state['rev']}")
+    assert new["matches"][0]["id"] is None and "not there" in new["plan"]["error"]["message"]
+    assert new["plan"]["order"] == [1, 0] and len(new["job"]["contour"]) == 1
+    assert page.cut(new["rev"])[1]["state"] == "failed"
+    del new["job"]["contour"]
+    assert page.cut(page.put(new)["rev"])[1]["state"] == "done"
+
+
+def test_file_is_gone(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    """It says so, what was read is still there, and all is well when the file is back."""
+    path = plate(tmp_path)
+    page = Page(serve(path))
+    state = page.state()
+    away = path.rename(tmp_path / "away.dxf")
+    gone = page.done("GET", f"/api/state?after={state['rev']}")
+    assert "plate.dxf" in gone["error"]["message"] and len(gone["contours"]) == 3
+    assert page.cut(gone["rev"])[1]["state"] == "done"
+    shutil.copy(away, path)
+    back = page.done("GET", f"/api/state?after={gone['rev']}")
+    assert not back["error"] and len(back["contours"]) == 3
+    path.unlink()
+    path.write_text("no drawing")
+    until(lambda: "no drawing" not in str(page.state()) and page.state()["error"])
+    assert page.state()["contours"] == []
+    shutil.copy(away, path)
+    until(lambda: len(page.state()["contours"]) == 3)

@@ -1,0 +1,164 @@
+"""The work of the process behind the page: a drawing read and matched, its job planned, a tape cut from it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from skg.errors import UserError
+from skg.job.file import decoded, encoded, from_data, to_data
+from skg.job.job import Job
+from skg.pipeline.steps import (
+    CutDrawing,
+    DrawnJob,
+    cut_drawing,
+    open_drawing,
+    refuse_lost,
+    starts_of,
+    wanted_of,
+    wishes_of,
+    written,
+)
+from skg.planning.plan import plan_nested
+from skg.planning.route import PlannedContour
+from skg.ui import shown
+
+#: Who asks, in messages on what the page sends.
+_PAGE = "the page"
+#: So many contours that cannot be planned are told one by one.
+_MOST_ERRORS = 20
+
+
+class Desk:
+    """A drawing, its job, and what came of them. The methods are what the server calls; they return plain data."""
+
+    def __init__(self, progress: Callable[[str, int, int], None]) -> None:
+        self._progress = progress
+        self._data = b""
+        self._job: Job | None = None
+        self._drawn: DrawnJob | None = None
+        self._routes: dict[int, PlannedContour] = {}
+        #: Contours that were found again too far from where they were, and how far, mm.
+        self._doubts: dict[int, float] = {}
+        self._cut: tuple[int, Job, CutDrawing] | None = None
+
+    def drawing_of(self, text: bytes, name: str) -> str:
+        """The drawing that a job file is for."""
+        return decoded(text, name).drawing
+
+    def open(self, data: bytes, name: str, job: bytes | dict | None) -> dict[str, Any]:
+        """Take up a drawing, with a job from a file or from the page, or none."""
+        made = decoded(job, name) if isinstance(job, bytes) else from_data(job, _PAGE) if job else Job(name)
+        self._data = data
+        return self._read(replace(made, drawing=name))
+
+    def plan(self, data: dict) -> dict[str, Any]:
+        """Plan a job; read the drawing anew where it asks for that."""
+        job = from_data(data, _PAGE)
+        if self._job is None or job.drawing != self._job.drawing:
+            raise UserError(f"{job.drawing} is not open")
+        if self._drawn is None or wishes_of(job) != wishes_of(self._job):
+            return self._read(job)
+        self._job = job
+        self._drawn = replace(self._drawn, matches=self._drawn.known.find(job.contours, job.box))
+        return {"drawing": None, "state": self._state()}
+
+    def ways(self, numbers: list[int]) -> dict[str, Any]:
+        """The ways of the wire along some contours."""
+        count = len(self._drawn.contours) if self._drawn else 0
+        for number in numbers:
+            if not 0 <= number < count:
+                raise UserError(f"there is no contour {number}")
+        return {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
+
+    def job(self) -> bytes:
+        """The job as a file."""
+        if self._drawn is None:
+            raise UserError("no drawing is open")
+        return encoded(self._job)
+
+    def cut(self, number: int) -> tuple[dict[str, Any], dict[str, bytes]]:
+        """Make the tape of a run: what is told of it, and its files."""
+        if self._drawn is None:
+            raise UserError("no drawing is open")
+        cut = cut_drawing(self._job, self._drawn, self._progress)
+        self._cut = number, self._job, cut
+        files = {"tape": cut.result.data, "program": cut.result.program.encode("ascii"), "job": self.job()}
+        return shown.result(cut), files
+
+    def sheet(self, number: int, tape: str, form: str) -> bytes:
+        """The setup sheet of a run."""
+        if self._cut is None or self._cut[0] != number:
+            raise UserError("the sheet is gone with the process that made the tape: cut again")
+        try:
+            from skg.pictures.sheet import Facts, write_sheet
+        except ModuleNotFoundError:
+            raise UserError(
+                "the sheet needs matplotlib: install it beside skg (pipx inject skg-nc matplotlib)"
+            ) from None
+        _, job, cut = self._cut
+        machine = job.machine
+        with TemporaryDirectory(prefix="skg-") as folder:
+            path = str(Path(folder) / f"sheet.{form}")
+            facts = Facts(job.drawing, tape, machine.wire, machine.gap or 0.0, cut.account.units)
+            write_sheet(cut.result, facts, path, form)
+            return Path(path).read_bytes()
+
+    def _read(self, job: Job) -> dict[str, Any]:
+        """Read the drawing. One that cannot be read is told of with the job that asked for it."""
+        self._job, self._drawn, self._routes, self._doubts, self._cut = job, None, {}, {}, None
+        try:
+            self._drawn = open_drawing(job, self._data)
+        except UserError as error:
+            state = {"job": to_data(job), "matches": [], "plan": None, "error": shown.error(error)}
+            return {"drawing": shown.NOTHING, "state": {"name": job.drawing} | state}
+        self._job = written(job, self._drawn)
+        matches = self._drawn.matches.found
+        self._doubts = {match.number: match.moved for match in matches if match.is_doubtful}
+        self._drawn = replace(self._drawn, matches=self._drawn.known.find(self._job.contours, self._job.box))
+        return {"drawing": shown.drawing(self._drawn), "state": self._state()}
+
+    def _state(self) -> dict[str, Any]:
+        """The part of the state that changes with the job."""
+        matches = [
+            {
+                "chosen": at,
+                "id": match.number,
+                "moved": round(self._doubts.get(match.number, match.moved), 4),
+                "confirm": match.number in self._doubts,
+            }
+            for at, match in enumerate(self._drawn.matches.found)
+        ]
+        return {"name": self._job.drawing, "job": to_data(self._job), "matches": matches, "plan": self._plan()}
+
+    def _plan(self) -> dict[str, Any]:
+        """The plan: of all contours that can be planned, with what is wrong with the others."""
+        wanted = wanted_of(self._job, self._drawn)
+        tried, routes, errors = list(wanted), [], []
+        with _noted(errors):
+            refuse_lost(self._job, self._drawn)
+        while not routes and len(errors) < _MOST_ERRORS:
+            with _noted(errors):
+                routes = plan_nested(self._drawn.nesting, starts_of(self._job, self._drawn), tried)
+                break
+            number = errors[-1].contour
+            if number is None:
+                break
+            # (without the places that somebody gave, or else not at all)
+            free = replace(tried[number], start=None, entry=None, order=None)
+            tried[number] = free if free != tried[number] else replace(free, cut=False)
+        self._routes = {route.number: route for route in routes}
+        return shown.plan(routes, wanted, errors)
+
+
+@contextmanager
+def _noted(errors: list[UserError]) -> Iterator[None]:
+    """Note an error, and go on."""
+    try:
+        yield
+    except UserError as error:
+        errors.append(error)

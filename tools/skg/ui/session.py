@@ -1,0 +1,369 @@
+"""The drawing that is open, its job and its run: what the page is told, and what it may do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from threading import Condition, Event, Lock, Thread
+
+from skg.errors import UserError
+from skg.files import read_bytes, write_bytes
+from skg.job.job import ROMS
+from skg.tape.positions import WITHOUT_DRIFT
+from skg.ui.worker import Ended, Worker
+
+#: The drawing's file is looked at so often, s.
+_LOOK = 0.5
+#: The ways of no more contours are asked for at once.
+MOST_WAYS = 200
+#: What can be saved, in the order in which it is written: no tape where something else could not be.
+SAVED = ("program", "job", "sheet", "tape")
+#: Job files end so.
+JOB = ".job.toml"
+
+
+class Conflict(UserError):
+    """Something that the page must decide on, or did not know of yet: `data` says of what."""
+
+    def __init__(self, message: str, **data: object) -> None:
+        super().__init__(message)
+        self.data = data
+
+
+@dataclass
+class Run:
+    """A tape in the making, or made, of the job of a revision. `told`: how often something was told of it; `files`:
+    what came of it."""
+
+    number: int
+    rev: int
+    state: str = "running"
+    told: int = 0
+    stage: str = "plan"
+    done: int = 0
+    of: int = 0
+    error: dict | None = None
+    result: dict | None = None
+    files: dict[str, bytes] = field(default_factory=dict)
+
+    def data(self) -> dict:
+        """The run as the page is told of it."""
+        data = {"state": self.state, "k": self.told, "stage": self.stage, "done": self.done, "of": self.of}
+        return data | {name: value for name in ("error", "result") if (value := getattr(self, name)) is not None}
+
+
+class Session:
+    """What one `skg ui` has open."""
+
+    def __init__(self) -> None:
+        self._worker = Worker()
+        #: Who has it may call the worker: one change, one cut at a time. `_is_long`: it may take its time, and what
+        #: takes its place ends it.
+        self._turn = Lock()
+        self._is_long = False
+        #: The state and the run, and news of these. `_drawn` goes up when the contours are new.
+        self._news = Condition()
+        self._rev = self._drawn = 0
+        #: What the page sees at all times, and what it has as long as the contours are the same.
+        self._state: dict = {"name": None}
+        self._drawing: dict = {}
+        self._run: Run | None = None
+        self._runs = 0
+        self._data = b""
+        #: The drawing's file and the job's, where these were named on the command line; the first as it was read.
+        self._path: Path | None = None
+        self._job_path: Path | None = None
+        self._stamp: tuple[int, ...] | None = None
+        self._closed = Event()
+
+    def begin(self, path: Path | None) -> None:
+        """Open a drawing or a job file, if one is named, and watch the drawing."""
+        if path is None:
+            Thread(target=self._warm, daemon=True).start()
+            return
+        job = None
+        if path.name.lower().endswith(".toml"):
+            job, self._job_path = read_bytes(str(path)), path
+            path = path.with_name(self._worker.call("drawing_of", job, str(path)))
+        self._path, self._stamp = path, _stamp(path)
+        data = read_bytes(str(path))
+        Thread(target=self._watch, args=(data, job), daemon=True).start()
+
+    def close(self) -> None:
+        """End all that is on."""
+        self._closed.set()
+        self._worker.end()
+        with self._news:
+            self._news.notify_all()
+
+    # The state.
+
+    def state(self, after: int | None = None, patience: float = 0.0, drawn: int | None = None) -> dict | None:
+        """The state; after some revision the next one, None when there is none for so long (s).
+
+        Without the drawing where the page has it already: its number is `drawn`.
+        """
+        with self._news:
+            if not self._news.wait_for(lambda: self._rev != after or self._closed.is_set(), patience):
+                return None
+            state = {
+                "rev": self._rev,
+                "drawn": self._drawn,
+                "can_save": self._path is not None,
+                "run": self._run and self._run.number,
+                "run_rev": self._run and self._run.rev,
+                **self._state,
+            }
+            return state if drawn == self._drawn else state | self._drawing
+
+    def open(self, data: bytes, name: str) -> dict:
+        """Open a drawing that the page sent, or a job for the drawing that is open: the state."""
+        if not name.lower().endswith(".toml"):
+            self._path = self._job_path = None
+            self._load(data, name, None)
+            return self.state()
+        with self._called():
+            drawing = self._worker.call("drawing_of", data, name)
+            if drawing != self._state["name"]:
+                raise UserError(f"{name} is the job of {drawing}: open that drawing first")
+            self._take(self._worker.call("open", self._data, drawing, data))
+        return self.state()
+
+    def plan(self, rev: int, job: dict) -> dict:
+        """Plan a job as the page has it; the whole state where the drawing is read anew for it."""
+        with self._called(rev):
+            found = self._worker.call("plan", job)
+            self._take(found)
+            if found["drawing"] is not None:
+                return self.state()
+            return {"rev": self._rev} | {name: found["state"][name] for name in ("job", "matches", "plan")}
+
+    def ways(self, rev: int, ids: list[int]) -> dict:
+        """The ways of the wire along some contours."""
+        if len(ids) > MOST_WAYS:
+            raise UserError(f"ids: at most {MOST_WAYS} contours at once")
+        with self._called(rev):
+            return {"rev": rev, "ways": self._worker.call("ways", ids)}
+
+    def job(self) -> bytes:
+        """The job as a file."""
+        with self._called():
+            return self._worker.call("job")
+
+    @contextmanager
+    def _called(self, rev: int | None = None) -> Iterator[None]:
+        """Have the turn; where the page knows an older revision than the present one, that is a `Conflict`."""
+        with self._turn:
+            self._expect(rev)
+            yield
+
+    def _expect(self, rev: int | None) -> None:
+        if rev is not None and rev != self._rev:
+            raise Conflict("the drawing or its job has changed meanwhile", state=self.state())
+
+    def _load(self, data: bytes, name: str, job: bytes | dict | None) -> None:
+        """Read a drawing; one that cannot be read is open all the same, with the error, for its job may be at fault."""
+        self._end_what_is_long()
+        with self._called():
+            self._is_long = True
+            self._worker.first = None
+            try:
+                found = self._worker.call("open", data, name, job)
+            except Ended as ended:
+                if ended.is_wanted:
+                    raise
+                found = _unread(name, ended)
+            except UserError as error:
+                found = _unread(name, error)
+            finally:
+                self._is_long = False
+            self._data = data
+            self._take(found)
+
+    def _end_what_is_long(self) -> None:
+        """End a cut or the reading of another drawing: what comes now takes its place."""
+        with self._news:
+            if self._run and self._run.state == "running":
+                self._tell(self._run, state="cancelled")
+        if self._is_long:
+            self._worker.end()
+
+    def _take(self, found: dict) -> None:
+        """Take what the worker found for the state."""
+        with self._news:
+            self._rev += 1
+            self._state = found["state"]
+            if found["drawing"] is not None:
+                self._drawn, self._drawing = self._rev, found["drawing"]
+            job = self._state["job"]
+            # (what has ended the process is not read once more by the next one)
+            self._worker.first = ("open", (self._data, self._state["name"], job)) if job else None
+            self._news.notify_all()
+
+    def _warm(self) -> None:
+        """Begin the worker, so that it is there when it is needed."""
+        with self._called(), suppress(UserError):
+            self._worker.call("drawing_of", b"", "")
+
+    # The drawing's file.
+
+    def _watch(self, data: bytes, job: bytes | None) -> None:
+        """Read the drawing, and again whenever its file has changed and is at rest."""
+        path, before = self._path, self._stamp
+        with suppress(Ended):
+            self._load(data, path.name, job)
+        while not self._closed.wait(_LOOK) and self._path:
+            now = _stamp(path)
+            is_new, before = now == before and now != self._stamp, now
+            if not is_new:
+                continue
+            self._stamp = now
+            try:
+                data = path.read_bytes()
+            except OSError as error:
+                self._say(f"{path.name}: {error.strerror}: what is shown was read before")
+                continue
+            if data == self._data:
+                self._say("")
+            else:
+                with suppress(Ended):
+                    self._load(data, path.name, self._state["job"])
+
+    def _say(self, message: str) -> None:
+        """Say what is wrong with the drawing's file; nothing is."""
+        with self._called():
+            self._take({"state": self._state | {"error": {"message": message} if message else None}, "drawing": None})
+
+    # The run.
+
+    def cut(self, rev: int) -> int:
+        """Begin to make the tape: the run's number."""
+        if self._is_long:
+            raise Conflict("a tape is being made, or a drawing read: wait for it or cancel it")
+        # (the turn is given back by the thread)
+        self._turn.acquire()
+        try:
+            self._expect(rev)
+            self._is_long = True
+            with self._news:
+                self._runs += 1
+                run = self._run = Run(self._runs, self._rev)
+            Thread(target=self._make, args=(run,), daemon=True).start()
+        except BaseException:
+            self._is_long = False
+            self._turn.release()
+            raise
+        return run.number
+
+    def _make(self, run: Run) -> None:
+        def progress(stage: str, done: int, of: int) -> None:
+            self._tell(run, stage=stage, done=done, of=of)
+
+        try:
+            result, files = self._worker.call("cut", run.number, seconds=0.0, progress=progress)
+            self._tell(run, state="done", files=files, result=result | {"tape_name": self._names()["tape"]})
+        except UserError as error:
+            self._tell(run, state="failed", error=told(error))
+        finally:
+            self._is_long = False
+            if run.state == "cancelled" and not self._closed.is_set():
+                with suppress(UserError):
+                    self._worker.begin()
+            self._turn.release()
+
+    def _tell(self, run: Run, **news: object) -> None:
+        """Change a run that is on, and tell of it."""
+        with self._news:
+            if run.state == "running":
+                for name, value in news.items():
+                    setattr(run, name, value)
+                run.told += 1
+                self._news.notify_all()
+
+    def _known(self, number: int) -> Run:
+        if self._run is None or self._run.number != number:
+            raise UserError(f"there is no run {number}, or a newer one has taken its place")
+        return self._run
+
+    def run(self, number: int, after: int | None = None, patience: float = 0.0) -> dict | None:
+        """How a run goes; after something that was told of it the next, None when there is none for so long (s)."""
+        with self._news:
+            run = self._known(number)
+            is_news = self._news.wait_for(
+                lambda: run.told != after or run.state != "running" or self._closed.is_set(), patience
+            )
+            return run.data() if is_news else None
+
+    def cancel(self, number: int) -> dict:
+        """Cancel a run, if it is on."""
+        run = self._known(number)
+        self._tell(run, state="cancelled")
+        if run.state == "cancelled":
+            self._worker.end()
+        return run.data()
+
+    def file(self, number: int, what: str) -> bytes:
+        """A file of a run; the sheet is drawn when it is asked for."""
+        run = self._known(number)
+        if run.state != "done":
+            raise UserError(f"run {number} has made no tape")
+        if what not in run.files:
+            with self._called():
+                run.files[what] = self._worker.call(
+                    "sheet", number, run.result["tape_name"], what.partition(".")[2] or "pdf"
+                )
+        return run.files[what]
+
+    # Saving.
+
+    def _names(self) -> dict[str, str]:
+        """The names of what can be saved."""
+        name = self._state["name"]
+        stem = name[: -len(Path(name).suffix)] if Path(name).suffix else name
+        job = self._job_path.name if self._job_path else stem + JOB
+        rom = self._state["job"].get("machine", {}).get("rom", ROMS[0])
+        tape = stem + (WITHOUT_DRIFT if rom == ROMS[0] else ".3b")
+        return {"program": f"{stem}.skg", "job": job, "sheet": f"{stem}.pdf", "tape": tape}
+
+    def save(self, number: int | None, what: list[str], is_over: bool) -> list[str]:
+        """Write files of a run beside the drawing: their names. Some that are there are a `Conflict`."""
+        if self._path is None:
+            raise UserError("the drawing came out of the browser: nothing is known of its folder")
+        if unknown := [one for one in what if one not in SAVED]:
+            raise UserError(f"what: unknown {unknown[0]!r}, expected some of {', '.join(SAVED)}")
+        if number is None and what != ["job"]:
+            raise UserError("run: expected a number, for what is made by a run")
+        names, folder = self._names(), self._path.parent
+        files = {names[one]: self.job() if number is None else self.file(number, one) for one in SAVED if one in what}
+        if not is_over and (exists := [name for name in files if (folder / name).exists()]):
+            raise Conflict(f"{', '.join(exists)}: already there", exists=exists)
+        written = []
+        for name, data in files.items():
+            try:
+                write_bytes(str(folder / name), data)
+            except OSError as error:
+                done = f"; {', '.join(written)} is written" if written else ""
+                raise UserError(f"{name}: {error.strerror}{done}") from None
+            written.append(name)
+        return written
+
+
+def told(error: UserError) -> dict:
+    """An error as the page is told of it."""
+    places = {name: value for name in ("contour", "place") if (value := getattr(error, name)) is not None}
+    return {"message": str(error), **places}
+
+
+def _unread(name: str, error: UserError) -> dict:
+    """The state of a drawing that ended the process that read it."""
+    return {"state": {"name": name, "error": told(error), "job": None, "matches": [], "plan": None}, "drawing": {}}
+
+
+def _stamp(path: Path) -> tuple[int, ...] | None:
+    """What changes when a file is written; None when it is not there."""
+    with suppress(OSError):
+        found = path.stat()
+        return found.st_mtime_ns, found.st_size, found.st_ino
+    return None

@@ -1,0 +1,209 @@
+"""Contours, plans and tapes as plain data for the page: mm with four decimals."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import shapely
+
+from skg.errors import UserError
+from skg.geometry.contour import Edge
+from skg.geometry.offset import NoRoom
+from skg.geometry.plane import XY
+from skg.job.wanted import Partial, Wanted
+from skg.pipeline.steps import CutDrawing, DrawnJob
+from skg.planning.nesting import said
+from skg.planning.route import Lead, PlannedContour, Way, split_at_end
+from skg.wording import ReportLine
+
+#: Decimals of a length, mm; of a direction, radians.
+_LENGTH, _ANGLE = 4, 6
+#: A curve is shown by chords that leave it by no more, mm.
+_CURVE = 0.0005
+#: The drawing of a file that cannot be read.
+NOTHING: dict[str, Any] = {
+    "sha256": "",
+    "size": [0.0, 0.0],
+    "low": [0.0, 0.0],
+    "units": "",
+    "units_from": "",
+    "layers": [],
+    "contours": [],
+    "starts": [],
+    "report": [],
+}
+
+
+def place(at: XY) -> list[float]:
+    """A place."""
+    return [round(at[0], _LENGTH), round(at[1], _LENGTH)]
+
+
+def edges(some: Iterable[Edge]) -> list[list[Any]]:
+    """Lines, arcs and curves."""
+    return [_edge(edge) for edge in some]
+
+
+def _edge(edge: Edge) -> list[Any]:
+    if edge.nodes:
+        line = shapely.LineString(edge.samples).simplify(_CURVE)
+        return ["c", *np.round(shapely.get_coordinates(line), _LENGTH).ravel().tolist()]
+    found = [*place(edge.start), *place(edge.end)]
+    return found if edge.centre is None else [*found, *place(edge.centre), round(edge.sweep, _ANGLE)]
+
+
+def error(one: UserError) -> dict[str, Any]:
+    """An error, with the contour and the place that it is about."""
+    return {"message": str(one)} | _about(one)
+
+
+def line(one: ReportLine) -> dict[str, Any]:
+    """A line of a report."""
+    return {"text": one.text, "care": one.is_care} | _about(one)
+
+
+def _about(one: UserError | ReportLine) -> dict[str, Any]:
+    contour = {} if one.contour is None else {"contour": one.contour}
+    return contour if one.place is None else contour | {"place": place(one.place)}
+
+
+def drawing(drawn: DrawnJob) -> dict[str, Any]:
+    """The drawing."""
+    report = drawn.reading.report
+    on = defaultdict(list)
+    for number, contour in enumerate(drawn.contours):
+        for layer in dict.fromkeys(contour.layers):
+            on[layer].append(number)
+    layers = [
+        {"name": one.layer, "contours": on[one.layer], "left": one.left, "why": ", ".join(one.why)}
+        for one in report.layers
+    ]
+    return {
+        "sha256": drawn.sha256,
+        "size": place(report.size),
+        "low": place(report.low),
+        "units": report.units,
+        "units_from": report.units_from,
+        "layers": layers,
+        "contours": [_contour(drawn, number) for number in range(len(drawn.contours))],
+        "starts": [place(start) for start in drawn.reading.starts],
+        "report": [line(ReportLine(text)) for text in report.lines()],
+    }
+
+
+def _contour(drawn: DrawnJob, number: int) -> dict[str, Any]:
+    contour = drawn.contours[number]
+    chosen = drawn.known.choose(number, Partial())
+    return {
+        "id": number,
+        "name": f"contour {number + 1}",
+        "layer": chosen.layer,
+        "layers": list(dict.fromkeys(contour.layers)),
+        "kind": chosen.kind,
+        "depth": drawn.nesting.depths[number],
+        "closed": contour.is_closed,
+        "at": list(chosen.place),
+        "size": list(chosen.size),
+        "edges": edges(contour.edges),
+    }
+
+
+def plan(routes: Sequence[PlannedContour], wanted: Sequence[Wanted], errors: Sequence[UserError]) -> dict[str, Any]:
+    """The plan of all contours."""
+    order = [route.number for route in routes]
+    contours = {
+        number: {"cut": False, "passes": [], "values": _values(want)}
+        | dict.fromkeys(("hole", "entry", "tab", "tab_hole", "direction", "radius", "lead_arc", "number"))
+        for number, want in enumerate(wanted)
+    }
+    for turn, route in enumerate(routes, 1):
+        contours[route.number] |= planned(route) | {"number": turn}
+    for one in errors:
+        if one.contour is not None:
+            contours[one.contour]["error"] = str(one)
+    lines = [ReportLine(text) for text in said(route.around for route in routes)]
+    found = {"order": order, "said": [line(one) for one in lines], "contours": contours}
+    return found | {"error": error(errors[0])} if errors else found
+
+
+def _values(want: Wanted) -> dict[str, Any]:
+    """What is wanted of a contour in the end."""
+    values = {name: getattr(want, name) for name in ("cut", "side", "offset", "tab", "lead", "lead_shape", "reverse")}
+    return values | {"passes": list(want.passes), "order": want.order}
+
+
+def planned(route: PlannedContour) -> dict[str, Any]:
+    """How a contour is cut, without what was wanted of it."""
+    edge = route.chain[0]
+    ends = split_at_end(route.chain, route.tab)[0][-1].end if route.tab else None
+    return {
+        "cut": True,
+        "hole": place(route.start),
+        "entry": place(route.entry),
+        "tab": ends and place(ends),
+        "tab_hole": place(route.tab_hole) if route.tab else None,
+        "direction": round(edge.direction(), _ANGLE),
+        "radius": round(route.offset, _LENGTH),
+        "passes": [round(r, _LENGTH) for r in route.passes],
+        "lead_arc": route.is_arc and route.is_square,
+    }
+
+
+def ways(route: PlannedContour) -> list[list[list[Any]]]:
+    """The ways of the wire's middle along a contour, with those from its start holes and to them; none where the wire
+    does not get around it."""
+    if route.contour.is_closed and any(route.passes) and not route.traced:
+        with suppress(NoRoom):
+            return ways(route.with_wire_ways())
+        return []
+    return [edges(_wire(run, route)) for run in route.runs()]
+
+
+def _wire(run: Way, route: PlannedContour) -> Iterator[Edge]:
+    """The wire's middle along a way."""
+    along = run.edges if not run.offset else _beside(run)
+    if not route.contour.is_closed:
+        yield from along
+        return
+    first, last = along[0].start, along[-1].end
+    yield from _lead(run.into, route.start, first, True)
+    yield from along
+    yield from _lead(run.out, route.start, last, False)
+
+
+def _lead(lead: Lead | None, hole: XY, entry: XY, is_in: bool) -> Iterator[Edge]:
+    """The way from a start hole to the contour, or from there to it."""
+    hole = lead.hole if lead else hole
+    if lead and lead.is_arc:
+        arc = lead.arc(is_in)
+        straight = Edge(hole, arc.start) if is_in else Edge(arc.end, hole)
+        yield from (straight, arc) if is_in else (arc, straight)
+    else:
+        yield Edge(hole, entry) if is_in else Edge(entry, hole)
+
+
+def _beside(run: Way) -> list[Edge]:
+    """The wire's middle beside an open contour, as chords."""
+    points = [point for edge in run.edges for point in edge.points()]
+    line = shapely.offset_curve(shapely.LineString(points), -run.offset, join_style="mitre")
+    corners = shapely.get_coordinates(line).tolist()
+    return [Edge((x, y), (u, v)) for (x, y), (u, v) in pairwise(corners)]
+
+
+def result(cut: CutDrawing) -> dict[str, Any]:
+    """What came of a cut."""
+    made = cut.result
+    return {
+        "lines": [line(one) for one in cut.lines],
+        "blocks": len(made.tape.blocks),
+        "stops": len(made.tape.stops),
+        "length": round(made.cut_length, _LENGTH),
+        "seconds": round(made.seconds, 1),
+        "off_um": round(1000 * made.checked.off, 3),
+        "start": place(made.routes[0].start),
+    }

@@ -1,0 +1,170 @@
+"""The process that reads, plans and cuts: one call at a time, bounded in time and memory, ended at any moment."""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from pathlib import Path
+from traceback import extract_tb
+
+from skg.errors import UserError
+
+#: No call takes longer that is given no other time, s.
+SECONDS = 120.0
+#: The process has no more memory than this, where the system lets a process say so.
+MEMORY = 4 << 30
+#: Progress is told no more often than this, s.
+_PAUSE = 0.1
+
+#: Told of a stage, and how many of how many are done (`Progress` of the pipeline, which is not loaded here).
+Tell = Callable[[str, int, int], None]
+
+
+class Ended(UserError):
+    """The process ended before it answered. `is_wanted`: `Worker.end` did it."""
+
+    def __init__(self, message: str, is_wanted: bool) -> None:
+        super().__init__(message)
+        self.is_wanted = is_wanted
+
+
+class Worker:
+    """The process as its calls, one at a time: methods of `skg.ui.desk.Desk`. One that has ended is begun anew.
+
+    `first`: the call that gives a new process what the one before it had.
+    """
+
+    def __init__(self) -> None:
+        self.first: tuple[str, tuple] | None = None
+        self._process: multiprocessing.process.BaseProcess | None = None
+        self._connection: Connection | None = None
+        self._is_ended = False
+
+    def call(self, what: str, *arguments: object, seconds: float = SECONDS, progress: Tell | None = None) -> object:
+        """Return what the call returns; what it refuses is a `UserError`, a process that is gone `Ended`."""
+        self.begin()
+        return self._ask(what, arguments, seconds, progress)
+
+    def end(self) -> None:
+        """End the process, whatever it does: a call that waits for it, in another thread, raises `Ended`."""
+        if process := self._process:
+            self._is_ended = True
+            process.kill()
+
+    def begin(self) -> None:
+        """Begin the process, where there is none."""
+        if self._process and (self._is_ended or not self._process.is_alive()):
+            self._process.join()
+            self._process = None
+        if self._process:
+            return
+        # (fork would take the server's threads and sockets along)
+        context = multiprocessing.get_context("spawn")
+        self._connection, far = context.Pipe()
+        self._process = context.Process(target=work, args=(far,), name="skg ui worker", daemon=True)
+        self._is_ended = False
+        self._process.start()
+        far.close()
+        if self.first:
+            what, arguments = self.first
+            try:
+                self._ask(what, arguments, SECONDS, None)
+            except UserError:
+                self.end()
+                raise
+
+    def _ask(self, what: str, arguments: tuple, seconds: float, progress: Tell | None) -> object:
+        last = time.monotonic() + seconds
+        try:
+            self._connection.send((what, arguments))
+            while True:
+                if not self._connection.poll(max(0.0, last - time.monotonic()) if seconds else None):
+                    self.end()
+                    raise UserError(f"given up after {seconds:g} s: the drawing is too large, or made to be")
+                kind, *values = self._connection.recv()
+                if kind == "done":
+                    return values[0]
+                if kind == "failed":
+                    raise UserError(*values)
+                if progress:
+                    progress(*values)
+        except (EOFError, OSError):
+            self._process.join()
+            if self._is_ended:
+                raise Ended("cancelled", True) from None
+            how = self._process.exitcode
+            message = f"the process that reads and cuts has ended ({_ended_by(how)}): try again"
+            raise Ended(message, False) from None
+
+
+def _ended_by(code: int) -> str:
+    if code < 0:
+        with suppress(ValueError):
+            return signal.Signals(-code).name
+    return f"exit code {code}"
+
+
+def work(connection: Connection) -> None:
+    """Answer calls until nobody asks any more: the process's whole life."""
+    # (ctrl-C goes to all processes of a terminal, and the server ends this one)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _bound_memory()
+    from skg.ui.desk import Desk
+
+    desk = Desk(_teller(connection))
+    with suppress(EOFError, OSError):
+        while True:
+            what, arguments = connection.recv()
+            connection.send(_answer(getattr(desk, what), arguments))
+
+
+def _answer(function: Callable, arguments: tuple) -> tuple:
+    """What a call returned or refused, as it goes through the connection."""
+    try:
+        return "done", function(*arguments)
+    except UserError as error:
+        return "failed", str(error), error.contour, error.place
+    except MemoryError:
+        return "failed", f"no room in {MEMORY >> 30} GiB of memory: the drawing is too large, or made to be"
+    except RecursionError:
+        return "failed", "things lie too deep in each other"
+    except Exception as error:
+        message = mistake(error)
+        print(f"skg ui: {message}", file=sys.stderr)
+        return "failed", message
+
+
+def mistake(error: Exception) -> str:
+    """A mistake of this program in one line, and where it was."""
+    last = extract_tb(error.__traceback__)[-1]
+    text = " ".join(f"{type(error).__name__}: {error}".split())
+    return f"a mistake of skg's own in {Path(last.filename).name}, line {last.lineno}: {text}"
+
+
+def _teller(connection: Connection) -> Tell:
+    """Progress as messages, not too many of them."""
+    told = ["", 0.0]
+
+    def tell(stage: str, done: int, of: int) -> None:
+        now = time.monotonic()
+        if stage != told[0] or done == of or now - told[1] > _PAUSE:
+            told[:] = stage, now
+            connection.send(("progress", stage, done, of))
+
+    return tell
+
+
+def _bound_memory() -> None:
+    try:
+        import resource
+    except ImportError:
+        return
+    _, most = resource.getrlimit(resource.RLIMIT_AS)
+    # (some systems know the limit and refuse to set it)
+    with suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY if most < 0 else min(MEMORY, most), most))
