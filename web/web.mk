@@ -7,13 +7,17 @@ web/node_modules/.package-lock.json: web/package.json web/package-lock.json | $(
 	touch $@
 
 # A TypeScript file as a node program.
-web/build/%.mjs: web/%.ts $(wildcard web/src/*.ts web/test/*.ts) web/node_modules/.package-lock.json
+web/build/%.mjs: web/%.ts $(wildcard web/src/*.ts web/src/ui/*.ts web/test/*.ts) web/node_modules/.package-lock.json
 	@$(WEB_BIN)/esbuild $< --bundle --platform=node --format=esm --packages=external --target=node20 --log-level=warning \
 		--outfile=$@
 
 web: venv web/build/build.mjs
 	@node web/build/build.mjs
 	@echo "The page is in web/dist: make web-serve shows it, any web server serves it."
+
+# The page of skg ui: committed, since who installs the tools has no node. A test makes it again and compares.
+ui-page: web/build/ui.mjs
+	@node web/build/ui.mjs
 
 web-serve: web
 	$(PYTHON) -m http.server --bind 127.0.0.1 --directory web/dist 8080
@@ -36,7 +40,7 @@ web-format: web-modules
 	cd web && node_modules/.bin/biome check --write .
 
 # In real browsers: Debian's chromium and firefox-esr, as far as they are there. Screenshots go to web/build/shots.
-test-web: web web/build/test/chromium.browser.mjs web/build/test/firefox.browser.mjs
+test-web: web web/build/test/chromium.browser.mjs web/build/test/firefox.browser.mjs web/build/test/ui.browser.mjs
 	node --test --test-reporter=spec web/build/test/*.browser.mjs
 
-.PHONY: web web-modules web-lint web-format web-tools web-serve web-wasm test-web
+.PHONY: web ui-page web-modules web-lint web-format web-tools web-serve web-wasm test-web

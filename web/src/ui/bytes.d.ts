@@ -1,0 +1,5 @@
+/** Files that lie in the bundle as bytes. */
+declare module "*.wasm" {
+  const bytes: Uint8Array<ArrayBuffer>;
+  export default bytes;
+}

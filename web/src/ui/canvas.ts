@@ -1,0 +1,303 @@
+/** The canvas: contours and plan as a picture, handles above it, pointers and where one looks. */
+import type { Wire } from "../drawing.ts";
+import { onFrame } from "../frame.ts";
+import { type Grabbed, listenTo } from "../gestures.ts";
+import { boxOf as boxOfBlock, type Placed } from "../placed.ts";
+import { drawRuler } from "../ruler.ts";
+import type { XY } from "../tape.ts";
+import { View } from "../view.ts";
+import type { Desk } from "./desk.ts";
+import { change } from "./edits.ts";
+import { type Box, micrometres, millimetres, nearest } from "./geometry.ts";
+import { dragged, type Grip, type Handle, handlesOf, stepped } from "./handles.ts";
+import { Overlay } from "./overlay.ts";
+import { Picture } from "./picture.ts";
+import type { Server } from "./server.ts";
+import { type Colours, Sketch } from "./sketch.ts";
+import type { Point } from "./types.ts";
+import { WireWays } from "./ways.ts";
+
+/** A pointer finds a contour within so many pixels, a handle within so many; a finger is thicker: 44 across. */
+const REACH = 10;
+const GRIP = 14;
+const FINGER = 22;
+
+export class Canvas {
+  readonly view = new View();
+  readonly #desk: Desk;
+  readonly #base: HTMLCanvasElement;
+  readonly #over: HTMLCanvasElement;
+  readonly #ways: WireWays;
+  readonly #sketch: Sketch;
+  readonly #picture: Picture;
+  readonly overlay: Overlay;
+  readonly #soon = onFrame(() => this.#draw());
+  #size: XY = [300, 200];
+  #pixels = 1;
+  /** One has looked closer: the window stays where it is. */
+  #isHeld = false;
+  #drag: Handle | undefined;
+  /** The name and the box of the drawing that is seen. */
+  #part = "";
+  /** The pointer's place, mm; undefined: it is elsewhere. */
+  onPoint: (place: Point | undefined) => void = () => undefined;
+  /** A contour is asked for what can be done with it, at a place of the window. */
+  onMenu: (id: number, x: number, y: number) => void = () => undefined;
+
+  constructor(base: HTMLCanvasElement, over: HTMLCanvasElement, desk: Desk, server: Server) {
+    this.#base = base;
+    this.#over = over;
+    this.#desk = desk;
+    this.#ways = new WireWays(desk, server, () => this.#renew());
+    this.#sketch = new Sketch(desk, this.#ways);
+    this.#picture = new Picture((context, view, size) => this.#sketch.draw(context, view, size));
+    this.overlay = new Overlay(desk);
+    new ResizeObserver(() => this.#resize()).observe(base);
+    this.#listen();
+    desk.onChange((news) => {
+      if (news.has("drawing")) this.#another();
+      if (news.has("selection")) this.hold(undefined);
+      if (news.has("selection") && !news.has("drawing")) this.bringIn();
+      if (news.has("plan") || news.has("drawing")) this.#renew();
+      this.#soon();
+    });
+  }
+
+  set colours(colours: Colours) {
+    this.#sketch.colours = this.overlay.colours = colours;
+    this.#renew();
+  }
+
+  set walk(walk: Wire | undefined) {
+    this.overlay.walk = walk;
+    if (walk && this.#isHeld) this.#show([...walk.place, ...walk.place]);
+    this.#soon();
+  }
+
+  /** Handles where the pointer has them until the plan follows. */
+  get handles(): readonly Handle[] {
+    const drag = this.#drag;
+    return handlesOf(this.#desk).map((handle) => (drag?.grip === handle.grip && drag.id === handle.id ? drag : handle));
+  }
+
+  /** The handle that arrow keys move. */
+  get held(): Grip | undefined {
+    return this.overlay.held;
+  }
+
+  /** Takes hold of a handle by keys; false where there is none. */
+  hold(grip: Grip | undefined): boolean {
+    const has = grip !== undefined && this.handles.some((handle) => handle.grip === grip);
+    this.overlay.held = has ? grip : undefined;
+    this.#desk.endJoined();
+    this.#soon();
+    return has;
+  }
+
+  /** An arrow key moves what is held. */
+  step(way: XY, isFine: boolean): void {
+    const handle = this.handles.find(({ grip }) => grip === this.held);
+    if (handle) this.#want(handle, stepped(this.#desk, handle, way, isFine), `key ${handle.grip}`);
+  }
+
+  fit(): void {
+    const { state } = this.#desk;
+    this.#isHeld = false;
+    if (state) {
+      const [left, bottom] = micrometres(state.low);
+      const [width, height] = micrometres(state.size);
+      this.view.fit([left, bottom, left + width, bottom + height], ...this.#size);
+    }
+    this.#soon();
+  }
+
+  zoom(by: number, about: XY = [this.#size[0] / 2, this.#size[1] / 2]): void {
+    this.#isHeld = true;
+    this.view.zoom(by, about);
+    this.#soon();
+  }
+
+  pan(dx: number, dy: number): void {
+    this.#isHeld = true;
+    this.view.pan(dx, dy);
+    this.#soon();
+  }
+
+  /** The tape over which the controller walks. */
+  set blocks(blocks: readonly Placed[]) {
+    this.overlay.blocks = blocks;
+    this.overlay.block = undefined;
+    this.#soon();
+  }
+
+  /** A block of it that is pointed at. */
+  showBlock(placed: Placed | undefined): void {
+    this.overlay.block = placed;
+    if (placed) this.#show(boxOfBlock(placed));
+    this.#soon();
+  }
+
+  /** A place of the report. */
+  point(place: Point | undefined): void {
+    this.overlay.place = place && micrometres(place);
+    if (this.overlay.place) this.#show([...this.overlay.place, ...this.overlay.place]);
+    this.#soon();
+  }
+
+  #another(): void {
+    this.#ways.forget();
+    this.overlay.place = this.overlay.walk = this.overlay.hovered = undefined;
+    const { name, low, size } = this.#desk.state ?? {};
+    const part = JSON.stringify([name, low, size]);
+    if (part === this.#part) return;
+    this.#part = part;
+    this.#picture.clear();
+    this.fit();
+  }
+
+  #renew(): void {
+    this.#picture.renew();
+    this.#soon();
+  }
+
+  /** Pans so that a part of the drawing is seen, when nothing of it is. */
+  #show(box: Box): void {
+    const [x0, y0] = this.view.toPixel([box[0], box[3]]);
+    const [x1, y1] = this.view.toPixel([box[2], box[1]]);
+    const [width, height] = this.#size;
+    if (x1 > 0 && y1 > 0 && x0 < width && y0 < height) return;
+    this.pan(width / 2 - (x0 + x1) / 2, height / 2 - (y0 + y1) / 2);
+  }
+
+  /** Pans to the contour that is chosen, when it is not seen. */
+  bringIn(): void {
+    const [id, ...others] = this.#desk.chosen;
+    const shape = id === undefined || others.length ? undefined : this.#desk.shapes.get(id);
+    if (shape && this.#isHeld) this.#show(shape.box);
+  }
+
+  #resize(): void {
+    const { clientWidth, clientHeight } = this.#base;
+    if (!clientWidth || !clientHeight) return;
+    this.#pixels = Math.min(2, devicePixelRatio || 1);
+    this.#size = [clientWidth, clientHeight];
+    for (const canvas of [this.#base, this.#over]) {
+      canvas.width = Math.round(clientWidth * this.#pixels);
+      canvas.height = Math.round(clientHeight * this.#pixels);
+    }
+    if (this.#isHeld) this.#soon();
+    else this.fit();
+  }
+
+  #draw(): void {
+    const began = performance.now();
+    const [base, over] = [this.#base, this.#over].map((canvas) => canvas.getContext("2d"));
+    if (!base || !over || !this.#sketch.colours) return;
+    base.setTransform(1, 0, 0, 1, 0, 0);
+    base.clearRect(0, 0, this.#base.width, this.#base.height);
+    const isWhole = this.#picture.paint(base, this.view, this.#size, this.#pixels);
+    base.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
+    if (this.#desk.state) drawRuler(base, this.view, this.#size, this.#sketch.colours.ruler);
+    over.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
+    this.overlay.draw(over, this.view, this.#size, this.handles);
+    if (isWhole) void this.#ways.want(this.#sketch.inView(this.view, this.#size));
+    else this.#soon();
+    // (for who looks at the page from outside: the window, how long this took, whether more is to come, handles in mm)
+    const { scale, x, y } = this.view;
+    const took = String(performance.now() - began);
+    Object.assign(this.#base.dataset, { window: `${scale} ${x} ${y}`, took, whole: String(isWhole) });
+    const handles = Object.fromEntries(this.handles.map(({ grip, place }) => [grip, millimetres(place)]));
+    this.#over.dataset["handles"] = JSON.stringify(handles);
+  }
+
+  #want(handle: Handle, wanted: ReturnType<typeof dragged>, joined: string): void {
+    if (!wanted) return;
+    const { edited, contours } = this.#desk;
+    this.#desk.edit(change(edited, { contours: [handle.id] }, wanted, contours), joined);
+  }
+
+  /** The contour that is nearest to a pixel. */
+  #find(pixel: XY, reach: number): number | undefined {
+    const place = this.view.toPlace(pixel);
+    let best = reach / this.view.scale;
+    let found: number | undefined;
+    for (const shape of this.#desk.shapes.values()) {
+      const [left, bottom, right, top] = shape.box;
+      if (place[0] < left - best || place[0] > right + best || place[1] < bottom - best || place[1] > top + best) continue;
+      const { distance } = nearest(shape, place);
+      if (distance >= best) continue;
+      best = distance;
+      found = shape.contour.id;
+    }
+    return found;
+  }
+
+  #grab(pixel: XY, event: PointerEvent): Grabbed | undefined {
+    const reach = event.pointerType === "touch" ? FINGER : GRIP;
+    const distance = ({ place }: Handle): number => {
+      const [x, y] = this.view.toPixel(place);
+      return Math.hypot(x - pixel[0], y - pixel[1]);
+    };
+    const [handle] = this.handles.filter((each) => distance(each) <= reach).sort((one, two) => distance(one) - distance(two));
+    if (!handle) return undefined;
+    this.overlay.held = handle.grip;
+    const joined = `drag ${handle.grip} ${event.timeStamp}`;
+    return {
+      move: (now) => {
+        const wanted = dragged(this.#desk, handle, this.view.toPlace(now), REACH / this.view.scale);
+        const place = wanted?.start ?? wanted?.entry;
+        this.#drag = { ...handle, place: place ? micrometres(place) : this.view.toPlace(now) };
+        this.#want(handle, wanted, joined);
+        this.#soon();
+      },
+      end: () => {
+        this.#desk.endJoined();
+        this.overlay.held = undefined;
+        void this.#desk.settle().then(() => {
+          this.#drag = undefined;
+          this.#soon();
+        });
+      },
+    };
+  }
+
+  #listen(): void {
+    const canvas = this.#over;
+    listenTo(canvas, {
+      pan: (dx, dy) => this.pan(dx, dy),
+      zoom: (by, about) => this.zoom(by, about),
+      grab: (pixel, event) => this.#grab(pixel, event),
+      hover: (pixel, isPressed) => {
+        this.onPoint(pixel && millimetres(this.view.toPlace(pixel)));
+        if (isPressed) return;
+        const hovered = pixel && this.#find(pixel, REACH);
+        if (hovered === this.overlay.hovered) return;
+        this.overlay.hovered = hovered;
+        this.#soon();
+      },
+      tap: (pixel, event) => {
+        const id = this.#find(pixel, event.pointerType === "touch" ? FINGER : REACH);
+        this.#choose(id, event.shiftKey || event.ctrlKey || event.metaKey);
+      },
+      hold: (pixel, event) => {
+        const id = this.#find(pixel, FINGER);
+        if (id === undefined) return;
+        if (!this.#desk.chosen.includes(id)) this.#choose(id, false);
+        this.onMenu(id, event.clientX, event.clientY);
+      },
+    });
+    canvas.addEventListener("dblclick", () => this.fit());
+  }
+
+  /** `more`: what is chosen already stays, or goes when it is meant. */
+  #choose(id: number | undefined, more: boolean): void {
+    this.overlay.place = undefined;
+    const { chosen } = this.#desk;
+    if (id === undefined) {
+      if (!more) this.#desk.choose("all");
+      return;
+    }
+    const after = !more ? [id] : chosen.includes(id) ? chosen.filter((each) => each !== id) : [...chosen, id];
+    this.#desk.choose({ contours: after });
+  }
+}

@@ -1,0 +1,24 @@
+/** How numbers are written and read, and how thick the pointer is. */
+const coarse = globalThis.matchMedia?.("(pointer: coarse)");
+
+/** The pointer is a finger: what it is to meet is 44 pixels large. */
+export const isCoarse = (): boolean => coarse?.matches ?? false;
+export const onCoarse = (changed: () => void): void => coarse?.addEventListener("change", changed);
+
+/** A length with no more than three decimals. */
+export const shown = (value: number): string => String(Number(value.toFixed(3)));
+
+/** What somebody has typed: a number, also with a comma; undefined for nothing, null for what is none. */
+export function typed(text: string): number | undefined | null {
+  const plain = text.trim().replace(/^([+-]?\d*),(\d+)$/, "$1.$2");
+  if (!plain) return undefined;
+  return /^[+-]?(\d+\.?\d*|\.\d+)$/.test(plain) ? Number(plain) : null;
+}
+
+/** Numbers with commas or blanks between them. */
+export function typedList(text: string): number[] | undefined | null {
+  const parts = text.split(/[\s,;，；]+/).filter(Boolean);
+  if (!parts.length) return undefined;
+  const numbers = parts.map(typed);
+  return numbers.every((each) => typeof each === "number") ? (numbers as number[]) : null;
+}

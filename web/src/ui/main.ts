@@ -1,0 +1,146 @@
+/** The drawing on the screen: puts its parts together. */
+import walkBytes from "../../wasm/walk.wasm";
+import { get, onClick } from "../dom.ts";
+import { hide, show } from "../message.ts";
+import { bindShell, view } from "../shell.ts";
+import { Actions } from "./actions.ts";
+import { Appearance } from "./appearance.ts";
+import { Canvas } from "./canvas.ts";
+import { Cutting } from "./cutting.ts";
+import { Desk } from "./desk.ts";
+import { Fields } from "./fields.ts";
+import { Keys } from "./keys.ts";
+import { shown } from "./look.ts";
+import { MachineFields } from "./machine.ts";
+import { MatchList } from "./matches.ts";
+import { Menu } from "./menu.ts";
+import { Report } from "./report.ts";
+import { Results } from "./result.ts";
+import { save } from "./saving.ts";
+import { Gone, Refusal, Server } from "./server.ts";
+import { Tree } from "./tree.ts";
+import { type Word, w } from "./words.ts";
+
+/** No larger file is read, bytes. */
+const MOST = 64 * 1024 * 1024;
+
+const token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
+const server = new Server(token);
+const desk = new Desk(server);
+const canvas = new Canvas(get("base"), get("over"), desk, server);
+const cutting = new Cutting(desk, server);
+const actions = new Actions(desk);
+const tree = new Tree(get("tree"), desk);
+const matches = new MatchList(desk);
+const fields = new Fields(desk, show);
+const machine = new MachineFields(desk, show);
+const report = new Report(desk, cutting, canvas);
+const results = new Results(cutting, server, canvas, new WebAssembly.Module(walkBytes));
+const menu = new Menu(desk, actions);
+const appearance = new Appearance(
+  () => {
+    fields.name();
+    machine.name();
+    matches.show();
+    tree.name();
+    say();
+  },
+  (colours) => {
+    canvas.colours = colours;
+  },
+);
+const cut = (): void => void cutting.start();
+const saveAll = (): void => void save(desk, cutting, server);
+const pick = (): void => get<HTMLInputElement>("file").click();
+
+/** The header and what depends on the job. */
+function say(): void {
+  const { state, isReadAgain } = desk;
+  get("name").textContent = state?.name ?? "";
+  get("size").textContent = state ? `${w("sizeOf", ...state.size.map(shown))}` : "";
+  get("again").textContent = isReadAgain ? w("readAgain") : "";
+  get("empty").hidden = state !== undefined;
+  get<HTMLButtonElement>("undo").disabled = !desk.canUndo;
+  get<HTMLButtonElement>("redo").disabled = !desk.canRedo;
+  get<HTMLButtonElement>("cut").disabled = get<HTMLButtonElement>("save").disabled = !state || desk.isGone;
+  document.body.dataset["settled"] = String(desk.isSettled);
+  report.show();
+  void results.show();
+}
+
+async function open(file: File): Promise<void> {
+  if (file.size > MOST) {
+    show(w("tooLarge", file.name));
+    return;
+  }
+  show(w("reading", file.name));
+  try {
+    await desk.open(file.name, file);
+    hide();
+  } catch (error) {
+    if (!(error instanceof Refusal || error instanceof Gone)) throw error;
+    show(error instanceof Refusal ? error.fault.message : w("gone"));
+  }
+}
+
+function bind(): void {
+  cutting.onChange = say;
+  desk.onStale = () => show(w("stale"));
+  desk.onRefused = ({ fault }) => show(fault.message);
+  desk.onChange((news) => {
+    if (news.has("server") && desk.isGone) show(w("gone"));
+    else if (news.has("server")) hide();
+    say();
+  });
+  canvas.onPoint = (place) => {
+    get("place").textContent = place ? w("where", ...place.map((each) => each.toFixed(3))) : "";
+  };
+  canvas.onMenu = tree.onMenu = (id, x, y) => menu.open(id, x, y);
+  tree.onOrder = (id, other) => actions.orderBefore(id, other);
+  const hint = (word: Word | undefined): void => (word ? show(w(word)) : hide());
+  new Keys(desk, canvas, actions, { cut, save: saveAll, open: pick, menu: (id, x, y) => menu.open(id, x, y), hint });
+  onClick("cut", cut);
+  onClick("cancel", () => void cutting.cancel());
+  onClick("save", saveAll);
+  onClick("undo", () => desk.undo());
+  onClick("redo", () => desk.redo());
+  onClick("fit", () => canvas.fit());
+  onClick("closer", () => canvas.zoom(1.5));
+  onClick("farther", () => canvas.zoom(1 / 1.5));
+  bindFiles();
+  bindShell();
+}
+
+function bindFiles(): void {
+  const picker = get<HTMLInputElement>("file");
+  picker.addEventListener("change", () => {
+    const [file] = picker.files ?? [];
+    picker.value = "";
+    if (file) void open(file);
+  });
+  onClick("open", pick);
+  onClick("open-first", pick);
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event: DragEvent) => {
+    event.preventDefault();
+    const [file] = event.dataTransfer?.files ?? [];
+    if (file) void open(file);
+  });
+}
+
+async function begin(): Promise<void> {
+  bind();
+  appearance.speak();
+  appearance.paint();
+  view("drawing");
+  document.body.dataset["ready"] = String(Math.round(performance.now()));
+  try {
+    await desk.listen();
+  } catch (error) {
+    if (error instanceof Gone) show(w("gone"));
+    else if (error instanceof Refusal) show(error.status === 401 || error.status === 403 ? w("noToken") : error.fault.message);
+    else throw error;
+  }
+}
+
+void begin();

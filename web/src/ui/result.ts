@@ -1,0 +1,183 @@
+/** What came of the cut: its figures, the blocks, the program, the sheet, and the controller's walk over the drawing. */
+import { BlockList } from "../blocklist.ts";
+import { Chooser } from "../choice.ts";
+import { get, make } from "../dom.ts";
+import { type Layout, layOut, nothing } from "../placed.ts";
+import { readTape } from "../tape.ts";
+import { WalkBar } from "../walkbar.ts";
+import type { Canvas } from "./canvas.ts";
+import type { Cutting } from "./cutting.ts";
+import { micrometres } from "./geometry.ts";
+import { Gone, Refusal, type Server } from "./server.ts";
+import type { Result, Run } from "./types.ts";
+import { type Word, w } from "./words.ts";
+
+const STAGES: Record<Run["stage"], Word> = { plan: "stagePlan", board: "stageBoard", check: "stageCheck", write: "stageWrite" };
+
+export class Results {
+  readonly #cutting: Cutting;
+  readonly #server: Server;
+  readonly #canvas: Canvas;
+  readonly #chooser = new Chooser();
+  readonly #list: BlockList;
+  readonly #walkBar: WalkBar;
+  #layout: Layout = nothing();
+  /** The run whose files are shown. */
+  #shown: number | undefined;
+  /** The run whose sheet is drawn, and its address. */
+  #drawn: number | undefined;
+  #sheet = "";
+
+  constructor(cutting: Cutting, server: Server, canvas: Canvas, walk: WebAssembly.Module) {
+    this.#cutting = cutting;
+    this.#server = server;
+    this.#canvas = canvas;
+    this.#list = new BlockList(get("list"), this.#chooser);
+    this.#list.describe = (_, stop) => (stop ? w("stopAfter") : "");
+    const parts = {
+      play: get<HTMLButtonElement>("play"),
+      scrub: get<HTMLInputElement>("scrub"),
+      pace: get<HTMLSelectElement>("pace"),
+      walked: get<HTMLOutputElement>("walked"),
+      closing: get<HTMLOutputElement>("closing"),
+    };
+    this.#walkBar = new WalkBar(parts, canvas, walk, (block) => this.#chooser.choose({ block }));
+    // (a block that is chosen in the list is shown on the drawing)
+    this.#chooser.onChange((choice) =>
+      canvas.showBlock(choice && "block" in choice ? this.#layout.blocks[choice.block - 1] : undefined),
+    );
+    bindTabs(() => void this.#bringSheet());
+  }
+
+  /** Shows how far the run is, or what came of it. */
+  async show(): Promise<void> {
+    this.say();
+    const { outcome, run } = this.#cutting;
+    if (outcome.kind !== "done") {
+      this.#clear();
+    } else if (run !== undefined && run !== this.#shown) {
+      this.#shown = run;
+      await Promise.all([this.#bring(run, outcome.result), this.#bringSheet()]);
+    }
+  }
+
+  #clear(): void {
+    this.#shown = this.#drawn = undefined;
+    this.#take(nothing());
+    get("program").textContent = "";
+    get("sheet").replaceChildren();
+  }
+
+  async #bring(run: number, result: Result): Promise<void> {
+    try {
+      const [tape, program] = await Promise.all([this.#server.file(run, "tape"), this.#server.file(run, "program")]);
+      if (run !== this.#shown) return;
+      this.#take(layOut(readTape(await tape.text()).items, micrometres(result.start)).layout);
+      get("program").textContent = (await program.text()).replace(/\r\n/g, "\n");
+    } catch (error) {
+      if (!(error instanceof Gone || error instanceof Refusal)) throw error;
+      this.#shown = undefined;
+    }
+  }
+
+  /** The sheet is drawn when somebody looks at it: it takes a second or two. */
+  async #bringSheet(): Promise<void> {
+    const run = this.#shown;
+    if (run === undefined || get("sheet").hidden || run === this.#drawn) return;
+    this.#drawn = run;
+    try {
+      const sheet = await this.#server.file(run, "sheet.svg");
+      if (run !== this.#shown) return;
+      URL.revokeObjectURL(this.#sheet);
+      this.#sheet = URL.createObjectURL(sheet);
+      const picture = make("img", "");
+      picture.src = this.#sheet;
+      picture.alt = w("sheet");
+      get("sheet").replaceChildren(picture);
+    } catch (error) {
+      if (!(error instanceof Gone || error instanceof Refusal)) throw error;
+      this.#drawn = undefined;
+      get("sheet").textContent = error instanceof Refusal ? error.fault.message : w("gone");
+    }
+  }
+
+  #take(layout: Layout): void {
+    this.#layout = layout;
+    this.#chooser.choose(undefined);
+    this.#list.show(layout);
+    this.#canvas.blocks = layout.blocks;
+    get("walk").hidden = !layout.blocks.length;
+    this.#walkBar.begin(layout);
+    void this.#walkBar.grown();
+  }
+
+  /** Writes what there is to say, in the present language. */
+  say(): void {
+    const { outcome, isOld, isDone, isRunning } = this.#cutting;
+    const output = get("outcome");
+    output.className = "";
+    const progress = get<HTMLProgressElement>("progress");
+    progress.hidden = get("cancel").hidden = !isRunning;
+    get("cut").hidden = isRunning;
+    const save = get<HTMLButtonElement>("save");
+    save.textContent = w(isDone ? "save" : "saveJob");
+    save.classList.toggle("main", isDone);
+    switch (outcome.kind) {
+      case "none":
+        output.textContent = "";
+        break;
+      case "running": {
+        const { run } = outcome;
+        if (run?.of) progress.value = run.done / run.of;
+        else progress.removeAttribute("value");
+        const stage = w(STAGES[run?.stage ?? "plan"]);
+        output.textContent = run?.of ? w("progress", stage, run.done, run.of) : stage;
+        break;
+      }
+      case "done":
+        output.className = isOld ? "old" : "good";
+        output.textContent = isOld
+          ? w("changedSince")
+          : `${w("checked", outcome.result.off_um.toFixed(2))} · ${figures(outcome.result)}`;
+        break;
+      case "failed":
+        output.className = isOld ? "old" : "bad";
+        output.textContent = isOld ? w("changedSince") : w("failed", outcome.fault.message);
+        break;
+      case "cancelled":
+        output.textContent = w("cancelled");
+        break;
+    }
+    this.#walkBar.say();
+    this.#list.grown(false);
+  }
+}
+
+function figures({ blocks, stops, length, seconds }: Result): string {
+  const minutes = Math.round(seconds / 60);
+  const time = minutes < 60 ? w("minutes", minutes) : w("hours", Math.floor(minutes / 60), String(minutes % 60).padStart(2, "0"));
+  return w("figures", blocks, stops, length.toFixed(1), time);
+}
+
+/** One panel of several is seen; arrow keys go from tab to tab. */
+function bindTabs(selected: () => void): void {
+  const tabs = [...document.querySelectorAll<HTMLElement>("[role=tab]")];
+  const select = (tab: HTMLElement): void => {
+    for (const each of tabs) {
+      each.ariaSelected = String(each === tab);
+      each.tabIndex = each === tab ? 0 : -1;
+      get(each.getAttribute("aria-controls") ?? "").hidden = each !== tab;
+    }
+    selected();
+  };
+  tabs.forEach((tab, at) => {
+    tab.addEventListener("click", () => select(tab));
+    tab.addEventListener("keydown", (event) => {
+      const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      const next = by && tabs[(at + by + tabs.length) % tabs.length];
+      if (!next) return;
+      select(next);
+      next.focus();
+    });
+  });
+}

@@ -1,0 +1,172 @@
+/** What the server and the page tell each other; lengths in mm, angles in radians. */
+
+export type Point = readonly [number, number];
+/** A line `x0 y0 x1 y1`, an arc `x0 y0 x1 y1 cx cy sweep`, or a curve `"c" x0 y0 x1 y1 …`. */
+export type Edge = readonly (number | "c")[];
+export type Side = "auto" | "inside" | "outside" | "left" | "right" | "on";
+export type Kind = "outline" | "opening" | "open";
+
+/** What is wanted of a contour; what is absent is inherited. */
+export interface Wanted {
+  cut?: boolean;
+  side?: Side;
+  offset?: number;
+  passes?: readonly number[];
+  tab?: number;
+  lead?: number;
+  lead_shape?: "perpendicular" | "arc";
+  reverse?: boolean;
+  start?: Point;
+  entry?: Point;
+  order?: number;
+}
+
+export interface LayerWanted extends Wanted {
+  name: string;
+}
+
+/** A contour that something is wanted of, and how it is found again. */
+export interface Chosen extends Wanted {
+  layer: string;
+  kind: Kind;
+  at: Point;
+  size: Point;
+}
+
+export type Values = Readonly<Record<string, unknown>>;
+
+export interface Job {
+  readonly schema: number;
+  readonly drawing: string;
+  readonly sha256: string;
+  readonly read?: Values;
+  readonly machine?: Values;
+  readonly default?: Wanted;
+  readonly layer?: readonly LayerWanted[];
+  readonly contour?: readonly Chosen[];
+}
+
+export interface Layer {
+  readonly name: string;
+  readonly contours: readonly number[];
+  /** Entities on it that are not cut, and why. */
+  readonly left: number;
+  readonly why: string;
+}
+
+export interface Contour {
+  readonly id: number;
+  readonly name: string;
+  readonly layer: string;
+  readonly kind: Kind;
+  readonly depth: number;
+  readonly closed: boolean;
+  readonly at: Point;
+  readonly size: Point;
+  readonly edges: readonly Edge[];
+}
+
+/** One line of a report; `care`: it wants a decision. */
+export interface Line {
+  readonly text: string;
+  readonly care?: boolean;
+  readonly contour?: number | null;
+  readonly place?: Point | null;
+}
+
+export interface Fault {
+  readonly message: string;
+  readonly contour?: number | null;
+  readonly place?: Point | null;
+}
+
+/** A contour as it would be cut. */
+export interface Planned {
+  readonly cut: boolean;
+  readonly hole: Point | null;
+  readonly entry: Point | null;
+  readonly tab: Point | null;
+  readonly tab_hole: Point | null;
+  readonly direction: number | null;
+  readonly radius: number | null;
+  readonly passes: readonly number[];
+  readonly lead_arc: boolean;
+  readonly number: number | null;
+  readonly values: Wanted;
+  readonly error?: string | null;
+}
+
+export interface Plan {
+  readonly order: readonly number[];
+  readonly said: readonly Line[];
+  readonly error?: Fault | null;
+  readonly contours: Readonly<Record<string, Planned>>;
+}
+
+export interface Match {
+  readonly chosen: number;
+  readonly id: number | null;
+  readonly moved: number;
+  readonly confirm: boolean;
+}
+
+export interface State {
+  readonly rev: number;
+  readonly name: string;
+  readonly can_save: boolean;
+  readonly sha256: string;
+  readonly size: Point;
+  readonly low: Point;
+  readonly units: string;
+  readonly units_from: string;
+  readonly layers: readonly Layer[];
+  readonly contours: readonly Contour[];
+  readonly starts: readonly Point[];
+  readonly report: readonly Line[];
+  readonly job: Job;
+  readonly matches: readonly Match[];
+  readonly plan: Plan;
+  readonly run?: number | null;
+  readonly run_rev?: number | null;
+  /** Rises when the contours are others. */
+  readonly drawn?: number;
+  /** The drawing cannot be read, or its file is gone. */
+  readonly error?: Fault | null;
+}
+
+/** A state without the drawing, which is the one that the page has. */
+export type Later = Partial<State> & Pick<State, "rev" | "name" | "job" | "matches" | "plan">;
+
+/** The answer to another job: with the drawing where it was read anew. */
+export type Put = Partial<State> & Pick<State, "rev" | "job" | "matches" | "plan">;
+
+/** Nothing is open. */
+export interface Empty {
+  readonly rev: number;
+  readonly name: null;
+}
+
+export interface Result {
+  readonly lines: readonly Line[];
+  readonly blocks: number;
+  readonly stops: number;
+  readonly length: number;
+  readonly seconds: number;
+  readonly off_um: number;
+  readonly tape_name: string;
+  readonly start: Point;
+}
+
+export interface Run {
+  readonly state: "running" | "done" | "failed" | "cancelled";
+  readonly k: number;
+  readonly stage: "plan" | "board" | "check" | "write";
+  readonly done: number;
+  readonly of: number;
+  readonly error?: Fault | null;
+  readonly result?: Result | null;
+}
+
+/** Edges of the wire's centre by contour, for each pass and tab. */
+export type Ways = Readonly<Record<string, readonly (readonly Edge[])[]>>;
+export type FileKind = "tape" | "program" | "sheet" | "job";

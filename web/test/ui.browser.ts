@@ -1,0 +1,621 @@
+/** The drawing on the screen, `skg ui`, in Debian's chromium. */
+import assert from "node:assert/strict";
+import { type ChildProcess, execFileSync, spawn } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { type Browser, type BrowserContextOptions, chromium, type Locator, type Page } from "playwright-core";
+import { PATIENCE, WHOLE } from "./served.ts";
+
+const CHROMIUM = "/usr/bin/chromium";
+const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
+const SKG = process.env["SKG"] ?? ".venv/bin/skg";
+const AXE = readFileSync("web/node_modules/axe-core/axe.min.js", "utf8");
+const BRACKET = readFileSync("docs/pictures/bracket.dxf");
+const WIDE = { width: 1400, height: 900 };
+const PHONE = { width: 360, height: 740 };
+/** A drawing of so many circles. */
+const MANY = 20_000;
+
+let browser: Browser;
+const left: (() => void)[] = [];
+
+/** A drawing of lines, circles, and texts in DXF of 1988, without a header. */
+function dxf(...entities: readonly (readonly [string, Record<number, string | number>])[]): string {
+  const pairs = entities.flatMap(([kind, values]) => [
+    `0\n${kind}`,
+    ...Object.entries(values).map(([code, value]) => `${code}\n${value}`),
+  ]);
+  return `${["0\nSECTION\n2\nENTITIES", ...pairs, "0\nENDSEC\n0\nEOF"].join("\n")}\n`;
+}
+const circle = (x: number, y: number, r: number, layer = "PART") => ["CIRCLE", { 8: layer, 10: x, 20: y, 40: r }] as const;
+const line = (x0: number, y0: number, x1: number, y1: number, layer = "PART") =>
+  ["LINE", { 8: layer, 10: x0, 20: y0, 11: x1, 21: y1 }] as const;
+const box = (x0: number, y0: number, x1: number, y1: number) => [
+  line(x0, y0, x1, y0),
+  line(x1, y0, x1, y1),
+  line(x1, y1, x0, y1),
+  line(x0, y1, x0, y0),
+];
+/** Circles in rows, 3 mm apart. */
+const field = (count: number): string =>
+  dxf(...Array.from({ length: count }, (_, at) => circle(3 * (at % 200), 3 * Math.floor(at / 200), 1)));
+
+interface Started {
+  readonly url: string;
+  readonly folder: string;
+  readonly process: ChildProcess;
+  file(name: string): Buffer;
+}
+
+/** `skg ui` on a drawing in a folder of its own. */
+async function start(name = "bracket.dxf", data: Buffer | string = BRACKET, isNamed = true): Promise<Started> {
+  const folder = mkdtempSync(join(tmpdir(), "skg-ui-"));
+  writeFileSync(join(folder, name), data);
+  const child = spawn(SKG, ["ui", "--no-browser", ...(isNamed ? [join(folder, name)] : [])], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
+  left.push(() => {
+    child.kill();
+    rmSync(folder, { recursive: true, force: true });
+  });
+  const url = await new Promise<string>((found, failed) => {
+    let said = "";
+    child.stdout?.on("data", (more) => {
+      said += more;
+      const match = /http:\S+/.exec(said);
+      if (match) found(match[0]);
+    });
+    child.on("exit", (code) => failed(new Error(`skg ui ended with ${code}: ${said}`)));
+  });
+  return { url, folder, process: child, file: (each) => readFileSync(join(folder, each)) };
+}
+
+/** The tape that the command line makes of a drawing in a folder. */
+function cutByCommand(folder: string, name: string, ...options: string[]): Buffer {
+  execFileSync(SKG, ["cut", join(folder, name), "-o", join(folder, "command.nodrift.3b"), ...options], { stdio: "pipe" });
+  return readFileSync(join(folder, "command.nodrift.3b"));
+}
+
+/** A page in a browser that was never here. */
+async function visit(url: string, options: BrowserContextOptions = {}) {
+  const context = await browser.newContext({ viewport: WIDE, acceptDownloads: true, locale: "en-GB", ...options });
+  context.setDefaultTimeout(PATIENCE);
+  const page = await context.newPage();
+  const said: string[] = [];
+  page.on("console", (message) => said.push(`${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => said.push(String(error)));
+  await page.goto(url);
+  await page.waitForSelector("body[data-ready]");
+  return { context, page, said };
+}
+
+/** Until the drawing is there, planned and drawn. */
+const drawn = (page: Page) =>
+  page.waitForFunction(
+    () => document.getElementById("name")?.textContent && document.getElementById("base")?.dataset["whole"] === "true",
+  );
+const says = (page: Page, selector: string, text: string | RegExp) =>
+  page.waitForFunction(
+    ([selector, wanted]) => {
+      const found = document.querySelector(selector)?.textContent ?? "";
+      return typeof wanted === "string" ? found === wanted : wanted.test(found);
+    },
+    [selector, text] as const,
+  );
+const message = (page: Page, text: RegExp) => says(page, "#message:not([hidden]) span", text);
+const value = (page: Page, id: string, wanted: string | RegExp) =>
+  page.waitForFunction(
+    ([id, wanted]) => {
+      const found = (document.getElementById(id) as HTMLInputElement).value;
+      return typeof wanted === "string" ? found === wanted : wanted.test(found);
+    },
+    [id, wanted] as const,
+  );
+/** A field takes what is typed, and its row is bold: it is wanted now. */
+async function type(page: Page, id: string, text: string): Promise<void> {
+  await page.fill(`#${id}`, text);
+  await page.press(`#${id}`, "Enter");
+  await page.waitForSelector(`.field.own #${id}`, { state: "attached" });
+}
+/** Until the plan is that of what is wanted. */
+const settled = (page: Page) => page.waitForFunction(() => document.body.dataset["settled"] === "true");
+const cut = async (page: Page): Promise<void> => {
+  await page.click("#cut");
+  await page.waitForSelector("#outcome.good");
+};
+
+/** The pixel of the window where a place of the drawing is, mm. */
+const pixel = (page: Page, place: readonly [number, number]): Promise<[number, number]> =>
+  page.evaluate(([x, y]) => {
+    const canvas = document.getElementById("base") as HTMLCanvasElement;
+    const [scale, left, top] = (canvas.dataset["window"] ?? "").split(" ").map(Number) as [number, number, number];
+    const { left: boxLeft, top: boxTop } = canvas.getBoundingClientRect();
+    return [boxLeft + left + x * 1000 * scale, boxTop + top - y * 1000 * scale] as [number, number];
+  }, place);
+
+const click = async (page: Page, place: readonly [number, number]): Promise<void> =>
+  page.mouse.click(...(await pixel(page, place)));
+
+async function drag(page: Page, from: readonly [number, number], to: readonly [number, number]): Promise<void> {
+  await page.mouse.move(...(await pixel(page, from)));
+  await page.mouse.down();
+  await page.mouse.move(...(await pixel(page, to)), { steps: 6 });
+  await page.mouse.up();
+}
+
+async function drop(page: Page, name: string, data: Buffer | string): Promise<void> {
+  const bytes = Buffer.from(data).toString("base64");
+  await page.evaluate(
+    ([name, bytes]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([Uint8Array.from(atob(bytes), (each) => each.charCodeAt(0))], name));
+      document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    },
+    [name, bytes] as const,
+  );
+}
+
+const row = (page: Page, text: string): Locator => page.locator("#tree [role=treeitem]", { hasText: text });
+
+async function shot(page: Page, name: string): Promise<void> {
+  mkdirSync(SHOTS, { recursive: true });
+  await page.evaluate(() => new Promise((tell) => requestAnimationFrame(() => requestAnimationFrame(tell))));
+  await page.screenshot({ path: `${SHOTS}/ui-${name}.png` });
+}
+
+const axe = async (page: Page): Promise<string[]> => {
+  // (the page's policy lets no script in: it is brought by the driver)
+  await page.evaluate(AXE);
+  return page.evaluate(async () => {
+    const { violations } = await (
+      window as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } }
+    ).axe.run();
+    return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`);
+  });
+};
+
+describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium is not installed", timeout: WHOLE }, () => {
+  before(async () => {
+    browser = await chromium.launch({
+      executablePath: CHROMIUM,
+      timeout: PATIENCE,
+      args: ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-sync"],
+    });
+  });
+  after(async () => {
+    await browser?.close();
+    for (const end of left) end();
+  });
+
+  test("drop a drawing, wire, gap, Cut, Save: the tape is that of the command line, byte for byte", async () => {
+    const { url, folder } = await start("bracket.dxf", BRACKET, false);
+    const { page, said, context } = await visit(url);
+    await page.waitForSelector("#empty:not([hidden])");
+    await drop(page, "bracket.dxf", BRACKET);
+    await drawn(page);
+    await type(page, "field-wire", "0.18");
+    await type(page, "field-gap", "0,01");
+    await cut(page);
+    await page.click("#save-what summary");
+    await page.uncheck("#save-what [value=job]");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+    const tape = readFileSync(await download.path());
+    assert.match(download.suggestedFilename(), /^bracket.*\.3b$/);
+    assert.ok(tape.equals(cutByCommand(folder, "bracket.dxf", "--wire", "0.18", "--gap", "0.01")));
+    assert.match((await page.textContent("#report")) ?? "", /checked with the controller/);
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
+  test("what was clicked is a job that makes the same tape; nothing is overwritten without a question", async () => {
+    const { url, folder, file } = await start();
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await type(page, "field-wire", "0.18");
+    await click(page, [55, 0]);
+    await says(page, "#h-values", "outline 70 × 30");
+    await type(page, "field-tab", "1.5");
+    await row(page, "opening 12 × 6").locator(".check").click();
+    await page.waitForSelector("[role=treeitem][aria-checked=false]");
+    await cut(page);
+    await page.click("#save");
+    await message(page, /Saved beside the drawing/);
+    const names = ((await page.textContent("#message span")) ?? "").replace(/.*: /, "").split(", ").sort();
+    const [job, tape] = names as [string, string];
+    assert.deepEqual(names, ["bracket.job.toml", "bracket.nodrift.3b"]);
+    assert.ok(file(tape).equals(cutByCommand(folder, job)));
+    writeFileSync(join(folder, tape), "mine");
+    await page.click("#save");
+    await page.waitForSelector("#question[open]");
+    await page.click("#question-no");
+    assert.equal(file(tape).toString(), "mine");
+    await page.click("#save");
+    await page.waitForSelector("#question[open]");
+    await page.click("#question-yes");
+    await message(page, /Saved beside/);
+    assert.ok(file(tape).equals(cutByCommand(folder, job)));
+    await context.close();
+  });
+
+  test("start hole, entry and tab are dragged; undo and redo; the layer's values again", async () => {
+    const { url } = await start();
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await type(page, "field-wire", "0.2");
+    await settled(page);
+    await click(page, [55, 0]);
+    await says(page, "#h-values", "outline 70 × 30");
+    await type(page, "field-tab", "2");
+    await settled(page);
+    const place = async (key: string): Promise<[number, number]> =>
+      [Number(await page.inputValue(`#field-${key}-x`)), Number(await page.inputValue(`#field-${key}-y`))] as [number, number];
+    await drag(page, await place("entry"), [20, 0]);
+    await page.waitForSelector(".field.own #field-entry-x");
+    await settled(page);
+    const [x, y] = await place("entry");
+    assert.ok(Math.abs(x - 20) < 1 && Math.abs(y) < 1e-6, `${x} ${y}`);
+    await drag(page, await place("start"), [20, -6]);
+    await page.waitForSelector(".field.own #field-start-x");
+    await settled(page);
+    const [hx, hy] = await place("start");
+    assert.ok(Math.abs(hx - 20) < 1 && Math.abs(hy + 6) < 1, `${hx} ${hy}`);
+    // the tab reaches from the entry back, against the way of the wire
+    const before = Number(await page.inputValue("#field-tab"));
+    const way = JSON.parse((await page.getAttribute("#over", "data-handles")) ?? "{}") as Record<string, [number, number]>;
+    const tab = way["tab"] as [number, number];
+    await drag(page, tab, [tab[0] + (tab[0] < x ? -3 : 3), tab[1]]);
+    await page.waitForFunction(
+      (before) => Number((document.getElementById("field-tab") as HTMLInputElement).value) > before + 1,
+      before,
+    );
+    await settled(page);
+    await shot(page, "dragged");
+    await page.click("#undo");
+    await value(page, "field-tab", String(before));
+    await page.click("#redo");
+    await page.waitForFunction(
+      (before) => Number((document.getElementById("field-tab") as HTMLInputElement).value) > before + 1,
+      before,
+    );
+    await page.click("#reset");
+    await page.waitForFunction(() => !document.querySelector("#fields .own"));
+    await value(page, "field-tab", "0");
+    await context.close();
+  });
+
+  test("by the keyboard alone: choose, side, skip, hole, entry, tab, order, undo, cut, save", async () => {
+    const { url, file } = await start();
+    const { page, context } = await visit(url);
+    await drawn(page);
+    const press = async (...keys: string[]): Promise<void> => {
+      for (const key of keys) await page.keyboard.press(key);
+    };
+    const tabTo = async (id: string): Promise<void> => {
+      for (let count = 0; count < 60; count++) {
+        if (await page.evaluate((id) => document.activeElement?.id === id, id)) return;
+        await page.keyboard.press("Tab");
+      }
+      assert.fail(`no way to #${id} by the tab key`);
+    };
+    await tabTo("over");
+    await press("ArrowRight");
+    await says(page, "#h-values", "opening 12 × 12");
+    await press("ArrowRight");
+    await says(page, "#h-values", "opening 18 × 8");
+    await press("x");
+    await page.waitForFunction(() => !(document.getElementById("field-cut") as HTMLInputElement).checked);
+    await press("Control+z");
+    await page.waitForFunction(() => (document.getElementById("field-cut") as HTMLInputElement).checked);
+    await press("s");
+    await value(page, "field-side", "inside");
+    await press("]");
+    await value(page, "field-order", "3");
+    await settled(page);
+    await press("h", "ArrowRight", "ArrowRight", "Shift+ArrowRight", "Enter");
+    await page.waitForSelector(".field.own #field-start-x");
+    await press("e", "ArrowRight", "Escape");
+    await page.waitForSelector(".field.own #field-entry-x");
+    await settled(page);
+    await press("Escape");
+    await says(page, "#h-values", "All contours");
+    await tabTo("field-wire");
+    await page.keyboard.type("0.18\n");
+    await page.waitForSelector(".field.own #field-wire");
+    await press("F5");
+    await page.waitForSelector("#outcome.good");
+    await press("Control+s");
+    await message(page, /Saved beside the drawing/);
+    assert.ok(file("bracket.job.toml").includes("entry"));
+    // the tree, too
+    await page.focus("#tree");
+    await press("Home", "ArrowDown", "ArrowDown", " ");
+    await page.waitForSelector("#tree [aria-checked=false]");
+    await press("Shift+F10");
+    await page.waitForSelector("#menu:not([hidden]) [role=menuitem]:focus");
+    await press("ArrowDown", "Escape");
+    await page.waitForSelector("#menu", { state: "hidden" });
+    await context.close();
+  });
+
+  test("on a phone: a finger chooses, holds for the menu, drags a handle, and everything is 44 pixels large", async () => {
+    const { url } = await start();
+    const { page, context } = await visit(url, { viewport: PHONE, hasTouch: true, isMobile: true });
+    await drawn(page);
+    const session = await context.newCDPSession(page);
+    const touch = (type: "touchStart" | "touchMove" | "touchEnd", place?: [number, number]) =>
+      session.send("Input.dispatchTouchEvent", { type, touchPoints: place ? [{ x: place[0], y: place[1] }] : [] });
+    await page.touchscreen.tap(...(await pixel(page, [55, 0])));
+    await says(page, "#h-values", "outline 70 × 30");
+    const handles = JSON.parse((await page.getAttribute("#over", "data-handles")) ?? "{}") as Record<string, [number, number]>;
+    await touch("touchStart", await pixel(page, handles["start"] as [number, number]));
+    await touch("touchMove", await pixel(page, [30, -5]));
+    await touch("touchMove", await pixel(page, [20, -5]));
+    await touch("touchEnd");
+    await page.waitForSelector(".field.own #field-start-x", { state: "attached" });
+    assert.ok(Math.abs(Number(await page.inputValue("#field-start-x")) - 20) < 1.5);
+    await touch("touchStart", await pixel(page, [6, 15]));
+    await page.waitForSelector("#menu:not([hidden])");
+    await touch("touchEnd");
+    await page.getByRole("menuitem", { name: "Do not cut" }).tap();
+    await page.waitForFunction(() => !(document.getElementById("field-cut") as HTMLInputElement).checked);
+    await shot(page, "phone");
+    const small: string[] = [];
+    for (const view of ["drawing", "contours", "values", "results"]) {
+      await page.tap(`#views [data-view=${view}]`);
+      await page.waitForSelector(`#${view}`);
+      small.push(
+        ...(await page.evaluate(() =>
+          [...document.querySelectorAll<HTMLElement>("button, summary, select, [role=treeitem]")]
+            .filter((each) => each.checkVisibility({ visibilityProperty: true }) && each.getBoundingClientRect().height < 43.5)
+            .map((each) => `${each.id || each.textContent} ${each.getBoundingClientRect().height}`),
+        )),
+      );
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0, view);
+      await shot(page, `phone-${view}`);
+    }
+    assert.deepEqual(small, []);
+    await context.close();
+  });
+
+  test("axe finds nothing, empty, open, chosen, cut, wrong, in both languages, light and dark", async () => {
+    const { url } = await start("bracket.dxf", BRACKET, false);
+    for (const [locale, colorScheme] of [
+      ["en-GB", "light"],
+      ["zh-CN", "dark"],
+    ] as const) {
+      const { page, context } = await visit(url, { locale, colorScheme });
+      if (locale === "en-GB") {
+        await page.waitForSelector("#empty:not([hidden])");
+        assert.deepEqual(await axe(page), []);
+        await drop(page, "bracket.dxf", BRACKET);
+        await drawn(page);
+        await type(page, "field-wire", "0.18");
+      }
+      await drawn(page);
+      await click(page, [55, 0]);
+      await page.waitForSelector("#tree [aria-selected=true]");
+      await page.click("#cut");
+      await page.waitForSelector("#outcome.good");
+      assert.deepEqual(await axe(page), []);
+      for (const tab of ["blocks", "program", "sheet"]) {
+        await page.click(`#tab-${tab}`);
+        await page.waitForSelector(`#${tab}:not([hidden])`);
+        if (tab === "sheet") await page.waitForSelector("#sheet img");
+        assert.deepEqual(await axe(page), [], tab);
+      }
+      await page.click("#tab-report");
+      await page.click("#help");
+      assert.deepEqual(await axe(page), []);
+      await page.click("#close-keys");
+      await page.click("#settings summary");
+      assert.deepEqual(await axe(page), []);
+      await page.click("#settings summary");
+      await row(page, "18 × 8").click();
+      await type(page, "field-offset", "4.9");
+      await page.click("#cut");
+      await page.waitForSelector("#report .wrong");
+      assert.deepEqual(await axe(page), []);
+      await shot(page, `wrong-${colorScheme}`);
+      await page.click("#reset");
+      await page.waitForFunction(() => !document.querySelector("#report .wrong"));
+      await context.close();
+    }
+  });
+
+  test("中文: every word of the page, kept for the next visit", async () => {
+    const { url } = await start();
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await page.click("#settings summary");
+    await page.selectOption("#language", "zh");
+    await says(page, "#cut", "生成 3B");
+    await says(page, "#h-values", "全部轮廓");
+    await page.click("#settings summary");
+    await click(page, [55, 0]);
+    await says(page, "#h-values", /^外轮廓/);
+    await type(page, "field-wire", "0.18");
+    await cut(page);
+    assert.match((await page.textContent("#outcome")) ?? "", /已校验/);
+    // (names of files, layers and units stay; the report is the tools', in English)
+    const english = await page.evaluate(() => {
+      const texts: string[] = [];
+      for (const element of document.querySelectorAll("button, label, h2, summary, option, [aria-label]")) {
+        if (element.closest("#report, #tree, [lang=en], #h-values")) continue;
+        for (const text of [element.ariaLabel, ...[...element.childNodes].map(({ nodeValue }) => nodeValue)]) {
+          if (/[a-z]{4}/.test(text ?? "")) texts.push(text ?? "");
+        }
+      }
+      return texts;
+    });
+    assert.deepEqual(
+      english.filter((text) => !["inch", "foot"].includes(text)),
+      [],
+    );
+    await shot(page, "chinese");
+    await page.reload();
+    await says(page, "#cut", "生成 3B");
+    await context.close();
+  });
+
+  test("a reload loses nothing: job, plan, tape, walk", async () => {
+    const { url } = await start();
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await type(page, "field-wire", "0.18");
+    await click(page, [55, 0]);
+    await says(page, "#h-values", "outline 70 × 30");
+    await type(page, "field-tab", "1.5");
+    await cut(page);
+    await page.waitForSelector("#walk:not([hidden])");
+    const outcome = await page.textContent("#outcome");
+    await page.reload();
+    await says(page, "#outcome", outcome ?? "");
+    await value(page, "field-wire", "0.18");
+    await page.waitForSelector("#walk:not([hidden])");
+    await drawn(page);
+    await click(page, [55, 0]);
+    await value(page, "field-tab", "1.5");
+    // the walk goes over the drawing, and shows its block in the list
+    await page.click("#tab-blocks");
+    await page.focus("#scrub");
+    await page.keyboard.press("End");
+    await says(page, "#walked", /block (\d+) of \1 /);
+    await page.waitForSelector("#list [aria-selected=true]");
+    await shot(page, "walk");
+    await context.close();
+  });
+
+  test("two tabs: the slower one is told, and shows what the other has made of it", async () => {
+    const { url } = await start();
+    const one = await visit(url);
+    // (this tab hears nothing of the other one)
+    await one.page.route(/api\/state\?/, () => undefined);
+    await one.page.reload();
+    await drawn(one.page);
+    const two = await visit(url);
+    await drawn(two.page);
+    await type(two.page, "field-wire", "0.25");
+    await settled(two.page);
+    await one.page.fill("#field-feed", "7");
+    await one.page.press("#field-feed", "Enter");
+    await message(one.page, /another tab/);
+    await value(one.page, "field-wire", "0.25");
+    await value(one.page, "field-feed", "5");
+    // and one that hears of it shows it by itself
+    await type(one.page, "field-gap", "0.02");
+    await value(two.page, "field-gap", "0.02");
+    await one.context.close();
+    await two.context.close();
+  });
+
+  test("the drawing is saved again: read anew, moved contours are to be confirmed, lost ones are red", async () => {
+    const part = (x: number, hole: number): string => dxf(...box(0, 0, 60, 40), circle(x, 20, hole), circle(45, 20, 4));
+    const { url, folder } = await start("part.dxf", part(15, 5));
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await click(page, [15, 15]);
+    await says(page, "#h-values", "opening 10 × 10");
+    await type(page, "field-offset", "0.3");
+    await click(page, [45, 16]);
+    await says(page, "#h-values", "opening 8 × 8");
+    await type(page, "field-offset", "0.4");
+    await settled(page);
+    writeFileSync(join(folder, "part.dxf"), part(16, 5));
+    await says(page, "#again", "saved again: read anew");
+    await page.waitForSelector("#matches .doubt");
+    await page.click("#matches .doubt button");
+    await page.waitForSelector("#matches .doubt", { state: "detached" });
+    await click(page, [16, 15]);
+    await value(page, "field-offset", "0.3");
+    await settled(page);
+    writeFileSync(join(folder, "part.dxf"), part(16, 9));
+    await page.waitForSelector("#matches .lost");
+    await shot(page, "lost");
+    assert.deepEqual(await axe(page), []);
+    await page.click("#matches .lost button");
+    await page.waitForSelector("#matches .lost", { state: "detached" });
+    await context.close();
+  });
+
+  test("a cut is cancelled, and begun again; a server that has ended is said to have", async () => {
+    const { url, process } = await start("circles.dxf", field(3000));
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await page.click("#cut");
+    await page.click("#cancel");
+    await says(page, "#outcome", /cancelled/);
+    await cut(page);
+    process.kill("SIGKILL");
+    await message(page, /has ended/);
+    assert.ok(await page.isDisabled("#cut"));
+    await context.close();
+  });
+
+  test("what is refused is said: no drawing, a wrong number, a contour without room, with a place to look at", async () => {
+    const { url } = await start("part.dxf", dxf(...box(0, 0, 60, 40), circle(15, 20, 5), circle(45, 20, 0.2)));
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await page.fill("#field-wire", "thick");
+    await page.press("#field-wire", "Enter");
+    await message(page, /a number is wanted/);
+    await page.click("#dismiss");
+    await type(page, "field-wire", "0.5");
+    await page.click("#cut");
+    await page.waitForSelector("#report .wrong");
+    await page.locator("#report .wrong button").first().click();
+    await says(page, "#h-values", "opening 0.4 × 0.4");
+    await shot(page, "error");
+    await drop(page, "no.dxf", "this is no drawing");
+    await page.waitForFunction(() =>
+      /no\.dxf/.test(`${document.querySelector("#message span")?.textContent} ${document.getElementById("report")?.textContent}`),
+    );
+    await context.close();
+  });
+
+  test("20,000 circles: open, panned, chosen; a frame costs no more than one of 2,000", async (t) => {
+    const costs: number[] = [];
+    for (const count of [MANY / 10, MANY]) {
+      const { url } = await start("circles.dxf", field(count));
+      const { page, context } = await visit(url);
+      await drawn(page);
+      const opened = Math.round(await page.evaluate(() => performance.now()));
+      const frames = await page.evaluate(async () => {
+        const over = document.getElementById("over") as HTMLCanvasElement;
+        const base = document.getElementById("base") as HTMLCanvasElement;
+        const { left, top, width, height } = over.getBoundingClientRect();
+        const at = (x: number, type: string) =>
+          over.dispatchEvent(
+            new PointerEvent(type, { pointerId: 1, clientX: left + width / 2 + x, clientY: top + height / 2, bubbles: true }),
+          );
+        over.setPointerCapture = () => undefined;
+        const took: number[] = [];
+        at(0, "pointerdown");
+        for (let x = 1; x <= 60; x++) {
+          at(4 * x, "pointermove");
+          await new Promise((next) => requestAnimationFrame(next));
+          await new Promise((next) => setTimeout(next));
+          took.push(Number(base.dataset["took"]));
+        }
+        at(240, "pointerup");
+        return took.sort((one, two) => one - two);
+      });
+      const median = frames[30] as number;
+      costs.push(median);
+      t.diagnostic(
+        `${count} circles: open after ${opened} ms; a frame of panning ${median.toFixed(1)} ms, at most ${frames[59]?.toFixed(1)} ms`,
+      );
+      await page.keyboard.press("Tab");
+      await drawn(page);
+      await page.click("#fit");
+      await drawn(page);
+      await click(page, [3, 1]);
+      await says(page, "#h-values", "opening 2 × 2").catch(() => says(page, "#h-values", "outline 2 × 2"));
+      assert.ok((await page.locator("#tree [role=treeitem]").count()) < 100);
+      await context.close();
+    }
+    const [few, many] = costs as [number, number];
+    assert.ok(many < 3 * few + 10, `${few} ms, ${many} ms`);
+  });
+});
