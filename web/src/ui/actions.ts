@@ -36,8 +36,9 @@ export class Actions {
     this.wish({ side: sides[(sides.indexOf(now) + 1) % sides.length] });
   }
 
-  /** Cut so many places earlier or later. */
-  order(by: number): void {
+  /** Cut so many places earlier or later than it is planned. */
+  async order(by: number): Promise<void> {
+    await this.#desk.settle();
     const { chosen, plan } = this.#desk;
     const [id] = chosen;
     const number = id === undefined ? undefined : this.#desk.planned(id)?.number;

@@ -191,7 +191,8 @@ export class Desk {
       return;
     }
     const before = this.#state;
-    const state = { ...before, ...later } as State;
+    // (a drawing that cannot be read has no plan, one of which nothing is known no job)
+    const state = { ...before, ...later, plan: later.plan ?? NO_PLAN, job: later.job ?? NO_JOB.job } as State;
     const fresh = edited(state.job, state.matches);
     const isBehind = ours !== undefined && ours !== this.#edited;
     this.#state = state;

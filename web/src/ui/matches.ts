@@ -1,17 +1,19 @@
 /** Contours that were not found again in a drawing that was saved anew, and those that want to be confirmed. */
 import { get, make } from "../dom.ts";
 import type { Desk } from "./desk.ts";
-import { change, forget } from "./edits.ts";
+import { forget } from "./edits.ts";
 import { shown } from "./look.ts";
 import type { Chosen } from "./types.ts";
 import { w } from "./words.ts";
 
 export class MatchList {
   readonly #desk: Desk;
+  readonly #confirmed = new Set<number>();
 
   constructor(desk: Desk) {
     this.#desk = desk;
     desk.onChange((news) => {
+      if (news.has("drawing")) this.#confirmed.clear();
       if (news.has("drawing") || news.has("job")) this.show();
     });
   }
@@ -27,19 +29,16 @@ export class MatchList {
     });
     for (const { id, moved, confirm } of state?.matches ?? []) {
       const chosen = id === null ? undefined : edited.job.contour?.[edited.ids.indexOf(id)];
-      if (id === null || !confirm || !chosen) continue;
+      if (id === null || !confirm || !chosen || this.#confirmed.has(id)) continue;
       const text = w("moved", nameOf(chosen), shown(moved));
-      const line = row("doubt", text, w("confirm"), () => this.#confirm(id));
+      const line = row("doubt", text, w("confirm"), () => {
+        this.#confirmed.add(id);
+        this.show();
+      });
       line.querySelector("span")?.addEventListener("click", () => this.#desk.choose({ contours: [id] }));
       rows.push(line);
     }
     get("matches").replaceChildren(...rows);
-  }
-
-  /** It is known from now on by where it is now. */
-  #confirm(id: number): void {
-    const { edited, contours } = this.#desk;
-    this.#desk.edit(change(edited, { contours: [id] }, {}, contours));
   }
 }
 

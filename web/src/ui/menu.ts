@@ -39,8 +39,8 @@ export class Menu {
             [w("side"), () => actions.side()],
             [w("reverse"), () => actions.reverse()],
             [tab ? w("noTab") : w("addTab", TAB), () => actions.wish({ tab: tab ? 0 : TAB })],
-            [w("earlier"), () => actions.order(-1)],
-            [w("later"), () => actions.order(1)],
+            [w("earlier"), () => void actions.order(-1)],
+            [w("later"), () => void actions.order(1)],
           ] as [string, () => void][])
         : []),
       [w("resetToLayer"), () => actions.reset()],

@@ -134,11 +134,11 @@ export interface State {
   readonly error?: Fault | null;
 }
 
-/** A state without the drawing, which is the one that the page has. */
-export type Later = Partial<State> & Pick<State, "rev" | "name" | "job" | "matches" | "plan">;
-
 /** The answer to another job: with the drawing where it was read anew. */
 export type Put = Partial<State> & Pick<State, "rev" | "job" | "matches" | "plan">;
+
+/** A state without the drawing, which is the one that the page has. */
+export type Later = Put & Pick<State, "name">;
 
 /** Nothing is open. */
 export interface Empty {
