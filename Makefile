@@ -17,6 +17,7 @@ define HELP
   make simh       the core's test programs and the examples in SIMH's Altair
   make rs274      LinuxCNC's interpreter for the tests of milling tapes, out of Debian's packages
   make web        the machine in a web page, web/dist; make web-serve shows it, make test-web tries it in browsers
+  make ui-page    the page of skg ui, tools/skg/ui/assets
   make web-wasm   the page's .wasm from emu/: needs clang 14 and lld 14
   make hunt       new examples for the tests that take any, random programs, ROM against reference (PROGRAMS=1000000, SEED)
   make release    packages for other systems in dist/; make release-test tries them

@@ -41,6 +41,17 @@ def test_wasm_is_what_its_sources_give(tmp_path: Path) -> None:
         assert (tmp_path / name).read_bytes() == (WEB / "wasm" / name).read_bytes(), f"{name}: run make web-wasm"
 
 
+def test_page_of_skg_ui_is_what_its_sources_give(tmp_path: Path) -> None:
+    built = run("make", "-s", "web/build/ui.mjs")
+    assert built.returncode == 0, built.stderr
+    made = run("node", WEB / "build" / "ui.mjs", tmp_path)
+    assert made.returncode == 0, made.stderr
+    assets = ROOT / "tools" / "skg" / "ui" / "assets"
+    assert {path.name for path in assets.iterdir()} == {path.name for path in tmp_path.iterdir()}
+    for path in tmp_path.iterdir():
+        assert path.read_bytes() == (assets / path.name).read_bytes(), f"{path.name}: run make ui-page"
+
+
 def test_types() -> None:
     made = run(BIN / "tsc", "-p", WEB)
     assert made.returncode == 0, made.stdout

@@ -490,6 +490,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
   test("two tabs: the slower one is told, and shows what the other has made of it", async () => {
     const { url } = await start();
     const one = await visit(url);
+    await drawn(one.page);
     // (this tab hears nothing of the other one)
     await one.page.route(/api\/state\?/, () => undefined);
     await one.page.reload();
