@@ -1,7 +1,7 @@
 ; hold.asm - whoever sends is held while a line is worked on
 ; Offers: LISTEN ENDLIN LEXTOK
-; Uses:   decimal io io_8251 io_held ports_2sio ports_rc2014
-; Room:   46 bytes
+; Uses:   decimal io io_8251 io_held io_sio ports_2sio ports_rc2014 rts rts_sio
+; Room:   43 bytes
 ;
 ; /RTS is high from a line's end until the next character is wanted or a program runs.  A sender stops two characters
 ; late: KEYB takes the first one, the receiver keeps the second.
@@ -11,21 +11,19 @@ LATE    EQU     1200            ; turns of ENDL1, for a character at 110 baud
 ; LISTEN - lets senders go on; looks for a break
 ; In, Out: as BREAK   Clobbers nothing else
 LISTEN: MVI     A,SIO8N2
-        OUT     TTYST
-        OUT     PUNST
+        CALL    BDRTS
         JMP     BREAK
 
 ; ENDLIN - the line has come: holds the senders, takes what comes late, LF behind CR left out
 ; Clobbers A, DE, HL
 ENDLIN: MVI     A,SIOHLD
-        OUT     TTYST
-        OUT     PUNST
+        CALL    BDRTS
         CALL    CRLF
         LXI     D,LATE
 ENDL1:  CALL    POLL
-        CPI     CLF
+        XRI     CLF
         JNZ     ENDL2
-        MVI     M,0
+        MOV     M,A
 ENDL2:  DCX     D
         MOV     A,D
         ORA     E

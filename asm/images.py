@@ -1,7 +1,8 @@
 """Every image: which files it is made of. No source file has an IF: what differs is a file of its own.
 
 Four seams. The **board**: where things lie (`map_rom`, `map_rc2014`, `map_rc2014_ram`), ports and their setting up
-(`ports_2sio` or `ports_rc2014` with `io_6850`; `io_8251`), teletype (`io_held`, `io_port`), punch and reader
+(`ports_2sio` or `ports_rc2014` with `io_6850`; `io_8251`; `ports_sio` with `io_sio`), their
+/RTS (`rts`, `rts_sio`), teletype (`io_held`, `io_port`), punch and reader
 (`io_punch`, `io_tty`), what is done when a block is complete and after an error (`io_ended`; `drive` follows the
 block), at reset and at the prompt (`reset`; `keep` saves the program through it, `keep_none` does not).
 **CP/M** fills these instead: `map_cpm`,
@@ -28,7 +29,7 @@ class Image:
     map: str = "map_rom"
     restarts: bool = True
     ports: tuple[str, ...] = ("ports_2sio", "io_6850", "io_held", "io_tape")
-    punch: tuple[str, ...] = ("hold", "io_punch", "io_ended")
+    punch: tuple[str, ...] = ("rts", "hold", "io_punch", "io_ended")
     start: tuple[str, ...] = ("reset", "keep")
     post: tuple[str, ...] = ("grid", "arc_3b", "tape")
     hold: str = "tol"
@@ -60,7 +61,7 @@ UNHELD = {
     "punch": ("nohold", "io_punch", "io_reader", "io_ended"),
 }
 #: One line, which is the teletype, its punch and its reader.
-RC2014 = {"ports": ("ports_rc2014", "io_6850", "io_held", "io_key"), "punch": ("hold", "io_tty")}
+RC2014 = {"ports": ("ports_rc2014", "io_6850", "io_held", "io_key"), "punch": ("rts", "hold", "io_tty")}
 MILL = Image(
     **UNHELD,
     post=("io_send", "grid", "arc_iso", "iso"),
@@ -70,8 +71,13 @@ MILL = Image(
 IMAGES = {
     STANDARD: Image(),
     "skg-8251": Image(ports=("io_8251", "io_held", "io_tape")),
-    "skg-tty": Image(ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("hold", "io_tty")),
+    "skg-tty": Image(ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("rts", "hold", "io_tty")),
     "skg-rc2014": Image(map="map_rc2014", **RC2014),
+    "skg-rc2014-sio": Image(
+        map="map_rc2014",
+        ports=("ports_sio", "io_sio", "io_held", "io_tape"),
+        punch=("rts_sio", "hold", "io_punch", "io_ended"),
+    ),
     "skg-rc2014-ram": Image(map="map_rc2014_ram", restarts=False, forms=(".hex",), **RC2014),
     "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
     "skg-mill": MILL,

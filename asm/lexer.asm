@@ -11,7 +11,7 @@
 ; its distance from the line's start; what is longer than the page is refused after LEX, the
 ; stack having room for what the longest line can make.
 
-WAIT2   EQU     10000           ; turns of INCH1 in two seconds (200 us each at most)
+WAIT2   EQU     7500            ; turns of INCH1 in two seconds (200 to 300 us each)
 
 ; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
 ;          nothing is printed (OUTSEL = 0).  A control character that is no editing key

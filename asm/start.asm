@@ -1,7 +1,7 @@
 ; start.asm - restarts, and what stands in the gaps between them
 ; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK ERROR0 PUTC0 NEXT0 NEXT1 ERMEM EXPEC0 ERSYN
 ;         ADDA PEEK0 ERDATA CHKEN0 SREM CPHD
-; Uses:   calc cpm io io_6850 io_8251 monitor
+; Uses:   calc cpm io io_6850 io_8251 io_sio monitor
 ; Room:   71 bytes
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that

@@ -5,9 +5,7 @@
 #include <string.h>
 
 enum {
-    PORT_TTY = 0x10,        /* first port of the teletype's pair */
-    PORT_AUX = 0x12,        /* of the punch's and reader's */
-    PORT_RC2014 = 0x80,     /* of an RC2014's only pair */
+    NO_PORT = 0x100,
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
     POLL_GAP = 500,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
@@ -26,6 +24,36 @@ enum {
     COMMAND_TXEN = 0x01, COMMAND_RXEN = 0x04, COMMAND_ER = 0x10, COMMAND_RTS = 0x20, COMMAND_RESET = 0x40
     // clang-format on
 };
+
+/* Bits of the SIO's registers. */
+enum {
+    // clang-format off
+    WR0_REGISTER = 0x07, WR0_COMMAND = 0x38, WR0_RESET = 0x18, WR0_ERROR_RESET = 0x30,
+    WR3_RXEN = 0x01, WR5_RTS = 0x02, WR5_TXEN = 0x08,
+    RR0_RX = 0x01, RR0_TX = 0x04, RR1_ALL_SENT = 0x01, RR1_OVERRUN = 0x20
+    // clang-format on
+};
+
+/* What each board has. */
+typedef struct {
+    enum { CHIP_6850, CHIP_8251, CHIP_SIO } chip;
+    unsigned tty, aux;  /* first port of the teletype's pair, of the punch's and reader's */
+    unsigned control;   /* bit 0 of the control side's port */
+    unsigned receives;  /* so many characters a receiver keeps */
+    unsigned ram;       /* RAM begins there */
+} board_facts;
+
+static const board_facts FACTS[] = {
+    [BOARD_6850] = { CHIP_6850, 0x10, 0x12, 0, 1, 0x2000 },
+    [BOARD_8251] = { CHIP_8251, 0x10, 0x12, 1, 1, 0x2000 },
+    [BOARD_RC2014] = { CHIP_6850, 0x80, NO_PORT, 0, 1, 0x8000 },
+    [BOARD_RC2014_SIO] = { CHIP_SIO, 0x80, 0x82, 0, BOARD_RECEIVED, 0x8000 },
+};
+
+static const board_facts *facts(const board *b)
+{
+    return &FACTS[b->kind];
+}
 
 /* ---- queues ---- */
 
@@ -117,16 +145,24 @@ static double sender_time(const board *b, const board_sender *s)
 
 static void receive(board *b, board_uart *u, uint8_t c)
 {
-    if (u->full) {
+    bool lost = u->full == facts(b)->receives;
+    if (lost) {
         b->lost++;
-        if (b->kind != BOARD_8251) {
+        if (facts(b)->chip == CHIP_6850) {
             u->lost = true;
             return;
         }
-        u->overrun = true;
+        u->full--;              /* it takes the place of the last one */
+        u->overrun = u->overrun || facts(b)->chip == CHIP_8251;
     }
-    u->received = c;
-    u->full = true;
+    u->behind_loss[u->full] = lost;
+    u->received[u->full++] = c;
+}
+
+/* Tells whether /RTS is high at a cycle. */
+static bool holds_at(const board_uart *u, double cycle)
+{
+    return u->holds && cycle >= (double)u->holds_from;
 }
 
 /* Puts into the receiver what has come since it was looked at last. */
@@ -138,10 +174,10 @@ static void send_what_is_due(board *b, board_uart *u, board_sender *s, board_que
     while (s->running && s->due <= (double)b->cpu.cycles) {
         if (queue_empty(q)) {
             s->running = false;
-        } else if (u->holds && s->lag >= 0 && s->late >= s->lag) {
+        } else if (holds_at(u, s->due) && s->lag >= 0 && s->late >= s->lag) {
             break;
         } else {
-            s->late += u->holds;
+            s->late += holds_at(u, s->due);
             receive(b, u, queue_take(q));
             s->due += sender_time(b, s);
         }
@@ -190,6 +226,7 @@ static void set_hold(board *b, board_uart *u, bool holds)
     }
     hear(b, u);
     u->holds = holds;
+    u->holds_from = facts(b)->chip == CHIP_SIO ? u->sent_at : 0;
     if (u == &b->aux || b->punch_tty) {
         let_go_on(b, &b->reading);
     }
@@ -216,8 +253,7 @@ static void tty_arrive(board *b)
         }
     }
     if (from) {
-        u->received = queue_take(from);
-        u->full = true;
+        receive(b, u, queue_take(from));
         u->arrived_at = b->cpu.cycles + character_time(b);
     }
 }
@@ -266,8 +302,7 @@ static bool has_received(board *b, board_uart *u)
     } else if (b->reading.cps > 0 && !queue_empty(&b->tape)) {
         start(b, u, &b->reading, &b->tape);
     } else if (!u->full && !u->holds && !queue_empty(&b->tape)) {
-        u->received = queue_take(&b->tape);
-        u->full = true;
+        receive(b, u, queue_take(&b->tape));
     } else if (!u->full && queue_empty(&b->tape)) {
         if (b->cpu.cycles - b->reader_asked_at > POLL_GAP) {
             b->reader_asked_since = b->cpu.cycles;
@@ -283,14 +318,18 @@ static uint8_t read_data(board *b, board_uart *u)
         drive_key(&b->drive);
     }
     hear(b, u);
-    if (b->kind != BOARD_8251) {
+    uint8_t c = u->received[0];
+    if (facts(b)->chip == CHIP_6850) {
         u->full = u->lost;              /* the character stays, and OVRN is shown */
         u->overrun = u->lost;
         u->lost = false;
-    } else {
-        u->full = false;
+    } else if (u->full) {
+        u->overrun = u->overrun || u->behind_loss[0];
+        u->full--;
+        memmove(u->received, u->received + 1, u->full);
+        memmove(u->behind_loss, u->behind_loss + 1, u->full);
     }
-    return u->received;
+    return c;
 }
 
 static void write_data(board *b, board_uart *u, uint8_t byte)
@@ -299,7 +338,9 @@ static void write_data(board *b, board_uart *u, uint8_t byte)
         return;                 /* lost, as on the chip */
     }
     if (is_tty(b, u)) {
+        bool puts_off = u->holds && b->cpu.cycles < u->holds_from;
         u->sent_at = b->cpu.cycles + character_time(b);
+        u->holds_from = puts_off ? u->sent_at : u->holds_from;
         tty_print(b, byte);
     } else if (b->punch) {
         b->punch(b->user, byte);
@@ -310,7 +351,10 @@ static uint8_t read_status(board *b, board_uart *u)
 {
     bool full = has_received(b, u);
     bool empty = can_send(b, u);
-    if (b->kind != BOARD_8251) {
+    if (facts(b)->chip == CHIP_SIO) {
+        return (uint8_t)((full ? RR0_RX : 0) | (empty ? RR0_TX : 0));
+    }
+    if (facts(b)->chip == CHIP_6850) {
         return (uint8_t)((full ? ACIA_RDRF : 0) | (empty ? ACIA_TDRE : 0) | (u->overrun ? ACIA_OVRN : 0));
     }
     return (uint8_t)((full ? USART_RXRDY : 0) | (empty ? USART_TXRDY | USART_TXE : 0) | (u->overrun ? USART_OE : 0)
@@ -320,14 +364,15 @@ static uint8_t read_status(board *b, board_uart *u)
 static void uart_reset(board *b, board_uart *u)
 {
     memset(u, 0, sizeof *u);
-    u->state = b->kind != BOARD_8251 ? UART_DEAD : UART_RESET;
+    u->state = facts(b)->chip == CHIP_6850 ? UART_DEAD : UART_RESET;
 }
 
 static void acia_control(board *b, board_uart *u, uint8_t word)
 {
     if ((word & ACIA_RESET) == ACIA_RESET) {
         u->state = UART_RESET;
-        u->full = u->lost = u->overrun = false;
+        u->full = 0;
+        u->lost = u->overrun = false;
     } else if (u->state != UART_DEAD) {
         u->state = UART_READY;
     }
@@ -359,21 +404,56 @@ static void usart_control(board *b, board_uart *u, uint8_t word)
     }
 }
 
+static void sio_control(board *b, board_uart *u, uint8_t word)
+{
+    unsigned chosen = u->chosen;
+    u->chosen = 0;
+    switch (chosen) {
+    case 0:
+        u->chosen = word & WR0_REGISTER;
+        if ((word & WR0_COMMAND) == WR0_RESET) {
+            uart_reset(b, u);
+        } else if ((word & WR0_COMMAND) == WR0_ERROR_RESET) {
+            u->overrun = false;
+        }
+        break;
+    case 3:
+        u->receives = word & WR3_RXEN;
+        break;
+    case 5:
+        u->sends = word & WR5_TXEN;
+        set_hold(b, u, !(word & WR5_RTS));
+        break;
+    default:
+        break;
+    }
+    if (u->sends || u->receives) {
+        u->state = UART_READY;
+    }
+}
+
+/* RR0, or RR1 when WR0 has named it. */
+static uint8_t read_sio(board *b, board_uart *u)
+{
+    unsigned chosen = u->chosen;
+    u->chosen = 0;
+    if (chosen != 1) {
+        return chosen ? 0 : read_status(b, u);
+    }
+    hear(b, u);
+    bool overrun = u->overrun || (u->full && u->behind_loss[0]);
+    return (uint8_t)((overrun ? RR1_OVERRUN : 0) | (can_send(b, u) ? RR1_ALL_SENT : 0));
+}
+
 /* The port's chip, and whether it is its control side; NULL where there is none: a teletype alone has one chip. */
 static board_uart *find_uart(board *b, uint8_t port, bool *control)
 {
-    *control = (port & 1) == (b->kind == BOARD_8251);
-    if (b->kind == BOARD_RC2014) {
-        return (port & ~1) == PORT_RC2014 ? &b->tty : NULL;
-    }
-    switch (port & ~1) {
-    case PORT_TTY:
+    unsigned pair = port & ~1U;
+    *control = (port & 1) == facts(b)->control;
+    if (pair == facts(b)->tty) {
         return &b->tty;
-    case PORT_AUX:
-        return b->punch_tty ? NULL : &b->aux;
-    default:
-        return NULL;
     }
+    return pair == facts(b)->aux && !b->punch_tty ? &b->aux : NULL;
 }
 
 /* The board reads a port where nobody answers: no chip, or one that does not work yet. */
@@ -404,7 +484,10 @@ static uint8_t port_in(void *user, uint8_t port)
     if (!u) {
         return NO_ANSWER;
     }
-    return control ? read_status(b, u) : read_data(b, u);
+    if (!control) {
+        return read_data(b, u);
+    }
+    return facts(b)->chip == CHIP_SIO ? read_sio(b, u) : read_status(b, u);
 }
 
 static void port_out(void *user, uint8_t port, uint8_t value)
@@ -425,10 +508,12 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     }
     if (!control) {
         write_data(b, u, value);
-    } else if (b->kind != BOARD_8251) {
+    } else if (facts(b)->chip == CHIP_6850) {
         acia_control(b, u, value);
-    } else {
+    } else if (facts(b)->chip == CHIP_8251) {
         usart_control(b, u, value);
+    } else {
+        sio_control(b, u, value);
     }
 }
 
@@ -436,7 +521,7 @@ static void port_out(void *user, uint8_t port, uint8_t value)
 
 unsigned board_ram_start(board_kind kind)
 {
-    return kind == BOARD_RC2014 ? 0x8000 : 0x2000;
+    return FACTS[kind].ram;
 }
 
 unsigned board_ram_end(board_kind kind, unsigned ram_kib)
@@ -518,7 +603,8 @@ void board_take_tape(board *b)
 {
     b->tape.first = b->tape.end;
     b->reading.running = false;
-    b->aux.full = b->aux.lost = b->aux.overrun = false;
+    b->aux.full = 0;
+    b->aux.lost = b->aux.overrun = false;
 }
 
 void board_forget_typed(board *b)

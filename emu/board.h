@@ -8,14 +8,17 @@
  *      14H     drive (drive.h)                         drive
  *
  *      BOARD=RC2014: one 6850, status and control at 80H, data at 81H, which is the teletype, its punch and its reader; RAM from 8000.
+ *      BOARD=RC2014-SIO: a Z80 SIO, channel A (80H control, 81H data) the teletype, B (82H, 83H) punch and reader; RAM from 8000.
  *
  *                      b7    b6    b5    b4    b3    b2    b1    b0
  *      6850 status     IRQ   PE    OVRN  FE    CTS   DCD   TDRE  RDRF      control xxxxxx11: master reset
  *      8251 status     DSR   SYN   FE    OE    PE    TxE   RxRDY TxRDY     command x1xxxxxx: reset, a mode follows
+ *      SIO  RR0                                      TxE         RxRDY     WR0: register, command
+ *           RR1                    OVRN                          sent
  *
  * A 6850 is dead after power-on until its master reset has been followed by another control word; an 8251 takes a
  * mode word first (and one or two sync characters when the mode is synchronous), then commands, of which bit 0 lets
- * it send and bit 2 receive.
+ * it send and bit 2 receive; an SIO sends and receives when WR5 and WR3 say so.
  *
  * The programmer's view of the outside: a teletype with an operator, a paper tape reader with one tape in it, and a
  * punch. With `punch_tty` there is the teletype alone: its own punch is on from DC2 to DC4, its own reader from DC1
@@ -27,7 +30,8 @@
  *
  * With a `board_sender` whose `cps` is not 0, what is typed, or the tape, comes as fast as that and waits for nobody: what the receiver
  * has no place for is lost. A 6850 keeps the old character then and shows OVRN behind it, with that character once
- * more; an 8251 keeps the new one, and OE stays until a command resets it. A sender that looks at /RTS stops `lag`
+ * more; an 8251 keeps the new one, and OE stays until a command resets it; an SIO keeps three, the last of which the new one
+ * replaces, and RR1 shows OVRN when that is read, until a command resets it. /RTS of an SIO rises when all is sent. A sender that looks at /RTS stops `lag`
  * characters late. The tape starts when the board first asks for it.
  *
  * The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
@@ -36,7 +40,7 @@
  * A ROM made for another board asks ports where there is nothing, or a chip that it has never readied, and would ask for
  * ever: board_run says so (BOARD_NOBODY). Writes to such ports are lost without a word, as on a real board.
  *
- * NOT IMPLEMENTED: interrupts of the 6850 and 8251; parity and framing errors; modem lines that come in (CTS, DCD, DSR
+ * NOT IMPLEMENTED: interrupts; parity and framing errors; modem lines that come in (CTS, DCD, DSR
  * are always on); synchronous mode's data; loss of bits that the control word's format leaves out.
  */
 #ifndef BOARD_H
@@ -51,6 +55,7 @@ enum {
     BOARD_RAM_MAX_KIB = 56,
     BOARD_RAM_KIB = 8,
     BOARD_HZ = 2000000,
+    BOARD_RECEIVED = 3,             /* characters that a receiver keeps at the most */
     BOARD_LINE = 132                /* characters of the paper's present line that are remembered */
 };
 
@@ -71,8 +76,8 @@ typedef struct {
     size_t first, end, size;
 } board_queue;
 
-/* The standard board; one with two 8251s; an RC2014 with one 6850 at 80H and RAM from 8000 (`punch_tty` is its only line). */
-typedef enum { BOARD_6850, BOARD_8251, BOARD_RC2014 } board_kind;
+/* The standard board; one with two 8251s; an RC2014 with RAM from 8000 and one 6850 at 80H (`punch_tty` is its only line), or an SIO. */
+typedef enum { BOARD_6850, BOARD_8251, BOARD_RC2014, BOARD_RC2014_SIO } board_kind;
 
 /* How characters come into a receiver. */
 typedef struct {
@@ -87,11 +92,14 @@ typedef struct {
 typedef struct {
     enum { UART_DEAD, UART_RESET, UART_SYNC2, UART_SYNC1, UART_READY } state;
     bool sends, receives;
-    bool holds; /* /RTS is high */
-    bool full; /* a received character has not been read */
+    bool holds; /* /RTS is high, */
+    uint64_t holds_from; /* from this cycle on */
+    unsigned full; /* so many received characters have not been read */
     bool lost; /* behind it others have been lost, which the status does not show yet (6850), */
     bool overrun; /* or shows */
-    uint8_t received;
+    unsigned chosen; /* the SIO's register that is next */
+    uint8_t received[BOARD_RECEIVED];
+    bool behind_loss[BOARD_RECEIVED]; /* in front of it others have been lost (SIO) */
     unsigned asked_in_vain; /* reads since it was reset, while it was not ready */
     uint64_t sent_at, arrived_at; /* cycle at which the line is free again for the next character */
 } board_uart;

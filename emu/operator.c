@@ -41,15 +41,23 @@ static bool left(const session *s)
 /* A port was read that nobody serves. */
 static int report_nobody(const session *s)
 {
+    static const struct {
+        const char *chip, *other;       /* the board with another one at the same ports */
+        bool is_rc2014;
+    } boards[] = {
+        [BOARD_6850] = { "6850", "8251", false },
+        [BOARD_8251] = { "8251", "6850", false },
+        [BOARD_RC2014] = { "6850", "rc2014-sio", true },
+        [BOARD_RC2014_SIO] = { "SIO", "rc2014", true },
+    };
     const board *b = s->board;
     if (b->nobody_chip) {
         return complain(EXIT_USAGE, "port %02X is read, and its %s was never readied: is this ROM for --board %s?",
-                        b->nobody_port, b->kind == BOARD_8251 ? "8251" : "6850",
-                        b->kind == BOARD_8251 ? "6850" : "8251");
+                        b->nobody_port, boards[b->kind].chip, boards[b->kind].other);
     }
     return complain(EXIT_USAGE, "port %02X is read, and nobody serves it%s", b->nobody_port,
-                    b->nobody_port >> 1 == 0x80 >> 1 ? ": is this ROM for --board rc2014?"
-                    : b->kind == BOARD_RC2014        ? " on an RC2014: is this ROM for --board 6850 or 8251?"
+                    b->nobody_port >> 2 == 0x80 >> 2 ? ": is this ROM for --board rc2014 or rc2014-sio?"
+                    : boards[b->kind].is_rc2014      ? " on an RC2014: is this ROM for --board 6850 or 8251?"
                     : b->punch_tty ? " with --punch-tty: is this ROM for a punch and reader of their own?"
                                    : "");
 }

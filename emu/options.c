@@ -29,7 +29,7 @@ static const char USAGE[] =
     "  --pty             the teletype is a pseudo-terminal, whose name is printed\n"
     "  --mhz F           keep real time at F MHz\n"
     "  --baud N          speed of the teletype's line, 110 to 9600\n"
-    "  --board KIND      6850, 8251 or rc2014 (6850)\n"
+    "  --board KIND      6850, 8251, rc2014 or rc2014-sio (6850)\n"
     "  --punch-tty       a teletype alone: its own punch and reader\n"
     "  --punch-pty       punch and reader are a pseudo-terminal, whose name is printed: a machine behind it answers\n"
     "  --reader-cps N    the reader does not wait: N characters a second, some are lost\n"
@@ -192,7 +192,9 @@ static bool read_baud(const char *text, options *o)
 
 static bool read_board(const char *text, options *o)
 {
-    static const char *const names[] = { [BOARD_6850] = "6850", [BOARD_8251] = "8251", [BOARD_RC2014] = "rc2014" };
+    static const char *const names[] = {
+        [BOARD_6850] = "6850", [BOARD_8251] = "8251", [BOARD_RC2014] = "rc2014", [BOARD_RC2014_SIO] = "rc2014-sio"
+    };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (!strcmp(text, names[i])) {
             o->kind = (board_kind)i;
@@ -285,7 +287,7 @@ static const option_rule RULES[] = {
     { "pty",        FLAG,  SETS(pty) },
     { "mhz",        VALUE, 0, read_mhz, "not 0.001 to 1000" },
     { "baud",       VALUE, 0, read_baud, "not 110, 150, 300, 600, 1200, 2400, 4800 or 9600" },
-    { "board",      VALUE, 0, read_board, "not 6850, 8251 or rc2014" },
+    { "board",      VALUE, 0, read_board, "not 6850, 8251, rc2014 or rc2014-sio" },
     { "punch-tty",  FLAG,  SETS(punch_tty) },
     { "punch-pty",  FLAG,  SETS(punch_pty) },
     { "reader-cps", VALUE, 0, read_reader_cps, "not 0.1 to 100000" },

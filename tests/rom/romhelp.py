@@ -23,6 +23,7 @@ BOARDS: dict[str, dict[str, Any]] = {
     "skg-8251": {"board": "8251"},
     "skg-tty": {"punch_tty": True},
     "skg-rc2014": {"board": "rc2014"},
+    "skg-rc2014-sio": {"board": "rc2014-sio"},
 }
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 

@@ -1,4 +1,4 @@
-"""The ROM of every board: two 6850s, two 8251s, a teletype alone with its own punch and reader, an RC2014."""
+"""The ROM of every board: two 6850s, two 8251s, a teletype with its own punch and reader, RC2014s with ACIA and SIO."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ OPTIONS = {
     "skg-8251": ["--board", "8251"],
     "skg-tty": ["--punch-tty"],
     "skg-rc2014": ["--board", "rc2014"],
+    "skg-rc2014-sio": ["--board", "rc2014-sio"],
 }
 #: A route that goes on until somebody breaks in.
 ENDLESS = ["10 CUT (0,0)", "20 I=I+1", "30 CUT (I,I/3),(0,I)", "40 GOTO 20", "5 I=0"]

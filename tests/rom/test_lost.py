@@ -136,7 +136,9 @@ def test_the_line_is_shown_up_to_the_loss(kind: str) -> None:
     assert board.listing() in ([], ["10 A=1"])
 
 
-@pytest.mark.parametrize("kind", ["skg", "skg-8251", "skg-rc2014", "skg-mill", "skg-grbl", "skg-drive", "skg-nodrift"])
+@pytest.mark.parametrize(
+    "kind", ["skg", "skg-8251", "skg-rc2014", "skg-rc2014-sio", "skg-mill", "skg-grbl", "skg-drive", "skg-nodrift"]
+)
 def test_images_without_handshake_say_it_too(kind: str) -> None:
     for part in EXAMPLES[::7]:
         board = Board(kind=kind)

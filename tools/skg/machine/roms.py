@@ -29,6 +29,7 @@ ROMS = {
     "8251": Rom("skg-8251.bin", board="8251"),
     "tty": Rom("skg-tty.bin", punch_tty=True),
     "rc2014": Rom("skg-rc2014.bin", board="rc2014", punch_tty=True),
+    "rc2014-sio": Rom("skg-rc2014-sio.bin", board="rc2014-sio"),
 }
 
 
