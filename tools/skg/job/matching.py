@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from skg.geometry.arrays import Floats
-from skg.geometry.contour import Contour
+from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
 from skg.job.job import Box, Chosen
@@ -133,19 +133,39 @@ class Known:
 
     def choose(self, number: int, partial: Partial) -> Chosen:
         """Describe a contour by the middle of its longest edge, or of another one that tells it from its neighbours."""
-        contour = self.contours[number]
-        width, height = np.round(self.sizes[number], _DECIMALS).tolist()
         best: tuple[float, Chosen] | None = None
-        for edge in sorted(contour.edges, key=lambda edge: -edge.length)[:_TRIED]:
-            x, y = (round(ordinate, _DECIMALS) + 0.0 for ordinate in edge.at(0.5))
-            one = Chosen(contour.layers[0], str(self.kinds[number]), (x, y), (width, height), partial)
-            others = [cost for cost, other in self._costs([one], (0.0, 0.0))[0] if other != number]
-            clear = min(others, default=inf)
+        for edge in sorted(self.contours[number].edges, key=lambda edge: -edge.length)[:_TRIED]:
+            one = self._by(number, edge, partial)
+            clear = _clear_of(self._costs([one], (0.0, 0.0))[0], number)
             if best is None or clear > best[0]:
                 best = clear, one
             if clear >= _LEAST:
                 break
         return best[1]
+
+    def choose_all(self) -> list[Chosen]:
+        """Describe all contours, as `choose` does, with no settings."""
+        numbers = range(len(self.contours))
+        found = [
+            self._by(number, max(self.contours[number].edges, key=lambda edge: edge.length), Partial())
+            for number in numbers
+        ]
+        costs = self._costs(found, (0.0, 0.0))
+        return [
+            found[number] if _clear_of(costs[number], number) >= _LEAST else self.choose(number, Partial())
+            for number in numbers
+        ]
+
+    def _by(self, number: int, edge: Edge, partial: Partial) -> Chosen:
+        """A contour by the middle of one of its edges."""
+        x, y = (round(ordinate, _DECIMALS) + 0.0 for ordinate in edge.at(0.5))
+        width, height = np.round(self.sizes[number], _DECIMALS).tolist()
+        return Chosen(self.contours[number].layers[0], str(self.kinds[number]), (x, y), (width, height), partial)
+
+
+def _clear_of(costs: Sequence[tuple[float, int]], number: int) -> float:
+    """How far the nearest of some is, without one."""
+    return min((cost for cost, other in costs if other != number), default=inf)
 
 
 def _limits(sizes: Floats) -> Floats:

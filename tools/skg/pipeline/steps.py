@@ -94,8 +94,11 @@ def wishes_of(job: Job) -> Wishes:
 
 def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
     """What is wanted of each contour; places are where the drawing is now."""
-    chosen = {number: _moved(one, drawn.matches) for number, one in drawn.chosen(job).items()}
-    return [job.of(contour.layers, chosen.get(number)) for number, contour in enumerate(drawn.contours)]
+    layers = {layers: job.of(layers) for layers in {contour.layers for contour in drawn.contours}}
+    wanted = [layers[contour.layers] for contour in drawn.contours]
+    for number, chosen in drawn.chosen(job).items():
+        wanted[number] = _moved(chosen, drawn.matches).partial.over(wanted[number])
+    return wanted
 
 
 def _moved(chosen: Chosen, matches: Matches) -> Chosen:

@@ -33,6 +33,10 @@ _NEAR = 1e-3
 _LEAST_ARC, _ROUND = 0.05, 0.998
 
 
+#: What is wanted of a contour, and the start hole that it is given.
+Asked = tuple[Wanted, XY | None]
+
+
 class _Choice:
     """A closed contour whose entry is chosen. `entry`: the one that is tried next, None when all were; `room`: that of
     the best one so far, which `made` has; `reach`: how far the start hole is to be from the contour."""
@@ -106,17 +110,15 @@ class _Planner:
         self.nesting = nesting
         self.field = nesting.field
 
-    def plan(self, wanted: Sequence[Wanted], given: dict[int, XY]) -> list[PlannedContour]:
-        """Plan the contours that are wanted; `given`: the start holes that some of them have."""
-        contours, depths = self.nesting.contours, self.nesting.depths
+    def plan(self, asked: dict[int, Asked]) -> list[PlannedContour]:
+        """Plan some contours, by their numbers."""
         done: dict[int, PlannedContour] = {}
         choices: list[_Choice] = []
-        for number, (drawn, want, depth) in enumerate(zip(contours, wanted, depths, strict=True)):
-            if not want.cut:
-                continue
-            contour, sign = _oriented(drawn, want, depth)
+        for number, (want, start) in asked.items():
+            depth = self.nesting.depths[number]
+            contour, sign = _oriented(self.nesting.contours[number], want, depth)
             passes = tuple(sign * (want.offset + more) for more in want.passes)
-            start, offset = given.get(number), passes[-1]
+            offset = passes[-1]
             if not contour.is_closed:
                 start = start or contour.edges[0].start
                 done[number] = PlannedContour(contour, start, 0.0, offset, depth, passes[-1:], number=number)
@@ -155,7 +157,7 @@ class _Planner:
             choices[at] = _Choice(made, choices[at].wanted, choices[at].is_outside)
         self._choose([choices[at] for at in cramped])
         done |= {choice.made.number: choice.planned() for choice in choices}
-        return [done[number] for number in sorted(done)]
+        return [done[number] for number in asked]
 
     def _refuse_misplaced(self, made: PlannedContour, is_outside: bool) -> None:
         """Refuse a start hole that is given in the part, or so near to it that the wire would come into it there."""
@@ -364,20 +366,29 @@ def plan(
     return plan_nested(Nesting.of(contours, others), starts, each)
 
 
-def plan_nested(nesting: Nesting, starts: Sequence[XY], wanted: Sequence[Wanted]) -> list[PlannedContour]:
+def plan_nested(
+    nesting: Nesting,
+    starts: Sequence[XY],
+    wanted: Sequence[Wanted],
+    before: dict[int, tuple[Asked, PlannedContour]] | None = None,
+) -> list[PlannedContour]:
     """Return the contours in the order in which they are cut: inner ones first, and then the nearest.
 
     `wanted`: how each is cut. Each of the `starts` (mm) goes to the innermost contour around it that is cut from inside
     and has no start hole yet, else to the nearest one. What lies in an uncut contour is an opening of it, or a part in
     a frame. Raises `UserError` for a start hole in the part, and for an order that cuts a contour before what lies in
-    it.
+    it. `before`: contours that were planned before, each with what was asked for; those are not planned anew, and what
+    is goes there.
     """
+    before = {} if before is None else before
     given = _given_starts(nesting, wanted, list(starts))
-    routes = _Planner(nesting).plan(wanted, given)
-    if nesting.around:
-        found = {at: one for at, one in nesting.around.items() if wanted[at].side == "auto"}
-        routes = [replace(route, around=found.get(route.number)) for route in routes]
-    return _as_wanted(_ordered(routes), wanted, nesting.field)
+    asked = {number: (want, given.get(number)) for number, want in enumerate(wanted) if want.cut}
+    new = {number: one for number, one in asked.items() if number not in before or before[number][0] != one}
+    for route in _Planner(nesting).plan(new):
+        is_auto = wanted[route.number].side == "auto"
+        around = nesting.around.get(route.number) if is_auto else None
+        before[route.number] = new[route.number], replace(route, around=around) if around else route
+    return _as_wanted(_ordered([before[number][1] for number in asked]), wanted, nesting.field)
 
 
 def _oriented(contour: Contour, wanted: Wanted, depth: int) -> tuple[Contour, float]:

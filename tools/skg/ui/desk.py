@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from skg.errors import UserError
-from skg.job.file import decoded, encoded, from_data, to_data
+from skg.job import file as job_files
 from skg.job.job import Job
 from skg.pipeline.steps import (
     CutDrawing,
@@ -23,9 +23,10 @@ from skg.pipeline.steps import (
     wishes_of,
     written,
 )
-from skg.planning.plan import plan_nested
+from skg.planning.plan import Asked, plan_nested
 from skg.planning.route import PlannedContour
 from skg.ui import shown
+from skg.ui.json_text import encoded
 
 #: Who asks, in messages on what the page sends.
 _PAGE = "the page"
@@ -34,7 +35,8 @@ _MOST_ERRORS = 20
 
 
 class Desk:
-    """A drawing, its job, and what came of them. The methods are what the server calls; they return plain data."""
+    """A drawing, its job, and what came of them. The methods are what the server calls; they return plain data,
+    and JSON where there is much of them."""
 
     def __init__(self, progress: Callable[[str, int, int], None]) -> None:
         self._progress = progress
@@ -42,23 +44,32 @@ class Desk:
         self._job: Job | None = None
         self._drawn: DrawnJob | None = None
         self._routes: dict[int, PlannedContour] = {}
+        #: What was planned of the drawing before, and how it was told.
+        self._before: dict[int, tuple[Asked, PlannedContour]] = {}
+        self._plans = shown.Plans()
         #: Contours that were found again too far from where they were, and how far, mm.
         self._doubts: dict[int, float] = {}
         self._cut: tuple[int, Job, CutDrawing] | None = None
 
     def drawing_of(self, text: bytes, name: str) -> str:
         """The drawing that a job file is for."""
-        return decoded(text, name).drawing
+        return job_files.decoded(text, name).drawing
 
     def open(self, data: bytes, name: str, job: bytes | dict | None) -> dict[str, Any]:
         """Take up a drawing, with a job from a file or from the page, or none."""
-        made = decoded(job, name) if isinstance(job, bytes) else from_data(job, _PAGE) if job else Job(name)
+        made = (
+            job_files.decoded(job, name)
+            if isinstance(job, bytes)
+            else job_files.from_data(job, _PAGE)
+            if job
+            else Job(name)
+        )
         self._data = data
         return self._read(replace(made, drawing=name))
 
     def plan(self, data: dict) -> dict[str, Any]:
         """Plan a job; read the drawing anew where it asks for that."""
-        job = from_data(data, _PAGE)
+        job = job_files.from_data(data, _PAGE)
         if self._job is None or job.drawing != self._job.drawing:
             raise UserError(f"{job.drawing} is not open")
         if self._drawn is None or wishes_of(job) != wishes_of(self._job):
@@ -67,19 +78,20 @@ class Desk:
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(job.contours, job.box))
         return {"drawing": None, "state": self._state()}
 
-    def ways(self, numbers: list[int]) -> dict[str, Any]:
-        """The ways of the wire along some contours."""
+    def ways(self, numbers: list[int]) -> bytes:
+        """The ways of the wire along some contours, as JSON."""
         count = len(self._drawn.contours) if self._drawn else 0
         for number in numbers:
             if not 0 <= number < count:
                 raise UserError(f"there is no contour {number}")
-        return {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
+        ways = {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
+        return encoded(ways)
 
     def job(self) -> bytes:
         """The job as a file."""
         if self._drawn is None:
             raise UserError("no drawing is open")
-        return encoded(self._job)
+        return job_files.encoded(self._job)
 
     def cut(self, number: int) -> tuple[dict[str, Any], dict[str, bytes]]:
         """Make the tape of a run: what is told of it, and its files."""
@@ -111,11 +123,12 @@ class Desk:
     def _read(self, job: Job) -> dict[str, Any]:
         """Read the drawing. One that cannot be read is told of with the job that asked for it."""
         self._job, self._drawn, self._routes, self._doubts, self._cut = job, None, {}, {}, None
+        self._before, self._plans = {}, shown.Plans()
         try:
             self._drawn = open_drawing(job, self._data)
         except UserError as error:
-            state = {"job": to_data(job), "matches": [], "plan": None, "error": shown.error(error)}
-            return {"drawing": shown.NOTHING, "state": {"name": job.drawing} | state}
+            state = {"job": job_files.to_data(job), "matches": [], "plan": None, "error": shown.error(error)}
+            return {"drawing": {}, "state": {"name": job.drawing} | state}
         self._job = written(job, self._drawn)
         matches = self._drawn.matches.found
         self._doubts = {match.number: match.moved for match in matches if match.is_doubtful}
@@ -133,9 +146,14 @@ class Desk:
             }
             for at, match in enumerate(self._drawn.matches.found)
         ]
-        return {"name": self._job.drawing, "job": to_data(self._job), "matches": matches, "plan": self._plan()}
+        return {
+            "name": self._job.drawing,
+            "job": job_files.to_data(self._job),
+            "matches": matches,
+            "plan": self._plan(),
+        }
 
-    def _plan(self) -> dict[str, Any]:
+    def _plan(self) -> bytes:
         """The plan: of all contours that can be planned, with what is wrong with the others."""
         wanted = wanted_of(self._job, self._drawn)
         tried, routes, errors = list(wanted), [], []
@@ -143,7 +161,7 @@ class Desk:
             refuse_lost(self._job, self._drawn)
         while not routes and len(errors) < _MOST_ERRORS:
             with _noted(errors):
-                routes = plan_nested(self._drawn.nesting, starts_of(self._job, self._drawn), tried)
+                routes = plan_nested(self._drawn.nesting, starts_of(self._job, self._drawn), tried, self._before)
                 break
             number = errors[-1].contour
             if number is None:
@@ -152,7 +170,7 @@ class Desk:
             free = replace(tried[number], start=None, entry=None, order=None)
             tried[number] = free if free != tried[number] else replace(free, cut=False)
         self._routes = {route.number: route for route in routes}
-        return shown.plan(routes, wanted, errors)
+        return self._plans.written(routes, wanted, errors)
 
 
 @contextmanager

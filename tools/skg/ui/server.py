@@ -22,6 +22,7 @@ from typing import NoReturn
 from urllib.parse import parse_qs, unquote
 
 from skg.errors import UserError
+from skg.ui.json_text import encoded
 from skg.ui.session import Conflict, Session, told
 from skg.ui.worker import mistake
 
@@ -293,9 +294,8 @@ class Handler(BaseHTTPRequestHandler):
         run = None if data.get("run") is None else _field(data, "run", int)
         self._send_json({"written": self.server.session.save(run, what, data.get("overwrite") is True)})
 
-    def _send_json(self, data: object, status: HTTPStatus = HTTPStatus.OK) -> None:
-        text = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-        self._send(text.encode("utf-8", "replace"), "application/json", status)
+    def _send_json(self, data: dict, status: HTTPStatus = HTTPStatus.OK) -> None:
+        self._send(encoded(data), "application/json", status)
 
     def _refuse(self, status: HTTPStatus, error: dict, data: dict) -> None:
         self._send_json({"error": error, **data}, status)

@@ -20,6 +20,12 @@ _LOOK = 0.5
 MOST_WAYS = 200
 #: What can be saved, in the order in which it is written: no tape where something else could not be.
 SAVED = ("program", "job", "sheet", "tape")
+#: The drawing, as the page is told of it, of a file that cannot be read.
+NOTHING: dict = {
+    **{name: [] for name in ("layers", "contours", "starts", "report")},
+    **{name: [0.0, 0.0] for name in ("size", "low")},
+    **{name: "" for name in ("sha256", "units", "units_from")},
+}
 #: Job files end so.
 JOB = ".job.toml"
 
@@ -196,7 +202,7 @@ class Session:
             self._rev += 1
             self._state = found["state"]
             if found["drawing"] is not None:
-                self._drawn, self._drawing = self._rev, found["drawing"]
+                self._drawn, self._drawing = self._rev, NOTHING | found["drawing"]
             job = self._state["job"]
             # (what has ended the process is not read once more by the next one)
             self._worker.first = ("open", (self._data, self._state["name"], job)) if job else None
@@ -262,7 +268,7 @@ class Session:
             self._tell(run, stage=stage, done=done, of=of)
 
         try:
-            result, files = self._worker.call("cut", run.number, seconds=0.0, progress=progress)
+            result, files = self._worker.call("cut", run.number, progress=progress)
             self._tell(run, state="done", files=files, result=result | {"tape_name": self._names()["tape"]})
         except UserError as error:
             self._tell(run, state="failed", error=told(error))

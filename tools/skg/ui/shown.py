@@ -15,27 +15,23 @@ from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.offset import NoRoom
 from skg.geometry.plane import XY
-from skg.job.wanted import Partial, Wanted
+from skg.job.job import Chosen
+from skg.job.wanted import Wanted
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import said
 from skg.planning.route import Lead, PlannedContour, Way, split_at_end
+from skg.ui.json_text import encoded, in_json
 from skg.wording import ReportLine
 
 #: Decimals of a length, mm; of a direction, radians.
 _LENGTH, _ANGLE = 4, 6
 #: A curve is shown by chords that leave it by no more, mm.
 _CURVE = 0.0005
-#: The drawing of a file that cannot be read.
-NOTHING: dict[str, Any] = {
-    "sha256": "",
-    "size": [0.0, 0.0],
-    "low": [0.0, 0.0],
-    "units": "",
-    "units_from": "",
-    "layers": [],
-    "contours": [],
-    "starts": [],
-    "report": [],
+#: The plan of a contour that is not cut.
+_LEFT: dict[str, Any] = {
+    "cut": False,
+    "passes": [],
+    **dict.fromkeys(("hole", "entry", "tab", "tab_hole", "direction", "radius", "lead_arc")),
 }
 
 
@@ -90,15 +86,14 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "units": report.units,
         "units_from": report.units_from,
         "layers": layers,
-        "contours": [_contour(drawn, number) for number in range(len(drawn.contours))],
+        "contours": in_json([_contour(drawn, *one) for one in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],
         "report": [line(ReportLine(text)) for text in report.lines()],
     }
 
 
-def _contour(drawn: DrawnJob, number: int) -> dict[str, Any]:
+def _contour(drawn: DrawnJob, number: int, chosen: Chosen) -> dict[str, Any]:
     contour = drawn.contours[number]
-    chosen = drawn.known.choose(number, Partial())
     return {
         "id": number,
         "name": f"contour {number + 1}",
@@ -113,22 +108,35 @@ def _contour(drawn: DrawnJob, number: int) -> dict[str, Any]:
     }
 
 
-def plan(routes: Sequence[PlannedContour], wanted: Sequence[Wanted], errors: Sequence[UserError]) -> dict[str, Any]:
-    """The plan of all contours."""
-    order = [route.number for route in routes]
-    contours = {
-        number: {"cut": False, "passes": [], "values": _values(want)}
-        | dict.fromkeys(("hole", "entry", "tab", "tab_hole", "direction", "radius", "lead_arc", "number"))
-        for number, want in enumerate(wanted)
-    }
-    for turn, route in enumerate(routes, 1):
-        contours[route.number] |= planned(route) | {"number": turn}
-    for one in errors:
-        if one.contour is not None:
-            contours[one.contour]["error"] = str(one)
-    lines = [ReportLine(text) for text in said(route.around for route in routes)]
-    found = {"order": order, "said": [line(one) for one in lines], "contours": contours}
-    return found | {"error": error(errors[0])} if errors else found
+class Plans:
+    """The plans of a drawing's contours as JSON: what has not changed since the last one is not written anew."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[PlannedContour | None, Wanted, str, str]] = {}
+
+    def written(self, routes: Sequence[PlannedContour], wanted: Sequence[Wanted], errors: Sequence[UserError]) -> bytes:
+        """The plan of all contours."""
+        turns = {route.number: (turn, route) for turn, route in enumerate(routes, 1)}
+        why = {one.contour: str(one) for one in errors if one.contour is not None}
+        contours = []
+        for number, want in enumerate(wanted):
+            turn, route = turns.get(number, (None, None))
+            contours.append(f'"{number}":{{"number":{turn or "null"},{self._contour(number, route, want, why)}')
+        data = {
+            "order": [route.number for route in routes],
+            "said": [line(ReportLine(text)) for text in said(route.around for route in routes)],
+            "error": error(errors[0]) if errors else None,
+        }
+        return encoded(data | {"contours": f"{{{','.join(contours)}}}".encode()})
+
+    def _contour(self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, str]) -> str:
+        """A contour's plan without its place in the order, and without the brace before it."""
+        wrong = why.get(number, "")
+        known = self._known.get(number)
+        if known is None or known[0] is not route or known[1:3] != (want, wrong):
+            found = (planned(route) if route else _LEFT) | {"values": _values(want), "error": wrong or None}
+            known = self._known[number] = route, want, wrong, encoded(found)[1:].decode()
+        return known[3]
 
 
 def _values(want: Wanted) -> dict[str, Any]:

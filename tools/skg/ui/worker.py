@@ -14,7 +14,7 @@ from traceback import extract_tb
 
 from skg.errors import UserError
 
-#: No call takes longer that is given no other time, s.
+#: No call takes longer but a cut, s.
 SECONDS = 120.0
 #: The process has no more memory than this, where the system lets a process say so.
 MEMORY = 4 << 30
@@ -45,10 +45,13 @@ class Worker:
         self._connection: Connection | None = None
         self._is_ended = False
 
-    def call(self, what: str, *arguments: object, seconds: float = SECONDS, progress: Tell | None = None) -> object:
-        """Return what the call returns; what it refuses is a `UserError`, a process that is gone `Ended`."""
+    def call(self, what: str, *arguments: object, progress: Tell | None = None) -> object:
+        """Return what the call returns; what it refuses is a `UserError`, a process that is gone `Ended`.
+
+        One that tells its progress takes as long as it takes.
+        """
         self.begin()
-        return self._ask(what, arguments, seconds, progress)
+        return self._ask(what, arguments, progress)
 
     def end(self) -> None:
         """End the process, whatever it does: a call that waits for it, in another thread, raises `Ended`."""
@@ -73,19 +76,19 @@ class Worker:
         if self.first:
             what, arguments = self.first
             try:
-                self._ask(what, arguments, SECONDS, None)
+                self._ask(what, arguments)
             except UserError:
                 self.end()
                 raise
 
-    def _ask(self, what: str, arguments: tuple, seconds: float, progress: Tell | None) -> object:
-        last = time.monotonic() + seconds
+    def _ask(self, what: str, arguments: tuple, progress: Tell | None = None) -> object:
+        last = time.monotonic() + SECONDS
         try:
             self._connection.send((what, arguments))
             while True:
-                if not self._connection.poll(max(0.0, last - time.monotonic()) if seconds else None):
+                if not self._connection.poll(None if progress else max(0.0, last - time.monotonic())):
                     self.end()
-                    raise UserError(f"given up after {seconds:g} s: the drawing is too large, or made to be")
+                    raise UserError(f"given up after {SECONDS:g} s: the drawing is too large, or made to be")
                 kind, *values = self._connection.recv()
                 if kind == "done":
                     return values[0]

@@ -1,0 +1,359 @@
+"""What breaks: a process that is killed, a cut that is cancelled, a full disk, drawings made to take the machine."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from threading import Thread
+from urllib.parse import quote
+
+import pytest
+from uihelp import Json, Page, circles, plate, until
+
+from skg.ui import worker
+from skg.ui.server import Server
+
+SKG = Path(sys.executable).with_name("skg")
+
+
+def process_of(server: Server) -> int:
+    return server.session._worker._process.pid
+
+
+@pytest.fixture
+def server(serve: Callable[[], Server]) -> Server:
+    return serve()
+
+
+def test_killed_between_calls(server: Server, tmp_path: Path) -> None:
+    """The next call begins a new process, which has what the one before it had."""
+    page = Page(server)
+    state = page.open(plate(tmp_path))
+    state |= page.put(state, machine={"offset": 0.1})
+    os.kill(process_of(server), signal.SIGKILL)
+    time.sleep(0.2)
+    ways = page.done("POST", "/api/ways", {"rev": state["rev"], "ids": [0]})["ways"]
+    assert ways["0"][0][0][3] == -0.1
+    assert page.cut(state["rev"])[1]["state"] == "done"
+
+
+def test_killed_in_a_call(server: Server, tmp_path: Path) -> None:
+    """That call fails in one line, and the next one works."""
+    page = Page(server)
+    page.open(plate(tmp_path))
+    answers = []
+    reading = Thread(target=lambda: answers.append(page.open(circles(tmp_path, 3000))))
+    before = process_of(server)
+    reading.start()
+    until(lambda: server.session._is_long)
+    time.sleep(0.3)
+    os.kill(before, signal.SIGKILL)
+    reading.join()
+    assert "SIGKILL" in answers[0]["error"]["message"] and answers[0]["contours"] == []
+    assert len(page.open(plate(tmp_path))["contours"]) == 3
+    assert process_of(server) != before
+
+
+def test_killed_in_a_cut(server: Server, tmp_path: Path) -> None:
+    page = Page(server)
+    state = page.open(circles(tmp_path, 2000))
+    number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
+    os.kill(process_of(server), signal.SIGKILL)
+    run = page.wait(number)
+    assert run["state"] == "failed" and "SIGKILL" in run["error"]["message"]
+    assert page.call("GET", f"/api/run/{number}/tape").status == 400
+    assert page.cut(state["rev"])[1]["state"] == "done"
+
+
+def test_sheet_of_a_process_that_is_gone(server: Server, tmp_path: Path) -> None:
+    page = Page(server)
+    number, run = page.cut(page.open(plate(tmp_path))["rev"])
+    assert run["state"] == "done"
+    os.kill(process_of(server), signal.SIGKILL)
+    time.sleep(0.2)
+    assert "cut again" in page.call("GET", f"/api/run/{number}/sheet").message
+    assert page.get(f"/api/run/{number}/tape").status == 200
+
+
+def test_cancel(server: Server, tmp_path: Path) -> None:
+    """Back within a second, whatever the process does; the next cut is another one."""
+    page = Page(server)
+    state = page.open(circles(tmp_path, 1500))
+    number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
+    assert page.call("POST", "/api/cut", {"rev": state["rev"]}).status == 409
+    until(lambda: page.done("GET", f"/api/run/{number}")["stage"] != "plan")
+    began = time.monotonic()
+    assert page.done("DELETE", f"/api/run/{number}")["state"] == "cancelled"
+    assert page.done("GET", f"/api/run/{number}?after=0")["state"] == "cancelled"
+    assert time.monotonic() - began < 1.0
+    assert page.call("GET", f"/api/run/{number}/tape").status == 400
+    until(lambda: not server.session._is_long)
+    later, run = page.cut(state["rev"])
+    assert run["state"] == "done" and later > number
+
+
+def test_another_drawing_takes_the_place_of_a_cut(server: Server, tmp_path: Path) -> None:
+    page = Page(server)
+    state = page.open(circles(tmp_path, 1500))
+    number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
+    new = page.open(plate(tmp_path))
+    assert len(new["contours"]) == 3
+    assert page.done("GET", f"/api/run/{number}")["state"] == "cancelled"
+    assert page.cut(new["rev"])[1]["state"] == "done"
+
+
+def test_client_that_goes_away(server: Server) -> None:
+    """A question for news that nobody waits for any more is given up, and leaves room for others."""
+    page = Page(server)
+    rev = page.done("GET", "/api/state")["rev"]
+    host, port = page.host.split(":")
+    for _ in range(40):
+        with socket.create_connection((host, int(port))) as connection:
+            text = f"GET /api/state?after={rev} HTTP/1.1\r\nHost: {page.host}\r\nAuthorization: Bearer {page.token}\r\n"
+            connection.sendall(f"{text}\r\n".encode())
+    until(lambda: server._free._value >= 63, 15)
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Path:
+    """A disk of 64 KiB."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    done = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "none", str(folder)], capture_output=True)
+    if done.returncode:
+        pytest.skip("no file system may be mounted")
+    yield folder
+    subprocess.run(["umount", "-l", str(folder)], check=True)
+
+
+def test_full_disk(serve: Callable[[Path], Server], small_disk: Path) -> None:
+    """One line, nothing half written, and what was there before is there still."""
+    page = Page(serve(plate(small_disk)))
+    number, run = page.cut(page.state()["rev"])
+    assert run["state"] == "done"
+    (small_disk / "plate.nodrift.3b").write_bytes(b"old")
+    filler = small_disk / "filler"
+    with pytest.raises(OSError), filler.open("wb", buffering=0) as file:
+        while True:
+            file.write(bytes(4096))
+    body = {"run": number, "what": ["tape", "program", "job", "sheet"], "overwrite": True}
+    answer = page.call("POST", "/api/save", body)
+    assert answer.status == 400 and "No space left" in answer.message
+    assert (small_disk / "plate.nodrift.3b").read_bytes() == b"old"
+    assert {path.name for path in small_disk.iterdir()} == {"filler", "plate.dxf", "plate.nodrift.3b"}
+    filler.unlink()
+    assert len(page.done("POST", "/api/save", body)["written"]) == 4
+
+
+def test_folder_that_takes_nothing(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    folder = tmp_path / "away"
+    folder.mkdir()
+    page = Page(serve(plate(folder)))
+    number, _ = page.cut(page.state()["rev"])
+    folder.rename(tmp_path / "elsewhere")
+    answer = page.call("POST", "/api/save", {"run": number, "what": ["tape"], "overwrite": True})
+    assert answer.status == 400 and "plate.nodrift.3b" in answer.message
+    assert not folder.exists()
+
+
+def entities(*some: str, blocks: str = "") -> bytes:
+    """A DXF file."""
+    head = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n"
+    blocks = f"0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n"
+    return f"{head}{blocks}0\nSECTION\n2\nENTITIES\n{''.join(some)}0\nENDSEC\n0\nEOF\n".encode()
+
+
+CIRCLE = "0\nCIRCLE\n8\n0\n10\n0\n20\n0\n40\n3\n"
+
+
+def block(name: str, inside: str) -> str:
+    return f"0\nBLOCK\n8\n0\n2\n{name}\n70\n0\n10\n0\n20\n0\n3\n{name}\n{inside}0\nENDBLK\n8\n0\n"
+
+
+def insert(name: str, x: float = 0, more: str = "") -> str:
+    return f"0\nINSERT\n8\n0\n2\n{name}\n10\n{x}\n20\n0\n{more}"
+
+
+def nested(levels: int) -> bytes:
+    """A block of ten of a block of ten …"""
+    blocks = [block("B0", CIRCLE)]
+    blocks += [block(f"B{k}", "".join(insert(f"B{k - 1}", x * 10**k) for x in range(10))) for k in range(1, levels)]
+    return entities(insert(f"B{levels - 1}"), blocks="".join(blocks))
+
+
+SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm" viewBox="0 0 9 9">'
+HOSTILE = {
+    "grid.dxf": entities(insert("A", more="70\n32767\n71\n32767\n44\n9\n45\n9\n"), blocks=block("A", CIRCLE)),
+    "nested.dxf": nested(12),
+    "itself.dxf": entities(insert("A"), blocks=block("A", CIRCLE + insert("A", 1))),
+    "count.dxf": entities("0\nLWPOLYLINE\n8\n0\n90\n2147483647\n70\n1\n10\n0\n20\n0\n10\n5\n20\n0\n10\n5\n20\n5\n"),
+    "digits.dxf": entities(f"0\nLWPOLYLINE\n8\n0\n70\n{'9' * 100_000}\n10\n0\n20\n0\n"),
+    "far.dxf": entities("0\nCIRCLE\n8\n0\n10\n1e300\n20\n0\n40\n1e300\n"),
+    "zeros.dxf": bytes(4 << 20),
+    "entities.svg": b'<!DOCTYPE svg [<!ENTITY a "aaaaaaaaaa">'
+    + b"".join(b'<!ENTITY %c "%s">' % (98 + k, b"&%c;" % (97 + k) * 10) for k in range(10))
+    + f"]>{SVG}<text>&k;</text></svg>".encode(),
+    "use.svg": (
+        f'{SVG}<defs><g id="g0"><circle r="3"/></g>'
+        + "".join(f'<g id="g{k}">' + 10 * f'<use href="#g{k - 1}"/>' + "</g>" for k in range(1, 11))
+        + '</defs><use href="#g10"/></svg>'
+    ).encode(),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_drawing(server: Server, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """It is refused in one line, by its content or by the limits, or is a small drawing; then all is as before."""
+    monkeypatch.setattr(worker, "SECONDS", 20.0)
+    page = Page(server)
+    state = page.done("POST", "/api/open", HOSTILE[name], X_Name=quote(name))
+    if state.get("error"):
+        assert state["error"]["message"] and "\n" not in state["error"]["message"] and not state["contours"]
+    else:
+        assert name in ("itself.dxf", "count.dxf") and len(state["contours"]) == 1
+    assert page.done("POST", "/api/open", entities(CIRCLE), X_Name="circle.dxf")["contours"]
+
+
+def test_time_is_limited(server: Server, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = Page(server)
+    page.open(plate(tmp_path))
+    monkeypatch.setattr(worker, "SECONDS", 0.05)
+    state = page.open(circles(tmp_path, 3000))
+    assert "given up" in state["error"]["message"]
+    monkeypatch.undo()
+    assert len(page.open(plate(tmp_path))["contours"]) == 3
+
+
+def test_memory_is_limited(server: Server, tmp_path: Path) -> None:
+    """The process has the limit of the system, and what is refused for it is told in a line."""
+    resource = pytest.importorskip("resource")
+    page = Page(server)
+    page.open(plate(tmp_path))
+    assert resource.prlimit(process_of(server), resource.RLIMIT_AS)[0] == worker.MEMORY
+    used = int(Path(f"/proc/{process_of(server)}/statm").read_text().split()[0]) * resource.getpagesize()
+    resource.prlimit(process_of(server), resource.RLIMIT_AS, (used + (8 << 20), worker.MEMORY))
+    state = page.open(circles(tmp_path, 8000))
+    assert "memory" in state["error"]["message"] or "has ended" in state["error"]["message"]
+    assert len(page.open(plate(tmp_path))["contours"]) == 3
+
+
+@pytest.fixture
+def begin() -> Callable[..., tuple[subprocess.Popen[str], str]]:
+    """Begin `skg ui` as a shell does: the process, and the address that it prints."""
+    processes = []
+
+    def call(*words: object) -> tuple[subprocess.Popen[str], str]:
+        process = subprocess.Popen(
+            [SKG, "ui", "--no-browser", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            start_new_session=True,
+        )  # fmt: skip
+        processes.append(process)
+        return process, process.stdout.readline().strip()
+
+    yield call
+    for process in processes:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+class Shell(Page):
+    """A page at an address."""
+
+    def __init__(self, url: str) -> None:
+        self.host, self.token = re.fullmatch(r"http://(127\.0\.0\.1:\d+)/#token=([\w-]{32})", url).groups()
+
+
+def workers_of(pid: int) -> list[int]:
+    """The processes that another one began."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            if int(stat.read_text().rpartition(")")[2].split()[1]) == pid:
+                found.append(int(stat.parent.name))
+    return found
+
+
+def test_command(begin: Callable, tmp_path: Path) -> None:
+    """The drawing is there; ctrl-C, which goes to all processes of the terminal, ends it without a word."""
+    process, url = begin(plate(tmp_path))
+    page = Shell(url)
+    state = page.state()
+    assert page.cut(state["rev"])[1]["state"] == "done"
+    children = workers_of(process.pid)
+    assert children
+    os.killpg(process.pid, signal.SIGINT)
+    assert process.wait(10) == 0
+    assert process.stderr.read() == "" and process.stdout.read().strip() == ""
+    until(lambda: not any(is_running(pid) for pid in children), 5)
+
+
+def test_command_that_is_killed(begin: Callable, tmp_path: Path) -> None:
+    """The process behind it ends with it."""
+    process, url = begin(plate(tmp_path))
+    Shell(url).state()
+    children = workers_of(process.pid)
+    assert children
+    process.kill()
+    until(lambda: not any(is_running(pid) for pid in children), 10)
+
+
+def is_running(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+@pytest.mark.parametrize(
+    ("words", "fact"),
+    [(["nothing.dxf"], "nothing.dxf"), (["."], "."), (["bad.job.toml"], "bad.job.toml"), (["--port", "70000"], "70000"),
+     (["lost.job.toml"], "gone.dxf")],
+)  # fmt: skip
+def test_command_refuses(tmp_path: Path, words: list[str], fact: str) -> None:
+    (tmp_path / "bad.job.toml").write_text("tab = 1")
+    (tmp_path / "lost.job.toml").write_text('schema = 1\ndrawing = "gone.dxf"')
+    done = subprocess.run([SKG, "ui", *words], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.count("\n") == 1 and fact in done.stderr and "Traceback" not in done.stderr
+
+
+def test_port_that_is_taken(begin: Callable, tmp_path: Path) -> None:
+    _, url = begin()
+    port = re.search(r":(\d+)/", url)[1]
+    done = subprocess.run([SKG, "ui", "--no-browser", "--port", port], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and f"port {port}" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_browser_is_opened(tmp_path: Path) -> None:
+    """With the address that is printed."""
+    program = tmp_path / "browser"
+    program.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/address\n')
+    program.chmod(0o755)
+    process = subprocess.Popen(
+        [SKG, "ui"], stdout=subprocess.PIPE, text=True, env=os.environ | {"BROWSER": str(program)}
+    )
+    url = process.stdout.readline().strip()
+    until(lambda: (tmp_path / "address").exists() and (tmp_path / "address").read_text().strip() == url, 30)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(10) == 0
+    process.stdout.close()
+
+
+def test_two_pages_share_one_drawing(server: Server, tmp_path: Path) -> None:
+    one, other = Page(server), Page(server)
+    state = one.open(plate(tmp_path))
+    news: list[Json] = []
+    asking = Thread(target=lambda: news.append(other.done("GET", f"/api/state?after={state['rev']}")))
+    asking.start()
+    one.put(state, machine={"offset": 0.1})
+    asking.join(30)
+    assert news[0]["job"]["machine"] == {"offset": 0.1}

@@ -1,0 +1,21 @@
+"""JSON, in which parts may be JSON already: what is long is written once, by the process that made it."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+
+def encoded(data: dict[str, Any]) -> bytes:
+    """An object of JSON; those of its values that are bytes are JSON already."""
+    parts = (f"{json.dumps(name)}:".encode() + in_json(value) for name, value in data.items())
+    return b"{" + b",".join(parts) + b"}"
+
+
+def in_json(value: object) -> bytes:
+    """A value as JSON."""
+    if isinstance(value, bytes):
+        return value
+    if isinstance(value, dict):
+        return encoded(value)
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode("utf-8", "replace")
