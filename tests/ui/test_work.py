@@ -86,7 +86,7 @@ def test_contour_by_itself(page: Page, tmp_path: Path) -> None:
         layer=[{"name": "HOLES", "offset": 0.2, "side": "inside"}],
         contour=[second | {"cut": False}, first | {"start": [16, 15], "entry": [15, 21], "offset": 0.3}],
     )
-    assert state["plan"]["order"] == [1, 0] and "error" not in state["plan"]
+    assert state["plan"]["order"] == [1, 0] and not state["plan"]["error"]
     contours = state["plan"]["contours"]
     assert contours["2"]["cut"] is False and contours["2"]["values"]["offset"] == 0.2
     assert contours["1"]["hole"] == [16, 15] and contours["1"]["entry"] == [15, 21]
