@@ -67,8 +67,8 @@ export class Overlay {
       pen.stroke(context);
       context.globalAlpha = 1;
     };
-    draw(this.#desk.chosen, 4, 0.9);
-    if (this.hovered !== undefined) draw([this.hovered], 3, 0.5);
+    draw(this.#desk.chosen, 8, 0.5);
+    if (this.hovered !== undefined) draw([this.hovered], 6, 0.35);
   }
 
   #wire(context: CanvasRenderingContext2D, view: View, walk: Wire, colours: Colours): void {
