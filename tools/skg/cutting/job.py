@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import tee
@@ -157,10 +158,7 @@ class _Ladder:
                 self.routes[number] = _own_way(_straight_lead(route, []) or route, [])
             elif why.is_crossing:
                 no_room[number] = why
-        if no_room and self.settings.small != "leave":
-            # (all that have no way are said at once)
-            no_room = {number: why for number, route in self.routes.items() if (why := _no_room(route))}
-        self._leave_without_room(no_room)
+        self._leave_without_room(no_room, self.routes)
 
     def through(self) -> CutResult:
         """Try all contours, and those by themselves that did not go through, until all do."""
@@ -218,7 +216,7 @@ class _Ladder:
                 self.routes[number] = helped
             else:
                 stuck[number] = self._reason(trouble)
-        self._leave_without_room(no_room)
+        self._leave_without_room(no_room, troubles)
         if lost := [number for number, reason in stuck.items() if not reason]:
             number = min(lost, key=lambda number: not _is_into(troubles[number]))
             raise self._lost(number, troubles[number])
@@ -247,9 +245,11 @@ class _Ladder:
             place,
         )
 
-    def _leave_without_room(self, no_room: dict[int, NoRoom]) -> None:
-        """Leave contours that the wire does not get around; a `UserError` where they are refused."""
+    def _leave_without_room(self, no_room: dict[int, NoRoom], among: Iterable[int]) -> None:
+        """Leave contours that the wire does not get around; where they are refused, a `UserError` on all that there are
+        among some."""
         if no_room and self.settings.small != "leave":
+            no_room = {number: why for number in among if (why := _no_room(self.routes[number]))}
             raise refusal.without_room(self.routes, no_room, self.factor, self.settings)
         self._leave(
             {number: f"{why} {refusal.told_in_file(why.place, self.factor)}" for number, why in no_room.items()}
