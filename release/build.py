@@ -15,7 +15,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tarfile
 import tempfile
 import time
 import tomllib
@@ -78,8 +77,7 @@ def wheel(target: Target) -> Path:
     """The package for a system."""
     sources = next(DIST.glob("skg_nc-*.tar.gz"))
     with tempfile.TemporaryDirectory(prefix="skg-wheel-") as folder:
-        with tarfile.open(sources) as packed:
-            packed.extractall(folder, filter="data")
+        shutil.unpack_archive(sources, folder)
         settings = {"--build-option": ["--plat-name", target.wheel]}
         hook = f"import setuptools.build_meta as b; print(b.build_wheel({str(DIST)!r}, {settings!r}))"
         variables = {"CC": " ".join(target.compiler), "CC_FOR_BUILD": os.environ.get("CC", "cc")}
