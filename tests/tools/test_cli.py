@@ -158,6 +158,34 @@ def test_name_that_an_encoding_has_not(tmp_path: Path) -> None:
     assert b"\\u4ef6.3b: " in done.stderr
 
 
+#: What Python for Windows has not, before 3.13: of `os` (less uname, which numpy asks here), and modules.
+NOT_ON_WINDOWS = (
+    "chown chroot ctermid fchmod fchown fork forkpty fpathconf getgid geteuid getloadavg getpgid getuid initgroups killpg lchown "
+    "lockf mkfifo mknod nice openpty pathconf pipe2 posix_fallocate posix_spawn pread pwrite sched_getaffinity sendfile setsid "
+    "statvfs sync sysconf tcgetpgrp ttyname wait3"
+).split()
+MODULES_NOT_ON_WINDOWS = "fcntl grp pty pwd resource syslog termios tty".split()
+
+
+@pytest.mark.parametrize("name", [*COMMANDS, "term"])
+def test_needs_nothing_that_windows_has_not(name: str, tmp_path: Path) -> None:
+    """Every command writes its file where Python has no more than on Windows; msvcrt is the keyboard there."""
+    text = (
+        "import os, subprocess, sys; "
+        f"[delattr(os, name) for name in {NOT_ON_WINDOWS!r}]; "
+        f"sys.modules.update(dict.fromkeys({MODULES_NOT_ON_WINDOWS!r})); "
+        "sys.modules['msvcrt'] = object(); "
+        "from skg.cli import main; main()"
+    )
+    out = tmp_path / "out.svg"
+    is_writing = name not in ("help", "check", "sim", "term")
+    words = [word for word in COMMANDS.get(name, ["term", "--help"]) if word not in ("-o", "-")]
+    words += ["-o", str(out)] * is_writing
+    done = subprocess.run([sys.executable, "-c", text, *words], capture_output=True, text=True, cwd=ROOT)
+    assert done.returncode == 0, done.stderr
+    assert out.exists() == is_writing
+
+
 @pytest.mark.parametrize(
     "words",
     [("plot", "examples/xy-star.skg", "-o", "{}.svg"), ("cut", "{}.dxf", "-o", "{}.3b", "--sheet", "{}.pdf")],
