@@ -231,11 +231,12 @@ def wine(*command: object, **variables: str) -> list[str]:
     if not program:
         raise Failed("wine64 is not installed")
     prefix = BUILD / "wine"
-    settings = {"WINEPREFIX": str(prefix), "WINEDEBUG": "-all", **variables}
+    settings = {"WINEPREFIX": str(prefix), "WINEDEBUG": "-all"}
     if not (prefix / "skg-ready").exists():
         prefix.mkdir(parents=True, exist_ok=True)
         run(program, "reg", "add", r"HKCU\Software\Wine", "/v", "Version", "/d", "win10", "/f", **settings)
         (prefix / "skg-ready").touch()
+    settings |= variables
     return ["env", *(f"{name}={value}" for name, value in settings.items()), program, *map(str, command)]
 
 

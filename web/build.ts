@@ -2,13 +2,14 @@
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { basename, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { type BuildOptions, build } from "esbuild";
 import { Marked } from "marked";
 import { ROM_BYTES, readNames } from "./src/board.ts";
 import { CATALOGUE } from "./src/catalogue.ts";
 import { pack } from "./src/link.ts";
 import type { Part } from "./src/parts.ts";
+import { PICTURE } from "./src/pieces.ts";
 import { layOut } from "./src/placed.ts";
 import { thumbnail } from "./src/svg.ts";
 import { readTape } from "./src/tape.ts";
@@ -47,9 +48,39 @@ function parts(): Part[] {
     });
 }
 
-/** docs/manual.md as a page; behind every program of it stands a link that runs it. */
-async function manual(): Promise<string> {
-  const text = readFileSync("docs/manual.md", "utf8");
+/** A manual: its file in docs/, and the words around it. */
+interface Manual {
+  source: string;
+  language: string;
+  title: string;
+  back: string;
+  attempt: string;
+  attemptName: string;
+}
+
+/** The manuals by the names of their pages. */
+const MANUALS: Record<string, Manual> = {
+  "manual.html": {
+    source: "docs/manual.md",
+    language: "en",
+    title: "The SKG language",
+    back: "SKG in the browser",
+    attempt: "try",
+    attemptName: "try this program in the machine",
+  },
+  "manual.zh.html": {
+    source: "docs/zh/manual.md",
+    language: "zh-CN",
+    title: "SKG 语言",
+    back: "浏览器中的 SKG",
+    attempt: "运行",
+    attemptName: "在机器上运行这个程序",
+  },
+};
+
+/** A manual as a page; behind every program of it stands a link that runs it. */
+async function manual({ source, language, title, back, attempt, attemptName }: Manual): Promise<string> {
+  const text = readFileSync(source, "utf8");
   const links = new Map<string, string>();
   for (const [, program = ""] of text.matchAll(/^```skg.*\n([^]*?)^```$/gm)) {
     links.set(program.trim(), `./#z=${await pack(program)}&run`);
@@ -65,11 +96,11 @@ async function manual(): Promise<string> {
     renderer: {
       code({ text: code, lang }) {
         const link = links.get(code.trim());
-        const attempt =
+        const run =
           (lang ?? "").startsWith("skg") && link
-            ? `<p class="try"><a href="${link}" aria-label="try this program in the machine">try</a></p>`
+            ? `<p class="try"><a href="${link}" aria-label="${attemptName}">${attempt}</a></p>`
             : "";
-        return `<pre tabindex="0"><code>${escaped(code)}</code></pre>\n${attempt}`;
+        return `<pre tabindex="0"><code>${escaped(code)}</code></pre>\n${run}`;
       },
       heading({ tokens, depth, text: heading }) {
         return `<h${depth} id="${slug(heading)}">${this.parser.parseInline(tokens)}</h${depth}>\n`;
@@ -81,18 +112,18 @@ async function manual(): Promise<string> {
       },
       image({ href, text: name }) {
         const picture = basename(href);
-        copyFileSync(join("docs", href), join(OUT, picture));
+        copyFileSync(join(dirname(source), href), join(OUT, picture));
         return `<img src="${picture}" alt="${escaped(name)}" loading="lazy">`;
       },
     },
   });
   const body = await pages.parse(text);
   return `<!doctype html>
-<html lang="en"><head><meta charset="utf-8">
+<html lang="${language}"><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'self'; img-src 'self'; base-uri 'none'; form-action 'none'">
-<meta name="viewport" content="width=device-width, initial-scale=1"><title>The SKG language</title>
+<meta name="viewport" content="width=device-width, initial-scale=1"><title>${title}</title>
 <link rel="icon" href="icon.svg" type="image/svg+xml"><link rel="stylesheet" href="manual.css"></head>
-<body><nav><a href="./">SKG in the browser</a></nav><main>${body}</main></body></html>
+<body><nav><a href="./">${back}</a></nav><main>${body}</main></body></html>
 `;
 }
 
@@ -104,8 +135,8 @@ function compare(found: string[], listed: string[]): void {
   if (odd.length) throw new Error(`web/src/catalogue.ts and examples/ differ: ${[...new Set(odd)].join(" ")}`);
 }
 
-/** What lies in the one file as it is, in base64. */
-const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", "manual.html"];
+/** What lies in the one file, in base64; with the pictures of the manuals. */
+const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", ...Object.keys(MANUALS)];
 
 /** The whole page as one file, skg.html: it runs from a double click, too. */
 async function oneFile(): Promise<void> {
@@ -113,8 +144,11 @@ async function oneFile(): Promise<void> {
   const script = (bundle.outputFiles[0]?.text ?? "").replace(/<\/script/g, "<\\/script");
   const style = readFileSync(join(OUT, "style.css"), "utf8");
   const icon = readFileSync(join(OUT, "icon.svg")).toString("base64");
-  const pieces = INSIDE.map((file) => {
-    const bytes = file === "manual.html" ? Buffer.from(manualAlone()) : readFileSync(join(OUT, file));
+  const manuals = Object.fromEntries(Object.keys(MANUALS).map((file) => [file, manualAlone(file)]));
+  const pictures = new Set(Object.values(manuals).flatMap((text) => [...text.matchAll(PICTURE)].map(([, file = ""]) => file)));
+  const pieces = [...INSIDE, ...pictures].map((file) => {
+    const text = manuals[file];
+    const bytes = text === undefined ? readFileSync(join(OUT, file)) : Buffer.from(text);
     return `<script type="application/octet-stream" data-file="${file}">${bytes.toString("base64")}</script>`;
   });
   const hash = createHash("sha256").update(script).digest("base64");
@@ -132,17 +166,13 @@ async function oneFile(): Promise<void> {
   writeFileSync(join(OUT, "skg.html"), page);
 }
 
-/** The manual with its style and pictures in itself. */
-function manualAlone(): string {
+/** A manual with its style in itself. */
+function manualAlone(file: string): string {
   const style = readFileSync(join(OUT, "manual.css"), "utf8");
-  return readFileSync(join(OUT, "manual.html"), "utf8")
+  return readFileSync(join(OUT, file), "utf8")
     .replace(/<meta http-equiv[^>]*>\n/, "")
     .replace(/<link rel="icon"[^>]*>/, "")
-    .replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${style}</style>`)
-    .replace(
-      /src="([\w-]+\.svg)"/g,
-      (_, file: string) => `src="data:image/svg+xml;base64,${readFileSync(join(OUT, file)).toString("base64")}"`,
-    );
+    .replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${style}</style>`);
 }
 
 async function main(): Promise<void> {
@@ -179,7 +209,7 @@ async function main(): Promise<void> {
     CATALOGUE.flatMap((group) => group.parts.map(({ name }) => name)),
   );
   writeFileSync(join(OUT, "parts.json"), JSON.stringify(found));
-  writeFileSync(join(OUT, "manual.html"), await manual());
+  for (const [file, one] of Object.entries(MANUALS)) writeFileSync(join(OUT, file), await manual(one));
   await build({ ...common, format: "esm", entryPoints: ["web/src/main.ts", "web/src/style.css"], outdir: OUT });
   await build({ ...common, format: "iife", entryPoints: ["web/src/worker.ts"], outdir: OUT });
   // (behind the list of what is kept for visits without a network: it is for those who take it away)

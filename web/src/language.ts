@@ -1,5 +1,5 @@
 /** The page's words in English and 中文. Whatever has data-t="key" in the page gets the word as its text, data-l as its name for
- * screen readers and its tooltip. */
+ * screen readers and its tooltip, data-h as the address of a link. */
 
 export type Language = "en" | "zh";
 
@@ -41,6 +41,7 @@ const WORDS = {
   dark: ["Dark", "深色"],
   language: ["Language", "语言"],
   manual: ["Manual", "手册"],
+  manualFile: ["manual.html", "manual.zh.html"],
   cancel: ["Cancel", "取消"],
   editor: ["Program, editable", "程序（可编辑）"],
   noProgram: [
@@ -227,14 +228,15 @@ export const spoken = (): Language => present;
 
 export const isWord = (word: string): word is Word => word in WORDS;
 
-/** Puts the page into a language; `find`: what a name of data-t or data-l means in it. */
+/** Puts the page into a language; `find`: what a name of data-t, data-l or data-h means in it. */
 export function speak(language: Language, page: Document, find = ofPage): void {
   present = language;
   page.documentElement.lang = language === "zh" ? "zh-CN" : "en";
   page.title = find("title") ?? "";
-  for (const element of page.querySelectorAll<HTMLElement>("[data-t], [data-l]")) {
-    const [text, name] = [element.dataset["t"], element.dataset["l"]].map((word) => (word ? find(word) : undefined));
+  for (const element of page.querySelectorAll<HTMLElement>("[data-t], [data-l], [data-h]")) {
+    const [text, name, address] = ["t", "l", "h"].map((key) => find(element.dataset[key] ?? ""));
     if (text) element.textContent = text;
+    if (address) element.setAttribute("href", address);
     if (name) {
       element.setAttribute("aria-label", name);
       if (element instanceof HTMLButtonElement) element.title = name;

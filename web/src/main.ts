@@ -2,7 +2,7 @@
 import { bind } from "./controls.ts";
 import { get, onClick } from "./dom.ts";
 import { preferred, t, type Word } from "./language.ts";
-import { closeManual, openManual } from "./manual.ts";
+import { closeManual, openManual, turnManual } from "./manual.ts";
 import { say, show } from "./message.ts";
 import { Opening } from "./opening.ts";
 import { showParts } from "./parts.ts";
@@ -113,6 +113,7 @@ function bringBack(saved: Everything): void {
 }
 
 menu.onLanguage = () => {
+  turnManual();
   isSaid = undefined;
   showState(session.state);
   if (opening.parts.length) tellParts();

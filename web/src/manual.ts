@@ -1,18 +1,20 @@
 /** The manual beside the page; its *try* links run in the machine here. */
 import { get } from "./dom.ts";
-import { insideText } from "./pieces.ts";
+import { t } from "./language.ts";
+import { insidePage } from "./pieces.ts";
 
 const frame = (): HTMLIFrameElement => get<HTMLIFrameElement>("manual-frame");
 
-export function openManual(heading = ""): void {
+/** The manual in the page's language; `chapter`: at its heading. */
+export function openManual(chapter = 0): void {
   document.body.classList.add("reading");
   get("manual-pane").hidden = false;
-  const text = insideText("manual.html");
   const page = frame();
-  const isThere = page.dataset["open"] === "true";
-  page.dataset["open"] = "true";
+  const file = t("manualFile");
+  const isThere = page.dataset["file"] === file;
+  page.dataset["file"] = file;
   const show = (): void => {
-    page.contentDocument?.getElementById(heading)?.scrollIntoView();
+    page.contentDocument?.querySelector(`[id^="${chapter}-"]`)?.scrollIntoView();
     page.contentDocument?.addEventListener("click", follow);
   };
   if (isThere) {
@@ -20,8 +22,14 @@ export function openManual(heading = ""): void {
     return;
   }
   page.addEventListener("load", show, { once: true });
-  if (text === undefined) page.src = "manual.html";
+  const text = insidePage(file);
+  if (text === undefined) page.src = file;
   else page.srcdoc = text;
+}
+
+/** The page's language has changed. */
+export function turnManual(): void {
+  if (!get("manual-pane").hidden) openManual();
 }
 
 export function closeManual(): void {
@@ -29,13 +37,19 @@ export function closeManual(): void {
   get("manual-pane").hidden = true;
 }
 
-/** A link to a program runs it in this page, and leaves the manual where it is. */
+/** A link to a program runs it in this page, and leaves the manual where it is; one to a heading goes there in skg.html, too,
+ * where it would be a place of the page around the manual. */
 function follow(event: MouseEvent): void {
   const link = (event.target as Element | null)?.closest?.("a");
   const href = link?.getAttribute("href") ?? "";
   if (href.startsWith("./#")) {
     event.preventDefault();
     location.hash = href.slice(2);
+  } else if (href.startsWith("#")) {
+    event.preventDefault();
+    frame()
+      .contentDocument?.getElementById(decodeURIComponent(href.slice(1)))
+      ?.scrollIntoView();
   } else if (href === "./") {
     event.preventDefault();
     closeManual();

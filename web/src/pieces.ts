@@ -3,15 +3,26 @@ import { type Part, readParts } from "./parts.ts";
 import type { Images } from "./runner.ts";
 
 /** In skg.html: a piece in base64 by its name. */
+const insideCode = (name: string): string | undefined =>
+  document.querySelector(`script[data-file="${name}"]`)?.textContent?.trim();
+
 function inside(name: string): ArrayBuffer | undefined {
-  const text = document.querySelector(`script[data-file="${name}"]`)?.textContent;
-  return text ? Uint8Array.from(atob(text.trim()), (character) => character.charCodeAt(0)).buffer : undefined;
+  const text = insideCode(name);
+  return text ? Uint8Array.from(atob(text), (character) => character.charCodeAt(0)).buffer : undefined;
 }
 
 /** The text of a file that lies in the page. */
 export function insideText(name: string): string | undefined {
   const bytes = inside(name);
   return bytes && new TextDecoder().decode(bytes);
+}
+
+/** A picture in a page, by its file. */
+export const PICTURE = /src="([\w-]+\.svg)"/g;
+
+/** A page that lies in the page, with its pictures, which lie there, too. */
+export function insidePage(name: string): string | undefined {
+  return insideText(name)?.replace(PICTURE, (_, file: string) => `src="data:image/svg+xml;base64,${insideCode(file)}"`);
 }
 
 export function workerAddress(): string | URL {

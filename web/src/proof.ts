@@ -6,9 +6,9 @@ import type { Session } from "./session.ts";
 
 export class Proof {
   readonly #editor: Editor;
-  readonly #openManual: (heading: string) => void;
+  readonly #openManual: (chapter: number) => void;
 
-  constructor(editor: Editor, openManual: (heading: string) => void) {
+  constructor(editor: Editor, openManual: (chapter: number) => void) {
     this.#editor = editor;
     this.#openManual = openManual;
   }
@@ -37,7 +37,7 @@ export class Proof {
 
   #mark(row: number, number: string, column = -1): Mark {
     const word = `err${number}`;
-    const more = { label: t("manual"), open: () => this.#openManual("11-errors") };
+    const more = { label: t("manual"), open: () => this.#openManual(11) };
     return { row, column, text: t("ended", number, isWord(word) ? t(word) : ""), more };
   }
 }

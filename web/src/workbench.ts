@@ -20,8 +20,8 @@ export interface Surroundings {
   readonly works: Works;
   /** A change runs by itself. */
   isAuto(): boolean;
-  /** The manual, at a heading. */
-  openManual(heading: string): void;
+  /** The manual, at a chapter. */
+  openManual(chapter: number): void;
   /** The drawing is to be seen. */
   showDrawing(): void;
 }

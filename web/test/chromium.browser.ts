@@ -590,18 +590,52 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
   });
 
   test("every example of the manual can be tried", async () => {
-    const { page, context, said } = await visit();
-    await page.goto(`${served.url}manual.html`);
-    const links = await page.locator(".try a").evaluateAll((all) => all.map((link) => link.getAttribute("href") ?? ""));
-    const programs = [...readFileSync("docs/manual.md", "utf8").matchAll(/^```skg.*\n([^]*?)^```$/gm)];
-    assert.equal(links.length, programs.length);
-    await page.locator(".try a").first().click();
-    await page.waitForSelector("body[data-ready]");
-    await wholeTape(page);
-    const tape = /^```tape\n([^]*?)^```$/m.exec(readFileSync("docs/manual.md", "utf8"))?.[1];
-    assert.equal((await saved(page, "3b")).replaceAll("\r", ""), tape);
-    assert.deepEqual(said, []);
-    await context.close();
+    for (const [file, source] of [
+      ["manual.html", "docs/manual.md"],
+      ["manual.zh.html", "docs/zh/manual.md"],
+    ] as const) {
+      const { page, context, said } = await visit();
+      await page.goto(served.url + file);
+      const links = await page.locator(".try a").evaluateAll((all) => all.map((link) => link.getAttribute("href") ?? ""));
+      const text = readFileSync(source, "utf8");
+      const programs = [...text.matchAll(/^```skg.*\n([^]*?)^```$/gm)];
+      assert.equal(links.length, programs.length);
+      assert.equal(await page.locator("img").count(), [...text.matchAll(/^!\[/gm)].length);
+      await page.locator(".try a").first().click();
+      await page.waitForSelector("body[data-ready]");
+      await wholeTape(page);
+      const tape = /^```tape\n([^]*?)^```$/m.exec(text)?.[1];
+      assert.equal((await saved(page, "3b")).replaceAll("\r", ""), tape);
+      assert.deepEqual(said, []);
+      await context.close();
+    }
+  });
+
+  test("the manual speaks the page's language, and its links to chapters go there", async () => {
+    for (const address of [served.url, `file://${process.cwd()}/web/dist/skg.html`]) {
+      const { page, context, said } = await visit({ locale: "zh-CN" }, "", undefined, address);
+      await page.waitForSelector("body[data-ready]");
+      await page.click("#manual");
+      const manual = page.frameLocator("#manual-frame");
+      assert.match((await manual.locator("h1").textContent()) ?? "", /SKG 语言/);
+      assert.equal(await page.locator("#manual-pane a").getAttribute("href"), "manual.zh.html");
+      await manual.locator("img").first().scrollIntoViewIfNeeded();
+      await page.waitForFunction(() => {
+        const text = (document.getElementById("manual-frame") as HTMLIFrameElement).contentDocument;
+        return [...(text?.images ?? [])].some((picture) => picture.complete && picture.naturalWidth > 0);
+      });
+      await manual.locator('a[href="#11-错误"]').first().click();
+      await page.waitForFunction(() => {
+        const text = (document.getElementById("manual-frame") as HTMLIFrameElement).contentDocument;
+        return Math.abs(text?.getElementById("11-错误")?.getBoundingClientRect().top ?? 1000) < 50;
+      });
+      await shot(page, "manual-zh");
+      await page.locator("details.menu summary").nth(2).click();
+      await page.selectOption("#language", "en");
+      await manual.locator("h1", { hasText: "The SKG language" }).waitFor();
+      assert.deepEqual(said, []);
+      await context.close();
+    }
   });
 
   test("files: a program, a tape in a foreign form, ISO, SVG and DXF out", async () => {

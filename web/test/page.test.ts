@@ -76,7 +76,7 @@ test("files are what they are", () => {
 
 test("every word that the page asks for is there", () => {
   const page = readFileSync("web/src/index.html", "utf8");
-  const words = [...page.matchAll(/data-[tl]="(\w+)"/g)].map((match) => match[1] as string);
+  const words = [...page.matchAll(/data-[tlh]="(\w+)"/g)].map((match) => match[1] as string);
   assert.ok(words.length > 50);
   for (const word of words) assert.ok(isWord(word), word);
   assert.equal(preferred(["fr", "zh-TW", "en"]), "zh");
