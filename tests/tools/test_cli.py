@@ -159,12 +159,11 @@ def test_name_that_an_encoding_has_not(tmp_path: Path) -> None:
 
 
 #: What Python for Windows has not, before 3.13: of `os` (less uname, which numpy asks here), and modules.
-NOT_ON_WINDOWS = (
-    "chown chroot ctermid fchmod fchown fork forkpty fpathconf getgid geteuid getloadavg getpgid getuid initgroups killpg lchown "
-    "lockf mkfifo mknod nice openpty pathconf pipe2 posix_fallocate posix_spawn pread pwrite sched_getaffinity sendfile setsid "
-    "statvfs sync sysconf tcgetpgrp ttyname wait3"
-).split()
-MODULES_NOT_ON_WINDOWS = "fcntl grp pty pwd resource syslog termios tty".split()
+NOT_ON_WINDOWS = [
+    "chown", "fchmod", "fchown", "fork", "getgid", "geteuid", "getloadavg", "getpgid", "getuid", "killpg", "lchown",
+    "mkfifo", "nice", "openpty", "pread", "pwrite", "sched_getaffinity", "setsid", "statvfs", "sysconf", "ttyname",
+]  # fmt: skip
+MODULES_NOT_ON_WINDOWS = ["fcntl", "grp", "pty", "pwd", "resource", "syslog", "termios", "tty"]
 
 
 @pytest.mark.parametrize("name", [*COMMANDS, "term"])
