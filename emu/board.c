@@ -450,10 +450,10 @@ static board_uart *find_uart(board *b, uint8_t port, bool *control)
 {
     unsigned pair = port & ~1U;
     *control = (port & 1) == facts(b)->control;
-    if (pair == facts(b)->tty) {
+    if (pair == b->tty_ports) {
         return &b->tty;
     }
-    return pair == facts(b)->aux && !b->punch_tty ? &b->aux : NULL;
+    return pair == b->aux_ports && !b->punch_tty ? &b->aux : NULL;
 }
 
 /* The board reads a port where nobody answers: no chip, or one that does not work yet. */
@@ -541,6 +541,8 @@ board *board_new(board_kind kind, unsigned ram_kib)
     drive_init(&b->drive);
     i8080_init(&b->cpu, port_in, port_out, b);
     i8080_map(&b->cpu, 0, BOARD_ROM_SIZE - 1, I8080_ROM);
+    b->tty_ports = FACTS[kind].tty;
+    b->aux_ports = FACTS[kind].aux;
     b->punch_tty = kind == BOARD_RC2014;
     unsigned ram_start = board_ram_start(kind), ram_end = board_ram_end(kind, ram_kib);
     if (ram_start > BOARD_ROM_SIZE) {

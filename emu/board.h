@@ -110,6 +110,7 @@ typedef struct board {
     i8080 cpu;
     board_kind kind;
     /* Set these before the first run. */
+    unsigned tty_ports, aux_ports; /* the lower port of each pair, teletype's and punch's: the board's own, or others */
     bool punch_tty;
     double hz; /* the processor's clock */
     unsigned baud; /* the teletype's line; 0: no time at all */

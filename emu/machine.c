@@ -69,6 +69,12 @@ machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int ki
     return m;
 }
 
+void machine_ports(machine *m, uint8_t tty, uint8_t aux)
+{
+    m->board->tty_ports = tty;
+    m->board->aux_ports = aux;
+}
+
 void machine_free(machine *m)
 {
     if (m) {

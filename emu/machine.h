@@ -43,6 +43,9 @@ typedef struct {
 
 machine *machine_new(const uint8_t *rom, size_t length, unsigned ram_kib, int kind, bool punch_tty, unsigned baud);
 void machine_free(machine *m);
+
+/* Other ports than the board's: the lower one of each pair. */
+void machine_ports(machine *m, uint8_t tty, uint8_t aux);
 board *machine_board(machine *m);
 
 /* What is typed (`typed`), or the tape, comes at so many characters a second whether the board is ready or not, and stops

@@ -228,6 +228,10 @@ static int set_board(session *s)
     s->board->reading = (board_sender){ .cps = s->o.reader_cps, .lag = s->o.lag };
     s->board->typing = (board_sender){ .cps = s->o.keyboard_cps, .lag = s->o.lag };
     s->board->punch_tty |= s->o.punch_tty;
+    if (s->o.tty_ports != s->o.aux_ports) {
+        s->board->tty_ports = s->o.tty_ports;
+        s->board->aux_ports = s->o.aux_ports;
+    }
     s->board->paper = output_print;
     s->board->punch = output_punch;
     s->board->user = s;

@@ -30,6 +30,7 @@ static const char USAGE[] =
     "  --mhz F           keep real time at F MHz\n"
     "  --baud N          speed of the teletype's line, 110 to 9600\n"
     "  --board KIND      6850, 8251, rc2014 or rc2014-sio (6850)\n"
+    "  --ports TTY,PUNCH other ports: the lower one of each pair, hexadecimal (10,12)\n"
     "  --punch-tty       a teletype alone: its own punch and reader\n"
     "  --punch-pty       punch and reader are a pseudo-terminal, whose name is printed: a machine behind it answers\n"
     "  --reader-cps N    the reader does not wait: N characters a second, some are lost\n"
@@ -205,6 +206,20 @@ static bool read_board(const char *text, options *o)
     return false;
 }
 
+/* The lower ports of two pairs, with a comma between them. */
+static bool read_ports(const char *text, options *o)
+{
+    unsigned tty, aux;
+    int length = 0;
+    if (sscanf(text, "%2x,%2x%n", &tty, &aux, &length) != 2 || text[length] || (tty | aux) & 1 || tty == aux
+        || tty == DRIVE_PORT || aux == DRIVE_PORT) {
+        return false;
+    }
+    o->tty_ports = (uint8_t)tty;
+    o->aux_ports = (uint8_t)aux;
+    return true;
+}
+
 /* The drawing's name promises no other kind of picture. */
 static bool read_drive(const char *text, options *o)
 {
@@ -288,6 +303,7 @@ static const option_rule RULES[] = {
     { "mhz",        VALUE, 0, read_mhz, "not 0.001 to 1000" },
     { "baud",       VALUE, 0, read_baud, "not 110, 150, 300, 600, 1200, 2400, 4800 or 9600" },
     { "board",      VALUE, 0, read_board, "not 6850, 8251, rc2014 or rc2014-sio" },
+    { "ports",      VALUE, 0, read_ports, "not two even ports, hexadecimal and none of the drive's: 20,22" },
     { "punch-tty",  FLAG,  SETS(punch_tty) },
     { "punch-pty",  FLAG,  SETS(punch_pty) },
     { "reader-cps", VALUE, 0, read_reader_cps, "not 0.1 to 100000" },

@@ -19,6 +19,7 @@ typedef struct {
     uint64_t max_cycles;
     uint64_t stop_at;               /* 0: never */
     board_kind kind;
+    uint8_t tty_ports, aux_ports;   /* both 0: the board's own */
     bool pty, stats, punch_tty, punch_pty, debug;
     bool stop_stays, drives;        /* drives: one of the drive's options was given */
 } options;

@@ -223,6 +223,10 @@ USAGE = [
     (["--baud", "111"], "--baud 111: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600"),
     (["--baud", "no"], "--baud no: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600"),
     (["--board", "Z80"], "--board Z80: not 6850, 8251, rc2014 or rc2014-sio"),
+    *(
+        (["--ports", ports], f"--ports {ports}: not two even ports, hexadecimal and none of the drive's: 20,22")
+        for ports in ("20", "20,20", "21,24", "14,20", "20,22,24", "")
+    ),
     (["--baud", "300", "--baud", "x"], "--baud x: not 110, 150, 300, 600, 1200, 2400, 4800 or 9600"),
     (["--max-cycles", "0"], "--max-cycles 0: not a number of cycles"),
     (["--max-cycles", "99999999999999999999"], "--max-cycles 99999999999999999999: not a number of cycles"),

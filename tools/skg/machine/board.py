@@ -63,10 +63,10 @@ class Board:
 
     `rom`: "standard", "no-drift", "mill", "drive", "8251", "tty", "rc2014", "rc2014-sio", the path of an image (.bin or
     .hex), or its bytes.
-    `ram_kib`: 2 to 56. `board` "6850", "8251", "rc2014" or "rc2014-sio", and `punch_tty` (a teletype alone, its own
-    punch and reader)
-    tell what an image of one's own is made for. `max_cycles`: how long one line or one program may take, in cycles of
-    the 2 MHz board (None: for ever). `on_paper` is called with all that is printed, as it is printed.
+    `ram_kib`: 2 to 56. `board` "6850", "8251", "rc2014" or "rc2014-sio", `ports` (the lower one of the teletype's and of
+    the punch's) and `punch_tty` (a teletype alone, its own punch and reader) tell what an image of one's own is made for.
+    `max_cycles`: how long one line or one program may take, in cycles of the 2 MHz board (None: for ever). `on_paper`
+    is called with all that is printed, as it is printed.
 
     A board that stops anywhere but at its prompt raises `BoardStopped`. `machine` is the emulator underneath: memory,
     registers, cycles.
@@ -78,6 +78,7 @@ class Board:
         ram_kib: int = 8,
         *,
         board: str = "6850",
+        ports: tuple[int, int] | None = None,
         punch_tty: bool = False,
         max_cycles: int | None = None,
         on_paper: Callable[[str], object] | None = None,
@@ -88,7 +89,7 @@ class Board:
             punch_tty = punch_tty or known.punch_tty
         else:
             image, missing = rom, []
-        self.machine = Machine(image, ram_kib, board=board, punch_tty=punch_tty)
+        self.machine = Machine(image, ram_kib, board=board, ports=ports, punch_tty=punch_tty)
         for address in missing:
             self.machine.set_break(address)
         self.max_cycles = max_cycles

@@ -101,6 +101,7 @@ def _library() -> ctypes.CDLL:
             [ctypes.c_char_p, size, ctypes.c_uint, ctypes.c_int, flag, ctypes.c_uint],
         ),
         "machine_free": (None, [pointer]),
+        "machine_ports": (None, [pointer, ctypes.c_uint8, ctypes.c_uint8]),
         "board_ram_end": (ctypes.c_uint, [ctypes.c_int, ctypes.c_uint]),
         "machine_board": (pointer, [pointer]),
         "machine_output": (size, [pointer, flag, ctypes.POINTER(pointer)]),
@@ -170,6 +171,7 @@ class Machine:
     """One board with its operator.
 
     `rom` is an image of at most 8,192 bytes or the path of one; `ram_kib` 2 to 56; `board` "6850" or "8251";
+    `ports` the lower one of the teletype's ports and of the punch's, where they are others than that board's;
     `punch_tty` a board with a teletype alone; `baud` paces the teletype's line at 2 MHz (0: no time at all).
     """
 
@@ -179,6 +181,7 @@ class Machine:
         ram_kib: int = 8,
         *,
         board: str = "6850",
+        ports: tuple[int, int] | None = None,
         punch_tty: bool = False,
         baud: int = 0,
     ) -> None:
@@ -191,6 +194,8 @@ class Machine:
         self._machine = self._lib.machine_new(image, len(image), ram_kib, BOARDS[board], punch_tty, baud)
         if not self._machine:
             raise MemoryError
+        if ports:
+            self._lib.machine_ports(self._machine, *ports)
         self._board = self._lib.machine_board(self._machine)
         #: First address past the RAM.
         self.ram_end = self._lib.board_ram_end(BOARDS[board], ram_kib)
