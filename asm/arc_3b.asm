@@ -1,6 +1,6 @@
 ; arc_3b.asm - arcs as 3B blocks, each from its own rounded start (tape-3b.md)
 ; Offers: ARC
-; Uses:   calc consts float geom grid start tape
+; Uses:   [post] calc consts float geom round start
 ; Room:   107 bytes
 ;
 ; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there

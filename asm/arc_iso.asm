@@ -1,6 +1,6 @@
 ; arc_iso.asm - arcs as ISO blocks (milling.md, section "Arcs")
 ; Offers: ARC
-; Uses:   calc consts float geom grid iso start
+; Uses:   [post] calc consts float geom round start
 ; Room:   79 bytes
 
 ; ARC - the tool goes along the circle C to K

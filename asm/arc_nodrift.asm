@@ -1,6 +1,6 @@
 ; arc_nodrift.asm - arcs as 3B blocks, each from where the controller stands (docs/drift.md)
 ; Offers: ARC
-; Uses:   calc consts float geom grid start tape
+; Uses:   [post] calc consts float geom round start
 ; Room:   263 bytes
 ;
 ; An arc is looked at, and J counted, as in arc_3b.asm, whose header has u, v and F.

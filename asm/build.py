@@ -30,6 +30,8 @@ import words  # noqa: E402
 from images import IMAGES, STANDARD, Image  # noqa: E402
 
 ROM_SIZE = 8192
+#: Bytes of the standard ROM that this project leaves to those who add something to theirs.
+KEPT = 300
 #: Fewer jumps of the calculator than this in a listing of all files: it was not understood.
 LEAST_JUMPS = 50
 #: Likewise of operations that are one byte with QRET.
@@ -276,6 +278,22 @@ def bytes_of(texts: dict[str, str], symbols: dict[str, int]) -> dict[str, int]:
     return {file: end - begin for file, begin, end in zip(texts, marks, marks[1:], strict=False)}
 
 
+def account(name: str, size: int) -> str:
+    """The line of an image's bytes: used, free, and what of the standard ROM's is kept for owners."""
+    free = f"   free {ROM_SIZE - size:4} of {ROM_SIZE}" if IMAGES[name].restarts else ""
+    kept = f", {KEPT} of them kept for owners' additions" if name == STANDARD else ""
+    return f"  {'used' if name == STANDARD else name:14} {size:5}{free}{kept}"
+
+
+def too_many(name: str, excess: int) -> str:
+    """What to do about an image that the ROM has no room for."""
+    return (
+        f"{name} is {excess} bytes too long for {ROM_SIZE}. Shorten it, or leave something out of this image in\n"
+        "  asm/images.py: a statement of yours (`more` and `words`), or TOL (`spans`). See docs/firmware.md,\n"
+        '  section "Adding a statement".'
+    )
+
+
 def write(path: Path, data: bytes) -> None:
     """Write a file, in a directory that need not be there yet."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -297,13 +315,12 @@ def main() -> None:
         parser.error("the name of the image is missing: OUT")
     image, symbols, listing, texts = build(args.image)
     forms = IMAGES[args.image].forms
-    left = f"   left {ROM_SIZE - len(image)} of {ROM_SIZE}" if IMAGES[args.image].restarts else ""
     if args.image == STANDARD:
         for file, size in bytes_of(texts, symbols).items():
-            print(f"  {file + '.asm':12} {size:5}")
-    print(f"  {'used' if args.image == STANDARD else args.image:12} {len(image):5}{left}")
-    if left and len(image) > ROM_SIZE:
-        fail(f"{len(image) - ROM_SIZE} bytes too many")
+            print(f"  {file + '.asm':14} {size:5}")
+    print(account(args.image, len(image)))
+    if IMAGES[args.image].restarts and len(image) > ROM_SIZE:
+        fail(too_many(args.image, len(image) - ROM_SIZE))
     padded = image.ljust(ROM_SIZE, b"\xff") if ".bin" in forms else image
     for form in forms:
         write(args.out.with_suffix(form), intel_hex(padded, symbols["ORIGIN"]).encode() if form == ".hex" else padded)

@@ -1,6 +1,6 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALC3 CALPOP OJN OJZ OJMP OJMP1 ODBL XSIG XMAX
-;         XE6N ERGEO XXCH OSWP OSWP1
+; Offers: CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALOP CALPOP OJN OJZ OJMP OJCY ODBL XSIG XMAX XE6N
+;         ERGEO XXCH OSWP EXCHC
 ; Uses:   consts float start
 ; Room:   216 bytes
 ;
@@ -50,7 +50,7 @@ CALC0:  POP     B
 CALC1:  LDAX    B
         INX     B
         CPI     40H
-        JC      CALC3
+        JC      CALOP
         LXI     H,CALC1
         PUSH    H
         MOV     L,A
@@ -106,9 +106,9 @@ COPY5:  LDAX    D
         MOV     M,A
 ODRP:   RET
 
-; CALC3 - an operation, or QEND (OPFN carries out an operation that way)
+; CALOP - an operation, or QEND (OPFN carries out an operation that way)
 ; In:  A = number, BC -> byte-code that goes on behind it   Clobbers all
-CALC3:  PUSH    B
+CALOP:  PUSH    B
         ORA     A
         RZ                      ; QEND: on behind it
         LXI     H,CALC0
@@ -151,12 +151,14 @@ CALPOP: LHLD    FSP
 OJN:    INX     H
         MOV     A,M
         RLC                     ; CY = sign
-        JMP     OJMP1
+        JMP     OJCY
 OJZ:    MOV     A,M
         SUI     1               ; CY: zero
         DB      SKIP1B          ; skips the STC
 OJMP:   STC
-OJMP1:  POP     B               ; CALC
+; OJCY - jumps when CY is set (QJC ends here, too)
+; In:  CY; on the stack: CALC, -> the distance   Clobbers all but B, C
+OJCY:   POP     B               ; CALC
         POP     H
         MOV     A,M             ; distance
         JC      OJMP2
@@ -204,9 +206,9 @@ XXCH:   LXI     D,MA
         MVI     C,15
         DB      SKIP2           ; skips the MVI
 OSWP:   MVI     C,5
-; OSWP1 - exchanges C bytes at DE and HL, the first ones first (fit.asm comes here)
+; EXCHC - exchanges C bytes at DE and HL, the first ones first
 ; Out: DE, HL behind them, C = 0   Clobbers A, B
-OSWP1:  LDAX    D
+EXCHC:  LDAX    D
         MOV     B,M
         MOV     M,A
         MOV     A,B
@@ -214,5 +216,5 @@ OSWP1:  LDAX    D
         INX     H
         INX     D
         DCR     C
-        JNZ     OSWP1
+        JNZ     EXCHC
         RET

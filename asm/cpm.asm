@@ -1,6 +1,6 @@
 ; cpm.asm - the program of CP/M: start, command line, files, the way back
 ; Offers: BDINIT BDRDY SBYE SPUNCH SSAVE SDIR
-; Uses:   calc io io_cpm io_disk monitor start type_3b type_nc
+; Uses:   [more] [ports] [punch] calc io monitor program run start
 ; Room:   677 bytes
 ;
 ; The jump at 0 leads to REBOOT while the program runs: there the BDOS goes after an error on a disk,
@@ -33,7 +33,7 @@ BDIN1:  MOV     M,A
         CALL    CPBDOS
         LXI     H,0FF00H
         SHLD    CHKF            ; no check mode, paper on
-        CALL    NEW1
+        CALL    NEWPRG
         CALL    BDOFF
         CALL    CMDLIN          ; A = 1 when there is a script
         MOV     H,A

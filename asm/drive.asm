@@ -1,7 +1,6 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
-; Uses:   cut decimal io io_6850 io_port io_punch io_reader monitor ports_2sio reset start tape
-;         value
+; Uses:   [ports] [post] [punch] [start] decimal ends io monitor program run start value
 ; Room:   685 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
@@ -162,7 +161,7 @@ DFIN:   MVI     C,DSLICE
         STA     DPARS
         RET
 
-; BDPUN - punches a character (PUTC1 of io.asm calls it); DLINE gets it when RUN drives
+; BDPUN - punches a character (TYPECH of io.asm calls it); DLINE gets it when RUN drives
 ; In:  B   Out: ERR 10   Clobbers A, B, C, HL
 BDPUN:  CALL    BDPUT
         CALL    DASKED
@@ -248,7 +247,7 @@ DLINE:  SUI     CZERO
         MVI     L,DREST&255
         MVI     B,DR1+4-DREST
         MOV     A,C
-        CALL    RTDON1          ; (clears)
+        CALL    WIPE
         SHLD    DNUMP
 DLIN1:  CPI     CLTB-CZERO
         CALL    DNEXZ
@@ -424,7 +423,7 @@ DKEY1:  CALL    BREAK
 DEND:   CALL    DENDS
         CALL    DASKED
         RNZ                     ; RUN has punched it
-        JMP     ERR5            ; CR LF, and the prompt
+        JMP     CRRDY           ; CR LF, and the prompt
 
 ; DIRS - directions and roles of the next quadrant; the record that leads inside changes the sign of R
 ; In:  H = page: DTURN, DQUAD; DSTATE

@@ -1,4 +1,4 @@
-; equ.asm - names for every port, character, token, error and RAM cell of SKG
+; equ.asm - names of characters, errors, kinds, tokens, registers and the cells in RAM that all files know
 ; Offers: names for all
 ;
 ; In the other headers Offers: lists the names that other files use, routines, cells and equates
@@ -15,7 +15,8 @@
 ;   G  byte-code of an operation of the language   M  address of a register, or of several
 ;   T  token        K  kind of value       E  number of an error    ER  its DB ERROR
 ;   C  character    R  cell of the route   Z  mark of the build
-; A digit or letter behind a routine's name is a place within it.
+; A digit or letter behind a routine's name is a place within it; no other file goes there.  (A 0 is a restart's
+; routine, a 5 or 15 a count of bytes.)
 ;
 ; A line ";! fact -- who relies on it" is checked by the build (asm/facts.py).
 
@@ -38,35 +39,33 @@ NOKEY   EQU 0ECH        ; bits of a key that waits: of it, no other one may take
 CLOST   EQU 0BFH        ; a character has been lost here; it is printed as a question mark
 CLPAR   EQU 28H         ; (
 CRPAR   EQU 29H         ; )
+CPLUS   EQU 2BH         ; +
 CCOMMA  EQU 2CH         ; ,
 CMINUS  EQU 2DH         ; -
-CSEMI   EQU 3BH         ; ;
-CEQU    EQU 3DH         ; =
-CRBRK   EQU 5DH         ; ]
+CPOINT  EQU 2EH         ; .
 CZERO   EQU 30H
+CSEMI   EQU 3BH         ; ;
+CLESS   EQU 3CH         ; <
+CEQU    EQU 3DH         ; =
+CGT     EQU 3EH         ; >
+CPRMPT  EQU 3EH         ; > in front of what is typed
+CLBRK   EQU 5BH         ; [
+CRBRK   EQU 5DH         ; ]
+CMARK   EQU 5EH         ; ^ below what is not understood
 CLTB    EQU 42H         ; letters on the tape
 CLTD    EQU 44H
+CLTE    EQU 45H         ; (of an exponent)
+CLTF    EQU 46H
 CLTG    EQU 47H
 CLTL    EQU 4CH
+CLTM    EQU 4DH
 CLTN    EQU 4EH
+CLTP    EQU 50H
 CLTR    EQU 52H
 CLTS    EQU 53H
-CLTY    EQU 59H
-CLTF    EQU 46H
-CLTM    EQU 4DH
-CLTP    EQU 50H
 CLTT    EQU 54H
-
-CPRMPT  EQU     3EH             ; >
-CMARK   EQU     5EH             ; ^
-CDOT    EQU     2EH
-CLESS   EQU     3CH
-CGT     EQU     3EH
-CLBRK   EQU     5BH
-CLOWA   EQU     61H             ; a
-CPOINT  EQU 2EH         ; .
-CPLUS   EQU 2BH         ; +
-CLTE    EQU 45H
+CLTY    EQU 59H
+CLOWA   EQU 61H         ; a
 
 ; ---- Restarts -------------------------------------------------------------
 ; One byte each, written as data: assemblers do not agree on what stands behind RST
@@ -129,7 +128,7 @@ MNODE2  EQU MREG+25
 MT0     EQU MREG+50     ; temporary registers; t4 and t5 lie in front of a
 MT4     EQU MREG+70
 MA      EQU MREG+80     ; address of a0: value, and left operand
-MVB      EQU MREG+95    ; address of b0: right operand
+MVB     EQU MREG+95    ; address of b0: right operand
 MCUR    EQU MREG+114    ; elements: kind, three numbers, offset; behind C and F the place of entry
 MC2     EQU MREG+125
 MNEXT   EQU MREG+149
@@ -295,7 +294,7 @@ STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as tou
 ;! HELD & 0FFH == 0 and HELD+16*PLCSIZ < PROG-1 -- HELDN is a low byte; CLOSED and RBFULL lie in front of PROG
 ;! KEPT+25 == MNODE1 and MNODE1+25 == MNODE2 -- ROTATE and SWAP exchange neighbours
 FSTK    EQU RAM         ; float stack of the calculator, 12 floats, within a page
-CWORK   EQU RAM+003CH   ; cells of parser, geom, cut and tape (68 bytes)
+CWORK   EQU RAM+003CH   ; cells of parser, geom, route and tape (68 bytes)
 FWORK   EQU RAM+0080H   ; work cells of float.asm and calc.asm (48 bytes); FSQR counts on the 80H
 MWORK   EQU RAM+00B0H   ; cells of monitor, lexer and io (55 bytes)
 KEPT    EQU RAM+00E7H   ; the node of FIT that was kept last, in front of node 1

@@ -1,6 +1,6 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5) (curves.md)
-; Offers: NODSIZ SFIT SPOUT SPOUT3 FITEND XCHRD XMIRR XBIAR ARCW
-; Uses:   calc consts cut float geom notol parser start tol value
+; Offers: NODSIZ SFIT SPOUT NODNXT FITEND XCHRD XMIRR XBIAR ARCW
+; Uses:   [spans] calc consts corner float geom items parser route start value
 ; Room:   369 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
@@ -108,7 +108,9 @@ SPOUT:  DB      CALC,QCHRD,QBIAR,QEND ; -
 SPOUT2: DB      CALC            ; (SFIT comes here with the first node)
         DB      L2X,L2Y,QEND    ; x y
         CALL    FITPNT
-SPOUT3: LXI     D,MNODE2        ; (HOLD comes here when it holds it back)
+; NODNXT - node 2 becomes node 1 (HOLD comes here when the span is held back)
+; Out: FITN = 1   Clobbers all
+NODNXT: LXI     D,MNODE2
         LXI     H,MNODE1
         MVI     A,NODSIZ
         CALL    COPY
@@ -180,4 +182,4 @@ FITPNT: MVI     A,KPNT
 ; FITITM - the same for a value of kind A: a2   Clobbers all
 FITITM: STA     VKIND
         DB      CALC,SA1,SA0,L2R,SNR,QEND ; -
-        JMP     ITEM3
+        JMP     ITEMR

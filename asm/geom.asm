@@ -1,6 +1,6 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: BINOPK BINOP BIN4 RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR XALNG
-;         XROTV XTURN XLEG XE6D
+; Offers: BINOPK BINOP BINKND RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
+;         XALNG XROTV XTURN XLEG XE6D
 ; Uses:   calc consts float start value
 ; Room:   520 bytes
 ;
@@ -23,7 +23,7 @@ BINOP:  MOV     A,C
         DCR     A
         CNZ     CHKRET
         CALL    CHECK
-        MVI     A,KPNT          ; in check mode what a comma makes is taken for a point (ITCHK, cut.asm)
+        MVI     A,KPNT          ; in check mode what a comma makes is taken for a point (ITCHK, items.asm)
         JNZ     SETK
         MOV     A,C
         ADD     A
@@ -59,7 +59,9 @@ BIN2:   ADD     E               ; to the next byte-code
 BIN3:   PUSH    B
         CALL    RUNBC
         POP     B
-BIN4:   MOV     A,B             ; (OPNAM ends here too)
+; BINKND - the value is of kind B (OPNAM ends here, too)
+; In:  B = kind   Out: VKIND, the floats that it has not are 0   Clobbers A, B, HL
+BINKND: MOV     A,B
         JMP     SETK
 
 ; GEOTAB - which byte-code serves which operands.  It goes along the byte-codes, as they

@@ -1,6 +1,6 @@
 ; hold.asm - whoever sends is held while a line is worked on
 ; Offers: LISTEN ENDLIN LEXTOK
-; Uses:   decimal io io_8251 io_held io_sio ports_2sio ports_rc2014 rts rts_sio
+; Uses:   [ports] [punch] decimal io
 ; Room:   43 bytes
 ;
 ; /RTS is high from a line's end until the next character is wanted or a program runs.  A sender stops two characters

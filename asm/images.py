@@ -1,13 +1,9 @@
 """Every image: which files it is made of. No source file has an IF: what differs is a file of its own.
 
-Four seams. The **board**: where things lie (`map_rom`, `map_rc2014`, `map_rc2014_ram`), ports and their setting up
-(`ports_2sio` or `ports_rc2014` with `io_6850`; `io_8251`; `ports_sio` with `io_sio`), their
-/RTS (`rts`, `rts_sio`), teletype (`io_held`, `io_port`), punch and reader
-(`io_punch`, `io_tty`), what is done when a block is complete and after an error (`io_ended`; `drive` follows the
-block), at reset and at the prompt (`reset`; `keep` saves the program through it, `keep_none` does not).
-**CP/M** fills these instead: `map_cpm`,
-`io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole micrometres (`tape`, and
-`arc_3b` or `arc_nodrift`). Whether spans of a curve are **held back**: `tol`, or `notol`. Words that not every image
+What differs has a seam, a field of Image. The board: **map**, where things lie; **ports**, their addresses, chips, the
+teletype; **punch**, with the reader and /RTS, what is done when a block is complete and after an error; **start**,
+reset and the prompt. CP/M fills these with files of its own. **post**: what becomes of a line and an arc in whole um.
+**spans**: whether those of a curve are held back. **more**: what some images have besides. Words that not every image
 has are a set in words.txt.
 
     asm/images.py     prints the names of the variants of the standard image
@@ -15,6 +11,7 @@ has are a set in words.txt.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 
@@ -31,8 +28,8 @@ class Image:
     ports: tuple[str, ...] = ("ports_2sio", "io_6850", "io_held", "io_tape")
     punch: tuple[str, ...] = ("rts", "hold", "io_punch", "io_ended")
     start: tuple[str, ...] = ("reset", "keep")
-    post: tuple[str, ...] = ("grid", "arc_3b", "tape")
-    hold: str = "tol"
+    post: tuple[str, ...] = ("round", "arc_3b", "tape")
+    spans: tuple[str, ...] = ("tol",)
     more: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
     forms: tuple[str, ...] = (".bin", ".hex")
@@ -41,8 +38,8 @@ class Image:
         """All source files in the order in which they stand in the ROM; the first ones only name things."""
         return [
             self.map, "equ", "start", "ops", *self.ports, "io", *self.punch, "calc", "consts", "float",
-            "decimal", "value", "geom", "parser", *self.post, "cut", "repeat", "fit", self.hold, "lexer", "program",
-            *self.more, "monitor", *self.start, "words",
+            "decimal", "value", "geom", "parser", *self.post, "route", "corner", "items", "ends", "repeat", "fit",
+            *self.spans, "lexer", "program", "data", "run", *self.more, "monitor", *self.start, "words",
         ]  # fmt: skip
 
     def for_cpm(self, tape: str) -> Image:
@@ -64,7 +61,7 @@ UNHELD = {
 RC2014 = {"ports": ("ports_rc2014", "io_6850", "io_held", "io_key"), "punch": ("rts", "hold", "io_tty")}
 MILL = Image(
     **UNHELD,
-    post=("io_send", "grid", "arc_iso", "iso"),
+    post=("io_send", "round", "arc_iso", "iso"),
     more=("mill",),
     words=("mill",),
 )
@@ -79,13 +76,13 @@ IMAGES = {
         punch=("rts_sio", "hold", "io_punch", "io_ended"),
     ),
     "skg-rc2014-ram": Image(map="map_rc2014_ram", restarts=False, forms=(".hex",), **RC2014),
-    "skg-nodrift": Image(post=("grid", "arc_nodrift", "tape")),
+    "skg-nodrift": Image(post=("round", "arc_nodrift", "tape")),
     "skg-mill": MILL,
     "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")),
     "skg-drive": Image(
         ports=UNHELD["ports"],
         punch=("nohold", "io_punch", "io_reader"),
-        hold="notol",
+        spans=("notol",),
         more=("drive",),
         words=("drive",),
         start=("reset", "keep_none"),
@@ -94,6 +91,18 @@ IMAGES = {
     "skg.com": Image().for_cpm("type_3b"),
     "skgmill.com": MILL.for_cpm("type_nc"),
 }
+
+
+#: The seams whose files others call; those of `map` define names for all.
+SEAMS = ("ports", "punch", "start", "post", "spans", "more")
+
+
+def seams(images: Mapping[str, Image] = IMAGES) -> dict[str, str]:
+    """The seam of each file that fills one; a file that all images have fills none."""
+    common = set.intersection(*(set(image.files()) for image in images.values()))
+    return {
+        file: seam for image in images.values() for seam in SEAMS for file in getattr(image, seam) if file not in common
+    }
 
 
 if __name__ == "__main__":

@@ -1,15 +1,17 @@
 ; io.asm - the teletype: what is printed, the keyboard
-; Offers: PUTC1 PAPON BREAK BROKEN ERTAPE CRLF PUTSI PUTS PUT2D PUT1D
-; Uses:   io_cpm io_held io_port start
+; Offers: TYPECH PAPON BREAK BROKEN ERTAPE CRLF PUTSI PUTS PUT2D PUT1D
+; Uses:   [ports] start
 ; Room:   71 bytes
 ;
 ; OUTSEL says where characters go: 0 nowhere, 1 paper and punch, else paper.
 ; KEYB holds the last key typed ahead, 0 when there is none.  ctrl-C stays in it
 ; until BREAK looks at it, ctrl-S holds all output until the next key.
 
-; PUTC1 - the work of RST 2
+;! COLS == OUTSEL+1 and LASTC == COLS+1 -- TYPECH walks back from LASTC
+
+; TYPECH - the work of RST 2
 ; In:  A = character; PSW, HL and BC on the stack   Clobbers nothing
-PUTC1:  MOV     B,A
+TYPECH: MOV     B,A
         LXI     H,LASTC
         MOV     M,A
         DCX     H

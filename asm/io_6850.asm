@@ -1,6 +1,6 @@
 ; io_6850.asm - the board's receivers and transmitters: Motorola 6850
 ; Offers: RXRDY RXOVR TXRDY BDINIT RXKEY RXTAP
-; Uses:   drive io_ended io_tty ports_2sio ports_rc2014
+; Uses:   [more] [ports] [punch]
 ; Room:   30 bytes
 
 RXRDY   EQU 01H         ; receiver full

@@ -1,6 +1,6 @@
 ; io_8251.asm - ports of the board: two Intel 8251
 ; Offers: TTYDT TTYST PUNDT PUNST TXRDY RXRDY RXOVR SIO8N2 SIOHLD BDINIT RXKEY RXTAP
-; Uses:   io_ended
+; Uses:   [punch]
 ; Room:   54 bytes
 
 TTYDT   EQU 10H         ; teletype: data

@@ -1,6 +1,6 @@
 ; io_cpm.asm - the teletype's characters, through the BIOS of CP/M
 ; Offers: BSELDK OFILE PAPER POLL UNKEY
-; Uses:   io_disk start
+; Uses:   [punch] start
 ; Room:   200 bytes
 ;
 ; The BIOS, not the BDOS, which would act on ctrl-S, ctrl-P and ctrl-C itself.  Keys that come while

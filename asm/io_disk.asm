@@ -1,7 +1,7 @@
 ; io_disk.asm - punch and reader are files of CP/M
 ; Offers: CQUEST CDOLLR FALL FDRIVE FFIRST FNEXT FDEL FDMA FERMOD WTAPE WSAVE WLOST FCALL FILE
 ;         ONEFIL FBLOCK FCOPY WOPEN WDROP WCLOSE BDPUN BDREAD SLOAD TYPSKG PUNOFF PUNON BDOFF BDZERO
-; Uses:   io io_cpm start
+; Uses:   [ports] io start
 ; Room:   790 bytes
 ;
 ; A file is written under its name with the type $$$ and takes its own when it is whole: what was there
@@ -56,7 +56,7 @@ FIELD:  DB      NEXT
         JZ      ERSYN           ; no second quote
         CPI     CQUOTE
         RZ
-        CPI     CDOT
+        CPI     CPOINT
         RZ
         CPI     CCOLON
         RZ
@@ -121,7 +121,7 @@ FILE1:  INX     H
 FILE2:  POP     H
         LXI     D,FNAME+9
         MVI     B,3
-        CPI     CDOT
+        CPI     CPOINT
         JNZ     FILE3
         CALL    FIELD
         CPI     CQUOTE

@@ -1,10 +1,10 @@
 ; io_ended.asm - what a board does when a character is punched, when a block is complete, after an error and at reset:
 ; nothing but its serial ports
 ; Offers: BDPUN PUNOFF BDOFF BDREST
-; Uses:   io io_punch reset
+; Uses:   [punch] [start] io
 ; Room:   5 bytes
 
-; BDPUN - punches a character (PUTC1 of io.asm calls it)
+; BDPUN - punches a character (TYPECH of io.asm calls it)
 ; In:  B   Clobbers A
 BDPUN   EQU BDPUT
 

@@ -1,7 +1,6 @@
 ; io_held.asm - the teletype's characters, through the board's ports; KEYB takes what the reader sends, too, when lines come from there
 ; Offers: PAPER POLL
-; Uses:   io_6850 io_8251 io_ended io_key io_sio io_tape io_tty ports_2sio ports_rc2014 ports_sio
-;         start
+; Uses:   [ports] [punch] start
 ; Room:   67 bytes
 
 ; PAPER - prints a character, which the punch gets too when it is on; where nothing is printed it only looks who sends

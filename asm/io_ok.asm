@@ -1,6 +1,6 @@
 ; io_ok.asm - blocks go out with LF alone, each waits for the machine's ok (milling.md, section "Handshake")
 ; Offers: BLKON BLKOFF
-; Uses:   io io_ended io_punch io_reader start
+; Uses:   [punch] io start
 ; Room:   109 bytes
 ;
 ; A line of the machine is judged when it is over, and typed from memory: the teletype is slower than the

@@ -1,6 +1,6 @@
 ; io_port.asm - the teletype's characters, through the board's ports
 ; Offers: PAPER POLL
-; Uses:   drive io_6850 io_ended ports_2sio
+; Uses:   [more] [ports] [punch]
 ; Room:   60 bytes
 
 ; PAPER - prints a character, which the punch gets too when it is on

@@ -1,6 +1,6 @@
 ; io_punch.asm - punch and reader on a port of their own
 ; Offers: BDPUT SLOAD PUNON
-; Uses:   hold io_6850 io_8251 io_sio nohold ports_2sio ports_sio start
+; Uses:   [ports] [punch] start
 ; Room:   32 bytes
 
 ; BDPUT - punches a character

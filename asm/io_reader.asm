@@ -1,6 +1,6 @@
 ; io_reader.asm - a character of the reader is taken where it is wanted
 ; Offers: BDREAD
-; Uses:   io_6850 ports_2sio
+; Uses:   [ports]
 ; Room:   12 bytes
 
 ; BDREAD - a character from the reader

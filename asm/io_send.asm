@@ -1,6 +1,6 @@
 ; io_send.asm - blocks go out one behind the other, each with CR LF
 ; Offers: BLKON BLKOFF
-; Uses:   io io_disk io_ended io_punch
+; Uses:   [punch] io
 ; Room:   6 bytes
 
 ; BLKON - a block begins: what is printed from here on is punched too

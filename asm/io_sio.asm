@@ -1,6 +1,6 @@
 ; io_sio.asm - the board's receivers and transmitters: Z80 SIO
 ; Offers: RXRDY RXOVR TXRDY SIORR1 SIOWR5 SIOSNT SIO8N2 SIOHLD BDINIT RXKEY RXTAP
-; Uses:   io_ended ports_sio
+; Uses:   [ports] [punch]
 ; Room:   78 bytes
 ;
 ; A byte to a control port goes to WR0, or to the register whose number WR0 has got; a status is RR0, or likewise.

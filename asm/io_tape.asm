@@ -1,6 +1,6 @@
 ; io_tape.asm - a character of the reader waits in KEYB, when lines come from there
 ; Offers: BDREAD TAPEIN
-; Uses:   io_6850 io_8251 io_sio ports_2sio ports_sio
+; Uses:   [ports]
 ; Room:   31 bytes
 
 ;! CCTLC+10H == CXOFF -- TAPEIN knows both keys at once

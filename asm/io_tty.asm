@@ -1,6 +1,6 @@
 ; io_tty.asm - punch and reader are the teletype's own, switched by DC1 to DC4
 ; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDREST BDOFF
-; Uses:   hold io reset start
+; Uses:   [punch] [start] io start
 ; Room:   43 bytes
 
 ; BDREAD - a character from the reader: what the keyboard has sent
@@ -26,7 +26,7 @@ PUNON:  MVI     A,CDC2
         DB      PUTC
 ; (fall into BDPUN)
 
-; BDPUN - punches a character (PUTC1 of io.asm calls it, were OUTSEL 1): the teletype has done so
+; BDPUN - punches a character (TYPECH of io.asm calls it, were OUTSEL 1): the teletype has done so
 ; Clobbers nothing
 BDPUN:  RET
 

@@ -1,7 +1,7 @@
 ; iso.asm - moves in whole micrometres, as blocks of ISO words (milling.md)
 ; Offers: RFEED RCUTZ RTRAVZ RSETZ RGNUM RUNCEL RUNLEN HOME UP DOWN REPOS ENTER MOVE GXY PUTNUM STOP
 ;         PUNDS BLOCK
-; Uses:   calc consts decimal float geom grid io io_ok io_send lexer parser start value
+; Uses:   [post] calc consts decimal float geom io lexer parser round start value
 ; Room:   323 bytes
 ;
 ; The tool stands at W in the plane and at the height WZ, the move goes to V (arcs: arc_iso.asm) or to
@@ -123,7 +123,7 @@ GWORDS: LDAX    D
         PUSH    B
         MVI     B,9
         MVI     E,-3            ; um as mm
-        CALL    PRNUM1
+        CALL    PRNUMC
         POP     B
         POP     D
         DCR     C

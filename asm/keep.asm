@@ -1,6 +1,6 @@
 ; keep.asm - what a reset leaves of program and variables: all that is sound
 ; Offers: KEEP
-; Uses:   io monitor program start
+; Uses:   io program run start
 ; Room:   58 bytes
 
 ; KEEP - keeps the lines of the program up to the first one that has changed, and the variables when none has
@@ -10,7 +10,7 @@ KEEP:   XCHG
         CALL    CPHD
         XCHG
         SHLD    VTOP
-        CNZ     NEW1            ; VTOP is the signature: not the RAM that it was
+        CNZ     NEWPRG          ; VTOP is the signature: not the RAM that it was
         LXI     H,PROG
 KEEP1:  SHLD    PEND            ; sound so far
         MOV     A,M
@@ -25,4 +25,4 @@ KEEP1:  SHLD    PEND            ; sound so far
         DB      CCR,CLF,"DAMAGE",0C4H ; DAMAGED
 KEEP2:  CALL    VARSUM
         CNZ     CLEAR
-        JMP     CLEAR1          ; (once more does no harm)
+        JMP     FRESH           ; (once more does no harm)

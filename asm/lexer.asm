@@ -1,6 +1,6 @@
 ; lexer.asm - a line: typed, made tokens of, listed
-; Offers: GETLIN LEX LISTLN PRNUM PRNUM1 BLANK
-; Uses:   decimal drive hold io io_disk io_ended io_reader io_tape io_tty monitor nohold start value
+; Offers: GETLIN LEX LISTLN PRNUM PRNUMC BLANK
+; Uses:   [more] [ports] [punch] decimal io monitor start value
 ; Room:   459 bytes
 ;
 ;! (LINBUF/100H & 1) == 0 and (TOKS/100H & 1) == 1 -- GETL6 knows by B's lowest bit that the line has lost a character
@@ -125,7 +125,7 @@ LEX1:   INX     D
         JZ      LEXRAW
         CALL    DIGIT
         JC      DECIN
-        CPI     (CDOT-CZERO) & 255
+        CPI     (CPOINT-CZERO) & 255
         JZ      DECIN
         PUSH    D
         LXI     D,KEYTAB        ; a word or a name's letter?
@@ -249,8 +249,8 @@ LISTOK: MOV     A,M
 ; In:  HL -> it, B = most significant digits (8 or 9)
 ; Out: HL -> behind it   Clobbers A, DE
 PRNUM:  MVI     E,0
-; PRNUM1 - the same, times 10^E (as DECOUT has it)   Clobbers A, DE
-PRNUM1: PUSH    B
+; PRNUMC - the same, times 10^E (as DECOUT has it)   Clobbers A, DE
+PRNUMC: PUSH    B
         PUSH    H
         CALL    DECOUT
         POP     H

@@ -1,16 +1,10 @@
-; monitor.asm - prompt, commands, running the program, errors, reset
-; Offers: ERR ERR5 READY CHKED ERLOST SFREE FREE LNEND SRETN SGOSUB SIF SGOTO SRUN STEND SPRINT
-;         SDATA SREST SREAD SINPUT SLIST SNEW NEW1 CLEAR CLEAR1
-; Uses:   calc cpm cut decimal drive float hold io io_disk io_ended io_tty iso lexer nohold parser
-;         program reset start tape value
-; Room:   741 bytes
+; monitor.asm - the prompt and the errors: a line is taken, understood, stored or carried out
+; Offers: ERR CRRDY READY CHKED ERLOST SFREE FREE
+; Uses:   [more] [punch] [start] data decimal ends io lexer program run start
+; Room:   228 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
-;! COLS == OUTSEL+1 and LASTC == COLS+1 -- PUTC1 walks back from LASTC
 ;! KEYB == LASTC+1 and LOADF == KEYB+1 and VSUM == LOADF+1 -- BREAK leaves HL -> KEYB; READY comes from VSUM
-;! LINUM == TOKS+4 and STMT0 == TOKS+6 -- the record's head lies over the number's token
-;! STTEND-STTAB == 2*(TLETR-TFROM) -- an address for every word from FROM on
-;! TLETR+14 == 100H -- the letters' tokens end with the byte
 
 LASTLN  EQU     9999            ; greatest line number
 
@@ -79,12 +73,13 @@ ERR3:   LDA     LASTC
         CALL    PUT2D
         LDA     NXTP+1
         ORA     A
-        JZ      ERR5
+        JZ      CRRDY
         CALL    PUTSI
         DB      " LINE",0A0H
         LHLD    CURLIN
 ERR4:   CALL    PRDEC           ; FREE ends here too
-ERR5:   CALL    CRLF            ; (DEND comes in here)
+; CRRDY - CR LF, and goes to READY (DEND of drive.asm ends here, too)
+CRRDY:  CALL    CRLF
 ; (fall into READY)
 
 ; READY - the prompt: takes a line, for ever; it is parsed, then CHKED is the place
@@ -108,26 +103,8 @@ READY1: PUSH    D               ; -> behind the tokens
         DCX     H
         LXI     D,-LASTLN
         DAD     D
-        JC      ERSYN
-; (fall into STMT)
-
-; STMT - one statement.  Its routine is entered with TXTP behind the word, and clobbers all, too; it comes to CHKEND
-;        before it acts
-; In:  TXTP   Clobbers all
-STMT:   CALL    CALINI
-        DB      PEEK
-        JZ      CHKEN0          ; none at all
-        CPI     TFROM
-        JC      ASSIGN
-        DB      NEXT
-        ADD     A               ; (in a byte)
-        LXI     H,STTAB-2*TFROM+256
-        CALL    ADDA
-        MOV     E,M
-        INX     H
-        MOV     D,M
-        XCHG
-        PCHL
+        JNC     STMT
+        DB      ERROR,ESYN
 
 ; CHKED - the line is understood: stores it or carries it out, and goes to READY
 ; In:  at STKTOP-2: -> behind its tokens; the stack holds little more
@@ -162,311 +139,3 @@ FREE:   LHLD    PEND
         SBB     D
         MOV     H,A
         JMP     ERR4
-
-; LINENO - takes a line number
-; In:  TXTP   Out: HL = number, 0...65535; ERR 01   Clobbers all
-LINENO: DB      EXPECT,TFLT
-        CALL    OPFLT
-        LXI     H,MA
-        CALL    FTOI16
-        RNC
-        DB      ERROR,ESYN
-
-; OPTLN - takes a line number, if there is one, and demands the statement's end
-; Out: DE = number, else 0   Clobbers all
-OPTLN:  DB      PEEK
-        LXI     H,0
-        JZ      LNEND1
-; (fall into LNEND)
-
-; LNEND - takes a line number and demands the statement's end
-; Out: DE = number   Clobbers all
-LNEND:  CALL    LINENO
-LNEND1: XCHG                    ; (OPTLN comes in here with HL = 0: no number)
-        DB      CHKEND
-        RET
-
-; SRETN - statement: RETURN
-SRETN:  DB      CHKEND
-        LHLD    GSP
-        MOV     A,L
-        ORA     A               ; (GSTKE begins a page)
-        JZ      ERLINE
-        CALL    LINE1
-        SHLD    GSP
-        XCHG
-        JMP     RUN1
-
-; SGOSUB - statement: GOSUB n
-SGOSUB: CALL    TARGET
-        PUSH    H
-        LHLD    NXTP
-        XCHG
-        LHLD    GSP
-        MOV     A,L
-        CPI     GSTK & 255
-        JZ      ERLINE
-        DCX     H
-        MOV     M,D
-        DCX     H
-        MOV     M,E
-        SHLD    GSP
-        POP     H
-        JMP     RUN1
-
-; SIF - statement: IF expression relation expression GOTO n
-SIF:    CALL    EVNUM
-        DB      CALC,LA0,QEND   ; left
-        DB      NEXT
-        MOV     B,A             ; B, C = what makes it true
-        MOV     C,A
-        SUI     CLESS
-        CPI     CGT-CLESS+1
-        JNC     ERSYN
-        DCR     A               ; behind = comes nothing, behind > but =,
-        JP      SIF1
-        MVI     A,2             ; behind < both = and >
-SIF1:   MOV     D,A
-        DB      PEEK
-        SUI     CEQU
-        CMP     D
-        JNC     SIF2            ; (what else stands there EVNUM sees)
-        DB      NEXT            ; <= >= <>
-        MOV     C,A
-SIF2:   PUSH    B
-        CALL    EVNUM
-        DB      EXPECT,TGOTO
-        CALL    CHECK
-        JNZ     SGOTO
-        CALL    CMPNE           ; right with left
-        POP     B
-        MVI     A,CLESS/4
-        RAL                     ; CY: right is less
-        RLC                     ; < or > (Z stays)
-        JNZ     SIF3
-        INR     A               ; < becomes =
-SIF3:   CMP     B
-        JZ      SGOTO
-        CMP     C
-        RNZ
-; (fall into SGOTO)
-
-; SGOTO - statement: GOTO n
-SGOTO:  CALL    TARGET
-        JMP     RUN1
-
-; TARGET - takes the number of a line to go to and demands the statement's end
-; Out: HL-> the line; ERR 02   Clobbers all
-TARGET: CALL    LNEND
-; TARGE1 - the same for a number in DE (RUN comes in here)
-; Out: as TARGET   Clobbers all
-TARGE1: CALL    FINDLN
-        RZ
-ERLINE: DB      ERROR,ELINE
-
-; SRUN - command: RUN, RUN n
-SRUN:   CALL    OPTLN
-        PUSH    D
-        CALL    CLEAR
-        POP     D
-        INX     H
-        INX     H               ; HL = PROG
-        MOV     A,D
-        ORA     E
-        CNZ     TARGE1
-RUN1:   SHLD    NXTP            ; (GOTO, GOSUB and RETURN come in here with the line to go on at)
-; (fall into RUNLP)
-
-; RUNLP - runs the program from NXTP on; goes to READY when a direct line is done
-RUNLP:  LHLD    NXTP
-        MOV     A,H
-        ORA     A
-        JZ      READY
-        CALL    PLINE
-        JC      END1            ; past the last line
-        SHLD    TXTP
-        CALL    ADDA
-        SHLD    NXTP
-        XCHG
-        SHLD    CURLIN
-        CALL    LISTEN
-DIRECT: LXI     SP,STKTOP       ; (CHKED comes in here with a line that has no number)
-        LXI     H,0200H
-        SHLD    CHKF            ; (nothing new to a line of the program)
-        CALL    STMT
-        JMP     RUNLP
-
-; STEND - statement: END
-STEND:  DB      CHKEND
-END1:   CALL    ENDRT           ; (RUNLP comes in here at the end of the program)
-        MVI     B,2             ; DD
-        CALL    PUNDS
-        JMP     READY
-
-; SPRINT - statement: PRINT item, item ...
-SPRINT: LXI     H,CRLF
-        PUSH    H               ; comes last
-        DB      PEEK
-        JZ      CHKEN0
-SPRI1:  DB      PEEK
-        CPI     CQUOTE
-        JZ      SPRI3
-        CALL    EVAL
-        CALL    PRVAL
-SPRI2:  CALL    MORE
-        MVI     A,CBLANK
-        DB      PUTC
-        JMP     SPRI1
-SPRI3:  DB      NEXT            ; the quote
-SPRI4:  DB      NEXT
-        JZ      ERSYN           ; no second quote
-        CPI     CQUOTE
-        JZ      SPRI2
-        DB      PUTC
-        JMP     SPRI4
-
-; SDATA - statement: DATA expression, ...: nothing, until READ comes
-SDATA:  CALL    CHECK
-        RZ
-SDAT1:  CALL    EVAL
-        CALL    MORE
-        JMP     SDAT1
-
-; SREST - statement: RESTORE, RESTORE n
-SREST:  CALL    OPTLN
-        CALL    FINDLN
-REST1:  DCX     H               ; (CLRPTR comes in here with the first line)
-        DCX     H
-        SHLD    DATP
-        RET
-
-; SREAD - statement: READ name, ...
-SREAD:  CALL    GETREF
-        CALL    READI
-        CALL    MORE
-        JMP     SREAD
-
-; READI - gives a name the next DATA item
-; In:  DE = name; ERR 08   Clobbers all
-READI:  CALL    CHKRET
-        PUSH    D
-        DB      PEEK            ; HL = TXTP
-        PUSH    H
-        LHLD    DATP
-        MOV     A,M
-        CPI     CCOMMA
-        JZ      READI2
-        MVI     A,2             ; over the 00 and the check byte
-READI1: CALL    ADDA
-        CALL    PLINE
-        JC      ERDATA
-        MOV     B,A
-        MOV     A,M
-        CPI     TDATA
-        MOV     A,B
-        JNZ     READI1
-READI2: CALL    NEXT1           ; TXTP = HL+1
-        CALL    EVAL
-        DB      PEEK
-        SHLD    DATP
-; (fall into READI3)
-
-; READI3 - ends READI and ASK; the stack keeps what it holds for ASKAGN until all is well
-; In:  on the stack: TXTP, name; a0 a1 a2, VKIND   Out: paper on   Clobbers all
-READI3: POP     H
-        POP     D
-        PUSH    D
-        PUSH    H
-        SHLD    TXTP
-        CALL    SETREF
-        POP     H
-        POP     H
-        JMP     PAPON
-
-; SINPUT - statement: INPUT name, ..., in a program only
-SINPUT: CALL    GETREF
-        CALL    ASK
-        CALL    MORE
-        JMP     SINPUT
-
-; ASKAGN - after a wrong answer: what ASK needs is still on the stack
-; Out: as ASK   Clobbers all
-ASKAGN: LXI     SP,STKTOP-8     ; RUNLP's return address, SINPUT's, name, TXTP
-        CALL    PAPON
-        CALL    CALINI          ; (the wrong answer's floats)
-        JMP     ASK1
-
-; ASK - asks for a value; a wrong answer is known by OUTSEL = 0 (GETLIN) in a statement
-;       that works
-; In:  DE = name   Clobbers all
-;
-; The stack while the answer is read and worked out, for ASKAGN and READI3:
-;
-;       STKTOP-2        return address of STMT, in RUNLP
-;       STKTOP-4        return address of ASK, in SINPUT
-;       STKTOP-6        the name
-;       STKTOP-8        TXTP, behind the name in INPUT's list
-ASK:    CALL    CHKRET
-        PUSH    D
-        DB      PEEK            ; HL = TXTP
-        PUSH    H
-ASK1:   CALL    PUTSI
-        DB      "?",0A0H
-        CALL    GETLIN
-        CALL    EVAL
-        DB      CHKEND
-        JMP     READI3
-
-; SLIST - command: LIST, LIST n, LIST n,m
-SLIST:  DB      PEEK
-        LXI     H,-1            ; HL = last line to list
-        LXI     D,0             ; DE = first
-        JZ      SLIS2
-        CALL    LINENO
-        PUSH    H
-        DB      PEEK
-        POP     H
-        PUSH    H               ; one number: that line
-        JZ      SLIS1
-        DB      EXPECT,CCOMMA
-        CALL    LINENO
-SLIS1:  POP     D
-SLIS2:  PUSH    H
-        DB      CHKEND
-        CALL    FINDLN
-SLIS3:  CALL    PLINE
-        POP     B               ; last
-        RC
-        MOV     A,C
-        SUB     E
-        MOV     A,B
-        SBB     D
-        RC
-        PUSH    B
-        CALL    LISTLN
-        INX     H               ; check byte
-        JMP     SLIS3
-
-; SNEW - command: NEW
-SNEW:   DB      CHKEND
-NEW1:   LXI     H,PROG          ; (reset comes in here)
-        SHLD    PEND
-        MVI     M,0
-; (fall into CLEAR)
-
-; CLEAR - forgets variables and route: the state in which a run starts
-; Out: HL = PROG-2   Clobbers all
-CLEAR:  LHLD    VTOP
-        SHLD    VBOT
-        MVI     M,0
-; CLEAR1 - the same, but the variables stay
-; Clobbers all
-CLEAR1: CALL    RUNINI
-; (fall into CLRPTR)
-
-; CLRPTR - forgets what points into the program: DATA at its start, no GOSUB
-; Clobbers A, HL
-CLRPTR: LXI     H,GSTKE
-        SHLD    GSP
-        MVI     L,PROG & 255    ; (in one page: a test looks)
-        JMP     REST1

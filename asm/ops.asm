@@ -1,6 +1,6 @@
 ; ops.asm - the operations of the calculator: their numbers, and their routines
 ; Offers: names for all
-; Uses:   calc cut fit float geom grid parser value
+; Uses:   calc fit float geom parser round route value
 ; Room:   116 bytes
 ;
 ; Behind each number: what is on the float stack before and after, the top last; other effects.

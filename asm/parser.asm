@@ -1,8 +1,8 @@
 ; parser.asm - expressions, names and variables
-; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBEMP GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
+; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBNEW RBSET GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   587 bytes
+; Room:   593 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -108,7 +108,7 @@ OPFN:   PUSH    PSW
         POP     PSW
         SUI     TSQR-QSQRT      ; the number of its operation
         LXI     B,OPFN1
-        JMP     CALC3
+        JMP     CALOP
 OPFN1:  DB      SA0,QRET        ; -
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
@@ -139,7 +139,7 @@ OPFLT:  DB      PEEK
         LXI     H,MA
         CALL    COPY5
         XCHG
-        CALL    NEXT1           ; TXTP = HL+1
+        CALL    TAKEHL          ; TXTP = HL+1
         JMP     SETNUM
 
 ; OPNAM - value of a name
@@ -147,12 +147,12 @@ OPFLT:  DB      PEEK
 OPNAM:  CALL    NAME
         CALL    KINDD
         CALL    CHECK
-        JNZ     BIN4            ; (geom: the value is of kind B)
+        JNZ     BINKND          ; (geom: the value is of kind B)
         CALL    FIND
         JC      ERUNS
         XCHG
         CALL    GETA            ; (all of them, whatever follows a shorter one)
-        JMP     BIN4
+        JMP     BINKND
 
 ; OPNEG - negates an operand
 ; In:  TXTP -> it   Out: as EVAL   Clobbers all
@@ -294,11 +294,21 @@ SETR1:  MOV     A,C
         LXI     D,MA
         JMP     COPY
 
+; RBNEW - forgets the route buffer, for a new route
+; Clobbers HL
+RBNEW:  LXI     H,0
+        SHLD    CLOSED          ; and RBFULL
+; (fall into RBEMP)
+
 ; RBEMP - empties the route buffer
 ; Clobbers HL
 RBEMP:  LHLD    PEND
         INX     H
-        SHLD    RBEND
+; (fall into RBSET)
+
+; RBSET - the route buffer ends at HL
+; In:  HL   Clobbers nothing
+RBSET:  SHLD    RBEND
         RET
 
 ; GETREF - a name on the left side, or in READ and INPUT

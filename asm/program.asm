@@ -1,11 +1,13 @@
-; program.asm - the lines of the program and how they are kept
-; Offers: STORE FINDLN PLINE LINE1 SUMREC VARSUM
-; Uses:   lexer start value
-; Room:   207 bytes
+; program.asm - the lines of the program: how they are kept, their numbers, LIST
+; Offers: STORE FINDLN PLINE LOADDE SUMREC VARSUM LINENO OPTLN LNEND SLIST
+; Uses:   float lexer parser start value
+; Room:   283 bytes
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
 ; it.
+
+;! LINUM == TOKS+4 and STMT0 == TOKS+6 -- the record's head lies over the number's token
 
 ; STORE - puts the line into the program, or takes it out
 ; In:  LINUM = its number, at STKTOP-2: -> behind its tokens, H = TOKS/256   Out: ERR 01, ERR 09   Clobbers all
@@ -17,7 +19,7 @@ STORE:  MVI     L,STMT0 & 255
         XRA     A               ; it is listed, unseen (OUTSEL = 0, from GETLIN): is it a line
         STA     COLS            ; that LOAD takes?
         MVI     L,LINUM & 255   ; (HL-> STMT0+1, from NEXT)
-        CALL    LINE1
+        CALL    LOADDE
         CALL    LISTLN
         LDA     COLS
         CPI     126+2+1         ; CR and LF count
@@ -117,7 +119,9 @@ PLINE:  MOV     A,M
         SUI     3
         RC
         INX     H
-LINE1:  MOV     E,M             ; (STORE takes a number here, RETURN its line)
+; LOADDE - takes a number of two bytes
+; In:  HL -> it   Out: DE, HL behind   Clobbers nothing else
+LOADDE: MOV     E,M
         INX     H
         MOV     D,M
         INX     H
@@ -150,3 +154,56 @@ VARS1:  CALL    SUMR1           ; then whole pages: B = 0
         CMP     M
         MOV     M,A
         RET
+
+; LINENO - takes a line number
+; In:  TXTP   Out: HL = number, 0...65535; ERR 01   Clobbers all
+LINENO: DB      EXPECT,TFLT
+        CALL    OPFLT
+        LXI     H,MA
+        CALL    FTOI16
+        RNC
+        DB      ERROR,ESYN
+
+; OPTLN - takes a line number, if there is one, and demands the statement's end
+; Out: DE = number, else 0   Clobbers all
+OPTLN:  DB      PEEK
+        LXI     H,0
+        JZ      LNEND1
+; (fall into LNEND)
+
+; LNEND - takes a line number and demands the statement's end
+; Out: DE = number   Clobbers all
+LNEND:  CALL    LINENO
+LNEND1: XCHG                    ; (OPTLN comes in here with HL = 0: no number)
+        DB      CHKEND
+        RET
+
+; SLIST - command: LIST, LIST n, LIST n,m
+SLIST:  DB      PEEK
+        LXI     H,-1            ; HL = last line to list
+        LXI     D,0             ; DE = first
+        JZ      SLIS2
+        CALL    LINENO
+        PUSH    H
+        DB      PEEK
+        POP     H
+        PUSH    H               ; one number: that line
+        JZ      SLIS1
+        DB      EXPECT,CCOMMA
+        CALL    LINENO
+SLIS1:  POP     D
+SLIS2:  PUSH    H
+        DB      CHKEND
+        CALL    FINDLN
+SLIS3:  CALL    PLINE
+        POP     B               ; last
+        RC
+        MOV     A,C
+        SUB     E
+        MOV     A,B
+        SBB     D
+        RC
+        PUSH    B
+        CALL    LISTLN
+        INX     H               ; check byte
+        JMP     SLIS3

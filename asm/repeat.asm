@@ -1,6 +1,6 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: SREP SSYM SRECUT SSCALE
-; Uses:   calc consts cut fit float geom io parser start value
+; Uses:   calc consts ends fit float geom io items parser route start value
 ; Room:   342 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
@@ -24,7 +24,7 @@ FETCH:  LXI     H,RTURN         ; (a fillet may have said so before)
         MOV     M,A
         LHLD    RSRC
         XCHG
-        JMP     XNA1
+        JMP     GETREC
 
 ; IMAGE - feeds the item at RSRC, mirrored or turned
 ; In:  bit 7 of A: its corner turns right   Clobbers all
@@ -40,11 +40,11 @@ IMAGE:  CALL    FETCH
         MOV     C,L
         MOV     A,H
         CALL    BINOPK
-        JMP     ITEM2
+        JMP     ITEMT
 IMAG1:  LDA     RFILW
         ORA     A
         RNZ                     ; one waits already
-        JMP     ITEM2
+        JMP     ITEMT
 
 ; OPENRT - demands an open route that is in memory whole, prepares what is done to its items
 ; In:  HL = operation on them, a = its right operand (a2 not scaled yet)
@@ -180,10 +180,10 @@ SRECUT: DB      CHKEND
         CALL    OPENR1
 SREC1:  MOV     A,M
         CALL    FETCH
-        CALL    ITEM2           ; (noted again where it stands)
+        CALL    ITEMT           ; (noted again where it stands)
         CALL    STEP
         JNZ     SREC1
-        JMP     SBACK1
+        JMP     GOBACK
 
 ; SSCALE - statement: SCALE number
 SSCALE: CALL    EVNUM

@@ -1,6 +1,6 @@
 ; reset.asm - what a board does that is alone with the ROM: reset, SAVE to the punch
 ; Offers: RESET SSAVE BDRDY
-; Uses:   calc drive io io_ended io_punch io_tty keep keep_none monitor program start
+; Uses:   [more] [punch] [start] calc io monitor program start
 ; Room:   60 bytes
 
 ; RESET - readies the ports (8 bits, 2 stop bits, clock / 16), finds the RAM, keeps what is

@@ -11,7 +11,8 @@ A name belongs to the file that defines it, as a label or by EQU. A file uses an
 it in an instruction, a DB, DW or EQU. An operation of the calculator (`QCRS`) belongs to the file of its routine
 (`XCRS`), which OPTAB tells; a restart's byte (`DB CALC,...`) to start.asm. What equ.asm and words.asm define belongs to
 all. Each file leans on those below it alone, but for calc and float, which are one thing in two files, and for HOOKS.
-The line Room: says how many bytes a file may have.
+The line Room: says how many bytes a file may have. Uses: has the seam of a file that fills one (asm/images.py), in
+brackets: so another board, with files of its own, changes no header but theirs.
 """
 
 from __future__ import annotations
@@ -25,6 +26,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from images import seams
+
 ASM = Path(__file__).resolve().parent
 #: Belong to everybody: names, the operations of the calculator and the words with their routines (words.py).
 COMMON = ("equ", "map_rom", "map_rc2014", "map_rc2014_ram", "map_cpm", "ops", "words")
@@ -35,7 +38,7 @@ HOOKS = {
     "RESET": "its ports are ready",
     "BDREST": "the serial ports are ready: what else the board has",
     "ERR": "restart 1 goes to the monitor",
-    "PUTC1": "restart 2 goes to the teletype",
+    "TYPECH": "restart 2 goes to the teletype",
     "CALC0": "restart 5 goes to the calculator",
     "CHKED": "restart 7: the monitor stores the line or carries it out",
     "BDPUN": "the teletype's characters go to the punch too: the board's",
@@ -48,6 +51,8 @@ HOOKS = {
     "FLUSH": "a curve ends: what is held back goes out",
     "FITEND": "an item of the route ends a curve",
 }
+#: The seam of each file that fills one.
+SEAMS = seams()
 #: Files that may lean on each other.
 ONE = ("calc", "float")
 
@@ -154,16 +159,17 @@ def offered(rooms: dict[str, Room], room: Room) -> dict[str, set[str]]:
     return {other.name: other.uses[room.name] for other in rooms.values() if room.name in other.uses}
 
 
-def header(rooms: dict[str, Room], room: Room) -> tuple[str, str]:
+def header(rooms: dict[str, Room], room: Room, seams: Mapping[str, str]) -> tuple[str, str]:
     """The lines Offers: and Uses: as they should be."""
     wanted: set[str] = set().union(*offered(rooms, room).values()) if room.name not in COMMON else set()
     names = [name for name in dict.fromkeys(room.defines) if name in wanted]
+    used = sorted({f"[{seams[other]}]" if other in seams else other for other in room.uses})
 
     def lines(word: str, items: list[str]) -> str:
         text = " ".join(items) or "nothing"
         return textwrap.fill(text, 100, initial_indent=f"; {word:8}", subsequent_indent=";         ") + "\n"
 
-    return lines("Offers:", ["names for all"] if room.name in COMMON else names), lines("Uses:", sorted(room.uses))
+    return lines("Offers:", ["names for all"] if room.name in COMMON else names), lines("Uses:", used)
 
 
 def room_of(room: Room) -> int | None:
@@ -184,14 +190,14 @@ def idle_hooks(rooms: dict[str, Room]) -> list[str]:
     return [f"{name} is a hook that nobody calls" for name in HOOKS if name not in used]
 
 
-def wrong_headers(rooms: dict[str, Room]) -> list[str]:
+def wrong_headers(rooms: dict[str, Room], seams: Mapping[str, str] = SEAMS) -> list[str]:
     """What is wrong with the lines Offers: and Uses:, one line each; and headers that have no Room:."""
     wrong = []
     for room in rooms.values():
         if room.name == "words":
             continue
         text = "\n".join(room.lines) + "\n"
-        for shape, line in zip((OFFERS, USES), header(rooms, room), strict=True):
+        for shape, line in zip((OFFERS, USES), header(rooms, room, seams), strict=True):
             word = line.split()[1]
             if room.name in COMMON and word == "Uses:":
                 continue
@@ -283,7 +289,7 @@ def main() -> None:
             if not path.exists():
                 continue
             text = path.read_text()
-            for shape, line in zip((OFFERS, USES), header(rooms, room), strict=True):
+            for shape, line in zip((OFFERS, USES), header(rooms, room, SEAMS), strict=True):
                 text = shape.sub(lambda _, line=line: line, text, count=1)
             path.write_text(text)
     elif sys.argv[1:] == ["--check"]:

@@ -1,6 +1,6 @@
 ; rts.asm - /RTS of both receivers, one control word each: 6850, 8251
 ; Offers: BDRTS
-; Uses:   io_8251 ports_2sio ports_rc2014
+; Uses:   [ports]
 ; Room:   5 bytes
 
 ; BDRTS - lets whoever sends to the board go on, or holds them

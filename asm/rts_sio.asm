@@ -1,6 +1,6 @@
 ; rts_sio.asm - /RTS of both receivers: Z80 SIO
 ; Offers: BDRTS
-; Uses:   io_sio ports_sio
+; Uses:   [ports]
 ; Room:   31 bytes
 
 ; BDRTS - lets whoever sends to the board go on, or holds them.  /RTS rises when the transmitter is empty: so that the

@@ -1,7 +1,7 @@
 ; start.asm - restarts, and what stands in the gaps between them
-; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK ERROR0 PUTC0 NEXT0 NEXT1 ERMEM EXPEC0 ERSYN
+; Offers: ERROR PUTC NEXT EXPECT CALC PEEK CHKEND CHECK ERROR0 PUTC0 NEXT0 TAKEHL ERMEM EXPEC0 ERSYN
 ;         ADDA PEEK0 ERDATA CHKEN0 SREM CPHD
-; Uses:   calc cpm io io_6850 io_8251 io_sio monitor
+; Uses:   [ports] [start] calc io monitor
 ; Room:   71 bytes
 ;
 ; The DS lines fill each gap up to the next restart.  asm80 does not refuse a routine that
@@ -41,13 +41,15 @@ PUTC0:  PUSH    PSW
         PUSH    H
         PUSH    B
         ANI     7FH
-        JMP     PUTC1
+        JMP     TYPECH
 GAP18:  DS      18H-$
 
 ; RST 3 - NEXT: takes a token
 ; In:  TXTP   Out: A = token, Z at the line's end; TXTP behind it   Clobbers HL
 NEXT0:  DB      PEEK
-NEXT1:  INX     H               ; (READI takes an item here, OPFLT a number)
+; TAKEHL - the next token is that behind HL (READI takes an item here, OPFLT a number)
+; Out: TXTP = HL+1   Clobbers HL
+TAKEHL: INX     H
         SHLD    TXTP
         RET
 

@@ -1,6 +1,6 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
-; Uses:   calc consts drive float grid io io_disk io_ended io_punch io_tty lexer start
+; Uses:   [more] [punch] calc consts float io lexer round start
 ; Room:   282 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded

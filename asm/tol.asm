@@ -1,6 +1,6 @@
 ; tol.asm - TOL: few arcs for many nodes, spans of a curve are held back and tried as one (curves.md)
 ; Offers: STOL HOLD FLUSH
-; Uses:   calc consts cut fit float geom parser start
+; Uses:   calc consts corner fit float geom parser route start
 ; Room:   222 bytes
 ;
 ; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
@@ -29,7 +29,7 @@ HOLD:   LDA     MTO
         LXI     D,MNODE2
         CALL    CPYPL
         SHLD    HELDN
-        JMP     SPOUT3
+        JMP     NODNXT
 
 HOLD1:  CALL    SWAP            ; (HOLD exchanges them once more)
 ; (fall into FLUSH)
@@ -51,7 +51,7 @@ FLUSH:  XRA     A
 ROTATE: MVI     C,2*NODSIZ
 SWAP1:  LXI     D,KEPT
         LXI     H,MNODE1
-        JMP     OSWP1           ; (calc: exchanges C bytes, the first one first)
+        JMP     EXCHC           ; (calc: exchanges C bytes, the first one first)
 
 ; SWAP - exchanges KEPT and node 1
 ; Clobbers all

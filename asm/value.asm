@@ -1,5 +1,5 @@
 ; value.asm - the current value, and records that hold values
-; Offers: PUTN PUTVAL PUTA XCA XNA XNA1 GETA COPY15 COPY SETNUM SETK CHKRET SUBCHK ERRNG
+; Offers: PUTN PUTVAL PUTA XCA XNA GETREC GETA COPY15 COPY SETNUM SETK CHKRET SUBCHK ERRNG
 ; Uses:   start
 ; Room:   83 bytes
 ;
@@ -9,7 +9,7 @@ SUBMAX  EQU 999         ; greatest subscript
 
 ;! MCUR/100H == MREG/100H and MNEXT/100H == MREG/100H -- XCA and XNA
 
-; PUTN - makes the value the next element (for cut)
+; PUTN - makes the value the next element (for items and corner)
 ; In:  a0 a1 a2, A = kind   Clobbers A, DE, HL
 PUTN:   LXI     H,MNEXT
 ; (fall into PUTVAL)
@@ -26,13 +26,13 @@ PUTA:   LXI     D,MA
         JMP     COPY15
 
 ; XCA, XNA - QCA: a = C.  QNA: a = N.  VKIND with it.  (Operations of the route, which end as GETA)
-; XNA1 - the same for a record: kind, three numbers (for SAME and FETCH, which has a turn in bit 7)
-; In:  XNA1: DE -> record   Clobbers all
+; GETREC - the same for a record: kind, three numbers (for SAME and FETCH, which has a turn in bit 7)
+; In:  GETREC: DE -> record   Clobbers all
 XCA:    MVI     E,MCUR & 255
         DB      SKIP2           ; skips the MVI
 XNA:    MVI     E,MNEXT & 255
         MVI     D,MREG/256      ; (both lie in the registers' first page)
-XNA1:   LDAX    D
+GETREC: LDAX    D
         ANI     7FH
         STA     VKIND
         INX     D

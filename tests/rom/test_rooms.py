@@ -13,8 +13,6 @@ import rooms
 
 import build
 
-#: Bytes of the ROM that are kept for what is to come.
-KEPT = 300
 IMAGES = rooms.every()
 ALL = rooms.merged(IMAGES)
 
@@ -39,6 +37,19 @@ def test_no_idle_hook() -> None:
 def test_no_silent_entry() -> None:
     """Who goes to the middle of a routine is said there."""
     assert rooms.silent_entries(ALL) == []
+
+
+#: Names with a number that counts: bytes that are copied, bits of a number, bits and stop bits of a character.
+COUNTED = {"COPY5", "COPY15", "FTOI16", "SIO8N2"}
+
+
+def test_no_place_within_a_routine_is_offered() -> None:
+    """A digit behind a name is a place within a routine; what another file enters has a name that says what it does."""
+    offered = {name for room in ALL.values() for names in rooms.offered(ALL, room).values() for name in names}
+    constants = {name for name in offered if name.startswith("Q")}
+    restarts = set(build.RESTARTS.values()) | {"CALC0"}
+    assert offered >= COUNTED | (restarts - {"CALC0"})
+    assert {name for name in offered if name[-1].isdigit()} <= COUNTED | restarts | constants
 
 
 #: A routine's header, from its first line on, and the line behind it.
@@ -80,7 +91,7 @@ def test_room(image: str) -> None:
 
 def test_rooms_leave_what_is_kept() -> None:
     """The standard image's rooms together leave the bytes that are kept."""
-    assert sum(rooms.room_of(room) or 0 for room in IMAGES["skg"].values()) <= build.ROM_SIZE - KEPT
+    assert sum(rooms.room_of(room) or 0 for room in IMAGES["skg"].values()) <= build.ROM_SIZE - build.KEPT
 
 
 def test_no_file_asks_which_image_it_is_in() -> None:
@@ -88,6 +99,18 @@ def test_no_file_asks_which_image_it_is_in() -> None:
     lines = [f"{room.name}.asm: {line}" for room in ALL.values() for line in map(rooms.code, room.lines)]
     assert len(lines) > 5000
     assert [line for line in lines if re.search(r"(?<!\w)(IF|ELSE|ENDIF|IFDEF|IFNDEF)\b", line, re.I)] == []
+
+
+def test_a_board_of_ones_own_changes_no_header(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Files of its own fill the seam of the ports: the headers of those that call them stay as they are."""
+    own = {"ports_2sio": "ports_mine", "io_6850": "io_mine", "io_held": "teletype_mine", "io_tape": "tape_mine"}
+    images = {**build.IMAGES, "skg-mine": build.Image(ports=tuple(own.values()))}
+    monkeypatch.setattr(rooms, "SEAMS", rooms.seams(images))
+    texts = {own.get(name, name): text for name, text in build.sources(build.IMAGES["skg"]).items()}
+    mine = rooms.read(texts)
+    assert set(own.values()) < set(mine)
+    assert "io_mine" in mine["start"].uses
+    assert rooms.wrong_headers(rooms.merged({**IMAGES, "skg-mine": mine}), rooms.SEAMS) == []
 
 
 # The reader of headers itself, on small sources -----------------------------------------------------------------------

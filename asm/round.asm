@@ -1,4 +1,4 @@
-; grid.asm - where the wire goes, in whole micrometres (tape-3b.md, section "Rounding")
+; round.asm - where the wire goes, in whole micrometres (tape-3b.md, section "Rounding")
 ; Offers: XRND XVK XTOK
 ; Uses:   calc consts float start
 ; Room:   35 bytes
