@@ -27,7 +27,8 @@ PYTHON ?= python3
 VENV   := .venv
 PY     := $(VENV)/bin/python
 PAGES  := tests/floats/bounds.py tests/tools/test_drift.py tests/tools/test_dxf.py tests/tools/test_docs.py tests/tools/test_shop.py \
-          tests/rom/test_circles.py tests/docs/test_curves.py tests/docs/test_manual.py tests/docs/test_chinese.py tests/docs/test_walk.py
+          tests/rom/test_circles.py tests/docs/test_curves.py tests/docs/test_manual.py tests/docs/test_chinese.py tests/docs/test_walk.py \
+          tests/docs/test_figures.py
 PART   ?= examples/xy-fig1-loop.skg
 
 all: build/skg80 rom-age
