@@ -33,7 +33,7 @@ ALLOWED = {
     "sources": {COMMON, "geometry", "tape", "machine", "ref", "rivals"},
     "pictures": {COMMON, "geometry", "tape", "planning", "checking", "cutting"},
 }
-ALLOWED["ui"] = {COMMON, "geometry", "job", "tape", "planning", "pipeline", "pictures"}
+ALLOWED["ui"] = {COMMON, "geometry", "job", "tape", "planning", "cutting", "pipeline", "pictures"}
 ALLOWED["commands"] = set(ALLOWED) - {"native"}
 #: Modules beside the wings that are nobody's ground: the package's door, and the command line.
 DOORS = {"skg", "skg.cli"}

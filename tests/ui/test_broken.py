@@ -83,6 +83,21 @@ def test_sheet_of_a_process_that_is_gone(server: Server, tmp_path: Path) -> None
     assert page.get(f"/api/run/{number}/tape").status == 200
 
 
+def test_progress(server: Server, tmp_path: Path) -> None:
+    """The steps are told, and how many contours are done."""
+    page = Page(server)
+    number = page.done("POST", "/api/cut", {"rev": page.open(circles(tmp_path, 4000))["rev"]})["run"]
+    run = page.done("GET", f"/api/run/{number}")
+    told = []
+    while run["state"] == "running":
+        told.append((run["stage"], run["done"], run["of"]))
+        run = page.done("GET", f"/api/run/{number}?after={run['k']}")
+    assert run["state"] == "done"
+    stages = list(dict.fromkeys(stage for stage, _, _ in told))
+    assert stages == [one for one in ("plan", "board", "check") if one in stages] and "board" in stages
+    assert any(stage == "board" and 0 < done < of == 4000 for stage, done, of in told), told
+
+
 def test_cancel(server: Server, tmp_path: Path) -> None:
     """Back within a second, whatever the process does; the next cut is another one."""
     page = Page(server)

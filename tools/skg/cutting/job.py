@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import tee
@@ -13,7 +13,7 @@ from skg.checking.check import Checked, check
 from skg.checking.wire_path import Misfit
 from skg.cutting import refusal
 from skg.cutting.program import Program, Step, writes_fillets
-from skg.cutting.settings import Settings
+from skg.cutting.settings import Progress, Settings, in_silence
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom, has_spike
 from skg.machine.board import ErrorLine
@@ -72,14 +72,16 @@ class CutResult:
 _Trouble = ErrorLine | list[Misfit]
 
 
-def make(routes: list[PlannedContour], title: str, factor: float, settings: Settings) -> CutResult:
+def make(
+    routes: list[PlannedContour], title: str, factor: float, settings: Settings, progress: Progress = in_silence
+) -> CutResult:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
     Each contour is written as it is drawn, unless the ROM or the check refuses that; then the remedies of `_RUNGS`
     follow, for this contour alone. `factor`: mm in a unit of the file, for the places that a `UserError` names. Nothing
     is returned that is wrong: a contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
     """
-    ladder = _Ladder(routes, title, factor, settings)
+    ladder = _Ladder(routes, title, factor, settings, progress)
     ladder.leave_short()
     ladder.tame()
     job = ladder.around_tips(ladder.through())
@@ -89,7 +91,7 @@ def make(routes: list[PlannedContour], title: str, factor: float, settings: Sett
 
 def run(program: Program, factor: float, settings: Settings) -> CutResult:
     """Let the board run a program, check the tape; one that is refused, or wrong, is a `UserError`."""
-    job = _tried(program, settings)
+    job = _tried(program, settings, in_silence)
     if isinstance(job, ErrorLine):
         raise UserError(refusal.meaning(job.number))
     refusal.refuse(job.checked, job.routes, factor, settings)
@@ -132,12 +134,15 @@ class _Ladder:
     """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `left`: those that
     are not cut."""
 
-    def __init__(self, routes: list[PlannedContour], title: str, factor: float, settings: Settings) -> None:
+    def __init__(
+        self, routes: list[PlannedContour], title: str, factor: float, settings: Settings, progress: Progress
+    ) -> None:
         self.routes = dict(enumerate(routes))
         self.left: list[Left] = []
         self.title = title
         self.factor = factor
         self.settings = settings
+        self.progress = progress
 
     def leave_short(self) -> None:
         """Leave outlines that are too short for their tab; a `UserError` where they are refused."""
@@ -192,7 +197,7 @@ class _Ladder:
     def _try(self, routes: dict[int, PlannedContour]) -> tuple[CutResult | None, dict[int, _Trouble]]:
         """Cut some contours: what comes of it, and which do not go through."""
         numbers, program = list(routes), Program(list(routes.values()), self.title)
-        job = _tried(program, self.settings)
+        job = _tried(program, self.settings, self.progress)
         if isinstance(job, ErrorLine):
             refused = _refused(program, self.settings) or dict.fromkeys(range(len(numbers)), job)
             return None, {numbers[at]: error for at, error in refused.items()}
@@ -287,11 +292,14 @@ def _no_room(route: PlannedContour) -> NoRoom | None:
     return None
 
 
-def _tried(program: Program, settings: Settings) -> CutResult | ErrorLine:
+def _tried(program: Program, settings: Settings, progress: Progress) -> CutResult | ErrorLine:
     """Let the board run a program, and check the tape; the error where the ROM refuses it."""
-    text, is_stored, fed = _through(program, settings)
+    count = len(program.routes)
+    progress("board", 0, count)
+    text, is_stored, fed = _through(program, settings, lambda done: progress("board", done, count))
     if fed.error:
         return fed.error
+    progress("check", 0, count)
     tape = tapes.parse(fed.tape, program.title)
     checked = check(tape, program.routes, settings.is_without_drift)
     return CutResult(program.routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings)
@@ -311,7 +319,7 @@ def _refused(program: Program, settings: Settings) -> dict[int, ErrorLine]:
     return refused
 
 
-def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
+def _through(program: Program, settings: Settings, told: Callable[[int], None]) -> tuple[str, bool, Fed]:
     """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
     text = ""
     if _LEAST_STORED * len(program.routes) <= 1024 * settings.ram_kib:
@@ -322,7 +330,7 @@ def _through(program: Program, settings: Settings) -> tuple[str, bool, Fed]:
         if fed.error is None or fed.error.number != MEMORY_FULL:
             return text, True, fed
     parts, written = tee(map(_text, program.unnumbered()))
-    fed = feed_routes(parts, settings.rom, settings.ram_kib)
+    fed = feed_routes(parts, settings.rom, settings.ram_kib, told)
     return "".join(written), False, fed
 
 

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+
+#: Told how far a step is: its name ("plan", "board", "check"), how many contours of how many are done.
+Progress = Callable[[str, int, int], None]
+
+
+def in_silence(step: str, done: int, of: int) -> None:
+    """Tell nobody."""
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import tee
 
@@ -134,19 +134,25 @@ def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fe
     return Fed(board.tape, error, board.machine.cycles), done
 
 
-def feed_routes(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> Fed:
+def feed_routes(
+    parts: Iterable[str], rom: str | bytes, ram_kib: int, told: Callable[[int], None] = lambda done: None
+) -> Fed:
     """What `feed` makes of a program without line numbers, by as many boards at once as there are processors.
 
     `parts`: the title, the routes, each from its FROM on, the END. A route leaves nothing behind for the next one but
     the place where the wire is. So each board begins with the last route of the one before it; where these two tapes
-    differ, one board takes all.
+    differ, one board takes all. `told`: is called with the number of routes that are done.
     """
     from concurrent.futures import ThreadPoolExecutor  # (slow to import, and needed here alone)
 
     with ThreadPoolExecutor(os.cpu_count()) as boards:
         # (the first boards run while the rest of the program is still being written)
         parts, written = tee(parts)
-        shares = list(boards.map(lambda some: _feed_share(some, rom, ram_kib), _shares(parts)))
+        shares, done = [], 0
+        for taken, *fed in boards.map(lambda some: (len(some), *_feed_share(some, rom, ram_kib)), _shares(parts)):
+            shares.append(fed)
+            done += taken - 1
+            told(done)
     tape, cycles = b"", sum(one.cycles for _, one in shares)
     for begun, share in shares:
         if share.error:

@@ -9,14 +9,13 @@ The command line and the page make a `Job` and call these.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
 
 from skg.cutting.job import CutResult, make
 from skg.cutting.report import report
-from skg.cutting.settings import Settings
+from skg.cutting.settings import Progress, Settings, in_silence
 from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.plane import XY
@@ -31,9 +30,6 @@ from skg.reading.account import Account
 from skg.reading.read import Reading, read
 from skg.reading.selection import SMALL, WITHIN
 from skg.wording import ReportLine, counted, short
-
-#: Told how far a step is: its name, how much of it is done, of how much.
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
@@ -147,18 +143,15 @@ def _named(error: UserError, drawn: DrawnJob) -> UserError:
     return UserError(f"{drawn.name}: {error}", error.contour, error.place)
 
 
-def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress | None = None) -> CutDrawing:
+def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> CutDrawing:
     """Make the tape and check it; nothing is returned that is wrong."""
-    progress = progress or (lambda _stage, _done, _of: None)
-    count = len(drawn.contours)
-    progress("plan", 0, count)
+    progress("plan", 0, len(drawn.contours))
     routes = plan_drawing(job, drawn)
-    progress("board", 0, len(routes))
     machine, reading = job.machine, drawn.reading
     factor = reading.report.factor
     settings = Settings(machine.rom, machine.ram, machine.feed, machine.small, machine.into)
     try:
-        result = make(routes, job.drawing, factor, settings)
+        result = make(routes, job.drawing, factor, settings, progress)
     except UserError as error:
         raise _named(error, drawn) from None
     account = reading.report

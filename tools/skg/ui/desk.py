@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from skg.cutting.settings import Progress
 from skg.errors import UserError
 from skg.job import file as job_files
 from skg.job.job import Job
@@ -38,7 +39,7 @@ class Desk:
     """A drawing, its job, and what came of them. The methods are what the server calls; they return plain data,
     and JSON where there is much of them."""
 
-    def __init__(self, progress: Callable[[str, int, int], None]) -> None:
+    def __init__(self, progress: Progress) -> None:
         self._progress = progress
         self._data = b""
         self._job: Job | None = None

@@ -12,6 +12,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from traceback import extract_tb
 
+from skg.cutting.settings import Progress
 from skg.errors import UserError
 
 #: No call takes longer but a cut, s.
@@ -20,9 +21,6 @@ SECONDS = 120.0
 MEMORY = 4 << 30
 #: Progress is told no more often than this, s.
 _PAUSE = 0.1
-
-#: Told of a stage, and how many of how many are done (`Progress` of the pipeline, which is not loaded here).
-Tell = Callable[[str, int, int], None]
 
 
 class Ended(UserError):
@@ -45,7 +43,7 @@ class Worker:
         self._connection: Connection | None = None
         self._is_ended = False
 
-    def call(self, what: str, *arguments: object, progress: Tell | None = None) -> object:
+    def call(self, what: str, *arguments: object, progress: Progress | None = None) -> object:
         """Return what the call returns; what it refuses is a `UserError`, a process that is gone `Ended`.
 
         One that tells its progress takes as long as it takes.
@@ -81,7 +79,7 @@ class Worker:
                 self.end()
                 raise
 
-    def _ask(self, what: str, arguments: tuple, progress: Tell | None = None) -> object:
+    def _ask(self, what: str, arguments: tuple, progress: Progress | None = None) -> object:
         last = time.monotonic() + SECONDS
         try:
             self._connection.send((what, arguments))
@@ -149,7 +147,7 @@ def mistake(error: Exception) -> str:
     return f"a mistake of skg's own in {Path(last.filename).name}, line {last.lineno}: {text}"
 
 
-def _teller(connection: Connection) -> Tell:
+def _teller(connection: Connection) -> Progress:
     """Progress as messages, not too many of them."""
     told = ["", 0.0]
 
