@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import os
 import platform
 import shutil
 import subprocess
 import sys
 import tempfile
+import urllib.request
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -65,9 +67,10 @@ def judged(folder: Path) -> str:
     tapes = {part.with_suffix(".3b").name for part in (ROOT / "examples").glob("*.skg")}
     wrong = [name for name in sorted(tapes) if (out / name).read_bytes() != (ROOT / "examples" / name).read_bytes()]
     wrong += [name for name in CALLS if (out / f"{name}.code").read_text() != ("2" if name in REFUSED else "0")]
+    wrong += [name for name in ("ui.html", "ui.js", "ui.3b") if not (out / name).stat().st_size]
     if wrong or len(tapes) < 40:
         raise SystemExit(f"not as they should be: {', '.join(wrong)}")
-    return f"{len(tapes)} of {len(tapes)} examples, {len(CALLS)} calls"
+    return f"{len(tapes)} of {len(tapes)} examples, {len(CALLS)} calls, a tape by skg ui"
 
 
 def cut_examples(out: Path) -> None:
@@ -87,6 +90,32 @@ def cut_examples(out: Path) -> None:
             print(f"{part.name}: exit {code}\n{paper.getvalue()}", file=sys.stderr)
 
 
+def cut_on_screen(out: Path) -> None:
+    """Cut the drawing as the page of `skg ui` does, and ask for the page."""
+    command = [sys.executable, "-c", "from skg.cli import main; main()", "ui", "--no-browser", "\u652f\u67b6.dxf"]
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as process:
+        try:
+            address, _, token = process.stdout.readline().decode().strip().partition("#token=")
+
+            def ask(path: str, body: dict | None = None) -> bytes:
+                data = json.dumps(body).encode() if body else None
+                request = urllib.request.Request(address + path, data, {"Authorization": f"Bearer {token}"})
+                with urllib.request.urlopen(request, timeout=600) as answer:
+                    return answer.read()
+
+            (out / "ui.html").write_bytes(ask(""))
+            (out / "ui.js").write_bytes(ask("ui.js"))
+            state = json.loads(ask("api/state"))
+            while state["name"] is None:
+                state = json.loads(ask(f"api/state?after={state['rev']}"))
+            number = json.loads(ask("api/cut", {"rev": state["rev"]}))["run"]
+            while (run := json.loads(ask(f"api/run/{number}")))["state"] == "running":
+                ask(f"api/run/{number}?after={run['k']}")
+            (out / "ui.3b").write_bytes(ask(f"api/run/{number}/tape"))
+        finally:
+            process.kill()
+
+
 def main(folder: Path) -> None:
     """Cut and call; each call in a process of its own, its output through pipes."""
     os.chdir(folder)
@@ -100,6 +129,7 @@ def main(folder: Path) -> None:
         (out / f"{name}.stdout").write_bytes(done.stdout)
         (out / f"{name}.stderr").write_bytes(done.stderr)
         (out / f"{name}.code").write_text(str(done.returncode))
+    cut_on_screen(out)
 
 
 if __name__ == "__main__":
