@@ -200,8 +200,8 @@ export class Canvas {
     if (this.#desk.state) drawRuler(base, this.view, this.#size, this.#sketch.colours.ruler);
     over.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
     this.overlay.draw(over, this.view, this.#size, this.handles);
-    if (isWhole) void this.#ways.want(this.#sketch.inView(this.view, this.#size));
-    else this.#soon();
+    if (!isWhole) this.#soon();
+    else if (!this.#drag) void this.#ways.want(this.#sketch.inView(this.view, this.#size));
     // (for who looks at the page from outside: the window, how long this took, whether more is to come, handles in mm)
     const { scale, x, y } = this.view;
     const took = String(performance.now() - began);

@@ -43,6 +43,7 @@ const appearance = new Appearance(
     machine.name();
     matches.show();
     tree.name();
+    results.name();
     say();
   },
   (colours) => {

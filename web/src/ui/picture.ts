@@ -46,8 +46,14 @@ export class Picture {
     const key = `${view.scale} ${view.x} ${view.y} ${size} ${pixels}`;
     if (!this.#steps && (this.#isOld || key !== this.#key)) this.#begin(view, size, pixels, key);
     const end = performance.now() + SLICE;
-    while (this.#steps && performance.now() < end) {
-      if (!this.#steps.next().done) continue;
+    for (let flush = 0; this.#steps && performance.now() < end; ) {
+      const isDone = this.#steps.next().done;
+      if (isDone || performance.now() > flush) {
+        // (a browser puts strokes off until somebody looks: this is when they take their time)
+        this.#drawn.canvas.getContext("2d")?.getImageData(0, 0, 1, 1);
+        flush = performance.now() + SLICE / 4;
+      }
+      if (!isDone) continue;
       this.#steps = undefined;
       [this.#shown, this.#drawn] = [this.#drawn, this.#shown];
       this.#hasShown = true;
@@ -70,7 +76,7 @@ export class Picture {
       target.canvas.width = width;
       target.canvas.height = height;
     }
-    const context = target.canvas.getContext("2d");
+    const context = target.canvas.getContext("2d", { willReadFrequently: true });
     if (!context) return;
     context.setTransform(pixels, 0, 0, pixels, 0, 0);
     context.clearRect(0, 0, size[0] * (1 + 2 * MARGIN), size[1] * (1 + 2 * MARGIN));

@@ -55,7 +55,7 @@ export class Results {
     this.say();
     const { outcome, run } = this.#cutting;
     if (outcome.kind !== "done") {
-      this.#clear();
+      if (this.#shown !== undefined) this.#clear();
     } else if (run !== undefined && run !== this.#shown) {
       this.#shown = run;
       await Promise.all([this.#bring(run, outcome.result), this.#bringSheet()]);
@@ -149,8 +149,13 @@ export class Results {
         output.textContent = w("cancelled");
         break;
     }
+  }
+
+  /** The language is another one. */
+  name(): void {
     this.#walkBar.say();
     this.#list.grown(false);
+    this.say();
   }
 }
 

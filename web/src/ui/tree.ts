@@ -100,9 +100,10 @@ export class Tree {
 
   #draw(): void {
     const height = this.#rowHeight;
+    const { scrollTop, clientHeight } = this.#box;
     this.#inner.style.height = `${this.#rows.length * height}px`;
-    const first = Math.max(0, Math.floor(this.#box.scrollTop / height) - BEYOND);
-    const last = Math.min(this.#rows.length, Math.ceil((this.#box.scrollTop + this.#box.clientHeight) / height) + BEYOND);
+    const first = Math.max(0, Math.floor(scrollTop / height) - BEYOND);
+    const last = Math.min(this.#rows.length, Math.ceil((scrollTop + clientHeight) / height) + BEYOND);
     this.#inner.replaceChildren(...this.#rows.slice(first, last).map((row, at) => this.#row(row, first + at, height)));
     if (this.#rows.length) this.#box.setAttribute("aria-activedescendant", `row-${this.#active}`);
     else this.#box.removeAttribute("aria-activedescendant");
