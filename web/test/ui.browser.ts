@@ -1,82 +1,21 @@
 /** The drawing on the screen, `skg ui`, in Debian's chromium. */
 import assert from "node:assert/strict";
-import { type ChildProcess, execFileSync, spawn } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { type Browser, type BrowserContextOptions, chromium, type Locator, type Page } from "playwright-core";
 import { PATIENCE, WHOLE } from "./served.ts";
+import { BRACKET, box, circle, cutByCommand, dxf, endAll, field, start } from "./uistart.ts";
 
 const CHROMIUM = "/usr/bin/chromium";
 const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
-const SKG = process.env["SKG"] ?? ".venv/bin/skg";
 const AXE = readFileSync("web/node_modules/axe-core/axe.min.js", "utf8");
-const BRACKET = readFileSync("docs/pictures/bracket.dxf");
 const WIDE = { width: 1400, height: 900 };
 const PHONE = { width: 360, height: 740 };
 /** A drawing of so many circles. */
 const MANY = 20_000;
 
 let browser: Browser;
-const left: (() => void)[] = [];
-
-/** A drawing of lines, circles, and texts in DXF of 1988, without a header. */
-function dxf(...entities: readonly (readonly [string, Record<number, string | number>])[]): string {
-  const pairs = entities.flatMap(([kind, values]) => [
-    `0\n${kind}`,
-    ...Object.entries(values).map(([code, value]) => `${code}\n${value}`),
-  ]);
-  return `${["0\nSECTION\n2\nENTITIES", ...pairs, "0\nENDSEC\n0\nEOF"].join("\n")}\n`;
-}
-const circle = (x: number, y: number, r: number, layer = "PART") => ["CIRCLE", { 8: layer, 10: x, 20: y, 40: r }] as const;
-const line = (x0: number, y0: number, x1: number, y1: number, layer = "PART") =>
-  ["LINE", { 8: layer, 10: x0, 20: y0, 11: x1, 21: y1 }] as const;
-const box = (x0: number, y0: number, x1: number, y1: number) => [
-  line(x0, y0, x1, y0),
-  line(x1, y0, x1, y1),
-  line(x1, y1, x0, y1),
-  line(x0, y1, x0, y0),
-];
-/** Circles in rows, 3 mm apart. */
-const field = (count: number): string =>
-  dxf(...Array.from({ length: count }, (_, at) => circle(3 * (at % 200), 3 * Math.floor(at / 200), 1)));
-
-interface Started {
-  readonly url: string;
-  readonly folder: string;
-  readonly process: ChildProcess;
-  file(name: string): Buffer;
-}
-
-/** `skg ui` on a drawing in a folder of its own. */
-async function start(name = "bracket.dxf", data: Buffer | string = BRACKET, isNamed = true): Promise<Started> {
-  const folder = mkdtempSync(join(tmpdir(), "skg-ui-"));
-  writeFileSync(join(folder, name), data);
-  const child = spawn(SKG, ["ui", "--no-browser", ...(isNamed ? [join(folder, name)] : [])], {
-    stdio: ["ignore", "pipe", "inherit"],
-  });
-  left.push(() => {
-    child.kill();
-    rmSync(folder, { recursive: true, force: true });
-  });
-  const url = await new Promise<string>((found, failed) => {
-    let said = "";
-    child.stdout?.on("data", (more) => {
-      said += more;
-      const match = /http:\S+/.exec(said);
-      if (match) found(match[0]);
-    });
-    child.on("exit", (code) => failed(new Error(`skg ui ended with ${code}: ${said}`)));
-  });
-  return { url, folder, process: child, file: (each) => readFileSync(join(folder, each)) };
-}
-
-/** The tape that the command line makes of a drawing in a folder. */
-function cutByCommand(folder: string, name: string, ...options: string[]): Buffer {
-  execFileSync(SKG, ["cut", join(folder, name), "-o", join(folder, "command.nodrift.3b"), ...options], { stdio: "pipe" });
-  return readFileSync(join(folder, "command.nodrift.3b"));
-}
 
 /** A page in a browser that was never here. */
 async function visit(url: string, options: BrowserContextOptions = {}) {
@@ -186,7 +125,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
   });
   after(async () => {
     await browser?.close();
-    for (const end of left) end();
+    endAll();
   });
 
   test("drop a drawing, wire, gap, Cut, Save: the tape is that of the command line, byte for byte", async () => {
