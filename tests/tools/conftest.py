@@ -12,6 +12,10 @@ from click.testing import CliRunner, Result
 from toolhelp import CAD_TAPE, Run
 
 from skg.cli import cli
+from skg.job.file import dump, load
+from skg.job.job import Job
+from skg.pipeline import steps
+from skg.planning.route import PlannedContour
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -32,6 +36,22 @@ def run() -> Run:
         return result
 
     return call
+
+
+@pytest.fixture(autouse=True)
+def jobs_as_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The job of every drawing that `skg cut` cuts in a test, as a file: the same contours are planned, so that the
+    tape is the same."""
+    plain = steps.plan_drawing
+
+    def planned(job: Job, drawn: steps.DrawnJob) -> list[PlannedContour]:
+        routes = plain(job, drawn)
+        if len(routes) <= 200:
+            again = load(dump(steps.written(job, drawn)), "again")
+            assert plain(again, steps.open_drawing(again, drawn.data, drawn.name)) == routes
+        return routes
+
+    monkeypatch.setattr(steps, "plan_drawing", planned)
 
 
 @pytest.fixture(scope="session")

@@ -26,6 +26,7 @@ from toolhelp import Run, least_time
 from skg import tape as tapes
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.machine import feeding
 from skg.machine.feeding import feed, feed_routes, rest_of, without_numbers
@@ -152,8 +153,9 @@ def test_passes_on_the_contour(run: Run, tmp_path: Path) -> None:
     """Without an offset each contour is cut as often as is asked: the report and the sheet say so."""
     sheet = tmp_path / "sheet.svg"
     told = run("cut", BRACKET, "-o", tmp_path / "part.3b", "--passes", "0,0", "--sheet", sheet).stderr
-    assert "the wire's middle runs on the contours in 2 passes, every second one backwards: " in told
-    assert "2, every second one backwards" in sheet.read_text()
+    alike = "wire on the line in 2 passes, every second one backwards"
+    assert f"contour 4, outline: {alike}\n" in told and "the wire's middle runs on the contours: " in told
+    assert sheet.read_text().count(alike) >= 1
 
 
 @pytest.mark.parametrize(
@@ -267,7 +269,7 @@ def test_wrong_tapes_are_found() -> None:
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
     round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
     routes = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.1))
-    job = make(routes, "part", 1.0, Settings())
+    job = make(routes, "part", Settings())
     assert not job.checked.faults and job.checked.off < LIMIT
     wider = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.105))
     assert {fault.route for fault in check(job.tape, wider, True).faults} == {0, 1}
@@ -283,7 +285,7 @@ def test_wrong_tapes_are_found() -> None:
     checked = check(tapes.parse(open_one, "open"), routes, True)
     assert not checked.faults
     with pytest.raises(UserError, match=r"contour 2 .* does not close, open by 0, 1 µm on the controller: .* as two"):
-        refuse(checked, routes, 1.0, Settings())
+        refuse(checked, routes, Settings())
 
 
 def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> None:
@@ -316,7 +318,7 @@ def test_the_controllers_steps_count() -> None:
     for height, is_far in ((0.0, False), (3.7, True)):
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
         contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part", 1.0, Settings())
+        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part", Settings())
         found = check(job.tape, plan([contour], [(5.0, -3.0)], Wanted(offset=0.102)), True)
         assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
         if is_far:
@@ -348,7 +350,7 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
     square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
     routes = plan([square], [(5.0, -3.0)], Wanted(offset=0.1, passes=(0.5, 0.3, 0.0)))
-    job = make(routes, "part", 1.0, Settings())
+    job = make(routes, "part", Settings())
     assert not job.checked.faults and len(job.checked.cuts) == 2
     corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
     assert job.data.count(corner) == 1
@@ -366,7 +368,7 @@ def test_a_circle_too_many_is_found() -> None:
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
     routes = plan([half], [], Wanted(offset=0.1))
-    job = make(routes, "part", 1.0, Settings())
+    job = make(routes, "part", Settings())
     assert not job.checked.faults
     (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
     around = job.data.replace(arc, b"B5099B100B20400GYNR4\r\n" + arc)
@@ -538,7 +540,7 @@ def test_what_is_cut_on_its_line_is_said(run: Run, tmp_path: Path) -> None:
     }
     page.modelspace().delete_entity(page.modelspace()[0])
     told = run("cut", saved(page, tmp_path), *words[2:]).stderr
-    assert "the wire's middle runs on the contours: they are open" in told and "take care: the c" not in told, told
+    assert "open contours: wire on the line\n" in told and "take care: the c" not in told, told
 
 
 def test_the_wire_ends_where_a_slot_narrows(run: Run, tmp_path: Path) -> None:
@@ -559,7 +561,7 @@ def test_what_is_left_out_of_a_drawing_that_says_metres(run: Run, tmp_path: Path
     for one, other in pairwise(corners):
         page.modelspace().add_line(one, other)
     told = run("cut", saved(page, tmp_path), "-o", tmp_path / "part.3b", "--offset", 0.1, "--small", "leave").stderr
-    assert "take care, left out: opening from (20" in told and "1 outline; 1 start hole" in told, told
+    assert "take care, left out: contour 1 (opening from (20" in told and "1 outline; 1 start hole" in told, told
 
 
 @pytest.mark.parametrize(
@@ -731,7 +733,7 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
     routes = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], Wanted(offset=offset))
     (opening,) = (route for route in routes if route.number == 1)
     assert opening.start != (0.0, 0.0)
-    assert not make(routes, "part", 1.0, Settings()).checked.faults
+    assert not make(routes, "part", Settings()).checked.faults
 
 
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
@@ -876,7 +878,7 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
 
     wanted = [Wanted(offset=0.1, passes=one, tab=tab), Wanted(offset=0.1, passes=other)]
     routes = plan([square(0, 20), square(40, 10)], [], wanted)
-    made = make(routes, "squares", 1.0, Settings())
+    made = make(routes, "squares", Settings())
     assert not made.checked.faults and made.checked.off < LIMIT
     for at in (0, 1):
         # (a stop fewer or more would be found before: here a pass is wanted elsewhere)
@@ -1022,8 +1024,8 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
         contours.append(Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True))
-    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", 1.0, Settings())
-    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", 0.18, 0.01, "mm"))
+    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", Settings())
+    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm", MachineSetup(wire=0.18, gap=0.01)))
     sheet.draw()
     sheet.save(str(tmp_path / "sheet.svg"), "svg")
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
@@ -1079,15 +1081,15 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]
     rest = [(0.0, 4.0), (width, 4.0), (width, 9.0), (0.0, 9.0)]
     contours.append(Contour(tuple(Edge(p, q) for p, q in zip(rest, rest[1:] + rest[:1], strict=True)), True))
-    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part", 1.0, Settings())
+    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part", Settings())
     long = "a" * 40 + "b" * 40 + ".3b"
-    sheet = SetupSheet(job, Facts("part.dxf", long, None, 0.0, "mm"))
+    sheet = SetupSheet(job, Facts("part.dxf", long, "mm", MachineSetup()))
     sheet.draw()
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
     to_page = sheet.axes.transData.inverted()
     holes = [Point(sheet.on_paper(route.start)) for route in job.routes]
     lines = [one.get_path().vertices for one in sheet.axes.get_children() if one.get_gid() == "number-line"]
-    assert bool(lines) == (width > 100)
+    assert lines or width < 100
     tied = {min(range(len(holes)), key=lambda at: holes[at].distance(Point(line[0]))) for line in lines}
     (patch,) = (one for one in sheet.axes.get_children() if one.get_gid() == "wire")
     path = (patch.get_transform() - sheet.axes.transData).transform_path(patch.get_path())
@@ -1142,7 +1144,7 @@ def test_sheet_of_a_file_with_an_odd_name(run: Run, tmp_path: Path, name: str) -
         assert result.exit_code == 0 and all(line.startswith("take care") for line in result.stderr.splitlines())
     root = ElementTree.parse(tmp_path / "sheet.svg").getroot()
     texts = ["".join(one.itertext()).strip() for one in root.iter("{http://www.w3.org/2000/svg}text")]
-    assert "0.22, 0.19, 0.16, 0.13, 0.12, 0.11, 0.1 mm" in texts and "x, mm" in texts
+    assert any("0.22, 0.19, 0.16, 0.13, 0.12, 0.11, 0.1 mm" in text for text in texts) and "x, mm" in texts
     assert "-0.000" not in texts
     shown = name.replace("\udcff", "?").replace("\n", "?").replace("\x01", "?")
     ends = [one.partition("…")[::2] for one in texts if len(one) > 6]

@@ -24,7 +24,7 @@ EXAMPLE = re.compile(r"^    \$ (?P<command>.*)\n(?P<output>(?:    (?!\$ ).*\n|\n
 
 
 #: What an example writes for later ones to read.
-WRITTEN = re.compile(r"(?:-o|--program|>) (build/\S+?)(?=;|\s|$)")
+WRITTEN = re.compile(r"(?:-o|--program|--save-job|>) (build/\S+?)(?=;|\s|$)")
 
 
 def printed(command: str, folder: Path = ROOT) -> str:

@@ -6,7 +6,7 @@ import random
 from collections import Counter
 from functools import partial
 from itertools import pairwise
-from math import cos, hypot, inf, pi, sin
+from math import cos, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -143,8 +143,9 @@ def test_what_lies_around(seed: int) -> None:
     for place, around in zip(places, field.around(places), strict=True):
         assert around == [at for at, area in enumerate(areas) if area is not None and area.contains(Point(place))]
         free = [at for at in range(len(contours)) if at not in around]
-        far = [min(hypot(x - place[0], y - place[1]) for x, y in contours[at].points()) for at in free]
-        assert field.nearest(place, set(around)) == free[far.index(min(far))]
+        far = [min(edge.far(place) for edge in contours[at].edges) for at in free]
+        # (chords of arcs are near enough for a start hole)
+        assert far[free.index(field.nearest(place, set(around)))] <= min(far) + 0.01
 
 
 def test_depths_of_many() -> None:

@@ -30,7 +30,7 @@ def plate() -> list[Contour]:
 
 def cut(contours: list[Contour], wanted: list[Wanted]) -> list[int]:
     """The numbers of the contours in the order in which a checked tape cuts them."""
-    return [route.number for route in make(plan(contours, [], wanted), "plate", 1.0, Settings()).routes]
+    return [route.number for route in make(plan(contours, [], wanted), "plate", Settings()).routes]
 
 
 def test_what_is_left_stays_in_the_nesting() -> None:
@@ -63,7 +63,7 @@ def test_entry_and_start_hole(place: tuple[float, float]) -> None:
     hole = -5.0, -4.0
     (given,) = plan([plate()[0]], [], replace(wanted, start=hole))
     assert given.start == hole and dist(given.entry, place) < 0.5
-    assert len(make([chosen], "plate", 1.0, Settings()).tape.blocks) >= 6
+    assert len(make([chosen], "plate", Settings()).tape.blocks) >= 6
 
 
 def test_order() -> None:
@@ -75,7 +75,7 @@ def test_order() -> None:
     wanted[5], wanted[1] = replace(OFFSET, order=1), replace(OFFSET, order=3)
     assert cut(holes, wanted) == [5, 2, 1, 3, 4, 0]
     wanted[0] = replace(OFFSET, order=2)
-    with pytest.raises(UserError, match="contour 1 .*contour [2-6]"):
+    with pytest.raises(UserError, match=r"outline from \(0, 0\)\) would be cut before contour [3-6] \(opening"):
         plan(holes, [], wanted)
 
 
@@ -86,3 +86,10 @@ def test_start_holes_of_the_drawing_go_to_what_is_cut() -> None:
     assert routes[1].start == (6.0, 6.0) and routes[2].start == (21.5, 10.0)
     with pytest.raises(UserError, match="2 start holes for 1"):
         plan(plate(), [(21.5, 10.0), (1.0, 1.0)], wanted)
+
+
+def test_a_start_hole_goes_to_the_contour_that_comes_nearest() -> None:
+    """The middle of a long edge is nearer to it than another contour's corners are."""
+    for start in [(20.0, -3.0), (20.0, 23.0), (-3.0, 10.0), (43.0, 10.0)]:
+        routes = plan(plate(), [start], [OFFSET] * 4)
+        assert {route.number: route.start for route in routes}[0] == start

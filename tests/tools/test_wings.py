@@ -28,10 +28,10 @@ ALLOWED = {
     "reading": {COMMON, "geometry", "job"},
     "planning": {COMMON, "geometry", "job"},
     "checking": {COMMON, "geometry", "tape", "planning", "ref"},
-    "cutting": {COMMON, "geometry", "tape", "planning", "checking", "machine"},
+    "cutting": {COMMON, "geometry", "job", "tape", "planning", "checking", "machine"},
     "pipeline": {COMMON, "geometry", "job", "reading", "planning", "checking", "cutting"},
     "sources": {COMMON, "geometry", "tape", "machine", "ref", "rivals"},
-    "pictures": {COMMON, "geometry", "tape", "planning", "checking", "cutting"},
+    "pictures": {COMMON, "geometry", "job", "tape", "planning", "checking", "cutting"},
 }
 ALLOWED["ui"] = {COMMON, "geometry", "job", "tape", "planning", "cutting", "pipeline", "pictures"}
 ALLOWED["commands"] = set(ALLOWED) - {"native"}

@@ -162,7 +162,7 @@ def test_a_start_hole_between_two_circles_moves_to_the_inner_side(run: Run, tmp_
     for x, radius in ((0.1, 5.08), (0.12, 5)):
         page.modelspace().add_circle((x, 0.2), radius)
     (places, _), words = cut(run, page, tmp_path, "--offset", 0.1, "--small", "leave")
-    assert "left out: outline from" in words
+    assert re.search(r"left out: contour \d \(outline from", words)
     assert apart(LineString(places[1:-1]), Point(0.1, 0.2).buffer(4.98, quad_segs=400).exterior) < LIMIT
 
 
@@ -282,7 +282,7 @@ def test_what_is_too_small_may_be_left(run: Run, tmp_path: Path) -> None:
             assert apart(ring, Point(x, y).buffer(radius, quad_segs=400).exterior) < LIMIT
     assert not wanted and len(cuts) == 3
     assert "layer 0: 4 entities, 2 cut, 2 left: 1 CIRCLE, 1 LWPOLYLINE (no room for the wire or the tab)" in words
-    assert "left out: opening from (5.08, 5), layer 0: the wire has no room at (5, 5)" in words
+    assert "(opening from (5.08, 5), layer 0): the wire has no room at (5, 5)" in words
     assert "3 contours: 3 closed" in words
 
 
@@ -305,7 +305,7 @@ def test_what_lies_in_an_opening_that_is_left_out(run: Run, tmp_path: Path) -> N
     wanted = [(-0.1, -0.1, 60.1, 30.1), (32.1, 2.1, 57.9, 19.9), (41.9, 5.9, 48.1, 16.1), (44.1, 11.1, 45.9, 12.9)]
     assert reaches == [*wanted, (77.1, 7.1, 82.9, 12.9)]
     assert "2 CIRCLE, 1 LINE, 2 LWPOLYLINE (in an opening that is left out)" in words
-    named = "left out: outline from (5, 6), layer 0: it lies in the opening from (28, 20), layer 0, which is left out"
+    named = "(outline from (5, 6), layer 0): it lies in contour 8 (opening from (28, 20), layer 0), which is left out"
     assert named in words and "and 2 more contours left out" in words
 
 
@@ -335,7 +335,7 @@ def test_an_outline_that_is_too_short_for_the_tab(run: Run, tmp_path: Path) -> N
     run("cut", path, "-o", tape, *options, "--tab", 1.066)
     run_failing(run, "cut", path, "-o", tape, *options, "--tab", 1.067)
     cuts, words = cut(run, page, tmp_path, *options, "--tab", 1.5, "--small", "leave")
-    assert len(cuts) == 2 and "left out: outline from (20, 0), layer 0: it is too short for the tab" in words
+    assert len(cuts) == 2 and "(outline from (20, 0), layer 0): it is too short for the tab" in words
     assert "3 entities, 1 cut, 2 left" in words
 
 

@@ -5,11 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
-def in_file(place: tuple[float, float], factor: float) -> tuple[float, float]:
-    """A place (mm) in the file's own units."""
-    return place[0] / factor, place[1] / factor
-
-
 def short(value: float) -> str:
     """A length as a person writes it: at most four decimals."""
     text = f"{value:.4f}".rstrip("0").rstrip(".")

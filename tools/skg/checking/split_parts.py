@@ -10,7 +10,7 @@ import shapely
 from skg.geometry.areas import areas_of
 from skg.geometry.plane import XY
 from skg.planning.route import PlannedContour
-from skg.wording import counted, shown
+from skg.wording import ReportLine, counted, shown
 
 #: What is narrower than twice this holds nothing together, mm; a piece of less than this square is none.
 _HAIR = 0.005
@@ -38,14 +38,19 @@ def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
             yield int(closed[at]), len(pieces), (inside.x, inside.y)
 
 
-def said(routes: Sequence[PlannedContour], factor: float) -> list[str]:
-    """Report split parts; `factor`: mm in a unit of the file."""
+def said(routes: Sequence[PlannedContour]) -> list[ReportLine]:
+    """Report split parts."""
     found = [
-        f"take care: the part of contour {at + 1} falls into {count} pieces, what is cut out reaches its edge: the "
-        f"smallest is at {shown((x / factor, y / factor))}"
-        for at, count, (x, y) in fallen(routes)
+        ReportLine(
+            f"take care: the part of contour {routes[at].turn} falls into {count} pieces, what is cut out reaches its "
+            f"edge: the smallest is at {shown(place)}",
+            routes[at].number,
+            place,
+        )
+        for at, count, place in fallen(routes)
     ]
-    return found[:_PLACES] + [f"and {counted(len(found) - _PLACES, 'more such part')}"] * (len(found) > _PLACES)
+    more = len(found) - _PLACES
+    return found[:_PLACES] + [ReportLine(f"and {counted(more, 'more such part')}")] * (more > 0)
 
 
 def _pieces(area: shapely.Geometry) -> int:

@@ -182,9 +182,7 @@ def command(
 
         tape = Path(output).name if output != "-" else "-"
         drawing = Path(path).name if path != "-" else "-"
-        machine = job.machine
-        facts = Facts(drawing, tape, machine.wire, machine.gap or 0.0, cut.account.units)
-        write_sheet(cut.result, facts, sheet, form)
+        write_sheet(cut.result, Facts(drawing, tape, cut.account.units, job.machine), sheet, form)
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, cut.result.data)  # last: no tape where something else could not be written

@@ -44,5 +44,5 @@ def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None,
     write_bytes(output, job.program.encode("ascii"))
     if tape:
         write_bytes(tape, job.data)
-    for line in report(job, 1.0):
-        click.echo(line, err=True)
+    for line in report(job):
+        click.echo(line.text, err=True)

@@ -110,7 +110,7 @@ class Cam:
 
     def cut(self, name: str, wanted: Wanted) -> CutResult:
         """Make a tape of the cam."""
-        return make(plan(self.contours(), [], wanted), name, 1.0, Settings())
+        return make(plan(self.contours(), [], wanted), name, Settings())
 
     def _refuse_undercut(self) -> None:
         """Refuse a roller's path that bends more than the roller: it would cut into the profile."""

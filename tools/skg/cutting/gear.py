@@ -11,7 +11,7 @@ from math import acos, asin, atan2, cos, hypot, pi, radians, sin, sqrt, tan
 import numpy as np
 
 from skg.cutting.job import CutResult, make, run
-from skg.cutting.program import Part, Program, parts_of
+from skg.cutting.program import Program, RoutePart, parts_of
 from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
@@ -89,8 +89,8 @@ class Gear:
         if not wanted.tab:
             routes = [route if route.number else self._from_a_tip(route, wanted.lead) for route in routes]
             with suppress(UserError):
-                return run(Program(routes, name, self._parts), 1.0, Settings())
-        return make(routes, name, 1.0, Settings())
+                return run(Program(routes, name, self._parts), Settings())
+        return make(routes, name, Settings())
 
     def _from_a_tip(self, route: PlannedContour, lead: float) -> PlannedContour:
         """The outline, entered where a tooth begins: there the next one goes on."""
@@ -98,7 +98,7 @@ class Gear:
         start = polar((0, 0), self.tip_radius + lead + route.offset, -self.half_angle(self.tip_radius))
         return replace(route, contour=outline, start=start, part=0.0)
 
-    def _parts(self, route: PlannedContour) -> Iterator[Part]:
+    def _parts(self, route: PlannedContour) -> Iterator[RoutePart]:
         """The bore, and of the outline one tooth with its copies."""
         if route.number:
             return parts_of(route)

@@ -23,6 +23,7 @@ from skg.planning.islands import islands
 from skg.planning.route import PlannedContour
 from skg.tape import text as tapes
 from skg.tape.block import Tape
+from skg.wording import shown
 
 #: No contour takes fewer bytes of the board's memory: the lines of its REM, FROM and CUT.
 _LEAST_STORED = 24
@@ -72,29 +73,27 @@ class CutResult:
 _Trouble = ErrorLine | list[Misfit]
 
 
-def make(
-    routes: list[PlannedContour], title: str, factor: float, settings: Settings, progress: Progress = in_silence
-) -> CutResult:
+def make(routes: list[PlannedContour], title: str, settings: Settings, progress: Progress = in_silence) -> CutResult:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
     Each contour is written as it is drawn, unless the ROM or the check refuses that; then the remedies of `_RUNGS`
-    follow, for this contour alone. `factor`: mm in a unit of the file, for the places that a `UserError` names. Nothing
-    is returned that is wrong: a contour that cannot be cut, or that is not cut as it is drawn, is a `UserError`.
+    follow, for this contour alone. Nothing is returned that is wrong: a contour that cannot be cut, or that is not cut
+    as it is drawn, is a `UserError`.
     """
-    ladder = _Ladder(routes, title, factor, settings, progress)
+    ladder = _Ladder(routes, title, settings, progress)
     ladder.leave_short()
     ladder.tame()
     job = ladder.around_tips(ladder.through())
-    refusal.refuse(job.checked, job.routes, factor, settings)
+    refusal.refuse(job.checked, job.routes, settings)
     return replace(job, left=tuple(ladder.left))
 
 
-def run(program: Program, factor: float, settings: Settings) -> CutResult:
+def run(program: Program, settings: Settings) -> CutResult:
     """Let the board run a program, check the tape; one that is refused, or wrong, is a `UserError`."""
     job = _tried(program, settings, in_silence)
     if isinstance(job, ErrorLine):
         raise UserError(refusal.meaning(job.number))
-    refusal.refuse(job.checked, job.routes, factor, settings)
+    refusal.refuse(job.checked, job.routes, settings)
     return job
 
 
@@ -134,13 +133,10 @@ class _Ladder:
     """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `left`: those that
     are not cut."""
 
-    def __init__(
-        self, routes: list[PlannedContour], title: str, factor: float, settings: Settings, progress: Progress
-    ) -> None:
+    def __init__(self, routes: list[PlannedContour], title: str, settings: Settings, progress: Progress) -> None:
         self.routes = dict(enumerate(routes))
         self.left: list[Left] = []
         self.title = title
-        self.factor = factor
         self.settings = settings
         self.progress = progress
 
@@ -148,7 +144,7 @@ class _Ladder:
         """Leave outlines that are too short for their tab; a `UserError` where they are refused."""
         fits = {number: longest_tab(route.contour) for number, route in self.routes.items() if route.is_short}
         if fits and self.settings.small != "leave":
-            raise refusal.without_tab(self.routes, fits, self.factor, self.settings)
+            raise refusal.without_tab(self.routes, fits, self.settings)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
 
     def tame(self) -> None:
@@ -189,7 +185,7 @@ class _Ladder:
             found, troubles = self._try(self.routes | around)
             if not troubles:
                 with suppress(UserError):
-                    refusal.refuse(found.checked, found.routes, self.factor, self.settings)
+                    refusal.refuse(found.checked, found.routes, self.settings)
                     return found
             around = {number: route for number, route in around.items() if number not in troubles} if troubles else {}
         return job
@@ -231,21 +227,20 @@ class _Ladder:
         """Explain why a contour that nothing helps is left; empty where it may not be."""
         if self.settings.small != "leave" or isinstance(trouble, ErrorLine):
             return ""
-        return next(filter(None, (refusal.why_no_room(fault, self.factor) for fault in trouble)), "")
+        return next(filter(None, (refusal.why_no_room(fault) for fault in trouble)), "")
 
     def _lost(self, number: int, trouble: _Trouble) -> UserError:
         """Report a contour that nothing helps."""
         route = self.routes[number]
         if not isinstance(trouble, ErrorLine):
-            return refusal.off_drawing(trouble, route, number, self.factor, self.settings)
+            return refusal.off_drawing(trouble, route, self.settings)
         _, steps, _ = Program([route], "").unnumbered()
         fed, done = feed_lines([_text([step]) for step in steps], self.settings.rom, self.settings.ram_kib)
         if not fed.error:
             return UserError(refusal.meaning(trouble.number), route.number)
         place = [route.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
         return UserError(
-            f"{refusal.named(route, number, self.factor)}, near {refusal.told_in_file(place, self.factor)}: "
-            f"{refusal.meaning(fed.error.number)}",
+            f"{route.name}, near {shown(place)}: {refusal.meaning(fed.error.number)}",
             route.number,
             place,
         )
@@ -255,21 +250,19 @@ class _Ladder:
         among some."""
         if no_room and self.settings.small != "leave":
             no_room = {number: why for number in among if (why := _no_room(self.routes[number]))}
-            raise refusal.without_room(self.routes, no_room, self.factor, self.settings)
-        self._leave(
-            {number: f"{why} {refusal.told_in_file(why.place, self.factor)}" for number, why in no_room.items()}
-        )
+            raise refusal.without_room(self.routes, no_room, self.settings)
+        self._leave({number: f"{why} {shown(why.place)}" for number, why in no_room.items()})
 
     def _leave(self, reasons: dict[int, str]) -> None:
         """Leave contours, and what lies in those that are openings."""
-        names = {number: refusal.called(self.routes[number], self.factor) for number in reasons}
+        names = {number: self.routes[number].name for number in reasons}
         within = islands(self.routes, reasons)
         for number, reason in reasons.items():
             self.left.append(Left(self.routes.pop(number).number, names[number], reason))
         for number, opening in within.items():
             route = self.routes.pop(number)
-            reason = f"it lies in the {names[opening]}, which is left out"
-            self.left.append(Left(route.number, refusal.called(route, self.factor), reason, is_within=True))
+            reason = f"it lies in {names[opening]}, which is left out"
+            self.left.append(Left(route.number, route.name, reason, is_within=True))
         if not self.routes:
             raise UserError(f"no contour is left to cut: {self.left[0].name}: {self.left[0].why}")
 

@@ -152,10 +152,10 @@ def _out(lead: Lead) -> Iterator[float | _Item]:
 
 
 #: A part of a route: a statement (text), an offset from here on (a number), an item of a CUT, a curve.
-Part = str | float | _Item | Edge
+RoutePart = str | float | _Item | Edge
 
 
-def parts_of(route: PlannedContour) -> Iterator[Part]:
+def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
     """A route in parts."""
     here: XY | None = None
     for at, run in enumerate(route.runs()):
@@ -220,7 +220,7 @@ class _Writer:
             self.say(f"{self.names[key]}={item.text}", item.place)
         return self.names[key]
 
-    def write(self, title: str, pieces: Iterable[Part]) -> None:
+    def write(self, title: str, pieces: Iterable[RoutePart]) -> None:
         """Write a route."""
         self.say(f"REM {title}")
         if not self.is_stored and self.r == 0:
@@ -277,7 +277,7 @@ class Program:
 
     routes: list[PlannedContour]
     title: str
-    parts_of: Callable[[PlannedContour], Iterable[Part]] = parts_of
+    parts_of: Callable[[PlannedContour], Iterable[RoutePart]] = parts_of
 
     def __post_init__(self) -> None:
         plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
@@ -287,8 +287,8 @@ class Program:
         """The statements without line numbers: the title, a list for each route, the end."""
         yield [self.head]
         writer = _Writer(False)
-        for at, route in enumerate(self.routes):
-            writer.write(_title(at, route), self.parts_of(route))
+        for route in self.routes:
+            writer.write(_title(route), self.parts_of(route))
             yield writer.taken()
         yield [Step("END")]
 
@@ -297,8 +297,8 @@ class Program:
         pieces = [list(self.parts_of(route)) for route in self.routes]
         writer = _Writer(True)
         writer.uses.update((piece.letter, piece.text) for some in pieces for piece in some if isinstance(piece, _Item))
-        for at, route in enumerate(self.routes):
-            writer.write(_title(at, route), pieces[at])
+        for route, some in zip(self.routes, pieces, strict=True):
+            writer.write(_title(route), some)
         lines = [self.head.text, *(statement.text for statement in writer.statements), "END"]
         subroutine = len(lines)
         if writer.data:
@@ -341,8 +341,8 @@ def _count(count: int, noun: str) -> str:
     return f"{count} {noun}{'S' if count > 1 else ''}"
 
 
-def _title(at: int, route: PlannedContour) -> str:
-    return f"{at + 1}. {describe(route)}"
+def _title(route: PlannedContour) -> str:
+    return f"{route.turn}. {describe(route)}"
 
 
 def _kind(edge: Edge) -> str:

@@ -1,7 +1,4 @@
-"""Messages about contours that cannot be cut, and a tape that is not the drawing: place, reason, remedy.
-
-`factor` is mm in a unit of the drawing's file, in which places are told.
-"""
+"""Messages about contours that cannot be cut, and a tape that is not the drawing: place, reason, remedy."""
 
 from __future__ import annotations
 
@@ -16,9 +13,8 @@ from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.offset import NoRoom, widest, wire_way
-from skg.geometry.plane import XY
 from skg.planning.route import PlannedContour
-from skg.wording import counted, in_file, short, shown
+from skg.wording import counted, short, shown
 
 #: What the errors of a route mean (language.md, section 6), and what to do.
 _MEANING = {
@@ -36,29 +32,6 @@ _MEANING = {
 _MANY = 2000
 
 
-def told_in_file(place: XY, factor: float) -> str:
-    """A place as the drawing's file has it; `factor`: mm in a unit of the file."""
-    return shown(in_file(place, factor))
-
-
-def kind(route: PlannedContour) -> str:
-    """Return a contour's kind."""
-    if not route.contour.is_closed:
-        return "open contour"
-    return "opening" if route.is_opening else "outline"
-
-
-def called(route: PlannedContour, factor: float) -> str:
-    """A contour by what it is, where it begins, and its layers."""
-    layers = f", layer {', '.join(route.contour.layers)}" if route.contour.layers else ""
-    return f"{kind(route)} from {told_in_file(route.contour.edges[0].start, factor)}{layers}"
-
-
-def named(route: PlannedContour, number: int, factor: float) -> str:
-    """A contour with its number, which is told from 1."""
-    return f"contour {number + 1} ({called(route, factor)})"
-
-
 def meaning(error: int) -> str:
     """An error of the ROM in a route, and what to do."""
     what, then = _MEANING.get(error, ("the board refuses it", "see language.md, section 6"))
@@ -70,25 +43,21 @@ def too_short(fit: float) -> str:
     return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
 
 
-def without_tab(
-    routes: Mapping[int, PlannedContour], fits: dict[int, float], factor: float, settings: Settings
-) -> UserError:
+def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], settings: Settings) -> UserError:
     """Report outlines that their tab does not fit: the shortest one."""
     at = min(fits, key=fits.__getitem__)
     route = routes[at]
-    message = f"{named(route, at, factor)}: {too_short(fits[at])}"
+    message = f"{route.name}: {too_short(fits[at])}"
     if len(fits) > 1:
         message += f"; {counted(len(fits) - 1, 'more contour')} without room for the tab"
     return UserError(f"{message}: take a shorter --tab{_or_leave(settings)}", route.number, route.entry)
 
 
-def without_room(
-    routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], factor: float, settings: Settings
-) -> UserError:
+def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], settings: Settings) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
     at, fit = _tightest(routes, none)
     route = routes[at]
-    message = f"{named(route, at, factor)}: {none[at]} {told_in_file(none[at].place, factor)}"
+    message = f"{route.name}: {none[at]} {shown(none[at].place)}"
     if none[at].is_crossing:
         message += ", the wire does not fit beside it"
         help_ = "redraw it"
@@ -139,59 +108,57 @@ def _or_leave(settings: Settings) -> str:
     return ", or leave such contours out with --small leave" if settings.small else ""
 
 
-def why_no_room(fault: Misfit, factor: float) -> str:
+def why_no_room(fault: Misfit) -> str:
     """Explain why the wire does not fit; empty when something else is wrong."""
-    place = told_in_file(fault.place, factor)
+    place = shown(fault.place)
     if fault.is_into:
         return f"the wire would cut {short(fault.off)} mm into it at {place}"
     return f"the wire does not come to {place}" if fault.is_missed else ""
 
 
-def off_drawing(
-    faults: list[Misfit], route: PlannedContour, number: int, factor: float, settings: Settings
-) -> UserError:
+def off_drawing(faults: list[Misfit], route: PlannedContour, settings: Settings) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
-    if why := why_no_room(fault, factor):
+    if why := why_no_room(fault):
         message = (
             f"{why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
             f"take a smaller one or a thinner wire{_or_leave(settings)}"
         )
     else:
-        place, off = told_in_file(fault.place, factor), f"{short(1000 * fault.off)} µm off the drawing"
+        place, off = shown(fault.place), f"{short(1000 * fault.off)} µm off the drawing"
         where = (
             f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
         )
-        message = f"the wire would be {where}: nothing was written; {_advice(fault, route, factor, settings)}"
-    return UserError(f"{named(route, number, factor)}: {message}", route.number, fault.place)
+        message = f"the wire would be {where}: nothing was written; {_advice(fault, route, settings)}"
+    return UserError(f"{route.name}: {message}", route.number, fault.place)
 
 
-def refuse(checked: Checked, routes: list[PlannedContour], factor: float, settings: Settings) -> None:
+def refuse(checked: Checked, routes: list[PlannedContour], settings: Settings) -> None:
     """Raise what is wrong with a tape, if anything is, as a `UserError`."""
     if checked.faults:
         first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.route)).route
         faults = [fault for fault in checked.faults if fault.route == first]
-        raise off_drawing(faults, routes[first], first, factor, settings)
+        raise off_drawing(faults, routes[first], settings)
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
             raise UserError(
-                f"{named(route, cut.route, factor)}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
+                f"{route.name}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
                 "controller: draw its longest arc as two",
                 route.number,
                 route.entry,
             )
     spoilt = [one for one in checked.crossings if all(routes[at].contour.is_closed for at in (one.route, one.other))]
     if spoilt and settings.into != "cut":
-        raise _spoilt(spoilt, routes, factor, settings)
+        raise _spoilt(spoilt, routes, settings)
 
 
-def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], factor: float, settings: Settings) -> UserError:
+def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], settings: Settings) -> UserError:
     """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
     message = (
-        f"{named(routes[worst.route], worst.route, factor)}: its wire would gouge {into(worst)} "
-        f"{named(routes[worst.other], worst.other, factor)} at {told_in_file(worst.place, factor)}"
+        f"{routes[worst.route].name}: its wire would gouge {into(worst)} "
+        f"{routes[worst.other].name} at {shown(worst.place)}"
     )
     if len(spoilt) > 1:
         message += f"; {counted(len(spoilt) - 1, 'more cut')} into other contours"
@@ -207,12 +174,12 @@ def into(crossing: Crossing) -> str:
     return f"{short(crossing.depth)} mm{' or more' * crossing.is_through} into"
 
 
-def _advice(fault: Misfit, route: PlannedContour, factor: float, settings: Settings) -> str:
+def _advice(fault: Misfit, route: PlannedContour, settings: Settings) -> str:
     """Return remedies for a wire that is off the drawing."""
     if not settings.is_without_drift:
         return "--rom no-drift is nearer"
     edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
-    ends = " to ".join(told_in_file(end, factor) for end in (edge.start, edge.end))
+    ends = " to ".join(shown(end) for end in (edge.start, edge.end))
     what = "curve" if edge.nodes else "arc" if edge.centre else "line"
     others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
-    return f"{others}redraw the {what} from {ends}, {short(edge.length / factor)} long, or its neighbour"
+    return f"{others}redraw the {what} from {ends}, {short(edge.length)} long, or its neighbour"

@@ -3,113 +3,135 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 
 from skg.checking.follow import Threading
 from skg.checking.wire_path import LIMIT
 from skg.cutting.job import CutResult
-from skg.cutting.refusal import into, kind, told_in_file
+from skg.cutting.manner import manners, numbered, stops
+from skg.cutting.refusal import into
 from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
 from skg.geometry.plane import XY
 from skg.planning.nesting import said
 from skg.planning.route import PlannedContour
 from skg.tape.simulation import duration
-from skg.wording import counted, short
+from skg.wording import ReportLine, counted, short, shown
 
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
+#: Manners of cutting that have a line each.
+_MANNERS = 20
 #: So many pairs of contours it names of which one is cut into by the other's wire.
 _PAIRS = 100
 
 
-def report(job: CutResult, factor: float, offset: float = 0.0) -> list[str]:
+def report(job: CutResult, offset: float = 0.0) -> list[ReportLine]:
     """Return the report on a tape, line by line. `offset`: as asked for, mm."""
+    routes = job.routes
+    return [
+        *map(ReportLine, _facts(job, offset)),
+        *(ReportLine(f"take care, left out: {one.name}: {one.why}", one.number) for one in job.left[:_PLACES]),
+        *_more(job.left, "more contour left out", "more contours left out"),
+        *map(ReportLine, said((route.turn, route.around) for route in routes)),
+        *_corners(routes),
+        *_crossings(job),
+    ]
+
+
+def _facts(job: CutResult, offset: float) -> Iterator[str]:
+    """Order, manners, length, how the tape was made and what the check found."""
     settings, routes = job.settings, job.routes
-    kinds = Counter(kind(route) for route in routes)
-    order = ", ".join(counted(count, one) for one, count in kinds.items())
-    holes = [route.start for route in routes]
-    lines = [
-        f"cut in this order: {order}; {counted(len(holes), 'start hole')}: "
-        + ", ".join(told_in_file(hole, factor) for hole in holes[:_PLACES])
+    kinds = Counter(route.kind for route in routes)
+    holes = [shown(route.start) for route in routes]
+    yield (
+        f"cut in this order: {', '.join(counted(count, one) for one, count in kinds.items())}; "
+        f"{counted(len(holes), 'start hole')}: {', '.join(holes[:_PLACES])}"
         + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
-    ]
-    lines += _offsets(routes, offset)
-    lines += [
+    )
+    yield from _manners(routes, offset)
+    yield (
         f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {settings.feed:g} mm/min; "
-        f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}",
-        _how(job),
-        f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
-        + (_closing(job.checked.cuts, routes) if not job.checked.drift else ""),
-    ]
+        f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}"
+    )
+    if what := "; ".join(stops(routes)):
+        yield f"two stops each time, wire off and wire threaded: {what}"
+    how = (
+        "a stored program"
+        if job.is_stored
+        else "lines without numbers, carried out as they are loaded: stored it would not fit"
+    )
+    yield f"made by the {settings.rom} ROM with {settings.ram_kib} KiB of RAM from {how}"
+    checked = f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
     if drift := job.checked.drift:
-        lines.append(
+        yield checked
+        yield (
             f"take care: the misses of arcs add up on the machine, to {1000 * drift:.2f} µm beside that: "
             "--rom no-drift makes a tape without"
         )
-    lines += [f"take care, left out: {one.name}: {one.why}" for one in job.left[:_PLACES]]
-    if len(job.left) > _PLACES:
-        lines.append(f"and {counted(len(job.left) - _PLACES, 'more contour')} left out")
-    lines += said(route.around for route in routes)
-    lines += _corners(routes, factor)
-    for crossing in job.checked.crossings[:_PLACES]:
-        lines.append(
-            f"take care: the cut of contour {crossing.route + 1} comes {into(crossing)} contour {crossing.other + 1} "
-            f"at {told_in_file(crossing.place, factor)}"
-        )
-    if more := job.checked.crossings[_PLACES:]:
-        lines.append(
-            f"take care: {counted(len(more), 'more cut')} into other contours: "
-            + ", ".join(f"{one.route + 1} into {one.other + 1}" for one in more[:_PAIRS])
+    else:
+        yield checked + _closing(job.checked.cuts, routes)
+
+
+def _crossings(job: CutResult) -> Iterator[ReportLine]:
+    """Cuts that come into other contours."""
+    routes, found = job.routes, job.checked.crossings
+    for one in found[:_PLACES]:
+        route = routes[one.route]
+        text = f"contour {route.turn} comes {into(one)} contour {routes[one.other].turn} at {shown(one.place)}"
+        yield ReportLine(f"take care: the cut of {text}", route.number, one.place)
+    if more := found[_PLACES:]:
+        pairs = (f"{routes[one.route].turn} into {routes[one.other].turn}" for one in more[:_PAIRS])
+        yield ReportLine(
+            f"take care: {counted(len(more), 'more cut')} into other contours: {', '.join(pairs)}"
             + " …" * (len(more) > _PAIRS)
         )
-    return lines
 
 
-def _offsets(routes: list[PlannedContour], offset: float) -> list[str]:
-    passes = next((route.passes for route in routes if any(route.passes)), ())
-    on = sum(not any(route.passes) for route in routes)
-    if not passes:
-        is_any_closed = any(route.contour.is_closed for route in routes)
-        often = max(len(route.passes) for route in routes)
-        line = f"the wire's middle runs on the contours{_passes(often)}: "
-        if offset or not is_any_closed:
-            return [line + ("--side on" if is_any_closed else "they are open")]
-        return [f"take care: {line}no --wire and no --offset, outlines come out smaller by half a kerf all around"]
-    lines = [f"the wire runs {', '.join(short(abs(r)) for r in passes)} mm beside the contours{_passes(len(passes))}"]
-    if len(passes) > 1:
-        free = [at + 1 for at, route in enumerate(routes) if route.contour.is_closed and not route.tab]
-        outer = [at for at in free if not routes[at - 1].is_opening]
-        if outer:
-            lines.append(
-                f"take care: {counted(len(outer), 'part')} free after the first pass "
-                f"{_contours(outer)}: --tab keeps a bridge"
+def _manners(routes: list[PlannedContour], offset: float) -> Iterator[str]:
+    """How contours are cut, those alike in one line."""
+    found = manners(routes)
+    for manner, numbers in list(found.items())[:_MANNERS]:
+        nouns = manner.kind + "s" * (len(numbers) > 1)
+        yield f"{numbered(numbers)}, {nouns}: {manner.told}"
+    if more := [number for numbers in list(found.values())[_MANNERS:] for number in numbers]:
+        yield f"and {counted(len(more), 'contour')} more, each in its own manner: the sheet and the program have them"
+    if not any(any(manner.passes) for manner in found):
+        if not offset and any(route.contour.is_closed for route in routes):
+            yield (
+                "take care: the wire's middle runs on the contours: no --wire and no --offset, outlines come out "
+                "smaller by half a kerf all around"
             )
-    lines += _sides(routes)
-    if on:
-        lines.append(f"take care: the wire's middle runs on {counted(on, 'open contour')}: offset not applied")
-    return lines
-
-
-def _passes(count: int) -> str:
-    return f" in {count} passes, every second one backwards" if count > 1 else ""
+        return
+    free = [
+        route.turn
+        for route in routes
+        if route.contour.is_closed and len(route.passes) > 1 and not route.tab and not route.is_opening
+    ]
+    if free:
+        yield (
+            f"take care: {counted(len(free), 'part')} free after the first pass {_contours(free)}: --tab keeps a bridge"
+        )
+    yield from _sides(routes)
+    if on := sum(not route.contour.is_closed and not any(route.passes) for route in routes):
+        yield f"take care: the wire's middle runs on {counted(on, 'open contour')}: offset not applied"
 
 
 def _sides(routes: list[PlannedContour]) -> Iterator[str]:
     """Contours that the wire runs beside on the side that --side says, not on that of a part with openings."""
-    closed = [(at + 1, route) for at, route in enumerate(routes) if route.contour.is_closed and route.passes[-1]]
-    if not any(route.depth for _, route in closed):
+    closed = [route for route in routes if route.contour.is_closed and route.passes[-1]]
+    if not any(route.depth for route in closed):
         return
-    wide = short(2 * abs(closed[0][1].passes[-1]))
     for is_opening, side, noun, than in (
         (True, "outside", "opening", "wider"),
         (False, "inside", "outline", "smaller"),
     ):
-        some = [at for at, route in closed if route.is_opening is is_opening is route.is_outside]
+        some = [route for route in closed if route.is_opening is is_opening is route.is_outside]
         if some:
+            wide = " or ".join(dict.fromkeys(short(2 * abs(route.passes[-1])) for route in some))
             yield (
-                f"take care: the wire runs {side} of {counted(len(some), noun)} {_contours(some)}: "
-                f"{wide} mm {than} than drawn, because of --side"
+                f"take care: the wire runs {side} of {counted(len(some), noun)} "
+                f"{_contours([route.turn for route in some])}: {wide} mm {than} than drawn, because of --side"
             )
 
 
@@ -118,63 +140,65 @@ def _contours(numbers: list[int]) -> str:
     return f"(contour {', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)})"
 
 
-def _corners(routes: list[PlannedContour], factor: float) -> list[str]:
+def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
     straight, around, chords, off = [], [], [], _in_sharp_ones(routes)
-    for at, route in enumerate(routes):
+    for route in routes:
         if route.is_cramped:
             why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"
-            straight.append(f"contour {at + 1} {why} for a lead along an arc: it is straight")
+            straight.append(_about(route, f"{why} for a lead along an arc: it is straight"))
         if route.is_around:
-            around.append(f"contour {at + 1} has sharp tips: the wire goes along an arc around them")
+            around.append(_about(route, "has sharp tips: the wire goes along an arc around them"))
         if not route.traced or route.is_around:
             continue
         if not any(route.passes):
-            chords.append(
-                f"contour {at + 1} is cut along chords: a controller would leave one of its arcs or curves too far"
-            )
+            text = "is cut along chords: a controller would leave one of its arcs or curves too far"
+            chords.append(_about(route, text))
             continue
         far, place = uncut(route.contour, route.traced[-1], route.passes[-1])
         if far > LIMIT:
-            off.append((far, place, at))
+            off.append((far, place, route))
     narrow = [
-        f"take care: contour {at + 1} has corners that are too narrow for the wire, as at "
-        f"{told_in_file(place, factor)}: it stays {short(far)} mm off"
-        for far, place, at in sorted(off, key=lambda one: -one[0])
+        ReportLine(
+            f"take care: contour {route.turn} has corners that are too narrow for the wire, as at {shown(place)}: "
+            f"it stays {short(far)} mm off",
+            route.number,
+            place,
+        )
+        for far, place, route in sorted(off, key=lambda one: -one[0])
     ]
     return [line for lines in (straight, around, chords, narrow) for line in _first(lines)]
 
 
-def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, int]]:
+def _about(route: PlannedContour, text: str) -> ReportLine:
+    return ReportLine(f"contour {route.turn} {text}", route.number, route.entry)
+
+
+def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, PlannedContour]]:
     """Distance (mm) of the wire from the sharp inner corners of contours that are cut as they are, the place, and of
     which contour: the worst first, and those that may be named as measured."""
     found = []
-    for at, route in enumerate(routes):
+    for route in routes:
         is_beside = route.contour.is_closed and route.passes and route.passes[-1]
         if is_beside and (route.is_around or not route.traced) and (one := sharpest(route.contour, route.passes[-1])):
-            found.append((*one, at))
+            found.append((*one, route))
     found.sort(key=lambda one: -one[0])
-    for number, (_, _, at) in enumerate(found[:_PLACES]):
-        route = routes[at]
+    for number, (_, _, route) in enumerate(found[:_PLACES]):
         with suppress(NoRoom):
             way = route.traced[-1] if route.traced else wire_way(route.contour, route.passes[-1])
-            found[number] = *uncut(route.contour, way, route.passes[-1]), at
+            found[number] = *uncut(route.contour, way, route.passes[-1]), route
     return found
 
 
-def _first(lines: list[str]) -> list[str]:
+def _first(lines: list[ReportLine]) -> list[ReportLine]:
     """The first lines of a kind, one for each contour, and how many more there are."""
-    more = len(lines) - _PLACES
-    return lines[:_PLACES] + [f"and {counted(more, 'more such contour')}"] * (more > 0)
+    return [*lines[:_PLACES], *_more(lines, "more such contour")]
 
 
-def _how(job: CutResult) -> str:
-    how = (
-        "a stored program"
-        if job.is_stored
-        else "lines without numbers, carried out as they are loaded: stored it would not fit"
-    )
-    return f"made by the {job.settings.rom} ROM with {job.settings.ram_kib} KiB of RAM from {how}"
+def _more(every: Sequence, noun: str, nouns: str = "") -> list[ReportLine]:
+    """How many more there are of what has a line each."""
+    more = len(every) - _PLACES
+    return [ReportLine(f"and {counted(more, noun, nouns)}")] * (more > 0)
 
 
 def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> str:

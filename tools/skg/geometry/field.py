@@ -13,7 +13,7 @@ import shapely
 from skg.geometry.arrays import Flags, Floats, Whole, columns_at, numbers_up_to
 from skg.geometry.contour import Contour
 from skg.geometry.edge_arrays import points_of
-from skg.geometry.plane import XY, distance
+from skg.geometry.plane import XY
 
 #: So many chords that follow each other are looked for together; of these so many are looked at, or none of them.
 _RUN, _PIECE = 32, 8
@@ -267,11 +267,17 @@ class Field:
         return result
 
     def nearest(self, place: XY, without: Collection[int]) -> int:
-        """The contour that has a point nearest to a place, of all but some."""
-        far = np.minimum.reduceat(np.hypot(*(self._points - place).T), self._first[:-1])
+        """The contour that comes nearest to a place, of all but some."""
+        ways = np.diff(self._points, axis=0, append=self._points[-1:])
+        # (no chord goes from one contour to the next)
+        ways[self._first[1:] - 1] = 0.0
+        squares = np.maximum((ways**2).sum(1), 1e-30)
+        parts = np.clip(((place - self._points) * ways).sum(1) / squares, 0.0, 1.0)
+        off = self._points + parts[:, None] * ways - place
+        far = np.minimum.reduceat(np.hypot(*off.T), self._first[:-1])
         far[list(without)] = inf
         near = np.flatnonzero(far <= far.min() + _HAIR).tolist()
-        return min(near, key=lambda at: min(distance(place, point) for point in self.contours[at].points()))
+        return min(near, key=lambda at: min(edge.far(place) for edge in self.contours[at].edges))
 
     def _holds(self, at: int, places: Floats) -> Flags:
         """Mark the places inside a closed contour (counts crossings of rays to the right)."""

@@ -264,6 +264,5 @@ def _pairs(table: Mapping[str, object]) -> list[str]:
 
 
 def _in_toml(value: object) -> str:
-    """A value as TOML has it: JSON's texts, lists, numbers, true and false are the same there (no text of a job has a
-    character that is not printable)."""
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+    """A value as TOML has it: JSON's texts, lists, numbers, true and false are the same there, but for DEL."""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False).replace("\x7f", "\\u007f")

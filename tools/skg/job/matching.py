@@ -19,8 +19,8 @@ from skg.job.wanted import Partial
 #: A contour is no farther from where it was than this, mm, or than this part of its width and height; it is so many
 #: times as near as the next one.
 _LEAST, _PART, _CLEARLY = 0.5, 0.1, 2.0
-#: A contour that was found farther away than this, mm, is to be confirmed.
-DOUBTED = 0.5
+#: A contour that was found farther away than this, mm, or than this part of its width and height, is to be confirmed.
+_DOUBTED, _DOUBTED_PART = 0.5, 0.02
 #: A drawing whose box has moved by less has not moved; one whose corners moved by the same, to this, has moved as a
 #: whole, mm.
 _STILL = 0.01
@@ -30,16 +30,14 @@ _DECIMALS, _TRIED = 6, 8
 
 @dataclass(frozen=True)
 class Match:
-    """A chosen contour in the drawing: its number there, None where it is lost, and how far it has moved and grown,
-    mm."""
+    """A chosen contour in the drawing. `number`: its own there, None where it is lost; `moved`: how far it has moved
+    and grown, mm; `shift`: how far a part of the drawing has moved that it is in, mm; `is_doubtful`: somebody should
+    look at it."""
 
-    number: int | None
+    number: int | None = None
     moved: float = 0.0
-
-    @property
-    def is_doubtful(self) -> bool:
-        """Tell whether somebody should look at it."""
-        return self.number is not None and self.moved > DOUBTED
+    shift: XY = (0.0, 0.0)
+    is_doubtful: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,40 +72,43 @@ class Known:
     def find(self, chosen: Sequence[Chosen], box: Box | None) -> Matches:
         """Find contours of a drawing that had a box: where they were, or where they are when all of it has moved.
 
-        Two ways that find all of them, and not the same ones, are doubtful.
+        Where one corner of the box has moved, those that are lost may have moved with it: these are doubtful.
         """
         if not chosen:
             return Matches()
-        tried = [Matches(self._all_found(chosen, shift), shift) for shift in self._shifts(box)]
-        best = min(tried, key=lambda one: len(one.lost))
-        for other in tried:
-            if len(other.lost) == len(best.lost) and _numbers(other) != _numbers(best):
-                apart = hypot(other.shift[0] - best.shift[0], other.shift[1] - best.shift[1])
-                found = (replace(one, moved=max(one.moved, apart)) for one in best.found)
-                return replace(best, found=tuple(found))
-        return best
+        matches = self._matches(chosen, box)
+        found = (replace(match, is_doubtful=self._is_doubtful(match)) for match in matches.found)
+        return replace(matches, found=tuple(found))
 
-    def _shifts(self, box: Box | None) -> list[XY]:
-        """How far the drawing may have moved, the likeliest first."""
+    def _matches(self, chosen: Sequence[Chosen], box: Box | None) -> Matches:
+        still = self._all_found(chosen, (0.0, 0.0))
         if box is None:
-            return [(0.0, 0.0)]
+            return Matches(still)
         left, low, right, high = (now - then for now, then in zip(self.box, box, strict=True))
         moves = [move for move in ((left, low), (right, high)) if hypot(*move) > _STILL]
         if len(moves) == 2 and hypot(left - right, low - high) <= _STILL:
-            return [moves[0], (0.0, 0.0)]
-        return [(0.0, 0.0), *moves]
+            whole = Matches(self._all_found(chosen, moves[0]), moves[0])
+            return min(whole, Matches(still), key=lambda one: len(one.lost))
+        found = list(still)
+        for move in moves:
+            taken = {match.number for match in found}
+            for at, match in enumerate(self._all_found(chosen, move)):
+                if found[at].number is None and match.number not in taken:
+                    found[at] = replace(match, moved=match.moved + hypot(*move))
+        return Matches(tuple(found))
 
     def _all_found(self, chosen: Sequence[Chosen], shift: XY) -> tuple[Match, ...]:
         """Find each by itself; of two that are the same contour the nearer one is, where it clearly is."""
-        found = [_clear(costs) for costs in self._costs(chosen, shift)]
+        found = [_clear(costs, shift) for costs in self._costs(chosen, shift)]
         claims: dict[int, list[tuple[float, int]]] = {}
         for at, match in enumerate(found):
             if match.number is not None:
                 claims.setdefault(match.number, []).append((match.moved, at))
-        for number, claim in claims.items():
-            winner = _clear(sorted(claim))
-            for moved, at in claim:
-                found[at] = Match(number, moved) if at == winner.number else Match(None)
+        for claim in claims.values():
+            winner = _clear(sorted(claim), shift).number
+            for _, at in claim:
+                if at != winner:
+                    found[at] = Match()
         return tuple(found)
 
     def _costs(self, chosen: Sequence[Chosen], shift: XY) -> list[list[tuple[float, int]]]:
@@ -130,6 +131,11 @@ class Known:
         limits = _limits(sizes).tolist()
         # (the nearest is too far: none is meant)
         return [sorted(some) if some and min(some)[0] <= most else [] for some, most in zip(costs, limits, strict=True)]
+
+    def _is_doubtful(self, match: Match) -> bool:
+        if match.number is None:
+            return False
+        return match.moved > max(_STILL, min(_DOUBTED, _DOUBTED_PART * float(self.sizes[match.number].sum())))
 
     def choose(self, number: int, partial: Partial) -> Chosen:
         """Describe a contour by the middle of its longest edge, or of another one that tells it from its neighbours."""
@@ -173,13 +179,9 @@ def _limits(sizes: Floats) -> Floats:
     return np.maximum(_LEAST, _PART * sizes.sum(1))
 
 
-def _clear(costs: Sequence[tuple[float, int]]) -> Match:
+def _clear(costs: Sequence[tuple[float, int]], shift: XY) -> Match:
     """The nearest of some, if it is clearly nearer than the next one."""
     if not costs or len(costs) > 1 and (_CLEARLY * costs[0][0] > costs[1][0] or costs[0][0] == costs[1][0]):
-        return Match(None)
+        return Match()
     moved, number = costs[0]
-    return Match(number, moved)
-
-
-def _numbers(matches: Matches) -> list[int | None]:
-    return [match.number for match in matches.found]
+    return Match(number, moved, shift)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from itertools import pairwise
 from math import inf
+from pathlib import Path
 
 Check = Callable[[object], object]
 
@@ -49,7 +50,7 @@ def name(value: object) -> str:
 
 def file_name(value: object) -> str:
     """Check the name of a file, without a folder."""
-    if not isinstance(value, str) or not value.isprintable() or value in ("", ".", "..") or set(value) & set("/\\"):
+    if not isinstance(value, str) or value in ("", "..") or "\0" in value or Path(value).name != value:
         raise Wrong("expected the name of a file in the same folder")
     return value
 

@@ -18,10 +18,11 @@ from matplotlib.transforms import Affine2D
 
 from skg.checking.check import drawn
 from skg.cutting.job import CutResult
-from skg.cutting.refusal import kind
+from skg.cutting.manner import manners, stops
 from skg.geometry.arrays import numbers_up_to
 from skg.geometry.contour import Places
 from skg.geometry.plane import XY, distance
+from skg.job.job import MachineSetup
 from skg.pictures.page import as_it_stands, save
 from skg.pictures.plot import FEW, outlines
 from skg.planning.route import PlannedContour
@@ -33,16 +34,24 @@ from skg.wording import counted, short, shown
 _A4, _A3 = (297.0, 210.0), (420.0, 297.0)
 _INCH = 25.4
 _MARGIN, _HEAD = 10.0, 26.0
-#: A row of the table, a column of it; room around the part for dimensions.
-_ROW, _COLUMN, _AROUND = 2.9, 50.0, 14.0
+#: A row of the table, a column of it; a line of the notes under it; all mm.
+_ROW, _COLUMN, _NOTE = 2.9, 54.0, 3.4
+#: Room for dimensions left of the part and under it, for numbers right of it and above.
+_AROUND, _BESIDE = 15.0, 7.0
 #: Where a column's cells end, or begin (the fourth), mm.
-_CELLS = (5.5, 16.9, 28.3, 29.5, 49.5)
+_CELLS = (5.5, 16.9, 28.3, 29.5, 45.0, 53.5)
+#: A table of no more rows than this has letters that are so much larger.
+_ROWS, _LARGER = 30, 1.3
+#: The table takes no more of the page's width than this part, where it stands beside the drawing.
+_WIDEST = 0.52
+#: Manners of cutting that are told in words, two in a line.
+_MANNERS = 8
 #: The largest mark of a start hole (its radius), the largest arrow; all mm on the paper.
 _HOLE, _ARROW = 1.1, 1.8
 #: Of these scales the largest at which the part fits is taken.
 _SCALES = (
-    *(float(m * p) for p in (100, 10, 1) for m in (5, 4, 3, 2, 1)),
-    *(1 / (m * p) for p in (1, 10, 100, 1000) for m in (2, 2.5, 3, 4, 5, 10)),
+    *(float(m * p) for p in (100, 10, 1) for m in (5, 4, 3, 2.5, 2, 1.5, 1)),
+    *(1 / (m * p) for p in (1, 10, 100, 1000) for m in (1.5, 2, 2.5, 3, 4, 5, 7.5, 10)),
 )
 #: So many numbers are looked for room on the drawing, all stand in the table.
 _MOST_NUMBERS = 1000
@@ -67,13 +76,21 @@ _INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
 
 @dataclass(frozen=True)
 class Facts:
-    """Facts for the sheet's head: the drawing's name, the tape's, wire and gap (mm, None: not told), the units."""
+    """Facts for the sheet's foot: the drawing's name, the tape's, the units, the wire and the stock."""
 
     drawing: str
     tape: str
-    wire: float | None
-    gap: float
     units: str
+    machine: MachineSetup
+
+
+@dataclass(frozen=True)
+class _Table:
+    """The table of start holes: its columns, rows in each, whether it stands beside the drawing or under it."""
+
+    columns: int
+    rows: int
+    is_beside: bool
 
 
 class _Taken:
@@ -141,12 +158,21 @@ class SetupSheet:
 
     def __init__(self, job: CutResult, facts: Facts) -> None:
         self.job, self.facts = job, facts
+        self.manners = manners(job.routes)
+        self.notes = self._notes()
         rows = len(job.routes)
-        per_column = [int((page[1] - 2 * _MARGIN - _HEAD - 8) / _ROW) for page in (_A4, _A3)]
+        self.foot = _MARGIN + _HEAD + len(self.notes) * _NOTE
+        per_column = [self._rows_in(page[1] - _MARGIN - self.foot) for page in (_A4, _A3)]
         self.page = _A4 if rows <= 2 * per_column[0] else _A3
-        self.per_column = per_column[self.page == _A3]
-        most = int((self.page[0] / 2) / _COLUMN)
-        self.columns = max(1, min(most, ceil(rows / self.per_column)))
+        self.larger = _LARGER if rows <= _ROWS else 1.0
+        most = int(_WIDEST * self.page[0] / _COLUMN)
+        per_column = per_column[self.page == _A3]
+        beside = _Table(max(1, min(most, ceil(rows / per_column))), per_column, is_beside=True)
+        wide = int((self.page[0] - 2 * _MARGIN) / (self.larger * _COLUMN))
+        under = _Table(min(wide, rows), ceil(rows / wide), is_beside=False)
+        self._measure()
+        # (a long part has more room above the table)
+        self.table = max(beside, under, key=self._scale_beside)
         self.figure = Figure(figsize=(self.page[0] / _INCH, self.page[1] / _INCH))
         self.axes = self.figure.add_axes((0, 0, 1, 1))
         self.axes.set_xlim(0, self.page[0])
@@ -165,24 +191,57 @@ class SetupSheet:
         self._table()
         self._title(left_out)
 
-    def _place(self) -> None:
-        """Place the part on the page, with its scale."""
+    @staticmethod
+    def _rows_in(height: float) -> int:
+        """How many rows have room, below the head of the table."""
+        return int((height - 2) / _ROW) - 1
+
+    def _notes(self) -> list[list[str]]:
+        """What stands under the drawing: what the machine stops for, and the manners in words, two in a line."""
+        told = [f"{_letters(at)}: {manner.told}" for at, manner in enumerate(self.manners)]
+        if len(told) > _MANNERS:
+            told[_MANNERS:] = [f"and {counted(len(told) - _MANNERS, 'manner')} more: the program has them"]
+        lines = [told[at : at + 2] for at in range(0, len(told), 2)]
+        if what := "; ".join(stops(self.job.routes)):
+            lines.insert(0, [f"two stops each time, wire off and wire threaded: {what}"])
+        return lines
+
+    def _measure(self) -> None:
+        """Measure the part, and the part with its start holes."""
         pieces = [piece for route in self.job.routes for piece in drawn(route)]
         self.curve = outlines(pieces)
         points = np.array([point for piece in pieces for point in piece.extremes()])
         # (a bound of -1e-17 is 0)
         self.low, self.high = (tuple(np.round(bound, 6) + 0.0) for bound in (points.min(0), points.max(0)))
         holes = np.array([route.start for route in self.job.routes] + [self.low, self.high])
-        low, high = holes.min(0), holes.max(0)
-        room = (
-            self.page[0] - 2 * _MARGIN - self.columns * _COLUMN - 2 * _AROUND,
-            self.page[1] - 2 * _MARGIN - _HEAD - 2 * _AROUND,
+        self.least, self.most = holes.min(0), holes.max(0)
+
+    def _room(self, table: _Table) -> tuple[float, float]:
+        """Width and height that a table leaves to the drawing, mm."""
+        wide, high = self.page[0] - 2 * _MARGIN, self.page[1] - _MARGIN - self.foot
+        if table.is_beside:
+            wide -= table.columns * _COLUMN * self.larger
+        else:
+            high -= self._height(table)
+        return wide - _AROUND - _BESIDE, high - _AROUND - _BESIDE
+
+    def _height(self, table: _Table) -> float:
+        return (table.rows + 2) * _ROW * self.larger
+
+    def _scale_beside(self, table: _Table) -> float:
+        """The scale of the drawing beside a table."""
+        size = [max(b - a, 1e-3) for a, b in zip(self.least, self.most, strict=True)]
+        fits = min(max(space, 1.0) / side for space, side in zip(self._room(table), size, strict=True))
+        return next((one for one in _SCALES if one <= fits), fits)
+
+    def _place(self) -> None:
+        """Place the part on the page, with its scale."""
+        self.scale = self._scale_beside(self.table)
+        corner = _MARGIN + _AROUND, self.foot + _AROUND + (0 if self.table.is_beside else self._height(self.table))
+        self.shift = tuple(
+            start + space / 2 - self.scale * (a + b) / 2
+            for start, space, a, b in zip(corner, self._room(self.table), self.least, self.most, strict=True)
         )
-        size = [max(b - a, 1e-3) for a, b in zip(low, high, strict=True)]
-        fits = min(space / side for space, side in zip(room, size, strict=True))
-        self.scale = next((one for one in _SCALES if one <= fits), fits)
-        middle = _MARGIN + _AROUND + room[0] / 2, _MARGIN + _HEAD + _AROUND + room[1] / 2
-        self.shift = tuple(m - self.scale * (a + b) / 2 for m, a, b in zip(middle, low, high, strict=True))
 
     def on_paper(self, place: XY) -> XY:
         """A place of the part on the page, mm; numbers, or columns of them."""
@@ -331,8 +390,9 @@ class SetupSheet:
     def _number(self, at: int, marks: _Marks) -> bool:
         """Write a number where there is room near its hole, with a line to it where it does not stand beside it alone;
         whether there was room."""
+        number = str(self.job.routes[at].turn)
         for size in (_FONT, _LEAST):
-            half = self._half_a_box(str(at + 1), size)
+            half = self._half_a_box(number, size)
             if found := self._room_beside(at, marks, half):
                 middle, line = found
                 if len(line):
@@ -341,7 +401,9 @@ class SetupSheet:
                 for taken in (self.taken, self.marked):
                     taken.along(line)
                     taken.take(middle - half, middle + half)
-                self._text(middle, str(at + 1), size, _MARK, ha="center", va="center", gid="number", zorder=6)
+                self._text(
+                    middle, str(self.job.routes[at].turn), size, _MARK, ha="center", va="center", gid="number", zorder=6
+                )
                 return True
         return False
 
@@ -366,42 +428,49 @@ class SetupSheet:
 
     def _table(self) -> None:
         """Number, place, kind and length of each start hole."""
-        routes = self.job.routes
+        routes, table = self.job.routes, self.table
         lengths = np.zeros(len(routes))
         for cut in self.job.checked.cuts:
             lengths[cut.route] += cut.length
-        shown = min(len(routes), self.columns * self.per_column)
-        top = self.page[1] - _MARGIN - 2
+        letters = {number: _letters(at) for at, some in enumerate(self.manners.values()) for number in some}
+        count = min(len(routes), table.columns * table.rows)
+        row_height, column_width = _ROW * self.larger, _COLUMN * self.larger
+        top = self.page[1] - _MARGIN - 2 if table.is_beside else self.foot + self._height(table) - row_height / 2
         right = self.page[0] - _MARGIN
-        for index in range(shown):
-            column, row = divmod(index, self.per_column)
-            x = right - (self.columns - column) * _COLUMN
+        left = right - table.columns * column_width if table.is_beside else _MARGIN
+        for index in range(count):
+            column, row = divmod(index, table.rows)
+            x = left + column * column_width
             if row == 0:
-                self._row(x, top, ("no.", "x, mm", "y, mm", "contour", "mm cut"), _GREY)
+                self._row(x, top, ("no.", "x, mm", "y, mm", "contour", "as", "mm cut"), _GREY)
             route = routes[index]
             # (-0.0001 is 0.000)
             x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
-            cells = (str(index + 1), x_, y_, _called(route))
-            self._row(x, top - (row + 1) * _ROW, (*cells, f"{lengths[index]:.{lengths[index] < 1e5:d}f}"), _INK)
-        if shown < len(routes):
-            more = f"and {len(routes) - shown} more: the program has them"
-            self._text((right, _MARGIN + _HEAD + 1), more, _LEAST, _INK, ha="right")
+            cells = (str(route.turn), x_, y_, _called(route), letters[route.turn])
+            length = f"{lengths[index]:.{lengths[index] < 1e5:d}f}"
+            self._row(x, top - (row + 1) * row_height, (*cells, length), _INK)
+        if count < len(routes):
+            more = f"and {len(routes) - count} more: the program has them"
+            self._text((right, self.foot + 1), more, _LEAST, _INK, ha="right")
 
     def _row(self, x: float, y: float, cells: Iterable[str], colour: str) -> None:
         for cell, end in zip(cells, _CELLS, strict=True):
-            self._text((x + end, y), cell, _LEAST, colour, ha="left" if end == _CELLS[3] else "right", va="center")
+            side = "left" if end == _CELLS[3] else "right"
+            place = x + end * self.larger, y
+            self._text(place, cell, _LEAST * self.larger, colour, ha=side, va="center")
 
     def _title(self, left_out: int) -> None:
-        """The block of facts at the foot of the page."""
+        """The notes, and the block of facts at the foot of the page."""
         job, facts, page = self.job, self.facts, self.page
+        for row, texts in enumerate(self.notes):
+            wide = (page[0] - 2 * _MARGIN) / len(texts)
+            for column, text in enumerate(texts):
+                place = _MARGIN + column * wide + 1, self.foot - (row + 0.5) * _NOTE
+                self._text(place, *_fitted(text, wide - 4), _INK, va="center")
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
-        offsets = max((route.passes for route in job.routes), key=lambda passes: (any(passes), len(passes)))
-        beside = ", ".join(short(abs(r)) for r in offsets) + " mm"
-        if not any(offsets):
-            beside = "0, the wire's middle on the contour"
-        wire = "not told" if facts.wire is None else f"{short(facts.wire)} mm, gap {short(facts.gap)} mm"
-        tabs = {route.tab for route in job.routes if route.tab}
+        setup = facts.machine
+        wire = "not told" if setup.wire is None else f"{short(setup.wire)} mm, gap {short(setup.gap or 0.0)} mm"
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
         columns = (
             (("drawing", facts.drawing), ("tape", facts.tape), ("date", date.today().isoformat()), ("scale", ratio)),
@@ -409,19 +478,19 @@ class SetupSheet:
                 ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
                 ("read in", facts.units),
                 ("contours", f"{len(job.routes)}, {counted(len(job.routes), 'start hole')}"),
-                ("stops", f"{len(job.tape.stops)}; {counted(len(job.tape.blocks), 'block')}"),
+                ("numbers", "order of cutting" + (f", {left_out} without room" if left_out else "")),
             ),
             (
+                ("material", setup.material or "not told"),
+                ("thickness", setup.thickness or "not told"),
                 ("wire", wire),
-                ("offset", beside),
-                ("passes", f"{len(offsets)}, {'every second one backwards' if len(offsets) > 1 else 'one way'}"),
-                ("tab", f"{short(max(tabs))} mm, the machine stops before it" if tabs else "none"),
+                ("ROM", job.settings.rom),
             ),
             (
+                ("start", f"{shown(job.routes[0].start)} mm"),
+                ("stops", f"{len(job.tape.stops)}; {counted(len(job.tape.blocks), 'block')}"),
                 ("cut length", f"{job.cut_length:.1f} mm"),
                 ("time", f"{duration(job.seconds)} at {job.settings.feed:g} mm/min"),
-                ("ROM", job.settings.rom),
-                ("numbers", "order of cutting" + (f", {left_out} without room" if left_out else "")),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)
@@ -446,8 +515,13 @@ def _way(samples: Places) -> float:
 def _called(route: PlannedContour) -> str:
     """Return a contour's kind and direction."""
     if not route.contour.is_closed:
-        return kind(route).split()[0]
-    return f"{kind(route)} {'ccw' if route.contour.area > 0 else 'cw'}"
+        return route.kind.split()[0]
+    return f"{route.kind} {'ccw' if route.contour.area > 0 else 'cw'}"
+
+
+def _letters(at: int) -> str:
+    """The name of a manner: A to Z, AA to AZ…"""
+    return (_letters(at // 26 - 1) if at >= 26 else "") + chr(ord("A") + at % 26)
 
 
 def _fitted(text: str, width: float) -> tuple[str, float]:

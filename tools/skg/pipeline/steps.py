@@ -18,7 +18,7 @@ from skg.cutting.report import report
 from skg.cutting.settings import Progress, Settings, in_silence
 from skg.errors import UserError
 from skg.geometry.contour import Contour
-from skg.geometry.plane import XY
+from skg.geometry.plane import XY, shifted
 from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
 from skg.job.read_options import Wishes
@@ -57,12 +57,19 @@ class DrawnJob:
         return sha256(self.data).hexdigest()
 
     def chosen(self, job: Job) -> dict[int, Chosen]:
-        """What the job says of contours, by their numbers."""
+        """What the job says of contours, by their numbers; places are where the drawing is now."""
         return {
-            match.number: one
+            match.number: _moved(one, match.shift)
             for one, match in zip(job.contours, self.matches.found, strict=True)
             if match.number is not None
         }
+
+
+def _moved(chosen: Chosen, by: XY) -> Chosen:
+    """A chosen contour with its start hole and its entry elsewhere."""
+    said = chosen.partial.said()
+    places = {key: shifted(said[key], by) for key in ("start", "entry") if key in said}
+    return replace(chosen, partial=replace(chosen.partial, **places))
 
 
 @dataclass(frozen=True)
@@ -93,17 +100,8 @@ def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
     layers = {layers: job.of(layers) for layers in {contour.layers for contour in drawn.contours}}
     wanted = [layers[contour.layers] for contour in drawn.contours]
     for number, chosen in drawn.chosen(job).items():
-        wanted[number] = _moved(chosen, drawn.matches).partial.over(wanted[number])
+        wanted[number] = chosen.partial.over(wanted[number])
     return wanted
-
-
-def _moved(chosen: Chosen, matches: Matches) -> Chosen:
-    """A chosen contour with its start hole and its entry in a drawing that has moved."""
-    partial, (x, y) = chosen.partial, matches.shift
-    if (x, y) == (0.0, 0.0):
-        return chosen
-    places = {key: (u + x, v + y) for key in ("start", "entry") if (place := getattr(partial, key)) for u, v in [place]}
-    return replace(chosen, partial=replace(partial, **places))
 
 
 def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
@@ -118,8 +116,7 @@ def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
 
 def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
     """The start holes, where the drawing is now."""
-    x, y = drawn.matches.shift
-    return [(u + x, v + y) for u, v in job.starts] or drawn.reading.starts
+    return [shifted(start, drawn.matches.shift) for start in job.starts] or drawn.reading.starts
 
 
 def refuse_lost(job: Job, drawn: DrawnJob) -> None:
@@ -148,10 +145,9 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     progress("plan", 0, len(drawn.contours))
     routes = plan_drawing(job, drawn)
     machine, reading = job.machine, drawn.reading
-    factor = reading.report.factor
     settings = Settings(machine.rom, machine.ram, machine.feed, machine.small, machine.into)
     try:
-        result = make(routes, job.drawing, factor, settings, progress)
+        result = make(routes, job.drawing, settings, progress)
     except UserError as error:
         raise _named(error, drawn) from None
     account = reading.report
@@ -162,9 +158,8 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
 
 def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[ReportLine]:
     """The report, line by line."""
-    factor = account.factor
-    lines = [*map(ReportLine, account.lines()), *_matched(job, drawn)]
-    lines += map(ReportLine, report(result, factor, job.machine.distance))
+    lines = [*account.told(), *_matched(job, drawn)]
+    lines += report(result, job.machine.distance)
     wanted = wanted_of(job, drawn)
     if left := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
         lines.append(
@@ -175,7 +170,7 @@ def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> li
     if any(overlap.what != "drawn twice" for overlap in account.overlaps):
         from skg.checking.split_parts import said
 
-        lines += map(ReportLine, said(result.routes, factor))
+        lines += said(result.routes)
     return lines
 
 
@@ -200,12 +195,14 @@ def _matched(job: Job, drawn: DrawnJob) -> list[ReportLine]:
 def written(job: Job, drawn: DrawnJob) -> Job:
     """The job as a file has it: with the drawing's sum and box, its contours as they are now (but those that are
     lost)."""
+    chosen = drawn.chosen(job)
     contours = tuple(
-        one if match.number is None else drawn.known.choose(match.number, _moved(one, drawn.matches).partial)
+        one if match.number is None else drawn.known.choose(match.number, chosen[match.number].partial)
         for one, match in zip(job.contours, drawn.matches.found, strict=True)
     )
     box = tuple(round(bound, 6) + 0.0 for bound in drawn.known.box)
-    return replace(job, sha256=drawn.sha256, box=box, contours=contours)
+    starts = tuple(shifted(start, drawn.matches.shift) for start in job.starts)
+    return replace(job, sha256=drawn.sha256, box=box, starts=starts, contours=contours)
 
 
 def choose(drawn: DrawnJob, number: int, **wanted: object) -> Chosen:

@@ -104,10 +104,10 @@ def places_in(contours: Sequence[Contour]) -> np.ndarray:
     return places
 
 
-def said(around: Iterable[Around | None]) -> Iterator[str]:
-    """Report contours, in the order of cutting, that lie in an uncut contour."""
+def said(around: Iterable[tuple[int, Around | None]]) -> Iterator[str]:
+    """Report contours, by their numbers in the order of cutting, that lie in an uncut contour."""
     groups: dict[Around, list[int]] = defaultdict(list)
-    for number, one in enumerate(around, 1):
+    for number, one in around:
         if one:
             groups[one].append(number)
     for one, numbers in groups.items():

@@ -388,7 +388,14 @@ def plan_nested(
         is_auto = wanted[route.number].side == "auto"
         around = nesting.around.get(route.number) if is_auto else None
         before[route.number] = new[route.number], replace(route, around=around) if around else route
-    return _as_wanted(_ordered([before[number][1] for number in asked]), wanted, nesting.field)
+    ordered = _as_wanted(_ordered([before[number][1] for number in asked]), wanted)
+    for turn, route in enumerate(ordered, 1):
+        if route.turn != turn:
+            before[route.number] = asked[route.number], replace(route, turn=turn)
+    ordered = [before[route.number][1] for route in ordered]
+    if any(want.order is not None for want in wanted):
+        _refuse_outer_first(ordered, nesting.field)
+    return ordered
 
 
 def _oriented(contour: Contour, wanted: Wanted, depth: int) -> tuple[Contour, float]:
@@ -422,11 +429,9 @@ def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
     return ordered
 
 
-def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted], field: Field) -> list[PlannedContour]:
+def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted]) -> list[PlannedContour]:
     """Put the routes that have a wanted order to their places; the others keep theirs among themselves."""
     placed = {route.number: order for route in routes if (order := wanted[route.number].order) is not None}
-    if not placed:
-        return routes
     free = iter([route for route in routes if route.number not in placed])
     ranked = sorted((route for route in routes if route.number in placed), key=lambda route: placed[route.number])
     found: list[PlannedContour] = []
@@ -435,21 +440,20 @@ def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted], field: Fi
             found.append(ranked.pop(0))
         else:
             found.append(next(free, None) or ranked.pop(0))
-    _refuse_outer_first(found, field)
     return found
 
 
 def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
     """Refuse an order that cuts a contour before what lies in it: that would fall with the part or the slug."""
-    turn = {route.number: at for at, route in enumerate(routes)}
+    numbered = {route.number: route for route in routes}
     around = field.around([route.contour.edges[0].at(0.5) for route in routes])
     for route, holders in zip(routes, around, strict=True):
-        for number in holders:
-            outer = routes[turn[number]] if number in turn else None
-            if outer and outer.depth < route.depth and turn[number] < turn[route.number]:
-                first, second = outer.number + 1, route.number + 1
+        for outer in (numbered[number] for number in holders if number in numbered):
+            if outer.depth < route.depth and outer.turn < route.turn:
                 raise UserError(
-                    f"order: contour {first} would be cut before contour {second}, which lies in it", outer.number
+                    f"{outer.name} would be cut before {route.name}, which lies in it: change their order",
+                    outer.number,
+                    outer.entry,
                 )
 
 

@@ -16,6 +16,7 @@ from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.offset import part_between, roomy_place, wire_way
 from skg.geometry.plane import XY, distance, minus, polar, turn
 from skg.planning.nesting import Around
+from skg.wording import shown
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
@@ -79,7 +80,8 @@ class PlannedContour:
     `offset` is R of the last pass: positive, the wire runs on the right of travel. `depth`: how many contours lie
     around it. `passes`: R of each pass, as if all were cut in the contour's direction; every second one is cut
     backwards. `tab`: the length before the entry that stays until the last cut, mm; `tab_hole`: the other start hole.
-    `number`: its place among the contours that were planned, from 0. `room`: from the start hole to what is nearest.
+    `number`: its place among the contours that were read, from 0; `turn`: in the order of cutting, from 1. `room`: from
+    the start hole to what is nearest.
     `traced`: the wire's own way in each pass, where the contour has edges that it cannot follow, or the controller does
     not; see `with_wire_ways` and `in_chords`.
     `is_moved`: they are entered where they are nearest to the start hole.
@@ -99,6 +101,7 @@ class PlannedContour:
     tab_hole: XY = (0.0, 0.0)
     is_arc: bool = False
     number: int = 0
+    turn: int = 0
     room: float = inf
     traced: tuple[tuple[Edge, ...], ...] = ()
     is_moved: bool = False
@@ -129,6 +132,19 @@ class PlannedContour:
     def is_opening(self) -> bool:
         """Tell whether it is cut from inside: what falls out is the slug."""
         return self.contour.is_closed and self.depth % 2 == 1
+
+    @property
+    def kind(self) -> str:
+        """What it is."""
+        if not self.contour.is_closed:
+            return "open contour"
+        return "opening" if self.is_opening else "outline"
+
+    @property
+    def name(self) -> str:
+        """What a message calls it: its number in the order of cutting, what it is, where it begins, its layers."""
+        layers = f", layer {', '.join(self.contour.layers)}" if self.contour.layers else ""
+        return f"contour {self.turn} ({self.kind} from {shown(self.contour.edges[0].start)}{layers})"
 
     @property
     def is_outside(self) -> bool:

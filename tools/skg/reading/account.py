@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
-from skg.wording import counted, short, shown
+from skg.wording import ReportLine, counted, short, shown
 
 #: Why what only writes on a drawing, or fills what is drawn, is left.
 NOTE = "nothing to cut"
@@ -22,7 +22,7 @@ _PLACES = 5
 class Entity:
     """One entity of a file (those of a block as often as the block is inserted).
 
-    `kind`: its name in the file, such as LWPOLYLINE or path; `place`: a place on it in the file's own units.
+    `kind`: its name in the file, such as LWPOLYLINE or path; `place`: a place on it, mm.
     `left`: why it is not cut, or not all of it; empty while it is. `is_odd`: it is left because it was not understood,
     not because it is nothing to cut. `dashes`: the name of its line type where that is not drawn through.
     """
@@ -61,9 +61,9 @@ class LayerSum:
 
 @dataclass(frozen=True)
 class OpenEnd:
-    """An end of an open contour: its place and that of the nearest other end (in the file's units), the gap between
-    them in mm; without another end None and infinity. A tolerance of the gap's width closes it, `can_join`: without
-    making one point of any edge."""
+    """An end of an open contour: its place, that of the nearest other end, and the gap between them, mm; without
+    another end None and infinity. A tolerance of the gap's width closes it, `can_join`: without making one point of any
+    edge."""
 
     place: XY
     other: XY | None
@@ -81,7 +81,7 @@ class OpenEnd:
 
 @dataclass(frozen=True)
 class Overlap:
-    """Two edges on each other. `what`: "drawn twice", "overlap", "touch" or "cross"; `place` in the file's units."""
+    """Two edges on each other. `what`: "drawn twice", "overlap", "touch" or "cross"; `place` in mm."""
 
     what: str
     layer: str
@@ -128,24 +128,31 @@ class Account:
 
     def lines(self) -> list[str]:
         """The report as lines of text, without the file's name."""
+        return [line.text for line in self.told()]
+
+    def told(self) -> list[ReportLine]:
+        """The report, line by line, without the file's name."""
         width, height = self.size
-        found = [f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from})"]
-        found += [_of_layer(layer) for layer in self.layers]
+        told_in = "" if self.factor == 1 else f"; places are told in mm, {self.factor:.6g} to one of these"
+        found = [ReportLine(f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from}){told_in}")]
+        found += [ReportLine(_of_layer(layer)) for layer in self.layers]
         kinds = [f"{self.closed} closed"] * bool(self.closed) + [f"{self.open} open"] * bool(self.open)
-        found.append(f"{counted(self.closed + self.open, 'contour')}: {', '.join(kinds)}; {short(self.length)} mm")
+        count = counted(self.closed + self.open, "contour")
+        found.append(ReportLine(f"{count}: {', '.join(kinds)}; {short(self.length)} mm"))
         for end in self.open_ends[:_PLACES]:
             line = f"open end at {shown(end.place)}"
             if end.other is not None:
                 line += f", {short(end.gap)} mm from {shown(end.other)}; {end.advice}"
-            found.append(line)
+            found.append(ReportLine(line, place=end.place))
         found += _more(self.open_ends, "open end")
         for entity in self.not_understood[:_PLACES]:
-            found.append(f"not cut: {entity.kind} on layer {entity.layer} at {shown(entity.place)}: {entity.left}")
+            line = f"not cut: {entity.kind} on layer {entity.layer} at {shown(entity.place)}: {entity.left}"
+            found.append(ReportLine(line, place=entity.place))
         found += _more(self.not_understood, "entity not understood", "entities not understood")
         found += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
         for what in ("drawn twice", "overlap", "cross", "touch"):
             found += _overlaps(what, [overlap for overlap in self.overlaps if overlap.what == what])
-        return found + self.notes
+        return [*found, *map(ReportLine, self.notes)]
 
 
 def said(entities: Iterable[Entity], nouns: tuple[str, str], what: str, then: str) -> Iterator[str]:
@@ -167,9 +174,9 @@ def above(gap: float) -> str:
     return f"{gap * 1.01 + 1e-4:.4g}"
 
 
-def _more(all_of_them: list, noun: str, nouns: str = "") -> list[str]:
+def _more(all_of_them: list, noun: str, nouns: str = "") -> list[ReportLine]:
     more = len(all_of_them) - _PLACES
-    return [f"and {counted(more, f'more {noun}', f'more {nouns}' * bool(nouns))}"] if more > 0 else []
+    return [ReportLine(f"and {counted(more, f'more {noun}', f'more {nouns}' * bool(nouns))}")] * (more > 0)
 
 
 def _of_layer(layer: LayerSum) -> str:
@@ -180,7 +187,7 @@ def _of_layer(layer: LayerSum) -> str:
     return line + (f": {', '.join(reasons)}" if reasons else "")
 
 
-def _places(head: str, entities: Iterable[Entity]) -> list[str]:
+def _places(head: str, entities: Iterable[Entity]) -> list[ReportLine]:
     """Entities by layer and kind, with their places."""
     groups: dict[tuple[str, str], list[XY]] = defaultdict(list)
     for entity in entities:
@@ -188,21 +195,22 @@ def _places(head: str, entities: Iterable[Entity]) -> list[str]:
     found = []
     for (layer, kind), places in groups.items():
         more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
-        found.append(f"{head} {len(places)} {kind} on layer {layer} at {', '.join(map(shown, places[:_PLACES]))}{more}")
+        line = f"{head} {len(places)} {kind} on layer {layer} at {', '.join(map(shown, places[:_PLACES]))}{more}"
+        found.append(ReportLine(line, place=places[0]))
     return found
 
 
-def _overlaps(what: str, overlaps: list[Overlap]) -> list[str]:
+def _overlaps(what: str, overlaps: list[Overlap]) -> list[ReportLine]:
     groups: dict[str, list[XY]] = defaultdict(list)
     for overlap in overlaps:
         groups[overlap.layer].append(overlap.place)
     found = []
     for layer, places in groups.items():
         more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
-        found.append(
+        line = (
             f"{counted(len(places), 'place')} on layer {layer} where lines {what}: "
             if what != "drawn twice"
             else f"{counted(len(places), 'edge')} on layer {layer} drawn twice, cut once: "
         )
-        found[-1] += f"{', '.join(map(shown, places[:_PLACES]))}{more}"
+        found.append(ReportLine(f"{line}{', '.join(map(shown, places[:_PLACES]))}{more}", place=places[0]))
     return found

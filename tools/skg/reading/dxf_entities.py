@@ -93,7 +93,7 @@ class _Collector:
         return any(entity.left == LEAVES for entity in self.content.entities)
 
     def place(self, record: Record) -> XY:
-        """A place on a record's entity, in the drawing's units."""
+        """A place on a record's entity, mm."""
         at = record.place
         if not all(map(is_number, at)):
             return 0.0, 0.0
@@ -101,7 +101,7 @@ class _Collector:
             at = -at[0], at[1]
         if self.placing.matrix is not None:
             at = self.placing.matrix.transform(at).xyz[:2]
-        return at
+        return at[0] * self.placing.factor, at[1] * self.placing.factor
 
     def dashes(self, record: Record, layer: str) -> str:
         """The line type of a record that is not drawn through, else nothing."""
@@ -164,7 +164,7 @@ class _Collector:
 
     def describe(self, record: Record, account: Entity, start: XY) -> None:
         """Note what there is to say of a record that is cut from `start` on, mm."""
-        account.place = start[0] / self.placing.factor, start[1] / self.placing.factor
+        account.place = start
         account.dashes = self.dashes(record, account.layer)
         if record.value(39).strip(" 0.+-eE"):
             self.thick.append(account)

@@ -165,7 +165,7 @@ def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Accou
         px = UNITS[wishes.units] * (svg_file.PX / told[1] if told else 1.0)
     elif not told:
         px = page.guess
-    content = svg_shapes.collect(page, px, units[1], wishes)
+    content = svg_shapes.collect(page, px, wishes)
     return content, Account(name, units[0], units[2], units[1], notes=list(content.notes))
 
 

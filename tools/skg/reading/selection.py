@@ -18,7 +18,7 @@ from skg.reading.account import Account, Content, Entity, LayerSum, OpenEnd, Ove
 from skg.reading.chain import Chains, chain
 from skg.reading.meetings import Relations, lying_on, nearest, relations
 from skg.reading.overruns import Overrun, without_overruns
-from skg.wording import counted, in_file, short, shown
+from skg.wording import counted, short, shown
 
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
@@ -43,7 +43,7 @@ class Selection:
         self.content = content
         self.wishes = wishes
         self.report = report
-        self.fates = Fates(content, report.factor, wishes.tolerance)
+        self.fates = Fates(content, wishes.tolerance)
         self.styles = [(entity.layer, entity.dashes) for entity in content.entities]
 
     def contours(self) -> list[Contour]:
@@ -51,13 +51,13 @@ class Selection:
         kept, rest = self._apart(self._chains())
         kept, rest = self._wanted(kept, rest)
         on, between = lying_on(rest, kept, self.wishes.tolerance)
-        self.report.notes += _between([rest[run] for run in sorted(between)], self.report.factor)
+        self.report.notes += _between([rest[run] for run in sorted(between)])
         self.fates.doubles += [(rest[run].edges, kept[at].edges[0]) for run, at in on.items()]
         rest = [one for run, one in enumerate(rest) if run not in on]
         for run in rest:
             self.fates.of_edges(run.edges, JUNCTION)
-        gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance, self.report.factor))
-        self.report.notes += _around(rest, kept, bool(gaps), self.report.factor)
+        gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance))
+        self.report.notes += _around(rest, kept, bool(gaps))
         self.report.notes += gaps
         return kept
 
@@ -74,7 +74,7 @@ class Selection:
         """The contours without the open ones where these are left; a `UserError` where there are any and they are
         refused. Their ends go into the report."""
         opened = [one for one in contours if not one.is_closed]
-        self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance, self.report.factor)
+        self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance)
         if opened and self.wishes.open == "refuse":
             count = counted(len(opened), "open contour")
             raise UserError(f"{count}, {self.report.first_gap()}; choose --open cut or --open leave")
@@ -92,7 +92,7 @@ class Selection:
             chains, cuts = without_overruns(chains, tolerance, self.styles)
             fates.of_pieces([one.piece for one in cuts if not one.is_whole], PAST)
             fates.of_edges([one.piece for one in cuts if one.is_whole], PAST)
-            report.notes += _past(cuts, self.content, report.factor)
+            report.notes += _past(cuts, self.content)
         fates.of_edges(chains.short, SHORT)
         fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
         return chains
@@ -141,9 +141,8 @@ class Fates:
     """The fate of each entity's edges. `doubles`: runs of those drawn twice, with an edge of what each was drawn
     on: where that one is left, they are left with it. `lost`: what is left of each layer unasked, mm."""
 
-    def __init__(self, content: Content, factor: float, tolerance: float) -> None:
+    def __init__(self, content: Content, tolerance: float) -> None:
         self.entities = content.entities
-        self.factor = factor
         self.tolerance = tolerance
         self.doubles: list[tuple[tuple[Edge, ...], Edge]] = []
         self.parts = Counter(edge.entity for edge in content.edges)
@@ -164,7 +163,7 @@ class Fates:
 
     def overlap(self, what: str, edge: Edge, place: XY) -> Overlap:
         """A line of the report."""
-        return Overlap(what, self.entities[edge.entity].layer, in_file(place, self.factor))
+        return Overlap(what, self.entities[edge.entity].layer, place)
 
     def layers(self, contour: Contour) -> tuple[str, ...]:
         """The layers of a contour's edges."""
@@ -255,7 +254,7 @@ class Fates:
         report.overlaps[:0] = overlaps
 
 
-def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]:
+def _past(cuts: list[Overrun], content: Content) -> Iterator[str]:
     """Report ends that run past corners, a line for each layer."""
     layers: dict[str, list[Overrun]] = defaultdict(list)
     for one in cuts:
@@ -264,20 +263,20 @@ def _past(cuts: list[Overrun], content: Content, factor: float) -> Iterator[str]
         longest = max(one.piece.length for one in some)
         yield (
             f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
-            f"{shown(in_file(some[0].corner, factor))}: overrun trimmed; --open all keeps it"
+            f"{shown(some[0].corner)}: overrun trimmed; --open all keeps it"
         )
 
 
-def _between(runs: list[Contour], factor: float) -> Iterator[str]:
+def _between(runs: list[Contour]) -> Iterator[str]:
     """Report uncut lines that divide a cut contour."""
     if runs:
         yield (
             f"take care: {counted(len(runs), 'line')} from edge to edge of a cut contour, as at "
-            f"{shown(in_file(runs[0].edges[0].start, factor))}: if parts share such edges, --open all cuts them"
+            f"{shown(runs[0].edges[0].start)}: if parts share such edges, --open all cuts them"
         )
 
 
-def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool, factor: float) -> Iterator[str]:
+def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool) -> Iterator[str]:
     """Report an uncut line that encloses all cut contours and is larger than each: one
     run, or all of them where they have gaps."""
     if not rest or len(kept) < 2:
@@ -285,7 +284,7 @@ def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool, factor: fl
     boxes, outer = boxes_of(kept)[0], boxes_of(rest)[0]
     for at, run in enumerate(rest):
         if _reach_around(outer[at : at + 1], boxes):
-            ends = (shown(in_file(end, factor)) for end in (run.edges[0].start, run.edges[-1].end))
+            ends = (shown(end) for end in (run.edges[0].start, run.edges[-1].end))
             yield (
                 f"take care: an uncut line from {' to '.join(ends)} encloses every cut contour: "
                 "is it the outline, open there?"
@@ -303,7 +302,7 @@ def _reach_around(outer: Floats, boxes: Floats) -> bool:
     return bool(((low <= middles) & (middles <= high) & (sizes < high - low)).all())
 
 
-def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> Iterator[str]:
+def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float) -> Iterator[str]:
     """Report free ends of uncut lines so near to a corner that an outline may be open."""
     count = Counter(end for one in rest for edge in one.edges for end in (edge.start, edge.end))
     corners = list(count)
@@ -318,7 +317,7 @@ def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float, factor: floa
         widest, place = gaps[-1]
         yield (
             f"{counted(len(gaps), 'end')} of uncut lines up to {short(widest)} mm from the next one, as at "
-            f"{shown(in_file(place, factor))}: --tolerance {above(widest)} joins them"
+            f"{shown(place)}: --tolerance {above(widest)} joins them"
         )
 
 
@@ -332,7 +331,7 @@ def _axes(contours: list[Contour], found: Relations, fates: Fates) -> set[int]:
     }
 
 
-def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float, factor: float) -> list[OpenEnd]:
+def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float) -> list[OpenEnd]:
     """Ends of open contours, each with the nearest other one; `edges`: all of the drawing."""
     ends = [place for one in contours for place in (one.edges[0].start, one.edges[-1].end)]
     if not ends:
@@ -341,11 +340,11 @@ def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float, fac
     found = []
     for place, other in zip(ends, nearest(ends), strict=True):
         if other is None:
-            found.append(OpenEnd(in_file(place, factor), None, inf))
+            found.append(OpenEnd(place, None, inf))
             continue
         gap = distance(place, other)
         can_join = float(above(gap)) < shortest
-        found.append(OpenEnd(in_file(place, factor), in_file(other, factor), gap, can_join))
+        found.append(OpenEnd(place, other, gap, can_join))
     return found
 
 

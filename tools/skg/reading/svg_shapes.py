@@ -126,16 +126,16 @@ def _around(centre: XY, rx: float, ry: float) -> list[svgelements.Arc]:
     return [svgelements.Arc(start, start, centre, **whole)] if rx > 0 and ry > 0 else []
 
 
-def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
+def collect(file: SvgFile, px: float, wishes: Wishes) -> Content:
     """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
-    edge. `px`: mm in one pixel; `factor`: mm in the units of the page."""
+    edge. `px`: mm in one pixel."""
     drawn: list[Drawn] = []
     for one in file.drawn():
         drawn.append(one)
         if len(drawn) > _MOST:
             raise UserError(f"more than {_MOST:,} shapes, expected a drawing")
     wishes.check_layers(one.view.layer for one in drawn)
-    collector = _SvgCollector(file, px, factor, wishes)
+    collector = _SvgCollector(file, px, wishes)
     for one in drawn:
         collector.take(one)
     return collector.content()
@@ -144,10 +144,9 @@ def collect(file: SvgFile, px: float, factor: float, wishes: Wishes) -> Content:
 class _SvgCollector:
     """Accounts for what is drawn, one by one, and keeps the edges of what is to be cut."""
 
-    def __init__(self, file: SvgFile, px: float, factor: float, wishes: Wishes) -> None:
+    def __init__(self, file: SvgFile, px: float, wishes: Wishes) -> None:
         self.file = file
         self.px = px
-        self.factor = factor
         self.wishes = wishes
         self.shapes = _Shapes(file.height, px, wishes.fit_tolerance)
         self.found = Content()
@@ -175,8 +174,7 @@ class _SvgCollector:
             account.is_odd = not one.view.hidden
             return
         if edges:
-            x, y = edges[0].start
-            account.place = x / self.factor, y / self.factor
+            account.place = edges[0].start
         is_seen = not one.left and one.view.style.is_painted and not one.view.style.is_hidden
         if self.wishes.is_by_layer(account.left) and is_seen and not self.wishes.is_start(layer):
             self.found.others += edges

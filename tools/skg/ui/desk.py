@@ -114,11 +114,9 @@ class Desk:
                 "the sheet needs matplotlib: install it beside skg (pipx inject skg-nc matplotlib)"
             ) from None
         _, job, cut = self._cut
-        machine = job.machine
         with TemporaryDirectory(prefix="skg-") as folder:
             path = str(Path(folder) / f"sheet.{form}")
-            facts = Facts(job.drawing, tape, machine.wire, machine.gap or 0.0, cut.account.units)
-            write_sheet(cut.result, facts, path, form)
+            write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units, job.machine), path, form)
             return Path(path).read_bytes()
 
     def _read(self, job: Job) -> dict[str, Any]:

@@ -88,7 +88,7 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "layers": layers,
         "contours": in_json([_contour(drawn, *one) for one in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],
-        "report": [line(ReportLine(text)) for text in report.lines()],
+        "report": [line(one) for one in report.told()],
     }
 
 
@@ -124,7 +124,7 @@ class Plans:
             contours.append(f'"{number}":{{"number":{turn or "null"},{self._contour(number, route, want, why)}')
         data = {
             "order": [route.number for route in routes],
-            "said": [line(ReportLine(text)) for text in said(route.around for route in routes)],
+            "said": [line(ReportLine(text)) for text in said((route.turn, route.around) for route in routes)],
             "error": error(errors[0]) if errors else None,
         }
         return encoded(data | {"contours": f"{{{','.join(contours)}}}".encode()})

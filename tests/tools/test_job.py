@@ -1,0 +1,407 @@
+"""The job: from options, from a file, of a contour, a layer, all; what is wrong with one is a line with its place."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from cuthelp import drawing, polygon, run_failing, saved
+from hypothesis import given
+from hypothesis import strategies as st
+from test_docs import EXAMPLE, ROOT
+from toolhelp import Run
+
+from skg.errors import UserError
+from skg.job.file import decoded, dump, encoded, from_data, load, to_data
+from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup
+from skg.job.read_options import OPEN, UNITS, Wishes
+from skg.job.wanted import LEAD_SHAPES, SIDES, Partial, Wanted
+from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, wanted_of, written
+
+DOCS = ROOT / "docs"
+
+LENGTHS = st.floats(0, 1000)
+OFFSETS = st.floats(0, 5)
+PLACES = st.tuples(st.floats(-1e5, 1e5), st.floats(-1e5, 1e5))
+NAMES = st.text(min_size=1, max_size=20)
+WORDS = st.text("abc ü零", min_size=1, max_size=9).filter(str.strip)
+
+
+def maybe(one: st.SearchStrategy) -> st.SearchStrategy:
+    return st.none() | one
+
+
+OFTEN = {
+    "cut": maybe(st.booleans()),
+    "side": maybe(st.sampled_from(SIDES)),
+    "reverse": maybe(st.booleans()),
+    "passes": maybe(st.lists(OFFSETS, min_size=1, max_size=4).map(lambda some: tuple(sorted(some, reverse=True)))),
+    "tab": maybe(LENGTHS),
+    "lead": maybe(st.floats(1e-3, 1000)),
+    "lead_shape": maybe(st.sampled_from(LEAD_SHAPES)),
+}
+LAYER = OFTEN | {"offset": maybe(OFFSETS)}
+CONTOUR = LAYER | {"start": maybe(PLACES), "entry": maybe(PLACES), "order": maybe(st.integers(1, 99))}
+CHOSEN = st.builds(
+    Chosen,
+    st.text(max_size=9),
+    st.sampled_from(KINDS),
+    PLACES,
+    st.tuples(LENGTHS, LENGTHS),
+    st.builds(Partial, **CONTOUR),
+)
+MACHINES = st.builds(
+    MachineSetup,
+    wire=maybe(st.floats(0.01, 0.4)),
+    offset=st.none(),
+    rom=st.sampled_from(ROMS),
+    ram=st.integers(2, 56),
+    feed=st.floats(0.001, 500),
+    small=st.sampled_from(SMALL),
+    into=st.sampled_from(INTO),
+    material=st.just("") | WORDS,
+    thickness=st.just("") | WORDS,
+)
+JOBS = st.builds(
+    Job,
+    NAMES.filter(lambda name: not set(name) & set("/\\:\0") and name not in (".", "..")),
+    sha256=st.just("") | st.text("0123456789abcdef", min_size=64, max_size=64),
+    box=maybe(st.tuples(*[st.floats(-1e5, 1e5)] * 4)),
+    read=st.builds(
+        Wishes,
+        layers=st.lists(NAMES, max_size=3).map(tuple),
+        start_layer=NAMES,
+        units=maybe(st.sampled_from(sorted(UNITS))),
+        tolerance=st.floats(1e-6, 10),
+        fit_tolerance=st.floats(1e-5, 10),
+        open=maybe(st.sampled_from(OPEN)),
+        encoding=maybe(WORDS),
+    ),
+    machine=MACHINES,
+    starts=st.lists(PLACES, max_size=3).map(tuple),
+    default=st.builds(Partial, **OFTEN),
+    layers=st.dictionaries(NAMES, st.builds(Partial, **LAYER), max_size=3).filter(
+        lambda layers: len({name.lower() for name in layers}) == len(layers)
+    ),
+    contours=st.lists(CHOSEN, max_size=3, unique_by=lambda one: (one.layer, one.kind, one.place, one.size)).map(tuple),
+)
+
+
+@given(JOBS)
+def test_a_job_comes_back(job: Job) -> None:
+    """From its text, its bytes and its data; what was written once is written again so."""
+    text = dump(job)
+    assert load(text, "job") == job
+    assert from_data(to_data(job), "job") == job
+    assert dump(load(text, "job")) == text
+    assert decoded(encoded(job), "job") == job
+
+
+def test_names_that_are_no_text() -> None:
+    """A layer's name with bytes that are no UTF-8, and one with all that ASCII has."""
+    for name in ("bad\udcff", "".join(map(chr, range(1, 128))), ""):
+        job = Job("a.dxf", contours=(Chosen(name, "open", (0.0, 0.0), (1.0, 1.0)),))
+        assert decoded(encoded(job), "job") == job
+
+
+PART = """schema = 1
+drawing = "a.dxf"
+[machine]
+wire = 0.2
+[[layer]]
+name = "P"
+cut = false
+[[contour]]
+layer = "P"
+kind = "outline"
+at = [1, 2]
+size = [3, 4.5]
+passes = [0.1, 0]
+order = 3
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("schema = 1", "schema = 2", ["schema = 2", "1"]),
+        ("schema = 1", "", ["schema is missing"]),
+        ('drawing = "a.dxf"', "", ["drawing is missing"]),
+        ("a.dxf", "../a.dxf", ["drawing", "same folder"]),
+        ("a.dxf", "/a.dxf", ["drawing", "same folder"]),
+        ("a.dxf", "..", ["drawing", "same folder"]),
+        ("wire", "wier", ["[machine]", "'wier'", "did you mean wire?"]),
+        ("[machine]", "[machin]", ["'machin'", "did you mean machine?"]),
+        ("cut = false", "cat = false", ["[[layer]] 1", "did you mean cut?"]),
+        ("cut = false", "cut = 0", ["[[layer]] 1", "cut = 0", "true or false"]),
+        ("order", "start_hole", ["[[contour]] 1", "'start_hole'", "did you mean start?"]),
+        ("order = 3", "order = 0", ["[[contour]] 1", "order = 0"]),
+        ("order = 3", "order = true", ["[[contour]] 1", "order"]),
+        ("order = 3", "order = 3.0", ["[[contour]] 1", "whole number"]),
+        ("order = 3", "order = 1" + "0" * 5000, ["TOML"]),
+        ("0.2", "nan", ["[machine]", "wire", "above 0 to 10"]),
+        ("0.2", "inf", ["[machine]", "wire"]),
+        ("0.2", "-0.2", ["[machine]", "wire"]),
+        ("0.2", "11", ["[machine]", "wire"]),
+        ("0.2", "0.2\noffset = 0.1", ["[machine]", "offset", "wire"]),
+        ("wire = 0.2", "gap = 0.1", ["[machine]", "gap goes with wire"]),
+        ("0.2", '"0.2"', ["[machine]", "wire", "number"]),
+        ("0.1, 0", "0, 0.1", ["[[contour]] 1", "cuts nothing"]),
+        ("[0.1, 0]", "[]", ["[[contour]] 1", "passes"]),
+        ("[0.1, 0]", '"0.1"', ["[[contour]] 1", "passes"]),
+        ("[3, 4.5]", "[3, -4.5]", ["[[contour]] 1", "size"]),
+        ("[3, 4.5]", "[3]", ["[[contour]] 1", "size"]),
+        ("[1, 2]", "[1e9, 2]", ["[[contour]] 1", "at"]),
+        ('"outline"', '"outlin"', ["[[contour]] 1", "outline, opening, open"]),
+        ('layer = "P"\n', "", ["[[contour]] 1", "layer is missing"]),
+        ('name = "P"', "", ["[[layer]] 1", "name is missing"]),
+        ('name = "P"', 'name = "p"\n[[layer]]\nname = "P"', ["[[layer]] 2", "twice"]),
+        ("[[layer]]", "[layer]", ["[[layer]]", "list of tables"]),
+        ("[machine]", "[[machine]]", ["[machine]", "table of keys"]),
+        ("order = 3", PART[PART.index("[[contour]]") :], ["[[contour]] 2", "[[contour]] 1"]),
+        ("schema = 1", "a = " + "[" * 100_000, ["TOML"]),
+        ("schema = 1", "schema = 1 1", ["line 1"]),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_a_file(old: str, new: str, told: list[str]) -> None:
+    """One line that has the file, the place in it, and what is expected."""
+    load(PART, "a.job.toml")
+    assert old in PART
+    with pytest.raises(UserError) as failed:
+        load(PART.replace(old, new), "a.job.toml")
+    message = str(failed.value)
+    assert message.startswith("a.job.toml: ") and "\n" not in message and len(message) < 300
+    assert all(word in message for word in told), message
+
+
+def test_contour_beats_layer_beats_default() -> None:
+    job = Job(
+        "a.dxf",
+        machine=MachineSetup(wire=0.2, gap=0.01),
+        default=Partial(tab=1.0, lead=2.0),
+        layers={"Second": Partial(tab=2.0, offset=0.3), "first": Partial(tab=3.0)},
+    )
+    assert job.of(["0"]) == Wanted(offset=0.11, tab=1.0, lead=2.0)
+    assert job.of(["FIRST"]).tab == 3.0 and job.of(["FIRST"]).offset == 0.11
+    # (of two layers the one that comes first in the job)
+    assert job.of(["first", "second"]) == Wanted(offset=0.3, tab=2.0, lead=2.0)
+    chosen = Chosen("first", "outline", (0.0, 0.0), (1.0, 1.0), Partial(tab=0.0, cut=False))
+    assert job.of(["first"], chosen) == Wanted(cut=False, offset=0.11, lead=2.0)
+
+
+def plate(folder: Path) -> Path:
+    """An outline with three openings, on layers."""
+    page = drawing()
+    polygon([(0, 0), (60, 0), (60, 30), (0, 30)], page, layer="PLATE")
+    for at in range(3):
+        x = 5 + 18 * at
+        polygon([(x, 8), (x + 12, 8), (x + 12, 20), (x, 20)], page, layer="HOLES")
+    return saved(page, folder)
+
+
+EXAMPLES = [
+    words
+    for name in ("tools.md", "shop.md")
+    for example in EXAMPLE.finditer((DOCS / name).read_text())
+    if (words := shlex.split(example["command"]))[:2] == ["skg", "cut"] and "|" not in words and "4.2" not in words
+]
+#: Other options than those of the pages.
+MORE = [
+    "--side outside --offset 0.05 --into cut",
+    "--side on --open all",
+    "--lead 1.5 --lead-shape arc --reverse --wire 0.2",
+    "--start 12,15 --start 30,15 --wire 0.25 --feed 3.5 --ram 16",
+    "--layer PART --units mm --tolerance 0.01 --fit-tolerance 0.001 --offset 0.3 --small leave",
+    "--rom standard --offset 0.1 --tab 2 --passes 0.1,0.05 --material '1.2379' --thickness '20 mm'",
+]
+
+
+@pytest.mark.parametrize("words", [*EXAMPLES, *(["", "", "bracket.dxf", *shlex.split(more)] for more in MORE)])
+def test_every_example_as_a_job(run: Run, tmp_path: Path, words: list[str]) -> None:
+    """The tape of the job that is saved is the command line's, byte by byte; the program, too."""
+    if "--list-layers" in words:
+        return
+    part = tmp_path / Path(words[2]).name
+    shutil.copy(DOCS / "pictures" / part.name, part)
+    kept = []
+    options = iter(words[3:])
+    for word in options:
+        if word in ("-o", "--program", "--sheet"):
+            next(options)
+        elif word != "--quiet":
+            kept.append(word)
+    job, made = tmp_path / "a.job.toml", [tmp_path / name for name in ("a.3b", "b.3b", "a.skg", "b.skg")]
+    one = run("cut", part, *kept, "-o", made[0], "--program", made[2], "--save-job", job)
+    other = run("cut", job, "-o", made[1], "--program", made[3])
+    assert one.exit_code == other.exit_code == 0
+    assert made[0].read_bytes() == made[1].read_bytes() and made[2].read_bytes() == made[3].read_bytes()
+    assert one.stderr.replace("a.3b", "b.3b") == other.stderr
+    # (saved once more it is the same)
+    again = tmp_path / "again.job.toml"
+    run("cut", job, "-o", made[1], "--save-job", again)
+    assert again.read_bytes() == job.read_bytes()
+
+
+def test_examples_are_there() -> None:
+    assert len(EXAMPLES) >= 8
+
+
+def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
+    """One is left, one is cut first with an offset of its own, one has its start hole and entry: the report says so."""
+    path = plate(tmp_path)
+    job = Job("part.dxf", machine=MachineSetup(offset=0.1), layers={"plate": Partial(tab=1.5, passes=(0.05, 0.0))})
+    drawn = open_drawing(job, path.read_bytes())
+    numbers = {tuple(drawn.known.boxes[at, :2].tolist()): at for at in range(4)}
+    contours = (
+        choose(drawn, numbers[5.0, 8.0], cut=False),
+        choose(drawn, numbers[41.0, 8.0], order=1, offset=0.2),
+        choose(drawn, numbers[23.0, 8.0], start=(29.0, 14.0), entry=(23.0, 15.0)),
+    )
+    (tmp_path / "part.job.toml").write_bytes(encoded(replace(job, contours=contours)))
+    told = run("cut", tmp_path / "part.job.toml", "-o", tmp_path / "a.3b", "--program", "-").stderr
+    assert "contour 1, opening: wire inside, 0.2 mm beside\n" in told, told
+    assert "contour 2, opening: wire inside, 0.1 mm beside\n" in told, told
+    assert "contour 3, outline: wire outside, 0.15, 0.1 mm beside in 2 passes" in told and "tab 1.5 mm" in told, told
+    assert "3 start holes: (4" in told and ", (29, 14), " in told, told
+    stops = next(line for line in told.splitlines() if line.startswith("two stops each time"))
+    assert "before contours 2, 3;" in stops and "tab of contour 3" in stops, stops
+
+
+def test_an_outline_is_not_cut_before_what_lies_in_it(run: Run, tmp_path: Path) -> None:
+    job = Job("part.dxf", machine=MachineSetup(offset=0.1))
+    drawn = open_drawing(job, plate(tmp_path).read_bytes())
+    outline = drawn.known.kinds.tolist().index("outline")
+    job = replace(job, contours=(choose(drawn, outline, order=2),))
+    (tmp_path / "part.job.toml").write_bytes(encoded(job))
+    message = run_failing(run, "cut", tmp_path / "part.job.toml", "-o", tmp_path / "a.3b")
+    assert re.search(r"contour 2 \(outline .*PLATE\) .* before contour [34] \(opening .*HOLES\)", message), message
+    assert not (tmp_path / "a.3b").exists()
+    with pytest.raises(UserError) as failed:
+        plan_drawing(job, open_drawing(job, (tmp_path / "part.dxf").read_bytes()))
+    assert failed.value.contour == outline and failed.value.place
+
+
+def test_a_drawing_that_has_changed(run: Run, tmp_path: Path) -> None:
+    """Moved: start holes and entries move with it, which is said; a contour that is gone is refused, and named."""
+    path, file = plate(tmp_path), tmp_path / "part.job.toml"
+    job = Job("part.dxf", machine=MachineSetup(offset=0.1), starts=((30.0, -5.0),))
+    drawn = open_drawing(job, path.read_bytes())
+    opening = drawn.known.kinds.tolist().index("opening")
+    x, y = drawn.known.boxes[opening, :2].tolist()
+    job = replace(job, contours=(choose(drawn, opening, start=(x + 5, y + 5), entry=(x + 5, y)),))
+    job = written(job, open_drawing(job, path.read_bytes()))
+    file.write_bytes(encoded(job))
+    before = run("cut", file, "-o", tmp_path / "a.3b").stderr
+    assert "changed" not in before
+    page = drawing()
+    for left, low, wide, high, layer in (
+        (0, 0, 60, 30, "PLATE"),
+        *((5 + 18 * at, 8, 12, 12, "HOLES") for at in range(3)),
+    ):
+        corners = [(left, low), (left + wide, low), (left + wide, low + high), (left, low + high)]
+        polygon([(100 + u, 50 + v) for u, v in corners], page, layer=layer)
+    saved(page, tmp_path)
+    after = run("cut", file, "-o", tmp_path / "b.3b").stderr
+    assert "take care: part.dxf has changed" in after and "moved by (100, 50)" in after, after
+    assert (tmp_path / "a.3b").read_bytes() == (tmp_path / "b.3b").read_bytes()
+    page = drawing()
+    polygon([(0, 0), (60, 0), (60, 30), (0, 30)], page, layer="PLATE")
+    saved(page, tmp_path)
+    message = run_failing(run, "cut", file, "-o", tmp_path / "c.3b")
+    assert "contour 1 of the job, opening of 12 x 12 mm" in message and "layer HOLES" in message, message
+    path.unlink()
+    assert "part.dxf is not beside it" in run_failing(run, "cut", file, "-o", tmp_path / "c.3b")
+    assert not (tmp_path / "c.3b").exists()
+
+
+def test_a_contour_that_moved_is_said(run: Run, tmp_path: Path) -> None:
+    path, file = plate(tmp_path), tmp_path / "part.job.toml"
+    job = Job("part.dxf", machine=MachineSetup(offset=0.1))
+    drawn = open_drawing(job, path.read_bytes())
+    outline = drawn.known.kinds.tolist().index("outline")
+    job = replace(job, contours=(choose(drawn, outline, tab=1.0),))
+    file.write_bytes(encoded(written(job, open_drawing(job, path.read_bytes()))))
+    page = drawing()
+    polygon([(0, -2), (60, -2), (60, 30), (0, 30)], page, layer="PLATE")
+    saved(page, tmp_path)
+    told = run("cut", file, "-o", tmp_path / "a.3b", "--quiet").stderr
+    assert re.search(r"take care: outline of 60 x 30 mm at .* is taken for one [24] mm from there", told), told
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["part.job.toml", "--offset", 0.1], "--offset stands in the job file"),
+        (["part.job.toml", "--quiet", "--layer", "0"], "--layer stands in the job file"),
+        (["part.job.toml", "-o", "part.dxf"], "part.dxf: to be written, and read"),
+        (["part.job.toml", "-o", "part.job.toml"], "part.job.toml: to be written, and read"),
+        (["part.job.toml", "--save-job", "part.job.toml"], "part.job.toml: to be written, and read"),
+        (["part.dxf", "--save-job", "part.dxf"], "part.dxf: to be written, and read"),
+        (["part.dxf", "--save-job", "part.txt"], "part.txt: expected a name that ends in .job.toml"),
+        (["part.dxf", "--save-job", "other/part.job.toml"], "lies beside its drawing"),
+        (["part.dxf", "--material", "a\nb"], "text of one line"),
+        (["none.job.toml"], "none.job.toml"),
+    ],
+)
+def test_files_and_options(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[object], told: str
+) -> None:
+    """A job's options stand in its file; nothing that is read is written; a job lies beside its drawing."""
+    monkeypatch.chdir(tmp_path)
+    plate(tmp_path)
+    Path("other").mkdir()
+    Path("part.job.toml").write_bytes(encoded(Job("part.dxf", machine=MachineSetup(offset=0.1))))
+    kept = {name: Path(name).read_bytes() for name in ("part.dxf", "part.job.toml")}
+    with pytest.raises(Exception, match=re.escape(told)):
+        failed = run("cut", *words, *([] if "-o" in words else ["-o", "a.3b"]))
+        raise AssertionError(failed.stderr)
+    assert not Path("a.3b").exists() and kept == {name: Path(name).read_bytes() for name in kept}
+
+
+def test_places_of_the_report_are_taken(run: Run, tmp_path: Path) -> None:
+    """On a drawing in inches too: a start hole as the report has it, given back, makes the same tape."""
+    page = drawing()
+    page.units = 1
+    polygon([(0, 0), (2, 0), (2, 1), (0, 1)], page)
+    page.modelspace().add_circle((0.7, 0.5), 0.25)
+    path = saved(page, tmp_path)
+    told = run("cut", path, "-o", tmp_path / "a.3b", "--offset", 0.1).stderr
+    assert "50.8 x 25.4 mm, read in inch" in told and "places are told in mm" in told, told
+    holes = re.findall(r"\((\S+), (\S+)\)", told.split("start holes: ")[1].splitlines()[0])
+    words = [word for hole in holes for word in ("--start", ",".join(hole))]
+    assert len(holes) == 2 and float(holes[0][0]) > 12
+    again = run("cut", path, "-o", tmp_path / "b.3b", "--offset", 0.1, *words).stderr
+    assert again.split("start holes")[1].splitlines()[0] == told.split("start holes")[1].splitlines()[0]
+    assert (tmp_path / "b.3b").read_bytes() == (tmp_path / "a.3b").read_bytes()
+
+
+def test_numbers_stay_when_some_are_left_out(run: Run, tmp_path: Path) -> None:
+    """In the report, the program and what was left out a contour has its place in the whole order."""
+    page = drawing()
+    polygon([(0, 0), (60, 0), (60, 30), (0, 30)], page)
+    for at in range(4):
+        page.modelspace().add_circle((8 + 12 * at, 15), 0.05 if at == 1 else 3)
+    program = tmp_path / "a.skg"
+    words = ["--offset", 0.1, "--small", "leave", "--program", program, "--sheet", tmp_path / "a.svg"]
+    told = run("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b", *words).stderr
+    left = re.search(r"left out: contour (\d) \(opening", told)[1]
+    numbers = re.findall(r"REM (\d)\. O", program.read_text())
+    assert sorted([*numbers, left]) == list("12345") and numbers[-1] == "5"
+    assert re.search(r"^contour 5, outline: ", told, re.M), told
+    sheet = (tmp_path / "a.svg").read_text()
+    assert all(f">{number}<" in sheet for number in numbers)
+
+
+def test_progress_and_wanted(tmp_path: Path) -> None:
+    """What the page asks for: the steps of a run, what is wanted of each contour."""
+    job = Job("part.dxf", machine=MachineSetup(offset=0.1), layers={"holes": Partial(cut=False)})
+    drawn = open_drawing(job, plate(tmp_path).read_bytes())
+    assert [want.cut for want in wanted_of(job, drawn)].count(True) == 1
+    steps: list[str] = []
+    done = cut_drawing(job, drawn, lambda stage, done, of: steps.append(stage))
+    assert len(done.result.routes) == 1 and steps[0] == "plan"
+    assert any(line.is_care for line in done.lines) is False

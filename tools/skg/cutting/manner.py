@@ -1,0 +1,79 @@
+"""The manners in which contours are cut, and what the machine stops for: each contour by its number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from skg.planning.route import PlannedContour
+from skg.wording import short
+
+#: Runs of numbers that a line names.
+_RUNS = 8
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How a contour is cut. `kind`: what it is; `side`: where the wire runs; `passes`: how far beside, mm, in each
+    pass; `tab`: length of the bridge that the last cut takes off, mm."""
+
+    kind: str
+    side: str
+    passes: tuple[float, ...]
+    tab: float
+
+    @classmethod
+    def of(cls, route: PlannedContour) -> Manner:
+        """The manner of a planned contour."""
+        passes = route.passes or (route.offset,)
+        return cls(route.kind, _side(route), tuple(round(abs(r), 9) for r in passes), route.tab)
+
+    @property
+    def told(self) -> str:
+        """The manner in words."""
+        count = len(self.passes)
+        beside = f", {', '.join(map(short, self.passes))} mm beside" if any(self.passes) else ""
+        often = f" in {count} passes, every second one backwards" if count > 1 else ""
+        return f"wire {self.side}{beside}{often}" + f"; tab {short(self.tab)} mm" * bool(self.tab)
+
+
+def _side(route: PlannedContour) -> str:
+    if not any(route.passes or (route.offset,)):
+        return "on the line"
+    if route.contour.is_closed:
+        return "outside" if route.is_outside else "inside"
+    return "right of the cut" if route.offset > 0 else "left of the cut"
+
+
+def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
+    """The manners, in the order of cutting, with the numbers of their contours."""
+    found: dict[Manner, list[int]] = {}
+    for route in routes:
+        found.setdefault(Manner.of(route), []).append(route.turn)
+    return found
+
+
+def stops(routes: Sequence[PlannedContour]) -> Iterator[str]:
+    """What the machine stops for, each with the contours; every time it stops twice, wire off and wire threaded."""
+    twice = [one for one in routes if one.contour.is_closed and len(one.passes) > 1 and not one.tab]
+    for some, what in (
+        (routes[1:], "before {}"),
+        ([one for one in twice if one.is_opening], "to take the slug out of {}"),
+        ([one for one in twice if not one.is_opening], "with the part of {} free"),
+        ([one for one in routes if one.tab], "to hold the part before the tab of {} is cut"),
+    ):
+        if some:
+            yield what.format(numbered(one.turn for one in some))
+
+
+def numbered(numbers: Iterable[int]) -> str:
+    """Contours by their numbers, which rise."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1][1:] = [number]
+        else:
+            runs.append([number])
+    noun = "contour" if len(runs) == 1 and len(runs[0]) == 1 else "contours"
+    told = [" to ".join(map(str, run)) if run[-1] - run[0] > 1 else ", ".join(map(str, run)) for run in runs[:_RUNS]]
+    return f"{noun} {', '.join(told)}" + " …" * (len(runs) > _RUNS)
