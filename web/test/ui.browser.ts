@@ -511,6 +511,10 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.waitForFunction(() =>
       /no\.dxf/.test(`${document.querySelector("#message span")?.textContent} ${document.getElementById("report")?.textContent}`),
     );
+    // and is forgotten with the next drawing
+    await drop(page, "bracket.dxf", BRACKET);
+    await says(page, "#name", "bracket.dxf");
+    await page.waitForFunction(() => !document.querySelector("#report .wrong"));
     await context.close();
   });
 

@@ -197,7 +197,7 @@ export class Canvas {
     base.clearRect(0, 0, this.#base.width, this.#base.height);
     const isWhole = this.#picture.paint(base, this.view, this.#size, this.#pixels);
     base.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
-    if (this.#desk.state) drawRuler(base, this.view, this.#size, this.#sketch.colours.ruler);
+    if (this.#desk.shapes.size) drawRuler(base, this.view, this.#size, this.#sketch.colours.ruler);
     over.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
     this.overlay.draw(over, this.view, this.#size, this.handles);
     if (!isWhole) this.#soon();

@@ -192,7 +192,8 @@ export class Desk {
     }
     const before = this.#state;
     // (a drawing that cannot be read has no plan, one of which nothing is known no job)
-    const state = { ...before, ...later, plan: later.plan ?? NO_PLAN, job: later.job ?? NO_JOB.job } as State;
+    const { plan = NO_PLAN, job = NO_JOB.job, error = null } = later;
+    const state = { ...before, ...later, plan: plan ?? NO_PLAN, job: job ?? NO_JOB.job, error } as State;
     const fresh = edited(state.job, state.matches);
     const isBehind = ours !== undefined && ours !== this.#edited;
     this.#state = state;

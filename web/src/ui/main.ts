@@ -58,7 +58,7 @@ const pick = (): void => get<HTMLInputElement>("file").click();
 function say(): void {
   const { state, isReadAgain } = desk;
   get("name").textContent = state?.name ?? "";
-  get("size").textContent = state ? `${w("sizeOf", ...state.size.map(shown))}` : "";
+  get("size").textContent = state?.contours.length ? w("sizeOf", ...state.size.map(shown)) : "";
   get("again").textContent = isReadAgain ? w("readAgain") : "";
   get("empty").hidden = state !== undefined;
   get<HTMLButtonElement>("undo").disabled = !desk.canUndo;
@@ -89,6 +89,8 @@ function bind(): void {
   desk.onStale = () => show(w("stale"));
   desk.onRefused = ({ fault }) => show(fault.message);
   desk.onChange((news) => {
+    // (units, layers and the like may help a drawing that cannot be read)
+    if (news.has("drawing") && desk.state?.error) get<HTMLDetailsElement>("more").open = true;
     if (news.has("server") && desk.isGone) show(w("gone"));
     else if (news.has("server")) hide();
     say();
