@@ -319,24 +319,23 @@ def travel() -> str:
     radius, start, end = 10, (8, 6), (-6, -8)
     result = run(f"10 CUT {start},O:{radius},{end}\n20 END\n")
     assert result.error is None
-    block = re.findall(r"B\d+B\d+B(\d+)G([XY])NR\d", result.tape.decode())
-    assert len(block) == 1
+    block = re.search(r"B\d+B\d+B(\d+)GXNR\d", result.tape.decode())
+    assert block
 
     def counted(point: Place) -> float:
-        u, v = point if block[0][1] == "X" else (point[1], -point[0])
+        u, v = point
         return radius - u if v >= 0 else 3 * radius + u
 
     difference = counted(end) - counted(start)
-    assert difference * 1000 == int(block[0][0])
+    assert difference * 1000 == int(block[1])
     figure = Figure(800, 380, 14, -13.5, 13.5)
     figure.line((-12.5, 0), (12.5, 0), "help")
     figure.line((0, -12.5), (0, 12.5), "help")
     figure.circle((0, 0), radius, "drawn")
     sweep = math.atan2(end[1], end[0]) - math.atan2(start[1], start[0]) + math.tau
     figure.arc(start, end, radius, sweep, "wire")
-    axis = "u" if block[0][1] == "X" else "u = y"
-    figure.text((12, 0), axis if block[0][1] == "X" else "x", (4, 14))
-    figure.text((0, 12.5), "v" if block[0][1] == "X" else "u", (6, 8))
+    figure.text((12, 0), "u", (4, 14))
+    figure.text((0, 12.5), "v", (6, 8))
     for point, told, shift in ((start, "start", (8, -6)), (end, "end", (-36, 14))):
         figure.dot(point)
         figure.text(point, told, shift)
@@ -346,9 +345,8 @@ def travel() -> str:
     figure.text((left, foot + high + 1), "F", (-6, -6), "", "end")
 
     def shown(angle: float) -> Place:
-        u, v = radius * math.cos(angle), radius * math.sin(angle)
+        u = radius * math.cos(angle)
         value = radius - u if angle <= math.pi else 3 * radius + u
-        assert v is not None
         return left + wide * angle / math.tau, foot + high * value / (4 * radius)
 
     curve = [shown(math.tau * n / 90) for n in range(91)]
@@ -359,9 +357,7 @@ def travel() -> str:
     for value in (2, 4):
         figure.text((left, foot + high * value / 4), f"{value}r", (-6, 4), "small", "end")
         figure.line((left, foot + high * value / 4), (left + wide, foot + high * value / 4), "help")
-    quarter = 0 if block[0][1] == "X" else math.pi / 2
-    ends = [(math.atan2(point[1], point[0]) - quarter) % math.tau for point in (start, end)]
-    first, last = (shown(angle) for angle in ends)
+    first, last = (shown(math.atan2(point[1], point[0]) % math.tau) for point in (start, end))
     for point, told in ((first, "start"), (last, "end")):
         figure.dot(point)
         figure.text(point, told, (8, 14), "small")
