@@ -179,16 +179,8 @@ async function main(): Promise<void> {
   rmSync(OUT, { recursive: true, force: true });
   mkdirSync(OUT, { recursive: true });
   if (readFileSync("roms/skg.bin").length !== ROM_BYTES) throw new Error(`roms/skg.bin has not ${ROM_BYTES} bytes`);
-  const sym = readFileSync("roms/skg.sym", "latin1");
-  readNames(sym); // (says what is missing)
-  writeFileSync(
-    join(OUT, "skg.sym"),
-    sym
-      .split("\n")
-      .filter((line) => WANTED.test(line))
-      .join("\n") + "\n",
-  );
-  copyFileSync("roms/skg.bin", join(OUT, "skg.bin"));
+  readNames(readFileSync("roms/skg.sym", "latin1")); // (says what is missing)
+  for (const file of ["skg.bin", "skg.sym"]) copyFileSync(join("roms", file), join(OUT, file));
   for (const wasm of ["board.wasm", "walk.wasm"]) copyFileSync(join("web/wasm", wasm), join(OUT, wasm));
   for (const file of ["index.html", "icon.svg", "manual.css"]) copyFileSync(join("web/src", file), join(OUT, file));
   writeFileSync(
@@ -210,7 +202,8 @@ async function main(): Promise<void> {
   );
   writeFileSync(join(OUT, "parts.json"), JSON.stringify(found));
   for (const [file, one] of Object.entries(MANUALS)) writeFileSync(join(OUT, file), await manual(one));
-  await build({ ...common, format: "esm", entryPoints: ["web/src/main.ts", "web/src/style.css"], outdir: OUT });
+  const entryPoints = ["web/src/main.ts", "web/src/style.css"];
+  await build({ ...common, format: "esm", splitting: true, entryPoints, outdir: OUT, chunkNames: "[name]" });
   await build({ ...common, format: "iife", entryPoints: ["web/src/worker.ts"], outdir: OUT });
   // (behind the list of what is kept for visits without a network: it is for those who take it away)
   const files = readdirSync(OUT).sort();
@@ -226,8 +219,5 @@ async function main(): Promise<void> {
   await oneFile();
   if (!existsSync(join(OUT, "main.js"))) throw new Error("no main.js");
 }
-
-/** The names of roms/skg.sym that the page looks at. */
-const WANTED = /^[0-9A-F]{4} (CURLIN|NXTP|NTOC|ADVANC|SRUN|MREG|SWX)\b/;
 
 await main();

@@ -40,8 +40,7 @@ web-format: web-modules
 	cd web && node_modules/.bin/biome check --write .
 
 # In real browsers: Debian's chromium and firefox-esr, as far as they are there. Screenshots go to web/build/shots.
-test-web: web web/build/test/chromium.browser.mjs web/build/test/firefox.browser.mjs \
-		web/build/test/ui.browser.mjs web/build/test/ui-firefox.browser.mjs
+test-web: web $(patsubst web/%.ts,web/build/%.mjs,$(wildcard web/test/*.browser.ts))
 	node --test --test-reporter=spec web/build/test/*.browser.mjs
 
 .PHONY: web ui-page web-modules web-lint web-format web-tools web-serve web-wasm test-web

@@ -82,6 +82,34 @@ def golden(name: str) -> dict[str, object]:
     }
 
 
+#: Where the debugger is asked: in machine code and in byte-code.
+STOPS = ("SCUT", "ARC5", "ARC7")
+ROM_BYTES = 0x2000
+
+
+def debugger(stop: str) -> dict[str, object]:
+    """What `skg80 --debug` says where the wrench comes to a stop the second time: floats, registers, the ROM's code."""
+    skg80, part = ROOT / "build" / "skg80", ROOT / "examples" / "wrench.skg"
+    listings = [f"list {address:X} 1" for address in range(ROM_BYTES)]
+    commands = ["continue", "floats", "m", *listings]
+    done = subprocess.run(
+        [skg80, "--break", stop, part, "--punch", os.devnull],
+        cwd=ROOT,
+        input="\n".join([*commands, "quit", ""]),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    answers = [answer.partition("\n")[2] for answer in done.stderr.split("debug> ")[2:]]
+    said = dict(zip(commands[1:], answers, strict=False))
+    return {
+        "stop": stop,
+        "floats": said["floats"].strip("| \n"),
+        "registers": said["m"].splitlines(),
+        "listings": [said[command] for command in listings],
+    }
+
+
 def shape(entity: DXFEntity) -> tuple[object, ...]:
     """What an entity is and where, to a nanometre; a line or an arc by its ends in either order."""
 
@@ -117,6 +145,7 @@ def near(one: object, other: object) -> bool:
 def test_units_in_node(tmp_path: Path) -> None:
     """The tests of web/test in node; then the drawings that they wrote are compared with those of `skg dxf`."""
     (tmp_path / "golden.json").write_text(json.dumps({name: golden(name) for name in TAPES}))
+    (tmp_path / "debugger.json").write_text(json.dumps([debugger(stop) for stop in STOPS]))
     sources = sorted(WEB.glob("test/*.test.ts"))
     built = run(
         BIN / "esbuild",

@@ -12,6 +12,7 @@ export interface Names {
   along: number;
   run: number;
   wire: number;
+  operation: number;
 }
 
 /** A line on the punch: a block, `D` or `DD`, or `RUN` where a new tape begins; the program line that made it (0: a direct
@@ -26,7 +27,7 @@ export interface Punched {
 interface Exports {
   memory: WebAssembly.Memory;
   page_buffer(length: number): number;
-  page_names(current: number, direct: number, element: number, along: number, run: number, wire: number): void;
+  page_names(current: number, direct: number, element: number, along: number, run: number, wire: number, operation: number): void;
   page_board(which: number, length: number): number;
   page_reset(which: number): void;
   page_type(which: number, length: number): number;
@@ -39,6 +40,10 @@ interface Exports {
   page_baud(which: number, baud: number): void;
   page_cycles(which: number): number;
   page_run(which: number, cycles: number): number;
+  page_stop_at(which: number, address: number, stops: number): number;
+  page_step(which: number, how: number, stack: number, cycles: number): number;
+  page_registers(which: number): number;
+  page_memory(which: number): number;
   page_printed(which: number): number;
   page_take_paper(which: number): number;
   page_punched(which: number): number;
@@ -49,11 +54,29 @@ interface Exports {
   page_restore(which: number, length: number): void;
 }
 
+/** How far the debugger goes: an instruction, to the calculator's next operation, until the stack pointer is above a value; in
+ * the order of page_step. */
+const STEPS = ["instruction", "operation", "return"] as const;
+export type Step = (typeof STEPS)[number];
+
+/** What the debugger sees: A with F, BC, DE, HL, SP and PC; all memory. */
+export interface Look {
+  af: number;
+  bc: number;
+  de: number;
+  hl: number;
+  sp: number;
+  pc: number;
+  memory: Uint8Array;
+  cycles: number;
+}
+
 export const RAM_BYTES = 8192;
 export const ROM_BYTES = 8192;
 const MAKER = 3;
 const VISITORS = 0;
 const SCRATCH = 1;
+const SPACE = 65536;
 /** Cycles that LIST and a reset may take on the second board: 50 s of the real one. */
 const PATIENCE = 100_000_000;
 /** LOAD looks at the empty reader for so many cycles before it is said that it waits for a tape. */
@@ -84,6 +107,7 @@ export function readNames(sym: string): Names {
     // Behind the call that ends its line: a line that is only looked at (10 RUN) does not come back from there.
     run: value("SRUN") + CALL,
     wire: value("MREG") + 5 * register,
+    operation: value("CALC1"),
   };
 }
 
@@ -96,7 +120,8 @@ export class Board {
   private constructor(wasm: Exports, rom: Uint8Array, names: Names) {
     this.#wasm = wasm;
     this.#rom = rom;
-    wasm.page_names(names.current, names.direct, names.element, names.along, names.run, names.wire);
+    const { current, direct, element, along, run, wire, operation } = names;
+    wasm.page_names(current, direct, element, along, run, wire, operation);
     this.#make(VISITORS);
   }
 
@@ -136,6 +161,31 @@ export class Board {
 
   run(cycles: number): Reason {
     return REASONS[this.#wasm.page_run(VISITORS, cycles)] ?? "halt";
+  }
+
+  /** Has `run` and `step` stop at an address, of machine code or byte-code, with the reason `break`; false when there are too
+   * many of them. */
+  stopAt(address: number, stops: boolean): boolean {
+    return this.#wasm.page_stop_at(VISITORS, address, Number(stops)) !== 0;
+  }
+
+  /** Goes on so far, for so many cycles at most; `break`: it is there, or at a stop. */
+  step(how: Step, stack: number, cycles: number): Reason {
+    return REASONS[this.#wasm.page_step(VISITORS, STEPS.indexOf(how), stack, cycles)] ?? "halt";
+  }
+
+  look(): Look {
+    const bytes = this.#copy(this.#wasm.page_registers(VISITORS), 12);
+    const [af, bc, de, hl, sp, pc] = Array.from({ length: 6 }, (_, at) => new DataView(bytes.buffer).getUint16(2 * at)) as [
+      number,
+      number,
+      number,
+      number,
+      number,
+      number,
+    ];
+    const memory = this.#copy(this.#wasm.page_memory(VISITORS), SPACE);
+    return { af, bc, de, hl, sp, pc, memory, cycles: this.cycles };
   }
 
   get cycles(): number {

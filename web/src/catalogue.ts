@@ -1,5 +1,7 @@
 /** The part list in the order in which one gets to know them: groups, and each part's name and what to try, in both languages. */
 
+import { spoken } from "./language.ts";
+
 type Both = readonly [english: string, chinese: string];
 
 export interface Entry {
@@ -18,6 +20,14 @@ const part = (name: string, english: string, chinese: string, hint?: Both): Entr
   title: [english, chinese],
   ...(hint ? { hint } : {}),
 });
+
+/** What the parts' sliders set. */
+const LABELS: Readonly<Record<string, string>> = {
+  "module, mm": "模数，mm",
+  teeth: "齿数",
+  "lift, mm": "升程，mm",
+  "base radius, mm": "基圆半径，mm",
+};
 
 export const CATALOGUE: readonly Group[] = [
   {
@@ -132,3 +142,12 @@ export const CATALOGUE: readonly Group[] = [
 ];
 
 export const inLanguage = (both: Both, language: string): string => both[language === "zh" ? 1 : 0];
+
+/** A part's title in the present language; undefined where there is no such part. */
+export function partTitle(name: string): string | undefined {
+  const entry = CATALOGUE.flatMap(({ parts }) => parts).find((each) => each.name === name);
+  return entry && inLanguage(entry.title, spoken());
+}
+
+/** What a slider sets, in the present language where it is a part's. */
+export const labelOf = (label: string): string => (spoken() === "zh" ? (LABELS[label] ?? label) : label);

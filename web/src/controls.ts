@@ -4,7 +4,7 @@ import { tooLarge } from "./files.ts";
 import { t } from "./language.ts";
 import { say } from "./message.ts";
 import type { Opening } from "./opening.ts";
-import { address, copy, save } from "./saving.ts";
+import { copyLink, save } from "./saving.ts";
 import { bindShell, view } from "./shell.ts";
 import type { Settings } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
@@ -20,14 +20,8 @@ export function bind(bench: Workbench, teletype: Teletype, opening: Opening, set
   onClick("revert", () => bench.revert());
   onClick("reset", () => bench.session.reset());
   onClick("tear", () => teletype.clear());
-  onClick("copy-link", () => void address(bench.editor.text, false).then(copy));
-  onClick(
-    "copy-embed",
-    () =>
-      void address(bench.editor.text, true).then((url) =>
-        copy(`<iframe src="${url}" title="SKG" width="800" height="500"></iframe>`),
-      ),
-  );
+  onClick("copy-link", () => void copyLink(bench.editor.text, false));
+  onClick("copy-embed", () => void copyLink(bench.editor.text, true));
   for (const button of document.querySelectorAll<HTMLElement>("[data-save]")) {
     button.addEventListener("click", () => void save(button.dataset["save"] ?? "", bench, settings));
   }
@@ -63,6 +57,7 @@ function bindDrawing({
   onClick("farther", () => drawing.zoom(1 / 1.5));
   onClick("before", () => drawing.step(-1));
   onClick("next", () => drawing.step(1));
+  get<HTMLDetailsElement>("legend").open = !matchMedia("(max-width: 560px)").matches;
   const button = get("measure");
   const millimetres = (micrometres: number): string => (micrometres / 1000).toFixed(3);
   onClick("measure", () => {

@@ -3,7 +3,7 @@ import { defaultKeymap, history, historyKeymap, undo } from "@codemirror/command
 import { EditorState, StateEffect, StateField, Transaction } from "@codemirror/state";
 import { Decoration, type DecorationSet, drawSelection, EditorView, keymap, WidgetType } from "@codemirror/view";
 import type { Chooser } from "./choice.ts";
-import { nextNumber, skg } from "./language-skg.ts";
+import { narrow, nextNumber, skg, WIDE } from "./language-skg.ts";
 import type { Layout } from "./placed.ts";
 
 /** What is wrong with a line: its place in the text from 0, the column or -1, the sentence, and where to read more of it. */
@@ -169,7 +169,7 @@ export class Editor {
 
   /** Another text, for undo one step; what it has in common with the present one stays where it is. */
   set text(text: string) {
-    const [before, after] = [this.#view.state.doc.toString(), text.replace(/\n$/, "")];
+    const [before, after] = [this.#view.state.doc.toString(), text.replace(/\r\n?/g, "\n").replace(/\n$/, "")];
     if (before === after) return;
     let from = 0;
     while (from < before.length && before[from] === after[from]) from++;
@@ -197,6 +197,22 @@ export class Editor {
   /** The place of a program line in the text, from 0; -1 where there is none. */
   rowOf(number: number): number {
     return (rowOf(this.#view.state, number)?.number ?? 0) - 1;
+  }
+
+  /** A word is being put together with an input method: its text is left alone until it is there. */
+  get isComposing(): boolean {
+    return this.#view.composing;
+  }
+
+  /** Wide signs of a Chinese keyboard, ＝（，, become those that the machine has; who types stays where he is. */
+  narrow(): void {
+    const changes = [...this.#view.state.doc.toString().matchAll(WIDE)].map(({ index, 0: sign }) => ({
+      from: index,
+      to: index + 1,
+      insert: narrow(sign),
+    }));
+    const annotations = [Transaction.remote.of(true), Transaction.addToHistory.of(false)];
+    if (changes.length) this.#view.dispatch({ changes, annotations });
   }
 
   get hasFocus(): boolean {

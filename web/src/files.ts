@@ -29,7 +29,7 @@ export function recognize(name: string, bytes: Uint8Array): Found {
   if (!bytes.length) return refuse("badEmpty");
   const text = new TextDecoder("latin1").decode(bytes);
   if (/^\s*\{/.test(text)) {
-    const saved = readEverything(text);
+    const saved = readEverything(utf8(bytes) ?? text);
     return saved ? { kind: "saved", saved } : refuse("badSaved");
   }
   // (an editor's mark at the start, a ctrl-Z at the end and blank tape are let pass)
@@ -38,11 +38,22 @@ export function recognize(name: string, bytes: Uint8Array): Found {
     /\.3b$/i.test(name) || (!/\.skg$/i.test(name) && /(^|[\s:])B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*G/i.test(plain));
   if (isTape) return { kind: "tape", text: plain };
   const strange = /[^\t\n\r -~\0]/.exec(plain);
-  if (!/\.skg$/i.test(name) && (strange || !/^[\s\0]*\d+\s*[A-Za-z]/.test(plain))) return refuse("badKind");
-  if (strange) return refuse("badText", text.indexOf(strange[0]) + 1);
-  if (!plain.trim()) return refuse("badEmpty");
-  if (plain.length > MOST_PROGRAM) return refuse("badLarge", MOST_PROGRAM / 1024);
-  return { kind: "program", text: plain };
+  if (!/\.skg$/i.test(name) && ((strange && !utf8(bytes)) || !/^[\s\0]*\d+\s*[A-Za-z]/.test(plain))) return refuse("badKind");
+  const program = strange ? utf8(bytes) : plain;
+  if (program === undefined) return refuse("badText", text.indexOf(strange?.[0] ?? "") + 1);
+  if (!program.trim()) return refuse("badEmpty");
+  if (program.length > MOST_PROGRAM) return refuse("badLarge", MOST_PROGRAM / 1024);
+  return { kind: "program", text: program };
+}
+
+/** A text in UTF-8, undefined where it is none: signs that the machine has not are marked in the editor. */
+function utf8(bytes: Uint8Array): string | undefined {
+  try {
+    const text = new TextDecoder("utf-8", { fatal: true }).decode(bytes).replace(/\x1a[^]*$/, "");
+    return /[\x00-\x08\x0e-\x1f\x7f]/.test(text) ? undefined : text;
+  } catch {
+    return undefined;
+  }
 }
 
 /** Longest time that a file's reading holds the page up at a stretch, ms. */

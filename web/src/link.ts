@@ -49,7 +49,9 @@ export async function unpack(code: string): Promise<string> {
   try {
     const bytes = Uint8Array.from(atob(code.replace(/-/g, "+").replace(/_/g, "/")), (c) => c.charCodeAt(0));
     // (zlib's form: a check sum stands at its end)
-    return new TextDecoder("utf-8", { fatal: true }).decode(await through(bytes, new DecompressionStream("deflate")));
+    const text = new TextDecoder("utf-8", { fatal: true }).decode(await through(bytes, new DecompressionStream("deflate")));
+    if (!text.trim()) throw new LinkError("empty");
+    return text;
   } catch {
     throw new LinkError("not whole");
   }
@@ -62,6 +64,6 @@ export async function readLink(hash: string): Promise<Link> {
   const code = fields.get("z");
   const part = fields.get("part");
   if (code !== null) link.program = await unpack(code);
-  if (part !== null) link.part = part;
+  if (part) link.part = part;
   return link;
 }

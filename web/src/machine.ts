@@ -1,6 +1,7 @@
 /** The page's side of the board's worker. */
-import { bytesOf, type Punched } from "./board.ts";
+import { bytesOf, type Look, type Punched } from "./board.ts";
 import type { Images, News, Order, Refused, Speed, State } from "./runner.ts";
+import type { Move } from "./stepper.ts";
 
 export interface Listener {
   /** `seen` is to be called when all of it has been shown: the board waits for that. */
@@ -8,6 +9,8 @@ export interface Listener {
   state(state: State): void;
   memory(ram: Uint8Array, program: string, rom: string): void;
   failed(why: string): void;
+  /** What the debugger sees of the board; `isHeld`: the board stands until it is told to go on. */
+  look(look: Look, isHeld: boolean): void;
 }
 
 export class Machine {
@@ -69,6 +72,10 @@ export class Machine {
     this.#say({ kind: "speed", speed });
   }
 
+  debug(how: Move, stops: readonly number[]): void {
+    this.#say({ kind: "debug", how, stops });
+  }
+
   #take(order: Order): void {
     this.#taken++;
     this.#say(order);
@@ -91,6 +98,9 @@ export class Machine {
       case "checked":
         this.#answers.get(news.id)?.(news.refused);
         this.#answers.delete(news.id);
+        break;
+      case "look":
+        this.#listener.look(news.look, news.isHeld);
         break;
       case "failed":
         this.#listener.failed(news.why);

@@ -1,37 +1,31 @@
 /** The page: puts its parts together and starts the machine. */
 import { bind } from "./controls.ts";
 import { get, onClick } from "./dom.ts";
-import { preferred, t, type Word } from "./language.ts";
-import { closeManual, openManual, turnManual } from "./manual.ts";
-import { say, show } from "./message.ts";
+import { Inside } from "./inside.ts";
+import { keepSafe } from "./keeping.ts";
+import { preferred, spoken, t } from "./language.ts";
+import { openManual, turnManual } from "./manual.ts";
+import { say, warn } from "./message.ts";
 import { Opening } from "./opening.ts";
+import { closePane } from "./pane.ts";
 import { showParts } from "./parts.ts";
 import { readImages, readPartList, readWalk, workerAddress } from "./pieces.ts";
-import type { State } from "./runner.ts";
 import { Session } from "./session.ts";
 import { SettingsMenu, sound } from "./settings.ts";
-import { view } from "./shell.ts";
-import { type Everything, type Settings, Store } from "./store.ts";
+import { isSmall, view } from "./shell.ts";
+import { StatusLine } from "./statusline.ts";
+import { type Settings, Store } from "./store.ts";
 import { Teletype } from "./teletype.ts";
 import { isUpdated } from "./update.ts";
+import { Welcome } from "./welcome.ts";
 import { Workbench } from "./workbench.ts";
 import { isAlike, showWorks, Works } from "./works.ts";
 
 const WIRE = 0.18;
-/** What a first visit shows. */
-const FIRST = "wrench";
-const STATES: Record<State, Word> = {
-  busy: "busy",
-  prompt: "prompt",
-  input: "input",
-  wait: "wait",
-  tape: "waitTape",
-  halt: "halt",
-};
 
 const isEmbedded = new URLSearchParams(location.hash.slice(1)).has("embed");
 document.body.classList.toggle("embed", isEmbedded);
-const store = new Store(() => say("noStore"));
+const store = new Store(() => warn(t("noStore")));
 const settings: Settings = {
   speed: "fast",
   language: preferred(navigator.languages),
@@ -47,16 +41,22 @@ const works = new Works(
   (program) => opening.parts.some((part) => isAlike(part.program, program)),
   tellWorks,
 );
-const bench = new Workbench({
-  works,
-  isAuto: () => settings.auto,
-  openManual,
-  showDrawing: () => view("drawing"),
-});
+const bench = new Workbench({ works, isAuto: () => settings.auto, openManual, showDrawing });
 const teletype = new Teletype(get("terminal"), { type: (text) => session.type(text), press: (key) => session.press(key) }, "");
-let isSaid: Word | undefined;
+const status = new StatusLine(bench, teletype);
+const inside = new Inside();
+const welcome = new Welcome(bench.stage);
+let before = "";
 const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : store, {
-  state: showState,
+  state: (state) => {
+    const { recording } = bench.stage;
+    if (state === "prompt") {
+      recording.leave(false);
+      if (!isEmbedded) store.tape = recording.kept;
+      void welcome.isCut();
+    }
+    status.show(state);
+  },
   punched: (punched) => bench.punched(punched),
   memory: (program) => {
     bench.memory(program, before);
@@ -64,91 +64,66 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
   },
   error: (number, line) => bench.error(number, line),
   strange: (character) => say("notAscii", character),
+  look: (look, isHeld) => inside.look(look, isHeld),
   failed: (why) => {
-    say("noMachine", why);
-    for (const id of ["run", "reset", "send"]) get<HTMLButtonElement>(id).disabled = true;
+    warn(t("noMachine", why));
+    for (const id of ["run", "reset", "send", "machine"]) get<HTMLButtonElement>(id).disabled = true;
   },
 });
-let before = "";
 bench.session = session;
 const menu = new SettingsMenu(settings, bench, teletype, (changed) => (store.settings = changed));
-const opening = new Opening(bench, bringBack);
+const opening = new Opening(bench, works, (changed) => menu.apply(changed));
 bind(bench, teletype, opening, settings);
-onClick("close-manual", closeManual);
+for (const button of document.querySelectorAll(".pane .close")) button.addEventListener("click", closePane);
+onClick("machine", () => void inside.open(session));
 get("manual").addEventListener("click", (event) => {
   event.preventDefault();
   openManual();
 });
 
-/** Where something is asked, the keys go there. */
-function showState(state: State): void {
-  if (state === "prompt") bench.stage.recording.leave(false);
-  if (state === "prompt" && !isEmbedded) store.tape = bench.stage.recording.kept;
-  const word = STATES[state];
-  get("run").textContent = t(session.isRunning ? "stop" : "run");
-  if (word === isSaid) return;
-  isSaid = word;
-  get("state").textContent = session.isAlive ? t(word) : "";
-  if (state === "input" && bench.isByHand) {
-    view("teletype");
-    teletype.focus();
-  }
+/** On a small screen the manual stands in front of it. */
+function showDrawing(): void {
+  view("drawing");
+  if (isSmall() && !get("manual-pane").hidden) closePane();
 }
 
 function tellWorks(): void {
   const box = get("work-list");
-  showWorks(box, works, settings.language === "zh" ? "zh-CN" : "en-GB", (work) => void bench.open(work.name, work.program, true));
+  const language = spoken() === "zh" ? "zh-CN" : "en-GB";
+  showWorks(box, works, language, (work) => void bench.open(work.name, work.program, true));
   get("works").hidden = !box.childElementCount;
 }
 
-function bringBack(saved: Everything): void {
-  menu.apply(saved.settings);
-  if (saved.kept) {
-    works.keep(bench.editor.text);
-    works.begin();
-    session.bringBack(saved.kept);
-    if (saved.kept.draft !== undefined) bench.editor.text = saved.kept.draft;
-  }
-  void opening.saved(saved.tape);
-}
-
-menu.onLanguage = () => {
-  turnManual();
-  isSaid = undefined;
-  showState(session.state);
-  if (opening.parts.length) tellParts();
-  tellWorks();
-};
-
 function tellParts(): void {
   showParts(get("part-list"), opening.parts, (part) => {
-    get("welcome").hidden = true;
+    welcome.end();
     opening.part(part);
   });
 }
 
-/** Another tab has the machine that is kept. */
-function lost(): void {
-  works.begin();
-  show(t("otherTab"), { label: t("keepHere"), take: () => store.ownAgain() });
-}
+menu.onLanguage = () => {
+  status.retell();
+  if (opening.parts.length) tellParts();
+  tellWorks();
+  bench.refresh();
+  turnManual();
+  inside.retell();
+};
 
 async function begin(): Promise<void> {
   view("drawing");
   const last = isEmbedded ? null : store.machine;
   menu.apply({});
-  if (!isEmbedded) {
-    store.own(lost);
-    store.watch(tellWorks);
-  }
+  if (!isEmbedded) keepSafe(bench, store, works, tellWorks);
   const reading = readPartList().then(
     (found) => {
       opening.parts = found;
       tellParts();
+      tellWorks();
     },
     () => say("noParts"),
   );
-  if (!session.start(settings.speed, last, readImages())) say("badKept");
+  if (!session.start(settings.speed, last, readImages())) warn(t("badKept"));
   if (last?.draft !== undefined) bench.editor.text = last.draft;
   const tape = last && store.tape;
   if (tape) {
@@ -167,9 +142,7 @@ async function begin(): Promise<void> {
   await Promise.all([reading, walking]);
   const isLinked = await opening.link(location.hash);
   addEventListener("hashchange", () => void opening.link(location.hash));
-  const first = opening.parts.find(({ name }) => name === FIRST);
-  if (!isLinked && !last && first) opening.part(first);
-  get("welcome").hidden = Boolean(last) || isLinked || isEmbedded;
+  if (!isLinked && !last && !isEmbedded) welcome.begin(opening);
   document.body.dataset["ready"] = String(Math.round(performance.now()));
   if (!isEmbedded) await isUpdated();
 }

@@ -1,14 +1,14 @@
 /** The manual beside the page; its *try* links run in the machine here. */
 import { get } from "./dom.ts";
 import { t } from "./language.ts";
+import { closePane, openPane } from "./pane.ts";
 import { insidePage } from "./pieces.ts";
 
 const frame = (): HTMLIFrameElement => get<HTMLIFrameElement>("manual-frame");
 
 /** The manual in the page's language; `chapter`: at its heading. */
 export function openManual(chapter = 0): void {
-  document.body.classList.add("reading");
-  get("manual-pane").hidden = false;
+  openPane("manual-pane");
   const page = frame();
   const file = t("manualFile");
   const isThere = page.dataset["file"] === file;
@@ -32,11 +32,6 @@ export function turnManual(): void {
   if (!get("manual-pane").hidden) openManual();
 }
 
-export function closeManual(): void {
-  document.body.classList.remove("reading");
-  get("manual-pane").hidden = true;
-}
-
 /** A link to a program runs it in this page, and leaves the manual where it is; one to a heading goes there in skg.html, too,
  * where it would be a place of the page around the manual. */
 function follow(event: MouseEvent): void {
@@ -52,6 +47,6 @@ function follow(event: MouseEvent): void {
       ?.scrollIntoView();
   } else if (href === "./") {
     event.preventDefault();
-    closeManual();
+    closePane();
   }
 }

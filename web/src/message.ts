@@ -7,8 +7,17 @@ export interface Offer {
   take: () => void;
 }
 
+/** What stays until it is put away: other messages cover it for a while. */
+let lasting: { text: string; offer: Offer | undefined } | undefined;
+
 export function say(word: Word, ...values: (string | number)[]): void {
   show(t(word, ...values));
+}
+
+/** Says something that is not hidden by what is done next: what is at stake is the visitor's work. */
+export function warn(text: string, offer?: Offer): void {
+  lasting = { text, offer };
+  show(text, offer);
 }
 
 export function show(text: string, offer?: Offer): void {
@@ -19,13 +28,20 @@ export function show(text: string, offer?: Offer): void {
   button.hidden = !offer;
   button.textContent = offer?.label ?? "";
   button.onclick = () => {
-    box.hidden = true;
+    dismiss();
     offer?.take();
   };
 }
 
+/** The visitor has read what is said. */
+export function dismiss(): void {
+  if (get("message").firstElementChild?.textContent === lasting?.text) lasting = undefined;
+  hide();
+}
+
 export function hide(): void {
-  get("message").hidden = true;
+  if (lasting) show(lasting.text, lasting.offer);
+  else get("message").hidden = true;
 }
 
 /** Asks in a window of its own; true for yes. */

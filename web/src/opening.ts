@@ -5,17 +5,21 @@ import { t } from "./language.ts";
 import { LinkError, readLink } from "./link.ts";
 import { say, show } from "./message.ts";
 import { markPart, type Part } from "./parts.ts";
-import type { Everything } from "./store.ts";
+import type { Everything, Settings } from "./store.ts";
 import type { Workbench } from "./workbench.ts";
+import type { Works } from "./works.ts";
 
 export class Opening {
   readonly #bench: Workbench;
-  readonly #bringBack: (saved: Everything) => void;
+  readonly #works: Works;
+  readonly #apply: (settings: Partial<Settings>) => void;
   parts: Part[] = [];
 
-  constructor(bench: Workbench, bringBack: (saved: Everything) => void) {
+  /** `apply` puts settings in force. */
+  constructor(bench: Workbench, works: Works, apply: (settings: Partial<Settings>) => void) {
     this.#bench = bench;
-    this.#bringBack = bringBack;
+    this.#works = works;
+    this.#apply = apply;
   }
 
   /** The part is shown cut. */
@@ -54,7 +58,7 @@ export class Opening {
         await this.#tape(file.name, found.text);
         break;
       case "saved":
-        this.#bringBack(found.saved);
+        await this.#saved(found.saved);
         say("imported", file.name);
         break;
       case "refused":
@@ -78,8 +82,16 @@ export class Opening {
     show(said + (tape.hasNoEnd ? t("tapeNoEnd") : ""));
   }
 
-  /** Shows the tape of a page that was saved. */
-  async saved(tape: string): Promise<void> {
+  /** A page that was saved: its machine, its text, its settings, its tape. */
+  async #saved({ kept, settings, tape }: Everything): Promise<void> {
+    const { editor, session } = this.#bench;
+    this.#apply(settings);
+    if (kept) {
+      this.#bench.keepText();
+      this.#works.begin();
+      session.bringBack(kept);
+      if (kept.draft !== undefined) editor.text = kept.draft;
+    }
     const read = tape ? await readWhole("saved", tape) : undefined;
     if (!read || "why" in read) return;
     this.#bench.stage.open(read.tape.items, read.placer, this.#bench.name, !read.tape.hasNoEnd);

@@ -1,15 +1,20 @@
 /** The tape's pictures: the drawing, the blocks, the punched tape, the controller's walk, and what is said of them. */
 import { BlockList } from "./blocklist.ts";
+import { partTitle } from "./catalogue.ts";
 import type { Chooser } from "./choice.ts";
 import { get } from "./dom.ts";
 import { Drawing } from "./drawing.ts";
 import { t } from "./language.ts";
 import { PunchedTape } from "./punched.ts";
-import type { Recording } from "./recording.ts";
+import type { Maker, Recording } from "./recording.ts";
 import { WalkBar } from "./walkbar.ts";
+import { titleOf } from "./works.ts";
 
 /** A machine's feed, mm a minute. */
 const FEED = 5;
+
+/** What made a tape: a part of the list, a link, or one's own program by its title. */
+const shownName = ({ name, program }: Maker): string => partTitle(name) ?? (name === "link" ? t("link") : titleOf(program ?? ""));
 
 export class Pictures {
   readonly drawing: Drawing;
@@ -19,6 +24,8 @@ export class Pictures {
   #walkBar: WalkBar | undefined;
   /** The tape's program is not the one that is seen. */
   isStale = false;
+  /** The controller has gone through all blocks that there are. */
+  measured: Promise<void> | undefined;
 
   constructor(chooser: Chooser, recording: Recording) {
     this.#recording = recording;
@@ -43,7 +50,12 @@ export class Pictures {
     });
     if (!this.#recording.layout.blocks.length) return;
     this.#walkBar.begin(this.#recording.layout);
-    void this.#walkBar.grown();
+    this.measured = this.#walkBar.grown();
+  }
+
+  /** The walk begins. */
+  play(): void {
+    this.#walkBar?.play();
   }
 
   /** Another tape, empty or whole. */
@@ -59,7 +71,7 @@ export class Pictures {
   grown(again: boolean): void {
     this.drawing.grown(again);
     this.list.grown(true);
-    void this.#walkBar?.grown();
+    this.measured = this.#walkBar?.grown();
     this.say();
   }
 
@@ -73,13 +85,8 @@ export class Pictures {
       : `${t("summary", layout.blocks.length, millimetres.toFixed(1))}${isWhole ? "" : ` · ${t("partial")}`}`;
     get("time").textContent = isEmpty ? "" : t("time", Math.ceil(millimetres / FEED));
     const source = get("made");
-    source.textContent = isEmpty
-      ? ""
-      : this.isStale
-        ? t("stale")
-        : made.program === undefined
-          ? t("fromFile", made.name)
-          : made.name;
+    const name = made.program === undefined ? t("fromFile", made.name) : shownName(made);
+    source.textContent = isEmpty ? "" : this.isStale ? t("stale", name) : name;
     source.classList.toggle("stale", this.isStale && !isEmpty);
   }
 

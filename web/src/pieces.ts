@@ -36,6 +36,15 @@ export function readImages(): Images | undefined {
   return code && rom && sym ? { code, rom, sym } : undefined;
 }
 
+/** roms/skg.sym. */
+export async function readSymbols(): Promise<string> {
+  const text = insideText("skg.sym");
+  if (text !== undefined) return text;
+  const answer = await fetch("skg.sym");
+  if (!answer.ok) throw new Error(`skg.sym: ${answer.status}`);
+  return answer.text();
+}
+
 export async function readPartList(): Promise<Part[]> {
   const text = insideText("parts.json");
   return text === undefined ? readParts() : (JSON.parse(text) as Part[]);

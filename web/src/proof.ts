@@ -4,6 +4,9 @@ import { isWord, t } from "./language.ts";
 import { faultsOf } from "./language-skg.ts";
 import type { Session } from "./session.ts";
 
+/** The manual's chapter of errors. */
+const ERRORS = 11;
+
 export class Proof {
   readonly #editor: Editor;
   readonly #openManual: (chapter: number) => void;
@@ -37,7 +40,7 @@ export class Proof {
 
   #mark(row: number, number: string, column = -1): Mark {
     const word = `err${number}`;
-    const more = { label: t("manual"), open: () => this.#openManual(11) };
+    const more = { label: t("manual"), open: () => this.#openManual(ERRORS) };
     return { row, column, text: t("ended", number, isWord(word) ? t(word) : ""), more };
   }
 }

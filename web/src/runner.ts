@@ -1,5 +1,6 @@
 /** Runs the board in its worker: what is to be done at its prompts, and what the page is told. */
-import { ascii, Board, bytesOf, type Punched, type Reason, readNames } from "./board.ts";
+import { ascii, Board, bytesOf, type Look, type Punched, type Reason, readNames } from "./board.ts";
+import { type Move, Stepper } from "./stepper.ts";
 
 export type Speed = "real" | "fast";
 
@@ -21,10 +22,11 @@ export type Order =
   | { kind: "check"; id: number; program: string }
   | { kind: "reset" }
   | { kind: "speed"; speed: Speed }
+  | { kind: "debug"; how: Move; stops: readonly number[] }
   | { kind: "seen" };
 
-/** What the board does now; `tape`: LOAD waits for one. */
-export type State = "busy" | "prompt" | "input" | "wait" | "tape" | "halt";
+/** What the board does now; `tape`: LOAD waits for one; `held`: the debugger holds it. */
+export type State = "busy" | "prompt" | "input" | "wait" | "tape" | "halt" | "held";
 
 /** A line of a text that the machine does not take: its place in the text from 0, the ERR, the column of the mark or -1. */
 export interface Refused {
@@ -39,6 +41,7 @@ export type News =
   | { kind: "out"; paper: string; punched: Punched[]; state: State; taken: number; cycles: number }
   | { kind: "memory"; ram: Uint8Array; program: string; rom: string }
   | { kind: "checked"; id: number; refused: Refused[] }
+  | { kind: "look"; look: Look; isHeld: boolean }
   | { kind: "failed"; why: string };
 
 /** The board's clock, and the teletype's line, as they were. */
@@ -74,6 +77,7 @@ export class Runner {
   #taken = 0;
   #last = 0;
   #isReady = false;
+  #stepper!: Stepper;
   readonly #early: Order[] = [];
   readonly #channel = new MessageChannel();
   readonly #tell: (news: News) => void;
@@ -100,7 +104,10 @@ export class Runner {
         this.#board.type(order.bytes);
         break;
       case "press":
-        if (order.key === CTRL_C) this.#script = [];
+        if (order.key === CTRL_C) {
+          this.#script = [];
+          this.#stepper.free();
+        }
         this.#board.press(order.key);
         break;
       case "tape":
@@ -125,6 +132,9 @@ export class Runner {
       case "speed":
         this.#setSpeed(order.speed);
         return;
+      case "debug":
+        this.#debug(order.how, order.stops);
+        return;
       case "seen":
         this.#unseen--;
         if (this.#state !== "busy" && this.#board.idle) return;
@@ -133,8 +143,35 @@ export class Runner {
     this.#wake();
   }
 
+  #debug(how: Move, stops: readonly number[]): void {
+    const { isHeld } = this.#stepper;
+    this.#stepper.begin(how, stops);
+    if (how === "look") {
+      this.#show();
+    } else if (how !== "hold") {
+      this.#state = "busy";
+      if (isHeld) this.#report("", []);
+      this.#wake();
+    } else if (this.#asleep && !isHeld) {
+      this.#hold();
+    }
+  }
+
+  #hold(): void {
+    this.#stepper.hold();
+    this.#asleep = true;
+    this.#state = "held";
+    this.#report(ascii(this.#board.takePaper()), this.#board.takePunched());
+  }
+
+  #show(): void {
+    const { isWatched, isHeld } = this.#stepper;
+    if (isWatched) this.#tell({ kind: "look", look: this.#board.look(), isHeld });
+  }
+
   #again(begin: () => void): void {
     this.#script = [];
+    this.#stepper.free();
     this.#board.forget();
     begin();
     this.#isStarting = true;
@@ -153,6 +190,7 @@ export class Runner {
     const bytes = new Uint8Array(image);
     this.#rom = nameOf(bytes);
     this.#board = await Board.create(await WebAssembly.compile(code), bytes, readNames(ascii(new Uint8Array(sym))));
+    this.#stepper = new Stepper(this.#board);
     this.#setSpeed(order.speed);
     if (order.ram && order.rom === this.#rom) this.#board.restore(order.ram);
     else if (order.program) this.#script = this.#loading(order.program, false, false);
@@ -162,7 +200,7 @@ export class Runner {
   }
 
   #wake(): void {
-    if (!this.#asleep) return;
+    if (!this.#asleep || this.#stepper.isHeld) return;
     this.#asleep = false;
     this.#last = performance.now();
     this.#schedule();
@@ -184,7 +222,12 @@ export class Runner {
     const now = performance.now();
     const due = this.#speed === "real" ? (Math.min(now - this.#last, 250) * HZ) / 1000 : SLICE;
     this.#last = now;
-    this.#state = this.#stateOf(board.run(Math.max(1, due)));
+    const reason = this.#stepper.run(Math.max(1, due));
+    if (reason === "break" || this.#stepper.isHoldWanted) {
+      this.#hold();
+      return;
+    }
+    this.#state = this.#stateOf(reason);
     const paper = ascii(board.takePaper());
     const punched = board.takePunched();
     this.#errors = (this.#errors + paper).slice(-400);
@@ -201,6 +244,7 @@ export class Runner {
     // (At the prompts of its script it waits for nobody.)
     const state = this.#state === "prompt" && this.#script.length ? "busy" : this.#state;
     this.#tell({ kind: "out", paper, punched, state, taken: this.#taken, cycles: this.#board.cycles });
+    if (state !== "busy") this.#show();
   }
 
   #stateOf(reason: Reason): State {
@@ -249,6 +293,7 @@ export class Runner {
 
   /** Carries out a script from the next prompt on: now, when the board stands at one; else what runs is broken off. */
   #carryOut(steps: (() => void)[]): void {
+    this.#stepper.free();
     this.#board.forget();
     this.#errors = "";
     this.#script = steps;

@@ -3,7 +3,7 @@ import { dxfText } from "./dxf.ts";
 import { saveFile } from "./files.ts";
 import { isoText } from "./iso.ts";
 import { t } from "./language.ts";
-import { pack } from "./link.ts";
+import { MOST, pack } from "./link.ts";
 import { ask, say } from "./message.ts";
 import type { Everything, Settings } from "./store.ts";
 import { svgText } from "./svg.ts";
@@ -44,14 +44,19 @@ export async function save(kind: string, bench: Workbench, settings: Settings): 
   saveFile(stem + ending, text);
 }
 
-/** The address of a page that runs this program. */
-export async function address(program: string, isEmbedded: boolean): Promise<string> {
+/** Copies the address of a page that runs this program, or what embeds it in another page. */
+export async function copyLink(program: string, isEmbedded: boolean): Promise<void> {
   const url = new URL(location.href);
-  url.hash = `z=${await pack(program)}&run${isEmbedded ? "&embed" : ""}`;
-  return url.href;
+  try {
+    url.hash = `z=${await pack(program)}&run${isEmbedded ? "&embed" : ""}`;
+  } catch {
+    say("badLarge", t("program"), MOST / 1024);
+    return;
+  }
+  await copy(isEmbedded ? `<iframe src="${url.href}" title="SKG" width="800" height="500"></iframe>` : url.href);
 }
 
-export async function copy(text: string): Promise<void> {
+async function copy(text: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(text);
     say("copied");

@@ -1,11 +1,14 @@
 /** The machine as the page has it: what it does now, the program in it, its paper, and what is kept of it. */
-import type { Punched } from "./board.ts";
+import type { Look, Punched } from "./board.ts";
+import { narrow } from "./language-skg.ts";
 import { Machine } from "./machine.ts";
 import type { Images, Refused, Speed, State } from "./runner.ts";
+import type { Move } from "./stepper.ts";
 import { fromBase64, type Kept, type Store, toBase64 } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
 
 const CTRL_C = 3;
+const NOTHING: Kept = { ram: "", program: "", rom: "", paper: "" };
 
 export interface Hooks {
   state(state: State): void;
@@ -15,6 +18,8 @@ export interface Hooks {
   /** An ERR on the paper; line 0: of a command. */
   error(number: string, line: number): void;
   failed(why: string): void;
+  /** What the debugger sees. */
+  look(look: Look, isHeld: boolean): void;
   /** Something was typed that the machine has no character for. */
   strange(character: string): void;
 }
@@ -25,6 +30,8 @@ export class Session {
   readonly #store: Store | undefined;
   readonly #hooks: Hooks;
   #kept: { ram: string; rom: string } | undefined;
+  /** What was kept at the last visit: there until the machine tells what is in it. */
+  #last: Kept | null = null;
   #tail = "";
   state: State = "busy";
   program = "";
@@ -57,6 +64,7 @@ export class Session {
         this.isAlive = false;
         hooks.failed(why);
       },
+      look: (look, isHeld) => hooks.look(look, isHeld),
     });
     addEventListener("pagehide", () => this.keep());
     document.addEventListener("visibilitychange", () => {
@@ -72,14 +80,16 @@ export class Session {
   /** Starts it with what was kept; false when that is not whole. */
   start(speed: Speed, last: Kept | null, images?: Images): boolean {
     const ram = last ? fromBase64(last.ram) : undefined;
+    this.#last = last;
     if (last) this.#teletype.print(last.paper);
     this.#machine.start(speed, last ? { ram, program: last.program, rom: last.rom } : undefined, images);
     return !last || ram !== undefined;
   }
 
   get kept(): Kept | null {
-    if (!this.#kept) return null;
     const { draft } = this;
+    // (a text that is written before the machine is there, or without one)
+    if (!this.#kept) return draft === undefined ? null : { ...(this.#last ?? NOTHING), draft };
     return { ...this.#kept, program: this.program, paper: this.#teletype.paper, ...(draft === undefined ? {} : { draft }) };
   }
 
@@ -114,13 +124,18 @@ export class Session {
 
   /** Types at the machine's pace; a character that it has not is left out, and said. */
   type(text: string): void {
-    const strange = /[^\x00-\x7f]/u.exec(text)?.[0];
+    const plain = narrow(text);
+    const strange = /[^\x00-\x7f]/u.exec(plain)?.[0];
     if (strange !== undefined) this.#hooks.strange(strange);
-    this.#machine.type(text.replace(/[^\x00-\x7f]/gu, ""));
+    this.#machine.type(plain.replace(/[^\x00-\x7f]/gu, ""));
   }
 
   press(key: number): void {
     this.#machine.press(key);
+  }
+
+  debug(how: Move, stops: readonly number[]): void {
+    this.#machine.debug(how, stops);
   }
 
   reset(): void {

@@ -1,8 +1,14 @@
 /** What a page has around its contents: views, menus, the message and the question. */
 import { get, onClick } from "./dom.ts";
-import { hide } from "./message.ts";
+import { dismiss } from "./message.ts";
+import { closePane } from "./pane.ts";
 
-/** On a small screen one section is seen at a time. */
+/** One section is seen at a time. */
+const SMALL = "(max-width: 1050px)";
+
+/** Is it a small screen? */
+export const isSmall = (): boolean => matchMedia(SMALL).matches;
+
 export function view(name: string): void {
   document.body.dataset["view"] = name;
   for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
@@ -11,11 +17,14 @@ export function view(name: string): void {
 }
 
 export function bindShell(): void {
-  onClick("dismiss", hide);
+  onClick("dismiss", dismiss);
   onClick("question-yes", () => get<HTMLDialogElement>("question").close("yes"));
   onClick("question-no", () => get<HTMLDialogElement>("question").close(""));
   for (const button of document.querySelectorAll<HTMLElement>("#views [data-view]")) {
-    button.addEventListener("click", () => view(button.dataset["view"] ?? ""));
+    button.addEventListener("click", () => {
+      closePane();
+      view(button.dataset["view"] ?? "");
+    });
   }
   bindMenus();
 }

@@ -1,4 +1,5 @@
-/** What the page keeps from visit to visit, in the browser's own store; where that refuses, it is told once. */
+/** What the page keeps from visit to visit, in the browser's own store; where that refuses, it is told once, and what it refused
+ * is kept until the page is left. */
 import type { Punched } from "./board.ts";
 import type { KeptTape } from "./recording.ts";
 import type { Work } from "./works.ts";
@@ -43,11 +44,22 @@ const COMMON = "skg.";
 
 export class Store {
   #refused: (() => void) | undefined;
+  readonly #unkept = new Map<string, string>();
   readonly #me = String(Math.random());
   #isMine = true;
 
   constructor(onRefused: () => void) {
     this.#refused = onRefused;
+  }
+
+  /** The browser has refused something that is gone when the page is left. */
+  get isRefused(): boolean {
+    return this.#unkept.size > 0;
+  }
+
+  /** This tab has the machine that is kept. */
+  get isMine(): boolean {
+    return this.#isMine;
   }
 
   get settings(): Partial<Settings> {
@@ -113,16 +125,20 @@ export class Store {
 
   #read<T>(key: string): T | null {
     try {
-      return JSON.parse(localStorage.getItem(PREFIX + key) ?? localStorage.getItem(COMMON + key) ?? "null") as T | null;
+      const there = this.#unkept.get(key) ?? localStorage.getItem(PREFIX + key) ?? localStorage.getItem(COMMON + key);
+      return JSON.parse(there ?? "null") as T | null;
     } catch {
       return null;
     }
   }
 
   #write(key: string, value: unknown): void {
+    const text = JSON.stringify(value);
     try {
-      localStorage.setItem(PREFIX + key, JSON.stringify(value));
+      localStorage.setItem(PREFIX + key, text);
+      this.#unkept.delete(key);
     } catch {
+      this.#unkept.set(key, text);
       this.#refused?.();
       this.#refused = undefined;
     }

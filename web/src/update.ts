@@ -1,6 +1,6 @@
 /** The page for visits without a network: registers its service worker, and says when a newer page is there. */
 import { t } from "./language.ts";
-import { show } from "./message.ts";
+import { warn } from "./message.ts";
 
 export async function isUpdated(): Promise<void> {
   if (!("serviceWorker" in navigator) || location.protocol === "file:") return;
@@ -9,7 +9,7 @@ export async function isUpdated(): Promise<void> {
   const offer = (worker: ServiceWorker | null): void => {
     // (the first one of all has no older page beside it)
     if (!worker || !navigator.serviceWorker.controller) return;
-    show(t("newVersion"), {
+    warn(t("newVersion"), {
       label: t("reload"),
       take: () => {
         navigator.serviceWorker.addEventListener("controllerchange", () => location.reload(), { once: true });

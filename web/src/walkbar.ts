@@ -101,10 +101,11 @@ export class WalkBar {
   }
 
   #toggle(): void {
-    if (this.#isPlaying) {
-      this.#stop();
-      return;
-    }
+    if (this.#isPlaying) this.#stop();
+    else this.play();
+  }
+
+  play(): void {
     if (this.#step >= this.#walk.steps) this.#step = 0;
     this.#isPlaying = this.#isShown = true;
     this.#parts.play.textContent = t("pause");

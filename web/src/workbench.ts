@@ -1,8 +1,10 @@
 /** The program's text, the machine that runs it, and the tape that comes of it: what belongs together between them. */
 import type { Punched } from "./board.ts";
+import { labelOf } from "./catalogue.ts";
 import { get } from "./dom.ts";
 import { Editor } from "./editor.ts";
 import { isWord, t, type Word } from "./language.ts";
+import { narrow } from "./language-skg.ts";
 import { hide, say, show } from "./message.ts";
 import { parametersOf, showParameters, withValue } from "./parameters.ts";
 import { Proof } from "./proof.ts";
@@ -83,7 +85,8 @@ export class Workbench {
   refresh(): void {
     this.session.draft = this.isDirty ? this.editor.text : undefined;
     get("revert").hidden = !this.isDirty;
-    showParameters(get("parameters"), parametersOf(this.editor.text), (at, value) => this.#set(at, value));
+    const parameters = parametersOf(this.editor.text).map((each) => ({ ...each, label: labelOf(each.label) }));
+    showParameters(get("parameters"), parameters, (at, value) => this.#set(at, value));
     get("no-program").hidden = this.editor.text !== "";
     this.stage.pictures.isStale = this.isStale;
     this.stage.pictures.say();
@@ -106,9 +109,20 @@ export class Workbench {
   }
 
   async #tryText(isAuto = this.#around.isAuto()): Promise<void> {
-    this.session.keep();
+    if (this.editor.isComposing) {
+      this.#wait = setTimeout(() => void this.#tryText(isAuto), MOMENT);
+      return;
+    }
+    this.#keep();
     const isSound = await this.#proof.check(this.session);
     if (isSound && this.isDirty && isAuto && this.editor.text) this.#send(true);
+  }
+
+  /** The text as it is now stays, whatever comes. */
+  #keep(): void {
+    this.editor.narrow();
+    this.refresh();
+    this.session.keep();
   }
 
   /** RUN: a text that was changed goes into the machine first, when all of it can. */
@@ -117,6 +131,7 @@ export class Workbench {
     clearTimeout(this.#wait);
     this.isByHand = true;
     hide();
+    this.#keep();
     if (!this.isDirty) {
       this.session.run();
     } else if (await this.#proof.check(this.session)) {
@@ -136,17 +151,20 @@ export class Workbench {
 
   /** Puts another program in the place of what is there, which is kept; one with faults stays a text. */
   async open(name: string, text: string, run: boolean, isSound = false): Promise<void> {
-    if (!this.session.isAlive) return;
     clearTimeout(this.#wait);
     const { works } = this.#around;
-    works.keep(this.isDirty ? this.editor.text : this.session.program);
+    this.keepText();
     works.begin();
     hide();
     this.name = name.replace(/\.\w+$/, "").replace(/[^\p{L}\p{N}_-]+/gu, "-") || "part";
     this.isByHand = run;
-    this.editor.text = text;
+    this.editor.text = narrow(text);
     this.editor.marks = [];
     this.stage.clear(this.#maker(), this.session.isRunning);
+    if (!this.session.isAlive) {
+      this.refresh();
+      return;
+    }
     if (!isSound && !(await this.#proof.check(this.session, true))) {
       this.refresh();
       say("notTaken");
@@ -155,6 +173,11 @@ export class Workbench {
     this.#send(run);
     if (run) this.#around.showDrawing();
     this.refresh();
+  }
+
+  /** Keeps what is seen among the visitor's programs. */
+  keepText(): void {
+    this.#around.works.keep(this.isDirty ? this.editor.text : this.session.program);
   }
 
   /** The machine's program again, in place of what was typed; undo brings that back. */

@@ -51,7 +51,12 @@ export class Works {
   }
 
   get all(): Work[] {
-    return this.#shelf.works.sort((a, b) => b.when - a.when);
+    return this.#shelf.works.filter(({ program }) => !this.#isKnown(program)).sort((a, b) => b.when - a.when);
+  }
+
+  /** A program that nobody else has. */
+  isOwn(program: string): boolean {
+    return program.trim() !== "" && !this.#isKnown(program);
   }
 
   /** What is written from now on is another program, whatever it looks like. */
@@ -62,7 +67,7 @@ export class Works {
 
   /** Keeps a program: in its own place while it is changed little by little, else in a new one. */
   keep(program: string): void {
-    if (!program.trim() || this.#isKnown(program)) {
+    if (!this.isOwn(program)) {
       this.begin();
       return;
     }

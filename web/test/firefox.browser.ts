@@ -162,6 +162,12 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
     await page.waitForSelector("body[data-ready]");
     await page.click('[data-part="die"]');
     await until(page, "cut", async () => /^\d+ blocks · [\d.]+ mm$/.test(await sum(page)));
+    await page.click("#machine");
+    await until(page, "the machine's inside", async () => (await page.$$("#inside .code li")).length > 10);
+    await page.click('[data-move="hold"]');
+    await until(page, "held", async () =>
+      /^held/.test(await page.$eval("#inside .place", ({ textContent }) => textContent ?? "")),
+    );
     await page.close();
   });
 });

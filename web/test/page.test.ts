@@ -3,6 +3,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { recognize, tooLarge } from "../src/files.ts";
 import { isWord, preferred, t } from "../src/language.ts";
+import { narrow } from "../src/language-skg.ts";
 import { LinkError, pack, readLink, unpack } from "../src/link.ts";
 import { fromBase64, readEverything, Store, toBase64 } from "../src/store.ts";
 import { readTape, TapeError } from "../src/tape.ts";
@@ -84,7 +85,7 @@ test("every word that the page asks for is there", () => {
   assert.equal(preferred(["ru"]), "en");
 });
 
-test("a browser that refuses to keep anything is told of once, and nothing else happens", () => {
+test("a browser that refuses to keep anything is told of once; what it refused is there until the page is left", () => {
   let refusals = 0;
   const refuse = (): never => {
     throw new Error("no");
@@ -94,16 +95,19 @@ test("a browser that refuses to keep anything is told of once, and nothing else 
   store.settings = { speed: "real" };
   store.machine = null;
   assert.equal(store.machine, null);
-  assert.deepEqual(store.settings, {});
+  assert.deepEqual(store.settings, { speed: "real" });
+  assert.ok(store.isRefused);
   assert.equal(refusals, 1);
   const kept = new Map<string, string>([["skg.machine", '{"ram":5}']]);
   Object.defineProperty(globalThis, "localStorage", {
     value: { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => kept.set(key, value) },
   });
-  assert.equal(store.machine, null, "what is not whole is nothing");
-  store.settings = { wire: 0.2 };
-  store.settings = { theme: "dark" };
-  assert.deepEqual(store.settings, { wire: 0.2, theme: "dark" });
+  const next = new Store(() => refusals++);
+  assert.equal(next.machine, null, "what is not whole is nothing");
+  next.settings = { wire: 0.2 };
+  next.settings = { theme: "dark" };
+  assert.deepEqual(next.settings, { wire: 0.2, theme: "dark" });
+  assert.ok(!next.isRefused);
 });
 
 test("base64 and saved pages", () => {
@@ -129,4 +133,30 @@ test("the window zooms about a pixel and shows all of a box", () => {
   assert.ok(Math.hypot(x - place[0], y - place[1]) < 1e-6);
   view.zoom(1e30, [0, 0]);
   assert.equal(view.scale, 1000);
+});
+
+test("a program in UTF-8 is opened, with what the machine has no sign for; a binary is none", () => {
+  const program = "10 REM 扳手\n20 END\n";
+  assert.deepEqual(recognize("a.skg", new TextEncoder().encode(program)), { kind: "program", text: program });
+  assert.deepEqual(recognize("a.txt", new TextEncoder().encode(program)), { kind: "program", text: program });
+  for (const bad of ["10 REM \xe9\n", "10 REM \x01\xc3\xa9\n"]) assert.equal(recognize("a.skg", bytes(bad)).kind, "refused");
+});
+
+test("wide signs become those that the machine has, one for one", () => {
+  assert.equal(narrow("１０　ＣＵＴ（Ｘ，－５）：“＃”中"), '10 CUT(X,-5):"#"中');
+});
+
+test("a link without a program is none", async () => {
+  await assert.rejects(unpack(await pack(" \n")), LinkError);
+  assert.deepEqual(await readLink("#part="), { run: false, embed: false });
+});
+
+test("beside Chinese words stands Chinese punctuation", () => {
+  const sources = ["language", "catalogue"].map((name) => readFileSync(`web/src/${name}.ts`, "utf8"));
+  const chinese = sources.flatMap((source) => source.match(/"[^"\n]*[\u4e00-\u9fff][^"\n]*"/g) ?? []);
+  assert.ok(chinese.length > 200);
+  assert.deepEqual(
+    chinese.filter((words) => /[\u4e00-\u9fff] ?[,;:!?()]|[,;:!?()] ?[\u4e00-\u9fff]/.test(words)),
+    [],
+  );
 });

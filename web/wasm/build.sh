@@ -13,5 +13,5 @@ compile() {
     $CLANG $FLAGS -O2 -std=c11 -Wall -Wextra -Werror -ffreestanding -fno-builtin -nostdlib -nostdlibinc \
         -isystem web/wasm/include -Wl,--no-entry -Wl,--strip-all -Wl,-z,stack-size=65536 -o "$target" "$@"
 }
-compile "$out/board.wasm" web/wasm/page.c web/wasm/memory.c emu/board.c emu/drive.c emu/i8080.c
+compile "$out/board.wasm" web/wasm/page.c web/wasm/memory.c emu/board.c emu/breaks.c emu/drive.c emu/i8080.c
 compile "$out/walk.wasm" web/wasm/walk.c tools/skg/native/skgsim.c

@@ -9,8 +9,11 @@
  * what is punched is that line's. All else - the way from the start hole and back, from hole to hole, D, DD - belongs to the
  * line that runs. Line 0: a direct statement. Where a run begins (`run`), the punch gets a line RUN that is not the
  * firmware's: what follows is a new tape.
+ *
+ * The page's debugger stops at addresses of machine code or byte-code (page_stop_at), and goes on step by step (page_step).
  */
 #include "../../emu/board.h"
+#include "../../emu/breaks.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -36,12 +39,13 @@ static struct held {
     uint16_t element_line;      /* of the present element of the route */
     bool along;                 /* the wire goes along it */
     uint16_t back;              /* where that ends */
+    breaks stops;               /* of the page's debugger */
 } boards[BOARDS];
 
 static record buffer;           /* what goes in */
 
 static struct {
-    uint16_t current, direct, element, along, run, wire;
+    uint16_t current, direct, element, along, run, wire, operation;
 } names;
 
 static bool room(record *r, size_t length)
@@ -95,9 +99,18 @@ static uint16_t running_line(const struct held *h)
     return i8080_peek(&h->board->cpu, (uint16_t)(names.direct + 1)) ? word_at(h, names.current) : 0;
 }
 
-static bool is_name(uint16_t address)
+/* Does the board stop there, for the page or for its debugger? */
+static bool is_marked(const struct held *h, uint16_t address)
 {
-    return address == names.element || address == names.along || address == names.run;
+    return address == names.element || address == names.along || address == names.run || (h->along && address == h->back)
+        || breaks_has(&h->stops, address) || (h->stops.count && address == names.operation);
+}
+
+/* Is the board where its debugger wants to be asked, in machine code or in byte-code? */
+static bool at_stop(const struct held *h)
+{
+    const i8080 *c = &h->board->cpu;
+    return breaks_has(&h->stops, c->pc) || (c->pc == names.operation && breaks_has(&h->stops, c->bc));
 }
 
 static void print(void *user, uint8_t byte)
@@ -128,9 +141,10 @@ EXPORT(page_buffer) uint8_t *page_buffer(uint32_t length)
 }
 
 /* Addresses: cell of the line that runs; cell whose high byte is 0 for a direct statement; the three labels; the first of
- * two floats, where the wire stands. */
+ * two floats, where the wire stands; where the calculator takes its next operation, the byte at BC. */
 EXPORT(page_names)
-void page_names(uint32_t current, uint32_t direct, uint32_t element, uint32_t along, uint32_t run, uint32_t wire)
+void page_names(uint32_t current, uint32_t direct, uint32_t element, uint32_t along, uint32_t run, uint32_t wire,
+                uint32_t operation)
 {
     names.current = (uint16_t)current;
     names.direct = (uint16_t)direct;
@@ -138,6 +152,7 @@ void page_names(uint32_t current, uint32_t direct, uint32_t element, uint32_t al
     names.along = (uint16_t)along;
     names.run = (uint16_t)run;
     names.wire = (uint16_t)wire;
+    names.operation = (uint16_t)operation;
 }
 
 /* A board with the ROM in the buffer; false without memory. */
@@ -216,7 +231,7 @@ static void follow(struct held *h)
     i8080 *c = &h->board->cpu;
     if (h->along && c->pc == h->back) {
         h->along = false;
-        i8080_break(c, h->back, is_name(h->back));
+        i8080_break(c, h->back, is_marked(h, h->back));
     }
     if (c->pc == names.run) {
         h->along = false;
@@ -233,7 +248,19 @@ static void follow(struct held *h)
     }
 }
 
-/* Runs as board_run does. */
+/* Carries out the instruction at PC, marked or not. */
+static board_reason go_over(struct held *h)
+{
+    i8080 *c = &h->board->cpu;
+    uint16_t here = c->pc;
+    follow(h);
+    i8080_break(c, here, false);
+    board_reason reason = board_run(h->board, 1);
+    i8080_break(c, here, is_marked(h, here));
+    return reason;
+}
+
+/* Runs as board_run does; BOARD_BREAK: where the debugger wants to be asked. */
 EXPORT(page_run) uint32_t page_run(uint32_t which, double cycles)
 {
     struct held *h = &boards[which];
@@ -241,16 +268,70 @@ EXPORT(page_run) uint32_t page_run(uint32_t which, double cycles)
     uint64_t end = c->cycles + (uint64_t)cycles;
     for (;;) {
         board_reason reason = board_run(h->board, end > c->cycles ? end - c->cycles : 0);
-        if (reason != BOARD_BREAK) {
+        if (reason != BOARD_BREAK || at_stop(h)) {
             return reason;
         }
-        follow(h);
-        /* On over the breakpoint. */
-        uint16_t here = c->pc;
-        i8080_break(c, here, false);
-        i8080_run(c, 1);
-        i8080_break(c, here, is_name(here));
+        reason = go_over(h);
+        if (reason != BOARD_CYCLES && reason != BOARD_BREAK) {
+            return reason;
+        }
     }
+}
+
+/* Stops there, or no more; false when there are too many places. */
+EXPORT(page_stop_at) bool page_stop_at(uint32_t which, uint32_t address, bool stops)
+{
+    struct held *h = &boards[which];
+    i8080 *c = &h->board->cpu;
+    bool done = stops ? breaks_set(&h->stops, (uint16_t)address) : breaks_delete(&h->stops, (uint16_t)address);
+    i8080_break(c, (uint16_t)address, is_marked(h, (uint16_t)address));
+    i8080_break(c, names.operation, is_marked(h, names.operation));
+    return done;
+}
+
+/* Goes on from where it stands by an instruction, to the calculator's next operation, or until the stack pointer is above
+ * `stack`; not past a stop. BOARD_BREAK: it is there; else as page_run. */
+EXPORT(page_step) uint32_t page_step(uint32_t which, uint32_t how, uint32_t stack, double cycles)
+{
+    enum { INSTRUCTION, OPERATION, RETURN };
+    struct held *h = &boards[which];
+    const i8080 *c = &h->board->cpu;
+    uint64_t end = c->cycles + (uint64_t)cycles;
+    do {
+        board_reason reason = go_over(h);
+        if (how == INSTRUCTION || (how == OPERATION && c->pc == names.operation) || (how == RETURN && c->sp > stack)
+            || at_stop(h)) {
+            return BOARD_BREAK;
+        }
+        if (reason != BOARD_CYCLES && reason != BOARD_BREAK) {
+            return reason;
+        }
+    } while (c->cycles < end);
+    return BOARD_CYCLES;
+}
+
+/* A, F, then BC, DE, HL, SP, PC, the high byte first, into the buffer. */
+EXPORT(page_registers) uint8_t *page_registers(uint32_t which)
+{
+    const i8080 *c = &boards[which].board->cpu;
+    const uint16_t words[] = { (uint16_t)(c->a << 8 | c->f), c->bc, c->de, c->hl, c->sp, c->pc };
+    enum { WORDS = sizeof words / sizeof *words };
+    uint8_t *bytes = page_buffer(2 * WORDS);
+    for (unsigned i = 0; bytes && i < WORDS; i++) {
+        bytes[2 * i] = (uint8_t)(words[i] >> 8);
+        bytes[2 * i + 1] = (uint8_t)words[i];
+    }
+    return bytes;
+}
+
+/* All of its memory into the buffer. */
+EXPORT(page_memory) uint8_t *page_memory(uint32_t which)
+{
+    uint8_t *bytes = page_buffer(I8080_SPACE);
+    for (unsigned i = 0; bytes && i < I8080_SPACE; i++) {
+        bytes[i] = i8080_peek(&boards[which].board->cpu, (uint16_t)i);
+    }
+    return bytes;
 }
 
 static uint8_t *taken(record *r)

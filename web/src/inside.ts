@@ -1,0 +1,35 @@
+/** The machine's inside, beside the page: the debugger, which is loaded when it is first wanted. */
+import type { Look } from "./board.ts";
+import type { Debugger } from "./debugger.ts";
+import { get } from "./dom.ts";
+import { say } from "./message.ts";
+import { openPane } from "./pane.ts";
+import { readSymbols } from "./pieces.ts";
+import type { Session } from "./session.ts";
+
+export class Inside {
+  #debugger: Debugger | undefined;
+
+  async open(session: Session): Promise<void> {
+    if (!this.#debugger) {
+      try {
+        const [{ Debugger }, sym] = await Promise.all([import("./debugger.ts"), readSymbols()]);
+        this.#debugger = new Debugger(get("inside"), sym, (how, stops) => session.debug(how, stops));
+      } catch {
+        say("noDebugger");
+        return;
+      }
+    }
+    openPane("machine-pane", () => session.debug("leave", []));
+    this.#debugger.begin();
+  }
+
+  look(look: Look, isHeld: boolean): void {
+    this.#debugger?.show(look, isHeld);
+  }
+
+  /** Writes it in another language. */
+  retell(): void {
+    this.#debugger?.say();
+  }
+}

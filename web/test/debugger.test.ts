@@ -1,0 +1,84 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { Board, bytesOf, readNames } from "../src/board.ts";
+import { Calculator, general } from "../src/calculator.ts";
+import { instructions } from "../src/listing.ts";
+import { hex, Symbols } from "../src/symbols.ts";
+
+const SYM = readFileSync("roms/skg.sym", "latin1");
+const symbols = new Symbols(SYM);
+const calculator = new Calculator(symbols);
+
+/** What `skg80 --debug` says (tests/web/test_page.py). */
+interface Said {
+  stop: string;
+  floats: string;
+  registers: string[];
+  listings: string[];
+}
+
+const SAID = JSON.parse(readFileSync(`${process.env["PAGE_TEST"]}/debugger.json`, "utf8")) as Said[];
+
+async function booted(): Promise<Board> {
+  const module = await WebAssembly.compile(readFileSync("web/wasm/board.wasm"));
+  const board = await Board.create(module, readFileSync("roms/skg.bin"), readNames(SYM));
+  while (board.run(1_000_000) !== "prompt");
+  return board;
+}
+
+/** The board with the wrench, LOADed and RUN, where it stops the second time. */
+async function stopped(stop: string): Promise<Board> {
+  const board = await booted();
+  board.tape(readFileSync("examples/wrench.skg"));
+  assert.ok(board.stopAt(symbols.address(stop) ?? -1, true));
+  board.type(bytesOf("LOAD\rRUN\r"));
+  for (let slices = 0, times = 0; slices < 2000; slices++) {
+    if (board.run(1_000_000) !== "break") continue;
+    if (++times === 2) return board;
+    board.step("instruction", 0, 1e9);
+  }
+  throw new Error(`no ${stop}`);
+}
+
+test("all of the ROM, the float stack and the registers as skg80's debugger prints them", async () => {
+  for (const { stop, floats, registers, listings } of SAID) {
+    const { memory, pc, bc } = (await stopped(stop)).look();
+    assert.equal(symbols.place(pc === calculator.next ? bc : pc), stop);
+    assert.equal(calculator.stack(memory)?.map(general).join(" "), floats, stop);
+    assert.deepEqual(
+      calculator.registers(memory).map(({ number, names, value }) => `M${number} ${names} ${general(value)}`),
+      registers.map((line) => line.trim().replace(/ +/g, " ")),
+      stop,
+    );
+    assert.equal(listings.length, 8192);
+    for (const [from, text] of listings.entries()) {
+      const lines = instructions(symbols, calculator, memory, from, 1).map(({ address, text }) => {
+        const place = text.startsWith("DB ") ? "" : symbols.place(address);
+        return `${hex(address)} ${place.padEnd(10)} ${text}\n`;
+      });
+      assert.equal(lines.join(""), text, hex(from));
+    }
+  }
+});
+
+test("a part is the same, byte for byte, when the board is stopped a thousand times on the way", async () => {
+  const board = await stopped("ADVANC");
+  for (let steps = 0; steps < 1000; steps++) assert.equal(board.step(steps % 2 ? "operation" : "instruction", 0, 1e9), "break");
+  const { sp } = board.look();
+  assert.equal(board.step("return", sp, 1e9), "break");
+  assert.ok(board.look().sp > sp);
+  const punched = board.takePunched();
+  for (let stops = 0; ; stops++) {
+    const first = board.step("instruction", 0, 1e9);
+    assert.equal(first, "break");
+    const reason = board.run(1e9);
+    punched.push(...board.takePunched());
+    if (reason === "prompt") {
+      assert.ok(stops > 10, `${stops} stops`);
+      break;
+    }
+  }
+  const tape = punched.map(({ text }) => `${text}\r\n`).join("");
+  assert.equal(tape, `RUN\r\n${readFileSync("examples/wrench.3b", "latin1")}`);
+});

@@ -1,0 +1,154 @@
+/** The machine's inside, and a first visit, in Debian's chromium. */
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { after, before, describe, test } from "node:test";
+import {
+  AXE,
+  begin,
+  CHROMIUM,
+  drawn,
+  end,
+  message,
+  PHONE,
+  prompt,
+  saved,
+  says,
+  served,
+  shot,
+  visit,
+  wholeTape,
+} from "./chromium.ts";
+import { WHOLE } from "./served.ts";
+
+describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is not installed", timeout: WHOLE }, () => {
+  before(begin);
+  after(end);
+
+  test("a first visit: the wire cuts a part, a few lines say what this is; it stands still where that is wanted", async () => {
+    const { page, context } = await visit();
+    await says(page, "#walked", /^block/);
+    assert.ok(await page.isVisible("#welcome"));
+    assert.ok(await page.isVisible("#legend li"));
+    const box = await page.locator("#lines").boundingBox();
+    assert.ok(box && box.height > 250, `the program has room: ${JSON.stringify(box)}`);
+    await page.click("#play");
+    await says(page, "#play", "Play");
+    await context.close();
+    const still = await visit({ reducedMotion: "reduce" });
+    await wholeTape(still.page);
+    await prompt(still.page);
+    await says(still.page, "#closing", /close/);
+    for (let frames = 0; frames < 5; frames++) await drawn(still.page);
+    assert.equal(await still.page.textContent("#walked"), "");
+    await still.context.close();
+  });
+
+  test("on a phone the lines stand beside the drawing; the manual has the screen, and its programs go to the drawing", async () => {
+    const { page, context, said } = await visit({ viewport: PHONE, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+    await wholeTape(page);
+    assert.ok(await page.isVisible("#drawing #welcome"));
+    await shot(page, "phone-first"); // (docs/pictures/page-phone.png)
+    await page.tap("#manual");
+    assert.equal(await page.isVisible("#drawing"), false);
+    await page.frameLocator("#manual-frame").locator(".try a").first().tap();
+    await says(page, "#made", "from a link");
+    await wholeTape(page);
+    await page.waitForSelector("#manual-pane", { state: "hidden" });
+    assert.ok(await page.isVisible("#drawing"));
+    await page.tap("#machine");
+    await page.waitForSelector("#inside [data-move=hold]");
+    assert.equal(await page.isVisible("#drawing"), false);
+    await page.tap("#views [data-view=program]");
+    assert.ok(await page.isVisible("#program"));
+    assert.equal(await page.isVisible("#machine-pane"), false);
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
+  test("in Chinese: the manual, the parts, what their sliders set", async () => {
+    const { page, context, said } = await visit({ locale: "zh-CN" });
+    await says(page, "#made", "扳手");
+    await page.click("#manual");
+    await says(page, "#manual-alone", "在单独页面中打开");
+    await page.frameLocator("#manual-frame").locator("h1", { hasText: "SKG 语言" }).waitFor();
+    await page.frameLocator("#manual-frame").locator(".try a").first().click();
+    await says(page, "#made", "来自链接");
+    await page.locator("details.menu summary").nth(2).click();
+    await page.selectOption("#language", "en");
+    await page.frameLocator("#manual-frame").locator("h1", { hasText: "The SKG language" }).waitFor();
+    await page.selectOption("#language", "zh");
+    await page.keyboard.press("Escape");
+    await page.click("#close-manual");
+    await page.click("[data-part=set-gear]");
+    await says(page, "#parameters span", "模数，mm");
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
+  test("the debugger: loaded when it is wanted, stops by name, steps, shows floats and memory; the tape is the same", async () => {
+    served.sent.clear();
+    const { page, context, said } = await visit({ serviceWorkers: "block" });
+    await wholeTape(page);
+    await prompt(page);
+    assert.ok(![...served.sent.keys()].some((name) => /debugger/.test(name)));
+    await page.click("#machine");
+    await page.waitForSelector("#inside [data-move=hold]");
+    assert.ok(served.sent.has("debugger.js"));
+    const place = (text: RegExp) => says(page, "#inside .place", text);
+    await place(/passes · \w+(\+\d+)? · asm\/\w+\.asm/);
+    const stop = page.locator("#inside form").nth(1).locator("input");
+    await stop.fill("NOWHERE");
+    await stop.press("Enter");
+    assert.match(await stop.evaluate((input) => (input as HTMLInputElement).validationMessage), /NOWHERE is no label/);
+    await stop.fill("SCUT");
+    await stop.press("Enter");
+    await says(page, "#inside .stops", /0F6A SCUT|SCUT/);
+    await page.click("#run");
+    await place(/^held · SCUT · asm\/\w+\.asm/);
+    await says(page, "#state", "held by the debugger");
+    await says(page, "#inside .code .present", /SCUT.*CALL FITEND/);
+    await page.click("[data-move=instruction]");
+    await place(/^held · FITEND · /);
+    await says(page, "#inside .calls", /^SCUT\+3 ←/);
+    await page.click("[data-move=up]");
+    await place(/^held · SCUT\+3 · /);
+    await page.click("[data-move=operation]");
+    await place(/^held · CALC1 · asm\/calc\.asm/);
+    assert.ok(await page.locator("#inside .code >> nth=1").isVisible(), "byte-code by its names");
+    await page.locator("#inside form").first().locator("input").fill("SCUT");
+    await page.locator("#inside form").first().locator("input").press("Enter");
+    const rom = readFileSync("roms/skg.bin");
+    const at = parseInt(/^([0-9A-F]{4}) SCUT /m.exec(readFileSync("roms/skg.sym", "latin1"))?.[1] ?? "", 16);
+    const bytes = [...rom.subarray(at, at + 8)].map((byte) => byte.toString(16).toUpperCase().padStart(2, "0")).join(" ");
+    await says(page, "#inside pre", new RegExp(`^${at.toString(16).toUpperCase().padStart(4, "0")}  ${bytes}  `));
+    await shot(page, "inside"); // (docs/pictures/page-inside.png)
+    await page.evaluate(AXE);
+    const found = await page.evaluate(async () => {
+      const { axe } = window as unknown as {
+        axe: { run(options: object): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
+      };
+      const { violations } = await axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"] });
+      return violations.map(({ id, nodes }) => `${id}: ${nodes[0]?.html}`);
+    });
+    assert.deepEqual(found, []);
+    // on from stop to stop, and then without: the tape is the one that it always was
+    await page.click("[data-move=go]");
+    await place(/^held · SCUT · /);
+    await page.click("#machine-pane .close");
+    await wholeTape(page, 29);
+    await prompt(page);
+    assert.equal(await saved(page, "3b"), readFileSync("examples/wrench.3b", "latin1"));
+    // ctrl-C frees a machine that is held
+    await page.click("#machine");
+    await page.click("#run");
+    await place(/^held · SCUT · /);
+    await page.click("#run");
+    await message(page, /ERR 10/);
+    await prompt(page);
+    assert.deepEqual(
+      said.filter((text) => !/Service Worker/.test(text)),
+      [],
+    );
+    await context.close();
+  });
+});

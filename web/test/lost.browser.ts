@@ -1,0 +1,298 @@
+/** Nothing is lost without a word, in Debian's chromium: foreign texts, closed stores, tabs, broken links, a machine that is not there. */
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { after, before, describe, test } from "node:test";
+import type { Page } from "playwright-core";
+import { pack } from "../src/link.ts";
+import {
+  begin,
+  CHROMIUM,
+  drawn,
+  end,
+  hasLines,
+  lines,
+  message,
+  open,
+  prompt,
+  runPart,
+  says,
+  served,
+  visit,
+  visitEmpty,
+  wholeTape,
+} from "./chromium.ts";
+import { WHOLE } from "./served.ts";
+
+/** Puts a text in the place of the editor's. */
+async function write(page: Page, text: string): Promise<void> {
+  await page.click("#lines .cm-line");
+  await page.keyboard.press("Control+A");
+  await page.evaluate((text) => {
+    const data = new DataTransfer();
+    data.setData("text/plain", text);
+    document
+      .querySelector(".cm-content")
+      ?.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data, bubbles: true, cancelable: true }));
+  }, text);
+}
+
+/** Until the text in the editor is kept as it is. */
+const isKept = (page: Page, text: string) =>
+  page.waitForFunction(
+    (text) => JSON.parse(localStorage.getItem("skg:/some/folder/:machine") ?? "{}").draft?.includes(text),
+    text,
+  );
+
+const works = (page: Page) => page.locator(".work b").allTextContents();
+const inWorks = (page: Page, name: string) =>
+  page.waitForFunction((name) => [...document.querySelectorAll(".work b")].some(({ textContent }) => textContent === name), name);
+
+describe("nothing is lost", { skip: existsSync(CHROMIUM) ? false : "chromium is not installed", timeout: WHOLE }, () => {
+  before(begin);
+  after(end);
+
+  test("a program with Windows line ends, tabs, wide signs of a Chinese keyboard", async () => {
+    const { page, context, said } = await visit();
+    await wholeTape(page);
+    await prompt(page);
+    await write(page, "10 R＝0.1\r\n20\tFROM （0，－5）\r\n30 CUT X，Y：10，－X：10，－Y\r\n40 BACK\r\n50　END\r\n");
+    await hasLines(page, ["10 R=0.1", "20\tFROM (0,-5)", "30 CUT X,Y:10,-X:10,-Y", "40 BACK", "50 END", ""]);
+    await page.keyboard.press("Control+Enter");
+    await hasLines(page, ["10 R=0.1", "20 FROM (0,-5)", "30 CUT X,Y:10,-X:10,-Y", "40 BACK", "50 END"]);
+    await wholeTape(page);
+    assert.equal(await page.locator(".fault").count(), 0);
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
+  test("a remark in Chinese is said and stays, typed with an input method, pasted, or out of a file", async () => {
+    const { page, context, said } = await visit();
+    await wholeTape(page);
+    await prompt(page);
+    await page.click("#lines .cm-line:nth-child(1)");
+    await page.keyboard.press("End");
+    const cdp = await context.newCDPSession(page);
+    for (const part of ["z", "zh", "zhong", "zhongw"]) {
+      await cdp.send("Input.imeSetComposition", { text: part, selectionStart: part.length, selectionEnd: part.length });
+      await drawn(page);
+    }
+    await cdp.send("Input.insertText", { text: "中文，" });
+    await says(page, "#lines .fault", /no character 中/);
+    await says(page, "#lines .cm-line:nth-child(1)", /\(core\)中文,$/);
+    await isKept(page, "中文,");
+    await page.reload();
+    await page.waitForSelector("body[data-ready]");
+    await says(page, "#lines .cm-line:nth-child(1)", /中文,$/);
+    await page.setInputFiles("#file", {
+      name: "a.skg",
+      mimeType: "text/plain",
+      buffer: Buffer.from("10 REM 扳手\r\n20 END\r\n"),
+    });
+    await message(page, /lines are not taken/);
+    await hasLines(page, ["10 REM 扳手", "20 END"]);
+    await says(page, "#lines .fault", /no character 扳/);
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
+  test("a line of 5,000 characters, a program of 64 KB: marked where the machine is full, kept whole", async () => {
+    const { page, context, said } = await visit();
+    await wholeTape(page);
+    await prompt(page);
+    const long = `10 REM ${"X".repeat(5000)}\n20 END\n`;
+    await write(page, long);
+    await says(page, "#lines .fault", /ERR 09/);
+    await isKept(page, "X".repeat(5000));
+    const big = Array.from({ length: 2600 }, (_, at) => `${at + 1} P${at % 10}=(${at},${at}.25)`).join("\n");
+    assert.ok(big.length > 50_000);
+    await write(page, big);
+    await page.waitForFunction(() =>
+      [...document.querySelectorAll(".cm-line")].some((line) => /^2600 P9/.test(line.textContent ?? "")),
+    );
+    await page.keyboard.press("Control+Enter");
+    await message(page, /lines are not taken/);
+    await isKept(page, "2600 P9=(2599,2599.25)");
+    await page.keyboard.press("Control+Home");
+    await page.keyboard.press("Control+Z");
+    await says(page, "#lines .cm-line:nth-child(2)", "20 END");
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
+  test("broken links: one sentence each, and what was there stays", async () => {
+    const { page, context, said } = await visitEmpty();
+    await page.keyboard.type("10 REM MINE\r");
+    await hasLines(page, ["10 REM MINE"]);
+    const code = await pack("10 FROM O\n20 END\n");
+    const broken = [
+      ...["", "%", "%%%", "AAAA", "A".repeat(100_000), "\u{1f600}", code.slice(1), code.slice(0, -3), `${code}AAAA`].map(
+        (each) => `#z=${each}&run`,
+      ),
+      `#z=${code.slice(0, 9)}x${code.slice(10)}`,
+      `#z=${await pack(" \n")}`,
+      `#z=${Buffer.from("10 END").toString("base64")}`,
+      ...["nothing", "__proto__", "constructor", "<img src=x>", "%00", "../../wrench"].map((name) => `#part=${name}`),
+    ];
+    assert.ok(broken.length > 15);
+    for (const hash of broken) {
+      await page.evaluate((hash) => {
+        document.getElementById("dismiss")?.click();
+        location.hash = hash;
+      }, hash);
+      await message(page, /not whole|no part/);
+    }
+    for (const empty of ["#run", "#embed", "#&&&", "#part=", "#x"]) await page.evaluate((hash) => (location.hash = hash), empty);
+    await drawn(page);
+    assert.deepEqual(await lines(page), ["10 REM MINE"]);
+    assert.deepEqual(said, []);
+    // back and forward
+    await page.evaluate(() => (location.hash = "#part=die&run"));
+    await says(page, "#made", "Die: the wire inside");
+    await wholeTape(page);
+    await page.goto("about:blank");
+    await page.goBack();
+    await page.waitForSelector("body[data-ready]");
+    await inWorks(page, "MINE");
+    await says(page, "#lines .cm-line:nth-child(1)", /die of the same contour/);
+    await context.close();
+  });
+
+  test("a browser that keeps nothing: said until it is read, one's programs stay in the list, and leaving asks", async () => {
+    for (const isFull of [true, false]) {
+      const { page, context, said } = await visit({}, "", (context) =>
+        context.addInitScript((isFull) => {
+          if (isFull) {
+            Storage.prototype.setItem = () => {
+              throw new DOMException("full", "QuotaExceededError");
+            };
+          } else {
+            Object.defineProperty(window, "localStorage", {
+              get() {
+                throw new DOMException("closed", "SecurityError");
+              },
+            });
+          }
+        }, isFull),
+      );
+      await wholeTape(page);
+      await prompt(page);
+      await message(page, /refuses to keep/);
+      assert.ok(await page.isVisible("#message"));
+      await write(page, "10 REM MINE ALONE\n20 I=1\n");
+      await page.keyboard.press("Control+Enter");
+      await hasLines(page, ["10 REM MINE ALONE", "20 I=1"]);
+      await runPart(page, "die");
+      await inWorks(page, "MINE ALONE");
+      assert.ok(await page.isVisible("#message"), "what is at stake is not hidden by the next thing done");
+      await page.click("#dismiss");
+      await page.locator(".work button").first().click();
+      await hasLines(page, ["10 REM MINE ALONE", "20 I=1"]);
+      const asked = page.waitForEvent("dialog");
+      await page.close({ runBeforeUnload: true });
+      const dialog = await asked;
+      assert.equal(dialog.type(), "beforeunload");
+      await dialog.accept();
+      assert.deepEqual(said, []);
+      await context.close();
+    }
+  });
+
+  test("two tabs: a text that is in no machine yet is among the programs of the other", async () => {
+    const { page, context } = await visit();
+    await wholeTape(page);
+    await prompt(page);
+    const other = await context.newPage();
+    await other.goto(served.url);
+    await other.waitForSelector("body[data-ready]");
+    await message(page, /open in another tab/);
+    await page.bringToFront();
+    await write(page, "10 REM FIRST TAB\n20 FRAM O\n");
+    await says(page, "#lines .fault", /ERR 01/);
+    await page.close();
+    await inWorks(other, "FIRST TAB");
+    await other.locator(".work button", { hasText: "FIRST TAB" }).click();
+    await hasLines(other, ["10 REM FIRST TAB", "20 FRAM O"]);
+    // the tab closed in the middle of a word: it is there again
+    await other.click("#lines .cm-line:nth-child(2)");
+    await other.keyboard.press("End");
+    await other.keyboard.type("30 HAL");
+    await other.close({ runBeforeUnload: true });
+    const again = await context.newPage();
+    await again.goto(served.url);
+    await again.waitForSelector("body[data-ready]");
+    await hasLines(again, ["10 REM FIRST TAB", "20 FRAM O30 HAL"]);
+    await context.close();
+  });
+
+  test("an example is none of one's own programs, however late the list comes", async () => {
+    const { page, context } = await visit({ serviceWorkers: "block" });
+    await wholeTape(page);
+    await prompt(page);
+    let come = (): void => undefined;
+    const isThere = new Promise<void>((resolve) => (come = resolve));
+    await context.route("**/parts.json", (route) => isThere.then(() => route.continue()));
+    await page.reload();
+    await says(page, "#lines .cm-line:nth-child(1)", /A wrench/);
+    come();
+    await page.waitForSelector("body[data-ready]");
+    assert.deepEqual(await works(page), []);
+    await context.close();
+  });
+
+  test("without the machine: programs can be read and written, and are there again", async () => {
+    const block = (context: import("playwright-core").BrowserContext) =>
+      context.route("**/board.wasm", (route) => route.fulfill({ body: "no" }));
+    const { page, context, said } = await visit({ serviceWorkers: "block" }, "", block);
+    await message(page, /machine cannot run here/);
+    await page.click("[data-part=die]");
+    await says(page, "#lines .cm-line:nth-child(1)", /die of the same contour/);
+    await write(page, "10 REM WITHOUT\n20 END\n");
+    await isKept(page, "WITHOUT");
+    await page.reload();
+    await page.waitForSelector("body[data-ready]");
+    await hasLines(page, ["10 REM WITHOUT", "20 END"]);
+    await open(page, "a.3b", readFileSync("examples/die.3b", "latin1"));
+    await wholeTape(page);
+    assert.deepEqual(
+      said.filter((text) => !/Service Worker/.test(text)),
+      [],
+    );
+    await context.close();
+  });
+
+  test("an update that comes half alone changes nothing; a whole one is offered, and there at a click", async () => {
+    const { page, context } = await visit();
+    await wholeTape(page);
+    await page.waitForFunction(async () => (await caches.keys()).length > 0 && navigator.serviceWorker.controller !== null);
+    const names = () => page.evaluate(() => caches.keys());
+    const before = await names();
+    const next = readFileSync("web/dist/offline.js", "utf8").replace(/[0-9a-f]{12}/, "0123456789ab");
+    served.changed.set("offline.js", next.replace('"main.js"', '"main.js","missing.js"'));
+    const isOver = page.evaluate(async () => {
+      const registration = await navigator.serviceWorker.getRegistration();
+      const isGone = new Promise((tell) => {
+        registration?.addEventListener("updatefound", () => {
+          const { installing } = registration;
+          installing?.addEventListener("statechange", () => tell(installing.state));
+        });
+      });
+      void registration?.update().catch(() => undefined);
+      return isGone;
+    });
+    assert.equal(await isOver, "redundant");
+    assert.deepEqual(await names(), before);
+    assert.equal(await page.isVisible("#message"), false);
+    await page.reload();
+    await page.waitForSelector("body[data-ready]");
+    await wholeTape(page);
+    served.changed.set("offline.js", next);
+    await page.evaluate(async () => void (await (await navigator.serviceWorker.getRegistration())?.update()));
+    await message(page, /new version/);
+    await Promise.all([page.waitForEvent("load"), page.click("#offer")]);
+    await page.waitForSelector("body[data-ready]");
+    assert.deepEqual(await names(), ["skg:/some/folder/:0123456789ab"]);
+    await wholeTape(page);
+    served.changed.clear();
+    await context.close();
+  });
+});
