@@ -268,3 +268,38 @@ def test_ways_of_too_many(page: Page, tmp_path: Path) -> None:
     for ids in ([0] * (MOST_WAYS + 1), [99], [-1], ["0"], [True], [1.5], [None], [10**30]):
         answer = page.call("POST", "/api/ways", {"rev": state["rev"], "ids": ids})
         assert answer.status == 400 and answer.message, ids
+
+
+#: Values that a page would not send, and the keys of a job.
+ODD = (None, True, -1, 1e308, 10**400, "", "x" * 10_000, [], {}, [1, 2], [[]], [{}])
+TABLES = {
+    "": "schema drawing sha256 box starts read machine default layer contour odd",
+    "read": "units open tolerance start_layer fit_tolerance encoding layers odd",
+    "machine": "wire gap offset rom ram feed small into material thickness",
+    "default": "cut side passes tab lead lead_shape reverse odd",
+    "contour": "layer kind at size offset start entry order tab passes",
+}
+
+
+def test_jobs_of_any_shape(page: Page, tmp_path: Path) -> None:
+    """Each is planned or refused in one line, and the next one is none the worse."""
+    state = page.open(plate(tmp_path, holes=1))
+    which = {key: state["contours"][0][key] for key in ("layer", "kind", "at", "size")}
+    rev, statuses = state["rev"], []
+    for table, key in ((table, key) for table, keys in TABLES.items() for key in keys.split()):
+        for value in ODD:
+            job = state["job"] | {"contour": [which]}
+            if table == "contour":
+                job["contour"] = [which | {key: value}]
+            else:
+                job |= {table: {key: value}} if table else {key: value}
+            answer = page.call("PUT", "/api/job", {"rev": rev, "job": job})
+            assert answer.status in (200, 400), (table, key, value)
+            statuses.append(answer.status)
+            if answer.status == 200:
+                rev = answer.json["rev"]
+            else:
+                assert len(answer.message) < 1000
+    assert statuses.count(200) > 10 and statuses.count(400) > 200
+    answer = page.done("PUT", "/api/job", {"rev": rev, "job": state["job"]})
+    assert sorted(answer["plan"]["order"]) == [0, 1]

@@ -142,6 +142,8 @@ def test_drawing_that_cannot_be_read(page: Page, tmp_path: Path) -> None:
     state = page.open(path)
     answer = page.put(state, machine={"offset": 0.1})
     assert "open" in answer["error"]["message"] and answer["contours"] == []
+    run = page.cut(answer["rev"])[1]
+    assert run["error"]["message"] == answer["error"]["message"]
     assert page.call("POST", "/api/ways", {"rev": answer["rev"], "ids": [0]}).status == 400
     answer = page.put(answer, read={"open": "leave"})
     assert len(answer["contours"]) == 3 and not answer.get("error")
@@ -336,6 +338,26 @@ def test_saved_again_without_a_contour(serve: Callable[[Path], Server], tmp_path
     assert page.cut(new["rev"])[1]["state"] == "failed"
     del new["job"]["contour"]
     assert page.cut(page.put(new)["rev"])[1]["state"] == "done"
+
+
+def test_saved_again_with_a_contour_elsewhere(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    """What was found again, but not where it was, is to be confirmed, as long as nobody chooses it anew."""
+    page = Page(serve(plate(tmp_path)))
+    state = page.state()
+    which = {key: state["contours"][1][key] for key in ("layer", "kind", "at", "size")}
+    state |= page.put(state, contour=[which | {"tab": 1}])
+    document = ezdxf.readfile(tmp_path / "plate.dxf")
+    document.modelspace().query("CIRCLE")[0].translate(1.2, 0, 0)
+    document.saveas(tmp_path / "plate.dxf")
+    new = page.done("GET", f"/api/state?after={state['rev']}")
+    assert [(one["id"], one["confirm"]) for one in new["matches"]] == [(1, True)]
+    assert new["matches"][0]["moved"] > 0.5
+    assert new["job"]["contour"][0]["at"] == new["contours"][1]["at"]
+    new |= page.put(new, machine={"offset": 0.1}, default={"lead": 2})
+    assert new["matches"][0]["confirm"] is True
+    chosen = {key: new["contours"][2][key] for key in ("layer", "kind", "at", "size")}
+    new |= page.put(new, contour=[chosen])
+    assert [(one["id"], one["confirm"]) for one in new["matches"]] == [(2, False)]
 
 
 def test_file_is_gone(serve: Callable[[Path], Server], tmp_path: Path) -> None:

@@ -12,7 +12,8 @@ from typing import Any
 from skg.cutting.settings import Progress
 from skg.errors import UserError
 from skg.job import file as job_files
-from skg.job.job import Job
+from skg.job.job import Chosen, Job
+from skg.job.wanted import Partial
 from skg.pipeline.steps import (
     CutDrawing,
     DrawnJob,
@@ -27,7 +28,7 @@ from skg.pipeline.steps import (
 from skg.planning.plan import Asked, plan_nested
 from skg.planning.route import PlannedContour
 from skg.ui import shown
-from skg.ui.json_text import encoded
+from skg.ui.json_text import encoded, told
 
 #: Who asks, in messages on what the page sends.
 _PAGE = "the page"
@@ -48,8 +49,10 @@ class Desk:
         #: What was planned of the drawing before, and how it was told.
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
         self._plans = shown.Plans()
-        #: Contours that were found again too far from where they were, and how far, mm.
-        self._doubts: dict[int, float] = {}
+        #: Contours that were found again too far from where they were, without their settings, and how far, mm.
+        self._doubts: dict[Chosen, float] = {}
+        #: Why there is no drawing.
+        self._why = UserError("no drawing is open")
         self._cut: tuple[int, Job, CutDrawing] | None = None
 
     def drawing_of(self, text: bytes, name: str) -> str:
@@ -58,21 +61,18 @@ class Desk:
 
     def open(self, data: bytes, name: str, job: bytes | dict | None) -> dict[str, Any]:
         """Take up a drawing, with a job from a file or from the page, or none."""
-        made = (
-            job_files.decoded(job, name)
-            if isinstance(job, bytes)
-            else job_files.from_data(job, _PAGE)
-            if job
-            else Job(name)
-        )
-        self._data = data
+        if isinstance(job, bytes):
+            made = job_files.decoded(job, name)
+        else:
+            made = job_files.from_data(job, _PAGE) if job else Job(name)
+        self._data, self._doubts = data, {}
         return self._read(replace(made, drawing=name))
 
     def plan(self, data: dict) -> dict[str, Any]:
         """Plan a job; read the drawing anew where it asks for that."""
         job = job_files.from_data(data, _PAGE)
         if self._job is None or job.drawing != self._job.drawing:
-            raise UserError(f"{job.drawing} is not open")
+            raise UserError(f"{job.drawing[:100]} is not open")
         if self._drawn is None or wishes_of(job) != wishes_of(self._job):
             return self._read(job)
         self._job = job
@@ -81,24 +81,22 @@ class Desk:
 
     def ways(self, numbers: list[int]) -> bytes:
         """The ways of the wire along some contours, as JSON."""
-        count = len(self._drawn.contours) if self._drawn else 0
+        drawn = self._present()
         for number in numbers:
-            if not 0 <= number < count:
+            if not 0 <= number < len(drawn.contours):
                 raise UserError(f"there is no contour {number}")
         ways = {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
         return encoded(ways)
 
     def job(self) -> bytes:
         """The job as a file."""
-        if self._drawn is None:
-            raise UserError("no drawing is open")
+        if self._job is None:
+            raise self._why
         return job_files.encoded(self._job)
 
     def cut(self, number: int) -> tuple[dict[str, Any], dict[str, bytes]]:
         """Make the tape of a run: what is told of it, and its files."""
-        if self._drawn is None:
-            raise UserError("no drawing is open")
-        cut = cut_drawing(self._job, self._drawn, self._progress)
+        cut = cut_drawing(self._job, self._present(), self._progress)
         self._cut = number, self._job, cut
         files = {"tape": cut.result.data, "program": cut.result.program.encode("ascii"), "job": self.job()}
         return shown.result(cut), files
@@ -119,32 +117,36 @@ class Desk:
             write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units, job.machine), path, form)
             return Path(path).read_bytes()
 
+    def _present(self) -> DrawnJob:
+        """The drawing; a `UserError` where there is none."""
+        if self._drawn is None:
+            raise self._why
+        return self._drawn
+
     def _read(self, job: Job) -> dict[str, Any]:
         """Read the drawing. One that cannot be read is told of with the job that asked for it."""
-        self._job, self._drawn, self._routes, self._doubts, self._cut = job, None, {}, {}, None
+        self._job, self._drawn, self._routes, self._cut = job, None, {}, None
         self._before, self._plans = {}, shown.Plans()
         try:
             self._drawn = open_drawing(job, self._data)
         except UserError as error:
-            state = {"job": job_files.to_data(job), "matches": [], "plan": None, "error": shown.error(error)}
+            self._why = error
+            state = {"job": job_files.to_data(job), "matches": [], "plan": None, "error": told(error)}
             return {"drawing": {}, "state": {"name": job.drawing} | state}
         self._job = written(job, self._drawn)
-        matches = self._drawn.matches.found
-        self._doubts = {match.number: match.moved for match in matches if match.is_doubtful}
+        for chosen, match in zip(self._job.contours, self._drawn.matches.found, strict=True):
+            if match.is_doubtful:
+                self._doubts[replace(chosen, partial=Partial())] = match.moved
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(self._job.contours, self._job.box))
         return {"drawing": shown.drawing(self._drawn), "state": self._state()}
 
     def _state(self) -> dict[str, Any]:
         """The part of the state that changes with the job."""
-        matches = [
-            {
-                "chosen": at,
-                "id": match.number,
-                "moved": round(self._doubts.get(match.number, match.moved), 4),
-                "confirm": match.number in self._doubts,
-            }
-            for at, match in enumerate(self._drawn.matches.found)
-        ]
+        matches = []
+        for at, (chosen, match) in enumerate(zip(self._job.contours, self._drawn.matches.found, strict=True)):
+            doubt = self._doubts.get(replace(chosen, partial=Partial()))
+            moved = round(doubt or match.moved, 4)
+            matches.append({"chosen": at, "id": match.number, "moved": moved, "confirm": doubt is not None})
         return {
             "name": self._job.drawing,
             "job": job_files.to_data(self._job),

@@ -5,6 +5,9 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from skg.errors import UserError
+from skg.wording import ReportLine
+
 
 def encoded(data: dict[str, Any]) -> bytes:
     """An object of JSON; those of its values that are bytes are JSON already."""
@@ -19,3 +22,13 @@ def in_json(value: object) -> bytes:
     if isinstance(value, dict):
         return encoded(value)
     return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode("utf-8", "replace")
+
+
+def told(error: UserError) -> dict[str, Any]:
+    """An error, with the contour and the place that it is about."""
+    return {"message": str(error)} | about(error)
+
+
+def about(one: UserError | ReportLine) -> dict[str, Any]:
+    """The contour and the place that something is about, where these are known."""
+    return {name: value for name in ("contour", "place") if (value := getattr(one, name)) is not None}

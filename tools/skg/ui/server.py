@@ -22,8 +22,8 @@ from typing import NoReturn
 from urllib.parse import parse_qs, unquote
 
 from skg.errors import UserError
-from skg.ui.json_text import encoded
-from skg.ui.session import Conflict, Session, told
+from skg.ui.json_text import encoded, told
+from skg.ui.session import Conflict, Session
 from skg.ui.worker import mistake
 
 #: The page and what belongs to it: path -> file of `assets`, its type.

@@ -12,6 +12,7 @@ from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.job.job import ROMS
 from skg.tape.positions import WITHOUT_DRIFT
+from skg.ui.json_text import told
 from skg.ui.worker import Ended, Worker
 
 #: The drawing's file is looked at so often, s.
@@ -40,10 +41,11 @@ class Conflict(UserError):
 
 @dataclass
 class Run:
-    """A tape in the making, or made, of the job of a revision. `told`: how often something was told of it; `files`:
-    what came of it."""
+    """A tape in the making, or made, of the job of a drawing at a revision. `told`: how often something was told of it;
+    `files`: what came of it."""
 
     number: int
+    drawing: str
     rev: int
     state: str = "running"
     told: int = 0
@@ -114,12 +116,13 @@ class Session:
         with self._news:
             if not self._news.wait_for(lambda: self._rev != after or self._closed.is_set(), patience):
                 return None
+            run = self._run if self._run and self._run.drawing == self._state["name"] else None
             state = {
                 "rev": self._rev,
                 "drawn": self._drawn,
                 "can_save": self._path is not None,
-                "run": self._run and self._run.number,
-                "run_rev": self._run and self._run.rev,
+                "run": run and run.number,
+                "run_rev": run and run.rev,
                 **self._state,
             }
             return state if drawn == self._drawn else state | self._drawing
@@ -169,10 +172,15 @@ class Session:
         if rev is not None and rev != self._rev:
             raise Conflict("the drawing or its job has changed meanwhile", state=self.state())
 
-    def _load(self, data: bytes, name: str, job: bytes | dict | None) -> None:
-        """Read a drawing; one that cannot be read is open all the same, with the error, for its job may be at fault."""
-        self._end_what_is_long()
+    def _load(self, data: bytes, name: str, job: bytes | dict | None, path: Path | None = None) -> None:
+        """Read a drawing, of a file unless the page sent it; nothing is done where the page has sent another meanwhile.
+
+        One that cannot be read is open all the same, with the error: its job may be at fault.
+        """
+        self._end_what_is_long(path)
         with self._called():
+            if path != self._path:
+                return
             self._is_long = True
             self._worker.first = None
             try:
@@ -184,17 +192,20 @@ class Session:
             except UserError as error:
                 found = _unread(name, error)
             finally:
-                self._is_long = False
+                with self._news:
+                    self._is_long = False
             self._data = data
             self._take(found)
 
-    def _end_what_is_long(self) -> None:
-        """End a cut or the reading of another drawing: what comes now takes its place."""
+    def _end_what_is_long(self, path: Path | None) -> None:
+        """End a cut or the reading of another drawing: the drawing of a file, or of the page, takes its place."""
         with self._news:
-            if self._run and self._run.state == "running":
+            if path != self._path:
+                return
+            if self._run:
                 self._tell(self._run, state="cancelled")
-        if self._is_long:
-            self._worker.end()
+            if self._is_long:
+                self._worker.end()
 
     def _take(self, found: dict) -> None:
         """Take what the worker found for the state."""
@@ -219,7 +230,7 @@ class Session:
         """Read the drawing, and again whenever its file has changed and is at rest."""
         path, before = self._path, self._stamp
         with suppress(Ended):
-            self._load(data, path.name, job)
+            self._load(data, path.name, job, path)
         while not self._closed.wait(_LOOK) and self._path:
             now = _stamp(path)
             is_new, before = now == before and now != self._stamp, now
@@ -235,7 +246,7 @@ class Session:
                 self._say("")
             else:
                 with suppress(Ended):
-                    self._load(data, path.name, self._state["job"])
+                    self._load(data, path.name, self._state["job"], path)
 
     def _say(self, message: str) -> None:
         """Say what is wrong with the drawing's file; nothing is."""
@@ -255,7 +266,7 @@ class Session:
             self._is_long = True
             with self._news:
                 self._runs += 1
-                run = self._run = Run(self._runs, self._rev)
+                run = self._run = Run(self._runs, self._state["name"], self._rev)
             Thread(target=self._make, args=(run,), daemon=True).start()
         except BaseException:
             self._is_long = False
@@ -273,7 +284,8 @@ class Session:
         except UserError as error:
             self._tell(run, state="failed", error=told(error))
         finally:
-            self._is_long = False
+            with self._news:
+                self._is_long = False
             if run.state == "cancelled" and not self._closed.is_set():
                 with suppress(UserError):
                     self._worker.begin()
@@ -304,11 +316,13 @@ class Session:
 
     def cancel(self, number: int) -> dict:
         """Cancel a run, if it is on."""
-        run = self._known(number)
-        self._tell(run, state="cancelled")
-        if run.state == "cancelled":
-            self._worker.end()
-        return run.data()
+        with self._news:
+            run = self._known(number)
+            if run.state == "running":
+                # (it cannot end now and leave the process to another call)
+                self._tell(run, state="cancelled")
+                self._worker.end()
+            return run.data()
 
     def file(self, number: int, what: str) -> bytes:
         """A file of a run; the sheet is drawn when it is asked for."""
@@ -342,7 +356,12 @@ class Session:
         if number is None and what != ["job"]:
             raise UserError("run: expected a number, for what is made by a run")
         names, folder = self._names(), self._path.parent
-        files = {names[one]: self.job() if number is None else self.file(number, one) for one in SAVED if one in what}
+        if number is not None:
+            files = {one: self.file(number, one) for one in SAVED if one in what}
+            names["tape"] = self._known(number).result["tape_name"]
+        else:
+            files = {"job": self.job()}
+        files = {names[one]: data for one, data in files.items()}
         if not is_over and (exists := [name for name in files if (folder / name).exists()]):
             raise Conflict(f"{', '.join(exists)}: already there", exists=exists)
         written = []
@@ -354,12 +373,6 @@ class Session:
                 raise UserError(f"{name}: {error.strerror}{done}") from None
             written.append(name)
         return written
-
-
-def told(error: UserError) -> dict:
-    """An error as the page is told of it."""
-    places = {name: value for name in ("contour", "place") if (value := getattr(error, name)) is not None}
-    return {"message": str(error), **places}
 
 
 def _unread(name: str, error: UserError) -> dict:

@@ -20,7 +20,7 @@ from skg.job.wanted import Wanted
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import said
 from skg.planning.route import Lead, PlannedContour, Way, split_at_end
-from skg.ui.json_text import encoded, in_json
+from skg.ui.json_text import about, encoded, in_json, told
 from skg.wording import ReportLine
 
 #: Decimals of a length, mm; of a direction, radians.
@@ -53,19 +53,9 @@ def _edge(edge: Edge) -> list[Any]:
     return found if edge.centre is None else [*found, *place(edge.centre), round(edge.sweep, _ANGLE)]
 
 
-def error(one: UserError) -> dict[str, Any]:
-    """An error, with the contour and the place that it is about."""
-    return {"message": str(one)} | _about(one)
-
-
 def line(one: ReportLine) -> dict[str, Any]:
     """A line of a report."""
-    return {"text": one.text, "care": one.is_care} | _about(one)
-
-
-def _about(one: UserError | ReportLine) -> dict[str, Any]:
-    contour = {} if one.contour is None else {"contour": one.contour}
-    return contour if one.place is None else contour | {"place": place(one.place)}
+    return {"text": one.text, "care": one.is_care} | about(one)
 
 
 def drawing(drawn: DrawnJob) -> dict[str, Any]:
@@ -125,7 +115,7 @@ class Plans:
         data = {
             "order": [route.number for route in routes],
             "said": [line(ReportLine(text)) for text in said((route.turn, route.around) for route in routes)],
-            "error": error(errors[0]) if errors else None,
+            "error": told(errors[0]) if errors else None,
         }
         return encoded(data | {"contours": f"{{{','.join(contours)}}}".encode()})
 

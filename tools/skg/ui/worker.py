@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
 import sys
 import time
@@ -114,6 +115,8 @@ def work(connection: Connection) -> None:
     """Answer calls until nobody asks any more: the process's whole life."""
     # (ctrl-C goes to all processes of a terminal, and the server ends this one)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # (bars would stand in the terminal, where nobody looks)
+    os.environ["TQDM_DISABLE"] = "1"
     _bound_memory()
     from skg.ui.desk import Desk
 
