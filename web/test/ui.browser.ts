@@ -221,6 +221,12 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.click("#reset");
     await page.waitForFunction(() => !document.querySelector("#fields .own"));
     await value(page, "field-tab", "0");
+    // a row that is dragged onto another one is cut in its place
+    await row(page, "12 × 6").dragTo(row(page, "12 × 12"));
+    await settled(page);
+    await row(page, "12 × 6").click();
+    await value(page, "field-order", "1");
+    assert.equal(await row(page, "12 × 6").locator(".order").textContent(), "1");
     await context.close();
   });
 

@@ -153,5 +153,20 @@ export function* corners({ edges }: Shape): Generator<XY> {
   }
 }
 
+/** A length along a closed contour within its own, `whole`. */
+export const wrapped = (along: number, whole: number): number => ((along % whole) + whole) % whole;
+
+/** How far the wire goes on a closed contour from a place to the entry, µm, and whether that is the contour's own way. */
+export function wayToEntry(
+  shape: Shape,
+  along: number,
+  entry: XY,
+  direction: number | null,
+): { length: number; isWith: boolean } {
+  const at = nearest(shape, entry);
+  const isWith = goesWith(at.way, direction ?? at.way);
+  return { length: wrapped(isWith ? at.along - along : along - at.along, lengthOfAll(shape.edges)), isWith };
+}
+
 /** Tell if a direction of travel is the contour's own, not the opposite. */
 export const goesWith = (way: number, direction: number): boolean => Math.cos(way - direction) >= 0;

@@ -2,8 +2,7 @@
 import type { XY } from "../tape.ts";
 import type { Desk } from "./desk.ts";
 import { type Change, rounded } from "./edits.ts";
-import { corners, goesWith, lengthOfAll, micrometres, millimetres, nearest, placeAlong, type Shape } from "./geometry.ts";
-import type { Planned } from "./types.ts";
+import { corners, lengthOfAll, micrometres, millimetres, nearest, placeAlong, wayToEntry, wrapped } from "./geometry.ts";
 
 export type Grip = "start" | "entry" | "tab";
 
@@ -18,6 +17,8 @@ export interface Handle {
 const STEPS = [1, 0.1];
 /** A tab is changed by so much, mm. */
 const TAB_STEPS = [0.5, 0.1];
+/** No tab is dragged to be shorter, mm. */
+const SHORTEST = 0.1;
 
 /** Handles of the contour that is chosen alone. */
 export function handlesOf(desk: Desk): Handle[] {
@@ -44,7 +45,8 @@ export function dragged(desk: Desk, { grip, id }: Handle, place: XY, reach: numb
   }
   const on = nearest(shape, [...corners(shape)].find(isNear) ?? place);
   if (grip === "entry") return { entry: rounded(millimetres(on.place)) };
-  return { tab: tabTo(shape, planned, on.along) };
+  const { length } = wayToEntry(shape, on.along, micrometres(planned.entry ?? [0, 0]), planned.direction);
+  return { tab: Math.max(SHORTEST, Math.round(length) / 1000) };
 }
 
 /** What is wanted when a handle is moved by an arrow key; `dx`, `dy`: -1, 0 or 1. */
@@ -61,16 +63,7 @@ export function stepped(desk: Desk, { grip, id, place }: Handle, [dx, dy]: XY, i
   }
   const whole = lengthOfAll(shape.edges);
   const along = nearest(shape, place).along + (dx + dy) * step * 1000;
-  return { entry: rounded(millimetres(placeAlong(shape, ((along % whole) + whole) % whole).place)) };
-}
-
-/** A length of the tab that reaches from a place of the contour to its entry, mm. */
-function tabTo(shape: Shape, planned: Planned, along: number): number {
-  const entry = nearest(shape, micrometres(planned.entry ?? [0, 0]));
-  const whole = lengthOfAll(shape.edges);
-  const isWith = goesWith(entry.way, planned.direction ?? entry.way);
-  const before = isWith ? entry.along - along : along - entry.along;
-  return Math.max(0.1, Math.round(((before % whole) + whole) % whole) / 1000);
+  return { entry: rounded(millimetres(placeAlong(shape, wrapped(along, whole)).place)) };
 }
 
 /** A round place, as fine as a pointer can show it: a part of its reach. */

@@ -4,7 +4,7 @@ import { view } from "../shell.ts";
 import type { Canvas } from "./canvas.ts";
 import type { Cutting } from "./cutting.ts";
 import type { Desk } from "./desk.ts";
-import type { Fault, Line } from "./types.ts";
+import type { Fault, Line, Plan } from "./types.ts";
 import { w } from "./words.ts";
 
 interface Told extends Line {
@@ -16,14 +16,14 @@ export class Report {
   readonly #cutting: Cutting;
   readonly #canvas: Canvas;
   #told = "";
+  /** What is wrong with contours of a plan: it may have many. */
+  #plan: Plan | undefined;
+  #each: Told[] = [];
 
   constructor(desk: Desk, cutting: Cutting, canvas: Canvas) {
     this.#desk = desk;
     this.#cutting = cutting;
     this.#canvas = canvas;
-    desk.onChange((news) => {
-      if (news.has("drawing") || news.has("plan")) this.show();
-    });
   }
 
   /** A cut's lines hold the reading's and the plan's. */
@@ -34,11 +34,14 @@ export class Report {
     if (outcome.kind === "done" && !isOld) return [...outcome.result.lines];
     const failed: Told[] = outcome.kind === "failed" && !isOld ? [fault(outcome.fault)] : [];
     const faults = [state.error, plan.error].flatMap((each) => (each ? [fault(each)] : []));
-    const each = Object.entries(plan.contours)
-      .filter(([id, { error }]) => error && Number(id) !== plan.error?.contour)
-      .map(([id, { error }]) => fault({ message: error ?? "", contour: Number(id) }));
+    if (plan !== this.#plan) {
+      this.#plan = plan;
+      this.#each = Object.entries(plan.contours)
+        .filter(([id, { error }]) => error && Number(id) !== plan.error?.contour)
+        .map(([id, { error }]) => fault({ message: error ?? "", contour: Number(id) }));
+    }
     const known = new Set<string>();
-    return [...failed, ...faults, ...each, ...state.report, ...plan.said].filter(({ text }) => {
+    return [...failed, ...faults, ...this.#each, ...state.report, ...plan.said].filter(({ text }) => {
       const isNew = !known.has(text);
       known.add(text);
       return isNew;

@@ -2,7 +2,7 @@
 import type { XY } from "../tape.ts";
 import type { View } from "../view.ts";
 import type { Desk } from "./desk.ts";
-import { goesWith, lengthOfAll, micrometres, nearest, placeAlong, type Shape } from "./geometry.ts";
+import { goesWith, lengthOfAll, micrometres, nearest, placeAlong, type Shape, wayToEntry, wrapped } from "./geometry.ts";
 import { arrowHead, isSeen, Pen, pathOf, seenBox } from "./pen.ts";
 import type { Planned } from "./types.ts";
 import type { WireWays } from "./ways.ts";
@@ -27,6 +27,8 @@ const ARROWS = 110;
 /** Numbers stand no nearer to each other than this, pixels. */
 const CELL: XY = [22, 15];
 const HOLE = 5;
+/** Lines that a tab is drawn of. */
+const TAB_PARTS = 24;
 
 interface Seen {
   readonly shape: Shape;
@@ -200,17 +202,15 @@ export class Sketch {
   }
 }
 
-/** The part of a contour that its tab keeps: from the tab's end to the entry. */
-export function tabEdges(shape: Shape, planned: Planned): number[][] {
+/** The part of a contour that its tab keeps: from the tab's end to the entry, as lines. */
+function tabEdges(shape: Shape, planned: Planned): number[][] {
   if (!planned.tab || !planned.entry) return [];
-  const [tab, entry] = [nearest(shape, micrometres(planned.tab)), nearest(shape, micrometres(planned.entry))];
+  const { along } = nearest(shape, micrometres(planned.tab));
+  const { length, isWith } = wayToEntry(shape, along, micrometres(planned.entry), planned.direction);
   const whole = lengthOfAll(shape.edges);
-  const isWith = goesWith(entry.way, planned.direction ?? entry.way);
-  const length = (((isWith ? entry.along - tab.along : tab.along - entry.along) % whole) + whole) % whole;
-  const parts = 24;
-  const places = Array.from({ length: parts + 1 }, (_, part) => {
-    const along = tab.along + ((isWith ? 1 : -1) * (part * length)) / parts;
-    return placeAlong(shape, ((along % whole) + whole) % whole).place;
+  const places = Array.from({ length: TAB_PARTS + 1 }, (_, part) => {
+    const way = (part * length) / TAB_PARTS;
+    return placeAlong(shape, wrapped(isWith ? along + way : along - way, whole)).place;
   });
   return places.slice(1).map((place, at) => [...(places[at] as XY), ...place]);
 }
