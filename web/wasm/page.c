@@ -102,8 +102,9 @@ static uint16_t running_line(const struct held *h)
 /* Does the board stop there, for the page or for its debugger? */
 static bool is_marked(const struct held *h, uint16_t address)
 {
-    return address == names.element || address == names.along || address == names.run || (h->along && address == h->back)
-        || breaks_has(&h->stops, address) || (h->stops.count && address == names.operation);
+    return address == names.element || address == names.along || address == names.run
+           || (h->along && address == h->back) || breaks_has(&h->stops, address)
+           || (h->stops.count && address == names.operation);
 }
 
 /* Is the board where its debugger wants to be asked, in machine code or in byte-code? */
