@@ -1067,6 +1067,29 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
         assert word in text
 
 
+@pytest.mark.parametrize("size", [(3, 3), (10, 8), (70, 30), (30, 70), (200, 9), (4, 120), (420, 300)])
+def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
+    """Whatever its form, it takes more than half of the page's free width or height; the stock stands on the page."""
+    from skg.cutting.job import make
+    from skg.cutting.settings import Settings
+    from skg.geometry.contour import Contour, Edge
+    from skg.pictures.sheet import Facts, SetupSheet
+    from skg.planning.plan import plan
+
+    width, height = size
+    corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
+    contour = Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True)
+    job = make(plan([contour], [], Wanted(offset=0.1, lead=0.5)), "part", Settings())
+    stock = MachineSetup(offset=0.1, material="1.2379", thickness="20 mm")
+    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm", stock))
+    sheet.draw()
+    texts = {text.get_text() for text in sheet.axes.texts}
+    assert {"1.2379", "20 mm", "A: wire outside, 0.1 mm beside"} <= texts
+    (left, low), (right, high) = sheet.on_paper((0, 0)), sheet.on_paper(size)
+    assert 0 < left < right < sheet.page[0] and sheet.foot < low < high < sheet.page[1]
+    assert max((right - left) / sheet.page[0], (high - low) / (sheet.page[1] - sheet.foot)) > 0.5
+
+
 @pytest.mark.parametrize("width", [9.0, 200.0])
 def test_each_number_belongs_to_one_hole(width: float) -> None:
     """Pairs of holes near each other, on paper or in the part: a number is nearest to its own hole, or has a line to
