@@ -396,6 +396,17 @@ def test_numbers_stay_when_some_are_left_out(run: Run, tmp_path: Path) -> None:
     assert all(f">{number}<" in sheet for number in numbers)
 
 
+def test_layers_of_a_job(run: Run, tmp_path: Path) -> None:
+    plate(tmp_path)
+    (tmp_path / "part.job.toml").write_bytes(encoded(Job("part.dxf")))
+    told = run("cut", tmp_path / "part.job.toml", "--list-layers").stdout
+    assert (
+        told
+        == run("cut", tmp_path / "part.dxf", "--list-layers").stdout
+        == "HOLES: 3 LWPOLYLINE\nPLATE: 1 LWPOLYLINE\n"
+    )
+
+
 def test_progress_and_wanted(tmp_path: Path) -> None:
     """What the page asks for: the steps of a run, what is wanted of each contour."""
     job = Job("part.dxf", machine=MachineSetup(offset=0.1), layers={"holes": Partial(cut=False)})

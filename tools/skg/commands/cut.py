@@ -152,7 +152,7 @@ def command(
     quiet: bool,
     **options: object,
 ) -> None:
-    """Cut a drawing: FILE (.dxf or .svg) becomes a 3B tape.
+    """Cut a drawing: FILE (.dxf, .svg, or a job: .job.toml) becomes a 3B tape.
 
     Lines, arcs, circles, polylines, ellipses and splines are chained into contours. Openings are cut before the outline
     around them, each from a start hole of its own. The program runs on the board in this process, and the tape is
@@ -161,16 +161,16 @@ def command(
     """
     from skg.pipeline.steps import cut_drawing, open_drawing, written
 
-    if list_layers:
-        for line in layer_lines(read_bytes(file), file, Wishes(encoding=options["encoding"])):
-            click.echo(line)
-        return
-    form = picture_format(sheet, None) if sheet else ""
     if is_job_file(file):
         job, path = _loaded(file, context)
         _refuse_onto_drawing(path, (output, program, sheet, save_job))
     else:
         job, path = _asked(file, **options), file
+    if list_layers:
+        for line in layer_lines(read_bytes(path), path, Wishes(encoding=job.read.encoding)):
+            click.echo(line)
+        return
+    form = picture_format(sheet, None) if sheet else ""
     if save_job:
         _refuse_elsewhere(save_job, path)
     drawn = open_drawing(job, read_bytes(path), path)
