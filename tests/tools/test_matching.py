@@ -112,6 +112,7 @@ def test_a_grid_moved_by_its_pitch() -> None:
     moved = [one.shifted((10.0, 0.0)) for one in holes]
     for numbers in ([0], [3], [0, 1, 2, 3, 4]):
         assert find(holes, moved, numbers)[0] == numbers
+    assert known(moved).find([], known(holes).box).shift == (10.0, 0.0)
     # (one more on the left: the others have stayed)
     found, matches = find(holes, [box(-10, 0, 2, 2), *holes], [1, 2])
     assert found == [2, 3] and not any(match.is_doubtful for match in matches)

@@ -74,8 +74,6 @@ class Known:
 
         Where one corner of the box has moved, those that are lost may have moved with it: these are doubtful.
         """
-        if not chosen:
-            return Matches()
         matches = self._matches(chosen, box)
         found = (replace(match, is_doubtful=self._is_doubtful(match)) for match in matches.found)
         return replace(matches, found=tuple(found))
@@ -114,6 +112,8 @@ class Known:
     def _costs(self, chosen: Sequence[Chosen], shift: XY) -> list[list[tuple[float, int]]]:
         """How far contours are from the places, and how much their sizes differ: the sum, mm, and the number of each
         that may be meant or taken for it, the nearest first."""
+        if not chosen:
+            return []
         places = np.array([one.place for one in chosen], float) + shift
         sizes = np.array([one.size for one in chosen], float)
         reach = _CLEARLY * _limits(sizes)
