@@ -107,7 +107,8 @@ def cut_on_screen(out: Path) -> None:
             (out / "ui.js").write_bytes(ask("ui.js"))
             state = json.loads(ask("api/state"))
             while state["name"] is None:
-                state = json.loads(ask(f"api/state?after={state['rev']}"))
+                # (empty: nothing new for a while)
+                state = json.loads(ask(f"api/state?after={state['rev']}") or "null") or state
             number = json.loads(ask("api/cut", {"rev": state["rev"]}))["run"]
             while (run := json.loads(ask(f"api/run/{number}")))["state"] == "running":
                 ask(f"api/run/{number}?after={run['k']}")
