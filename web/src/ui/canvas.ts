@@ -1,26 +1,21 @@
 /** The canvas: contours and plan as a picture, handles above it, pointers and where one looks. */
 import type { Wire } from "../drawing.ts";
 import { onFrame } from "../frame.ts";
-import { type Grabbed, listenTo } from "../gestures.ts";
 import { boxOf as boxOfBlock, type Placed } from "../placed.ts";
 import { drawRuler } from "../ruler.ts";
 import type { XY } from "../tape.ts";
 import { View } from "../view.ts";
 import type { Desk } from "./desk.ts";
-import { change } from "./edits.ts";
-import { type Box, micrometres, millimetres, nearest } from "./geometry.ts";
-import { dragged, type Grip, type Handle, handlesOf, stepped } from "./handles.ts";
+import { type Change, change } from "./edits.ts";
+import { type Box, micrometres, millimetres } from "./geometry.ts";
+import { type Grip, type Handle, handlesOf, stepped } from "./handles.ts";
 import { Overlay } from "./overlay.ts";
 import { Picture } from "./picture.ts";
+import { listenToPointers } from "./pointing.ts";
 import type { Server } from "./server.ts";
 import { type Colours, Sketch } from "./sketch.ts";
 import type { Point } from "./types.ts";
 import { WireWays } from "./ways.ts";
-
-/** A pointer finds a contour within so many pixels, a handle within so many; a finger is thicker: 44 across. */
-const REACH = 10;
-const GRIP = 14;
-const FINGER = 22;
 
 export class Canvas {
   readonly view = new View();
@@ -53,7 +48,7 @@ export class Canvas {
     this.#picture = new Picture((context, view, size) => this.#sketch.draw(context, view, size));
     this.overlay = new Overlay(desk);
     new ResizeObserver(() => this.#resize()).observe(base);
-    this.#listen();
+    listenToPointers(over, this, desk);
     desk.onChange((news) => {
       if (news.has("drawing")) this.#another();
       if (news.has("selection")) this.hold(undefined);
@@ -97,7 +92,7 @@ export class Canvas {
   /** An arrow key moves what is held. */
   step(way: XY, isFine: boolean): void {
     const handle = this.handles.find(({ grip }) => grip === this.held);
-    if (handle) this.#want(handle, stepped(this.#desk, handle, way, isFine), `key ${handle.grip}`);
+    if (handle) this.want(handle, stepped(this.#desk, handle, way, isFine), `key ${handle.grip}`);
   }
 
   fit(): void {
@@ -199,7 +194,7 @@ export class Canvas {
     base.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
     if (this.#desk.shapes.size) drawRuler(base, this.view, this.#size, this.#sketch.colours.ruler);
     over.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
-    this.overlay.draw(over, this.view, this.#size, this.handles);
+    this.overlay.draw(over, this.view, this.#size, this.handles, this.#drag?.grip);
     if (!isWhole) this.#soon();
     else if (!this.#drag) void this.#ways.want(this.#sketch.inView(this.view, this.#size));
     // (for who looks at the page from outside: the window, how long this took, whether more is to come, handles in mm)
@@ -210,94 +205,23 @@ export class Canvas {
     this.#over.dataset["handles"] = JSON.stringify(handles);
   }
 
-  #want(handle: Handle, wanted: ReturnType<typeof dragged>, joined: string): void {
+  /** What is wanted of a handle's contour. */
+  want(handle: Handle, wanted: Change | undefined, joined: string): void {
     if (!wanted) return;
     const { edited, contours } = this.#desk;
     this.#desk.edit(change(edited, { contours: [handle.id] }, wanted, contours), joined);
   }
 
-  /** The contour that is nearest to a pixel. */
-  #find(pixel: XY, reach: number): number | undefined {
-    const place = this.view.toPlace(pixel);
-    let best = reach / this.view.scale;
-    let found: number | undefined;
-    for (const shape of this.#desk.shapes.values()) {
-      const [left, bottom, right, top] = shape.box;
-      if (place[0] < left - best || place[0] > right + best || place[1] < bottom - best || place[1] > top + best) continue;
-      const { distance } = nearest(shape, place);
-      if (distance >= best) continue;
-      best = distance;
-      found = shape.contour.id;
-    }
-    return found;
+  /** A handle where the pointer has it. */
+  set drag(drag: Handle | undefined) {
+    this.#drag = drag;
+    this.#soon();
   }
 
-  #grab(pixel: XY, event: PointerEvent): Grabbed | undefined {
-    const reach = event.pointerType === "touch" ? FINGER : GRIP;
-    const distance = ({ place }: Handle): number => {
-      const [x, y] = this.view.toPixel(place);
-      return Math.hypot(x - pixel[0], y - pixel[1]);
-    };
-    const [handle] = this.handles.filter((each) => distance(each) <= reach).sort((one, two) => distance(one) - distance(two));
-    if (!handle) return undefined;
-    this.overlay.held = handle.grip;
-    const joined = `drag ${handle.grip} ${event.timeStamp}`;
-    return {
-      move: (now) => {
-        const wanted = dragged(this.#desk, handle, this.view.toPlace(now), REACH / this.view.scale);
-        const place = wanted?.start ?? wanted?.entry;
-        this.#drag = { ...handle, place: place ? micrometres(place) : this.view.toPlace(now) };
-        this.#want(handle, wanted, joined);
-        this.#soon();
-      },
-      end: () => {
-        this.#desk.endJoined();
-        this.overlay.held = undefined;
-        void this.#desk.settle().then(() => {
-          this.#drag = undefined;
-          this.#soon();
-        });
-      },
-    };
-  }
-
-  #listen(): void {
-    const canvas = this.#over;
-    listenTo(canvas, {
-      pan: (dx, dy) => this.pan(dx, dy),
-      zoom: (by, about) => this.zoom(by, about),
-      grab: (pixel, event) => this.#grab(pixel, event),
-      hover: (pixel, isPressed) => {
-        this.onPoint(pixel && millimetres(this.view.toPlace(pixel)));
-        if (isPressed) return;
-        const hovered = pixel && this.#find(pixel, REACH);
-        if (hovered === this.overlay.hovered) return;
-        this.overlay.hovered = hovered;
-        this.#soon();
-      },
-      tap: (pixel, event) => {
-        const id = this.#find(pixel, event.pointerType === "touch" ? FINGER : REACH);
-        this.#choose(id, event.shiftKey || event.ctrlKey || event.metaKey);
-      },
-      hold: (pixel, event) => {
-        const id = this.#find(pixel, FINGER);
-        if (id === undefined) return;
-        if (!this.#desk.chosen.includes(id)) this.#choose(id, false);
-        this.onMenu(id, event.clientX, event.clientY);
-      },
-    });
-    canvas.addEventListener("dblclick", () => this.fit());
-  }
-
-  /** `more`: what is chosen already stays, or goes when it is meant. */
-  #choose(id: number | undefined, more: boolean): void {
-    this.overlay.place = undefined;
-    const { chosen } = this.#desk;
-    if (id === undefined) {
-      if (!more) this.#desk.choose("all");
-      return;
-    }
-    const after = !more ? [id] : chosen.includes(id) ? chosen.filter((each) => each !== id) : [...chosen, id];
-    this.#desk.choose({ contours: after });
+  /** The contour that is pointed at. */
+  hover(id: number | undefined): void {
+    if (id === this.overlay.hovered) return;
+    this.overlay.hovered = id;
+    this.#soon();
   }
 }

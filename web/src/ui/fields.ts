@@ -3,7 +3,7 @@ import { get } from "../dom.ts";
 import type { Desk } from "./desk.ts";
 import { type Change, change, isCut, own, reset } from "./edits.ts";
 import { Field, type Plan, same, type Value } from "./inputs.ts";
-import { titleOf } from "./tree.ts";
+import { titleOf } from "./treerow.ts";
 import type { Planned, Wanted } from "./types.ts";
 import { w } from "./words.ts";
 

@@ -3,7 +3,7 @@ import { get, make } from "../dom.ts";
 import type { Actions } from "./actions.ts";
 import type { Desk } from "./desk.ts";
 import { isCut } from "./edits.ts";
-import { titleOf } from "./tree.ts";
+import { titleOf } from "./treerow.ts";
 import { w } from "./words.ts";
 
 /** The tab that the menu gives, mm. */

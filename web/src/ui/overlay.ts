@@ -29,7 +29,7 @@ export class Overlay {
     this.#desk = desk;
   }
 
-  draw(context: CanvasRenderingContext2D, view: View, size: XY, handles: readonly Handle[]): void {
+  draw(context: CanvasRenderingContext2D, view: View, size: XY, handles: readonly Handle[], grip = this.held): void {
     const { colours } = this;
     context.clearRect(0, 0, ...size);
     if (!colours) return;
@@ -41,7 +41,7 @@ export class Overlay {
       context.stroke(pathOf([edgeOf(this.block)], view));
     }
     if (this.walk) this.#wire(context, view, this.walk, colours);
-    for (const handle of handles) drawHandle(context, view, handle, this.held === handle.grip, colours);
+    for (const handle of handles) drawHandle(context, view, handle, grip === handle.grip, colours);
     if (!this.place) return;
     context.strokeStyle = colours.wrong;
     context.lineWidth = 3;

@@ -2,24 +2,15 @@
 import { make } from "../dom.ts";
 import { onFrame } from "../frame.ts";
 import type { Desk } from "./desk.ts";
-import { change, isCut, own, type Scope } from "./edits.ts";
-import { isCoarse, onCoarse, shown } from "./look.ts";
+import { change, isCut, type Scope } from "./edits.ts";
+import { isCoarse, onCoarse } from "./look.ts";
+import { contourRow, layerRow } from "./treerow.ts";
 import type { Contour, Layer } from "./types.ts";
-import { w } from "./words.ts";
 
 type Row = { layer: Layer } | { contour: Contour };
 
 /** Rows beyond those in sight. */
 const BEYOND = 4;
-const GLYPHS = { outline: "▢", opening: "◯", open: "∿" } as const;
-
-export const kindWord = (contour: Contour): string =>
-  w(contour.kind === "outline" ? "outline" : contour.kind === "opening" ? "opening" : "openLine");
-
-/** What a contour is called in words. */
-export const titleOf = (contour: Contour): string =>
-  `${kindWord(contour)} ${contour.size.map((each) => shown(each)).join(" × ")}`;
-
 export class Tree {
   readonly #desk: Desk;
   readonly #box: HTMLElement;
@@ -115,54 +106,9 @@ export class Tree {
     element.id = `row-${index}`;
     element.style.top = `${index * height}px`;
     element.classList.toggle("active", index === this.#active);
-    if ("layer" in row) this.#layer(element, row.layer);
-    else this.#contour(element, row.contour);
+    if ("layer" in row) layerRow(element, this.#desk, row.layer, this.#folded.has(row.layer.name));
+    else contourRow(element, this.#desk, row.contour);
     return element;
-  }
-
-  #layer(element: HTMLElement, layer: Layer): void {
-    const { scope, edited } = this.#desk;
-    element.ariaLevel = "1";
-    if (layer.contours.length) {
-      const cut = layer.contours.map((id) => isCut(edited, this.#desk.contours.get(id)));
-      element.ariaChecked = cut.every(Boolean) ? "true" : cut.some(Boolean) ? "mixed" : "false";
-      element.ariaExpanded = String(!this.#folded.has(layer.name));
-      element.append(make("span", "fold", this.#folded.has(layer.name) ? "▸" : "▾"), make("span", "check"));
-    } else {
-      element.append(make("span", "fold"), make("span", "nocheck"));
-      element.ariaDisabled = "true";
-    }
-    element.ariaSelected = String(typeof scope === "object" && "layer" in scope && scope.layer === layer.name);
-    element.append(make("b", "", layer.name));
-    const [wanted] = own(edited, { layer: layer.name });
-    if (wanted?.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
-    if (!layer.left) return;
-    const left = make("span", "left", layer.why ? w("left", layer.left, layer.why) : w("leftOnly", layer.left));
-    left.title = left.textContent ?? "";
-    element.append(left);
-  }
-
-  #contour(element: HTMLElement, contour: Contour): void {
-    const { edited } = this.#desk;
-    const planned = this.#desk.planned(contour.id);
-    const cut = isCut(edited, contour);
-    const [wanted = {}] = own(edited, { contours: [contour.id] });
-    element.ariaLevel = "2";
-    element.ariaChecked = String(cut);
-    element.ariaSelected = String(this.#desk.chosen.includes(contour.id));
-    element.draggable = cut;
-    element.dataset["id"] = String(contour.id);
-    const number = make("span", "order", cut && planned?.number ? String(planned.number) : "–");
-    const glyph = make("span", "glyph", GLYPHS[contour.kind]);
-    glyph.ariaHidden = "true";
-    element.append(number, make("span", "check"), glyph, make("span", "title", titleOf(contour)));
-    if (wanted.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
-    if (!planned?.error) return;
-    const fault = make("span", "fault", "⚠");
-    fault.title = planned.error;
-    fault.ariaLabel = planned.error;
-    fault.role = "img";
-    element.append(fault);
   }
 
   #rowOf(event: Event): Row | undefined {

@@ -1,0 +1,63 @@
+/** Rows of the tree: a layer, a contour. */
+import { make } from "../dom.ts";
+import type { Desk } from "./desk.ts";
+import { isCut, own } from "./edits.ts";
+import { shown } from "./look.ts";
+import type { Contour, Layer } from "./types.ts";
+import { w } from "./words.ts";
+
+const GLYPHS = { outline: "▢", opening: "◯", open: "∿" } as const;
+
+export const kindWord = (contour: Contour): string =>
+  w(contour.kind === "outline" ? "outline" : contour.kind === "opening" ? "opening" : "openLine");
+
+/** What a contour is called in words. */
+export const titleOf = (contour: Contour): string =>
+  `${kindWord(contour)} ${contour.size.map((each) => shown(each)).join(" × ")}`;
+
+/** Writes a layer into its row. */
+export function layerRow(element: HTMLElement, desk: Desk, layer: Layer, isFolded: boolean): void {
+  const { scope, edited } = desk;
+  element.ariaLevel = "1";
+  if (layer.contours.length) {
+    const cut = layer.contours.map((id) => isCut(edited, desk.contours.get(id)));
+    element.ariaChecked = cut.every(Boolean) ? "true" : cut.some(Boolean) ? "mixed" : "false";
+    element.ariaExpanded = String(!isFolded);
+    element.append(make("span", "fold", isFolded ? "▸" : "▾"), make("span", "check"));
+  } else {
+    element.append(make("span", "fold"), make("span", "nocheck"));
+    element.ariaDisabled = "true";
+  }
+  element.ariaSelected = String(typeof scope === "object" && "layer" in scope && scope.layer === layer.name);
+  element.append(make("b", "", layer.name));
+  const [wanted] = own(edited, { layer: layer.name });
+  if (wanted?.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
+  if (!layer.left) return;
+  const left = make("span", "left", layer.why ? w("left", layer.left, layer.why) : w("leftOnly", layer.left));
+  left.title = left.textContent ?? "";
+  element.append(left);
+}
+
+/** Writes a contour into its row. */
+export function contourRow(element: HTMLElement, desk: Desk, contour: Contour): void {
+  const { edited } = desk;
+  const planned = desk.planned(contour.id);
+  const cut = isCut(edited, contour);
+  const [wanted = {}] = own(edited, { contours: [contour.id] });
+  element.ariaLevel = "2";
+  element.ariaChecked = String(cut);
+  element.ariaSelected = String(desk.chosen.includes(contour.id));
+  element.draggable = cut;
+  element.dataset["id"] = String(contour.id);
+  const number = make("span", "order", cut && planned?.number ? String(planned.number) : "–");
+  const glyph = make("span", "glyph", GLYPHS[contour.kind]);
+  glyph.ariaHidden = "true";
+  element.append(number, make("span", "check"), glyph, make("span", "title", titleOf(contour)));
+  if (wanted.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
+  if (!planned?.error) return;
+  const fault = make("span", "fault", "⚠");
+  fault.title = planned.error;
+  fault.ariaLabel = planned.error;
+  fault.role = "img";
+  element.append(fault);
+}
