@@ -12,6 +12,7 @@ const contour = (id: number, at: [number, number], edges: Edge[] = []): Contour 
   id,
   name: `contour ${id}`,
   layer: "PART",
+  layers: ["PART", "SECOND"],
   kind: "opening",
   depth: 1,
   closed: true,
@@ -51,6 +52,8 @@ test("contour beats layer beats everything", () => {
     [false, false, false],
   );
   assert.deepEqual(change(layer, { layer: "part" }, { cut: undefined }, CONTOURS).job.layer, []);
+  const second = change(layer, { layer: "second" }, { cut: false }, CONTOURS);
+  assert.ok(isCut(second, CONTOURS.get(0)), "the layer that comes first in the job");
 });
 
 test("a lost contour stays in the job until it is given up", () => {

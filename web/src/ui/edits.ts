@@ -111,11 +111,12 @@ export function set(before: Edited, part: "machine" | "read", key: string, value
 /** Places are whole µm. */
 export const rounded = ([x, y]: Point): Point => [Math.round(x * 1000) / 1000, Math.round(y * 1000) / 1000];
 
-/** Tell if a contour is to be cut: itself, its layer and everything are asked, in this order. */
+/** Tell if a contour is to be cut: itself, the first of its layers in the job, and everything are asked, in this order. */
 export function isCut(edited: Edited, contour: Contour | undefined): boolean {
   if (!contour) return false;
   const { job } = edited;
   const chosen = entryOf(edited, contour.id);
-  const layer = job.layer?.find(({ name }) => name.toLowerCase() === contour.layer.toLowerCase());
+  const on = contour.layers.map((name) => name.toLowerCase());
+  const layer = job.layer?.find(({ name, cut }) => cut !== undefined && on.includes(name.toLowerCase()));
   return chosen?.cut ?? layer?.cut ?? job.default?.cut ?? true;
 }

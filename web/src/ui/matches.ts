@@ -3,6 +3,7 @@ import { get, make } from "../dom.ts";
 import type { Desk } from "./desk.ts";
 import { forget } from "./edits.ts";
 import { shown } from "./look.ts";
+import { kindWord } from "./treerow.ts";
 import type { Chosen } from "./types.ts";
 import { w } from "./words.ts";
 
@@ -43,7 +44,7 @@ export class MatchList {
 }
 
 const nameOf = ({ layer, kind, size, at }: Chosen): string =>
-  `${layer} ${w(kind === "open" ? "openLine" : kind)} ${size.map(shown).join(" × ")} (${at.map(shown).join(", ")})`;
+  `${layer} ${kindWord(kind)} ${size.map(shown).join(" × ")} (${at.map(shown).join(", ")})`;
 
 function row(name: string, text: string, label: string, act: () => void): HTMLElement {
   const line = make("li", name);

@@ -3,17 +3,15 @@ import { make } from "../dom.ts";
 import type { Desk } from "./desk.ts";
 import { isCut, own } from "./edits.ts";
 import { shown } from "./look.ts";
-import type { Contour, Layer } from "./types.ts";
+import type { Contour, Kind, Layer } from "./types.ts";
 import { w } from "./words.ts";
 
 const GLYPHS = { outline: "▢", opening: "◯", open: "∿" } as const;
 
-export const kindWord = (contour: Contour): string =>
-  w(contour.kind === "outline" ? "outline" : contour.kind === "opening" ? "opening" : "openLine");
+export const kindWord = (kind: Kind): string => w(kind === "open" ? "openLine" : kind);
 
 /** What a contour is called in words. */
-export const titleOf = (contour: Contour): string =>
-  `${kindWord(contour)} ${contour.size.map((each) => shown(each)).join(" × ")}`;
+export const titleOf = (contour: Contour): string => `${kindWord(contour.kind)} ${contour.size.map(shown).join(" × ")}`;
 
 /** Writes a layer into its row. */
 export function layerRow(element: HTMLElement, desk: Desk, layer: Layer, isFolded: boolean): void {

@@ -58,6 +58,8 @@ export interface Contour {
   readonly id: number;
   readonly name: string;
   readonly layer: string;
+  /** All that it is on. */
+  readonly layers: readonly string[];
   readonly kind: Kind;
   readonly depth: number;
   readonly closed: boolean;
