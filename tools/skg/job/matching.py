@@ -60,6 +60,7 @@ class Known:
         self.contours, self.kinds = contours, np.array(kinds)
         self.boxes, _ = boxes_of(contours)
         self.sizes = self.boxes[:, 2:] - self.boxes[:, :2]
+        self._rounded = np.round(self.sizes, _DECIMALS).tolist()
         self.layers = [{layer.lower() for layer in one.layers} for one in contours]
         self._tree = shapely.STRtree(shapely.box(*self.boxes.T))
 
@@ -165,7 +166,7 @@ class Known:
     def _by(self, number: int, edge: Edge, partial: Partial) -> Chosen:
         """A contour by the middle of one of its edges."""
         x, y = (round(ordinate, _DECIMALS) + 0.0 for ordinate in edge.at(0.5))
-        width, height = np.round(self.sizes[number], _DECIMALS).tolist()
+        width, height = self._rounded[number]
         return Chosen(self.contours[number].layers[0], str(self.kinds[number]), (x, y), (width, height), partial)
 
 

@@ -8,6 +8,8 @@ from typing import Any
 from skg.errors import UserError
 from skg.wording import ReportLine
 
+_ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
 
 def encoded(data: dict[str, Any]) -> bytes:
     """An object of JSON; those of its values that are bytes are JSON already."""
@@ -19,9 +21,9 @@ def in_json(value: object) -> bytes:
     """A value as JSON."""
     if isinstance(value, bytes):
         return value
-    if isinstance(value, dict):
+    if isinstance(value, dict) and any(isinstance(one, bytes | dict) for one in value.values()):
         return encoded(value)
-    return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode("utf-8", "replace")
+    return _ENCODER.encode(value).encode("utf-8", "replace")
 
 
 def told(error: UserError) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -124,15 +125,17 @@ class Plans:
         wrong = why.get(number, "")
         known = self._known.get(number)
         if known is None or known[0] is not route or known[1:3] != (want, wrong):
-            found = (planned(route) if route else _LEFT) | {"values": _values(want), "error": wrong or None}
-            known = self._known[number] = route, want, wrong, encoded(found)[1:].decode()
+            found = (planned(route) if route else _LEFT) | {"error": wrong or None}
+            text = f'{in_json(found)[1:-1].decode()},"values":{_values(want)}}}'
+            known = self._known[number] = route, want, wrong, text
         return known[3]
 
 
-def _values(want: Wanted) -> dict[str, Any]:
-    """What is wanted of a contour in the end."""
+@lru_cache
+def _values(want: Wanted) -> str:
+    """What is wanted of a contour in the end, as JSON."""
     values = {name: getattr(want, name) for name in ("cut", "side", "offset", "tab", "lead", "lead_shape", "reverse")}
-    return values | {"passes": list(want.passes), "order": want.order}
+    return in_json(values | {"passes": list(want.passes), "order": want.order}).decode()
 
 
 def planned(route: PlannedContour) -> dict[str, Any]:
