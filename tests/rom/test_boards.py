@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 import subprocess
+import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,10 @@ from test_examples import EXAMPLES, stem
 
 from skg.machine.emulator import Machine
 
+sys.path.insert(0, str(ROOT / "asm"))
+import build
+
+PAGE = (ROOT / "docs" / "boards.md").read_text()
 CTRL_C, XON, DC2, XOFF, DC4, CTRL_Z = 3, 0x11, 0x12, 0x13, 0x14, 26
 SECOND = 2_000_000
 OPTIONS = {
@@ -177,3 +183,22 @@ def test_the_wrong_rom_is_noticed(kind: str, other: str) -> None:
     done = subprocess.run(command, capture_output=True)
     assert (done.returncode, done.stdout) == (2, b""), done.stderr
     assert b"is this ROM for" in done.stderr
+
+
+@pytest.mark.parametrize("kind", ["skg-searle", "skg-imsai"])
+def test_board_of_ones_own(kind: str, tmp_path: Path) -> None:
+    """The examples of boards.md differ from the image that they are made after in the numbers of ports alone."""
+    files = {found[1]: found[0] for found in re.findall(r"```asm\n(; (\w+)\.asm(?s:.*?))```", PAGE)}
+    image = eval(re.search(rf'"{kind}": (Image\(.*\)),', PAGE)[1], {"Image": build.Image})  # noqa: S307 (of the page)
+    (ports,) = [name for name in image.ports if name in files]
+    other = {"skg-searle": "skg-rc2014-sio", "skg-imsai": "skg-8251"}[kind]
+    texts = build.sources(replace(image, ports=tuple(name for name in image.ports if name != ports)))
+    texts = {name: texts.get(name, files.get(name)) for name in image.files()}
+    code, symbols, _ = build.assemble(texts, tmp_path)
+    made, theirs, _, _ = build.build(other)
+    names = ("TTYST", "TTYDT", "PUNST", "PUNDT")
+    port_of = {theirs[name]: symbols[name] for name in names}
+    differing = [(a, b) for a, b in zip(made, code, strict=False) if a != b]
+    assert len(code) <= len(made)
+    assert len(differing) > 10
+    assert all(port_of.get(a) == b for a, b in differing)

@@ -123,6 +123,30 @@ def test_a_reader_without_handshake_needs_nuls(kind: str, cps: int, nuls: int) -
         )
 
 
+#: Cycles of an RC2014 in those of the 2 MHz board.
+RC2014_HZ = 7_372_800
+
+
+@pytest.mark.parametrize("kind", ["skg-rc2014", "skg-rc2014-sio"])
+def test_an_rc2014_needs_delays_or_57600_baud(kind: str) -> None:
+    """As boards.md says: 1 ms behind each character and 0.2 s behind each line at 115,200 baud; /RTS at 57,600."""
+    for part in EXAMPLES[::4]:
+        board = Board(kind=kind)
+        machine = board.machine
+        machine.keyboard_cps(1 / (1e-3 + 10 / 115_200) * 2_000_000 / RC2014_HZ, None)
+        for line in part.read_text().splitlines():
+            machine.type(f"{line}\r")
+            machine.run(int(RC2014_HZ * (0.2 + (len(line) + 1) * (1e-3 + 10 / 115_200))), patience=RUN_LIMIT)
+        machine.keyboard_cps(0)
+        machine.run(RUN_LIMIT)
+        assert machine.lost == 0
+        assert board.listing() == listed(part)
+        board = Board(kind=kind)
+        paper = pasted(board, tape_of(part), 5_760 * 2_000_000 / RC2014_HZ, 2)
+        assert "ERR" not in paper and board.machine.lost == 0
+        assert board.listing() == listed(part)
+
+
 @every_board
 def test_the_line_is_shown_up_to_the_loss(kind: str) -> None:
     board = Board(kind=kind)

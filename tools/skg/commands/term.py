@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 #: Seconds that a port may stay away when nobody is at the keyboard.
 UNATTENDED_PATIENCE = 60.0
+#: Speed of a port, baud: an Altair's highest; that of boards whose clock sets one.
+DEFAULT_BAUD = 9600
+BOARD_BAUD = {"rc2014": 115200, "rc2014-sio": 115200}
 
 
 @click.command(name="term")
@@ -44,9 +47,8 @@ UNATTENDED_PATIENCE = 60.0
 )
 @click.option("--record", metavar="FILE", type=click.Path(), help="Write the punched tape to this file.")
 @click.option("--punch-port", metavar="PORT", help="Port of the punch, if not PORT itself.")
-@click.option(
-    "--baud", default=9600, show_default=True, metavar="N", type=click.IntRange(50), help="Speed of both ports."
-)
+@click.option("--board", type=click.Choice(BOARD_BAUD), help="Kind of board: sets its speed.")
+@click.option("--baud", metavar="N", type=click.IntRange(50), help=f"Speed of both ports. Default: {DEFAULT_BAUD}.")
 @click.option(
     "--pace",
     type=click.Choice(("prompt", "none")),
@@ -79,7 +81,8 @@ def command(
     unnumbered: bool,
     record: str | None,
     punch_port: str | None,
-    baud: int,
+    board: str | None,
+    baud: int | None,
     pace: str,
     delay: float,
     batch: bool,
@@ -102,6 +105,7 @@ def command(
 
     if unnumbered and not (file and run):
         raise click.UsageError("--unnumbered goes with --send and --run")
+    baud = baud or BOARD_BAUD.get(board, DEFAULT_BAUD)
     if punch_port and os.path.realpath(punch_port) == os.path.realpath(port):
         raise UserError(f"{punch_port}: the teletype's port too: --punch-port is for a punch on one of its own")
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
