@@ -1,20 +1,9 @@
 """Every image: which files it is made of. No source file has an IF: what differs is a file of its own.
 
-<<<<<<< HEAD
 What differs has a seam, a field of Image. The board: **map**, where things lie; **ports**, their addresses, chips, the
 teletype; **punch**, with the reader and /RTS, what is done when a block is complete and after an error; **start**,
 reset and the prompt. CP/M fills these with files of its own. **post**: what becomes of a line and an arc in whole um.
 **spans**: whether those of a curve are held back. **more**: what some images have besides. Words that not every image
-=======
-Four seams. The **board**: where things lie (`map_rom`, `map_rc2014`, `map_rc2014_ram`), ports and their setting up
-(`ports_2sio` or `ports_rc2014` with `io_6850`; `ports_8251` with
-`io_8251`; `ports_sio` with `io_sio`), their /RTS (`rts`, `rts_sio`), teletype (`io_held`, `io_port`), punch and reader
-(`io_punch`, `io_tty`), what is done when a block is complete and after an error (`io_ended`; `drive` follows the
-block), at reset and at the prompt (`reset`; `keep` saves the program through it, `keep_none` does not).
-**CP/M** fills these instead: `map_cpm`,
-`io_cpm`, `io_disk`, `cpm`. The **post-processor**: what becomes of a line and an arc in whole micrometres (`tape`, and
-`arc_3b` or `arc_nodrift`). Whether spans of a curve are **held back**: `tol`, or `notol`. Words that not every image
->>>>>>> 936bd41 (boards.md: pasting on an RC2014, a board of one's own by two examples, the Altair-Duino; skg term --board rc2014)
 has are a set in words.txt.
 
     asm/images.py     prints the names of the variants of the standard image

@@ -1,12 +1,6 @@
-<<<<<<< HEAD
-; io_8251.asm - ports of the board: two Intel 8251
-; Offers: TTYDT TTYST PUNDT PUNST TXRDY RXRDY RXOVR SIO8N2 SIOHLD BDINIT RXKEY RXTAP
-; Uses:   [punch]
-=======
 ; io_8251.asm - the board's receivers and transmitters: Intel 8251
 ; Offers: TXRDY RXRDY RXOVR SIO8N2 SIOHLD BDINIT RXKEY RXTAP
-; Uses:   io_ended ports_8251
->>>>>>> 936bd41 (boards.md: pasting on an RC2014, a board of one's own by two examples, the Altair-Duino; skg term --board rc2014)
+; Uses:   [ports] [punch]
 ; Room:   54 bytes
 
 TXRDY   EQU 01H         ; transmitter empty

@@ -1,11 +1,6 @@
 ; io_held.asm - the teletype's characters, through the board's ports; KEYB takes what the reader sends, too, when lines come from there
 ; Offers: PAPER POLL
-<<<<<<< HEAD
 ; Uses:   [ports] [punch] start
-=======
-; Uses:   io_6850 io_8251 io_ended io_key io_sio io_tape io_tty ports_2sio ports_8251 ports_rc2014
-;         ports_sio start
->>>>>>> 936bd41 (boards.md: pasting on an RC2014, a board of one's own by two examples, the Altair-Duino; skg term --board rc2014)
 ; Room:   67 bytes
 
 ; PAPER - prints a character, which the punch gets too when it is on; where nothing is printed it only looks who sends

@@ -1,10 +1,6 @@
 ; io_punch.asm - punch and reader on a port of their own
 ; Offers: BDPUT SLOAD PUNON
-<<<<<<< HEAD
 ; Uses:   [ports] [punch] start
-=======
-; Uses:   hold io_6850 io_8251 io_sio nohold ports_2sio ports_8251 ports_sio start
->>>>>>> 936bd41 (boards.md: pasting on an RC2014, a board of one's own by two examples, the Altair-Duino; skg term --board rc2014)
 ; Room:   32 bytes
 
 ; BDPUT - punches a character

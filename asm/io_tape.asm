@@ -1,10 +1,6 @@
 ; io_tape.asm - a character of the reader waits in KEYB, when lines come from there
 ; Offers: BDREAD TAPEIN
-<<<<<<< HEAD
 ; Uses:   [ports]
-=======
-; Uses:   io_6850 io_8251 io_sio ports_2sio ports_8251 ports_sio
->>>>>>> 936bd41 (boards.md: pasting on an RC2014, a board of one's own by two examples, the Altair-Duino; skg term --board rc2014)
 ; Room:   31 bytes
 
 ;! CCTLC+10H == CXOFF -- TAPEIN knows both keys at once
