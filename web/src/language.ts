@@ -141,8 +141,8 @@ const WORDS = {
   badKind: ["{0} is no program, no tape and nothing that this page has saved.", "{0} 不是程序、纸带，也不是本页保存的文件。"],
   badSaved: ["{0} is not whole, or of another version of this page.", "{0} 不完整，或来自其他版本的页面。"],
   noDxf: [
-    "Drawings are not opened here: skg cut --program makes a program of {0}.",
-    "此处不能打开图纸：请用 skg cut --program 将 {0} 转成程序。",
+    "Drawings are not opened here: skg ui cuts {0} on the screen, skg cut --program makes a program of it.",
+    "此处不能打开图纸：skg ui 可在屏幕上切割 {0}，skg cut --program 可将它转成程序。",
   ],
   noIso: [
     "G-code is not opened here: skg gcode --back makes a tape of {0}.",

@@ -104,16 +104,19 @@ export function distanceFrom(p: Placed, [x, y]: XY): number {
 
 /** xmin, ymin, xmax, ymax of a block, bulges of arcs included. */
 export function boxOf(p: Placed): [number, number, number, number] {
-  const xs = [p.start[0], p.end[0]];
-  const ys = [p.start[1], p.end[1]];
+  let [left, right] = p.start[0] < p.end[0] ? [p.start[0], p.end[0]] : [p.end[0], p.start[0]];
+  let [bottom, top] = p.start[1] < p.end[1] ? [p.start[1], p.end[1]] : [p.end[1], p.start[1]];
   if (!isLine(p)) {
     const [low, high] = p.sweep > 0 ? [p.first, p.first + p.sweep] : [p.first + p.sweep, p.first];
     for (let quarter = Math.ceil(low / (Math.PI / 2)); quarter * (Math.PI / 2) <= high; quarter++) {
-      xs.push(p.centre[0] + p.radius * Math.cos(quarter * (Math.PI / 2)));
-      ys.push(p.centre[1] + p.radius * Math.sin(quarter * (Math.PI / 2)));
+      const side = ((quarter % 4) + 4) % 4;
+      if (side === 0) right = Math.max(right, p.centre[0] + p.radius);
+      else if (side === 1) top = Math.max(top, p.centre[1] + p.radius);
+      else if (side === 2) left = Math.min(left, p.centre[0] - p.radius);
+      else bottom = Math.min(bottom, p.centre[1] - p.radius);
     }
   }
-  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+  return [left, bottom, right, top];
 }
 
 /** Builds a layout block by block, as the machine punches. */

@@ -160,3 +160,17 @@ export async function end(): Promise<void> {
   await browser?.close();
   await served?.stop();
 }
+
+/** The longest that the page's own code holds its thread up at a stretch, ms of the thread's own time: other programs on this
+ * machine do not count. */
+export async function longestTask(page: Page, act: () => Promise<void>): Promise<number> {
+  await browser.startTracing(page, { categories: ["devtools.timeline"] });
+  await act();
+  const { traceEvents } = JSON.parse((await browser.stopTracing()).toString()) as {
+    traceEvents: { name: string; pid: number; tid: number; tdur?: number }[];
+  };
+  const own = traceEvents.filter(({ name }) =>
+    ["TimerFire", "FireAnimationFrame", "RunMicrotasks", "EventDispatch"].includes(name),
+  );
+  return Math.max(0, ...own.map(({ tdur }) => (tdur ?? 0) / 1000));
+}
