@@ -517,6 +517,11 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.waitForFunction(() =>
       /no\.dxf/.test(`${document.querySelector("#message span")?.textContent} ${document.getElementById("report")?.textContent}`),
     );
+    // (an address without its key shows nothing of it)
+    const stranger = await visit(url.replace(/#.*/, ""));
+    await message(stranger.page, /no key/);
+    assert.equal(await stranger.page.textContent("#name"), "");
+    await stranger.context.close();
     // and is forgotten with the next drawing
     await drop(page, "bracket.dxf", BRACKET);
     await says(page, "#name", "bracket.dxf");
