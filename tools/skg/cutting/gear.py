@@ -198,7 +198,7 @@ def _flank(gear: Gear, low: float, high: float) -> Edge:
 
 
 def _arc(start: XY, end: XY, centre: XY, sense: int) -> Edge:
-    """The arc about a centre from one place to another, the short way if `sense` says so."""
+    """The arc about a centre from one place to another, in the direction of `sense`: 1 or -1."""
     sweep = atan2(end[1] - centre[1], end[0] - centre[0]) - atan2(start[1] - centre[1], start[0] - centre[0])
     return Edge(start, end, centre, sense * ((sense * sweep) % (2 * pi)))
 

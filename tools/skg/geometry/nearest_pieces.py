@@ -19,6 +19,8 @@ _PAIRS = 50_000
 _PLACES = 20_000
 #: A path is laid out on about so many cells at most.
 _MOST_CELLS = 200_000
+#: And in no more rows and columns.
+_MOST_ROWS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -233,26 +235,27 @@ class _Grid:
     cell from where it `begins` on, up to where the next one does."""
 
     def __init__(self, pieces: Pieces, cell: float) -> None:
-        self.cell = cell
+        low = np.minimum(pieces.start.min(0), pieces.end.min(0))
+        high = np.maximum(pieces.start.max(0), pieces.end.max(0))
+        #: (the number of a cell and that of a piece have room in one)
+        self.cell = cell = max(cell, float((high - low).max()) / _MOST_ROWS)
         #: Sampling distance: the farthest that a piece lies from its next sample.
         self.apart = cell / 8
         beside = 2 * pieces.radius.max() + 2 * cell
-        self.corner = np.minimum(pieces.start.min(0), pieces.end.min(0)) - beside
+        self.corner = low - beside
         #: So many rows, no piece is in the last one.
-        self.width = int(self._cells(np.maximum(pieces.start.max(0), pieces.end.max(0)) + beside)[1]) + 2
-        # (a path may have millions of pieces: their numbers take half the room, and what is done with goes at once)
-        found = []
+        self.width = int(self._cells(high + beside)[1]) + 2
+        # (a path may have millions of pieces: each is one number with its cell, and stands once in that)
+        count, found = len(pieces.owner), []
         for which, part in pieces.batches(2 * self.apart, 1):
             column, row = self._cells(pieces.at(which, part))
-            found.append(_once(column * self.width + row, which.astype(np.int32)))
-        keys, which = (np.concatenate(column) for column in zip(*found, strict=True))
+            found.append(_once((column * self.width + row) * count + which))
+        keys = np.concatenate(found)
         found.clear()
-        # (the pieces come in the order of their numbers, and stay so in each cell)
-        order = np.argsort(keys, kind="stable")
-        keys = keys[order]
-        which = which[order]
-        del order
-        keys, self.which = _once(keys, which)
+        keys.sort()
+        keys = _once(keys)
+        self.which = (keys % count).astype(np.int32)
+        keys //= count
         begins = np.flatnonzero(np.diff(keys, prepend=-1))
         self.keys, self.begins = keys[begins], np.append(begins, len(keys))
 
@@ -303,11 +306,11 @@ def _lines_and_arcs(some: list[tuple[Piece, int]]) -> _Part:
     return rows[:, 0:2], rows[:, 2:4], np.array([owner for _, owner in some], np.int64), rows[:, 4:]
 
 
-def _once(one: Whole, other: Whole) -> tuple[Whole, Whole]:
-    """Two columns of numbers without the rows that are like the one before."""
-    is_new = np.ones(len(one), bool)
-    is_new[1:] = (one[1:] != one[:-1]) | (other[1:] != other[:-1])
-    return one[is_new], other[is_new]
+def _once(numbers: Whole) -> Whole:
+    """Numbers without those that are like the one before."""
+    is_new = np.ones(len(numbers), bool)
+    is_new[1:] = numbers[1:] != numbers[:-1]
+    return numbers[is_new]
 
 
 def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at: Whole) -> None:

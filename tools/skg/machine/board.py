@@ -232,7 +232,7 @@ def find_error(lines: Iterable[str]) -> ErrorLine | None:
 
 
 def is_printed(error: ErrorLine, typed: str) -> bool:
-    """Whether a line that was typed writes the words of an error by itself."""
+    """Tell whether a line that was typed writes the words of an error by itself."""
     return f'"{error.words}"' in typed
 
 

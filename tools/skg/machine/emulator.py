@@ -149,7 +149,7 @@ def _library() -> ctypes.CDLL:
 
 @dataclass(frozen=True)
 class Batch:
-    """What `Machine.batch` brings back from n calls.
+    """Results of n calls by `Machine.batch`.
 
     `outputs`: n * out_len bytes. `cycles`: n of uint32. `ends`: n of uint8, indices into `ENDS`
     (0 = returned).
@@ -298,11 +298,11 @@ class Machine:
 
     @property
     def printed(self) -> int:
-        """How many characters are on the paper."""
+        """Number of characters on the paper."""
         return self._lib.machine_output(self._machine, False, ctypes.byref(ctypes.c_void_p()))
 
     def paper_from(self, first: int) -> str:
-        """What is on the paper behind its first so many characters."""
+        """The paper's text behind its first so many characters."""
         return self._output(False, first).decode("ascii")
 
     @property
@@ -337,7 +337,7 @@ class Machine:
 
     @property
     def drive(self) -> int:
-        """What the drive's port was told last (bit 7: cutting)."""
+        """The byte that was written to the drive's port last (bit 7: cutting)."""
         return self._lib.machine_drive(self._machine)
 
     @property
@@ -416,7 +416,7 @@ class Machine:
 
     @property
     def is_translated(self) -> bool:
-        """Whether the ROM is carried out by its translation into C, up to its first change or breakpoint."""
+        """Tell whether the ROM runs as its translation into C, up to its first change or breakpoint."""
         return self._lib.machine_is_translated(self._machine)
 
     def peek16(self, address: int) -> int:

@@ -1,4 +1,4 @@
-"""How a program gets through a board: stored and RUN where it fits, else line by line as it is loaded."""
+"""Programs through a board: stored and RUN where they fit, else line by line as they are loaded."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _STORED = ("GOTO", "GOSUB", "IF", "RETURN", "READ", "DATA", "RESTORE", "INPUT")
 
 @dataclass(frozen=True)
 class Fed:
-    """What became of a program: the tape, the error that ended it (none: it went through), cycles of the board."""
+    """The outcome of a program: the tape, the error that ended it (none: it went through), cycles of the board."""
 
     tape: bytes
     error: ErrorLine | None
@@ -43,17 +43,17 @@ def lines_of(program: str) -> list[str]:
 
 
 def is_numbered(line: str) -> bool:
-    """Whether a line begins with a number: the board stores it."""
+    """Tell whether a line begins with a number: the board stores it."""
     return bool(_NUMBERED.match(line))
 
 
 def is_end(line: str) -> bool:
-    """Whether a line without a number is an END."""
+    """Tell whether a line without a number is an END."""
     return _bare(line) == "END"
 
 
 def rest_of(program: str) -> str:
-    """What is to be typed when a program is loaded: RUN; of one without line numbers, which has been carried out then,
+    """The command to type when a program is loaded: RUN; of one without line numbers, which has been carried out then,
     END where it lacks one, so that an open route gets its last block, else nothing."""
     lines = lines_of(program)
     if any(map(is_numbered, lines)):
@@ -68,7 +68,7 @@ def as_run(program: str) -> tuple[str, bool]:
 
 
 def given_up(program: str, is_run: bool = True) -> str:
-    """What to say of a program whose lines without numbers begin a route that a numbered one, or RUN, gives up without
+    """A warning of a program whose lines without numbers begin a route that a numbered one, or RUN, gives up without
     a block (language.md, section 3); empty where there is none. `is_run`: RUN comes behind its last line."""
     opened, mixed = 0, any(map(is_numbered, lines_of(program)))
     lines = re.split(r"\r\n|[\r\n]", program.partition(TAPE_END)[0]) if mixed else []
@@ -137,7 +137,7 @@ def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fe
 def feed_routes(
     parts: Iterable[str], rom: str | bytes, ram_kib: int, told: Callable[[int], None] = lambda done: None
 ) -> Fed:
-    """What `feed` makes of a program without line numbers, by as many boards at once as there are processors.
+    """Feed a program without line numbers to as many boards at once as there are processors.
 
     `parts`: the title, the routes, each from its FROM on, the END. A route leaves nothing behind for the next one but
     the place where the wire is. So each board begins with the last route of the one before it; where these two tapes
@@ -202,7 +202,7 @@ def least_ram(program: str, rom: str | bytes = "standard") -> int | None:
 
 
 def too_large(name: str, program: str, ram_kib: int, rom: str | bytes = "standard") -> UserError:
-    """What to say when a program does not fit in the memory of a board."""
+    """The error of a program that does not fit in the memory of a board."""
     least = least_ram(program, rom)
     more = f"it takes {least} KiB" if least else f"{MOST_RAM} KiB, the most there can be, are too little as well"
     return UserError(f"{name}: ERR 09, memory full with {ram_kib} KiB of RAM: {more}")

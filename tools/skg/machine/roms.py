@@ -43,7 +43,7 @@ def known_rom(name: str) -> str | None:
 
 
 def rom_path(key: str) -> Path:
-    """Where the image of a key of `ROMS` is."""
+    """The path of the image of a key of `ROMS`."""
     installed = Path(__file__).resolve().with_name("roms")
     return (installed if installed.is_dir() else CHECKOUT / "roms") / ROMS[key].file
 

@@ -1,4 +1,4 @@
-"""How a program gets through a real board: typed at its teletype line by line, with an eye on the paper.
+"""Programs through a real board: typed at its teletype line by line, with an eye on the paper.
 
 A line is ended when its echo is what was typed, and the next one begins when the board is back at its prompt; the
 first ERR ends it all. What `skg.machine.feeding` does with the board in this process is done here with the one at the
@@ -304,7 +304,7 @@ def _place(line: TypedLine, name: str) -> str:
 
 
 def _refusal(refused: _Refused, name: str, paced: bool = True) -> str:
-    """What the board said, where, and what it means."""
+    """The board's error, its place, and its meaning."""
     where = _place(refused.line, name) if paced else f"{name}, at or before line {refused.line.number}"
     return f"{where}: {_meaning(refused.error)}"
 

@@ -114,7 +114,7 @@ class Port:
                     return
 
     def read(self) -> bytes:
-        """What has come in, 7 bits each; empty after a tenth of a second without anything."""
+        """The bytes that came in, 7 bits each; empty after a tenth of a second without anything."""
         current = self.serial
         try:
             return bytes(byte & 0x7F for byte in current.read(max(1, current.in_waiting)))
@@ -242,12 +242,12 @@ class Teletype:
 
     @property
     def asks(self) -> bool:
-        """Whether INPUT waits for an answer."""
+        """Tell whether INPUT waits for an answer."""
         return bytes(self.line) == b"? "
 
     @property
     def is_waiting(self) -> bool:
-        """Whether the board waits for a line: the paper's last line is the prompt, or INPUT's, and nothing else."""
+        """Tell whether the board waits for a line: the paper's last line is the prompt, or INPUT's, alone."""
         return self.asks or bytes(self.line) == b">"
 
     def is_back(self) -> None:

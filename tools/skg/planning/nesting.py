@@ -51,7 +51,7 @@ class Nesting:
         return cls(contours, field, depths, around)
 
     def kind(self, at: int) -> str:
-        """What a contour is: "outline", "opening" or "open"."""
+        """A contour's kind: "outline", "opening" or "open"."""
         if not self.contours[at].is_closed:
             return "open"
         return "opening" if self.depths[at] % 2 else "outline"
