@@ -54,7 +54,9 @@ class Checked:
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
     """Follow a tape and compare it with the routes that it should cut."""
     followed = follow(tape, routes, is_without_drift)
-    contours = Pieces((path, at) for at, route in enumerate(routes) for part in _parts(route) for path in _paths(part))
+    contours = Pieces(
+        (path, number) for number, route in enumerate(routes) for part in _parts(route) for path in _paths(part)
+    )
     path = WirePath(followed, routes)
     offsets = _offsets(routes)
     passes = np.array([len(route.passes) for route in routes])

@@ -85,7 +85,7 @@ class _Wanted:
     @cached_property
     def leads(self) -> Pieces:
         """The ways between start holes and contours."""
-        return Pieces((piece, at) for at, route in enumerate(self.routes) for piece in _lead_pieces(route))
+        return Pieces((piece, number) for number, route in enumerate(self.routes) for piece in _lead_pieces(route))
 
     def off_leads(self, places: Floats, owners: Whole) -> Floats:
         """Distance of places from the leads of their routes."""

@@ -45,7 +45,7 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     `is_without_drift`: blocks start where the controller stands; else its misses add up beside what is compared. A tape
     whose stops are not those of the routes is a `UserError`.
     """
-    owners = [(at, passes) for at, route in enumerate(routes) for passes in _between_stops(route)]
+    owners = [(number, passes) for number, route in enumerate(routes) for passes in _between_stops(route)]
     if len(tape.bounds) != 2 * len(owners) - 1:
         raise UserError(f"the tape has {len(tape.bounds) - 1} stops, expected {2 * len(owners) - 2}")
     columns = columns_of(tape)
@@ -72,8 +72,8 @@ def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
     if len(route.passes) == 1 and not route.tab:
         return [(0,)]
     found: list[tuple[int, ...]] = []
-    for at, run in enumerate(route.runs()):
+    for number, run in enumerate(route.runs()):
         if not found or run.stop:
             found.append(())
-        found[-1] += (min(at, len(route.passes) - 1),)
+        found[-1] += (min(number, len(route.passes) - 1),)
     return found

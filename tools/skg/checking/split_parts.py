@@ -21,21 +21,21 @@ _PLACES = 5
 def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
     """The outlines (by their numbers) of which the openings leave more than one piece: how many, a place in the
     smallest of them, mm."""
-    closed = np.array([at for at, route in enumerate(routes) if route.contour.is_closed], int)
-    depth = np.array([routes[at].depth for at in closed.tolist()], int)
+    closed = np.array([number for number, route in enumerate(routes) if route.contour.is_closed], int)
+    depth = np.array([routes[number].depth for number in closed.tolist()], int)
     if not len(closed) or not depth.any():
         return
-    areas = areas_of([routes[at].contour for at in closed.tolist()])
+    areas = areas_of([routes[number].contour for number in closed.tolist()])
     outline, opening = shapely.STRtree(areas).query(areas)
     is_in = (depth[outline] % 2 == 0) & (depth[opening] == depth[outline] + 1)
     outline, opening = outline[is_in], opening[is_in]
-    for at in np.unique(outline).tolist():
-        left = areas[at].difference(shapely.union_all(areas[opening[outline == at]]))
+    for number in np.unique(outline).tolist():
+        left = areas[number].difference(shapely.union_all(areas[opening[outline == number]]))
         left = left.buffer(-_HAIR, join_style="mitre")
         pieces = [piece for piece in getattr(left, "geoms", [left]) if piece.area > _HAIR**2]
-        if len(pieces) > 1 and len(pieces) > _pieces(areas[at]):
+        if len(pieces) > 1 and len(pieces) > _pieces(areas[number]):
             inside = min(pieces, key=lambda piece: piece.area).representative_point()
-            yield int(closed[at]), len(pieces), (inside.x, inside.y)
+            yield int(closed[number]), len(pieces), (inside.x, inside.y)
 
 
 def said(routes: Sequence[PlannedContour]) -> list[ReportLine]:

@@ -82,7 +82,7 @@ def look(
     runs = [run for wire, contour in zip(wires, drawn, strict=True) for run in _runs(wire, contour)]
     if not runs:
         return [], 0
-    contours = Pieces((_piece(one), at) for at, run in enumerate(runs) for one in run.drawn)
+    contours = Pieces((_piece(one), number) for number, run in enumerate(runs) for one in run.drawn)
     offsets = np.array([run.r(one) for run in runs for one in run.drawn])
     lines = [one.line for run in runs for one in run.drawn]
     found = [*_turned(runs)]
@@ -135,8 +135,8 @@ def _loop(contour: Sequence[Segment]) -> slice | None:
     """The longest stretch of a contour that ends where it begins: without the leads that are drawn with R."""
     best = None
     begins: dict[tuple[int, int], int] = {}
-    for at, one in enumerate(contour):
-        begins.setdefault(_cell(one.start), at)
+    for number, one in enumerate(contour):
+        begins.setdefault(_cell(one.start), number)
         x, y = _cell(one.end)
         near = [
             begin
@@ -145,14 +145,14 @@ def _loop(contour: Sequence[Segment]) -> slice | None:
             if (begin := begins.get((x + i, y + j))) is not None
             and distance(_xy(contour[begin].start), _xy(one.end)) <= _CORNER
         ]
-        if near and (best is None or at + 1 - min(near) > best.stop - best.start):
-            best = slice(min(near), at + 1)
+        if near and (best is None or number + 1 - min(near) > best.stop - best.start):
+            best = slice(min(near), number + 1)
     return best
 
 
 def _without_leads(contour: Sequence[Segment], drawn: Sequence[Segment]) -> slice:
     """An open contour without the arcs that come to it from a line with R 0, or go to one (a part up to its tab)."""
-    places = {id(one): at for at, one in enumerate(drawn)}
+    places = {id(one): number for number, one in enumerate(drawn)}
     first, last = places[id(contour[0])], places[id(contour[-1])]
     begins = contour[0].is_arc and first > 0 and drawn[first - 1].role == "cut"
     ends = contour[-1].is_arc and last + 1 < len(drawn) and drawn[last + 1].role == "cut"
@@ -191,11 +191,11 @@ def _cut_into(runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Se
     """The deepest place of each piece of a contour that its own wire comes into."""
     least = [min(map(abs, run.offsets.values())) for run in runs]
     parts = [
-        (_piece(one), at, abs(float(one.offset)) or least[at])
-        for at, run in enumerate(runs)
+        (_piece(one), number, abs(float(one.offset)) or least[number])
+        for number, run in enumerate(runs)
         for one in (*run.wire, *(run.leads if run.is_closed else ()))
     ]
-    wire, wanted = Pieces((piece, at) for piece, at, _ in parts), np.array([r for _, _, r in parts])
+    wire, wanted = Pieces((piece, number) for piece, number, _ in parts), np.array([r for _, _, r in parts])
     widest = float(np.abs(offsets).max())
     deepest: dict[int, tuple[float, XY]] = {}
     for which, part in wire.batches(_SPACING * float(np.abs(offsets).min()), 2):
@@ -204,10 +204,10 @@ def _cut_into(runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Se
         some = np.flatnonzero(near.own_at >= 0)
         piece = near.own_at[some]
         depth = np.minimum(wanted[which[some]], np.abs(offsets[piece])) - near.own[some]
-        for at in np.flatnonzero(depth > LIMIT).tolist():
-            own = int(piece[at])
-            if depth[at] > deepest.get(own, (0.0,))[0]:
-                deepest[own] = float(depth[at]), place_of(places[some[at]])
+        for number in np.flatnonzero(depth > LIMIT).tolist():
+            own = int(piece[number])
+            if depth[number] > deepest.get(own, (0.0,))[0]:
+                deepest[own] = float(depth[number]), place_of(places[some[number]])
     for own, (depth, _) in sorted(deepest.items()):
         place = contours.at(np.array([own]), contours.part(np.array([deepest[own][1]]), np.array([own])))[0]
         yield Spoilt(place_of(place), depth, lines[own])
@@ -217,7 +217,7 @@ def _not_reached(
     runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Sequence[int | None]
 ) -> Iterator[Spoilt]:
     """The middle one of the places of each piece of a contour that have room for the wire, which was never there."""
-    wire = Pieces((_piece(one), at) for at, run in enumerate(runs) for one in run.wire)
+    wire = Pieces((_piece(one), number) for number, run in enumerate(runs) for one in run.wire)
     missed: dict[int, list[XY]] = defaultdict(list)
     for which, part in contours.batches(_SPACING * float(np.abs(offsets).min()), 2):
         aside = offsets[which]
@@ -226,25 +226,25 @@ def _not_reached(
         on = contours.at(which, part)
         places = on + aside[:, None] * contours.normal(which, part)
         far = wire.nearest(places, contours.owner[which], 2 * LIMIT).own
-        for at in np.flatnonzero(far > LIMIT).tolist():
-            missed[int(which[at])].append(place_of(on[at]))
+        for number in np.flatnonzero(far > LIMIT).tolist():
+            missed[int(which[number])].append(place_of(on[number]))
     for piece, places in sorted(missed.items()):
         yield Spoilt(places[len(places) // 2], 0.0, lines[piece])
 
 
 def _into_others(runs: Sequence[_Run], contours: Pieces, lines: Sequence[int | None]) -> Iterator[Spoilt]:
     """The deepest place of each closed contour that another one's wire comes into."""
-    closed = [at for at, run in enumerate(runs) if run.is_closed]
+    closed = [number for number, run in enumerate(runs) if run.is_closed]
     if len(closed) < 2:
         return
-    wire = Pieces((_piece(one), at) for at in closed for one in (*runs[at].wire, *runs[at].leads))
+    wire = Pieces((_piece(one), number) for number in closed for one in (*runs[number].wire, *runs[number].leads))
     least = np.array([min(map(abs, run.offsets.values())) for run in runs])
     others = np.array(closed)
     is_right = np.zeros(len(runs))
-    for at in closed:
-        places = contours.start[contours.owner == at]
+    for number in closed:
+        places = contours.start[contours.owner == number]
         (x, y), (u, v) = places.T, np.roll(places, -1, 0).T
-        is_right[at] = (x * v - y * u).sum() * runs[at].r(runs[at].drawn[0])
+        is_right[number] = (x * v - y * u).sum() * runs[number].r(runs[number].drawn[0])
     every = np.arange(len(wire.owner))
     for one in crossings(wire, every, contours, others, least, LIMIT, is_right < 0, is_right > 0):
         nearest = contours.nearest(np.array([one.place]), np.array([one.other]), 2 * LIMIT).own_at[0]

@@ -57,9 +57,9 @@ def rows_of(pieces: Sequence[Piece]) -> Floats:
     rows = np.zeros((len(pieces), 9))
     rows[:, 0:2] = np.array([piece.start for piece in pieces]).reshape(-1, 2)
     rows[:, 2:4] = np.array([piece.end for piece in pieces]).reshape(-1, 2)
-    arcs = [at for at, piece in enumerate(pieces) if piece.centre is not None]
-    rows[arcs, 4:6] = np.array([pieces[at].centre for at in arcs]).reshape(-1, 2)
-    rows[arcs, 8] = [pieces[at].sweep for at in arcs]
+    arcs = [number for number, piece in enumerate(pieces) if piece.centre is not None]
+    rows[arcs, 4:6] = np.array([pieces[number].centre for number in arcs]).reshape(-1, 2)
+    rows[arcs, 8] = [pieces[number].sweep for number in arcs]
     out = rows[arcs, 0:2] - rows[arcs, 4:6]
     rows[arcs, 6], rows[arcs, 7] = hypots(*out.T), directions(out)
     return rows

@@ -62,10 +62,10 @@ def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Seque
 
     `depths`: how many of the contours lie around each. In a frame at least half of them have openings themselves.
     """
-    outer = [at for at, one in enumerate(contours) if one.is_closed and not depths[at]]
+    outer = [number for number, one in enumerate(contours) if one.is_closed and not depths[number]]
     if not outer or not others:
         return {}
-    areas, wholes = areas_of([contours[at] for at in outer]), areas_of(list(others))
+    areas, wholes = areas_of([contours[number] for number in outer]), areas_of(list(others))
     sizes, large = shapely.area(areas), shapely.area(wholes)
     one, other = shapely.STRtree(wholes).query(areas, predicate="intersects")
     is_in = large[other] > _SAME * sizes[one]
@@ -88,19 +88,19 @@ def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Seque
 def deeper(contours: Sequence[Contour], depths: Sequence[int], openings: Sequence[int]) -> list[int]:
     """The depths; of some outermost contours and all that lies in them one more."""
     found = list(depths)
-    areas = areas_of([contours[at] for at in openings])
-    inner = [at for at, depth in enumerate(depths) if depth]
-    of, _ = shapely.STRtree(areas).query(places_in([contours[at] for at in inner]), predicate="within")
-    for at in (*openings, *(inner[k] for k in np.unique(of).tolist())):
-        found[at] += 1
+    areas = areas_of([contours[number] for number in openings])
+    inner = [number for number, depth in enumerate(depths) if depth]
+    of, _ = shapely.STRtree(areas).query(places_in([contours[number] for number in inner]), predicate="within")
+    for number in (*openings, *(inner[k] for k in np.unique(of).tolist())):
+        found[number] += 1
     return found
 
 
 def places_in(contours: Sequence[Contour]) -> np.ndarray:
     """A place in each closed contour, and on each open one, as shapely's points."""
     places = shapely.points(np.array([contour.edges[0].at(0.5) for contour in contours], float).reshape(-1, 2))
-    if closed := [at for at, contour in enumerate(contours) if contour.is_closed]:
-        places[closed] = shapely.point_on_surface(areas_of([contours[at] for at in closed]))
+    if closed := [number for number, contour in enumerate(contours) if contour.is_closed]:
+        places[closed] = shapely.point_on_surface(areas_of([contours[number] for number in closed]))
     return places
 
 

@@ -256,9 +256,9 @@ class _Planner:
         """The start holes at the other sides of tabs, which begin where some edges end."""
         rows = rows_of(edges)
         places, ways = _places(rows, np.ones(len(edges)))
-        for at, edge in enumerate(edges):
+        for number, edge in enumerate(edges):
             if edge.nodes:
-                places[at], ways[at] = edge.at(1.0), edge.direction(1.0)
+                places[number], ways[number] = edge.at(1.0), edge.direction(1.0)
         return self._holes(places, ways, rows, is_right, reach, widest, is_arc)
 
     def _tab_before(self, contour: Contour, part: float, made: PlannedContour) -> tuple[Contour, float]:
@@ -460,12 +460,12 @@ def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
 def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
     """Assign each given start hole to a contour (by its number)."""
     field, depths = nesting.field, nesting.depths
-    found = {at: want.start for at, want in enumerate(wanted) if want.cut and want.start is not None}
-    taken = {at for at, want in enumerate(wanted) if not want.cut} | set(found)
+    found = {number: want.start for number, want in enumerate(wanted) if want.cut and want.start is not None}
+    taken = {number for number, want in enumerate(wanted) if not want.cut} | set(found)
     if len(starts) > len(depths) - len(taken):
         raise UserError(f"{len(starts)} start holes for {len(depths) - len(taken)} contours")
     for start, holding in zip(starts, field.around(starts), strict=True):
-        around = [at for at in holding if at not in taken and depths[at] % 2]
+        around = [number for number in holding if number not in taken and depths[number] % 2]
         chosen = max(around, key=depths.__getitem__) if around else field.nearest(start, taken)
         found[chosen] = start
         taken.add(chosen)
