@@ -20,6 +20,8 @@ Heading = Callable[[float], float]
 _BEND = 1.2
 #: The part of a tolerance that the tried places take: between them the curve may be a little further away.
 _SPARE = 0.9
+#: The parts of a biarc at which it is tried.
+_TRIED = [part / 12 for part in range(1, 12)]
 #: A span has no more samples than this.
 _MOST = 4096
 #: FIT cuts an arc as a line that leaves its tangent by no more than the first, or with the second radius or more, mm
@@ -30,14 +32,13 @@ FLAT, STRAIGHT = 0.002, 50_000.0
 def biarc_joint(one: CurveNode, other: CurveNode) -> XY | None:
     """Return the joint of the biarc between two nodes (language.md, section 5); None if there is none."""
     v = minus(other.point, one.point)
-    t, u = ((cos(node.angle), sin(node.angle)) for node in (one, other))
-    both = t[0] + u[0], t[1] + u[1]
-    square = dot(v, v)
-    below = dot(v, both) + sqrt(dot(v, both) ** 2 + 2 * (1 - dot(t, u)) * square)
+    t, u = (cos(one.angle), sin(one.angle)), (cos(other.angle), sin(other.angle))
+    along, square = dot(v, (t[0] + u[0], t[1] + u[1])), dot(v, v)
+    below = along + sqrt(along**2 + 2 * (1 - dot(t, u)) * square)
     if below <= 1e-12 * sqrt(square):
         return None
-    d = square / below
-    return tuple((p + d * a + q - d * b) / 2 for p, a, q, b in zip(one.point, t, other.point, u, strict=True))
+    d, (x, y), (p, q) = square / below, one.point, other.point
+    return (x + d * t[0] + p - d * u[0]) / 2, (y + d * t[1] + q - d * u[1]) / 2
 
 
 def _off_arc(points: list[XY], start: XY, angle: float, end: XY) -> tuple[float, float]:
@@ -77,17 +78,19 @@ def _off(
         return inf, inf
     chord = minus(other.point, one.point)
     middle = dot(minus(joint, one.point), chord)
-    tried = [low + k / 12 * (high - low) for k in range(1, 12)]
+    span = high - low
+    tried = [low + part * span for part in _TRIED]
     inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
     if len(inner) > 2:
         tried += [p + k / 4 * (q - p) for p, q in pairwise(inner) for k in range(1, 5)][:-1]
     (x, y), (u, v) = one.point, chord
-    parts: tuple[list[XY], list[XY]] = [], []
-    for p, q in at(tried):
-        parts[(p - x) * u + (q - y) * v >= middle].append((p, q))
-    first = _off_arc(parts[0], one.point, one.angle, joint)
+    before: list[XY] = []
+    behind: list[XY] = []
+    for place in at(tried):
+        (behind if (place[0] - x) * u + (place[1] - y) * v >= middle else before).append(place)
+    first = _off_arc(before, one.point, one.angle, joint)
     # Seen from its end the second arc leaves along the reversed tangent.
-    second = _off_arc(parts[1], other.point, other.angle + pi, joint)
+    second = _off_arc(behind, other.point, other.angle + pi, joint)
     return max(first[0], second[0]), max(first[1], second[1])
 
 
@@ -99,37 +102,36 @@ def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: flo
     """
     found = list(_stations(at, heading, breaks, tolerance))
     nodes = tuple(CurveNode(place, heading(t)) for place, t in zip(at(found), found, strict=True))
-    samples: list[Places] = []
+    spans: list[tuple[float, float, float]] = []
     for (one, other), (low, high) in zip(pairwise(nodes), pairwise(found), strict=True):
         bend = abs(turn(one.angle, other.angle)) + 0.01
         inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
-        for begin, end in pairwise(inner):
-            samples.append(_samples(at, begin, end, bend)[:-1])
+        spans += [(begin, end, bend) for begin, end in pairwise(inner)]
+    ends = at([found[0], *(end for _, end, _ in spans)])
+    samples = [_samples(at, *span, distance(p, q))[:-1] for span, (p, q) in zip(spans, pairwise(ends), strict=True)]
     samples.append(np.array([nodes[-1].point]))
     return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=np.concatenate(samples))
 
 
-def _samples(at: At, low: float, high: float, bend: float) -> Places:
+def _samples(at: At, low: float, high: float, bend: float, chord: float) -> Places:
     """Places along a span that bends by an angle, or a part of it without a break in it, both ends included: so many
-    that the chords between them are near the curve."""
+    that the chords between them are near the curve. `chord`: from end to end, mm."""
     # n chords of a span of length l that bends by θ are lθ/8n² away from it, where it is run through evenly.
-    pieces = ceil(sqrt(distance(*at([low, high])) * bend / 8 / MEASURED) / 2) + 1
-    places = np.array(at([low + k / pieces * (high - low) for k in range(pieces + 1)]))
+    pieces = 2 * ceil(sqrt(chord * bend / 8 / MEASURED) / 2) + 2
     while True:
-        between = np.array(at([low + (k + 0.5) / pieces * (high - low) for k in range(pieces)]))
-        off = _off_chords(between, places)
-        pieces *= 2
-        both = np.empty((pieces + 1, 2))
-        both[::2], both[1::2] = places, between
-        places = both
-        if off <= 4 * MEASURED or pieces > _MOST:
+        places = np.array(at([low + k / pieces * (high - low) for k in range(pieces + 1)]))
+        # (chords that are twice as long are four times as far away)
+        if _off_chords(places[1::2], places[::2]) <= 4 * MEASURED or pieces > _MOST:
             return places
+        pieces *= 2
 
 
 def _off_chords(between: Places, places: Places) -> float:
     """Largest distance of places from the lines that join those before and behind them."""
     (u, v), (p, q) = (places[1:] - places[:-1]).T, (between - places[:-1]).T
     length = np.hypot(u, v)
+    if length.all():
+        return float((np.abs(u * q - v * p) / length).max())
     stands = length == 0
     return float(np.where(stands, np.hypot(p, q), np.abs(u * q - v * p) / (length + stands)).max())
 

@@ -67,8 +67,7 @@ def _ellipse(u: XY, v: XY, first: float, sweep: float, tolerance: float) -> Edge
     (p, q), (r, s) = u, v
 
     def at(angles: list[float]) -> list[XY]:
-        turned = [(cos(t), sin(t)) for t in angles]
-        return [(c * p + d * r, c * q + d * s) for c, d in turned]
+        return [(c * p + d * r, c * q + d * s) for t in angles for c in (cos(t),) for d in (sin(t),)]
 
     def heading(t: float) -> float:
         c, d = cos(t), sin(t)
