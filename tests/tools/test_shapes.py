@@ -113,7 +113,7 @@ def test_a_gear_tooth_by_tooth(run: Run, monkeypatch: pytest.MonkeyPatch) -> Non
         fed = feed(text, rom, ram_kib)
         return replace(fed, error=ErrorLine(MEMORY_FULL, None)) if "REP" in text else fed
 
-    def small_one_by_one(routes: list[str], rom: str, ram_kib: int) -> Fed:
+    def small_one_by_one(routes: list[str], rom: str, ram_kib: int, _told: object) -> Fed:
         return small("".join(routes), rom, ram_kib)
 
     monkeypatch.setattr(job, "feed", small)
