@@ -1,7 +1,7 @@
 /** The debugger of `skg80 --debug` in the page: where the board is in the ROM, its registers, the float stack, memory; step and
  * stop. Loaded when it is first wanted. */
 import type { Look } from "./board.ts";
-import { Calculator } from "./calculator.ts";
+import { Calculator, general } from "./calculator.ts";
 import { make } from "./dom.ts";
 import { t, type Word } from "./language.ts";
 import { instructions } from "./listing.ts";
@@ -99,6 +99,8 @@ export class Debugger {
     const look = this.#look;
     if (!look) return;
     const { pc, memory, cycles } = look;
+    // (who sets a stop by the keyboard stays where he is)
+    const focused = (document.activeElement as HTMLElement | null)?.dataset["address"];
     const file = this.#symbols.file(pc);
     const words = [t(this.#isHeld ? "held" : "passes"), this.#symbols.place(pc), file ? `asm/${file}.asm` : ""];
     this.#place.textContent = `${words.filter(Boolean).join(" · ")} · ${t("cycles", cycles)}`;
@@ -107,18 +109,17 @@ export class Debugger {
     this.#code.replaceChildren(...code.map(({ address, text }) => this.#row(address, text, pc)));
     this.#calls.textContent = this.#callers(look).join(" ← ") || "–";
     const floats = this.#calculator.stack(memory);
-    this.#floats.textContent = t("floats", floats?.map((value) => value.toPrecision(9).replace(/\.?0+$/, "")).join("  ") || "–");
+    this.#floats.textContent = t("floats", floats?.map(general).join("  ") || "–");
     const isAt = pc === this.#calculator.next;
     this.#operations.hidden = !isAt;
     if (isAt) {
       const { lines } = this.#calculator.listing(memory, look.bc, OPERATIONS);
       this.#operations.replaceChildren(...lines.map(({ address, text }) => this.#row(address, text, look.bc)));
     }
-    this.#named.replaceChildren(
-      ...this.#calculator.registers(memory).map(({ names, value }) => pair(names, String(Number(value.toPrecision(9))))),
-    );
+    this.#named.replaceChildren(...this.#calculator.registers(memory).map(({ names, value }) => pair(names, general(value))));
     this.#showMemory();
     this.#showStops();
+    if (focused) this.#code.querySelector<HTMLElement>(`[data-address="${focused}"]`)?.focus();
   }
 
   #move(how: Move): void {
@@ -158,6 +159,7 @@ export class Debugger {
     const row = make("li", address === present ? "present" : "");
     const mark = button("stopHere", () => this.#toggle(address));
     mark.removeAttribute("data-t");
+    mark.dataset["address"] = hex(address);
     mark.ariaPressed = String(this.#stops.has(address));
     mark.ariaLabel = t("stopHere", this.#symbols.place(address));
     mark.textContent = "●";

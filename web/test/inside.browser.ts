@@ -107,6 +107,13 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
     await place(/^held · SCUT · asm\/\w+\.asm/);
     await says(page, "#state", "held by the debugger");
     await says(page, "#inside .code .present", /SCUT.*CALL FITEND/);
+    // a stop by the keyboard, set and taken away
+    const dot = page.locator("#inside .code button[data-address]").nth(1);
+    await dot.focus();
+    for (const pressed of ["true", "false"]) {
+      await page.keyboard.press("Space");
+      await page.waitForFunction((pressed) => document.activeElement?.getAttribute("aria-pressed") === pressed, pressed);
+    }
     await page.click("[data-move=instruction]");
     await place(/^held · FITEND · /);
     await says(page, "#inside .calls", /^SCUT\+3 ←/);
