@@ -112,6 +112,8 @@ def cut_on_screen(out: Path) -> None:
             number = json.loads(ask("api/cut", {"rev": state["rev"]}))["run"]
             while (run := json.loads(ask(f"api/run/{number}")))["state"] == "running":
                 ask(f"api/run/{number}?after={run['k']}")
+            if run["state"] != "done":
+                raise SystemExit(f"skg ui: {run}")
             (out / "ui.3b").write_bytes(ask(f"api/run/{number}/tape"))
         finally:
             process.kill()
