@@ -100,7 +100,7 @@ def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
     layers = {layers: job.of(layers) for layers in {contour.layers for contour in drawn.contours}}
     wanted = [layers[contour.layers] for contour in drawn.contours]
     for number, chosen in drawn.chosen(job).items():
-        wanted[number] = chosen.partial.over(wanted[number])
+        wanted[number] = job.of(drawn.contours[number].layers, chosen)
     return wanted
 
 
