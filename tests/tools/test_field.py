@@ -225,19 +225,19 @@ def test_nearest_of_its_own_among_many_others() -> None:
     rings = [(0.8 * (at % 20), 0.8 * (at // 20)) for at in range(400)]
     corners = [[polar(middle, 0.3, 2 * pi * k / 50) for k in range(51)] for middle in rings]
     path = Pieces((Piece(p, q), at) for at, ring in enumerate(corners) for p, q in pairwise(ring))
-    places = np.random.default_rng(1).uniform(-2, 2, (4000, 2)) + rings[210]
-    owners = np.where(np.arange(4000) % 3, 210, 211)
+    places = np.random.default_rng(1).uniform(-1, 1, (400, 2)) + rings[210]
+    owners = np.where(np.arange(400) % 3, 210, 211)
     seconds = []
     for way in (path.nearest_own, lambda *given: path.nearest(*given).own_at):
-        seconds.append(least_time(partial(way, places, owners, 3.6)))
+        seconds.append(least_time(partial(way, places, owners, 2.2)))
     (own, quick), (at, slow) = seconds
     assert (own >= 0).all() and (path.owner[own] == owners).all()
     assert path.from_place(places, own) == pytest.approx(path.from_place(places, at), abs=1e-12)
     assert quick < slow / 5
     # (where they are those of half of the path and more, all of it is looked at; far away there are none)
-    most = np.arange(4000) % 400
+    most = np.arange(400) % 400
     assert (path.nearest_own(places, most, 0.3) == path.nearest(places, most, 0.3).own_at).all()
-    assert (path.nearest_own(places + 90, owners, 3.6) == -1).all()
+    assert (path.nearest_own(places + 90, owners, 2.2) == -1).all()
 
 
 def test_depths_of_neighbours() -> None:
