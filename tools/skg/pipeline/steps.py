@@ -144,6 +144,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     """Make the tape and check it; nothing is returned that is wrong."""
     progress("plan", 0, len(drawn.contours))
     routes = plan_drawing(job, drawn)
+    drawn.nesting.release()
     machine, reading = job.machine, drawn.reading
     settings = Settings(machine.rom, machine.ram, machine.feed, machine.small, machine.into)
     try:

@@ -30,15 +30,15 @@ class Around(NamedTuple):
     is_frame: bool
 
 
-@dataclass(frozen=True)
+@dataclass
 class Nesting:
-    """Contours, and what lies in what. `field`: where they lie; `depths`: how many lie around each, an uncut outline
-    among these; `around`: the uncut contours that some lie in, see `around_all`."""
+    """Contours, and what lies in what. `depths`: how many lie around each, an uncut outline among these; `around`: the
+    uncut contours that some lie in, see `around_all`."""
 
     contours: Sequence[Contour]
-    field: Field
     depths: list[int]
     around: dict[int, Around]
+    _field: Field | None = None
 
     @classmethod
     def of(cls, contours: Sequence[Contour], others: Sequence[Contour] = ()) -> Nesting:
@@ -48,7 +48,17 @@ class Nesting:
         around = around_all(contours, depths, others)
         if openings := [at for at, one in around.items() if not one.is_frame]:
             depths = deeper(contours, depths, openings)
-        return cls(contours, field, depths, around)
+        return cls(contours, depths, around, field)
+
+    @property
+    def field(self) -> Field:
+        """The contours' places."""
+        self._field = self._field or Field(list(self.contours))
+        return self._field
+
+    def release(self) -> None:
+        """Give the room of the field back, as much as all contours take; who asks for it again waits for a new one."""
+        self._field = None
 
     def kind(self, at: int) -> str:
         """A contour's kind: "outline", "opening" or "open"."""
