@@ -74,6 +74,10 @@ static int report(const session *s, board_reason reason)
     case BOARD_NOBODY:
         return report_nobody(s);
     default:
+        if (c->cycles < s->o.max_cycles) {
+            return complain(EXIT_USAGE, "nothing is printed in %llu cycles: is this ROM for another --board?",
+                            (unsigned long long)c->cycles);
+        }
         return complain(EXIT_CYCLES, "not done after %llu cycles", (unsigned long long)s->o.max_cycles);
     }
 }
@@ -104,8 +108,14 @@ static bool hear_machine(session *s)
     return !s->o.punch_pty || terminal_feed(&s->line, s->board, 0);
 }
 
-/* Lets the machine run until it asks the operator something, has lost output or used up all cycles. BOARD_WAIT only when
- * it says nothing for too long. */
+/* Nothing has been printed, and much longer than signing on takes. */
+static bool is_silent(const session *s)
+{
+    return s->printed == 0 && s->board->cpu.cycles > PATIENCE;
+}
+
+/* Lets the machine run until it asks the operator something, has lost output, used up all cycles or never signed on.
+ * BOARD_WAIT only when it says nothing for too long. */
 static board_reason until_asked(session *s)
 {
     i8080 *c = &s->board->cpu;
@@ -117,6 +127,9 @@ static board_reason until_asked(session *s)
         board_reason reason = run_slice(s);
         if (!output_flush(s) || left(s)) {
             return reason;
+        }
+        if (is_silent(s)) {
+            return BOARD_CYCLES;
         }
         if (s->printed != printed || reason == BOARD_CYCLES) {
             printed = s->printed;
@@ -285,7 +298,7 @@ int operator_terminal(session *s)
         default:
             return report(s, reason);
         }
-        if (c->cycles >= s->o.max_cycles) {
+        if (c->cycles >= s->o.max_cycles || is_silent(s)) {
             return report(s, BOARD_CYCLES);
         }
         int code = watch_reader(s, &told);

@@ -176,13 +176,25 @@ def test_skg80(kind: str, name: str) -> None:
     assert done.stdout == part.with_suffix(".3b").read_bytes()
 
 
-@pytest.mark.parametrize(("kind", "other"), [("skg", "8251"), ("skg-8251", "6850")])
+OTHERS = [
+    ("skg", "8251"),
+    ("skg-8251", "6850"),
+    ("skg", "rc2014"),
+    ("skg-8251", "rc2014"),
+    ("skg-rc2014", "6850"),
+    ("skg-rc2014", "8251"),
+]
+
+
+@pytest.mark.parametrize(("kind", "other"), OTHERS)
 def test_the_wrong_rom_is_noticed(kind: str, other: str) -> None:
-    """The boards are really two."""
+    """The boards are really others; where there is no RAM, nothing is ever printed."""
     command = [ROOT / "build" / "skg80", "--board", other, "--rom", image(kind), EXAMPLES[0]]
     done = subprocess.run(command, capture_output=True)
     assert (done.returncode, done.stdout) == (2, b""), done.stderr
     assert b"is this ROM for" in done.stderr
+    done = subprocess.run(command[:-1], capture_output=True, input=b"LOAD\n")
+    assert done.returncode == 2 and b"is this ROM for" in done.stderr
 
 
 @pytest.mark.parametrize("kind", ["skg-searle", "skg-imsai"])

@@ -170,6 +170,9 @@ def test_a_rom_for_another_board(run_program: Program) -> None:
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-8251.bin")
     assert done.returncode == by_skg80("--rom", ROMS / "skg-8251.bin", "examples/wrench.skg").returncode == 2
     assert done.stderr.endswith("never readied: is this ROM for another board?\n")
+    done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-rc2014.bin")
+    assert done.returncode == by_skg80("--rom", ROMS / "skg-rc2014.bin", "examples/wrench.skg").returncode == 2
+    assert done.stderr.startswith("skg: ") and "is this ROM for another board?" in done.stderr
 
 
 def test_a_rom_with_a_hole(run_program: Program, tmp_path: Path) -> None:

@@ -49,8 +49,8 @@ class BoardStopped(UserError):
     """The machine does not come back to its prompt.
 
     `reason`: "cycles" (max_cycles are used up), "input" (INPUT asks where no answer was to be given), "wait" (for a
-    key anywhere else, or for a tape), "halt", "nobody" (it reads a port that nobody serves), "break" (it runs into a
-    part of the ROM that the image leaves out, or comes to a breakpoint of `machine`).
+    key anywhere else, or for a tape), "halt", "nobody" (it reads a port that nobody serves, or prints nothing),
+    "break" (it runs into a part of the ROM that the image leaves out, or comes to a breakpoint of `machine`).
     """
 
     def __init__(self, reason: str, message: str) -> None:
@@ -183,6 +183,10 @@ class Board:
             printed = machine.printed
             reason = machine.run(SLICE if end is None else min(SLICE, end - machine.cycles))
             self._report()
+            if not machine.printed and machine.cycles > PATIENCE:
+                raise BoardStopped(
+                    "nobody", f"nothing is printed in {machine.cycles} cycles: is this ROM for another board?"
+                )
             if machine.reader_silence > READER_PATIENCE:
                 return "wait"
             if reason == "cycles" or machine.printed != printed:
