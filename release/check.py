@@ -255,14 +255,14 @@ def check_skg80(name: str, command: Callable[..., list[str]]) -> str:
     part = shutil.copy(ROOT / "examples" / "wrench.skg", tape.with_suffix(".skg"))
     calls += 2 * [(["--punch", str(tape.relative_to(ROOT)), str(part.relative_to(ROOT))], b"")]
     for words, typed in calls:
-        results = []
+        ends = []
         for one in (command(program), ["build/skg80"]):
             done = subprocess.run([*one, *words], cwd=ROOT, input=typed, capture_output=True)
             # (a process of Wine's own may say that it crashed)
             paper = re.sub(rb"wine: [^\n]*\n", b"", done.stderr)
-            results.append((done.returncode, done.stdout, paper, tape.read_bytes() if tape.exists() else b""))
-        if results[0] != results[1]:
-            raise Failed(f"{program.name} {' '.join(words)}: {results[0]}\nhere: {results[1]}")
+            ends.append((done.returncode, done.stdout, paper, tape.read_bytes() if tape.exists() else b""))
+        if ends[0] != ends[1]:
+            raise Failed(f"{program.name} {' '.join(words)}: {ends[0]}\nhere: {ends[1]}")
     if tape.read_bytes() != (ROOT / "examples" / "wrench.3b").read_bytes():
         raise Failed(f"{program.name}: {tape} is not examples/wrench.3b")
     return f"{len(EXAMPLES)} of {len(EXAMPLES)} tapes and papers, {len(calls) - len(EXAMPLES)} more calls"
