@@ -134,7 +134,7 @@ def test_client_that_goes_away(server: Server) -> None:
         with socket.create_connection((host, int(port))) as connection:
             text = f"GET /api/state?after={rev} HTTP/1.1\r\nHost: {page.host}\r\nAuthorization: Bearer {page.token}\r\n"
             connection.sendall(f"{text}\r\n".encode())
-    until(lambda: server._free._value >= 63, 15)
+    until(lambda: server._free._value >= 63)
 
 
 @pytest.fixture
@@ -306,9 +306,9 @@ def test_command(begin: Callable, tmp_path: Path) -> None:
     children = workers_of(process.pid)
     assert children
     os.killpg(process.pid, signal.SIGINT)
-    assert process.wait(10) == 0
+    assert process.wait() == 0
     assert process.stderr.read() == "" and process.stdout.read().strip() == ""
-    until(lambda: not any(is_running(pid) for pid in children), 5)
+    until(lambda: not any(is_running(pid) for pid in children))
 
 
 def test_command_that_is_killed(begin: Callable, tmp_path: Path) -> None:
@@ -318,7 +318,7 @@ def test_command_that_is_killed(begin: Callable, tmp_path: Path) -> None:
     children = workers_of(process.pid)
     assert children
     process.kill()
-    until(lambda: not any(is_running(pid) for pid in children), 10)
+    until(lambda: not any(is_running(pid) for pid in children))
 
 
 def is_running(pid: int) -> bool:
@@ -336,7 +336,7 @@ def is_running(pid: int) -> bool:
 def test_command_refuses(tmp_path: Path, words: list[str], fact: str) -> None:
     (tmp_path / "bad.job.toml").write_text("tab = 1")
     (tmp_path / "lost.job.toml").write_text('schema = 1\ndrawing = "gone.dxf"')
-    done = subprocess.run([SKG, "ui", *words], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([SKG, "ui", *words], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 2 and done.stdout == ""
     assert done.stderr.count("\n") == 1 and fact in done.stderr and "Traceback" not in done.stderr
 
@@ -344,7 +344,7 @@ def test_command_refuses(tmp_path: Path, words: list[str], fact: str) -> None:
 def test_port_that_is_taken(begin: Callable, tmp_path: Path) -> None:
     _, url = begin()
     port = re.search(r":(\d+)/", url)[1]
-    done = subprocess.run([SKG, "ui", "--no-browser", "--port", port], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([SKG, "ui", "--no-browser", "--port", port], capture_output=True, text=True)
     assert done.returncode == 2 and f"port {port}" in done.stderr and done.stderr.count("\n") == 1
 
 
@@ -357,9 +357,9 @@ def test_browser_is_opened(tmp_path: Path) -> None:
         [SKG, "ui"], stdout=subprocess.PIPE, text=True, env=os.environ | {"BROWSER": str(program)}
     )
     url = process.stdout.readline().strip()
-    until(lambda: (tmp_path / "address").exists() and (tmp_path / "address").read_text().strip() == url, 30)
+    until(lambda: (tmp_path / "address").exists() and (tmp_path / "address").read_text().strip() == url)
     process.send_signal(signal.SIGINT)
-    assert process.wait(10) == 0
+    assert process.wait() == 0
     process.stdout.close()
 
 
@@ -370,5 +370,5 @@ def test_two_pages_share_one_drawing(server: Server, tmp_path: Path) -> None:
     asking = Thread(target=lambda: news.append(other.done("GET", f"/api/state?after={state['rev']}")))
     asking.start()
     one.put(state, machine={"offset": 0.1})
-    asking.join(30)
+    asking.join()
     assert news[0]["job"]["machine"] == {"offset": 0.1}

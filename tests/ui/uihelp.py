@@ -115,7 +115,7 @@ def circles(folder: Path, count: int) -> Path:
     return path
 
 
-def until(happens: object, seconds: float = 60.0) -> None:
+def until(happens: object, seconds: float = 600.0) -> None:
     """Wait for something."""
     last = time.monotonic() + seconds
     while not happens():

@@ -68,9 +68,10 @@ class Worker:
         # (fork would take the server's threads and sockets along)
         context = multiprocessing.get_context("spawn")
         self._connection, far = context.Pipe()
-        self._process = context.Process(target=work, args=(far,), name="skg ui worker", daemon=True)
-        self._is_ended = False
-        self._process.start()
+        process = context.Process(target=work, args=(far,), name="skg ui worker", daemon=True)
+        process.start()
+        # (another thread may end it from here on)
+        self._process, self._is_ended = process, False
         far.close()
         if self.first:
             what, arguments = self.first
