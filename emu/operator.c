@@ -108,10 +108,10 @@ static bool hear_machine(session *s)
     return !s->o.punch_pty || terminal_feed(&s->line, s->board, 0);
 }
 
-/* Nothing has been printed, and much longer than signing on takes. */
+/* Nothing has been printed, no motor has moved, and much longer than signing on takes. */
 static bool is_silent(const session *s)
 {
-    return s->printed == 0 && s->board->cpu.cycles > PATIENCE;
+    return s->printed == 0 && s->board->drive.steps == 0 && s->board->cpu.cycles > PATIENCE;
 }
 
 /* Lets the machine run until it asks the operator something, has lost output, used up all cycles or never signed on.

@@ -71,7 +71,7 @@ def invoke(*words: str) -> tuple[int, str, str]:
 
 
 def test_every_command_is_tried() -> None:
-    assert {words[0] for words, _ in READERS.values()} | set(MAKERS) | {"term"} == set(COMMANDS)
+    assert {words[0] for words, _ in READERS.values()} | set(MAKERS) | {"term", "ui"} == set(COMMANDS)
 
 
 @pytest.mark.parametrize("reader", READERS)

@@ -260,6 +260,11 @@ def test_memory_is_limited(server: Server, tmp_path: Path) -> None:
     assert len(page.open(plate(tmp_path))["contours"]) == 3
 
 
+def _heed_interrupts() -> None:
+    """Heed ctrl-C in a process whose parent, a shell in the background, does not."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.fixture
 def begin() -> Callable[..., tuple[subprocess.Popen[str], str]]:
     """Begin `skg ui` as a shell does: the process, and the address that it prints."""
@@ -268,7 +273,7 @@ def begin() -> Callable[..., tuple[subprocess.Popen[str], str]]:
     def call(*words: object) -> tuple[subprocess.Popen[str], str]:
         process = subprocess.Popen(
             [SKG, "ui", "--no-browser", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-            start_new_session=True,
+            start_new_session=True, preexec_fn=_heed_interrupts,
         )  # fmt: skip
         processes.append(process)
         return process, process.stdout.readline().strip()
@@ -354,7 +359,11 @@ def test_browser_is_opened(tmp_path: Path) -> None:
     program.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/address\n')
     program.chmod(0o755)
     process = subprocess.Popen(
-        [SKG, "ui"], stdout=subprocess.PIPE, text=True, env=os.environ | {"BROWSER": str(program)}
+        [SKG, "ui"],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"BROWSER": str(program)},
+        preexec_fn=_heed_interrupts,
     )
     url = process.stdout.readline().strip()
     until(lambda: (tmp_path / "address").exists() and (tmp_path / "address").read_text().strip() == url)
