@@ -32,10 +32,11 @@ export class Proof {
     return !marks.length;
   }
 
-  /** Marks the line in which a run ended. */
-  ended(number: string, line: number): void {
+  /** Marks the line in which a run ended; true when the text has it. */
+  ended(number: string, line: number): boolean {
     const row = this.#editor.rowOf(line);
     if (row >= 0) this.#editor.marks = [this.#mark(row, number)];
+    return row >= 0;
   }
 
   #mark(row: number, number: string, column = -1): Mark {

@@ -54,6 +54,9 @@ export class Workbench {
     return !isSame(this.editor.text, this.session.program);
   }
 
+  /** A run's error and its line, until the machine tells the program that has this line. */
+  #fault: [string, number] | undefined;
+
   #maker = (): Maker => ({ name: this.name, program: this.#sent ?? this.session.program });
 
   punched(punched: readonly Punched[]): void {
@@ -77,6 +80,8 @@ export class Workbench {
     const isSent = this.#sent !== undefined && isSame(this.#sent, this.editor.text);
     if (isSent ? hasLinesOf(program, this.editor.text) : isSame(before, this.editor.text)) this.editor.text = program;
     this.#sent = undefined;
+    if (this.#fault && !this.isDirty) this.#proof.ended(...this.#fault);
+    this.#fault = undefined;
     this.#around.works.keep(program);
     if (!program) this.name = "part"; // (NEW at the teletype)
     this.refresh();
@@ -145,6 +150,7 @@ export class Workbench {
 
   #send(run: boolean): void {
     this.#sent = this.editor.text;
+    this.#fault = undefined;
     this.stage.recording.leave(this.session.isRunning);
     this.session.load(this.#sent, run);
   }
@@ -191,7 +197,8 @@ export class Workbench {
   error(number: string, line: number): void {
     const word = `err${number}`;
     if (!isWord(word)) return;
-    if (line && !this.isDirty) this.#proof.ended(number, line);
+    const isMarked = !line || (!this.isDirty && this.#proof.ended(number, line));
+    this.#fault = isMarked ? undefined : [number, line];
     show(t(line ? "endedLine" : "ended", number, t(word as Word), line || ""));
   }
 }
