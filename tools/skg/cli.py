@@ -102,16 +102,19 @@ def cli() -> None:
 
 
 def _spell(error: UnicodeError) -> tuple[str | bytes, int]:
-    """Characters that an encoding has not: u for µ, and else what tells them."""
+    """Characters that an encoding has not: u for µ, a file name's own bytes, and else what tells them."""
     if isinstance(error, UnicodeEncodeError) and error.object[error.start] == "µ":
         return "u", error.start + 1
-    return codecs.backslashreplace_errors(error)
+    try:
+        return codecs.lookup_error("surrogateescape")(error)
+    except UnicodeError:
+        return codecs.backslashreplace_errors(error)
 
 
 def _prepare(stream: io.TextIOBase | None) -> None:
     """Let a standard stream take every text, with the same line ends on every system."""
     if isinstance(stream, io.TextIOWrapper):
-        stream.reconfigure(newline="\n", **({"errors": "skg-spell"} if stream.errors != "surrogateescape" else {}))
+        stream.reconfigure(newline="\n", errors="skg-spell")
 
 
 def main() -> None:
