@@ -1,7 +1,7 @@
 ; arc_3b.asm - arcs as 3B blocks, each from its own rounded start (tape-3b.md)
 ; Offers: ARC
 ; Uses:   [post] calc consts float geom round start
-; Room:   107 bytes
+; Room:   101 bytes
 ;
 ; An arc is looked at from its rounded centre, mirrored when it runs clockwise, so that there
 ; is one sense to think about; for the count along Y it is turned by a quarter, so that the
@@ -16,16 +16,15 @@
 ;       plane; a start on the axis does not matter: it is r or -r itself.
 
 ; ARC - the wire goes along the circle C to K, each block from its own rounded start
-; In:  C, K, W; on the float stack: negative when it is more than half a turn   Out: W = V
+; In:  C, K, W; t3 negative when it is more than half a turn   Out: W = V
 ; Clobbers all
-ARC:    DB      CALC,QVK,ST3    ; -
-        DB      LC0,QRND,SA0    ; -
-        DB      LC1,QRND,SA1    ; -
-        DB      LVX,SB0,LVY,SB1 ; -
+ARC:    DB      CALC,QVK        ; -
+        DB      LC0,QRND,LC1,QRND,QSA ; -
+        DB      LVX,LVY,QSB     ; -
         DB      QDIF,LC2,QSIG   ; u v           of the end; mirrored when clockwise
-        DB      LWX,SB0,LWY,SB1 ; u v
+        DB      LWX,LWY,QSB     ; u v
         DB      QDIF,LC2,QSIG   ; u v u v       of the start
-        DB      SA1,SA0,SB1,SB0 ; -             a = start, b = end
+        DB      QSA,QSB         ; -             a = start, b = end
         DB      QHALF,QCRS,QSUB ; -
         DB      QJN
         DB      ARC1-$

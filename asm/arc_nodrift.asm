@@ -9,16 +9,15 @@
 ; arc from there passes V (docs/drift.md).
 
 ; ARC - the wire goes along the circle C to K, from where the controller stands
-; In:  C, K, W; on the float stack: negative when it is more than half a turn   Out: W = V
+; In:  C, K, W; t3 negative when it is more than half a turn   Out: W = V
 ; Clobbers all
-ARC:    DB      CALC,QVK,ST3    ; -
-        DB      LC0,QRND,SA0    ; -
-        DB      LC1,QRND,SA1    ; -
-        DB      LVX,SB0,LVY,SB1 ; -
+ARC:    DB      CALC,QVK        ; -
+        DB      LC0,QRND,LC1,QRND,QSA ; -
+        DB      LVX,LVY,QSB     ; -
         DB      QDIF,LC2,QSIG   ; u v           of the end; mirrored when clockwise
-        DB      LWX,SB0,LWY,SB1 ; u v
+        DB      LWX,LWY,QSB     ; u v
         DB      QDIF,LC2,QSIG   ; u v u v       of the start
-        DB      SA1,SA0,SB1,SB0 ; -             a = start, b = end
+        DB      QSA,QSB         ; -             a = start, b = end
         DB      QDIF,ST1,ST0    ; -             t0 t1 = chord d
         DB      LT0,LT1,QSS,ST4 ; -             t4 = |d|^2
         DB      QDOT,QJN        ; -             ends far apart: no doubt

@@ -1,7 +1,7 @@
 ; corner.asm - where the wire goes from one element to the next: corners, fillets, the entry; which curves are the same
 ; Offers: JOINED CPYEL CPYPL FILLET TON PASSED OFFCHK CORND FIRST PATC SAMEF SAMEC SAMEL
 ; Uses:   [post] calc consts float geom round route start value
-; Room:   469 bytes
+; Room:   465 bytes
 
 ; JOINED - corner between C and N, C goes out, N is the current element
 ; In:  C, N, RTURN, RNAMED; P = the corner as drawn   Out: D = P   Clobbers all
@@ -40,7 +40,7 @@ CPYPL:  MVI     A,PLCSIZ
 ;      without a turn)   Clobbers all
 ; The arc turns as the corner does; its centre is where the parallels at its signed
 ; radius FI cross (SKG book, formula 9-7).
-FILLET: DB      CALC,LPX,LPY,QTOK,QNORMS,QJN ; -
+FILLET: DB      CALC,QPTOK,QNORMS,QJN ; -
         DB      FILL9-$
         DB      LCR,LNR,QE6D    ; -
         DB      LFI,QCRS,QSIG,QNEG ; -fi
@@ -57,13 +57,15 @@ FILLET: DB      CALC,LPX,LPY,QTOK,QNORMS,QJN ; -
         LXI     H,RKEPT
         CALL    NCOPY
         DB      CALC,Q0,STL,QXING,QMU,STL ; -        a = centre of the arc, which touches both
-        DB      QVEC,SB1,SB0    ; -             a = b = centre
-        DB      LO1,QNEG,SA2,QEND ; -
+        DB      LPX,LPY,QVEC,QVEC ; px py x y x y
+        DB      QSB,SPY,SPX     ; px py         a = b = P = centre: in its direction C touches the arc
+        DB      LO1,QNEG,SA2,QEND ; px py
         MVI     A,KCIR
         CALL    PUTN
         CALL    PASSED          ; its touching point comes before the corner
         CALL    OFFCHK
         CALL    JOINED
+        DB      CALC,SPY,SPX,QEND ; -           the corner as drawn, without the arc
         LXI     D,RKEPT
 ; TON - an element becomes the next one (CLOSE calls it too)
 ; In:  DE -> element   Clobbers A, BC, DE, HL
@@ -121,7 +123,7 @@ CORN0:  DB      SO2,SO1,QEND    ; -
 CORNO:  LDA     RNAMED
         ORA     A
         JZ      CROSS
-        DB      CALC,LPX,LPY,QTOK ; -             K = P = b
+        DB      CALC,QPTOK        ; -             K = P = b
         DB      LO1,QABS,LO2,QABS,QADD,QJZ ; -  no offset
         DB      CORN9-$
         DB      QEND
@@ -151,15 +153,15 @@ ATOK:   DB      QVEC,QTOK+QRET  ; -
 CORN2:  DB      CALC            ; as seen from P both pass at their offsets alone
         DB      LO1,SA2,LO2,SB2,QEND ; -
         CALL    SXS
-        DB      CALC,LKX,SB0,LKY,SB1,Q1,QJMP ; 1
+        DB      CALC,LKX,LKY,QSB,Q1,QJMP ; 1
         DB      NAMED3-$
 CORN1:  DB      CALC            ; between arcs of a curve: both run the same way, square to the radius
-        DB      QCA,QDIF,SA1,SA0 ; -            a = from the centre to P
+        DB      QCA,QDIF,QSA    ; -            a = from the centre to P
         DB      LCR,LNR,QE6D    ; -
         DB      LCR,LC2,QDIV,QJMP ; R/r
         DB      NAMED3-$
 NAMED1: DB      QDOT,QE6N       ; -             there and back
-        DB      LPX,LPY,QTOK    ; -
+        DB      QPTOK           ; -
         DB      LCR,LNR,QE6D    ; -             no crossing any more
 NAMED2: DB      LCR             ; R
 NAMED3: DB      QXCH,QNEG,QALNG,QJMP ; -        b moved along a
@@ -193,7 +195,7 @@ PLACE:  DB      CALC,LHX,LHY,QTOK ; -             b = K = H
 PLACE1: DB      QDIF,QFAR,QJN   ; r
         DB      PLACE2-$
         DB      QNORM           ; r
-        DB      LC0,SB0,LC1,SB1,QJMP ; r        b = centre
+        DB      LC0,LC1,QSB,QJMP ; r            b = centre
         DB      NAMED3-$
 PLACE2: DB      QABS,LC0,QADD,LC1,QTOK+QRET ; - the +X side
 
@@ -204,7 +206,7 @@ FIRST1: CALL    ENTER           ; (tape.asm)
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
-PATC:   DB      CALC,LPX,LPY,QTOK ; -             b = K = P
+PATC:   DB      CALC,QPTOK        ; -             b = K = P
         DB      QCA,QNORM       ; -             a = right normal
         DB      QJMP
         DB      NAMED2-$
@@ -235,7 +237,7 @@ SAME:   MVI     D,MREG/256      ; (both are in the registers' first page)
         DB      QEPS,QSQ,QDIF,QSS,QSUB ; eps^2-angle^2
         DB      QJN             ; -
         DB      SAME9-$
-        DB      LT1,SB0,LT2,SB1,QDOT ; place along N's normal
+        DB      LT1,LT2,QSB,QDOT ; place along N's normal
         DB      LA2,QSUB,LT0,QSUB ; off
         DB      QABS            ; |off|
 SAME1:  DB      QMU,QSWP,QSUB   ; 1um-|off|

@@ -1,7 +1,7 @@
 ; ends.asm - how a route begins and ends: closed, open, dropped; FROM and BACK
 ; Offers: RUNINI RTNEW WIPE ENDRT SFROM ROUTER SBACK GOBACK
 ; Uses:   [post] calc consts corner fit geom items parser round route start
-; Room:   227 bytes
+; Room:   226 bytes
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -23,7 +23,7 @@ RTNEW:  CALL    CORDON
 CLOSE:  LDA     RFSTP
         ORA     A
         JZ      CLOSE1
-        DB      CALC,LQX,SA0,LQY,SA1 ; -
+        DB      CALC,LQX,LQY,QSA ; -
         DB      LQO,SNR,QEND    ; -
         CALL    ITPNT
         CALL    PNTDON          ; (also when the last point lay within 1 um of it)

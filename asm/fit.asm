@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5) (curves.md)
 ; Offers: NODSIZ SFIT SPOUT NODNXT FITEND XCHRD XMIRR XBIAR ARCW
 ; Uses:   [spans] calc consts corner float geom items parser route start value
-; Room:   369 bytes
+; Room:   366 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -26,8 +26,8 @@ SFIT:   CALL    EVPNT
         CALL    EVNUM
 SFIT1:  DB      CHKEND
         DB      CALC            ; (leaves a0 alone)
-        DB      LSC,QMUL,QDUP,ST3,QSWP ; y x    t2 t3 = node that arrives
-        DB      LSC,QMUL,QDUP,ST2 ; y x
+        DB      QSCL,QDUP,ST3,QSWP ; y x        t2 t3 = node that arrives
+        DB      QSCL,QDUP,ST2   ; y x
         DB      Q0,Q0,QEND      ; y x v u
         POP     PSW
         PUSH    PSW
@@ -181,5 +181,5 @@ FITC1:  DB      LT0,QDBL,QDIV,SA2 ; -      r
 FITPNT: MVI     A,KPNT
 ; FITITM - the same for a value of kind A: a2   Clobbers all
 FITITM: STA     VKIND
-        DB      CALC,SA1,SA0,L2R,SNR,QEND ; -
+        DB      CALC,QSA,L2R,SNR,QEND ; -
         JMP     ITEMR

@@ -1,8 +1,8 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: BINOPK BINOP BINKND RSTAR XUNIT SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
-;         XALNG XROTV XTURN XLEG XE6D
+; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
+;         XALNG XROTV XTURN XSB XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   520 bytes
+; Room:   516 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -175,10 +175,12 @@ XUNIT2: DB      LT3,QDIV,SA1            ; x
         DB      LT3,QDIV,SA0,QRET       ; -
 
 ; P#A, C#A, P#(A:P), C#(A:P)
-GROTP:  DB      LB1,LA0,QSUB,SA0        ; -
-        DB      LB2,LA1,QSUB,SA1        ; -             to the centre of rotation
+GROTP:  DB      LB1,LA0,QSUB            ; dx
+        DB      LB2,LA1,QSUB,QSA        ; -             to the centre of rotation
         DB      QROTV                   ; -
-        DB      QDIF,SA1,SA0,QRET       ; -             back from there
+        DB      QDIF                    ; dx dy         back from there
+; QSA: a0 a1 = a vector
+XSA:    DB      SA1,SA0,QRET            ; -
 ; P*D, D*D; D*P: 0 - (-D)*P
 GMULT:  DB      QXCH                    ; -
 GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
@@ -208,7 +210,7 @@ GSXC:   DB      QDOT,LA2,QSUB           ; e             centre right of S
 GSXC1:  DB      QSWP,ST2,LB2,QABS,ST3,QLEG ; h
         DB      LB2,QSIG,QXCH           ; +-h
         DB      LT2,QALNG               ; +-h           the foot
-        DB      LB1,LB0,QNEG,SB1,SB0    ; +-h           b = backwards
+        DB      LB1,LB0,QNEG,QSB        ; +-h           b = backwards
         DB      QALNG+QRET              ; -
 ; C1*C2: the crossing of C1 with the line through both crossings, whose right
 ; normal is the unit vector a from centre to centre, at c = (d^2+r1^2-r2^2)/2d
@@ -264,8 +266,8 @@ GBELT:  DB      QVEC                    ; x y
         DB      QDIF,QCENT              ; x y e         t3 = d
         DB      QDUP,ST2,QABS           ; x y |e|       t2 = e
         DB      LT3,QSUB,QLEG           ; x y h
-        DB      QNEG,LT3,QDIV,SB0       ; x y
-        DB      LT2,LT3,QDIV,SB1        ; x y
+        DB      QNEG,LT3,QDIV           ; x y h/d
+        DB      LT2,LT3,QDIV,QSB        ; x y
         DB      QTURN                   ; -
         DB      QDOT,LA2,QADD,SA2,QRET  ; -
 
@@ -301,7 +303,7 @@ XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         JM      XFAR1
         DB      CALC,QSS,QMU,QSQ,QSUB+QRET ; -1um^2
 XFAR1:  DB      CALC,QDRP,QABS+QRET     ; |x|
-; QALNG: a0 a1 moved by -k times b0 b1, k from the stack
+; QALNG: a0 a1 moved by -k times b0 b1, k from the stack.
 XALNG:  DB      LA0,QOVR,LB0,QMUL  ; k a0 k*b0
         DB      QSUB,SA0                ; k
         DB      LA1,QSWP,LB1,QMUL       ; a1 k*b1
@@ -309,10 +311,11 @@ XALNG:  DB      LA0,QOVR,LB0,QMUL  ; k a0 k*b0
 ; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2.  QTURN: by the angle whose sine
 ; and cosine are b0 and b1
 XROTV:  DB      LB1,LB2            ; x y
-        DB      LB0,QCOS,SB1            ; x y           b = sine, cosine:
-        DB      LB0,QSIN,SB0            ; x y
+        DB      LB0,QSIN,LB0,QCOS,QSB   ; x y           b = sine, cosine:
 XTURN:  DB      QDOT,QCRS,SA0,SA1       ; x y           cross is x', dot is y'
-        DB      SB1,SB0,QRET            ; -
+; (fall into XSB)
+; QSB: b0 b1 = a vector
+XSB:    DB      SB1,SB0,QRET            ; -
 ; QLEG: how far from its foot a line crosses a circle whose centre lies t2 off, of radius
 ; t3 (the sign does not matter): the other leg of a right triangle.  They miss by g:
 ; ERR 06 when by more than 1 um; when they cross by no more than TL (1 um as a rule)

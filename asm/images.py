@@ -37,7 +37,7 @@ class Image:
     def files(self) -> list[str]:
         """All source files in the order in which they stand in the ROM; the first ones only name things."""
         return [
-            self.map, "equ", "start", "ops", *self.ports, "io", *self.punch, "calc", "consts", "float",
+            self.map, "equ", "start", "ops", "consts", *self.ports, "io", *self.punch, "calc", "float",
             "decimal", "value", "geom", "parser", *self.post, "route", "corner", "items", "ends", "repeat", "fit",
             *self.spans, "lexer", "program", "data", "run", *self.more, "monitor", *self.start, "words",
         ]  # fmt: skip

@@ -1,7 +1,7 @@
 ; items.asm - CUT: items that arrive become elements of the route
-; Offers: SCUT ITEMT ITEMR ADDEL CORDON POSIT ITPNT PNTDON GETR SCALED
+; Offers: SCUT ITEMT ITEMR ADDEL CORDON POSIT ITPNT PNTDON GETR SCALED XSCL
 ; Uses:   calc consts corner fit float geom parser round route start value
-; Room:   386 bytes
+; Room:   381 bytes
 
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 
@@ -86,7 +86,7 @@ ADDEL:  LDA     RLASTP
         STA     RNAMED
         ORA     A
         JZ      ADDEL1
-        DB      CALC,LPX,LPY,QTOK ; -
+        DB      CALC,QPTOK      ; -
         DB      QNA,QONEL,QEND  ; -             (leaves A = 0)
 ADDEL1: CALL    ITDONE
         LXI     H,CORDON
@@ -175,7 +175,7 @@ ITPN1:  DB      CALC            ; the first item
         DB      LJX,SQX,LJY,SQY ; -
         DB      LNR,SQO,QJMP    ; -
         DB      ITPN3-$
-ITPN2:  DB      CALC,LPX,SA0,LPY,SA1 ; -
+ITPN2:  DB      CALC,LPX,LPY,QSA ; -
         DB      QDIF,QFAR       ; negative: within 1 um, the same point
         DB      QJN
         DB      ITPN4-$
@@ -214,10 +214,11 @@ GETR:   LXI     D,NAMER
 
 ; SCALED - the value in the scale of the tape
 ; In:  a0 a1 a2, VKIND   Out: a0 a1 a2   Clobbers all
-SCALED: DB      CALC,LA2,LSC,QMUL,SA2 ; -
+SCALED: DB      CALC,LA2,QSCL,SA2 ; -
         DB      QJC             ; -             (points too)
         DB      SCAL1-$
         DB      QRET
-SCAL1:  DB      LA0,LSC,QMUL,SA0 ; -
-        DB      LA1,LSC,QMUL,SA1 ; -
+SCAL1:  DB      LA0,QSCL,LA1,QSCL,QSA ; -
         DB      QRET
+; QSCL: a number in the scale of the tape
+XSCL:   DB      LSC,QMUL+QRET   ; x

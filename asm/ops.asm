@@ -1,7 +1,7 @@
 ; ops.asm - the operations of the calculator: their numbers, and their routines
 ; Offers: names for all
-; Uses:   calc fit float geom parser round route value
-; Room:   116 bytes
+; Uses:   calc fit float geom items parser round route value
+; Room:   126 bytes
 ;
 ; Behind each number: what is on the float stack before and after, the top last; other effects.
 ; The numbers from OPPOP on pop one float; from OPBYTE on the routine is byte-code itself.
@@ -11,7 +11,7 @@
 ; one byte. Up to QTOK, but for jumps and QEND, that is possible.
 
 ;! OPTAB/100H == (OPEND-1)/100H -- CALC makes the low byte alone of a place in the table
-;! OPEND-OPTAB == 2*(QTRAV+1) -- every number has its routine
+;! OPEND-OPTAB == 2*(QSEEN+1) -- every number has its routine
 ;! QTOK+QRET == 0FFH -- the codes behind the constants are all used
 ;! (OPTAB & 0FFH) > 0 -- QRET leaves A not 0
 
@@ -75,6 +75,11 @@ QSENS   EQU 36H         ; R ->    negative when a is a circle that R would turn 
 QXING   EQU 37H         ; ->      a0 a1 = crossing of C and N as offset
 QCHDA   EQU 38H         ; x y -> dy dx  from a0 a1 to x y, times t0
 QTRAV   EQU 39H         ; x1 y1 x2 y2 -> s  travel on C: its sine times the radii; a, b = both places from the centre
+QPTOK   EQU 3AH         ; ->      K = b0 b1 = P
+QSCL    EQU 3BH         ; x -> x in the scale of the tape
+QSA     EQU 3CH         ; x y ->  a0 a1 = x y
+QSB     EQU 3DH         ; x y ->  b0 b1 = x y
+QSEEN   EQU 3EH         ; x1 y1 x2 y2 ->  a, b = these places as seen from the centre of C
 QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not 0, Z clear
 
 OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
@@ -86,4 +91,5 @@ OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
         DW      XALNG,XROTV,XUNIT,XE6D,XTOK
         DW      XMAX,XTURN,XCHRD,XBIAR,XMIRR,XLEG,XCENT
         DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA,XTRAV
+        DW      XPTOK,XSCL,XSA,XSB,XSEEN
 OPEND:                          ; (its end)

@@ -2,7 +2,7 @@
 ; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBNEW RBSET GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   593 bytes
+; Room:   592 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -165,8 +165,8 @@ NEGVAL: CALL    CHKRET
         CALL    NOTURN
         CPI     KCIR
         JZ      NEGV1
-        DB      CALC,LA0,QNEG,SA0 ; -
-        DB      LA1,QNEG,SA1    ; -
+        DB      CALC,LA0,QNEG   ; x
+        DB      LA1,QNEG,QSA    ; -
         DB      QEND
 NEGV1:  DB      CALC,LA2,QNEG,SA2 ; -
         DB      QRET

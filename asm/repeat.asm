@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: SREP SSYM SRECUT SSCALE
 ; Uses:   calc consts ends fit float geom io items parser route start value
-; Room:   342 bytes
+; Room:   339 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
@@ -33,8 +33,8 @@ IMAGE:  CALL    FETCH
         LDA     VKIND
         ORA     A
         JZ      IMAG1
-        DB      CALC,LRA,LRT,QMUL,SB0 ; -
-        DB      LRX,SB1,LRY,SB2 ; -
+        DB      CALC,LRA,LRT,QMUL,LRX,QSB ; -
+        DB      LRY,SB2         ; -
         DB      QEND
         LHLD    ROP             ; L = rank, H = kind
         MOV     C,L
@@ -51,7 +51,7 @@ IMAG1:  LDA     RFILW
 ; Out: ROP, RA RX RY, RT = 1, RSTOP, HL = its first item = RSRC; ERR 06, ERR 09   Clobbers all
 OPENRT: SHLD    ROP
         DB      CALC,LA0,SRA,Q1,SRT,LA1,SRX ; -
-        DB      LA2,LSC,QMUL,SRY,QEND ; -
+        DB      LA2,QSCL,SRY,QEND ; -
         LDA     RITEMS
         ORA     A
         JZ      ERGEO
@@ -105,7 +105,7 @@ SREP:   CALL    JOINT
         JZ      SREP1
         CPI     KTURN
         JNZ     ERKIND
-SREP1:  DB      CALC,LA1,LSC,QMUL,SA1,QEND ; -
+SREP1:  DB      CALC,LA1,QSCL,SA1,QEND ; -
         LXI     H,KTURN*256+2   ; #
         CALL    OPENRT
 SREP2:  LHLD    RCOUNT

@@ -1,7 +1,7 @@
 ; round.asm - where the wire goes, in whole micrometres (tape-3b.md, section "Rounding")
-; Offers: XRND XVK XTOK
+; Offers: XRND XVK XPTOK XTOK
 ; Uses:   calc consts float start
-; Room:   35 bytes
+; Room:   37 bytes
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   DB      Q1000,QMUL         ; um
@@ -15,5 +15,6 @@ XRND1:  DB      QEND            ; um |whole|
 ; QVK: V = K in whole um; A = K, since the wire goes there
 XVK:    DB      LKX,QDUP,SAX,QRND,SVX   ; -
         DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -
-; QTOK: K = b = a point
+; QPTOK: K = b = P.  QTOK: K = b = a point
+XPTOK:  DB      LPX,LPY         ; px py
 XTOK:   DB      QDUP,SKY,SB1,QDUP,SKX,SB0,QRET ; -

@@ -1,8 +1,8 @@
 ; route.asm - the route: what is kept of it, what the calculator does for it, and the wire's travel along an element
 ; Offers: CKIND NKIND HELDN RITEMS RELEMS RLASTP RFSTP RFILW RTURN RNAMED FITN FITSM RCORN RKEPT
-;         NEEDEL NOFIL PASSP XTRAV XSENS XJC XONEL XNORM XNORMS XCHDA XXING ADVANC
+;         NEEDEL NOFIL PASSP XTRAV XSEEN XSENS XJC XONEL XNORM XNORMS XCHDA XXING ADVANC
 ; Uses:   [post] calc consts float geom parser start value
-; Room:   227 bytes
+; Room:   241 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -58,12 +58,16 @@ PASSP:  CALL    ADVANC
 ;        as drawn, from D to P: else the wire would leave the element out, or run round all of it
 ; In:  C, A, K, D, P; t3 negative when the wire travels more than half a turn   Out: ERR 06
 ; Clobbers all
-; One of them must be less than half a turn, the other one more.  With a and b their cosines and sines,
-; they differ by more than half a turn when the sine of b less a has the sign of b's own.
+; The wire's travel is that as drawn, and what its ends are moved by, when the moves are no more than half a turn
+; together: then the sum of their cosines is not negative.  That of the travels may be wrapped around: when one is less
+; than half a turn, the other one more.  With a and b their cosines and sines, they differ by more than half a turn
+; when the sine of b less a has the sign of b's own.
 WRAP:   LDA     FITSM           ; (arcs of one curve touch each other: their corners stay)
         ORA     A
         RNZ
-        DB      CALC,LDX,LDY,LPX,LPY,QTRAV ; s
+        DB      CALC,LDX,LDY,LAX,LAY,QSEEN,QDOT ; c
+        DB      LPX,LPY,LKX,LKY,QSEEN,QDOT,QADD,QE6N ; -
+        DB      LDX,LDY,LPX,LPY,QTRAV ; s
         DB      LC2,QABS,QMU,QMUL,QADD ; s      none when 1 um backwards
         DB      QDUP,LT3,QSIG,QNEG,QJN ; s      both in one half
         DB      WRAP1-$
@@ -76,9 +80,10 @@ WRAP1:  DB      QDRP+QRET       ; -
 ; Operations of the calculator that the route adds
 
 ; QTRAV: x1 y1 x2 y2 -> s: from the first direction to the second, as seen from the centre of C
-XTRAV:  DB      LC1,QSUB,SB1,LC0,QSUB,SB0 ; x1 y1
-        DB      LC1,QSUB,SA1,LC0,QSUB,SA0 ; -
-        DB      QCRS,LC2,QSIG+QRET ; s
+XTRAV:  DB      QSEEN,QCRS,LC2,QSIG+QRET ; s
+; QSEEN: x1 y1 x2 y2 -> a, b = these places as seen from the centre of C
+XSEEN:  DB      LC1,QSUB,SB1,LC0,QSUB,SB0 ; x1 y1
+        DB      LC1,QSUB,SA1,LC0,QSUB,SA0,QRET ; -
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
 XSENS:  DB      QJC
         DB      XSENS1-$
@@ -113,7 +118,7 @@ XNORM1: DB      QDIF            ; dx dy
 ; QNORMS: a0 a1, b0 b1 = right normals of C and N at K = b; negative when they differ by less than
 ; 0.001 rad
 XNORMS: DB      QNA,QNORM,QVEC ; x y
-        DB      QCA,QNORM,SB1,SB0 ; -
+        DB      QCA,QNORM,QSB   ; -
         DB      QCRS,QABS,QMU,QSUB+QRET ; |sine|-0.001
 
 ; QCHDA: x y -> dy dx: from a0 a1 to x y, times t0
@@ -136,8 +141,8 @@ XXING:  DB      QNA        ; -
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K, W; RELEMS = 0: C is closed, no travel means the whole circle
 ; Out: A = K, W; ERR 06 when K lies behind A on a line   Clobbers all
-ADVANC: DB      CALC,LKX,LAX,QSUB,SB0 ; -
-        DB      LKY,LAY,QSUB,SB1 ; -            b = chord
+ADVANC: DB      CALC,LKX,LAX,QSUB ; dx
+        DB      LKY,LAY,QSUB,QSB ; -            b = chord
         DB      QCA,QJC         ; -
         DB      ADVAN2-$
         DB      QCRS            ; forward
@@ -148,7 +153,7 @@ ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -
         DB      ADVAN3-$
         DB      LAX,LAY,LKX,LKY,QTRAV ; s       < 0: more than half a turn
-        DB      QDUP,ST3,QEND   ; s
+        DB      ST3,QEND        ; -
         CALL    WRAP
         JMP     ARC
 ADVAN3: DB      Q1,ST3,QEND     ; -             no travel: the corner is the entry place
@@ -156,5 +161,5 @@ ADVAN3: DB      Q1,ST3,QEND     ; -             no travel: the corner is the ent
         LDA     RELEMS
         ORA     A
         RNZ
-        DB      CALC,QM1,QEND   ; s             as ARC takes it
+        DB      CALC,QM1,ST3,QEND ; -           the whole circle
         JMP     ARC

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
-; Uses:   [more] [punch] calc consts float io lexer round start
-; Room:   282 bytes
+; Uses:   [more] [punch] calc consts float geom io lexer round start
+; Room:   280 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -170,5 +170,5 @@ SETZG:  MOV     H,C
         ADI     CLTY            ; CY again, when that was 0FFH
         STA     TGAX
         RC
-        DB      CALC,LA1,LA0,QNEG,SA1,SA0 ; -
-        DB      LB1,LB0,QNEG,SB1,SB0,QRET ; -
+        DB      CALC,LA1,LA0,QNEG,QSA ; -
+        DB      LB1,LB0,QNEG,QSB,QRET ; -

@@ -273,11 +273,10 @@ def free(part: Part) -> list[np.ndarray]:
 
 def judged(part: Part, tape: bytes) -> str:
     """The verdict on a tape without an error: "right", "walls" (the wire comes into a wall that is no neighbour of what
-    it travels), "far" (see `turns_far`), else what is wrong."""
+    it travels), else what is wrong."""
     cuts = path_of(tape, start_hole(part.contour, part.r))
-    wrong = fault(part, cuts)
-    if wrong:
-        return "far" if any(turns_far(edge, cut) for edge in part.contour for cut in cuts) else wrong
+    if wrong := fault(part, cuts):
+        return wrong
     path = LineString([place for edge in cuts for place in edge.points()])
     least = shapely.distance(outline(part.contour).exterior, shapely.points(shapely.get_coordinates(path))).min()
     return "walls" if least < abs(part.r) - NEAR else "right"
@@ -292,6 +291,8 @@ def fault(part: Part, cuts: Contour) -> str:
             if abs(sweep - edge.sweep) > pi + 0.01:
                 return f"{edge} is travelled by {sweep} rad"
     for edge, places in zip(part.contour, free(part), strict=True):
+        if LineString(edge.points()).length < NEAR:
+            continue
         far = shapely.distance(path, shapely.points(places))
         # (round a corner there is room that a mitre leaves out)
         if (far > NEAR).sum() > max(len(places) / 3, SAMPLES / 12):
@@ -299,16 +300,6 @@ def fault(part: Part, cuts: Contour) -> str:
     return ""
 
 
-def turns_far(edge: Edge, cut: Edge) -> bool:
-    """Whether the offset turns both corners of an arc, together, by about half a turn and more: the rule compares
-    travels alone, and there one that is wrapped around seems to be near to the other one."""
-    if edge.centre is None or cut.centre is None or not same_centre(edge, cut):
-        return False
-    ways = [np.subtract(place, edge.centre) for place in (edge.start, cut.start, edge.end, cut.end)]
-    first, second, third, last = (way / np.hypot(*way) for way in ways)
-    return float(first @ second + third @ last) < 0.1
-
-
 def same_centre(one: Edge, other: Edge) -> bool:
     """Whether two arcs are about one centre."""
-    return other.centre is not None and np.hypot(*np.subtract(one.centre, other.centre)) < 0.003
+    return other.centre is not None and np.hypot(*np.subtract(one.centre, other.centre)) < NEAR

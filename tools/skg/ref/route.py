@@ -279,7 +279,7 @@ class Route:
             raise Fault(Code.GEOMETRY)
         rounding = Element(circle, f.offset, offset_curve(circle, f.offset), e.start, drawn)
         touch = (e if isinstance(e.nominal, Circle) else rounding).place(touch_e)
-        end = self._travel(e, touch, "cut", drawn)
+        end = self._travel(e, touch, "cut", touch_e)
         start = self._travel(replace(rounding, start=end), rounding.place(touch_f), "fillet")
         return replace(f, start=start, drawn=drawn)
 
@@ -330,7 +330,7 @@ class Route:
     def _travel(self, e: Element, end: Point, role: str, drawn: Point | None = None) -> Point:
         """Put out e from where it was entered to its end; returns where the wire then is.
 
-        `drawn`: its end as drawn; None: the travel on a circle is not compared with that as drawn.
+        `drawn`: its end as drawn; None: a circle's travel is not compared with that as drawn.
         """
         if isinstance(e.curve, Line):
             back = -(end - e.start).dot(e.curve.direction)
@@ -340,7 +340,8 @@ class Route:
             return end
         angle = self._circle_travel(e, end)
         if drawn is not None:
-            _check_half_turn(angle, _drawn_travel(e, drawn))
+            _check_half_turn(angle - _drawn_travel(e, drawn))
+            _check_half_turn(abs(_move(e, e.drawn, e.start)) + abs(_move(e, drawn, end)))
         if self.curves == 1 and role == "cut" and self.first_end is None:
             self.first_end = end
         if angle == 0:
@@ -442,10 +443,17 @@ def _drawn_travel(e: Element, end: Point) -> Real:
     return ZERO if near.at_most(behind, MICRON, "half a turn") else angle
 
 
-def _check_half_turn(travel: Real, drawn: Real) -> None:
-    """Error 6 when the travel on a circle differs by more than half a turn from the travel as drawn (radians): the wire
-    would leave the arc out, or run round the rest of its circle."""
-    if not near.at_most(abs(travel - drawn), real.mp.pi, "half a turn"):
+def _move(e: Element, drawn: Point, offset: Point) -> Real:
+    """Angle by which the offset moves a corner about a circle's centre, radians from -π to π along the travel."""
+    angle = sweep(e.nominal, drawn, offset)
+    return angle if angle <= real.mp.pi else angle - 2 * real.mp.pi
+
+
+def _check_half_turn(angle: Real) -> None:
+    """Error 6 when an angle on a circle (radians) is more than half a turn: by how much its travel differs from that as
+    drawn, or what the offset moves both its ends by. Then the wire might leave the arc out, or run round the rest of
+    its circle."""
+    if not near.at_most(abs(angle), real.mp.pi, "half a turn"):
         raise Fault(Code.GEOMETRY)
 
 
