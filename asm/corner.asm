@@ -1,7 +1,11 @@
 ; corner.asm - where the wire goes from one element to the next: corners, fillets, the entry; which curves are the same
 ; Offers: JOINED CPYEL CPYPL FILLET TON PASSED OFFCHK CORND FIRST PATC SAMEF SAMEC SAMEL
 ; Uses:   [post] calc consts float geom round route start value
-; Room:   465 bytes
+; Room:   472 bytes
+
+; (FILLET comes here when it turns by nothing)
+FILL9:  DB      QDOT,QE6N,QEND  ; -             straight on, or straight back
+; (fall into JOINED)
 
 ; JOINED - corner between C and N, C goes out, N is the current element
 ; In:  C, N, RTURN, RNAMED; P = the corner as drawn   Out: D = P   Clobbers all
@@ -35,9 +39,8 @@ CPYEL:  MVI     A,ELSIZE
 CPYPL:  MVI     A,PLCSIZ
         JMP     COPY
 
-; FILLET - puts the arc that rounds the corner between C and N before N
-; In:  C, N, FI; RTURN, RNAMED   Out: C = the arc (or untouched when C and N run on
-;      without a turn)   Clobbers all
+; FILLET - as JOINED, with the arc that rounds the corner before N; no arc when C and N run on without a turn
+; In:  C, N, FI; RTURN, RNAMED; P = the corner as drawn   Out: D = that corner   Clobbers all
 ; The arc turns as the corner does; its centre is where the parallels at its signed
 ; radius FI cross (SKG book, formula 9-7).
 FILLET: DB      CALC,QPTOK,QNORMS,QJN ; -
@@ -58,20 +61,22 @@ FILLET: DB      CALC,QPTOK,QNORMS,QJN ; -
         CALL    NCOPY
         DB      CALC,Q0,STL,QXING,QMU,STL ; -        a = centre of the arc, which touches both
         DB      LPX,LPY,QVEC,QVEC ; px py x y x y
-        DB      QSB,SPY,SPX     ; px py         a = b = P = centre: in its direction C touches the arc
+        DB      QSB,SPY,SPX     ; px py         a = b = P = centre: C touches the arc in its direction
         DB      LO1,QNEG,SA2,QEND ; px py
         MVI     A,KCIR
         CALL    PUTN
         CALL    PASSED          ; its touching point comes before the corner
         CALL    OFFCHK
         CALL    JOINED
-        DB      CALC,SPY,SPX,QEND ; -           the corner as drawn, without the arc
         LXI     D,RKEPT
+        CALL    TON
+        CALL    JOINED
+        DB      CALC,SDY,SDX,QRET ; -           the corner as drawn, without the arc
+
 ; TON - an element becomes the next one (CLOSE calls it too)
 ; In:  DE -> element   Clobbers A, BC, DE, HL
 TON:    LXI     H,MNEXT
         JMP     CPYEL
-FILL9:  DB      QDOT,QE6N+QRET  ; -             straight on, or straight back
 
 ; PASSED - on the way along the circle C from its entry A, does the point T = b come before K?
 ;          All as seen from the centre

@@ -1,7 +1,7 @@
 ; ends.asm - how a route begins and ends: closed, open, dropped; FROM and BACK
 ; Offers: RUNINI RTNEW WIPE ENDRT SFROM ROUTER SBACK GOBACK
 ; Uses:   [post] calc consts corner fit geom items parser round route start
-; Room:   226 bytes
+; Room:   224 bytes
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -54,8 +54,8 @@ CLOSE4: LDA     CKIND           ; one element alone
 CLOSE6: LXI     H,RELEMS
         DCR     M               ; at the entry still: ADVANC takes the whole circle
 CLOSE7: CALL    NOFIL           ; there is no corner
-        DB      CALC,LGX,SPX,LGY,SPY ; -        the entry is the same, drawn and offset
-        DB      LGX,LGY,QTOK,QEND ; -           K = G, where the route was entered
+        DB      CALC,LGX,SPX,LGY,SPY ; -        the entry is the same, drawn and offset:
+        DB      QPTOK,QEND      ; -             K = P = G, where the route was entered
 CLOSE8: CALL    ADVANC
 ; (fall into RTDONE)
 

@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5) (curves.md)
 ; Offers: NODSIZ SFIT SPOUT NODNXT FITEND XCHRD XMIRR XBIAR ARCW
 ; Uses:   [spans] calc consts corner float geom items parser route start value
-; Room:   366 bytes
+; Room:   365 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -132,8 +132,8 @@ FITEND: CALL    CHKRET
 ; Operations of the calculator that FIT adds, byte-code
 
 ; QCHRD: prepares for a biarc from node 1 to node 2: b = v, a = t+u (one tangent and 0 0: the one)
-XCHRD:  DB      L1U,L2U,QADD,SA0 ; -
-        DB      L1V,L2V,QADD,SA1 ; -
+XCHRD:  DB      L1U,L2U,QADD    ; u
+        DB      L1V,L2V,QADD,QSA ; -
         DB      L2X,L1X,L2Y,L1Y,QWAY+QRET ; v*v
 
 ; QMIRR: b*b -> y x: the vector a mirrored about b; behind QCHRD: the tangent that is not known, the

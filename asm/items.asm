@@ -1,7 +1,7 @@
 ; items.asm - CUT: items that arrive become elements of the route
 ; Offers: SCUT ITEMT ITEMR ADDEL CORDON POSIT ITPNT PNTDON GETR SCALED XSCL
 ; Uses:   calc consts corner fit float geom parser round route start value
-; Room:   381 bytes
+; Room:   380 bytes
 
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 
@@ -108,7 +108,7 @@ ADDEL2: DB      CALC,QEPS,STL,QEND ; -             a corner is no `*`: curves th
         DB      CALC,LKX,SPX,LKY,SPY,QEND ; -    P = the corner as drawn
 ADDEL3: LDA     RFILW
         ORA     A
-        CNZ     FILLET
+        JNZ     FILLET
         JMP     JOINED
 
 ; CORDON - the corner to come is not described yet; TL is as `*` has it
@@ -159,7 +159,7 @@ POSIT:  LXI     H,MA
 
 ; ITPNT - a point
 ; In:  a0 a1, NR   Clobbers all
-ITPNT:  DB      CALC,LA0,SJX,LA1,SJY ; -
+ITPNT:  DB      CALC,QVEC,SJY,SJX ; -
         DB      QXCH,Q0,SB2,Q0,SA2,QEND ; -     b = J
         LDA     RLASTP
         ORA     A
