@@ -283,7 +283,7 @@ STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as tou
 
 ; ---- RAM -------------------------------------------------------------------
 ;! FSTK & 0FFH == 0 -- CALINI, CALC and OOVR change the low byte of FSP alone
-;! CWORK >= FSTK+60 and FWORK >= CWORK+68 and MWORK >= FWORK+48 and KEPT >= MWORK+25 -- no cells overlap
+;! CWORK >= FSTK+80 and FWORK >= CWORK+45 and MWORK >= FWORK+48 and KEPT >= MWORK+25 -- no cells overlap
 ;! MREG & 0FFH == 0 -- CALC makes a register's address from its number
 ;! MA/100H == (MA+5)/100H -- QUAD changes the low byte alone
 ;! MNODE1/100H == MNODE2/100H -- TRY changes the low byte alone
@@ -293,8 +293,8 @@ STL     EQU 0BEH        ; M62 how far curves may cross and still be taken as tou
 ;! GSTKE & 0FFH == 0 and GSTKE/100H == PROG/100H -- SRETN looks for the end; CLRPTR changes the low byte alone
 ;! HELD & 0FFH == 0 and HELD+16*PLCSIZ < PROG-1 -- HELDN is a low byte; CLOSED and RBFULL lie in front of PROG
 ;! KEPT+25 == MNODE1 and MNODE1+25 == MNODE2 -- ROTATE and SWAP exchange neighbours
-FSTK    EQU RAM         ; float stack of the calculator, 12 floats, within a page
-CWORK   EQU RAM+003CH   ; cells of parser, geom, route and tape (68 bytes)
+FSTK    EQU RAM         ; float stack of the calculator, 16 floats, within a page
+CWORK   EQU RAM+0050H   ; cells of parser, geom, route and tape (45 bytes)
 FWORK   EQU RAM+0080H   ; work cells of float.asm and calc.asm (48 bytes); FSQR counts on the 80H
 MWORK   EQU RAM+00B0H   ; cells of monitor, lexer and io (55 bytes)
 KEPT    EQU RAM+00E7H   ; the node of FIT that was kept last, in front of node 1

@@ -28,11 +28,11 @@ RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
 FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up to P
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
-RKEPT   EQU CWORK+45    ; element kept while a fillet goes first
+RKEPT   EQU MREG+335    ; behind the registers: element kept while a fillet goes first
 
 ;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET clear two cells at once
 ;! RBFULL == CLOSED+1 and FITSM == FITN+1 -- RBNEW and FITEND clear two cells at once
-;! MKX+PLCSIZ <= MREG+320 and RKEPT+ELSIZE <= FWORK -- copies stay in their rooms
+;! MKX+PLCSIZ <= MREG+320 and RKEPT+ELSIZE <= LINBUF -- copies stay in their rooms
 ;! RELEMS/100H == RCORN/100H -- JOINED changes the low byte alone
 
 ; NEEDEL - demands that the route has an element

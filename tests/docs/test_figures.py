@@ -180,7 +180,7 @@ def memory() -> str:
     for corner in (0x2000, names["PROG"]):
         figure.line((430, ram(corner)), (600, cells(corner)), "help")
     told = {
-        "FSTK": "12 floats", "CWORK": "cells: parser, geom, route, tape", "FWORK": "cells: float, calc",
+        "FSTK": "16 floats", "CWORK": "cells: parser, geom, route, tape", "FWORK": "cells: float, calc",
         "MWORK": "cells: monitor, lexer, io", "KEPT": "a node of FIT", "MREG": "64 registers", "LINBUF": "the line",
         "TOKS": "its tokens", "STKLOW": "8080 stack ↑", "STKTOP": "GOSUB", "HELD": "places of FIT",
     }  # fmt: skip
