@@ -348,7 +348,8 @@ def main() -> None:
     checks: list[tuple[str, Callable[[], str]]] = [
         ("sums", check_sums),
         (f"linux wheel, {sys.executable}", lambda: check_linux_wheel(Path(sys.executable))),
-        *((f"linux wheel, {one}", lambda one=one: check_linux_wheel(linux_python(one))) for one in MAVEN_PYTHONS),
+        # (Maven's 3.12 for Linux wants libffi 7, which Debian has no more)
+        *((f"linux wheel, {one}", lambda one=one: check_linux_wheel(linux_python(one))) for one in ("3.13", "3.14")),
         ("windows wheel, 3.12, wine", lambda: check_windows_wheel("3.12", "cp1252")),
         ("windows wheel, 3.14, wine in Chinese", lambda: check_windows_wheel("3.14", "cp936")),
         ("skg80, linux", lambda: check_skg80("skg80-*-linux-x86_64", lambda program: [str(program)])),
