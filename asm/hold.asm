@@ -1,18 +1,12 @@
 ; hold.asm - whoever sends is held while a line is worked on
-; Offers: LISTEN ENDLIN LEXTOK
+; Offers: ENDLIN LEXTOK
 ; Uses:   [ports] [punch] decimal io
-; Room:   43 bytes
+; Room:   35 bytes
 ;
 ; /RTS is high from a line's end until the next character is wanted or a program runs.  A sender stops two characters
 ; late: KEYB takes the first one, the receiver keeps the second.
 
 LATE    EQU     1200            ; turns of ENDL1, for a character at 110 baud
-
-; LISTEN - lets senders go on; looks for a break
-; In, Out: as BREAK   Clobbers nothing else
-LISTEN: MVI     A,SIO8N2
-        CALL    BDRTS
-        JMP     BREAK
 
 ; ENDLIN - the line has come: holds the senders, takes what comes late, LF behind CR left out
 ; Clobbers A, DE, HL

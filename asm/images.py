@@ -26,7 +26,7 @@ class Image:
     map: str = "map_rom"
     restarts: bool = True
     ports: tuple[str, ...] = ("ports_2sio", "io_6850", "io_held", "io_tape")
-    punch: tuple[str, ...] = ("rts", "hold", "io_punch", "io_ended")
+    punch: tuple[str, ...] = ("rts", "hold_line", "hold", "io_punch", "io_ended")
     start: tuple[str, ...] = ("reset", "keep")
     post: tuple[str, ...] = ("round", "arc_3b", "tape")
     spans: tuple[str, ...] = ("tol",)
@@ -58,7 +58,7 @@ UNHELD = {
     "punch": ("nohold", "io_punch", "io_reader", "io_ended"),
 }
 #: One line, which is the teletype, its punch and its reader.
-RC2014 = {"ports": ("ports_rc2014", "io_6850", "io_held", "io_key"), "punch": ("rts", "hold", "io_tty")}
+RC2014 = {"ports": ("ports_rc2014", "io_6850", "io_held", "io_key"), "punch": ("rts", "hold_key", "hold", "io_tty")}
 MILL = Image(
     **UNHELD,
     post=("io_send", "round", "arc_iso", "iso"),
@@ -68,12 +68,12 @@ MILL = Image(
 IMAGES = {
     STANDARD: Image(),
     "skg-8251": Image(ports=("ports_8251", "io_8251", "io_held", "io_tape")),
-    "skg-tty": Image(ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("rts", "hold", "io_tty")),
+    "skg-tty": Image(ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("rts", "hold_line", "hold", "io_tty")),
     "skg-rc2014": Image(map="map_rc2014", **RC2014),
     "skg-rc2014-sio": Image(
         map="map_rc2014",
         ports=("ports_sio", "io_sio", "io_held", "io_tape"),
-        punch=("rts_sio", "hold", "io_punch", "io_ended"),
+        punch=("rts_sio", "hold_key", "hold", "io_punch", "io_ended"),
     ),
     "skg-rc2014-ram": Image(map="map_rc2014_ram", restarts=False, forms=(".hex",), **RC2014),
     "skg-nodrift": Image(post=("round", "arc_nodrift", "tape")),

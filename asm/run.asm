@@ -127,7 +127,7 @@ RUNLP:  LHLD    NXTP
         SHLD    NXTP
         XCHG
         SHLD    CURLIN
-        CALL    LISTEN
+        CALL    LETGO
 DIRECT: LXI     SP,STKTOP       ; (CHKED comes in here with a line that has no number)
         LXI     H,0200H
         SHLD    CHKF            ; (nothing new to a line of the program)
