@@ -14,7 +14,7 @@ _RUNS = 8
 
 @dataclass(frozen=True)
 class Manner:
-    """How a contour is cut. `kind`: what it is; `side`: where the wire runs; `passes`: how far beside, mm, in each
+    """The way a contour is cut. `kind`: closed or open; `side`: the wire's; `passes`: distance beside it, mm, in each
     pass; `tab`: length of the bridge that the last cut takes off, mm."""
 
     kind: str
@@ -54,7 +54,7 @@ def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
 
 
 def stops(routes: Sequence[PlannedContour]) -> Iterator[str]:
-    """What the machine stops for, each with the contours; every time it stops twice, wire off and wire threaded."""
+    """Reasons for stops of the machine, each with the contours; each takes two stops, wire off and wire threaded."""
     twice = [one for one in routes if one.contour.is_closed and len(one.passes) > 1 and not one.tab]
     for some, what in (
         (routes[1:], "before {}"),

@@ -89,7 +89,7 @@ def _crossings(job: CutResult) -> Iterator[ReportLine]:
 
 
 def _manners(routes: list[PlannedContour], offset: float) -> Iterator[str]:
-    """How contours are cut, those alike in one line."""
+    """The way contours are cut, those alike in one line."""
     found = manners(routes)
     for manner, numbers in list(found.items())[:_MANNERS]:
         nouns = manner.kind + "s" * (len(numbers) > 1)
@@ -196,7 +196,7 @@ def _first(lines: list[ReportLine]) -> list[ReportLine]:
 
 
 def _more(every: Sequence, noun: str, nouns: str = "") -> list[ReportLine]:
-    """How many more there are of what has a line each."""
+    """Number of entries left out of a list with a line each."""
     more = len(every) - _PLACES
     return [ReportLine(f"and {counted(more, noun, nouns)}")] * (more > 0)
 

@@ -70,14 +70,14 @@ class Chosen:
 
     @property
     def name(self) -> str:
-        """What a message calls it."""
+        """Its name in a message."""
         (x, y), (width, height) = self.place, self.size
         return f"{self.kind} of {width:.10g} x {height:.10g} mm at ({x:.10g}, {y:.10g}) on layer {self.layer}"
 
 
 @dataclass(frozen=True)
 class Job:
-    """What is wanted of a drawing; all lengths in mm.
+    """Wishes for a drawing; all lengths in mm.
 
     `drawing`: a file's name, `sha256` of its bytes, `box` around its contours; these are empty, or None, where nobody
     has read it. `starts`: start holes instead of those that are drawn. A contour beats its layer, a layer
@@ -95,7 +95,7 @@ class Job:
     contours: tuple[Chosen, ...] = ()
 
     def of(self, layers: Iterable[str], chosen: Chosen | None = None) -> Wanted:
-        """What is wanted of a contour on some layers."""
+        """Wishes for a contour on some layers."""
         wanted = self.default.over(Wanted(offset=self.machine.distance))
         on = {layer.lower() for layer in layers}
         for name, partial in reversed(self.layers.items()):

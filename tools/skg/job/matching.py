@@ -42,7 +42,7 @@ class Match:
 
 @dataclass(frozen=True)
 class Matches:
-    """What was found of all chosen contours; `shift`: how far the whole drawing has moved, mm."""
+    """The match of every chosen contour; `shift`: the movement of the whole drawing, mm."""
 
     found: tuple[Match, ...] = ()
     shift: XY = (0.0, 0.0)
@@ -111,7 +111,7 @@ class Known:
         return tuple(found)
 
     def _costs(self, chosen: Sequence[Chosen], shift: XY) -> list[list[tuple[float, int]]]:
-        """How far contours are from the places, and how much their sizes differ: the sum, mm, and the number of each
+        """Distances of contours from the places and differences of their sizes: the sum, mm, and the number of each
         that may be meant or taken for it, the nearest first."""
         if not chosen:
             return []
@@ -171,12 +171,12 @@ class Known:
 
 
 def _clear_of(costs: Sequence[tuple[float, int]], number: int) -> float:
-    """How far the nearest of some is, without one."""
+    """Distance of the nearest of some, without one."""
     return min((cost for cost, other in costs if other != number), default=inf)
 
 
 def _limits(sizes: Floats) -> Floats:
-    """How far away, in mm, contours of some sizes are still found."""
+    """Largest distance, mm, at which contours of some sizes are still matched."""
     return np.maximum(_LEAST, _PART * sizes.sum(1))
 
 

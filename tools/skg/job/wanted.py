@@ -1,4 +1,4 @@
-"""What is wanted of a contour: cut or not, the wire's side and offset, passes, tab, lead, start hole, entry, order."""
+"""Wishes for a contour: cut or not, the wire's side and offset, passes, tab, lead, start hole, entry, order."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LEAD = 3.0
 
 @dataclass(frozen=True)
 class Wanted:
-    """How a contour is cut.
+    """The way a contour is cut.
 
     `cut`: False leaves it, and it stays in the nesting. `offset`: the wire's distance from the contour, mm. `side`: one
     of `SIDES`; auto: around outlines, within the openings in them. `passes`: what each pass leaves to the offset, mm.
@@ -48,7 +48,7 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Partial:
-    """What is said of a `Wanted`, for all contours, those of a layer, or one; None: nothing."""
+    """Some fields of a `Wanted`, set for all contours, those of a layer, or one; None: not set."""
 
     cut: bool | None = None
     offset: float | None = None
@@ -63,9 +63,9 @@ class Partial:
     order: int | None = None
 
     def said(self) -> dict[str, object]:
-        """What it says, by the names of the fields."""
+        """The fields that are set, by name."""
         return {name: value for name, value in vars(self).items() if value is not None}
 
     def over(self, wanted: Wanted) -> Wanted:
-        """What is wanted where this is said beside it."""
+        """A `Wanted` with the fields that are set here replaced."""
         return replace(wanted, **self.said())

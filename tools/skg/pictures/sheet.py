@@ -193,11 +193,11 @@ class SetupSheet:
 
     @staticmethod
     def _rows_in(height: float) -> int:
-        """How many rows have room, below the head of the table."""
+        """Number of rows that fit below the head of the table."""
         return int((height - 2) / _ROW) - 1
 
     def _notes(self) -> list[list[str]]:
-        """What stands under the drawing: what the machine stops for, and the manners in words, two in a line."""
+        """Text under the drawing: stops of the machine, and the manners in words, two in a line."""
         told = [f"{_letters(at)}: {manner.told}" for at, manner in enumerate(self.manners)]
         if len(told) > _MANNERS:
             told[_MANNERS:] = [f"and {counted(len(told) - _MANNERS, 'manner')} more: the program has them"]

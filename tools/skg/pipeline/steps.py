@@ -57,7 +57,7 @@ class DrawnJob:
         return sha256(self.data).hexdigest()
 
     def chosen(self, job: Job) -> dict[int, Chosen]:
-        """What the job says of contours, by their numbers; places are where the drawing is now."""
+        """The job's wishes by the numbers of contours; places are where the drawing is now."""
         return {
             match.number: _moved(one, match.shift)
             for one, match in zip(job.contours, self.matches.found, strict=True)
@@ -91,12 +91,12 @@ def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
 
 
 def wishes_of(job: Job) -> Wishes:
-    """How the drawing is read: open contours are refused where the wire runs beside contours, if nobody says more."""
+    """Options for reading the drawing: open contours are refused by default where the wire runs beside contours."""
     return replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"))
 
 
 def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
-    """What is wanted of each contour; places are where the drawing is now."""
+    """Wishes for each contour; places are where the drawing is now."""
     layers = {layers: job.of(layers) for layers in {contour.layers for contour in drawn.contours}}
     wanted = [layers[contour.layers] for contour in drawn.contours]
     for number, chosen in drawn.chosen(job).items():

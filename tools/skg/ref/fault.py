@@ -1,4 +1,4 @@
-"""What a running SKG program can fail with (language.md, section 6)."""
+"""Errors of a running SKG program (language.md, section 6)."""
 
 from __future__ import annotations
 

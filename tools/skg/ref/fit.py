@@ -54,7 +54,7 @@ def circle_tangent(a: Point, b: Point, c: Point) -> Point:
 
 
 def corners(p: Point, t: Point, q: Point, u: Point) -> tuple[Point, Point]:
-    """Where the tangents at the ends of a biarc from p (unit tangent t) to q (unit tangent u) meet that at its joint.
+    """Points at which the end tangents of a biarc from p (unit tangent t) to q (unit tangent u) meet that at its joint.
 
     All tangent lengths are d = v·v / (v·(t+u) + √((v·(t+u))² + 2(1 - t·u) v·v)) with v = q - p, so the corners are
     p + d·t and q - d·u, and the joint is halfway between them. Error 6 when there is no positive d.
@@ -70,13 +70,13 @@ def corners(p: Point, t: Point, q: Point, u: Point) -> tuple[Point, Point]:
 
 
 def joint(p: Point, t: Point, q: Point, u: Point) -> Point:
-    """Where the two arcs of a biarc meet; error 6 as in `corners`."""
+    """The joint of a biarc's two arcs; error 6 as in `corners`."""
     c, d = corners(p, t, q, u)
     return (c + d) * (real.ONE / 2)
 
 
 def within(a: Node, b: Node, passed: list[Node], tolerance: Real) -> bool:
-    """Whether all passed nodes lie within the tolerance of the biarc from a to b (TOL, docs/curves.md).
+    """True if all passed nodes lie within the tolerance of the biarc from a to b (TOL, docs/curves.md).
 
     The biarc must begin and end forwards on the whole: v·(t+u) > 1 µm, v the chord; it exists then. (Half a circle has
     0, and so has a curve that ends where it began: neither may hang on the last bits.) The joint's normal parts the

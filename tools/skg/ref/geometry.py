@@ -48,7 +48,7 @@ def through(p: Point, q: Point) -> Line:
 
 @dataclass(frozen=True)
 class Crossings:
-    """Where two curves meet: the left-turn and the right-turn point from the first curve to the second.
+    """Meeting points of two curves: the left-turn and the right-turn point from the first curve to the second.
 
     One point alone (lines; curves that touch) is both. `gap` is by how much the curves miss each other
     (negative: by how much they cross) at their closest approach, None for two lines.
@@ -76,7 +76,7 @@ def crossings(e: Curve, f: Curve, touch: Real = MICRON) -> Crossings:
 
 
 def _touch(gap: Real, touch: Real) -> bool:
-    """Whether the curves touch; error 6 when they miss each other."""
+    """True if the curves touch; error 6 when they miss each other."""
     if gap > 0:
         if not near.at_most(gap, MICRON, "touching"):
             raise Fault(Code.GEOMETRY)

@@ -64,7 +64,7 @@ _FUNCTIONS = {
 
 @dataclass(frozen=True)
 class Result:
-    """What a program did.
+    """The result of a program.
 
     `tape` holds the bytes of the punch; `paper` what PRINT and INPUT wrote, and a last line `ERR …`, lines
     ended by LF; `error` the error's number and line (None: no line). `near` lists decisions that were close
@@ -102,7 +102,7 @@ class Interpreter:
         self._clear()
 
     def _clear(self) -> None:
-        """What RUN starts with."""
+        """Set the state that RUN starts with."""
         self.variables: dict[tuple[str, int], Value] = {}
         self.data_at = 0
         self.returns: list[int | None] = []
@@ -137,7 +137,7 @@ class Interpreter:
         return None
 
     def _forget_places(self) -> None:
-        """What another program makes void: the open route, where DATA and GOSUB were."""
+        """Forget what belongs to the last program: the open route, the places of DATA and GOSUB."""
         self.cutter.forget()
         self.data_at = 0
         self.returns.clear()
@@ -426,7 +426,7 @@ def _lines(source: str) -> list[str]:
 
 
 def _typed(line: str) -> str:
-    """What the machine takes of a line: ctrl-U forgets what stands before it, other control characters mean nothing."""
+    """The part of a line that the machine takes: ctrl-U drops all before it, other control characters are ignored."""
     return re.sub(r"[\x00-\x1f\x7f]", "", line.split("\x15")[-1])
 
 

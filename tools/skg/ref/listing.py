@@ -1,4 +1,4 @@
-"""How LIST writes a line: what it writes must be a line that LOAD takes (language.md, section 3)."""
+"""Lines as LIST writes them, each a line that LOAD takes (language.md, section 3)."""
 
 from __future__ import annotations
 

@@ -99,7 +99,7 @@ class Segment:
 
     @property
     def is_arc(self) -> bool:
-        """Whether the segment is an arc."""
+        """True if the segment is an arc."""
         return self.centre is not None
 
 
@@ -253,7 +253,7 @@ class Route:
         self.first = self.element = Element(nominal, offset, curve, start, start)
 
     def _is_same(self, entered: Element, nominal: Curve) -> bool:
-        """Whether a curve goes on along the one that was entered."""
+        """True if a curve goes on along the one that was entered."""
         if isinstance(entered.nominal, Circle):
             return isinstance(nominal, Circle) and same_circle(entered.nominal, nominal)
         if not isinstance(nominal, Line):
@@ -379,7 +379,7 @@ class Route:
             self._close_along(self._go_over(self.first, self.right))
 
     def _ends_as_it_begins(self) -> bool:
-        """Whether the last element written is the first again."""
+        """True if the last element written is the first again."""
         first, last = self.items[0].value, self.items[-1].value
         if isinstance(first, Point) or isinstance(last, Point):
             return isinstance(first, Point) and isinstance(last, Point) and same_point(first, last)
@@ -471,5 +471,5 @@ def _check_order(path: Circle, start: Point, middle: Point, end: Point, kind: st
 
 
 def _touching(on: Circle, curve: Curve, arc: Circle) -> Point:
-    """Where a curve and an arc of the same sense touch, on one of two circles: the curve itself or the arc."""
+    """Touching point of a curve and an arc of the same sense, on one of two circles: the curve itself or the arc."""
     return on.centre + right(curve, arc.centre) * on.r

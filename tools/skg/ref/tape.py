@@ -97,7 +97,7 @@ def full_turns(start: Grid, end: Grid, true_sweep: Real) -> int | None:
 
 
 def _nearest_turns(rounded: Real, true_sweep: Real) -> int:
-    """How many full turns to add to the rounded values' sweep to come nearest the true one: -1, 0 or 1."""
+    """Number of full turns that brings the rounded values' sweep nearest to the true one: -1, 0 or 1."""
     full = 2 * real.mp.pi
     misses = sorted((abs(rounded + n * full - true_sweep), n) for n in (-1, 0, 1))
     near.note("sweep", misses[1][0] - misses[0][0], 1e-6)

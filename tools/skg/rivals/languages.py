@@ -1,4 +1,4 @@
-"""Which endings of a file's name mean which language."""
+"""Languages by the endings of files' names."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _NAMES = {".xy": "a program in XY", ".tkh": "a program in TEKHTRAN"}
 
 
 class RivalFault(Exception):
-    """What is wrong with a rival's program: `LINE:COLUMN: TEXT`, both from 1."""
+    """An error in a rival's program: `LINE:COLUMN: TEXT`, both from 1."""
 
 
 def is_program(name: str) -> bool:
-    """Whether a file is a program, SKG's or a rival's, by its ending."""
+    """True if a file is a program, SKG's or a rival's, by its ending."""
     ending = Path(name).suffix.lower()
     return ending == ".skg" or ending in MODULES
 
@@ -46,5 +46,5 @@ def translated(name: str, ending: str | None = None) -> str:
 
 
 def is_rival(name: str) -> bool:
-    """Whether a file is a rival's program."""
+    """True if a file is a rival's program."""
     return Path(name).suffix.lower() in MODULES

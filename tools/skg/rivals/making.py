@@ -58,7 +58,7 @@ class NewElement:
 
 @dataclass(frozen=True)
 class XYFrame:
-    """Where numbers are read (ZB): the place of its origin and the angle of its x axis; None: the drawing's own."""
+    """The axes in which numbers are read (ZB): the place of the origin and the angle of x; None: the drawing's own."""
 
     origin: ExactPoint = ExactPoint(ZERO, ZERO)
     angle: Real = ZERO

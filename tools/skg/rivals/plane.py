@@ -81,11 +81,11 @@ class ExactLine:
         return ExactLine(self.point, -self.way)
 
     def beside(self, p: ExactPoint) -> Real:
-        """How far a point lies to the left."""
+        """Distance of a point to the left."""
         return self.way.cross(p - self.point)
 
     def ahead(self, p: ExactPoint) -> Real:
-        """How far a point lies ahead of the line's own."""
+        """Distance of a point ahead of the line's own."""
         return self.way.dot(p - self.point)
 
 
@@ -100,7 +100,7 @@ class ExactCircle:
         return ExactCircle(self.centre, -self.r)
 
     def beside(self, p: ExactPoint) -> Real:
-        """How far a point lies to the left of the way (inside, counter-clockwise)."""
+        """Distance of a point to the left of the way (inside, counter-clockwise)."""
         off = abs(self.r) - (p - self.centre).size()
         return off if self.r > 0 else -off
 
@@ -234,7 +234,7 @@ def way_at(curve: ExactCurve, p: ExactPoint) -> ExactPoint:
 
 
 def on(curve: ExactCurve, p: ExactPoint) -> bool:
-    """Whether the curve passes the point (near)."""
+    """True if the curve passes through the point (near)."""
     return abs(curve.beside(p)) <= NEAR
 
 
@@ -279,7 +279,7 @@ def touching_point(circle: ExactCircle, other: ExactCurve) -> ExactPoint:
 
 
 def crossings(e: ExactCurve, f: ExactCurve, touch: Real = NEAR) -> tuple[ExactPoint, ...]:
-    """Where two curves cross: two points, one where they touch (within `touch`; two lines: where they cross).
+    """Crossings of two curves: two points, or one if they touch (within `touch`) or are lines.
 
     `PlaneError` when they miss each other by more than near, or never cross.
     """
@@ -319,7 +319,7 @@ def _of_circles(c1: ExactCircle, c2: ExactCircle, touch: Real) -> tuple[ExactPoi
 
 
 def entering(e: ExactCurve, circle: ExactCircle) -> ExactPoint:
-    """Where e, run along its way, enters a circle; the touching point where it touches."""
+    """Point at which e, run along its way, enters a circle; the touching point if it touches."""
     found = crossings(e, circle)
     if len(found) == 1:
         return found[0]

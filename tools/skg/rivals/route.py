@@ -81,7 +81,7 @@ class Stretch:
         return sweep(self.curve, self.start, self.end) if self.is_travelled else ZERO
 
     def has(self, p: ExactPoint) -> bool:
-        """Whether a point of the curve lies between start and end (near)."""
+        """True if a point of the curve lies between start and end (near)."""
         if same_point(p, self.start) or same_point(p, self.end):
             return True
         if isinstance(self.curve, ExactLine):
@@ -165,7 +165,7 @@ def mirrored_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hun
 
 
 def between(a: Hung, b: Hung, at: int) -> tuple[ExactPoint, ExactPoint, list[Part]]:
-    """Where the belt leaves a, where it reaches b, and what lies between; `at`: the place to blame.
+    """The points at which the belt leaves a and reaches b, and the pieces between; `at`: the place to blame.
 
     The table of xy.md, section 4.
     """

@@ -1,4 +1,4 @@
-"""Where the wire enters an XY route, and the route written from there (docs/spec/xy.md, sections 5 and 8)."""
+"""The wire's entry into an XY route, and the route written from there (docs/spec/xy.md, sections 5 and 8)."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def entry(parts: list[Part], near: ExactPoint, offset: Real) -> Entry:
 
 
 def wire_corner(e: ExactCurve, f: ExactCurve, p: ExactPoint, offset: Real) -> ExactPoint | None:
-    """Where the wire's path goes over from e to f, whose corner is p (language.md, section 4.4).
+    """The place at which the wire's path goes over from e to f, whose corner is p (language.md, section 4.4).
 
     None where SKG refuses the corner.
     """
@@ -125,7 +125,7 @@ def written(parts: list[Part], at: Entry, name: Namer) -> list[str]:
 
 
 def _joint(before: Stretch, first: Stretch) -> SkgText | None:
-    """Where a belt line and a circle touch, in their own terms."""
+    """Touching point of a belt line and a circle, in their own terms."""
     line, circle = (before, first) if isinstance(before.curve, ExactLine) else (first, before)
     if isinstance(circle.curve, ExactLine) or isinstance(line.curve, ExactCircle) or line.text is None:
         return None

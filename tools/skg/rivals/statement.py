@@ -1,4 +1,4 @@
-"""What the translators share: statements parsed token by token, their numbers, the place of what is wrong."""
+"""Statements for both translators: parsed token by token, their numbers, the place of an error."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from skg.rivals.plane import Real
 
 
 class TextFault(Exception):
-    """What is wrong with a text, and the index of the character where."""
+    """An error in a text, and the index of its character."""
 
     def __init__(self, at: int, message: str) -> None:
         super().__init__(message)

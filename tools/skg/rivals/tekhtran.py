@@ -42,7 +42,7 @@ def translate(text: str, title: str = "") -> str:
 
 @dataclass(frozen=True)
 class _Named:
-    """What a name means: its kind, its value, its z, its name in SKG (matrices and planes: none)."""
+    """The meaning of a name: its kind, its value, its z, its name in SKG (matrices and planes: none)."""
 
     kind: str
     value: ExactPoint | ExactLine | ExactCircle | Real | Matrix
@@ -52,7 +52,7 @@ class _Named:
 
 @dataclass
 class _Wire:
-    """Where the wire is, the point that says so in SKG, and whether it is moving from its start hole."""
+    """The wire's place, its point in SKG, and whether it is moving from its start hole."""
 
     at: ExactPoint
     name: str = ""
@@ -66,7 +66,7 @@ class _Wire:
 
 @dataclass
 class _TekhtranMachine:
-    """What has been defined so far, and the SKG program for it."""
+    """The definitions so far, and the SKG program for them."""
 
     program: SkgProgram
     named: dict[str, _Named] = field(default_factory=dict)
@@ -131,7 +131,7 @@ class _TekhtranMachine:
         return [(named.value, SkgText(named.skg))]
 
     def operand(self, child: Tree | Token) -> Operand | Token:
-        """What stands in a statement: a number, or what a name means; words as they are."""
+        """An operand of a statement: a number, or the meaning of a name; words as they are."""
         if isinstance(child, Tree):
             return Operand(*self.number(child), first_token(child))
         if child.type not in KIND_WORDS:

@@ -63,7 +63,7 @@ CornerNamer = Callable[[SkgText, ExactPoint], SkgText]
 
 @dataclass(frozen=True)
 class _Corner:
-    """Where two neighbours meet; a text where neither is a point."""
+    """Meeting point of two neighbours; a text if neither is a point."""
 
     at: ExactPoint
     text: SkgText | None = None
@@ -110,7 +110,7 @@ def _is_whole_circle(items: list[ContourItem]) -> bool:
 
 
 def _corner(before: ContourItem, item: ContourItem) -> _Corner:
-    """Where an item begins; of two points: at the second."""
+    """The place where an item begins; of two points: the second."""
     for point, curve in ((item, before), (before, item)):
         if point.is_point:
             if not curve.is_point and not on(curve.value, point.value):
@@ -137,7 +137,7 @@ def _run(item: ContourItem, start: _Corner, end: _Corner) -> ContourItem:
 
 
 def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corner]) -> list[Stretch]:
-    """What is travelled: curves, and the lines between points."""
+    """The pieces that are travelled: curves, and the lines between points."""
     found = []
     following = [*items[1:], items[0]]
     for item, start, end, after in zip(items, starts, ends, following, strict=True):
@@ -150,7 +150,7 @@ def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corn
 
 
 def _check_entry(item: ContourItem, stretches: list[Stretch], wire: ExactPoint, offset: Real) -> None:
-    """Whether BACK will find where the wire has entered the first item."""
+    """True if BACK will find the place where the wire entered the first item."""
     last, first, second = stretches[-1], stretches[0], stretches[1]
     if item.is_point:
         if inner_corner(last.curve, first.curve, item.value, offset):

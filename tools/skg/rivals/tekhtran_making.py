@@ -42,7 +42,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Operand:
-    """What stands in a definition: a number, or what a name means; its SKG text, its z, its place."""
+    """An operand of a definition: a number, or the meaning of a name; its SKG text, its z, its place."""
 
     value: ExactElement | Real | Matrix
     text: SkgText
@@ -52,7 +52,7 @@ class Operand:
 
 @dataclass(frozen=True)
 class Defined:
-    """What a definition makes; no text: computed numbers; no z: that of ПЛЗ."""
+    """The result of a definition; no text: computed numbers; no z: that of ПЛЗ."""
 
     value: ExactElement | Real | Matrix
     text: SkgText | None = None

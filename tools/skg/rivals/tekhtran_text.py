@@ -64,7 +64,7 @@ _TOKEN = re.compile(
 
 
 class Names(Protocol):
-    """What the names mean so far."""
+    """The meanings of names so far."""
 
     def kind(self, name: str) -> str | None:
         """The kind of what has been defined by this name."""

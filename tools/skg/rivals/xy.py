@@ -60,7 +60,7 @@ class _Copies:
 
 @dataclass
 class _Machine:
-    """What has been made so far, and the SKG program for it."""
+    """The elements made so far, and the SKG program for them."""
 
     program: SkgProgram
     elements: dict[str, ExactElement] = field(default_factory=dict)
@@ -70,7 +70,7 @@ class _Machine:
     routes: int = 0
 
     def has(self, name: str) -> bool:
-        """Whether a name has been made."""
+        """True if a name has been made."""
         return name in self.elements or name in self.variables
 
     # Writing ----------------------------------------------------------------------------------------------------
@@ -239,7 +239,7 @@ class _Machine:
         self.program.body += [f"FROM {hole.text}", f"R={'0' if distance == 0 else text}", *packed("CUT", cuts), *last]
 
     def items(self, trees: list[Tree]) -> tuple[list[Hung], _Copies | None]:
-        """What hangs on the belt, with all copies and images, and the × that ends it, if one does."""
+        """The items on the belt, with all copies and images, and the × that ends it, if one does."""
         items: list[Hung] = []
         copies: _Copies | None = None
         for tree in trees:

@@ -64,7 +64,7 @@ class IsoPunch(Punch):
     number: int = 0
 
     def reset(self) -> None:
-        """What RUN begins with: no F, no Z, a new tape."""
+        """Set the state that RUN begins with: no F, no Z, a new tape."""
         self.cutting, self.travel = None, TRAVEL
         self.feed = self.down = None
         self._begin()
