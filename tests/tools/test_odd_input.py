@@ -41,6 +41,8 @@ FILES = {
     "blank tape": (bytes(300), ""),
     "junk": (random.Random(1).randbytes(500), ""),
     "sevens": (b"7" * 5000, ""),
+    "comments": (b"<!-- -->\n" * 400, ""),
+    "remarks": (b"999\nabc\n" * 400, ""),
     "text": (b"Dear Sir,\nplease find enclosed\n", ""),
     "html": (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "a web page"),
     "png": ((ROOT / "docs/pictures/page.png").read_bytes()[:2000], "a PNG picture"),

@@ -7,7 +7,7 @@ import re
 from skg.errors import UserError
 
 TAPE, PROGRAM, GCODE, DRAWING = "a 3B tape", "an SKG program", "G-code", "a DXF drawing"
-#: How files begin, in the order in which they are tried.
+#: Beginnings of files, in the order in which they are tried. (possessive: a file of comments alone takes no time)
 _BEGINNINGS = [
     (rb"\x89PNG\r\n", "a PNG picture"),
     (rb"\xff\xd8\xff", "a JPEG picture"),
@@ -16,11 +16,11 @@ _BEGINNINGS = [
     (rb"AC10\d\d", "a DWG drawing"),
     (rb"AutoCAD Binary DXF", DRAWING),
     (rb"\xff\xfe|\xfe\xff", "text in UTF-16"),
-    (rb"(?:\s*999\r?\n.*\r?\n)*\s*0\r?\n\s*SECTION\s", DRAWING),
-    (rb"\s*(?:<!--.*?-->\s*|<[?!][^>]*>\s*)*<svg\b", "an SVG drawing"),
+    (rb"(?:\s*999\r?\n[^\n]*\n)*\s*0\r?\n\s*SECTION\s", DRAWING),
+    (rb"\s*(?:<!--.*?-->\s*|<[?!](?!--)[^>]*>\s*)*+<svg\b", "an SVG drawing"),
     (rb"\s*(?:<![^>]*>\s*)?<html\b", "a web page"),
     (rb"\s*(?:B\s*\d+\s*){3}G", TAPE),
-    (rb"\s*%?\s*(?:N\s*\d+\s*)?G\s*0*\d{1,2}(?![\d.])", GCODE),
+    (rb"\s*+%?\s*+(?:N\s*\d+\s*)?G\s*0*\d{1,2}(?![\d.])", GCODE),
     (rb"\s*\d{1,4}\s*(?:REM|FROM|CUT|R\s*=|[A-Z]\d*\s*=)", PROGRAM),
 ]
 

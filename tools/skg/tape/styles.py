@@ -20,7 +20,8 @@ from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, line_block, start_quad
 #: Words for the end of the tape. All others are stops.
 ENDS = ("DD", "FF", "E", "END", "MJ", "M2", "M02", "M30")
 #: In the block's own line, so that no header's last number is one.
-_NUMBER = r"(?:N[^\S\n]*(\d+)|(\d+))?(?:(?<=\d)[^\S\n]*[:.,)、]?[^\S\n]*)?"
+#: (possessive: a long row of digits or blanks that is no number is left in one step)
+_NUMBER = r"(?:N[^\S\n]*+(\d++)|(\d++))?(?:(?<=\d)[^\S\n]*+[:.,)、]?[^\S\n]*+)?"
 _BLOCK = re.compile(
     _NUMBER + r"(B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*B[\s,]*(\d*)[\s,]*G\s*([XY])[\s,]*(L|[NS]R)\s*([1-4]))", re.I
 )
@@ -33,7 +34,7 @@ _START = re.compile(r"START\s+POINT\s*=\s*([-+]?[\d.]+)\s*,\s*([-+]?[\d.]+)", re
 #: Full-width characters, as Chinese editors write them, and what they mean.
 _FULL_WIDTH = {0x3000: " "} | {0xFF00 + code: chr(0x20 + code) for code in range(1, 0x5F)}
 #: A line that is, or is meant to be, a block.
-_LIKE_A_BLOCK = re.compile(r"^\s*(?:N?\s*\d+\s*[:.]?\s*)?B\s*\d|G\s*[XY]\s*(?:L|[NS]R)\s*\d", re.I | re.M)
+_LIKE_A_BLOCK = re.compile(r"^\s*+(?:N?\s*+\d++\s*+[:.]?\s*+)?B\s*\d|G\s*[XY]\s*(?:L|[NS]R)\s*\d", re.I | re.M)
 _FOUR = re.compile(r"B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*G|G\s*[XY]\s*DD?\s*(?:L|[NS]R)\s*[1-4]", re.I)
 
 
