@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,6 +10,7 @@ from click.testing import CliRunner
 from rivalhelp import ROOT
 
 from skg.cli import cli
+from skg.errors import UserError
 from skg.rivals.languages import translated
 
 COMMANDS = [
@@ -61,15 +61,14 @@ def test_commands_say_where(
     ending: str,
     text: str,
     wrong: str,
-    run_skg: Callable,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path(f"bad.{ending}").write_text(text)
-    done = run_skg(*command, f"bad.{ending}")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"skg: bad.{ending}:{wrong}\n"
+    done = CliRunner(mix_stderr=False).invoke(cli, [*command, f"bad.{ending}"])
+    assert isinstance(done.exception, UserError) and str(done.exception) == f"bad.{ending}:{wrong}"
+    assert (done.stdout, done.stderr) == ("", "")
 
 
 @pytest.mark.parametrize(("command", "name"), [("xy", "xy-book-star.xy"), ("tekhtran", "tkh-fork.tkh")])

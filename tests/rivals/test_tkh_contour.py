@@ -206,7 +206,7 @@ def nearest(edge: Edge, p: XY, right: float) -> XY:
 
 
 #: Blocks that the test of random contours compares at least, in all.
-BLOCKS = 2000
+BLOCKS = 1000
 PARTS = 8
 
 

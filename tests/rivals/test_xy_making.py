@@ -14,7 +14,7 @@ from skg.ref.values import Circle, Line, Point, Value
 from skg.rivals.making import FORMS
 
 #: So many of a form are made, of so many tried.
-GOOD, TRIES = 12, 400
+GOOD, TRIES = 6, 400
 Elements = dict[str, Value]
 Check = Callable[[Elements, Value, list], None]
 

@@ -91,7 +91,7 @@ def path(text: str) -> tuple[list[XY], XY]:
 
 
 #: Blocks that the test of random belts compares at least, in all.
-BLOCKS = 2000
+BLOCKS = 1000
 PARTS = 8
 
 

@@ -22,6 +22,9 @@ from romhelp import ROOT
 
 from skg.machine import symbols
 
+sys.path.insert(0, str(ROOT / "asm"))
+import rooms  # noqa: E402
+
 _spec = importlib.util.spec_from_file_location("builder", ROOT / "asm" / "build.py")
 assert _spec and _spec.loader
 builder = importlib.util.module_from_spec(_spec)
@@ -187,27 +190,19 @@ class Line:
     operands: str
 
 
+#: The assembler takes a second an image: once for all tests, which stay in one process.
+builder.build = functools.cache(builder.build)
+pytestmark = pytest.mark.xdist_group("images")
+
+
 @functools.cache
 def built(name: str) -> dict[str, bytes]:
     """The image built anew, and its listing and symbols: contents by suffix."""
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory() as scratch, pytest.MonkeyPatch.context() as patch:
         out = Path(scratch) / name
-        done = subprocess.run(
-            [
-                sys.executable,
-                ROOT / "asm" / "build.py",
-                "--image",
-                name,
-                "--sym",
-                out.with_suffix(".sym"),
-                "--listing",
-                out.with_suffix(".lst"),
-                out,
-            ],
-            capture_output=True,
-            text=True,
-        )
-        assert done.returncode == 0, done.stdout + done.stderr
+        files = ["--sym", out.with_suffix(".sym"), "--listing", out.with_suffix(".lst"), out]
+        patch.setattr(sys, "argv", ["build.py", "--image", name, *map(str, files)])
+        builder.main()
         return {suffix: out.with_suffix(suffix).read_bytes() for suffix in (*VARIANTS[name], ".sym", ".lst")}
 
 
@@ -252,6 +247,21 @@ def test_built_anew_it_is_the_same(name: str) -> None:
     for suffix in VARIANTS[name]:
         committed = (ROMS / name).with_suffix(suffix)
         assert built(name)[suffix] == committed.read_bytes(), f"{committed}: make rom"
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_room(name: str) -> None:
+    """No file is longer than its header allows; where restarts are CALLs that counts for an image's own files."""
+    images = rooms.every()
+    _, names, _, texts = builder.build(name)
+    allowed = {file: space for file, room in images[name].items() if (space := rooms.room_of(room)) is not None}
+    sizes = {file: size for file, size in builder.bytes_of(texts, names).items() if file in allowed}
+    assert sum(sizes.values()) > 7000
+    if not builder.IMAGES[name].restarts:
+        others = {file for other, files in images.items() if builder.IMAGES[other].restarts for file in files}
+        sizes = {file: size for file, size in sizes.items() if file not in others}
+        assert bool(sizes) == bool(set(allowed) - others)
+    assert {file: f"{n} of {allowed[file]} bytes" for file, n in sizes.items() if n > allowed[file]} == {}
 
 
 @pytest.mark.parametrize("name", ROM_IMAGES)

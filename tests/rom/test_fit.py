@@ -214,10 +214,10 @@ def test_regression(path: Path) -> None:
 )
 def test_family_can_be_cut(family: Family) -> None:
     """Most programs of each family run through, and make fitted blocks; `wide` meets error 7 too."""
-    results = [reference(curve_part(Random(f"{SEED} {n}"), [family])) for n in range(25)]
+    results = [reference(curve_part(Random(f"{SEED} {n}"), [family])) for n in range(12)]
     fine = sum(result.error is None for result in results)
-    assert fine >= (8 if family.__name__ in ("wide", "degenerate", "odd_nodes", "shaken", "beside_a_circle") else 14)
-    assert sum(s.is_arc for result in results for s in result.path) >= 20
+    assert fine >= (4 if family.__name__ in ("wide", "degenerate", "odd_nodes", "shaken", "beside_a_circle") else 7)
+    assert sum(s.is_arc for result in results for s in result.path) >= 10
     errors = {result.error[0] for result in results if result.error}
     if family.__name__ == "wide":
         assert 7 in errors

@@ -1,6 +1,7 @@
 """Narrow parts (narrow.py): what the wire does not fit is error 6 or 7, never a wrong tape; what fits is cut.
 
 10,000 programs; another seed: SKG_SEED=text, more of them: SKG_NARROW=number.
+Of the parts that the ROM refuses, so many are tried again without its rule: SKG_LOOSE=1 tries all.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from skg.machine import symbols
 SEED = os.environ.get("SKG_SEED", "narrow")
 SHARES = range(8)
 PARTS_A_SHARE = int(os.environ.get("SKG_NARROW", "10000")) // len(SHARES)
+#: Of the parts that are refused, each so-many-th runs on the ROM without the rule, too (no translation of it is there).
+LOOSE = int(os.environ.get("SKG_LOOSE", "4"))
 #: Verdicts on tapes that no corner shows to be wrong.
 KNOWN = ("right", "walls")
 #: What refuses a part that the wire does not fit.
@@ -49,6 +52,8 @@ def verdicts(some: Iterator[Part], rom: bytes | None = None) -> tuple[Counter[st
         if outcome.error:
             assert outcome.error.number in NO_ROOM, f"{outcome.error}\n{part.program}"
             counts["refused"] += 1
+            if counts["refused"] % LOOSE:
+                continue
             other = Board(rom=loose).outcome(part.program)
             counts["refused by the rule"] += other.error is None
             if other.error is None and judged(part, other.tape) == "right":
@@ -71,25 +76,25 @@ def test_no_narrow_part_is_cut_wrong(number: int) -> None:
 
 def test_the_judge_sees_arcs_that_turn_over() -> None:
     """A ROM without the rule cuts some of the parts wrong."""
-    _, wrong = verdicts(islice(share(0), 400), without_the_rule())
+    _, wrong = verdicts(islice(share(0), 200), without_the_rule())
     assert len(wrong) > 3
 
 
 @pytest.mark.parametrize("kind", ["skg-nodrift", "skg-8251", "skg-drive"])
 def test_every_image_refuses_the_same(kind: str) -> None:
     refused = 0
-    for part in islice(share(1), 150):
+    for part in islice(share(1), 60):
         error = Board().outcome(part.program).error
         assert Board(kind=kind).outcome(part.program).error == error, part.program
         refused += error is not None
-    assert refused > 20
+    assert refused > 8
 
 
 def test_the_reference_refuses_the_same() -> None:
     """But for close calls; and its tape is the same."""
     compared = 0
-    for part in islice(share(2), 300):
+    for part in islice(share(2), 100):
         verdict = compare(part.program)
         assert not verdict.difference, f"{verdict.difference}\n{part.program}"
         compared += not verdict.aside
-    assert compared > 250
+    assert compared > 80
