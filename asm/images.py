@@ -68,7 +68,9 @@ MILL = Image(
 IMAGES = {
     STANDARD: Image(),
     "skg-8251": Image(ports=("ports_8251", "io_8251", "io_held", "io_tape")),
-    "skg-tty": Image(ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("rts", "hold_line", "hold", "io_tty")),
+    "skg-tty": Image(
+        ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("rts", "hold_line", "hold", "io_tty")
+    ),
     "skg-rc2014": Image(map="map_rc2014", **RC2014),
     "skg-rc2014-sio": Image(
         map="map_rc2014",
