@@ -3,7 +3,7 @@ import { bind } from "./controls.ts";
 import { get, onClick } from "./dom.ts";
 import { Inside } from "./inside.ts";
 import { keepSafe } from "./keeping.ts";
-import { preferred, spoken, t } from "./language.ts";
+import { preferred, t } from "./language.ts";
 import { openManual, turnManual } from "./manual.ts";
 import { say, warn } from "./message.ts";
 import { Opening } from "./opening.ts";
@@ -88,10 +88,7 @@ function showDrawing(): void {
 }
 
 function tellWorks(): void {
-  const box = get("work-list");
-  const language = spoken() === "zh" ? "zh-CN" : "en-GB";
-  showWorks(box, works, language, (work) => void bench.open(work.name, work.program, true));
-  get("works").hidden = !box.childElementCount;
+  showWorks(works, (work) => void bench.open(work.name, work.program, true));
 }
 
 function tellParts(): void {

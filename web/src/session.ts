@@ -1,5 +1,6 @@
 /** The machine as the page has it: what it does now, the program in it, its paper, and what is kept of it. */
 import type { Look, Punched } from "./board.ts";
+import { ErrorLines } from "./errorline.ts";
 import { narrow } from "./language-skg.ts";
 import { Machine } from "./machine.ts";
 import type { Images, Refused, Speed, State } from "./runner.ts";
@@ -32,7 +33,6 @@ export class Session {
   #kept: { ram: string; rom: string } | undefined;
   /** What was kept at the last visit: there until the machine tells what is in it. */
   #last: Kept | null = null;
-  #tail = "";
   state: State = "busy";
   program = "";
   isAlive = true;
@@ -44,11 +44,12 @@ export class Session {
     this.#teletype = teletype;
     this.#store = store;
     this.#hooks = hooks;
+    const errors = new ErrorLines((number, line) => hooks.error(number, line));
     this.#machine = new Machine(worker, {
       out: (paper, punched, seen) => {
         teletype.print(paper, seen);
         if (punched.length) hooks.punched(punched);
-        this.#lookForError(paper);
+        errors.read(paper);
       },
       state: (state) => {
         this.state = state;
@@ -144,13 +145,5 @@ export class Session {
 
   speed(speed: Speed): void {
     this.#machine.speed(speed);
-  }
-
-  #lookForError(paper: string): void {
-    this.#tail = (this.#tail + paper).slice(-400);
-    const found = [...this.#tail.matchAll(/(?:^|\n)ERR (\d\d)(?: LINE (\d+))?\r\n/g)].at(-1);
-    if (!found) return;
-    this.#tail = this.#tail.slice((found.index ?? 0) + found[0].length);
-    this.#hooks.error(found[1] ?? "", Number(found[2] ?? 0));
   }
 }

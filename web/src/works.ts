@@ -1,6 +1,6 @@
 /** The visitor's own programs: each is kept, named by its first REM and dated, until it is deleted. */
-import { make } from "./dom.ts";
-import { t } from "./language.ts";
+import { get, make } from "./dom.ts";
+import { spoken, t } from "./language.ts";
 
 export interface Work {
   id: string;
@@ -96,9 +96,10 @@ export class Works {
 }
 
 /** Fills the list of kept programs. */
-export function showWorks(box: HTMLElement, works: Works, language: string, open: (work: Work) => void): void {
-  const date = new Intl.DateTimeFormat(language, { dateStyle: "short", timeStyle: "short" });
-  box.replaceChildren(
+export function showWorks(works: Works, open: (work: Work) => void): void {
+  const date = new Intl.DateTimeFormat(spoken() === "zh" ? "zh-CN" : "en-GB", { dateStyle: "short", timeStyle: "short" });
+  get("works").hidden = !works.all.length;
+  get("work-list").replaceChildren(
     ...works.all.map((work) => {
       const row = make("li", "work");
       const button = make("button", "");
