@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 
 from curve_fewest import Saving, savings
@@ -51,13 +52,32 @@ def saving_table(found: list[Saving]) -> str:
 def of_curves(parts: Iterable[Path]) -> str:
     """How near the curves come that the FIT statements of parts (SKG programs) make, by the reference: a row for each
     run of them. Where the true curve is known the distances from it follow, µm."""
-    return quality_table([measure(part, run) for part, run in _runs(parts)])
+    return quality_table([quality for part in parts for quality in measured(part)])
 
 
 def of_tol(parts: Iterable[Path], tol: str) -> str:
     """Blocks with nodes joined within so many mm, and the fewest possible."""
-    return saving_table([saving for part, run in _runs(parts) for saving in savings(part, run.nodes, tol)])
+    return saving_table([saving for part in parts for saving in saved(part, tol)])
 
 
-def _runs(parts: Iterable[Path]) -> list[tuple[Path, Run]]:
-    return [(part, run) for part in parts for run in fitted_runs(part.read_text()) if len(run.nodes) > 2]
+# The curves of an example, worked out with 50 digits once for all tests.
+
+
+@cache
+def runs(part: Path) -> list[Run]:
+    """The fitted curves of a part, of which it has at least one."""
+    curves = fitted_runs(part.read_text())
+    assert curves, "no curve was fitted"
+    return curves
+
+
+@cache
+def measured(part: Path) -> list[Quality]:
+    """The quality of each curve."""
+    return [measure(part, run) for run in runs(part)]
+
+
+@cache
+def saved(part: Path, tol: str) -> list[Saving]:
+    """The blocks that TOL saves in each curve."""
+    return [saving for run in runs(part) for saving in savings(part, run.nodes, tol)]

@@ -22,6 +22,10 @@ TABLE = re.compile(r"<!-- (?P<name>curves|TOL) -->\n\n(?P<table>(?:\|.*\n)*)")
 MAKERS = {"curves": lambda: of_curves(PARTS), "TOL": lambda: of_tol(PARTS, "0.005")}
 
 
+#: In one process with test_quality.py, which measures the same.
+pytestmark = pytest.mark.xdist_group("curves")
+
+
 def tables() -> list[re.Match[str]]:
     return list(TABLE.finditer(PAGE.read_text()))
 

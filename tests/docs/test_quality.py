@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import tracemalloc
 from dataclasses import replace
-from functools import cache
 from itertools import combinations, pairwise
 from pathlib import Path
 from random import Random
@@ -13,9 +12,10 @@ from random import Random
 import curve_measure as measuring
 import numpy as np
 import pytest
-from curve_fewest import Saving, arc_distance, fewest_blocks, savings, span_blocks, with_tangents
+from curve_fewest import arc_distance, fewest_blocks, savings, span_blocks, with_tangents
 from curve_fitted import Biarcs, FittedPiece, Run, _Few, fitted_runs, pieces
-from curve_measure import Quality, denser, distance, measure, node
+from curve_measure import denser, distance, measure, node
+from curve_tables import measured, runs, saved
 from true_curves import TRUE_CURVES
 
 from skg.errors import UserError
@@ -30,6 +30,8 @@ PARTS = sorted((Path(__file__).parents[2] / "examples").glob("fit-*.skg"))
 #: mm; radians; the limits that were set.
 TOLERANCE, SMOOTH, RATIO = "0.005", 1e-6, 1.3
 
+#: In one process with the tables of curves.md, which show the same.
+pytestmark = pytest.mark.xdist_group("curves")
 parts = pytest.mark.parametrize("part", PARTS, ids=lambda part: part.stem)
 
 
@@ -39,25 +41,8 @@ def tangent_jump(curve: list[FittedPiece]) -> float:
     return float(max(jumps, default=ZERO))
 
 
-@cache
-def runs(part: Path) -> list[Run]:
-    found = fitted_runs(part.read_text())
-    assert found, "no curve was fitted"
-    return found
-
-
 def curves(part: Path) -> list[list[Node]]:
     return [run.nodes for run in runs(part)]
-
-
-@cache
-def measured(part: Path) -> list[Quality]:
-    return [measure(part, run) for run in runs(part)]
-
-
-@cache
-def saved(part: Path) -> list[Saving]:
-    return [s for nodes in curves(part) for s in savings(part, nodes, TOLERANCE)]
 
 
 def test_all_curves_are_there() -> None:
@@ -100,7 +85,7 @@ def test_estimated_tangents_where_the_curvature_jumps() -> None:
 
 @parts
 def test_tol_against_the_optimum(part: Path) -> None:
-    for s in saved(part):
+    for s in saved(part, TOLERANCE):
         assert s.fewest <= s.joined <= RATIO * s.fewest
         assert s.joined <= s.blocks
 

@@ -44,10 +44,10 @@ Record = Callable[[str, object], None]
 #: µm by which 32 bits may miss the centre of an arc at 100 mm, times sin² of half its sweep.
 CENTRE = 8e-5
 SHARES = range(8)
-BLOCKS_A_SHARE = 650
+BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "5200")) // len(SHARES)
 FLAT_BLOCKS = 300
 TOL_SHARES = range(8)
-TOL_BLOCKS_A_SHARE = 650
+TOL_BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "2600")) // len(TOL_SHARES)
 #: Of all programs, so many may be set aside, and of all blocks, so many may be arcs with a doubtful centre.
 MOST_ASIDE, MOST_CENTRES = 0.03, 0.06
 #: The same where all arcs are flat.

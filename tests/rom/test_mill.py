@@ -32,7 +32,7 @@ from playedhelp import Waiting  # noqa: E402
 
 SEED = os.environ.get("SKG_SEED", "milling")
 SHARES = range(4)
-BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "6000")) // len(SHARES)
+BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "3000")) // len(SHARES)
 #: Of all programs, so many may be close calls.
 MOST_ASIDE = 0.02
 PATIENCE = 300

@@ -27,8 +27,8 @@ Record = Callable[[str, object], None]
 
 #: The work is cut into shares, so that several test processes can take them.
 SHARES = range(8)
-BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "10400")) // len(SHARES)
-PRINTS_A_SHARE = 150
+BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "5200")) // len(SHARES)
+PRINTS_A_SHARE = 75
 #: Of all programs, so many may be close calls.
 MOST_ASIDE = 0.02
 

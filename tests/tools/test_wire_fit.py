@@ -172,8 +172,10 @@ def test_programs_of_skg_cut(run: Run, tmp_path: Path, words: list[object]) -> N
 
 
 def test_examples(run: Run) -> None:
-    """All fit but those that are known to spoil something; most have a wire beside a contour."""
+    """They fit, but those that are known to spoil something; most have a wire beside a contour. (Of the others a third:
+    the reference takes seconds for a gear.)"""
     paths = [path for kind in ("*.skg", "mill/*.skg", "*.xy", "*.tkh") for path in (ROOT / "examples").glob(kind)]
+    paths = [path for n, path in enumerate(sorted(paths)) if n % 3 == 1 or path.name in TOLD]
     beside = 0
     for path in paths:
         done = run("check", path)
