@@ -286,7 +286,7 @@ def account(name: str, size: int) -> str:
 
 
 def too_many(name: str, excess: int) -> str:
-    """What to do about an image that the ROM has no room for."""
+    """Message about an image that the ROM has no room for: what to leave out."""
     return (
         f"{name} is {excess} bytes too long for {ROM_SIZE}. Shorten it, or leave something out of this image in\n"
         "  asm/images.py: a statement of yours (`more` and `words`), or TOL (`spans`). See docs/firmware.md,\n"

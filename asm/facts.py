@@ -57,7 +57,7 @@ def value(node: ast.expr, names: Mapping[str, int]) -> int:
 
 
 def check(sources: Mapping[str, str], names: Mapping[str, int]) -> tuple[int, list[str]]:
-    """How many facts the sources (texts by name) state, and a line for each that does not hold or cannot be read."""
+    """Number of facts in the sources (texts by name), and a line for each that does not hold or cannot be read."""
     count, wrong = 0, []
     for file, source in sources.items():
         for fact in FACT.findall(source):

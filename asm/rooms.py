@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which source file of the firmware leans on which: read from the sources, and written into their headers.
+"""Dependencies of the firmware's source files: read from the sources, and written into their headers.
 
     asm/rooms.py                prints the graph, each file above those that it leans on, and what goes the other way
     asm/rooms.py FILE           what one file offers, and to whom; what it uses, and of whom
@@ -155,7 +155,7 @@ def knots(edges: dict[str, list[str]]) -> list[list[str]]:
 
 
 def offered(rooms: dict[str, Room], room: Room) -> dict[str, set[str]]:
-    """What other files use of a file: names by file."""
+    """Names that other files use of a file, by file."""
     return {other.name: other.uses[room.name] for other in rooms.values() if room.name in other.uses}
 
 
@@ -191,7 +191,7 @@ def idle_hooks(rooms: dict[str, Room]) -> list[str]:
 
 
 def wrong_headers(rooms: dict[str, Room], seams: Mapping[str, str] = SEAMS) -> list[str]:
-    """What is wrong with the lines Offers: and Uses:, one line each; and headers that have no Room:."""
+    """Errors in the lines Offers: and Uses:, one line each; and headers that have no Room:."""
     wrong = []
     for room in rooms.values():
         if room.name == "words":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from itertools import pairwise
 from math import atan, cos, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
@@ -479,3 +480,22 @@ def test_a_slot_is_no_corner(wide: float, deep: float, is_refused: bool, r: floa
             wire_way(contour, r)
     else:
         assert wire_way(contour, r)
+
+
+@pytest.mark.parametrize(("turned", "is_refused"), [(1.0, False), (1.5, True)])
+def test_the_round_bottom_of_a_notch_is_a_corner(turned: float, is_refused: bool) -> None:
+    """Half a turn that the wire does not come into is no longer than four R; a bulb of three quarters is."""
+    radius, size = 0.95, 40.0
+    # (the arc about the origin, its ends on a line above or below that)
+    high = -radius * cos(turned * pi / 2)
+    half = radius * sin(turned * pi / 2)
+    top = high + 0.5
+    corners = [(-half, top), (-size, top), (-size, -size), (size, -size), (size, top), (half, top), (half, high)]
+    edges = [Edge(p, q) for p, q in pairwise(corners)]
+    edges += [Edge((half, high), (-half, high), (0.0, 0.0), -turned * pi), Edge((-half, high), corners[0])]
+    contour = Contour(tuple(edges), True)
+    if is_refused:
+        with pytest.raises(NoRoom, match="does not come to"):
+            wire_way(contour, 1.0)
+    else:
+        assert wire_way(contour, 1.0)

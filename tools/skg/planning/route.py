@@ -135,14 +135,14 @@ class PlannedContour:
 
     @property
     def kind(self) -> str:
-        """What it is."""
+        """Its name: outline, opening or open contour."""
         if not self.contour.is_closed:
             return "open contour"
         return "opening" if self.is_opening else "outline"
 
     @property
     def name(self) -> str:
-        """What a message calls it: its number in the order of cutting, what it is, where it begins, its layers."""
+        """Its name in a message: number in the order of cutting, kind, beginning, layers."""
         layers = f", layer {', '.join(self.contour.layers)}" if self.contour.layers else ""
         return f"contour {self.turn} ({self.kind} from {shown(self.contour.edges[0].start)}{layers})"
 
