@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -11,7 +12,7 @@ import ezdxf
 import pytest
 from click.testing import CliRunner
 from ezdxf import units
-from uihelp import Json, Page, plate, until
+from uihelp import Json, Page, circles, plate, until
 
 from skg.cli import cli
 from skg.ui.server import Server
@@ -92,6 +93,27 @@ def test_contour_by_itself(page: Page, tmp_path: Path) -> None:
     assert contours["1"]["hole"] == [16, 15] and contours["1"]["entry"] == [15, 21]
     assert [contours[name]["values"]["offset"] for name in "012"] == [pytest.approx(0.1), 0.3, 0.2]
     assert [(one["chosen"], one["id"]) for one in state["matches"]] == [(0, 2), (1, 1)]
+
+
+def test_what_has_changed_alone_is_told(page: Page, tmp_path: Path) -> None:
+    """Edits at random: the plan that the page puts together is the whole one, and most answers are shorter."""
+    dice = random.Random(26)
+    state, shorter = page.open(circles(tmp_path, 30)), 0
+    for _ in range(40):
+        some = dice.sample(state["contours"], dice.randint(0, 4))
+        chosen = []
+        for contour in some:
+            x, y = contour["at"]
+            wish = dice.choice([{"cut": False}, {"start": [x - 3, y + dice.random()]}, {"tab": 1}, {"order": 3}])
+            chosen.append({name: contour[name] for name in ("layer", "kind", "at", "size")} | wish)
+        job = {"machine": dice.choice([{}, {}, {"offset": 0.1}]), "contour": chosen}
+        answer = page.done("PUT", "/api/job", {"rev": state["rev"], "job": state["job"] | job})
+        told = answer["plan"]["contours"]
+        shorter += len(told) < 30
+        answer["plan"]["contours"] = state["plan"]["contours"] | told
+        state |= answer
+        assert state["plan"] == page.state()["plan"]
+    assert shorter > 20
 
 
 def test_errors_of_a_contour(page: Page, tmp_path: Path) -> None:

@@ -77,8 +77,11 @@ class Page:
         return state
 
     def put(self, state: Json, **job: object) -> Json:
-        """Change the job."""
-        return self.done("PUT", "/api/job", {"rev": state["rev"], "job": state["job"] | job})
+        """Change the job; the plan of all contours is put together, as a page does it."""
+        put = self.done("PUT", "/api/job", {"rev": state["rev"], "job": state["job"] | job})
+        if "contours" not in put:
+            put["plan"]["contours"] = state["plan"]["contours"] | put["plan"]["contours"]
+        return put
 
     def cut(self, rev: int) -> tuple[int, Json]:
         """Cut to the end: the run's number and what became of it."""

@@ -15,6 +15,7 @@ from typing import NoReturn
 import click
 
 from skg.errors import UserError
+from skg.garbage import collect_rarely
 
 #: Subcommand -> what it does, as `skg --help` lists it. Its click command is `command` in the module of its name.
 COMMANDS = {
@@ -34,10 +35,6 @@ COMMANDS = {
     "ui": "Show a drawing in the browser, and cut it.",
     "xy": "Write the program that cuts a part in XY.",
 }
-
-
-#: So many new objects before garbage is looked for: 20,000 circles have 4 million, and none of it is garbage.
-_GARBAGE = 5_000_000
 
 
 class _Closed(io.TextIOBase):
@@ -128,8 +125,7 @@ def main() -> None:
     codecs.register_error("skg-spell", _spell)
     _prepare(sys.stdout)
     _prepare(sys.stderr)
-    # What commands make of large files lives to their end: the collector would look through millions of blocks in vain.
-    gc.set_threshold(_GARBAGE)
+    collect_rarely()
     try:
         try:
             # (click alone would take four lines for wrong usage)

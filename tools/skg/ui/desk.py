@@ -77,7 +77,7 @@ class Desk:
             return self._read(job)
         self._job = job
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(job.contours, job.box))
-        return {"drawing": None, "state": self._state()}
+        return {"drawing": None} | self._state()
 
     def ways(self, numbers: list[int]) -> bytes:
         """The ways of the wire along some contours, as JSON."""
@@ -138,24 +138,21 @@ class Desk:
             if match.is_doubtful:
                 self._doubts[replace(chosen, partial=Partial())] = match.moved
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(self._job.contours, self._job.box))
-        return {"drawing": shown.drawing(self._drawn), "state": self._state()}
+        return {"drawing": shown.drawing(self._drawn)} | self._state()
 
     def _state(self) -> dict[str, Any]:
-        """The part of the state that changes with the job."""
+        """The part of the state that changes with the job, and the plan of those contours that it changes."""
         matches = []
         for at, (chosen, match) in enumerate(zip(self._job.contours, self._drawn.matches.found, strict=True)):
             doubt = self._doubts.get(replace(chosen, partial=Partial()))
             moved = round(doubt or match.moved, 4)
             matches.append({"chosen": at, "id": match.number, "moved": moved, "confirm": doubt is not None})
-        return {
-            "name": self._job.drawing,
-            "job": job_files.to_data(self._job),
-            "matches": matches,
-            "plan": self._plan(),
-        }
+        plan, changed = self._plan()
+        state = {"name": self._job.drawing, "job": job_files.to_data(self._job), "matches": matches, "plan": plan}
+        return {"state": state, "changed": changed}
 
-    def _plan(self) -> bytes:
-        """The plan: of all contours that can be planned, with what is wrong with the others."""
+    def _plan(self) -> tuple[bytes, bytes]:
+        """The plan: of all contours that can be planned, with what is wrong with the others; and as it has changed."""
         wanted = wanted_of(self._job, self._drawn)
         tried, routes, errors = list(wanted), [], []
         with _noted(errors):

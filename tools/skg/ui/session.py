@@ -141,13 +141,15 @@ class Session:
         return self.state()
 
     def plan(self, rev: int, job: dict) -> dict:
-        """Plan a job as the page has it; the whole state where the drawing is read anew for it."""
+        """Plan a job as the page has it; the whole state where the drawing is read anew for it, else of the plan's
+        contours those alone that have changed."""
         with self._called(rev):
             found = self._worker.call("plan", job)
             self._take(found)
             if found["drawing"] is not None:
                 return self.state()
-            return {"rev": self._rev} | {name: found["state"][name] for name in ("job", "matches", "plan")}
+            job, matches = found["state"]["job"], found["state"]["matches"]
+            return {"rev": self._rev, "job": job, "matches": matches, "plan": found["changed"]}
 
     def ways(self, rev: int, ids: list[int]) -> dict:
         """The ways of the wire along some contours."""

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import Any
 
 import numpy as np
@@ -104,21 +104,27 @@ class Plans:
 
     def __init__(self) -> None:
         self._known: dict[int, tuple[PlannedContour | None, Wanted, str, str]] = {}
+        self._told: list[str] = []
 
-    def written(self, routes: Sequence[PlannedContour], wanted: Sequence[Wanted], errors: Sequence[UserError]) -> bytes:
-        """The plan of all contours."""
+    def written(
+        self, routes: Sequence[PlannedContour], wanted: Sequence[Wanted], errors: Sequence[UserError]
+    ) -> tuple[bytes, bytes]:
+        """The plan of all contours, and the same with those alone that were told otherwise the last time."""
         turns = {route.number: (turn, route) for turn, route in enumerate(routes, 1)}
         why = {one.contour: str(one) for one in errors if one.contour is not None}
         contours = []
         for number, want in enumerate(wanted):
             turn, route = turns.get(number, (None, None))
             contours.append(f'"{number}":{{"number":{turn or "null"},{self._contour(number, route, want, why)}')
+        changed = [one for one, before in zip_longest(contours, self._told) if one and one != before]
+        self._told = contours
         data = {
             "order": [route.number for route in routes],
             "said": [line(ReportLine(text)) for text in said((route.turn, route.around) for route in routes)],
             "error": told(errors[0]) if errors else None,
         }
-        return encoded(data | {"contours": f"{{{','.join(contours)}}}".encode()})
+        whole, part = (encoded(data | {"contours": f"{{{','.join(some)}}}".encode()}) for some in (contours, changed))
+        return whole, part
 
     def _contour(self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, str]) -> str:
         """A contour's plan without its place in the order, and without the brace before it."""

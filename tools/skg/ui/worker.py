@@ -15,6 +15,7 @@ from traceback import extract_tb
 
 from skg.cutting.settings import Progress
 from skg.errors import UserError
+from skg.garbage import collect_rarely
 
 #: No call takes longer but a cut, s.
 SECONDS = 120.0
@@ -119,6 +120,7 @@ def work(connection: Connection) -> None:
     # (bars would stand in the terminal, where nobody looks)
     os.environ["TQDM_DISABLE"] = "1"
     _bound_memory()
+    collect_rarely()
     from skg.ui.desk import Desk
 
     desk = Desk(_teller(connection))

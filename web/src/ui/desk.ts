@@ -150,7 +150,9 @@ export class Desk {
       try {
         const answer = await this.#server.put(this.#rev, wanted.job);
         this.#alive();
-        this.#adopt({ ...answer, name: this.#state?.name ?? "" }, wanted);
+        const { plan } = answer;
+        const whole = answer.contours ? plan : { ...plan, contours: { ...this.plan.contours, ...plan.contours } };
+        this.#adopt({ ...answer, plan: whole, name: this.#state?.name ?? "" }, wanted);
       } catch (error) {
         if (!(error instanceof Refusal)) {
           this.#lose(error);

@@ -136,7 +136,7 @@ export interface State {
   readonly error?: Fault | null;
 }
 
-/** The answer to another job: with the drawing where it was read anew. */
+/** The answer to another job: with the drawing where it was read anew, else of the plan's contours those that have changed. */
 export type Put = Partial<State> & Pick<State, "rev" | "job" | "matches" | "plan">;
 
 /** A state without the drawing, which is the one that the page has. */
