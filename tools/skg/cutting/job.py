@@ -182,11 +182,11 @@ class _Ladder:
                 if _may_be_traced(route) and has_spike(route.contour, route.offset):
                     around[number] = replace(route.with_wire_ways(), is_around=True)
         while around:
-            found, troubles = self._try(self.routes | around)
+            cut_job, troubles = self._try(self.routes | around)
             if not troubles:
                 with suppress(UserError):
-                    refusal.refuse(found.checked, found.routes, self.settings)
-                    return found
+                    refusal.refuse(cut_job.checked, cut_job.routes, self.settings)
+                    return cut_job
             around = {number: route for number, route in around.items() if number not in troubles} if troubles else {}
         return job
 

@@ -47,10 +47,10 @@ def _side(route: PlannedContour) -> str:
 
 def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
     """The manners, in the order of cutting, with the numbers of their contours."""
-    found: dict[Manner, list[int]] = {}
+    alike: dict[Manner, list[int]] = {}
     for route in routes:
-        found.setdefault(Manner.of(route), []).append(route.turn)
-    return found
+        alike.setdefault(Manner.of(route), []).append(route.turn)
+    return alike
 
 
 def stops(routes: Sequence[PlannedContour]) -> Iterator[str]:

@@ -204,8 +204,8 @@ class _Writer:
 
     def taken(self) -> list[Step]:
         """The statements there are, for the caller alone."""
-        found, self.statements = self.statements, []
-        return found
+        statements, self.statements = self.statements, []
+        return statements
 
     def named(self, item: _Item) -> str:
         """The item's text in a CUT: the name of one that is used again, given on a line before where it is new."""

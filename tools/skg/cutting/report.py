@@ -75,13 +75,13 @@ def _facts(job: CutResult, offset: float) -> Iterator[str]:
 
 def _crossings(job: CutResult) -> Iterator[ReportLine]:
     """Cuts that come into other contours."""
-    routes, found = job.routes, job.checked.crossings
-    for one in found[:_PLACES]:
-        route = routes[one.route]
-        text = f"contour {route.turn} comes {into(one)} contour {routes[one.other].turn} at {shown(one.place)}"
-        yield ReportLine(f"take care: the cut of {text}", route.number, one.place)
-    if more := found[_PLACES:]:
-        pairs = (f"{routes[one.route].turn} into {routes[one.other].turn}" for one in more[:_PAIRS])
+    routes, crossings = job.routes, job.checked.crossings
+    for gouge in crossings[:_PLACES]:
+        route = routes[gouge.route]
+        text = f"contour {route.turn} comes {into(gouge)} contour {routes[gouge.other].turn} at {shown(gouge.place)}"
+        yield ReportLine(f"take care: the cut of {text}", route.number, gouge.place)
+    if more := crossings[_PLACES:]:
+        pairs = (f"{routes[gouge.route].turn} into {routes[gouge.other].turn}" for gouge in more[:_PAIRS])
         yield ReportLine(
             f"take care: {counted(len(more), 'more cut')} into other contours: {', '.join(pairs)}"
             + " …" * (len(more) > _PAIRS)
@@ -90,13 +90,13 @@ def _crossings(job: CutResult) -> Iterator[ReportLine]:
 
 def _manners(routes: list[PlannedContour], offset: float) -> Iterator[str]:
     """The way contours are cut, those alike in one line."""
-    found = manners(routes)
-    for manner, numbers in list(found.items())[:_MANNERS]:
+    alike = manners(routes)
+    for manner, numbers in list(alike.items())[:_MANNERS]:
         nouns = manner.kind + "s" * (len(numbers) > 1)
         yield f"{numbered(numbers)}, {nouns}: {manner.told}"
-    if more := [number for numbers in list(found.values())[_MANNERS:] for number in numbers]:
+    if more := [number for numbers in list(alike.values())[_MANNERS:] for number in numbers]:
         yield f"and {counted(len(more), 'contour')} more, each in its own manner: the sheet and the program have them"
-    if not any(any(manner.passes) for manner in found):
+    if not any(any(manner.passes) for manner in alike):
         if not offset and any(route.contour.is_closed for route in routes):
             yield (
                 "take care: the wire's middle runs on the contours: no --wire and no --offset, outlines come out "
@@ -177,17 +177,17 @@ def _about(route: PlannedContour, text: str) -> ReportLine:
 def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, PlannedContour]]:
     """Distance (mm) of the wire from the sharp inner corners of contours that are cut as they are, the place, and of
     which contour: the worst first, and those that may be named as measured."""
-    found = []
+    corners = []
     for route in routes:
         is_beside = route.contour.is_closed and route.passes and route.passes[-1]
         if is_beside and (route.is_around or not route.traced) and (one := sharpest(route.contour, route.passes[-1])):
-            found.append((*one, route))
-    found.sort(key=lambda one: -one[0])
-    for number, (_, _, route) in enumerate(found[:_PLACES]):
+            corners.append((*one, route))
+    corners.sort(key=lambda corner: -corner[0])
+    for number, (_, _, route) in enumerate(corners[:_PLACES]):
         with suppress(NoRoom):
             way = route.traced[-1] if route.traced else wire_way(route.contour, route.passes[-1])
-            found[number] = *uncut(route.contour, way, route.passes[-1]), route
-    return found
+            corners[number] = *uncut(route.contour, way, route.passes[-1]), route
+    return corners
 
 
 def _first(lines: list[ReportLine]) -> list[ReportLine]:

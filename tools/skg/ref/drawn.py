@@ -73,9 +73,9 @@ def routes_of(
 
         class Recording(kind):
             def _new_cutter(self) -> Cutter:
-                found = cutter(self.tape, self.path)
-                found.routes, found.is_drawn = routes, is_drawn
-                return found
+                made = cutter(self.tape, self.path)
+                made.routes, made.is_drawn = routes, is_drawn
+                return made
 
         return Recording((), watch, punch)
 

@@ -320,10 +320,10 @@ def _of_circles(c1: ExactCircle, c2: ExactCircle, touch: Real) -> tuple[ExactPoi
 
 def entering(e: ExactCurve, circle: ExactCircle) -> ExactPoint:
     """Point at which e, run along its way, enters a circle; the touching point if it touches."""
-    found = crossings(e, circle)
-    if len(found) == 1:
-        return found[0]
-    return min(found, key=lambda p: way_at(e, p).dot(p - circle.centre))
+    points = crossings(e, circle)
+    if len(points) == 1:
+        return points[0]
+    return min(points, key=lambda p: way_at(e, p).dot(p - circle.centre))
 
 
 def nearest_crossing(e: ExactCurve, f: ExactCurve, p: ExactPoint) -> ExactPoint:
@@ -333,8 +333,8 @@ def nearest_crossing(e: ExactCurve, f: ExactCurve, p: ExactPoint) -> ExactPoint:
 
 def crossing_that_turns(e: ExactCurve, f: ExactCurve, left: bool) -> ExactPoint:
     """Of the crossings of two curves the one where f runs to the left (else right) of e."""
-    found = crossings(e, f, ZERO)
-    return max(found, key=lambda p: way_at(e, p).cross(way_at(f, p)) * (1 if left else -1))
+    points = crossings(e, f, ZERO)
+    return max(points, key=lambda p: way_at(e, p).cross(way_at(f, p)) * (1 if left else -1))
 
 
 # Circles that touch ------------------------------------------------------------------------------------------
@@ -346,10 +346,10 @@ def touching_two(e: ExactElement, f: ExactElement, r: Real) -> ExactCircle:
     Its centre lies r to the right of each.
     """
     beside = [_right_of(g, r) for g in (e, f)]
-    found = [ExactCircle(centre, -r) for centre in crossings(*beside)]
-    if len(found) == 1:
-        return found[0]
-    return min(found, key=lambda c: sweep(c, _touch(c, e), _touch(c, f)))
+    circles = [ExactCircle(centre, -r) for centre in crossings(*beside)]
+    if len(circles) == 1:
+        return circles[0]
+    return min(circles, key=lambda c: sweep(c, _touch(c, e), _touch(c, f)))
 
 
 def _right_of(e: ExactElement, r: Real) -> ExactCurve:
@@ -388,20 +388,20 @@ def touching_three(e: ExactElement, f: ExactElement, g: ExactElement) -> ExactCi
         first, s = rounds[0]
         step = centre - first
         rows.append((2 * step.x, 2 * step.y, 2 * (r - s), centre.dot(centre) - first.dot(first) - r * r + s * s))
-    found = [ExactCircle(ExactPoint(x, y) + origin, -size) for x, y, size in _solutions(rows, rounds) if size > TINY]
-    found = [
+    circles = [ExactCircle(ExactPoint(x, y) + origin, -size) for x, y, size in _solutions(rows, rounds) if size > TINY]
+    circles = [
         c
-        for c in found
+        for c in circles
         if all(
             isinstance(h, ExactPoint) or not isinstance(h, ExactCircle) or (h.centre - c.centre).size() > NEAR
             for h in given
         )
     ]
-    if len(found) > 1:
-        found = [c for c in found if sweep(c, _touch(c, e), _touch(c, f)) <= sweep(c, _touch(c, e), _touch(c, g))]
-    if not found:
+    if len(circles) > 1:
+        circles = [c for c in circles if sweep(c, _touch(c, e), _touch(c, f)) <= sweep(c, _touch(c, e), _touch(c, g))]
+    if not circles:
         raise PlaneError("no circle touches these three")
-    return found[0]
+    return circles[0]
 
 
 def _solutions(rows: list[tuple[Real, ...]], rounds: list[tuple[ExactPoint, Real]]) -> list[tuple[Real, Real, Real]]:

@@ -121,32 +121,32 @@ def _merged(a: Hung, b: Hung) -> Hung:
 
 def without_doubles(items: list[Hung]) -> list[Hung]:
     """The items of a closed belt, neighbours that are the same made one."""
-    found: list[Hung] = []
+    merged: list[Hung] = []
     for item in items:
-        if found and is_same(found[-1], item):
-            found[-1] = _merged(found[-1], item)
+        if merged and is_same(merged[-1], item):
+            merged[-1] = _merged(merged[-1], item)
         else:
-            found.append(item)
-    while len(found) > 1 and is_same(found[-1], found[0]):
-        last = found.pop()
+            merged.append(item)
+    while len(merged) > 1 and is_same(merged[-1], merged[0]):
+        last = merged.pop()
         if last.is_pin:
-            found[0] = _merged(found[0], last)
+            merged[0] = _merged(merged[0], last)
         elif last.arc:
             raise TextFault(last.arc.at.start_pos, "a connecting arc stands between two circles, this is one")
-    return found
+    return merged
 
 
 def mirror_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hung]:
     """The images of items, last to first: a fillet stays with its point, a connecting arc between its circles."""
-    found: list[Hung] = []
+    pins: list[Hung] = []
     for index in reversed(range(len(items))):
         item = items[index]
         made = image(item)
         arc = item.arc if item.is_pin else None
         if not item.is_pin and index and not items[index - 1].is_pin:
             arc = items[index - 1].arc
-        found.append(Hung(made.value, made.text, made.at, arc))
-    return found
+        pins.append(Hung(made.value, made.text, made.at, arc))
+    return pins
 
 
 def mirrored_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hung]:
@@ -206,18 +206,18 @@ def _connecting(a: Hung, b: Hung, arc: Arc) -> Stretch:
         beside = [parallel(h.value, step) for h in (a, b)]
         if any(abs(circle.r) <= TINY for circle in beside):
             raise PlaneError("it would be the circle itself")
-        found = [ExactCircle(centre, -step) for centre in crossings(*beside)]
+        circles = [ExactCircle(centre, -step) for centre in crossings(*beside)]
     except PlaneError as error:
         raise TextFault(arc.at.start_pos, f"the connecting arc does not reach: {error}") from None
 
     def stretch(circle: ExactCircle) -> Stretch:
         return Stretch(circle, touching_point(a.value, circle), touching_point(b.value, circle))
 
-    best = min(map(stretch, found), key=Stretch.angle)
+    best = min(map(stretch, circles), key=Stretch.angle)
     one, other = (join(h.text, ":", text if clockwise else minus(text)) for h in (a, b))
     right = SkgText(f"-({other})", 0o55) if clockwise else other
     best.text = join(join(one, "*", right), ":", minus(text) if clockwise else text)
-    if len(found) > 1 and not same_point(crossing_that_turns(*beside, left=not clockwise), best.curve.centre):
+    if len(circles) > 1 and not same_point(crossing_that_turns(*beside, left=not clockwise), best.curve.centre):
         best.text = literal(best.curve)
     return best
 
@@ -307,8 +307,8 @@ def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Stretch:
 
 def stretches(parts: list[Part]) -> list[Stretch]:
     """All that is travelled, the arcs of fillets too, in order."""
-    found = (part.arc if isinstance(part, Pin) else part for part in parts)
-    return [stretch for stretch in found if stretch is not None and stretch.is_travelled]
+    pieces = (part.arc if isinstance(part, Pin) else part for part in parts)
+    return [stretch for stretch in pieces if stretch is not None and stretch.is_travelled]
 
 
 def area(parts: list[Part]) -> Real:

@@ -43,16 +43,16 @@ class Entry:
 
 def entry(parts: list[Part], near: ExactPoint, offset: Real) -> Entry:
     """The start, nearest to a point, and the entry for SKG's offset R."""
-    found = stretches(parts)
-    if found[0].whole:
+    path = stretches(parts)
+    if path[0].whole:
         pin = next((part.point for part in parts if isinstance(part, Pin)), None)
-        start = nearest(near, found[0].curve) if pin is None else pin
-        found[0].start = found[0].end = start
-        return Entry(found[0], None)
-    least = min((stretch.start - near).size() for stretch in found)
-    index = next(i for i, stretch in enumerate(found) if (stretch.start - near).size() <= least + NEAR)
-    first = found[index]
-    return Entry(first, inner_corner(found[index - 1].curve, first.curve, first.start, offset))
+        start = nearest(near, path[0].curve) if pin is None else pin
+        path[0].start = path[0].end = start
+        return Entry(path[0], None)
+    least = min((stretch.start - near).size() for stretch in path)
+    index = next(i for i, stretch in enumerate(path) if (stretch.start - near).size() <= least + NEAR)
+    first = path[index]
+    return Entry(first, inner_corner(path[index - 1].curve, first.curve, first.start, offset))
 
 
 def wire_corner(e: ExactCurve, f: ExactCurve, p: ExactPoint, offset: Real) -> ExactPoint | None:
@@ -133,14 +133,14 @@ def _joint(before: Stretch, first: Stretch) -> SkgText | None:
 
 
 def _texts(parts: list[Part], name: Namer) -> list[str]:
-    found = []
+    texts = []
     for part in parts:
         if isinstance(part, Pin):
             text = _short(part.text, part.point, name)
-            found.append(f"{text},{part.fillet.text}" if part.fillet else str(text))
+            texts.append(f"{text},{part.fillet.text}" if part.fillet else str(text))
         elif part.text is not None:
-            found.append(str(_short(part.text, part.curve, name)))
-    return found
+            texts.append(str(_short(part.text, part.curve, name)))
+    return texts
 
 
 def _short(text: SkgText, value: ExactElement, name: Namer) -> SkgText:

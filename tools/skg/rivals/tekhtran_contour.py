@@ -90,13 +90,13 @@ def cut_items(items: list[ContourItem], at: Token, wire: ExactPoint, offset: Rea
 
 def _without_doubles(items: list[ContourItem]) -> list[ContourItem]:
     """The items of a closed contour, points that follow themselves once."""
-    found: list[ContourItem] = []
+    single: list[ContourItem] = []
     for item in items:
-        if not (found and _is_double(found[-1], item)):
-            found.append(item)
-    while len(found) > 1 and _is_double(found[-1], found[0]):
-        found.pop()
-    return found
+        if not (single and _is_double(single[-1], item)):
+            single.append(item)
+    while len(single) > 1 and _is_double(single[-1], single[0]):
+        single.pop()
+    return single
 
 
 def _is_double(a: ContourItem, b: ContourItem) -> bool:
@@ -117,10 +117,10 @@ def _corner(before: ContourItem, item: ContourItem) -> _Corner:
                 raise TextFault(point.at.start_pos, f"{point.at} does not lie on {curve.at}")
             return _Corner(point.value)
     try:
-        found = crossings(before.value, item.value)
-        if len(found) > 1 and item.choice is None:
+        points = crossings(before.value, item.value)
+        if len(points) > 1 and item.choice is None:
             raise PlaneError("there are two: choose by ХБ, ХМ, УБ or УМ")
-        at = chosen(found, item.choice)
+        at = chosen(points, item.choice)
     except PlaneError as error:
         raise TextFault(item.at.start_pos, f"the corner of {before.at} and {item.at}: {error}") from None
     e, f = (-each.value if each.is_backwards else each.value for each in (before, item))
@@ -138,15 +138,15 @@ def _run(item: ContourItem, start: _Corner, end: _Corner) -> ContourItem:
 
 def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corner]) -> list[Stretch]:
     """The pieces that are travelled: curves, and the lines between points."""
-    found = []
+    pieces = []
     following = [*items[1:], items[0]]
     for item, start, end, after in zip(items, starts, ends, following, strict=True):
         if not item.is_point:
-            found.append(Stretch(item.value, start.at, end.at))
+            pieces.append(Stretch(item.value, start.at, end.at))
         elif after.is_point:
             way = (after.value - item.value).unit()
-            found.append(Stretch(ExactLine(item.value, way), item.value, after.value))
-    return found
+            pieces.append(Stretch(ExactLine(item.value, way), item.value, after.value))
+    return pieces
 
 
 def _check_entry(item: ContourItem, stretches: list[Stretch], wire: ExactPoint, offset: Real) -> None:

@@ -68,14 +68,14 @@ def _form(function: Callable[..., Defined]) -> Callable[..., Defined]:
     return function
 
 
-def chosen(found: Sequence[T], choice: str, place: Callable[[T], ExactPoint] = lambda found: found) -> T:
+def chosen(choices: Sequence[T], choice: str, place: Callable[[T], ExactPoint] = lambda each: each) -> T:
     """Of one or two the one with the greater (Б) or smaller (М) coordinate."""
-    if len(found) == 1:
-        return found[0]
-    one, other = ((place(e).x if choice[0] == "Х" else place(e).y) for e in found)
+    if len(choices) == 1:
+        return choices[0]
+    one, other = ((place(e).x if choice[0] == "Х" else place(e).y) for e in choices)
     if abs(one - other) <= NEAR:
         raise PlaneError(f"{choice} does not decide between two")
-    return found[(one < other) == (choice[1] == "Б")]
+    return choices[(one < other) == (choice[1] == "Б")]
 
 
 def crossing_text(e: ExactCurve, f: ExactCurve, at: ExactPoint, texts: tuple[SkgText, SkgText]) -> SkgText:
@@ -229,8 +229,8 @@ def line_touching_chosen(point: Operand, circle: Operand, choice: Token) -> Defi
     ways = ((circle.value, circle.text), (-circle.value, minus(circle.text)))
     if belt_line(point.value, circle.value) is None:
         ways = ways[:1]
-    found = [(joining_line(point.value, value), value, text) for value, text in ways]
-    line, _, text = chosen(found, choice, lambda way: touching_point(way[1], way[0]))
+    lines = [(joining_line(point.value, value), value, text) for value, text in ways]
+    line, _, text = chosen(lines, choice, lambda way: touching_point(way[1], way[0]))
     return Defined(line, join(point.text, ":", text))
 
 

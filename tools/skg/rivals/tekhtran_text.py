@@ -77,10 +77,10 @@ def tokens(text: str) -> Iterator[Token]:
     """The tokens of a text, names as NAME, END behind each line and each `;`; `TextFault` at the first that is none."""
     index = end = 0
     while index < len(text):
-        found = _TOKEN.match(text, index)
-        start, index = index, found.end()
-        word = found[0]
-        match found.lastgroup:
+        token = _TOKEN.match(text, index)
+        start, index = index, token.end()
+        word = token[0]
+        match token.lastgroup:
             case "blank":
                 continue
             case "other":
@@ -97,7 +97,7 @@ def tokens(text: str) -> Iterator[Token]:
                 kind = WORDS.get(word, "NAME")
         if word == "ДЕТАЛЬ":
             index = (text + "\n").index("\n", start)
-            word = text[found.end() : index].strip()
+            word = text[token.end() : index].strip()
         end = index
         yield Token(kind, word, start_pos=start)
     yield Token("END", "", start_pos=end)

@@ -274,14 +274,14 @@ class _Machine:
             raise TextFault(word.start_pos, "more items than SKG's memory takes")
         about = self.element(centre)
         angle, text = self._rotation(sign, tree_of_angle)
-        found = list(items)
+        copies = list(items)
         for copy in range(1, times):
             whole = (
                 decimal(angle * copy)
                 if mp.isint(angle * copy) or "A" not in text.text
                 else join(SkgText(str(copy)), "*", text)
             )
-            found += [
+            copies += [
                 Hung(
                     rotated(item.value, angle * copy, about.value),
                     spin(item.text, about.text, whole),
@@ -292,7 +292,7 @@ class _Machine:
             ]
         rest = mp.fmod(angle * times, 360)
         goes_round = min(abs(rest), 360 - abs(rest)) <= TINY
-        return found, _Copies(len(items), f"REP {times},{join(text, ':', about.text)}", goes_round)
+        return copies, _Copies(len(items), f"REP {times},{join(text, ':', about.text)}", goes_round)
 
 
 def _with_arc(item: Hung, arc: Arc) -> Hung:

@@ -61,10 +61,10 @@ def tokens(text: str) -> Iterator[Token]:
     folded, at, fault = _folded(text)
     index = end = 0
     while index < len(folded):
-        found = _TOKEN.match(folded, index)
-        start, index = index, found.end()
-        word = found[0]
-        match found.lastgroup:
+        token = _TOKEN.match(folded, index)
+        start, index = index, token.end()
+        word = token[0]
+        match token.lastgroup:
             case "blank":
                 continue
             case "other":
