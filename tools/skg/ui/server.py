@@ -192,7 +192,7 @@ class Handler(BaseHTTPRequestHandler):
     # What comes.
 
     def _announced(self) -> int:
-        """How long the body is that comes with a request; -1: that is not told in a way that is taken."""
+        """Length of a request's body; -1: not told in a way that is taken."""
         lengths = self.headers.get_all("Content-Length", ["0"])
         is_told = "Transfer-Encoding" not in self.headers and len(lengths) == 1
         return int(lengths[0]) if is_told and re.fullmatch("[0-9]{1,15}", lengths[0]) else -1
@@ -245,7 +245,7 @@ class Handler(BaseHTTPRequestHandler):
             self._send_json(state)
 
     def _awaited(self, ask: Callable[[float], dict | None], after: int | None) -> dict | None:
-        """What is asked for, with so much patience (s), until there is news after what the page knows."""
+        """The state asked for; waits so long (s) for news after what the page knows."""
         last = time.monotonic() + PATIENCE
         while (found := ask(GLANCE if after is not None else 0.0)) is None and time.monotonic() < last:
             self._expect_client()

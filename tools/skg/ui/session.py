@@ -63,7 +63,7 @@ class Run:
 
 
 class Session:
-    """What one `skg ui` has open."""
+    """The open job, drawing and plan of one `skg ui`."""
 
     def __init__(self) -> None:
         self._worker = Worker()
@@ -308,7 +308,7 @@ class Session:
         return self._run
 
     def run(self, number: int, after: int | None = None, patience: float = 0.0) -> dict | None:
-        """How a run goes; after something that was told of it the next, None when there is none for so long (s)."""
+        """Progress of a run: the news behind what was told last, None when there is none for so long (s)."""
         with self._news:
             run = self._known(number)
             is_news = self._news.wait_for(
@@ -383,7 +383,7 @@ def _unread(name: str, error: UserError) -> dict:
 
 
 def _stamp(path: Path) -> tuple[int, ...] | None:
-    """What changes when a file is written; None when it is not there."""
+    """A mark that changes when a file is written; None when it is not there."""
     with suppress(OSError):
         found = path.stat()
         return found.st_mtime_ns, found.st_size, found.st_ino

@@ -139,13 +139,13 @@ class Plans:
 
 @lru_cache
 def _values(want: Wanted) -> str:
-    """What is wanted of a contour in the end, as JSON."""
+    """The wishes for a contour, those of layer and default included, as JSON."""
     values = {name: getattr(want, name) for name in ("cut", "side", "offset", "tab", "lead", "lead_shape", "reverse")}
     return in_json(values | {"passes": list(want.passes), "order": want.order}).decode()
 
 
 def planned(route: PlannedContour) -> dict[str, Any]:
-    """How a contour is cut, without what was wanted of it."""
+    """The plan of a contour, without the wishes for it."""
     edge = route.chain[0]
     ends = split_at_end(route.chain, route.tab)[0][-1].end if route.tab else None
     return {
@@ -203,7 +203,7 @@ def _beside(run: Way) -> list[Edge]:
 
 
 def result(cut: CutDrawing) -> dict[str, Any]:
-    """What came of a cut."""
+    """The result of a cut."""
     made = cut.result
     return {
         "lines": [line(one) for one in cut.lines],

@@ -131,7 +131,7 @@ def work(connection: Connection) -> None:
 
 
 def _answer(function: Callable, arguments: tuple) -> tuple:
-    """What a call returned or refused, as it goes through the connection."""
+    """The result or refusal of a call, as it goes through the connection."""
     try:
         return "done", function(*arguments)
     except UserError as error:
