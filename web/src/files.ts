@@ -1,8 +1,10 @@
 /** Files that come in: what they are, and what is wrong with them; and files that go out. */
 import type { Word } from "./language.ts";
-import { layOutSteps, type Placer } from "./placed.ts";
+import { layOutSteps } from "./placed.ts";
+import type { Opened } from "./recording.ts";
 import { type Everything, readEverything } from "./store.ts";
-import { type ReadTape, readTapeSteps, TapeError } from "./tape.ts";
+import { readTapeSteps, TapeError } from "./tape.ts";
+import { writeSteps } from "./written.ts";
 
 /** What a file is; `refused`: a word of language.ts with its values, the file's name first. */
 export type Found =
@@ -63,10 +65,12 @@ const SLICE = 12;
 export async function readWhole(
   name: string,
   text: string,
-): Promise<{ tape: ReadTape; placer: Placer } | { why: Word; values: (string | number)[] }> {
+): Promise<({ isForeign: boolean } & Opened) | { why: Word; values: (string | number)[] }> {
   try {
-    const tape = await inSlices(readTapeSteps(text));
-    return { tape, placer: await inSlices(layOutSteps(tape.items)) };
+    const { items, isForeign, hasNoEnd } = await inSlices(readTapeSteps(text));
+    const placer = await inSlices(layOutSteps(items));
+    const written = await inSlices(writeSteps(items, !hasNoEnd));
+    return { items, isForeign, placer, written, isWhole: !hasNoEnd };
   } catch (error) {
     if (!(error instanceof TapeError)) throw error;
     return { why: "badTape", values: [name, error.block, error.line, error.column, error.found] };

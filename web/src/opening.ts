@@ -75,11 +75,10 @@ export class Opening {
       say(read.why, ...read.values);
       return;
     }
-    const { tape, placer } = read;
     const { stage } = this.#bench;
-    stage.open(tape.items, placer, name.replace(/\.\w+$/, ""), !tape.hasNoEnd);
-    const said = t(tape.isForeign ? "tapeForeign" : "tapeRead", name, stage.recording.layout.blocks.length);
-    show(said + (tape.hasNoEnd ? t("tapeNoEnd") : ""));
+    stage.open(read, name.replace(/\.\w+$/, ""));
+    const said = t(read.isForeign ? "tapeForeign" : "tapeRead", name, stage.recording.layout.blocks.length);
+    show(said + (read.isWhole ? "" : t("tapeNoEnd")));
   }
 
   /** A page that was saved: its machine, its text, its settings, its tape. */
@@ -94,6 +93,6 @@ export class Opening {
     }
     const read = tape ? await readWhole("saved", tape) : undefined;
     if (!read || "why" in read) return;
-    this.#bench.stage.open(read.tape.items, read.placer, this.#bench.name, !read.tape.hasNoEnd);
+    this.#bench.stage.open(read, this.#bench.name);
   }
 }

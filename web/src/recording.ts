@@ -1,7 +1,8 @@
 /** The tape that is shown: its blocks and bytes, whether it has its end, and which program made it. */
 import type { Punched } from "./board.ts";
 import { type Layout, Placer } from "./placed.ts";
-import { type Item, itemText, readBlock } from "./tape.ts";
+import { type Item, readBlock } from "./tape.ts";
+import { Written } from "./written.ts";
 
 /** What made a tape: a program's name and text, or a file, whose program nobody knows. */
 export interface Maker {
@@ -14,19 +15,24 @@ export interface KeptTape {
   lines: Punched[];
 }
 
+/** A tape from a file: laid out, and as it is written. */
+export interface Opened {
+  items: readonly Item[];
+  placer: Placer;
+  written: Written;
+  isWhole: boolean;
+}
+
 /** Lines of a tape that is kept for the next visit: some 300 KB. */
 const MOST_KEPT = 5000;
 
 export class Recording {
   #placer = new Placer();
   #items: Item[] = [];
-  #pieces: string[] = [];
-  #length = 0;
+  #written = new Written();
   #millimetres = 0;
   #isLeaving = false;
   #lines: Punched[] = [];
-  /** Where in the tape's text each block begins. */
-  offsets: number[] = [];
   /** It has its DD. A tape without it was broken off, is not punched to its end, or came so from a file. */
   isWhole = false;
   made: Maker = { name: "part", program: undefined };
@@ -43,8 +49,12 @@ export class Recording {
 
   /** The tape as it was punched, byte for byte. */
   get text(): string {
-    if (this.#pieces.length > 1) this.#pieces = [this.#pieces.join("")];
-    return this.#pieces[0] ?? "";
+    return this.#written.text;
+  }
+
+  /** Where in the tape's text each block begins. */
+  get offsets(): readonly number[] {
+    return this.#written.offsets;
   }
 
   /** Its length on the drawing, mm. */
@@ -59,10 +69,9 @@ export class Recording {
   clear(made: Maker): void {
     this.#placer = new Placer();
     this.#items = [];
-    this.#pieces = [];
+    this.#written = new Written();
     this.#lines = [];
-    this.#length = this.#millimetres = this.#measured = 0;
-    this.offsets = [];
+    this.#millimetres = this.#measured = 0;
     this.isWhole = this.isFresh = false;
     this.made = made;
   }
@@ -98,7 +107,7 @@ export class Recording {
       if (this.isWhole) begin(false); // (direct statements after a tape's end)
       if (this.#lines.length <= MOST_KEPT) this.#lines.push({ text, line, x, y });
       const block = readBlock(text);
-      this.#write(text, Boolean(block));
+      this.#written.add(text, Boolean(block));
       if (text === "DD") {
         this.#placer.end();
         this.isWhole = again = true;
@@ -113,18 +122,11 @@ export class Recording {
   }
 
   /** Shows a tape that comes from a file. */
-  open(items: readonly Item[], placer: Placer, name: string, isWhole: boolean): void {
+  open({ items, placer, written, isWhole }: Opened, name: string): void {
     this.clear({ name, program: undefined });
     this.#placer = placer;
-    for (const item of items) this.#write(itemText(item), item !== "D");
-    if (isWhole) this.#write("DD", false);
+    this.#written = written;
     this.#items = [...items];
     this.isWhole = isWhole;
-  }
-
-  #write(line: string, isBlock: boolean): void {
-    if (isBlock) this.offsets.push(this.#length);
-    this.#pieces.push(`${line}\r\n`);
-    this.#length += line.length + 2;
   }
 }

@@ -2,9 +2,7 @@
 import type { Punched } from "./board.ts";
 import { Chooser } from "./choice.ts";
 import { Pictures } from "./pictures.ts";
-import type { Placer } from "./placed.ts";
-import { type KeptTape, type Maker, Recording } from "./recording.ts";
-import type { Item } from "./tape.ts";
+import { type KeptTape, type Maker, type Opened, Recording } from "./recording.ts";
 import { isSame } from "./works.ts";
 
 export class Stage {
@@ -29,8 +27,8 @@ export class Stage {
   }
 
   /** Shows a tape from a file. */
-  open(items: readonly Item[], placer: Placer, name: string, isWhole: boolean): void {
-    this.recording.open(items, placer, name, isWhole);
+  open(tape: Opened, name: string): void {
+    this.recording.open(tape, name);
     this.pictures.isStale = false;
     this.#begin();
     this.pictures.grown(true);

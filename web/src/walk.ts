@@ -47,6 +47,8 @@ const MORE = 1;
 const STALLED = 2;
 /** Steps that `measure` takes at a time: a few milliseconds. */
 const CHUNK = 1_000_000;
+/** A block of one step takes as long as so many steps. */
+const BEGUN = 50;
 
 export class Walk {
   /** One instance goes through the blocks once, the other to where one looks. */
@@ -86,7 +88,7 @@ export class Walk {
    * `Stalled`. */
   measure(budget = CHUNK): boolean {
     let left = budget;
-    while (this.#walked.length < this.#blocks.length && left > 0) left -= this.#measureOne(left);
+    while (this.#walked.length < this.#blocks.length && left > 0) left -= this.#measureOne(left) + BEGUN;
     return this.#walked.length >= this.#blocks.length;
   }
 

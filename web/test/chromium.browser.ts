@@ -999,7 +999,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
         for (let frames = 0; frames < 10; frames++) await drawn(page);
       });
       t.diagnostic(`${what}: longest task ${longest.toFixed(0)} ms of the thread's own time`);
-      assert.ok(longest > 1 && longest < 400, `${what}: ${longest} ms`);
+      assert.ok(longest > 1 && longest < 200, `${what}: ${longest} ms`);
     }
     await context.close();
   });
