@@ -35,9 +35,11 @@ def calls(tape: bytes, folder: Path) -> list[tuple[str, list[str]]]:
     part.write_bytes(tape)
     tools.write_text("".join(f"T{n} P{n} D1\n" for n in range(1, 100)))
     variables.write_text("")
+    # It keeps its tool table in $HOME/.tool.mmap and cuts the file short at its start: two that run at a time
+    # under one home end each other by SIGBUS.
     done = subprocess.run(
         [RS274, "-g", "-t", tools, "-v", variables, part],
-        env={**os.environ, "LD_LIBRARY_PATH": LIBRARIES},
+        env={**os.environ, "LD_LIBRARY_PATH": LIBRARIES, "HOME": str(folder.absolute())},
         capture_output=True,
         text=True,
     )
