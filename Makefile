@@ -82,7 +82,7 @@ run: rom-age
 	@echo "The tape is in build/run.3b."
 
 test: venv asm80 emu tools web-modules
-	$(PY) -m pytest -q -n 2 --dist loadgroup tests
+	$(PY) -m pytest -q -n 3 --dist loadgroup tests
 	@$(MAKE) -s lint
 
 # One test, or some: T=tests/rom/test_build.py, T="-k wrench".

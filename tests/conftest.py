@@ -21,6 +21,9 @@ settings.load_profile("same")
 
 ROOT = Path(__file__).resolve().parents[1]
 
+# (see skg.cli)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # Node, where it came out of a Python package (make).
 os.environ["PATH"] += os.pathsep + str(Path(sys.executable).parent)
 

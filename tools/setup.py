@@ -29,6 +29,8 @@ EMU = ABOVE / "emu"
 
 #: For the emulator's C files.
 OPTIONS = ["-O2", "-std=c11", "-D_DEFAULT_SOURCE"]
+#: The packager's own options, behind all others.
+CFLAGS = shlex.split(os.environ.get("CFLAGS", ""))
 
 
 def listed(name: str) -> list[str]:
@@ -38,8 +40,8 @@ def listed(name: str) -> list[str]:
 
 #: Library -> its sources and the compiler's options; tools.mk has the first for developers.
 LIBRARIES = {
-    "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3", "-std=c11"]),
-    "libskg80.so": ([EMU / source for source in listed("library.txt")], [*OPTIONS, "-DWITH_TRANSLATIONS"]),
+    "libskgsim.so": ([HERE / "skg/native/skgsim.c"], ["-O3", "-std=c11", *CFLAGS]),
+    "libskg80.so": ([EMU / source for source in listed("library.txt")], [*OPTIONS, "-DWITH_TRANSLATIONS", *CFLAGS]),
 }
 
 
@@ -84,8 +86,8 @@ def translations(folder: Path) -> list[Path]:
         rows, made = folder / f"{image}.rows", folder / f"{image}.o"
         with rows.open("wb") as file:
             subprocess.run([folder / "translate", ABOVE / "roms" / f"{image}.bin", *parts], stdout=file, check=True)
-        names = [f"-DNAME=translation_{image.replace('-', '_')}", f'-DROWS="{rows}"']
-        run_compiler(compiler(), *OPTIONS, "-O1", "-fPIC", *names, "-c", "-o", made, EMU / "i8080_translated.c")
+        names = ["-fPIC", f"-DNAME=translation_{image.replace('-', '_')}", f'-DROWS="{rows}"']
+        run_compiler(compiler(), *OPTIONS, "-O1", *CFLAGS, *names, "-c", "-o", made, EMU / "i8080_translated.c")
         objects.append(made)
     return objects
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan2, ceil, cos, hypot, pi, sin
+from math import atan2, ceil, hypot, pi
 from random import Random
 
 import numpy as np
@@ -38,15 +38,17 @@ class Edge:
     centre: Place | None = None
     sweep: float = 0.0
 
-    def points(self) -> list[Place]:
-        """Places along it, both ends included."""
+    def points(self) -> np.ndarray:
+        """Places along it, both ends included (n, 2)."""
         if self.centre is None:
-            return [self.start, self.end]
+            return np.array([self.start, self.end])
         (x, y), radius = self.centre, hypot(self.start[0] - self.centre[0], self.start[1] - self.centre[1])
         first = atan2(self.start[1] - y, self.start[0] - x)
         count = max(4, ceil(abs(self.sweep) / (2 * (2 * FLAT / radius) ** 0.5)))
-        angles = [first + self.sweep * k / count for k in range(1, count)]
-        return [self.start, *((x + radius * cos(a), y + radius * sin(a)) for a in angles), self.end]
+        angles = first + self.sweep / count * np.arange(count + 1)
+        places = np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
+        places[0], places[-1] = self.start, self.end
+        return places
 
     def direction(self, at_end: bool) -> Place:
         """The direction of travel at an end."""
@@ -161,11 +163,12 @@ class Part:
     program: str
     contour: Contour
     r: float
+    area: Polygon
 
 
 def outline(contour: Contour) -> Polygon:
     """The area in a contour."""
-    return Polygon([place for edge in contour for place in edge.points()[:-1]])
+    return Polygon(np.concatenate([edge.points()[:-1] for edge in contour]))
 
 
 def parts(rng: Random) -> Iterator[Part]:
@@ -179,7 +182,7 @@ def parts(rng: Random) -> Iterator[Part]:
         r = rng.choice([-1, 1]) * round(wide, 3)
         if rng.random() < 0.05:
             r = 0.0
-        yield Part(written(contour, r, by_points=rng.random() < 0.5), contour, r)
+        yield Part(written(contour, r, by_points=rng.random() < 0.5), contour, r, area)
 
 
 def number(value: float) -> str:
@@ -261,13 +264,14 @@ def beside(edge: Edge, r: float) -> np.ndarray:
 
 def free(part: Part) -> list[np.ndarray]:
     """For each edge the places beside it where the wire has room."""
-    area = outline(part.contour)
+    area = part.area
+    shapely.prepare([area, wall := area.exterior])
     found = []
     for edge in part.contour:
         places = beside(edge, part.r)
         points = shapely.points(places)
         is_right = shapely.contains(area, points) == (part.r < 0) if part.r else True
-        found.append(places[is_right & (shapely.distance(area.exterior, points) > abs(part.r) - 2 * FLAT)])
+        found.append(places[is_right & ~shapely.dwithin(wall, points, abs(part.r) - 2 * FLAT)])
     return found
 
 
@@ -277,14 +281,15 @@ def judged(part: Part, tape: bytes) -> str:
     cuts = path_of(tape, start_hole(part.contour, part.r))
     if wrong := fault(part, cuts):
         return wrong
-    path = LineString([place for edge in cuts for place in edge.points()])
-    least = shapely.distance(outline(part.contour).exterior, shapely.points(shapely.get_coordinates(path))).min()
+    places = np.concatenate([edge.points() for edge in cuts])
+    least = shapely.distance(part.area.exterior, shapely.points(places)).min()
     return "walls" if least < abs(part.r) - NEAR else "right"
 
 
 def fault(part: Part, cuts: Contour) -> str:
     """What of the contour the wire leaves out, or goes round the other way; empty: nothing."""
-    path = LineString([place for edge in cuts for place in edge.points()])
+    path = LineString(np.concatenate([edge.points() for edge in cuts]))
+    shapely.prepare(path)
     for edge in part.contour:
         if edge.centre is not None and not any(same_centre(edge, other) for other in part.contour if other is not edge):
             sweep = sum(cut.sweep for cut in cuts if cut.centre is not None and same_centre(edge, cut))
@@ -293,10 +298,11 @@ def fault(part: Part, cuts: Contour) -> str:
     for edge, places in zip(part.contour, free(part), strict=True):
         if LineString(edge.points()).length < NEAR:
             continue
-        far = shapely.distance(path, shapely.points(places))
+        points = shapely.points(places)
         # (round a corner there is room that a mitre leaves out)
-        if (far > NEAR).sum() > max(len(places) / 3, SAMPLES / 12):
-            return f"the wire stays {far.max():.3f} mm off its place beside {edge}"
+        if (~shapely.dwithin(path, points, NEAR)).sum() > max(len(places) / 3, SAMPLES / 12):
+            far = shapely.distance(path, points).max()
+            return f"the wire stays {far:.3f} mm off its place beside {edge}"
     return ""
 
 

@@ -26,6 +26,8 @@ BOARDS: dict[str, dict[str, Any]] = {
     "skg-rc2014-sio": {"board": "rc2014-sio"},
 }
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
+#: Those that foreign processors and machines run too: each so-many-th, all in `make hunt`.
+SOME_EXAMPLES = EXAMPLES[:: int(os.environ.get("SKG_EVERY", "3"))]
 
 #: A program that is still at work after so many cycles (16 minutes of the 2 MHz board) hangs.
 RUN_LIMIT = 2_000_000_000

@@ -19,7 +19,7 @@ from test_random import SEED, Record
 from skg.ref import run as reference
 
 SHARES = range(4)
-BLOCKS_A_SHARE = int(os.environ.get("SKG_CHAINS", "4800")) // len(SHARES)
+BLOCKS_A_SHARE = int(os.environ.get("SKG_CHAINS", "2400")) // len(SHARES)
 #: µm from a tie.
 TIE = 1e-4
 #: Of all blocks, so many may differ; one at least in a small share.

@@ -43,11 +43,11 @@ Record = Callable[[str, object], None]
 
 #: µm by which 32 bits may miss the centre of an arc at 100 mm, times sin² of half its sweep.
 CENTRE = 8e-5
-SHARES = range(8)
-BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "5200")) // len(SHARES)
+SHARES = range(4)
+BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "2600")) // len(SHARES)
 FLAT_BLOCKS = 300
-TOL_SHARES = range(8)
-TOL_BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "2600")) // len(TOL_SHARES)
+TOL_SHARES = range(4)
+TOL_BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "1300")) // len(TOL_SHARES)
 #: Of all programs, so many may be set aside, and of all blocks, so many may be arcs with a doubtful centre.
 MOST_ASIDE, MOST_CENTRES = 0.03, 0.06
 #: The same where all arcs are flat.
@@ -273,7 +273,9 @@ MISTAKES = {
     "the last span is lost": ("if self.after:\n            self._span", "if not self.nodes:\n            self._span"),
 }
 #: Programs that the mistakes are looked for in, and of them so many may hang on a close call of TOL.
-TOL_PROGRAMS, MOST_CLOSE = 120, 4
+TOL_PROGRAMS, MOST_CLOSE = 80, 3
+#: In one process: their results are computed once.
+of_tol_programs = pytest.mark.xdist_group("TOL programs")
 
 
 @cache
@@ -309,11 +311,13 @@ def test_bound_of_the_excess(monkeypatch: pytest.MonkeyPatch) -> None:
     assert max(measured) > fit.PASSED_NEAR / 30  # the bound is not far too wide
 
 
+@of_tol_programs
 def test_few_programs_are_close_calls_of_tol() -> None:
     calls = [[n for n in result.near if n.kind in ("passed node", "tolerance")] for _, result in tol_programs()]
     assert sum(map(bool, calls)) <= MOST_CLOSE
 
 
+@of_tol_programs
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_mistake_would_be_found(mistake: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each makes another tape of a program that nothing excuses."""

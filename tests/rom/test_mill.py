@@ -18,7 +18,7 @@ from random import Random
 import pytest
 from compare import as_if, close_call, differs
 from parts import part
-from romhelp import EXAMPLES, Board, Outcome
+from romhelp import SOME_EXAMPLES, Board, Outcome
 from soup import soup
 
 from skg.ref import Result, mill
@@ -32,7 +32,7 @@ from playedhelp import Waiting  # noqa: E402
 
 SEED = os.environ.get("SKG_SEED", "milling")
 SHARES = range(4)
-BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "3000")) // len(SHARES)
+BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "1500")) // len(SHARES)
 #: Of all programs, so many may be close calls.
 MOST_ASIDE = 0.02
 PATIENCE = 300
@@ -133,7 +133,7 @@ def test_lines_that_are_not_understood(case: tuple[str, ...]) -> None:
     assert mill.run(line).error == (1, 10)
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.stem)
+@pytest.mark.parametrize("example", SOME_EXAMPLES, ids=lambda example: example.stem)
 def test_examples(example: Path) -> None:
     """As a mill would cut them."""
     check(f"1 F 250,80\n2 Z -2.5,4\n{example.read_text()}")

@@ -26,8 +26,8 @@ REGRESSIONS = sorted((Path(__file__).parent / "regressions").glob("*.skg"))
 Record = Callable[[str, object], None]
 
 #: The work is cut into shares, so that several test processes can take them.
-SHARES = range(8)
-BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "5200")) // len(SHARES)
+SHARES = range(4)
+BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "2600")) // len(SHARES)
 PRINTS_A_SHARE = 75
 #: Of all programs, so many may be close calls.
 MOST_ASIDE = 0.02

@@ -1,12 +1,11 @@
 """The package as people install it: source distribution, wheel out of that, a new environment, another directory.
 
-Takes some 30 seconds: the C libraries are built anew. What the package depends on is lent by this environment, so that
-nothing is fetched; that all of it is named and fits is what `pip check` tells.
+The C libraries are built anew, unoptimized, which is sooner done. What the package depends on is lent by this
+environment, so that nothing is fetched; that all of it is named and fits is what `pip check` tells.
 """
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 import subprocess
@@ -22,12 +21,16 @@ ROOT = Path(__file__).parents[2]
 #: Two examples: one short, one of many blocks. (The image itself is compared in tests/rom.)
 PARTS = ("xy-star", "fit-gear")
 
+#: In the process that has made the package; the others would wait for it.
+pytestmark = pytest.mark.xdist_group("package")
+
 Shell = Callable[..., subprocess.CompletedProcess[str]]
 
 
 def succeed(*command: object, cwd: Path) -> str:
     """Run a command that must end well; what it prints."""
-    done = subprocess.run([str(word) for word in command], cwd=cwd, capture_output=True, text=True)
+    environment = {**os.environ, "CFLAGS": "-O0"}
+    done = subprocess.run([str(word) for word in command], cwd=cwd, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
@@ -59,14 +62,9 @@ def install(folder: Path) -> None:
 
 @pytest.fixture(scope="module")
 def user(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the wheel, the environment and an empty directory; one of several test processes makes it."""
-    own = tmp_path_factory.getbasetemp()
-    folder = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "package"
-    folder.mkdir(exist_ok=True)
-    with (folder / "lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (folder / "elsewhere").exists():
-            install(folder)
+    """A folder with the wheel, the environment and an empty directory."""
+    folder = tmp_path_factory.mktemp("package")
+    install(folder)
     return folder
 
 

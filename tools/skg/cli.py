@@ -17,6 +17,9 @@ import click
 from skg.errors import UserError
 from skg.garbage import collect_rarely
 
+# numpy's linear algebra, which skg does without, would start a thread for each processor: a quarter of a short run.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 #: Subcommand -> what it does, as `skg --help` lists it. Its click command is `command` in the module of its name.
 COMMANDS = {
     "cam": "Write the program that cuts a disc cam.",
