@@ -29,10 +29,10 @@ class Recording(Punch):
         """Taken to be there without a block."""
         super().place(p)
         if not self.lines:
-            self.begins.append(self.at)
+            self.begins.append(self.position)
 
     def _note(self) -> None:
-        self.places += [self.at] * (len(self.lines) - len(self.places))
+        self.places += [self.position] * (len(self.lines) - len(self.places))
 
     def line(self, end: Point) -> None:
         """A straight move."""

@@ -75,9 +75,9 @@ def steps(part: Path, drift: bool) -> tuple[Step, ...]:
 
     def watched(self: Cutter, segment: Segment) -> None:
         tape: Punch = self.tape
-        lines, before = len(tape.lines), tape.at
+        lines, before = len(tape.lines), tape.position
         emit(self, segment)
-        found.append(Step(micrometres(segment), "".join(tape.lines[lines:]), before, tape.at))
+        found.append(Step(micrometres(segment), "".join(tape.lines[lines:]), before, tape.position))
 
     Cutter._emit = watched
     try:

@@ -377,7 +377,7 @@ def test_a_curve_that_is_drawn_both_ways_is_drawn_twice() -> None:
     one, other = "M70 60c-33 0-60 24-60 60h60z", "M70 120h-60c0-36 27-60 60-60z"
     reading = reading_of(page(f'<path d="{one} M40 100h9v9z"/><path d="M0 0h150v150h-150z {other}"/>'))
     assert boxes(reading) == [(0, -50, 150, 100), (10, -20, 70, 40), (40, -9, 49, 0)]
-    assert {one.what for one in reading.report.overlaps} == {"drawn twice"}
+    assert {one.kind for one in reading.report.overlaps} == {"drawn twice"}
     assert left(reading) == {}
 
 

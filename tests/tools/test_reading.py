@@ -379,7 +379,7 @@ def test_touching_and_repeated() -> None:
     reading = checked(data)
     assert len(reading.contours) == 6
     assert left(reading) == {"drawn twice": 2}
-    what = [(overlap.what, overlap.place) for overlap in reading.report.overlaps]
+    what = [(overlap.kind, overlap.place) for overlap in reading.report.overlaps]
     assert what == [
         ("drawn twice", (30, 20)),
         ("drawn twice", (45, 40)),
@@ -397,7 +397,7 @@ def test_what_is_drawn_on_lines_that_are_left_is_left_with_them() -> None:
     data = raw(*split, line(0, 20, 0, 0), line(8, 0, 8, 20), line(8, 20, 8, 0), line(0, 20, 0, 0))
     reading = checked(data)
     assert left(reading) == {JUNCTION: 2, "drawn twice": 1}
-    assert [(one.what, one.place) for one in reading.report.overlaps] == [("drawn twice", (0, 20))]
+    assert [(one.kind, one.place) for one in reading.report.overlaps] == [("drawn twice", (0, 20))]
     # A polyline on the divider and on an edge.
     bent = "LWPOLYLINE 8 0 90 3 70 0 10 8 20 20 10 8 20 0 10 0 20 0"
     reading = checked(raw(*split, line(0, 20, 0, 0), line(8, 0, 8, 20), bent))
@@ -428,7 +428,7 @@ def test_lines_on_a_contour_are_drawn_twice() -> None:
     circle, arc = "CIRCLE 8 0 10 40 20 5 40 5", "ARC 8 0 10 40 20 5 40 5 50 20 51 130"
     reading = checked(raw(plate, circle, line(0, 0, 12, 0), over, arc))
     assert left(reading) == {"drawn twice": 3}
-    assert [one.what for one in reading.report.overlaps] == ["drawn twice"] * 3
+    assert [one.kind for one in reading.report.overlaps] == ["drawn twice"] * 3
     bay = "LWPOLYLINE 8 0 90 4 70 0 10 3 20 0 10 5 20 0 10 9 20 4 10 14 20 0"
     reading = checked(raw(plate, circle, line(0, 0, 20, 10), bay, "ARC 8 0 10 40 20 5.1 40 5 50 -20 51 130"))
     assert left(reading) == {JUNCTION: 3}

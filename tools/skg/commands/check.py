@@ -44,7 +44,7 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     the contours that it draws with R 0: one line for each place that is cut into, and that is not reached.
     TAPE - is the standard input.
     """
-    found: list[tuple[str, Found]] = []
+    all_findings: list[tuple[str, Found]] = []
     for name in tapes_:
         text = iso_text(name)
         if text is not None:
@@ -58,15 +58,15 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
             tape, findings = scan(data, name, positions)
             if not as_json:
                 _list_3b(name, data, tape, findings, list_all)
-        found += [(name, finding) for finding in findings]
+        all_findings += [(name, finding) for finding in findings]
         if is_program(name):
             misfits, count = _misfits(name)
             if count and not as_json:
                 _list(name, misfits, f"the path beside {counted(count, 'contour')}", list_all)
-            found += [(name, misfit) for misfit in misfits]
+            all_findings += [(name, misfit) for misfit in misfits]
     if as_json:
-        click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in found]))
-    if found:
+        click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in all_findings]))
+    if all_findings:
         raise SystemExit(1)
 
 
@@ -92,7 +92,7 @@ def _misfits(name: str) -> tuple[list[Spoilt], int]:
         )
     misfits, count = look(wires, drawn, "cutter" if mills else "wire")
     # (lines of a program that was translated are nobody's)
-    return [replace(one, line=None) for one in misfits] if is_rival(name) else misfits, count
+    return [replace(misfit, line=None) for misfit in misfits] if is_rival(name) else misfits, count
 
 
 def _list(

@@ -56,7 +56,7 @@ class Words(click.ParamType):
             return self.fail(f"{value!r}: {wrong}", param, ctx)
 
 
-#: What may stand beside a job file: what is written, and how much is said.
+#: Options allowed beside a job file: files to write, and how much to print.
 _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job", "quiet")
 
 

@@ -22,11 +22,11 @@ def _text(report: Report, blocks: bool) -> str:
     if blocks:
         head = f"{'block':>5}  {'tape':<40} {'should end at':>20} {'really at':>20} {'miss':>8} {'off':>6}"
         lines.append(head)
-        for one in report.each:
-            miss = one.really[0] - one.should[0], one.really[1] - one.should[1]
+        for row in report.each:
+            miss = row.really[0] - row.should[0], row.really[1] - row.should[1]
             lines.append(
-                f"{one.number:>5}  {one.block:<40} {_xy(one.should):>20} {_xy(one.really):>20} "
-                f"{_xy(miss) if miss != (0, 0) else '-':>8} {one.off_curve:>6.3f}"
+                f"{row.number:>5}  {row.block:<40} {_xy(row.should):>20} {_xy(row.really):>20} "
+                f"{_xy(miss) if miss != (0, 0) else '-':>8} {row.off_curve:>6.3f}"
             )
     stops = f", {report.stops} stops" if report.stops else ""
     as_programmed = f" (as programmed: {closing(report.programmed_gap)})"

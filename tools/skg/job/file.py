@@ -106,17 +106,17 @@ def from_data(data: object, name: str) -> Job:
     """Make the job of plain data; what is wrong with these is a `UserError` that begins with the name and the place."""
     top = _table(data, name)
     _refuse_unknown(top, {**_TOP, **_TABLES, **_LISTS}, name)
-    said = _checked({key: value for key, value in top.items() if key in _TOP}, _TOP, name)
+    settings = _checked({key: value for key, value in top.items() if key in _TOP}, _TOP, name)
     for key in ("schema", "drawing"):
-        if key not in said:
+        if key not in settings:
             raise UserError(f"{name}: {key} is missing" + f": schema = {SCHEMA}" * (key == "schema"))
-    del said["schema"]
+    del settings["schema"]
     tables = {
         key: _checked(_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
         for key, keys in _TABLES.items()
     }
     layers = _layers(_list(top, "layer", name), name)
-    contours = tuple(_chosen(one, where) for one, where in _list(top, "contour", name))
+    contours = tuple(_chosen(table, where) for table, where in _list(top, "contour", name))
     _refuse_twins(contours, name)
     try:
         machine = MachineSetup(**tables["machine"])
@@ -124,37 +124,37 @@ def from_data(data: object, name: str) -> Job:
         raise UserError(f"{name}: [machine]: {error}") from None
     read = Wishes(**{"open": None, **tables["read"]})
     return Job(
-        read=read, machine=machine, default=Partial(**tables["default"]), layers=layers, contours=contours, **said
+        read=read, machine=machine, default=Partial(**tables["default"]), layers=layers, contours=contours, **settings
     )
 
 
 def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Partial]:
-    found: dict[str, Partial] = {}
-    for one, where in entries:
-        layer = _required(one, ("name",), where)[0]
-        if layer.lower() in map(str.lower, found):
+    layers: dict[str, Partial] = {}
+    for entry, where in entries:
+        layer = _required(entry, ("name",), where)[0]
+        if layer.lower() in map(str.lower, layers):
             raise UserError(f"{where}: layer {layer} is there twice")
-        found[layer] = Partial(**one)
-    return found
+        layers[layer] = Partial(**entry)
+    return layers
 
 
-def _chosen(one: dict[str, Any], where: str) -> Chosen:
-    layer, kind, place, size = _required(one, ("layer", "kind", "at", "size"), where)
-    return Chosen(layer, kind, place, size, Partial(**one))
+def _chosen(table: dict[str, Any], where: str) -> Chosen:
+    layer, kind, place, size = _required(table, ("layer", "kind", "at", "size"), where)
+    return Chosen(layer, kind, place, size, Partial(**table))
 
 
-def _required(one: dict[str, Any], keys: tuple[str, ...], where: str) -> list[Any]:
+def _required(table: dict[str, Any], keys: tuple[str, ...], where: str) -> list[Any]:
     """Take values out that must be there."""
     for key in keys:
-        if key not in one:
+        if key not in table:
             raise UserError(f"{where}: {key} is missing")
-    return [one.pop(key) for key in keys]
+    return [table.pop(key) for key in keys]
 
 
 def _refuse_twins(contours: tuple[Chosen, ...], name: str) -> None:
     seen: dict[Chosen, int] = {}
-    for number, one in enumerate(contours, 1):
-        first = seen.setdefault(replace(one, partial=Partial()), number)
+    for number, chosen in enumerate(contours, 1):
+        first = seen.setdefault(replace(chosen, partial=Partial()), number)
         if first != number:
             raise UserError(f"{name}: [[contour]] {number}: it is the same one as [[contour]] {first}")
 
@@ -164,11 +164,11 @@ def _list(top: Mapping[str, Any], key: str, name: str) -> list[tuple[dict[str, A
     entries = top.get(key, [])
     if not isinstance(entries, list):
         raise UserError(f"{name}: {key}: expected [[{key}]], a list of tables")
-    found = []
-    for number, one in enumerate(entries, 1):
+    tables = []
+    for number, entry in enumerate(entries, 1):
         where = f"{name}: [[{key}]] {number}"
-        found.append((_checked(_table(one, where), _LISTS[key], where), where))
-    return found
+        tables.append((_checked(_table(entry, where), _LISTS[key], where), where))
+    return tables
 
 
 def _table(data: object, where: str) -> dict[str, Any]:
@@ -188,19 +188,19 @@ def _refuse_unknown(data: Mapping[str, Any], keys: Mapping[str, object], where: 
 def _checked(data: Mapping[str, Any], keys: Mapping[str, values.Check], where: str) -> dict[str, Any]:
     """The values, as the checks return them."""
     _refuse_unknown(data, keys, where)
-    found = {}
+    checked = {}
     for key, value in data.items():
         try:
-            found[key] = keys[key](value)
+            checked[key] = keys[key](value)
         except values.Wrong as wrong:
             raise UserError(f"{where}: {key} = {_told(value)}: {wrong}") from None
-    return found
+    return checked
 
 
 def _told(value: object) -> str:
     """A value in a message, the beginning of a long one."""
-    told = " ".join(repr(value).split())
-    return told if len(told) <= 40 else f"{told[:40]}…"
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 40 else f"{text[:40]}…"
 
 
 def to_data(job: Job) -> dict[str, Any]:
@@ -227,20 +227,20 @@ def _lists(job: Job) -> dict[str, Any]:
     ]
     contours = [
         {
-            "layer": one.layer,
-            "kind": one.kind,
-            "at": list(one.place),
-            "size": list(one.size),
-            **{key: _plain(value) for key, value in one.partial.said().items()},
+            "layer": chosen.layer,
+            "kind": chosen.kind,
+            "at": list(chosen.place),
+            "size": list(chosen.size),
+            **{key: _plain(value) for key, value in chosen.partial.said().items()},
         }
-        for one in job.contours
+        for chosen in job.contours
     ]
-    return {key: some for key, some in (("layer", layers), ("contour", contours)) if some}
+    return {key: tables for key, tables in (("layer", layers), ("contour", contours)) if tables}
 
 
 def _plain(value: object) -> object:
     """A value with lists in place of tuples."""
-    return [_plain(one) for one in value] if isinstance(value, tuple) else value
+    return [_plain(item) for item in value] if isinstance(value, tuple) else value
 
 
 def dump(job: Job) -> str:
@@ -252,8 +252,8 @@ def dump(job: Job) -> str:
         if isinstance(value, dict):
             lines += ["", f"[{key}]", *_pairs(value)]
         elif key in _LISTS:
-            for one in value or []:
-                lines += ["", f"[[{key}]]", *_pairs(one)]
+            for table in value or []:
+                lines += ["", f"[[{key}]]", *_pairs(table)]
         elif value is not None:
             lines += _pairs({key: value})
     return "\n".join(lines) + "\n"

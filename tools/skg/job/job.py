@@ -15,9 +15,9 @@ from skg.job.wanted import Partial, Wanted
 Box = tuple[float, float, float, float]
 #: The ROMs that make a tape from a drawing.
 ROMS = ("no-drift", "standard")
-#: What becomes of contours that are too small for the wire, or whose wire comes into others.
+#: Settings for contours that are too small for the wire, and for those whose wire comes into others.
 SMALL, INTO = ("refuse", "leave"), ("refuse", "cut")
-#: What a contour is: cut from outside, from inside, or along.
+#: Kinds of contours: cut from outside, from inside, or along.
 KINDS = ("outline", "opening", "open")
 
 
@@ -106,5 +106,5 @@ class Job:
     @property
     def is_beside(self) -> bool:
         """Tell whether the wire runs beside contours somewhere."""
-        every = (self.default, *self.layers.values(), *(one.partial for one in self.contours))
+        every = (self.default, *self.layers.values(), *(chosen.partial for chosen in self.contours))
         return bool(self.machine.distance) or any(partial.offset for partial in every)

@@ -50,7 +50,7 @@ class Matches:
     @property
     def lost(self) -> list[int]:
         """The chosen contours that are not there, by their places in the job."""
-        return [at for at, match in enumerate(self.found) if match.number is None]
+        return [index for index, match in enumerate(self.found) if match.number is None]
 
 
 class Known:
@@ -61,7 +61,7 @@ class Known:
         self.boxes, _ = boxes_of(contours)
         self.sizes = self.boxes[:, 2:] - self.boxes[:, :2]
         self._rounded = np.round(self.sizes, _DECIMALS).tolist()
-        self.layers = [{layer.lower() for layer in one.layers} for one in contours]
+        self.layers = [{layer.lower() for layer in contour.layers} for contour in contours]
         self._tree = shapely.STRtree(shapely.box(*self.boxes.T))
 
     @property
@@ -76,8 +76,8 @@ class Known:
         Where one corner of the box has moved, those that are lost may have moved with it: these are doubtful.
         """
         matches = self._matches(chosen, box)
-        found = (replace(match, is_doubtful=self._is_doubtful(match)) for match in matches.found)
-        return replace(matches, found=tuple(found))
+        judged = (replace(match, is_doubtful=self._is_doubtful(match)) for match in matches.found)
+        return replace(matches, found=tuple(judged))
 
     def _matches(self, chosen: Sequence[Chosen], box: Box | None) -> Matches:
         still = self._all_found(chosen, (0.0, 0.0))
@@ -87,51 +87,55 @@ class Known:
         moves = [move for move in ((left, low), (right, high)) if hypot(*move) > _STILL]
         if len(moves) == 2 and hypot(left - right, low - high) <= _STILL:
             whole = Matches(self._all_found(chosen, moves[0]), moves[0])
-            return min(whole, Matches(still), key=lambda one: len(one.lost))
-        found = list(still)
+            return min(whole, Matches(still), key=lambda matches: len(matches.lost))
+        matches = list(still)
         for move in moves:
-            taken = {match.number for match in found}
-            for at, match in enumerate(self._all_found(chosen, move)):
-                if found[at].number is None and match.number not in taken:
-                    found[at] = replace(match, moved=match.moved + hypot(*move))
-        return Matches(tuple(found))
+            taken = {match.number for match in matches}
+            for index, match in enumerate(self._all_found(chosen, move)):
+                if matches[index].number is None and match.number not in taken:
+                    matches[index] = replace(match, moved=match.moved + hypot(*move))
+        return Matches(tuple(matches))
 
     def _all_found(self, chosen: Sequence[Chosen], shift: XY) -> tuple[Match, ...]:
         """Find each by itself; of two that are the same contour the nearer one is, where it clearly is."""
-        found = [_clear(costs, shift) for costs in self._costs(chosen, shift)]
+        matches = [_clear(costs, shift) for costs in self._costs(chosen, shift)]
         claims: dict[int, list[tuple[float, int]]] = {}
-        for at, match in enumerate(found):
+        for index, match in enumerate(matches):
             if match.number is not None:
-                claims.setdefault(match.number, []).append((match.moved, at))
+                claims.setdefault(match.number, []).append((match.moved, index))
         for claim in claims.values():
             winner = _clear(sorted(claim), shift).number
-            for _, at in claim:
-                if at != winner:
-                    found[at] = Match()
-        return tuple(found)
+            for _, index in claim:
+                if index != winner:
+                    matches[index] = Match()
+        return tuple(matches)
 
     def _costs(self, chosen: Sequence[Chosen], shift: XY) -> list[list[tuple[float, int]]]:
         """Distances of contours from the places and differences of their sizes: the sum, mm, and the number of each
         that may be meant or taken for it, the nearest first."""
         if not chosen:
             return []
-        places = np.array([one.place for one in chosen], float) + shift
-        sizes = np.array([one.size for one in chosen], float)
+        places = np.array([choice.place for choice in chosen], float) + shift
+        sizes = np.array([choice.size for choice in chosen], float)
         reach = _CLEARLY * _limits(sizes)
-        of, which = self._tree.query(
+        indices, numbers = self._tree.query(
             shapely.box(*(places - reach[:, None]).T, *(places + reach[:, None]).T), predicate="intersects"
         )
-        grown = np.abs(self.sizes[which] - sizes[of]).sum(1)
-        kinds = np.array([one.kind for one in chosen])
-        some = np.flatnonzero((grown <= reach[of]) & (self.kinds[which] == kinds[of]))
+        grown = np.abs(self.sizes[numbers] - sizes[indices]).sum(1)
+        kinds = np.array([choice.kind for choice in chosen])
+        close = np.flatnonzero((grown <= reach[indices]) & (self.kinds[numbers] == kinds[indices]))
         costs: list[list[tuple[float, int]]] = [[] for _ in chosen]
-        for at, number, more in zip(of[some].tolist(), which[some].tolist(), grown[some].tolist(), strict=True):
-            if chosen[at].layer.lower() in self.layers[number]:
-                far = min(edge.far(shifted(chosen[at].place, shift)) for edge in self.contours[number].edges)
-                costs[at].append((far + more, number))
+        for index, number, more in zip(
+            indices[close].tolist(), numbers[close].tolist(), grown[close].tolist(), strict=True
+        ):
+            if chosen[index].layer.lower() in self.layers[number]:
+                far = min(edge.far(shifted(chosen[index].place, shift)) for edge in self.contours[number].edges)
+                costs[index].append((far + more, number))
         limits = _limits(sizes).tolist()
         # (the nearest is too far: none is meant)
-        return [sorted(some) if some and min(some)[0] <= most else [] for some, most in zip(costs, limits, strict=True)]
+        return [
+            sorted(pairs) if pairs and min(pairs)[0] <= most else [] for pairs, most in zip(costs, limits, strict=True)
+        ]
 
     def _is_doubtful(self, match: Match) -> bool:
         if match.number is None:
@@ -142,10 +146,10 @@ class Known:
         """Describe a contour by the middle of its longest edge, or of another one that tells it from its neighbours."""
         best: tuple[float, Chosen] | None = None
         for edge in sorted(self.contours[number].edges, key=lambda edge: -edge.length)[:_TRIED]:
-            one = self._by(number, edge, partial)
-            clear = _clear_of(self._costs([one], (0.0, 0.0))[0], number)
+            candidate = self._by(number, edge, partial)
+            clear = _clear_of(self._costs([candidate], (0.0, 0.0))[0], number)
             if best is None or clear > best[0]:
-                best = clear, one
+                best = clear, candidate
             if clear >= _LEAST:
                 break
         return best[1]
@@ -153,13 +157,13 @@ class Known:
     def choose_all(self) -> list[Chosen]:
         """Describe all contours, as `choose` does, with no settings."""
         numbers = range(len(self.contours))
-        found = [
+        chosen = [
             self._by(number, max(self.contours[number].edges, key=lambda edge: edge.length), Partial())
             for number in numbers
         ]
-        costs = self._costs(found, (0.0, 0.0))
+        costs = self._costs(chosen, (0.0, 0.0))
         return [
-            found[number] if _clear_of(costs[number], number) >= _LEAST else self.choose(number, Partial())
+            chosen[number] if _clear_of(costs[number], number) >= _LEAST else self.choose(number, Partial())
             for number in numbers
         ]
 

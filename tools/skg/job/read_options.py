@@ -10,9 +10,9 @@ from skg.errors import UserError
 
 #: mm in one unit of a file.
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
-#: What becomes of open contours; "all" cuts what is at junctions as well.
+#: Settings for open contours; "all" cuts lines at junctions as well.
 OPEN = ("cut", "leave", "refuse", "all")
-#: Why what is on a layer is left: it is another one than those asked for, or it is not seen.
+#: Reasons for leaving a layer: not among those asked for, or not seen.
 _NOT_ASKED, _HIDDEN = "not asked for", "the layer is "
 #: The layer whose points are start holes, where no other one is asked for.
 START = "START"
@@ -41,7 +41,7 @@ class Wishes:
         names = {name.lower(): name for name in known}
         for layer in self.layers:
             if layer.lower() not in names:
-                near = "".join(f", did you mean {names[one]}?" for one in get_close_matches(layer.lower(), names, 1))
+                near = "".join(f", did you mean {names[name]}?" for name in get_close_matches(layer.lower(), names, 1))
                 has = ", ".join(sorted(names.values())) or "none"
                 raise UserError(f"no layer {layer!r}{near or ','}{' It' if near else ' the drawing'} has {has}")
 

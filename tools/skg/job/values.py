@@ -122,13 +122,13 @@ def box(value: object) -> tuple[float, float, float, float]:
     return left, low, right, high
 
 
-def _numbers(value: object, count: int, check: Check, what: str) -> list[float]:
+def _numbers(value: object, count: int, check: Check, expected: str) -> list[float]:
     if not isinstance(value, list | tuple) or len(value) != count:
-        raise Wrong(f"expected {what}")
+        raise Wrong(f"expected {expected}")
     try:
         return list(map(check, value))
     except Wrong:
-        raise Wrong(f"expected {what}") from None
+        raise Wrong(f"expected {expected}") from None
 
 
 def places(value: object) -> tuple[tuple[float, float], ...]:
@@ -141,9 +141,9 @@ def places(value: object) -> tuple[tuple[float, float], ...]:
 def passes(value: object) -> tuple[float, ...]:
     """Check what the passes leave, none of them more than the one before it."""
     count = len(value) if isinstance(value, list | tuple) else 0
-    found = tuple(
+    allowances = tuple(
         _numbers(value, min(max(1, count), _LONGEST), number(0.0, MOST_OFFSET), "lengths in mm, such as 0.06, 0.02, 0")
     )
-    if any(after > before for before, after in pairwise(found)):
+    if any(after > before for before, after in pairwise(allowances)):
         raise Wrong("a pass that leaves more than the one before it cuts nothing")
-    return found
+    return allowances

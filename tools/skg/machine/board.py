@@ -18,7 +18,7 @@ _ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
 _PROMPT = ">"
 
 
-#: What the errors mean (language.md, section 6).
+#: Meanings of the errors (language.md, section 6).
 ERRORS = {
     1: "statement or expression not understood",
     2: "no such line; RETURN without GOSUB; too many GOSUBs",
@@ -208,7 +208,7 @@ class Board:
     def _why(self, reason: str) -> str:
         """A message for `BoardStopped`."""
         last = self.paper.rpartition("\n")[2]
-        at = self.machine.registers["pc"]
+        address = self.machine.registers["pc"]
         match reason:
             case "cycles":
                 return f"not done after {self.max_cycles} cycles"
@@ -219,13 +219,13 @@ class Board:
             case "wait":
                 return f"the machine waits for a key at `{last}`"
             case "halt":
-                return f"the machine halted at {(at - 1) & 0xFFFF:04X}"
+                return f"the machine halted at {(address - 1) & 0xFFFF:04X}"
             case "nobody":
                 port, chip = self.machine.nobody
                 served = "its chip was never readied" if chip else "nobody serves it"
                 return f"port {port:02X} is read, and {served}: is this ROM for another board?"
             case _:
-                return f"the machine runs into {at:04X}, where the ROM image has nothing"
+                return f"the machine runs into {address:04X}, where the ROM image has nothing"
 
 
 def find_error(lines: Iterable[str]) -> ErrorLine | None:

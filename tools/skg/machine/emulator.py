@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-#: What `run` may return, in the order of `board_reason` (emu/board.h).
+#: Results of `run`, in the order of `board_reason` (emu/board.h).
 REASONS = ("cycles", "prompt", "input", "wait", "halt", "break", "nobody")
-#: How a call may end, in the order of `machine_end` (emu/machine.h).
+#: Ends of a call, in the order of `machine_end` (emu/machine.h).
 ENDS = ("returned", "cycles", "stop", "halt", "wait")
 BOARDS = {"6850": 0, "8251": 1, "rc2014": 2, "rc2014-sio": 3}
 
@@ -79,7 +79,7 @@ def read_rom(path: str) -> tuple[bytes, list[int]]:
     text = ctypes.create_string_buffer(data)
     if _library().image_rom_of(os.fsencode(path), text, len(data), rom, given, ROM_SIZE, error, len(error)):
         raise UserError(os.fsdecode(error.value))
-    return rom.raw, [address for address, told in enumerate(given.raw) if not told]
+    return rom.raw, [address for address, is_given in enumerate(given.raw) if not is_given]
 
 
 def symbols(text: str) -> dict[str, int]:
@@ -284,7 +284,7 @@ class Machine:
             if self._output_length != printed:
                 patient_until = min(end, self.cycles + patience)
 
-    # What came out
+    # Output
 
     @property
     def _output_length(self) -> int:

@@ -100,7 +100,7 @@ def without_numbers(program: str) -> list[str] | None:
     if any(_bare(statement).startswith(_STORED) for statement in statements):
         return None
     # A run ends with the first END, or past the last line.
-    ends = [at for at, statement in enumerate(statements) if is_end(statement)]
+    ends = [index for index, statement in enumerate(statements) if is_end(statement)]
     return [*statements[: min(ends, default=len(statements))], "END"]
 
 
@@ -135,13 +135,13 @@ def feed_lines(parts: Iterable[str], rom: str | bytes, ram_kib: int) -> tuple[Fe
 
 
 def feed_routes(
-    parts: Iterable[str], rom: str | bytes, ram_kib: int, told: Callable[[int], None] = lambda done: None
+    parts: Iterable[str], rom: str | bytes, ram_kib: int, on_done: Callable[[int], None] = lambda done: None
 ) -> Fed:
     """Feed a program without line numbers to as many boards at once as there are processors.
 
     `parts`: the title, the routes, each from its FROM on, the END. A route leaves nothing behind for the next one but
     the place where the wire is. So each board begins with the last route of the one before it; where these two tapes
-    differ, one board takes all. `told`: is called with the number of routes that are done.
+    differ, one board takes all. `on_done`: is called with the number of routes that are done.
     """
     from concurrent.futures import ThreadPoolExecutor  # (slow to import, and needed here alone)
 
@@ -149,11 +149,11 @@ def feed_routes(
         # (the first boards run while the rest of the program is still being written)
         parts, written = tee(parts)
         shares, done = [], 0
-        for taken, *fed in boards.map(lambda some: (len(some), *_feed_share(some, rom, ram_kib)), _shares(parts)):
+        for taken, *fed in boards.map(lambda share: (len(share), *_feed_share(share, rom, ram_kib)), _shares(parts)):
             shares.append(fed)
             done += taken - 1
-            told(done)
-    tape, cycles = b"", sum(one.cycles for _, one in shares)
+            on_done(done)
+    tape, cycles = b"", sum(fed.cycles for _, fed in shares)
     for begun, share in shares:
         if share.error:
             return Fed(tape, share.error, cycles)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 try:
     import msvcrt
 
-    #: What a terminal raises beside OSError.
+    #: Exceptions of a terminal beside OSError.
     TERMINAL_TROUBLE: tuple[type[Exception], ...] = ()
 except ImportError:
     import select

@@ -27,7 +27,7 @@ _CTRL_C, _CTRL_U, _CTRL_Z, _CR = b"\x03", b"\x15", b"\x1a", b"\r"
 _ECHO, _TRIES = 1.5, 3
 #: The same of what tells whether the board is there at all: an emulator may have to wait for its computer.
 _ANSWER = 6.0
-#: How often a program is stored again because the port went away.
+#: Most attempts to store a program again after the port went away.
 _LOSSES = 5
 
 
@@ -134,9 +134,9 @@ class Typist:
         """Type characters, and see whether the paper has them then."""
         teletype, losses = self.teletype, self.teletype.losses
         step = 1 if self.one_by_one else len(data)
-        for at in range(0, len(data), step):
-            expected = bytes(teletype.line) + data[at : at + step]
-            self._put(data[at : at + step])
+        for first in range(0, len(data), step):
+            expected = bytes(teletype.line) + data[first : first + step]
+            self._put(data[first : first + step])
             teletype.wait(lambda wanted=expected: bytes(teletype.line) == wanted or teletype.losses > losses, _ECHO)
             if bytes(teletype.line) != expected:
                 return False
@@ -161,11 +161,11 @@ class Typist:
 
     def _put(self, data: bytes) -> None:
         """Send characters, unless XOFF holds them."""
-        for at in range(len(data)):
+        for index in range(len(data)):
             self.teletype.check()
             while not self.teletype.splitter.may_send.wait(0.1):
                 self.teletype.check()
-            self.port.write(data[at : at + 1])
+            self.port.write(data[index : index + 1])
 
 
 def send(typist: Typist, lines: Sequence[TypedLine], name: str) -> None:
@@ -219,7 +219,7 @@ def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: boo
 
 def _say_given_up(typist: Typist, lines: Sequence[TypedLine], name: str, is_run: bool) -> None:
     texts = {line.number: line.text for line in lines}
-    if lost := given_up("\n".join(texts.get(at, "") for at in range(1, max(texts, default=0) + 1)), is_run):
+    if lost := given_up("\n".join(texts.get(number, "") for number in range(1, max(texts, default=0) + 1)), is_run):
         typist.teletype.say(f"{name}: {lost}")
 
 
@@ -295,7 +295,7 @@ def _plain(program: str, name: str) -> list[TypedLine]:
     plain = without_numbers(program)
     if plain is None:
         raise Stopped(f"{name}: not without its line numbers: it jumps, asks or has DATA, or has lines without numbers")
-    # What they were in the file nobody needs: each is named by its text.
+    # Their numbers in the file are not needed: each line is named by its text.
     return [TypedLine(0, text) for text in plain]
 
 

@@ -29,7 +29,7 @@ XON, XOFF, DC2, DC4 = 0x11, 0x13, 0x12, 0x14
 LF, PROMPT = 0x0A, 0x3E
 #: Seconds between two tries to open a port that went away.
 _RETRY = 0.5
-#: What pyserial raises when a port cannot be opened, or is closed or gone in the middle of a call.
+#: Exceptions of pyserial if a port cannot be opened, or is closed or gone in the middle of a call.
 _TROUBLE = (OSError, ValueError, TypeError, AttributeError, *TERMINAL_TROUBLE)
 
 
@@ -124,11 +124,11 @@ class Port:
 
     def write(self, data: bytes) -> None:
         """Send bytes; after a loss of the port it goes on with the byte that failed."""
-        for at in range(len(data)):
+        for index in range(len(data)):
             while not self.closing:
                 current = self.serial
                 try:
-                    current.write(data[at : at + 1])
+                    current.write(data[index : index + 1])
                     current.flush()
                     break
                 except serial.SerialTimeoutException:

@@ -168,7 +168,7 @@ def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> li
         )
     if any(want.tab and want.cut for want in wanted) and not any(route.tab for route in result.routes):
         lines.append(ReportLine("take care: no contour has a tab: none is a part that is cut from outside"))
-    if any(overlap.what != "drawn twice" for overlap in account.overlaps):
+    if any(overlap.kind != "drawn twice" for overlap in account.overlaps):
         from skg.checking.split_parts import said
 
         lines += said(result.routes)

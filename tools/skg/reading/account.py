@@ -81,9 +81,9 @@ class OpenEnd:
 
 @dataclass(frozen=True)
 class Overlap:
-    """Two edges on each other. `what`: "drawn twice", "overlap", "touch" or "cross"; `place` in mm."""
+    """Two edges on each other. `kind`: "drawn twice", "overlap", "touch" or "cross"; `place` in mm."""
 
-    what: str
+    kind: str
     layer: str
     place: XY
 
@@ -134,34 +134,34 @@ class Account:
         """The report, line by line, without the file's name."""
         width, height = self.size
         told_in = "" if self.factor == 1 else f"; places are told in mm, {self.factor:.6g} to one of these"
-        found = [ReportLine(f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from}){told_in}")]
-        found += [ReportLine(_of_layer(layer)) for layer in self.layers]
+        lines = [ReportLine(f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from}){told_in}")]
+        lines += [ReportLine(_of_layer(layer)) for layer in self.layers]
         kinds = [f"{self.closed} closed"] * bool(self.closed) + [f"{self.open} open"] * bool(self.open)
         count = counted(self.closed + self.open, "contour")
-        found.append(ReportLine(f"{count}: {', '.join(kinds)}; {short(self.length)} mm"))
+        lines.append(ReportLine(f"{count}: {', '.join(kinds)}; {short(self.length)} mm"))
         for end in self.open_ends[:_PLACES]:
             line = f"open end at {shown(end.place)}"
             if end.other is not None:
                 line += f", {short(end.gap)} mm from {shown(end.other)}; {end.advice}"
-            found.append(ReportLine(line, place=end.place))
-        found += _more(self.open_ends, "open end")
+            lines.append(ReportLine(line, place=end.place))
+        lines += _more(self.open_ends, "open end")
         for entity in self.not_understood[:_PLACES]:
             line = f"not cut: {entity.kind} on layer {entity.layer} at {shown(entity.place)}: {entity.left}"
-            found.append(ReportLine(line, place=entity.place))
-        found += _more(self.not_understood, "entity not understood", "entities not understood")
-        found += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
-        for what in ("drawn twice", "overlap", "cross", "touch"):
-            found += _overlaps(what, [overlap for overlap in self.overlaps if overlap.what == what])
-        return [*found, *map(ReportLine, self.notes)]
+            lines.append(ReportLine(line, place=entity.place))
+        lines += _more(self.not_understood, "entity not understood", "entities not understood")
+        lines += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
+        for kind in ("drawn twice", "overlap", "cross", "touch"):
+            lines += _overlaps(kind, [overlap for overlap in self.overlaps if overlap.kind == kind])
+        return [*lines, *map(ReportLine, self.notes)]
 
 
-def said(entities: Iterable[Entity], nouns: tuple[str, str], what: str, then: str) -> Iterator[str]:
+def said(entities: Iterable[Entity], nouns: tuple[str, str], description: str, then: str) -> Iterator[str]:
     """Describe odd entities and how they are cut, a line for each layer; `nouns`: singular and plural."""
     layers: dict[str, list[Entity]] = defaultdict(list)
     for entity in entities:
         layers[entity.layer].append(entity)
-    for layer, some in sorted(layers.items()):
-        yield f"{counted(len(some), *nouns)} on layer {layer} {what}, as at {shown(some[0].place)}: {then}"
+    for layer, group in sorted(layers.items()):
+        yield f"{counted(len(group), *nouns)} on layer {layer} {description}, as at {shown(group[0].place)}: {then}"
 
 
 def listed(kinds: dict[str, int]) -> str:
@@ -192,25 +192,25 @@ def _places(head: str, entities: Iterable[Entity]) -> list[ReportLine]:
     groups: dict[tuple[str, str], list[XY]] = defaultdict(list)
     for entity in entities:
         groups[entity.layer, entity.kind].append(entity.place)
-    found = []
+    lines = []
     for (layer, kind), places in groups.items():
         more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
         line = f"{head} {len(places)} {kind} on layer {layer} at {', '.join(map(shown, places[:_PLACES]))}{more}"
-        found.append(ReportLine(line, place=places[0]))
-    return found
+        lines.append(ReportLine(line, place=places[0]))
+    return lines
 
 
-def _overlaps(what: str, overlaps: list[Overlap]) -> list[ReportLine]:
+def _overlaps(kind: str, overlaps: list[Overlap]) -> list[ReportLine]:
     groups: dict[str, list[XY]] = defaultdict(list)
     for overlap in overlaps:
         groups[overlap.layer].append(overlap.place)
-    found = []
+    lines = []
     for layer, places in groups.items():
         more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
         line = (
-            f"{counted(len(places), 'place')} on layer {layer} where lines {what}: "
-            if what != "drawn twice"
+            f"{counted(len(places), 'place')} on layer {layer} where lines {kind}: "
+            if kind != "drawn twice"
             else f"{counted(len(places), 'edge')} on layer {layer} drawn twice, cut once: "
         )
-        found.append(ReportLine(f"{line}{', '.join(map(shown, places[:_PLACES]))}{more}", place=places[0]))
-    return found
+        lines.append(ReportLine(f"{line}{', '.join(map(shown, places[:_PLACES]))}{more}", place=places[0]))
+    return lines

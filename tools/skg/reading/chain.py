@@ -122,27 +122,27 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
     return Edge(start, end, nodes=tuple(nodes), samples=np.array(samples), entity=edge.entity)
 
 
-def _twin(one: Edge, others: list[Edge], tolerance: float) -> Edge | None:
+def _twin(edge: Edge, others: list[Edge], tolerance: float) -> Edge | None:
     """The edge that one was drawn on, if there is any."""
     for other in others:
-        for way in (other, other.reversed()):
-            if max(distance(one.start, way.start), distance(one.end, way.end)) > tolerance:
+        for candidate in (other, other.reversed()):
+            if max(distance(edge.start, candidate.start), distance(edge.end, candidate.end)) > tolerance:
                 continue
-            if one.nodes or other.nodes:
-                # (what is run through backwards has other samples)
-                is_on = _off(one, other) <= tolerance >= _off(other, one)
+            if edge.nodes or other.nodes:
+                # (a curve run through backwards has other samples)
+                is_on = _off(edge, other) <= tolerance >= _off(other, edge)
             else:
-                is_on = distance(one.at(0.5), way.at(0.5)) <= tolerance
+                is_on = distance(edge.at(0.5), candidate.at(0.5)) <= tolerance
             if is_on:
                 return other
     return None
 
 
-def _off(one: Edge, other: Edge) -> float:
+def _off(edge: Edge, other: Edge) -> float:
     """Largest distance of an edge's points from another edge."""
     if other.nodes:
-        return float(shapely.distance(shapely.points(one.points()), shapely.linestrings(other.samples)).max())
-    return max(map(other.far, one.points()))
+        return float(shapely.distance(shapely.points(edge.points()), shapely.linestrings(other.samples)).max())
+    return max(map(other.far, edge.points()))
 
 
 def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chains:
@@ -173,7 +173,7 @@ def _is_ring(group: list[Edge], tolerance: float) -> bool:
         edge = group[0]
         return edge.is_circle or (edge.start == edge.end and edge.length > 3 * tolerance)
     following = [*group[1:], group[0]]
-    if any(distance(one.end, other.start) > _EXACT for one, other in zip(group, following, strict=True)):
+    if any(distance(edge.end, other.start) > _EXACT for edge, other in zip(group, following, strict=True)):
         return False
     length = sum(edge.length for edge in group)
     return abs(Contour(tuple(group), True).area) > 0.1 * tolerance * length
@@ -202,34 +202,34 @@ _Step = tuple[int, bool]
 class _Graph:
     """Edges whose ends are corners."""
 
-    def __init__(self, edges: list[Edge], tolerance: float, found: Chains) -> None:
-        self.found = found
+    def __init__(self, edges: list[Edge], tolerance: float, chains: Chains) -> None:
+        self.chains = chains
         corners = _Corners(tolerance)
         self.edges: list[Edge] = []
         self.ends: list[tuple[int, int]] = []
-        self.at: dict[int, list[int]] = defaultdict(list)
+        self.edges_at: dict[int, list[int]] = defaultdict(list)
         known: dict[tuple[int, int], list[Edge]] = defaultdict(list)
         for edge in edges:
             first, last = corners.index(edge.start), corners.index(edge.end)
             alike = known[min(first, last), max(first, last)]
             if first == last and edge.length <= 3 * tolerance:
-                found.short.append(edge)
+                chains.short.append(edge)
             elif twin := _twin(edge, alike, tolerance):
-                found.doubles.append((edge, twin))
+                chains.doubles.append((edge, twin))
             elif first == last:
                 alike.append(edge)
-                found.contours.append(Contour((moved(edge, edge.start, edge.start),), True))
+                chains.contours.append(Contour((moved(edge, edge.start, edge.start),), True))
             else:
                 alike.append(edge)
                 for corner in (first, last):
-                    self.at[corner].append(len(self.edges))
+                    self.edges_at[corner].append(len(self.edges))
                 self.edges.append(edge)
                 self.ends.append((first, last))
         self.corners = corners.points()
 
-    def other(self, at: int, corner: int) -> int:
+    def other(self, number: int, corner: int) -> int:
         """The corner at an edge's other end."""
-        first, last = self.ends[at]
+        first, last = self.ends[number]
         return last if first == corner else first
 
     def chain(self, styles: Styles) -> None:
@@ -238,13 +238,13 @@ class _Graph:
             degrees = self.degrees(part)
             if max(degrees.values()) <= 2:
                 (run,) = self.runs(part)
-                self.found.contours.append(self.contour(run, 1 not in degrees.values()))
+                self.chains.contours.append(self.contour(run, 1 not in degrees.values()))
                 continue
             own = list(self.rings_of_styles(part, styles)) if styles else []
             rings, rest = self.outlines(part.difference(*own))
-            rings += [ring for one in own for ring in self.runs(one)]
-            self.found.contours += [self.contour(ring, True) for ring in rings]
-            self.found.rest += [self.contour(run, self.is_closed(run)) for run in self.runs(rest)]
+            rings += [ring for edges in own for ring in self.runs(edges)]
+            self.chains.contours += [self.contour(ring, True) for ring in rings]
+            self.chains.rest += [self.contour(run, self.is_closed(run)) for run in self.runs(rest)]
 
     def is_closed(self, run: list[_Step]) -> bool:
         """Tell whether a run ends where it begins."""
@@ -254,40 +254,40 @@ class _Graph:
     def contour(self, run: list[_Step], is_closed: bool) -> Contour:
         """A run of edges, their ends moved to the corners."""
         steps = []
-        for at, ahead in run:
-            start, end = (self.corners[corner] for corner in self.ends[at])
-            edge = moved(self.edges[at], start, end)
+        for number, ahead in run:
+            start, end = (self.corners[corner] for corner in self.ends[number])
+            edge = moved(self.edges[number], start, end)
             steps.append(edge if ahead else edge.reversed())
         return Contour(tuple(steps), is_closed)
 
     def degrees(self, part: Iterable[int]) -> Counter[int]:
         """Count of these edges at each corner."""
-        return Counter(corner for at in part for corner in self.ends[at])
+        return Counter(corner for number in part for corner in self.ends[number])
 
-    def parts(self, some: Collection[int]) -> Iterator[set[int]]:
-        """Those of some edges that hang together."""
+    def parts(self, numbers: Collection[int]) -> Iterator[set[int]]:
+        """Groups of edges that hang together."""
         seen: set[int] = set()
-        for begin in some:
+        for begin in numbers:
             if begin in seen:
                 continue
             part, open_ones = {begin}, [begin]
             while open_ones:
                 for corner in self.ends[open_ones.pop()]:
-                    for at in self.at[corner]:
-                        if at not in part and at in some:
-                            part.add(at)
-                            open_ones.append(at)
+                    for number in self.edges_at[corner]:
+                        if number not in part and number in numbers:
+                            part.add(number)
+                            open_ones.append(number)
             seen |= part
             yield part
 
     def rings_of_styles(self, part: set[int], styles: Styles) -> Iterator[set[int]]:
         """The rings of edges that meet no others drawn as they are; none where all are drawn alike."""
-        found: dict[Hashable, set[int]] = defaultdict(set)
-        for at in part:
-            found[styles[self.edges[at].entity]].add(at)
-        if len(found) > 1:
-            for some in found.values():
-                yield from filter(self.is_ring, self.parts(some))
+        by_style: dict[Hashable, set[int]] = defaultdict(set)
+        for number in part:
+            by_style[styles[self.edges[number].entity]].add(number)
+        if len(by_style) > 1:
+            for alike in by_style.values():
+                yield from filter(self.is_ring, self.parts(alike))
 
     def runs(self, part: Iterable[int]) -> Iterator[list[_Step]]:
         """Edges that follow each other, from where none or more than one other edge meets them to the next such
@@ -295,21 +295,23 @@ class _Graph:
         part = sorted(part)
         degrees = self.degrees(part)
         free = set(part)
-        begins = [(at, ahead) for at in part for ahead in (True, False) if degrees[self.ends[at][not ahead]] != 2]
-        for begin in [*begins, *((at, True) for at in part)]:
+        begins = [
+            (number, ahead) for number in part for ahead in (True, False) if degrees[self.ends[number][not ahead]] != 2
+        ]
+        for begin in [*begins, *((number, True) for number in part)]:
             if begin[0] not in free:
                 continue
-            at, ahead = begin
+            number, ahead = begin
             run = []
             while True:
-                free.discard(at)
-                run.append((at, ahead))
-                corner = self.ends[at][ahead]
-                following = [other for other in self.at[corner] if other in free]
+                free.discard(number)
+                run.append((number, ahead))
+                corner = self.ends[number][ahead]
+                following = [other for other in self.edges_at[corner] if other in free]
                 if degrees[corner] != 2 or not following:
                     break
-                at = following[0]
-                ahead = self.ends[at][0] == corner
+                number = following[0]
+                ahead = self.ends[number][0] == corner
             yield run
 
     def outlines(self, part: set[int]) -> tuple[list[list[_Step]], set[int]]:
@@ -323,11 +325,11 @@ class _Graph:
             if boundary is None:
                 continue
             rings.append(boundary)
-            inner = block - {at for at, _ in boundary}
+            inner = block - {number for number, _ in boundary}
             for within in self.blocks(self.peeled(inner)):
                 if self.is_ring(within):
                     rings += [ring for ring in self.runs(within) if not self.is_cell(ring)]
-        return rings, part - {at for ring in rings for at, _ in ring}
+        return rings, part - {number for ring in rings for number, _ in ring}
 
     def is_ring(self, part: set[int]) -> bool:
         """Tell whether edges that hang together are one ring."""
@@ -340,10 +342,10 @@ class _Graph:
         open_ones = [corner for corner, degree in degrees.items() if degree == 1]
         while open_ones:
             corner = open_ones.pop()
-            for at in self.at[corner]:
-                if at in part:
-                    part.discard(at)
-                    other = self.other(at, corner)
+            for number in self.edges_at[corner]:
+                if number in part:
+                    part.discard(number)
+                    other = self.other(number, corner)
                     degrees[other] -= 1
                     if degrees[other] == 1:
                         open_ones.append(other)
@@ -358,11 +360,11 @@ class _Graph:
                 continue
             number[root] = low[root] = len(number)
             passed: list[int] = []
-            stack = [(root, -1, iter(self.at[root]))]
+            stack = [(root, -1, iter(self.edges_at[root]))]
             while stack:
                 corner, came, edges = stack[-1]
-                at = next(edges, None)
-                if at is None:
+                edge = next(edges, None)
+                if edge is None:
                     stack.pop()
                     if not stack:
                         continue
@@ -375,20 +377,20 @@ class _Graph:
                         if len(block) > 1:
                             yield block
                     continue
-                if at == came or at not in part:
+                if edge == came or edge not in part:
                     continue
-                other = self.other(at, corner)
+                other = self.other(edge, corner)
                 if other not in number:
                     number[other] = low[other] = len(number)
-                    passed.append(at)
-                    stack.append((other, at, iter(self.at[other])))
+                    passed.append(edge)
+                    stack.append((other, edge, iter(self.edges_at[other])))
                 elif number[other] < number[corner]:
-                    passed.append(at)
+                    passed.append(edge)
                     low[corner] = min(low[corner], number[other])
 
-    def ahead(self, at: int, corner: int, reach: float) -> float:
+    def ahead(self, number: int, corner: int, reach: float) -> float:
         """The direction from a corner to where an edge leaves the circle of radius `reach` around it."""
-        edge = self.edges[at] if self.ends[at][0] == corner else self.edges[at].reversed()
+        edge = self.edges[number] if self.ends[number][0] == corner else self.edges[number].reversed()
         if edge.is_line:
             return edge.direction()
         if edge.centre is not None:
@@ -396,57 +398,57 @@ class _Graph:
         samples = edge.samples
         far = np.hypot(*(samples - edge.start).T)
         # (the first sample that is as far away, else the last one)
-        at = 1 + int(np.argmax(far[1:] >= reach)) if far[1:].max() >= reach else len(far) - 1
-        part = (reach - far[at - 1]) / (far[at] - far[at - 1]) if far[at] > far[at - 1] else 0.0
-        x, y = samples[at - 1] + part * (samples[at] - samples[at - 1]) - edge.start
+        index = 1 + int(np.argmax(far[1:] >= reach)) if far[1:].max() >= reach else len(far) - 1
+        part = (reach - far[index - 1]) / (far[index] - far[index - 1]) if far[index] > far[index - 1] else 0.0
+        x, y = samples[index - 1] + part * (samples[index] - samples[index - 1]) - edge.start
         return atan2(y, x)
 
     def boundary(self, block: set[int]) -> list[_Step] | None:
         """The ring around all edges of a block, counter-clockwise; None where they cross so that there is none."""
-        lowest = min(((y, x, at, k) for at in block for k, (x, y) in enumerate(self.edges[at].points())))
-        at, place = lowest[2:]
-        points = self.edges[at].points()
-        if 0 < place < len(points) - 1:
-            begin = at, points[place + 1][0] > points[place - 1][0]
+        lowest = min(((y, x, number, k) for number in block for k, (x, y) in enumerate(self.edges[number].points())))
+        number, index = lowest[2:]
+        points = self.edges[number].points()
+        if 0 < index < len(points) - 1:
+            begin = number, points[index + 1][0] > points[index - 1][0]
         else:
-            corner = self.ends[at][place > 0]
-            begin = self.rightmost([other for other in self.at[corner] if other in block], corner, 0.0)
+            corner = self.ends[number][index > 0]
+            begin = self.rightmost([other for other in self.edges_at[corner] if other in block], corner, 0.0)
         run: list[_Step] = []
         seen: set[int] = set()
         step = begin
         while True:
-            at, ahead = step
+            number, ahead = step
             run.append(step)
-            corner = self.ends[at][ahead]
+            corner = self.ends[number][ahead]
             if corner in seen:
                 return None
             seen.add(corner)
-            others = [other for other in self.at[corner] if other in block and other != at]
-            reach = self.reach([at, *others])
-            step = self.rightmost(others, corner, self.ahead(at, corner, reach) + pi, reach)
+            others = [other for other in self.edges_at[corner] if other in block and other != number]
+            reach = self.reach([number, *others])
+            step = self.rightmost(others, corner, self.ahead(number, corner, reach) + pi, reach)
             if step == begin:
                 return run
 
     def reach(self, edges: list[int]) -> float:
         """Distance along edges at which their directions are compared."""
-        chords = (distance(self.edges[at].start, self.edges[at].end) for at in edges)
+        chords = (distance(self.edges[number].start, self.edges[number].end) for number in edges)
         return min(1.0, 0.3 * min(chords))
 
     def rightmost(self, edges: list[int], corner: int, heading: float, reach: float | None = None) -> _Step:
         """The edge that turns most to the right of a heading at a corner."""
         far = self.reach(edges) if reach is None else reach
-        at = min(edges, key=lambda other: turn(heading, self.ahead(other, corner, far)))
-        return at, self.ends[at][0] == corner
+        number = min(edges, key=lambda other: turn(heading, self.ahead(other, corner, far)))
+        return number, self.ends[number][0] == corner
 
     def is_cell(self, ring: list[_Step]) -> bool:
         """Tell whether a ring turns off at junctions alone, and each time another edge goes straight on."""
-        within = {at for at, _ in ring}
+        within = {number for number, _ in ring}
         turns = 0
-        for (at, ahead), (following, _) in zip(ring, [*ring[1:], ring[0]], strict=True):
-            corner = self.ends[at][ahead]
-            others = [other for other in self.at[corner] if other not in within]
-            reach = self.reach([at, following, *others])
-            heading = self.ahead(at, corner, reach) + pi
+        for (number, ahead), (following, _) in zip(ring, [*ring[1:], ring[0]], strict=True):
+            corner = self.ends[number][ahead]
+            others = [other for other in self.edges_at[corner] if other not in within]
+            reach = self.reach([number, following, *others])
+            heading = self.ahead(number, corner, reach) + pi
             if abs(turn(heading, self.ahead(following, corner, reach))) < _STRAIGHT_ON:
                 continue
             turns += 1
@@ -460,18 +462,18 @@ class _Graph:
 _SAME = 1e-5
 
 
-def _merge(one: Edge, other: Edge) -> Edge | None:
+def _merge(edge: Edge, other: Edge) -> Edge | None:
     """Two neighbours as one edge, where they lie on one line or circle and run the same way, else None."""
-    if one.is_line and other.is_line:
-        if abs(turn(one.direction(), other.direction())) < 1e-7:
-            return replace(one, end=other.end)
-    elif one.centre is not None and other.centre is not None:
-        sweep = one.sweep + other.sweep
-        is_same = distance(one.centre, other.centre) < _SAME and abs(one.radius - other.radius) < _SAME
-        if is_same and one.sweep * other.sweep > 0 and abs(sweep) <= 2 * pi + 1e-6:
-            if distance(one.start, other.end) < 1e-6 and abs(sweep) > pi:
-                return replace(one, end=one.start, sweep=2 * pi if sweep > 0 else -2 * pi)
-            return replace(one, end=other.end, sweep=sweep)
+    if edge.is_line and other.is_line:
+        if abs(turn(edge.direction(), other.direction())) < 1e-7:
+            return replace(edge, end=other.end)
+    elif edge.centre is not None and other.centre is not None:
+        sweep = edge.sweep + other.sweep
+        is_same = distance(edge.centre, other.centre) < _SAME and abs(edge.radius - other.radius) < _SAME
+        if is_same and edge.sweep * other.sweep > 0 and abs(sweep) <= 2 * pi + 1e-6:
+            if distance(edge.start, other.end) < 1e-6 and abs(sweep) > pi:
+                return replace(edge, end=edge.start, sweep=2 * pi if sweep > 0 else -2 * pi)
+            return replace(edge, end=other.end, sweep=sweep)
     return None
 
 

@@ -19,13 +19,13 @@ from skg.geometry.plane import XY, cross, distance, dot, minus, polar, turn
 if TYPE_CHECKING:
     from ezdxf.math import BSpline
 
-#: What is this near (mm) to a line or a circle is one.
+#: A curve this near (mm) to a line or a circle is one.
 _SAME = 1e-6
 #: A larger arc is cut as FIT does it, in chords: its centre would lie off the tape (100 m), mm.
 _LARGEST = 50_000.0
 #: A part of a spline's parameters so small that it needs a look.
 _NARROW = 1e-6
-#: Where a spline runs slower than this part of its mean, its direction is that of a chord.
+#: A spline's direction is that of a chord if it runs slower than this part of its mean speed.
 _SLOW = 1e-4
 #: A place as small as this (mm) where a spline turns by more than this (radians) is a corner.
 _NOOK, _NOOK_TURN = 0.004, 0.3
@@ -52,7 +52,7 @@ def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float
         # Seen from its side it is a line.
         return Edge(start, end if sweep <= pi else start, entity=entity)
     sense = 1 if cross(u, v) > 0 else -1
-    # (what is longer than a tape is refused for its size)
+    # (an arc longer than a tape is refused for its size)
     is_arc = size < _LARGEST or size * sweep > 2 * _LARGEST
     if abs(dot(u, v)) <= 1e-9 * size**2 and abs(hypot(*u) - hypot(*v)) <= 1e-9 * size and is_arc:
         signed = sense * (2 * pi if is_full else sweep)
@@ -66,14 +66,14 @@ def _ellipse(u: XY, v: XY, first: float, sweep: float, tolerance: float) -> Edge
     """The same about the origin. (a drawing may have the same ellipse a thousand times)"""
     (p, q), (r, s) = u, v
 
-    def at(angles: list[float]) -> list[XY]:
+    def points_at(angles: list[float]) -> list[XY]:
         return [(c * p + d * r, c * q + d * s) for t in angles for c in (cos(t),) for d in (sin(t),)]
 
     def heading(t: float) -> float:
         c, d = cos(t), sin(t)
         return atan2(c * s - d * q, c * r - d * p)
 
-    return curve_edge(at, heading, [first, first + sweep], tolerance)
+    return curve_edge(points_at, heading, [first, first + sweep], tolerance)
 
 
 def spline_edges(tool: BSpline, tolerance: float) -> Iterator[Edge]:
@@ -116,8 +116,10 @@ class _Spline:
             parts = [max(_SAME, length) for length in self.lengths]
         self.ways = [0.0, *accumulate(parts)]
         # Each span: where it begins along the curve, how long it is there, and the same of its parameters.
-        there = ((begin, end - begin) for begin, end in pairwise(self.ways))
-        self._table = [(*one, first, last - first) for one, (first, last) in zip(there, self.spans, strict=True)]
+        extents = ((begin, end - begin) for begin, end in pairwise(self.ways))
+        self._table = [
+            (*extent, first, last - first) for extent, (first, last) in zip(extents, self.spans, strict=True)
+        ]
 
     def places(self, parameters: list[float]) -> list[XY]:
         """The places at some parameters."""
@@ -126,16 +128,16 @@ class _Spline:
     def heading(self, t: float, k: int) -> float:
         """The direction (radians) at parameter t in span number k."""
         first, last = self.spans[k]
-        way = self.evaluator.derivative(t, 1)[1]
+        tangent = self.evaluator.derivative(t, 1)[1]
         beside = 1e-5 * (last - first)
-        while way.magnitude * (last - first) < _SLOW * self.lengths[k] and beside < last - first:
+        while tangent.magnitude * (last - first) < _SLOW * self.lengths[k] and beside < last - first:
             # Controls that coincide, or nearly: the direction is that of a chord.
             chord = self.evaluator.point(min(last, t + beside)) - self.evaluator.point(max(first, t - beside))
             if chord.magnitude > 0.01 * _SLOW * self.lengths[k]:
-                way = chord
+                tangent = chord
                 break
             beside *= 2
-        return atan2(way.y, way.x)
+        return atan2(tangent.y, tangent.x)
 
     def behind_begin(self, k: int) -> float:
         """The parameter just behind the beginning of span number k."""
@@ -176,14 +178,14 @@ class _Spline:
         begin = self.behind_begin(first) if first else self.spans[first][0]
         end = self.before_end(last) if behind < len(self.spans) else self.spans[last][1]
 
-        def at(ways: list[float]) -> list[XY]:
+        def points_at(ways: list[float]) -> list[XY]:
             return self.places(self.parameters(ways))
 
         def heading(way: float) -> float:
             (t,) = self.parameters([way])
             return self.heading(min(max(t, begin), end), min(max(self.span_at(way), first), last))
 
-        return curve_edge(at, heading, self.ways[first : behind + 1], tolerance)
+        return curve_edge(points_at, heading, self.ways[first : behind + 1], tolerance)
 
 
 def _stations(tool: BSpline) -> list[float]:
@@ -203,21 +205,21 @@ def _without_nooks(edge: Edge) -> Iterator[Edge]:
     nodes, samples = edge.nodes, edge.samples
     first = begun = 0
     for last in range(1, len(nodes)):
-        one, other = nodes[last - 1], nodes[last]
-        if distance(one.point, other.point) >= _NOOK or abs(turn(one.angle, other.angle)) <= _NOOK_TURN:
+        before, after = nodes[last - 1], nodes[last]
+        if distance(before.point, after.point) >= _NOOK or abs(turn(before.angle, after.angle)) <= _NOOK_TURN:
             continue
-        ends = _sample_at(samples, begun, one.point)
+        ends = _sample_at(samples, begun, before.point)
         if last - 1 > first:
             yield replace(
                 edge,
-                end=one.point,
+                end=before.point,
                 start=nodes[first].point,
                 nodes=nodes[first:last],
                 samples=samples[begun : ends + 1],
             )
-        if one.point != other.point:
-            yield Edge(one.point, other.point)
-        first, begun = last, _sample_at(samples, ends, other.point)
+        if before.point != after.point:
+            yield Edge(before.point, after.point)
+        first, begun = last, _sample_at(samples, ends, after.point)
     if first < len(nodes) - 1:
         yield replace(edge, start=nodes[first].point, nodes=nodes[first:], samples=samples[begun:])
 
@@ -234,18 +236,18 @@ def simplest(edge: Edge) -> Edge:
         return edge
     length = distance(start, end)
     if length > _SAME and abs(edge.length - length) < _SAME:
-        way = minus(end, start)
-        off = np.abs((way[0], -way[1]) @ (samples - start).T[::-1]).max() / length
+        chord = minus(end, start)
+        off = np.abs((chord[0], -chord[1]) @ (samples - start).T[::-1]).max() / length
         return Edge(start, end) if off < _SAME else edge
     # The circle through three samples.
     p, q, r = samples[[0, len(samples) // 3, 2 * len(samples) // 3]].tolist()
-    one, other = minus(q, p), minus(r, p)
-    area = 2 * cross(one, other)
+    to_q, to_r = minus(q, p), minus(r, p)
+    area = 2 * cross(to_q, to_r)
     if abs(area) < _SAME:
         return edge
-    squares = dot(one, one), dot(other, other)
-    x = (other[1] * squares[0] - one[1] * squares[1]) / area
-    y = (one[0] * squares[1] - other[0] * squares[0]) / area
+    squares = dot(to_q, to_q), dot(to_r, to_r)
+    x = (to_r[1] * squares[0] - to_q[1] * squares[1]) / area
+    y = (to_q[0] * squares[1] - to_r[0] * squares[0]) / area
     centre, radius = (p[0] + x, p[1] + y), hypot(x, y)
     about = samples - centre
     if radius > _LARGEST or (np.abs(np.hypot(*about.T) - radius) > _SAME).any():

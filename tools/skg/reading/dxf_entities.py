@@ -51,7 +51,7 @@ _STANDING = ("xz", "yz")
 _MOST = 1_000_000
 #: The codes of the angles that an arc begins and ends at, and a full turn.
 _ANGLES = {"ARC": (50, 51, 360.0), "ELLIPSE": (41, 42, 2 * pi)}
-#: What an entity that cannot be read may raise.
+#: Exceptions of an entity that cannot be read.
 UNREADABLE = (ArithmeticError, ValueError, TypeError, IndexError, KeyError, AttributeError, AssertionError)
 
 
@@ -94,14 +94,14 @@ class _Collector:
 
     def place(self, record: Record) -> XY:
         """A place on a record's entity, mm."""
-        at = record.place
-        if not all(map(is_number, at)):
+        place = record.place
+        if not all(map(is_number, place)):
             return 0.0, 0.0
         if record.value(230).strip().startswith("-1"):
-            at = -at[0], at[1]
+            place = -place[0], place[1]
         if self.placing.matrix is not None:
-            at = self.placing.matrix.transform(at).xyz[:2]
-        return at[0] * self.placing.factor, at[1] * self.placing.factor
+            place = self.placing.matrix.transform(place).xyz[:2]
+        return place[0] * self.placing.factor, place[1] * self.placing.factor
 
     def dashes(self, record: Record, layer: str) -> str:
         """The line type of a record that is not drawn through, else nothing."""
@@ -280,29 +280,29 @@ def _is_whole(record: Record) -> bool:
 
 
 def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
-    """Those of some arcs, by their numbers, that are circles: each ends at the angle that it begins at. One that lies
-    between the ends of two other lines is what is left of a fillet, and has no length."""
+    """Arcs that are circles, by their numbers: each ends at the angle that it begins at. One that lies between the
+    ends of two other lines is the rest of a fillet, and has no length."""
     if not whole:
         return []
-    some = set(whole)
-    begins = {edge.entity: edge.start for edge in content.edges if edge.entity in some}
+    numbers = set(whole)
+    begins = {edge.entity: edge.start for edge in content.edges if edge.entity in numbers}
     places = np.array([end for edge in content.edges if edge.start != edge.end for end in (edge.start, edge.end)])
     tree = shapely.STRtree(shapely.points(places.reshape(-1, 2)))
     arcs = np.array(list(begins))
-    at = shapely.points(np.array(list(begins.values())).reshape(-1, 2))
-    near = tree.query(at, predicate="dwithin", distance=tolerance)[0]
+    starts = shapely.points(np.array(list(begins.values())).reshape(-1, 2))
+    near = tree.query(starts, predicate="dwithin", distance=tolerance)[0]
     gone = set(arcs[np.bincount(near, minlength=len(arcs)) >= 2].tolist())
-    for at in gone:
-        content.entities[at].left = "it ends where it begins, between two other lines"
+    for number in gone:
+        content.entities[number].left = "it ends where it begins, between two other lines"
     content.edges = [edge for edge in content.edges if edge.entity not in gone]
-    return [at for at in whole if at not in gone]
+    return [number for number in whole if number not in gone]
 
 
 def _is_wide(record: Record) -> bool:
     """Tell whether a polyline is drawn with a width."""
     if record.kind not in ("POLYLINE", "LWPOLYLINE"):
         return False
-    widths = (value for one in (record, *record.parts) for code, value in one.groups if code in (40, 41, 43))
+    widths = (value for part in (record, *record.parts) for code, value in part.groups if code in (40, 41, 43))
     return any(width.strip(" 0.+-eE") for width in widths)
 
 
@@ -340,7 +340,9 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
         for record in file.paper:
             collector.account(record, record.layer).left = "in paper space"
     file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "its centre line is cut")
-    whole = [collector.content.entities[at] for at in _circles(collector.content, collector.whole, wishes.tolerance)]
+    whole = [
+        collector.content.entities[number] for number in _circles(collector.content, collector.whole, wishes.tolerance)
+    ]
     file.notes += said(whole, ("arc", "arcs"), "from an angle to the same angle", "a full turn is cut")
     file.notes += said(
         collector.through, ("spline", "splines"), "through points alone", "between them the curve is guessed"

@@ -29,7 +29,7 @@ _BINARY, _IS_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00", b"AutoCAD Binary DXF"
 _COMMA = re.compile(r"\s*[+-]?\d*,\d*(?:[eE][+-]?\d+)?\s*")
 #: Kinds that belong to the entity before them.
 _PARTS = ("VERTEX", "ATTRIB", "SEQEND")
-#: Where a block definition tells that its content is in another file.
+#: Flags of a block definition whose content is in another file.
 _EXTERNAL = 4 | 8 | 16
 
 
@@ -65,29 +65,29 @@ class DxfFile:
 def load(data: bytes, encoding: str | None = None) -> DxfFile:
     """Read a DXF file's bytes, text or binary; what is none is a `UserError`. `encoding`: of a text, None: as the file
     says, else guessed."""
-    found = DxfFile()
+    file = DxfFile()
     section = ""
     block: Definition | None = None
-    for record in _records(_groups(data, encoding, found.notes)):
+    for record in _records(_groups(data, encoding, file.notes)):
         kind = record.kind
         if kind == "SECTION":
             section, block = record.value(2).strip().upper(), None
             if section == "HEADER":
-                found.units = _units(record.groups)
-                found.is_imperial = _variable(record.groups, "$MEASUREMENT") == "0"
+                file.units = _units(record.groups)
+                file.is_imperial = _variable(record.groups, "$MEASUREMENT") == "0"
         elif kind in ("ENDSEC", "EOF"):
             section = ""
         elif section == "BLOCKS":
-            block = _of_blocks(found, block, record)
+            block = _of_blocks(file, block, record)
         elif section == "ENTITIES":
-            _add(found.paper if record.whole(67) else found.model, record)
+            _add(file.paper if record.whole(67) else file.model, record)
         else:
-            _of_tables(found, section, record)
-    found.dashed_layers = {name: kind for name, kind in found.dashed_layers.items() if kind in found.dashed}
-    for name, block in found.blocks.items():
+            _of_tables(file, section, record)
+    file.dashed_layers = {name: kind for name, kind in file.dashed_layers.items() if kind in file.dashed}
+    for name, block in file.blocks.items():
         if name.startswith(("*paper_space", "$paper_space")):
-            found.paper += block.records
-    return found
+            file.paper += block.records
+    return file
 
 
 def _groups(data: bytes, encoding: str | None, notes: list[str]) -> Iterator[Group]:
@@ -104,25 +104,25 @@ def _groups(data: bytes, encoding: str | None, notes: list[str]) -> Iterator[Gro
     return _of_text(_decoded(data, encoding, notes), notes)
 
 
-def _of_tables(found: DxfFile, section: str, record: Record) -> None:
+def _of_tables(file: DxfFile, section: str, record: Record) -> None:
     """Read line types, layers and multiline styles from tables and objects."""
     match section, record.kind:
         case "TABLES", "LTYPE":
             if record.whole(73):
-                found.dashed.add(record.value(2).strip().upper())
+                file.dashed.add(record.value(2).strip().upper())
         case "TABLES", "LAYER":
-            _layer(found, record)
+            _layer(file, record)
         case "OBJECTS", "MLINESTYLE":
-            found.multiline_styles[record.value(2).strip().upper()] = record
+            file.multiline_styles[record.value(2).strip().upper()] = record
 
 
-def _of_blocks(found: DxfFile, block: Definition | None, record: Record) -> Definition | None:
+def _of_blocks(file: DxfFile, block: Definition | None, record: Record) -> Definition | None:
     """Take one record of the section of blocks; returns the block that is open behind it."""
     if record.kind == "ENDBLK":
         return None
     if record.kind == "BLOCK":
         block = _block(record)
-        found.blocks[record.value(2).strip().lower()] = block
+        file.blocks[record.value(2).strip().lower()] = block
     elif block is not None:
         _add(block.records, record)
     return block
@@ -153,24 +153,26 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
     """The groups of a text file."""
     text = text.replace("\r\n", "\n")
     lines = re.split("\r*\n|\r", text) if "\r" in text else text.split("\n")
-    at = 0
-    while at < len(lines) and not lines[at].strip():
-        at += 1
+    index = 0
+    while index < len(lines) and not lines[index].strip():
+        index += 1
     value = ""
     may_have_commas, has_commas, has_blanks = "," in text, False, False
-    while at < len(lines) - 1:
+    while index < len(lines) - 1:
         try:
-            code = int(lines[at])
+            code = int(lines[index])
         except ValueError:
-            if lines[at].strip():
-                raise UserError(f"line {at + 1}: expected a group code, found {lines[at].strip()[:20]!r}") from None
+            if lines[index].strip():
+                raise UserError(
+                    f"line {index + 1}: expected a group code, found {lines[index].strip()[:20]!r}"
+                ) from None
             if not has_blanks:
                 notes.append("there are empty lines between the file's groups: ignored")
             has_blanks = True
-            at += 1
+            index += 1
             continue
-        value = lines[at + 1]
-        at += 2
+        value = lines[index + 1]
+        index += 2
         if may_have_commas and "," in value and _is_real(code) and _COMMA.fullmatch(value):
             value = value.replace(",", ".")
             if not has_commas:
@@ -228,11 +230,11 @@ def _is_chinese(data: bytes) -> bool:
     """Tell whether what is not ASCII in a text is Chinese: pairs of bytes, most of them usual characters. (A western
     letter and what follows it are a pair, too, but of a rare one.)"""
     try:
-        found = [character.encode("gbk") for character in data.decode("gbk") if character > "\x7f"]
+        codes = [character.encode("gbk") for character in data.decode("gbk") if character > "\x7f"]
     except UnicodeDecodeError:
         return False
-    usual = sum(0xB0 <= first <= 0xD7 and second >= 0xA1 for first, second in found)
-    return 2 * usual > len(found)
+    usual = sum(0xB0 <= first <= 0xD7 and second >= 0xA1 for first, second in codes)
+    return 2 * usual > len(codes)
 
 
 def _variable(header: list[Group], wanted: str) -> str:
@@ -249,14 +251,14 @@ def _units(header: list[Group]) -> tuple[str, float] | None:
     return UNITS.get(int(value)) if value.isdigit() else None
 
 
-def _layer(found: DxfFile, record: Record) -> None:
+def _layer(file: DxfFile, record: Record) -> None:
     name = unescaped(record.value(2).strip())
-    found.layers[name.lower()] = name
-    found.dashed_layers[name.lower()] = record.value(6).strip().upper()
+    file.layers[name.lower()] = name
+    file.dashed_layers[name.lower()] = record.value(6).strip().upper()
     if record.whole(70) & 1:
-        found.states[name.lower()] = "frozen"
+        file.states[name.lower()] = "frozen"
     elif record.whole(62) < 0:
-        found.states[name.lower()] = "off"
+        file.states[name.lower()] = "off"
 
 
 def _block(record: Record) -> Definition:

@@ -16,7 +16,7 @@ _NUMBERED = re.compile(r"\\U\+((?![Dd][89A-Fa-f])[0-9A-Fa-f]{4})")
 
 def unescaped(name: str) -> str:
     """A name with the characters that a file tells by their numbers."""
-    return _NUMBERED.sub(lambda found: chr(int(found[1], 16)), name) if "\\U+" in name else name
+    return _NUMBERED.sub(lambda match: chr(int(match[1], 16)), name) if "\\U+" in name else name
 
 
 class Record:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from skg.reading.dxf_record import Record
 
-#: What a record has besides its numbers: handle and owner (before its subclasses alone), layer and line type; colours
+#: Group codes beside a record's numbers: handle and owner (before its subclasses alone), layer and line type; colours
 #: and weight, whole numbers.
 _HANDLES, _NAMES, _WHOLE = (5, 330), (8, 6), (62, 370, 420)
 _PLACE, _HIGH = (10, 20), (10, 20, 30)
@@ -79,10 +79,10 @@ def numbers(record: Record) -> list[float] | None:
 
 def polyline(record: Record) -> Polyline | None:
     """A POLYLINE or LWPOLYLINE; None if the record is not plain."""
-    found = _told(record)
-    if found is None:
+    numbers = _told(record)
+    if numbers is None:
         return None
-    codes, values = found
+    codes, values = numbers
     until = codes.index(10) if record.kind == "LWPOLYLINE" and 10 in codes else len(codes)
     if tuple(codes[:until]) not in _HEADS[record.kind]:
         return None
@@ -122,10 +122,10 @@ def _parts(record: Record) -> list[tuple[float, float, float]] | None:
     for part in record.parts:
         if part.kind == "SEQEND":
             continue
-        told = _told(part)
-        if part.kind != "VERTEX" or told is None or tuple(told[0]) not in _VERTICES:
+        numbers = _told(part)
+        if part.kind != "VERTEX" or numbers is None or tuple(numbers[0]) not in _VERTICES:
             return None
-        values = dict(zip((code for code in told[0] if not isinstance(code, str)), told[1], strict=True))
+        values = dict(zip((code for code in numbers[0] if not isinstance(code, str)), numbers[1], strict=True))
         if values.get(70):
             return None
         parts.append((values[10], values[20], values.get(42, 0.0)))
@@ -149,7 +149,7 @@ def _told(record: Record) -> tuple[list[int | str], list[float]] | None:
             has_class = True
             codes.append(value.strip())
         elif has_place:
-            # (what comes between x and y takes them apart)
+            # (a group between x and y takes them apart)
             return None
         elif code in _WHOLE:
             if not value.strip().lstrip("-").isdigit():

@@ -22,7 +22,7 @@ from skg.geometry.plane import XY
 _ALONG = 0.03
 #: So many pairs of contours that meet are looked at.
 _MOST = 300
-#: What is within a reach may seem to lie this much farther away, mm.
+#: Rounding of a reach: a line within it may seem to lie this much farther away, mm.
 _HAIR = 1e-9
 #: So many contours become lines together.
 _LINES = 100
@@ -47,27 +47,27 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
     # (the chords of 20,000 circles would take 100 MB: most drawings have few contours that come near to others)
     near = _near_others(contours, tolerance + 2 * SEEN)
     lines = np.full(len(contours), None)
-    lines[near] = lines_of([contours[at] for at in near.tolist()])
-    one, other = near[
+    lines[near] = lines_of([contours[number] for number in near.tolist()])
+    firsts, seconds = near[
         shapely.STRtree(lines[near]).query(lines[near], predicate="dwithin", distance=tolerance + 2 * SEEN)
     ]
-    one, other = one[one < other], other[one < other]
-    repeats = _repeats(lines[one], lines[other], tolerance) & (is_closed[one] == is_closed[other])
-    for second, at in sorted(zip(other[repeats].tolist(), one[repeats].tolist(), strict=True)):
-        relations.repeated.setdefault(second, relations.repeated.get(at, at))
+    firsts, seconds = firsts[firsts < seconds], seconds[firsts < seconds]
+    repeats = _repeats(lines[firsts], lines[seconds], tolerance) & (is_closed[firsts] == is_closed[seconds])
+    for second, first in sorted(zip(seconds[repeats].tolist(), firsts[repeats].tolist(), strict=True)):
+        relations.repeated.setdefault(second, relations.repeated.get(first, first))
     gone = set(relations.repeated)
-    for at, second in sorted(zip(one.tolist(), other.tolist(), strict=True)):
-        if at in gone or second in gone:
+    for first, second in sorted(zip(firsts.tolist(), seconds.tolist(), strict=True)):
+        if first in gone or second in gone:
             continue
-        relations.touched |= {number for number in (at, second) if not is_closed[number]}
-        if is_closed[at] and is_closed[second] and len(relations.meetings) >= _MOST:
+        relations.touched |= {number for number in (first, second) if not is_closed[number]}
+        if is_closed[first] and is_closed[second] and len(relations.meetings) >= _MOST:
             relations.unseen += 1
-        elif is_closed[at] and is_closed[second]:
-            what, place = _meeting(lines[at], lines[second], tolerance)
-            relations.meetings.append((what, at, second, place))
-    for at, place in _crossing_themselves(contours):
-        if at not in gone:
-            relations.meetings.append(("cross", at, at, place))
+        elif is_closed[first] and is_closed[second]:
+            kind, place = _meeting(lines[first], lines[second], tolerance)
+            relations.meetings.append((kind, first, second, place))
+    for number, place in _crossing_themselves(contours):
+        if number not in gone:
+            relations.meetings.append(("cross", number, number, place))
     return relations
 
 
@@ -86,29 +86,29 @@ def _near_others(contours: list[Contour], reach: float) -> Whole:
 def _near_boxes(boxes: Floats, owners: Whole, is_circle: Flags, reach: float) -> Whole:
     """The owners of boxes that lie within reach of another owner's; of two around circles: where these do."""
     grown = boxes + (reach + _HAIR) * np.array((-1, -1, 1, 1))
-    one, other = shapely.STRtree(shapely.box(*boxes.T)).query(shapely.box(*grown.T))
-    is_other = owners[one] != owners[other]
-    one, other = one[is_other], other[is_other]
+    firsts, seconds = shapely.STRtree(shapely.box(*boxes.T)).query(shapely.box(*grown.T))
+    is_other = owners[firsts] != owners[seconds]
+    firsts, seconds = firsts[is_other], seconds[is_other]
     middle, radius = (boxes[:, 0:2] + boxes[:, 2:4]) / 2, (boxes[:, 2] - boxes[:, 0]) / 2
-    apart = np.hypot(*(middle[one] - middle[other]).T)
-    gap = np.maximum(apart - radius[one] - radius[other], np.abs(radius[one] - radius[other]) - apart)
+    apart = np.hypot(*(middle[firsts] - middle[seconds]).T)
+    gap = np.maximum(apart - radius[firsts] - radius[seconds], np.abs(radius[firsts] - radius[seconds]) - apart)
     # (chords of circles may be nearer to each other than the circles)
-    is_near = ~(is_circle[one] & is_circle[other]) | (gap <= reach + 2 * SEEN)
-    return np.unique(owners[one[is_near]])
+    is_near = ~(is_circle[firsts] & is_circle[seconds]) | (gap <= reach + 2 * SEEN)
+    return np.unique(owners[firsts[is_near]])
 
 
 def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:
     """The closed contours that cross themselves, and where; one that is a circle does not."""
-    is_circle = [len(one.edges) == 1 and one.edges[0].is_circle for one in contours]
-    some = [at for at, one in enumerate(contours) if one.is_closed and not is_circle[at]]
-    for first in range(0, len(some), _LINES):
-        numbers = some[first : first + _LINES]
-        lines = lines_of([contours[at] for at in numbers])
-        for one in np.flatnonzero(~shapely.is_simple(lines)).tolist():
-            at = numbers[one]
-            reason = shapely.is_valid_reason(shapely.Polygon(lines[one].coords))
+    is_circle = [len(contour.edges) == 1 and contour.edges[0].is_circle for contour in contours]
+    closed = [number for number, contour in enumerate(contours) if contour.is_closed and not is_circle[number]]
+    for first in range(0, len(closed), _LINES):
+        numbers = closed[first : first + _LINES]
+        lines = lines_of([contours[number] for number in numbers])
+        for index in np.flatnonzero(~shapely.is_simple(lines)).tolist():
+            number = numbers[index]
+            reason = shapely.is_valid_reason(shapely.Polygon(lines[index].coords))
             place = reason.partition("[")[2].rstrip("]").split()
-            yield at, (float(place[0]), float(place[1])) if len(place) == 2 else contours[at].edges[0].start
+            yield number, (float(place[0]), float(place[1])) if len(place) == 2 else contours[number].edges[0].start
 
 
 def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
@@ -119,20 +119,20 @@ def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDAr
     return repeats
 
 
-def _meeting(one: shapely.LineString, other: shapely.LineString, tolerance: float) -> tuple[str, XY]:
+def _meeting(first: shapely.LineString, second: shapely.LineString, tolerance: float) -> tuple[str, XY]:
     """Return how two closed lines meet, and where."""
-    near = shapely.intersection(one, other.buffer(tolerance + 2 * SEEN, quad_segs=2))
-    place = shapely.get_coordinates(shapely.shortest_line(one, other) if near.is_empty else near)[0]
-    areas = shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in (one, other)]))
+    near = shapely.intersection(first, second.buffer(tolerance + 2 * SEEN, quad_segs=2))
+    place = shapely.get_coordinates(shapely.shortest_line(first, second) if near.is_empty else near)[0]
+    areas = shapely.make_valid(np.array([shapely.Polygon(line.coords) for line in (first, second)]))
     common = shapely.intersection(*areas).area
     smaller = min(shapely.area(areas))
     # (a strip as wide as the tolerance along the shorter line is no more than touching)
-    strip = 2 * tolerance * min(one.length, other.length)
+    strip = 2 * tolerance * min(first.length, second.length)
     if strip < common < smaller - strip:
         return "cross", (float(place[0]), float(place[1]))
     longest = max(part.length for part in getattr(near, "geoms", [near]))
-    what = "overlap" if longest > _ALONG * min(one.length, other.length) else "touch"
-    return what, (float(place[0]), float(place[1]))
+    kind = "overlap" if longest > _ALONG * min(first.length, second.length) else "touch"
+    return kind, (float(place[0]), float(place[1]))
 
 
 def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> tuple[dict[int, int], set[int]]:
@@ -142,13 +142,13 @@ def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> 
         return {}, set()
     reach = tolerance + 2 * SEEN
     starts, ends = [run.edges[0].start for run in runs], [run.edges[-1].end for run in runs]
-    places = [shapely.points(some) for some in (starts, ends, [run.edges[0].at(0.5) for run in runs])]
+    places = [shapely.points(group) for group in (starts, ends, [run.edges[0].at(0.5) for run in runs])]
     around = shapely.STRtree(shapely.box(*boxes_of(contours)[0].T))
-    some = np.unique(around.query(np.concatenate(places), predicate="dwithin", distance=reach)[1])
-    lines = lines_of([contours[at] for at in some.tolist()])
+    numbers = np.unique(around.query(np.concatenate(places), predicate="dwithin", distance=reach)[1])
+    lines = lines_of([contours[number] for number in numbers.tolist()])
     tree = shapely.STRtree(lines)
     near = [set(zip(*tree.query(place, predicate="dwithin", distance=reach).tolist(), strict=True)) for place in places]
-    covered = {run: int(some[at]) for run, at in _covered(runs, lines, set.intersection(*near), reach).items()}
+    covered = {run: int(numbers[index]) for run, index in _covered(runs, lines, set.intersection(*near), reach).items()}
     count = Counter(starts + ends)
     held = [
         {run for run, _ in on} | {run for run, end in enumerate(side) if count[end] > 1}
@@ -161,10 +161,10 @@ def _covered(runs: list[Contour], lines: NDArray[Any], pairs: set[tuple[int, int
     """Of pairs of a run and a line near its ends and middle: the runs that lie within reach of one all along, and the
     first such line."""
     result: dict[int, int] = {}
-    for run, at in sorted(pairs):
+    for run, index in sorted(pairs):
         (line,) = lines_of([runs[run]])
-        if run not in result and lines[at].buffer(reach, quad_segs=2).covers(line):
-            result[run] = at
+        if run not in result and lines[index].buffer(reach, quad_segs=2).covers(line):
+            result[run] = index
     return result
 
 
@@ -173,8 +173,8 @@ def nearest(places: list[XY]) -> list[XY | None]:
     if not places:
         return []
     points = shapely.points(places)
-    at, other = shapely.STRtree(points).query_nearest(points, exclusive=True, all_matches=False)
+    numbers, neighbours = shapely.STRtree(points).query_nearest(points, exclusive=True, all_matches=False)
     result: list[XY | None] = [None] * len(places)
-    for number, neighbour in zip(at.tolist(), other.tolist(), strict=True):
+    for number, neighbour in zip(numbers.tolist(), neighbours.tolist(), strict=True):
         result[number] = places[neighbour]
     return result

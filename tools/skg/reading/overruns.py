@@ -16,7 +16,7 @@ from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.plane import XY
 from skg.reading.chain import Chains, Styles, chain
 
-#: What runs past a corner is no longer than this, mm, and no more than this part of its line or arc.
+#: An overrun past a corner is no longer than this, mm, and no more than this part of its line or arc.
 REACH, _PART = 0.2, 0.25
 #: Ends that do not cross meet within this part of the tolerance: an arc is then moved, not bent, to the corner.
 _NEAR = 0.4
@@ -43,10 +43,10 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
     freed, rest, cuts = _without_stubs(chains.rest)
     opened = dict(enumerate([contour for contour in chains.contours if not contour.is_closed] + freed))
     for pair in _pairs(opened, tolerance):
-        shorter = [_without(opened[at], is_last, corner) for (at, is_last), corner in pair]
-        for ((at, is_last), corner), (edge, piece) in zip(pair, shorter, strict=True):
-            edges = opened[at].edges
-            opened[at] = replace(opened[at], edges=(*edges[:-1], edge) if is_last else (edge, *edges[1:]))
+        shorter = [_without(opened[number], is_last, corner) for (number, is_last), corner in pair]
+        for ((number, is_last), corner), (edge, piece) in zip(pair, shorter, strict=True):
+            edges = opened[number].edges
+            opened[number] = replace(opened[number], edges=(*edges[:-1], edge) if is_last else (edge, *edges[1:]))
             cuts += [Overrun(piece, corner)] * (piece is not None)
     if not cuts:
         return chains, []
@@ -67,26 +67,26 @@ def _without_stubs(rest: list[Contour]) -> tuple[list[Contour], list[Contour], l
     """Of runs at junctions those that meet at none any more without the stubs that run past a corner by themselves;
     the other runs; and the stubs."""
     corners: dict[XY, list[int]] = defaultdict(list)
-    for at, run in enumerate(rest):
+    for number, run in enumerate(rest):
         for end in _ends(run):
-            corners[end].append(at)
+            corners[end].append(number)
     stubs: dict[int, Overrun] = {}
-    for corner, some in corners.items():
-        for at in some if len(some) > 2 else ():
-            edges, ends = rest[at].edges, _ends(rest[at])
+    for corner, numbers in corners.items():
+        for number in numbers if len(numbers) > 2 else ():
+            edges, ends = rest[number].edges, _ends(rest[number])
             free = ends[ends[0] == corner]
-            shortest = min(_last(rest[other], corner).length for other in some if other != at)
+            shortest = min(_last(rest[other], corner).length for other in numbers if other != number)
             if len(edges) == 1 and len(corners[free]) == 1 and edges[0].length <= min(REACH, _PART * shortest):
-                stubs[at] = Overrun(edges[0], corner, is_whole=True)
+                stubs[number] = Overrun(edges[0], corner, is_whole=True)
     freed: list[Contour] = []
     kept: list[Contour] = []
     cuts: list[Overrun] = []
     for part in _parts(rest, corners) if stubs else ():
         gone = part & stubs.keys()
-        meeting = Counter(end for at in part - gone for end in _ends(rest[at]))
+        meeting = Counter(end for number in part - gone for end in _ends(rest[number]))
         is_free = gone and max(meeting.values(), default=3) <= 2
-        (freed if is_free else kept).extend(rest[at] for at in sorted(part - gone if is_free else part))
-        cuts += [stubs[at] for at in sorted(gone) if is_free]
+        (freed if is_free else kept).extend(rest[number] for number in sorted(part - gone if is_free else part))
+        cuts += [stubs[number] for number in sorted(gone) if is_free]
     return freed, kept if stubs else rest, cuts
 
 
@@ -126,17 +126,17 @@ def _pairs(contours: dict[int, Contour], tolerance: float) -> list[list[tuple[_E
     """Ends that meet, with the place of each: two by two, where no third one is."""
     ends: list[_End] = []
     tails: list[shapely.LineString] = []
-    for at, contour in contours.items():
+    for number, contour in contours.items():
         for is_last in (False, True):
             edge = contour.edges[-1] if is_last else contour.edges[0]
             if not edge.nodes and edge.length > _NONE:
-                ends.append((at, is_last))
+                ends.append((number, is_last))
                 tails.append(_tail(edge if is_last else edge.reversed()))
     if len(ends) < 2:
         return []
     lines = np.array(tails)
-    one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=_NEAR * tolerance)
-    meeting = [(p, q) for p, q in zip(one.tolist(), other.tolist(), strict=True) if p < q]
+    firsts, seconds = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=_NEAR * tolerance)
+    meeting = [(p, q) for p, q in zip(firsts.tolist(), seconds.tolist(), strict=True) if p < q]
     count = Counter(end for pair in meeting for end in pair)
     pairs = []
     for p, q in meeting:
@@ -155,17 +155,17 @@ def _tail(edge: Edge) -> shapely.LineString:
     return shapely.LineString([edge.at(1 - part * k / pieces) for k in range(pieces + 1)])
 
 
-def _corner(one: shapely.LineString, other: shapely.LineString) -> tuple[XY, XY]:
+def _corner(first: shapely.LineString, second: shapely.LineString) -> tuple[XY, XY]:
     """Return the place on each of two ends where they cross, else where they are nearest."""
-    common = shapely.get_coordinates(shapely.intersection(one, other))
+    common = shapely.get_coordinates(shapely.intersection(first, second))
     if len(common) == 1:
         place = (float(common[0][0]), float(common[0][1]))
         return place, place
     if len(common):
         # They lie on each other: one of them goes on from the other's end.
-        end = one.coords[0]
+        end = first.coords[0]
         return end, end
-    nearest = shapely.get_coordinates(shapely.shortest_line(one, other)).tolist()
+    nearest = shapely.get_coordinates(shapely.shortest_line(first, second)).tolist()
     return (nearest[0][0], nearest[0][1]), (nearest[1][0], nearest[1][1])
 
 

@@ -42,9 +42,9 @@ HUGE = 2000.0
 FARTHEST = 50_000.0
 #: The units that a drawing may be in. (In mil write programs for boards that do not tell it)
 GUESSED = ("mm", "inch", "cm", "mil")
-#: Who says what units a drawing is in.
+#: Sources of a drawing's units.
 TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
-#: What fills an area, without lines around it.
+#: Entities that fill an area, without lines around it.
 AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 
 
@@ -127,8 +127,8 @@ def _near_origin(reading: Reading) -> Reading:
     by = -floor(report.low[0]), -floor(report.low[1])
     report.notes.append(f"moved by {shown(by)} mm: the drawing lies too far from its origin for a tape")
     report.low, report.high = shifted(report.low, by), shifted(report.high, by)
-    contours, others = ([one.shifted(by) for one in some] for some in (reading.contours, reading.others))
-    return replace(reading, contours=contours, starts=[shifted(at, by) for at in reading.starts], others=others)
+    contours, others = ([contour.shifted(by) for contour in group] for group in (reading.contours, reading.others))
+    return replace(reading, contours=contours, starts=[shifted(start, by) for start in reading.starts], others=others)
 
 
 def layer_lines(data: bytes, name: str, wishes: Wishes) -> list[str]:
@@ -157,13 +157,13 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
 def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
     page = svg_file.SvgFile(data)
-    told, px = page.units, svg_file.PX
-    units = (told[0], told[1], TOLD) if told else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
+    declared, px = page.units, svg_file.PX
+    units = (declared[0], declared[1], TOLD) if declared else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
     if wishes.units:
         # Without a page in mm or inches a pixel is one of the units asked for.
         units = wishes.units, UNITS[wishes.units], ASKED
-        px = UNITS[wishes.units] * (svg_file.PX / told[1] if told else 1.0)
-    elif not told:
+        px = UNITS[wishes.units] * (svg_file.PX / declared[1] if declared else 1.0)
+    elif not declared:
         px = page.guess
     content = svg_shapes.collect(page, px, wishes)
     return content, Account(name, units[0], units[2], units[1], notes=list(content.notes))
@@ -173,12 +173,12 @@ def _nothing(content: Content, wishes: Wishes) -> str:
     """Explain why there is nothing to cut."""
     where = f" on {', '.join(wishes.layers)}" if wishes.layers else ""
     reasons = Counter(f"{entity.kind}: {entity.left}" for entity in content.entities)
-    found = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
+    summary = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
     unseen = sorted({entity.layer for entity in content.entities if entity.left.startswith("the layer is")})
     help_ = f": --layer {unseen[0]} takes what is on that layer" if unseen and not wishes.layers else ""
     if not help_ and any(entity.kind in AREAS for entity in content.entities):
         help_ = ": draw outlines around the areas in the CAD program"
-    return f"no lines, arcs or curves to cut{where}" + (f" ({found})" if found else "") + help_
+    return f"no lines, arcs or curves to cut{where}" + (f" ({summary})" if summary else "") + help_
 
 
 def _no_outline(report: Account) -> str:
@@ -235,9 +235,9 @@ def _check_size(report: Account) -> None:
 
 def _in_other_units(report: Account, most: float = USUAL[1], units: tuple[str, ...] = GUESSED[:3]) -> str:
     """The size that a drawing has in units that make it a usual one, of `most` mm."""
-    found = []
+    sizes = []
     for name in units:
         width, height = (side / report.factor * UNITS[name] for side in report.size)
         if name != report.units and USUAL[0] <= max(width, height) <= most:
-            found.append(f"{short(width)} x {short(height)} mm in {name}")
-    return f"; it would be {', '.join(found)}" if found else ""
+            sizes.append(f"{short(width)} x {short(height)} mm in {name}")
+    return f"; it would be {', '.join(sizes)}" if sizes else ""

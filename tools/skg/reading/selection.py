@@ -27,9 +27,9 @@ AXIS = "drawn with dashes, across outlines: --open all cuts it"
 SMALL, WITHIN = "no room for the wire or the tab", "in an opening that is left out"
 PAST = "runs past a corner"
 OPENED = "of an open contour"
-#: What is short or drawn twice is cut with its neighbour, what runs past a corner is said by itself.
+#: Reasons that are no loss: short or doubled edges are cut with their neighbours, overruns are reported by themselves.
 _WITH_OTHERS = (SHORT, DOUBLE, PAST)
-#: What is left without anybody's asking for it; it is said when that is more than this part of what is cut.
+#: Reasons why edges are left unasked; reported if these are longer than this part of the cut edges.
 _UNASKED, _MUCH = (JUNCTION, DASHED, AXIS), 0.1
 #: Ends of what is left that are no further apart may be meant to meet, mm.
 _GAP = 0.1
@@ -52,8 +52,8 @@ class Selection:
         kept, rest = self._wanted(kept, rest)
         on, between = lying_on(rest, kept, self.wishes.tolerance)
         self.report.notes += _between([rest[run] for run in sorted(between)])
-        self.fates.doubles += [(rest[run].edges, kept[at].edges[0]) for run, at in on.items()]
-        rest = [one for run, one in enumerate(rest) if run not in on]
+        self.fates.doubles += [(rest[run].edges, kept[number].edges[0]) for run, number in on.items()]
+        rest = [contour for run, contour in enumerate(rest) if run not in on]
         for run in rest:
             self.fates.of_edges(run.edges, JUNCTION)
         gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance))
@@ -63,26 +63,26 @@ class Selection:
 
     def others(self) -> list[Contour]:
         """The closed contours of layers that are not cut, drawn through: what is cut may lie in them."""
-        found = chain(self.content.others, self.wishes.tolerance, self.styles).contours
+        contours = chain(self.content.others, self.wishes.tolerance, self.styles).contours
         return [
-            replace(one, layers=self.fates.layers(one))
-            for one in found
-            if one.is_closed and not self.fates.is_dashed(one)
+            replace(contour, layers=self.fates.layers(contour))
+            for contour in contours
+            if contour.is_closed and not self.fates.is_dashed(contour)
         ]
 
     def without_open(self, contours: list[Contour]) -> list[Contour]:
         """The contours without the open ones where these are left; a `UserError` where there are any and they are
         refused. Their ends go into the report."""
-        opened = [one for one in contours if not one.is_closed]
+        opened = [contour for contour in contours if not contour.is_closed]
         self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance)
         if opened and self.wishes.open == "refuse":
             count = counted(len(opened), "open contour")
             raise UserError(f"{count}, {self.report.first_gap()}; choose --open cut or --open leave")
         if self.wishes.open != "leave":
             return contours
-        for one in opened:
-            self.fates.of_edges(one.edges, OPENED)
-        return [one for one in contours if one.is_closed]
+        for contour in opened:
+            self.fates.of_edges(contour.edges, OPENED)
+        return [contour for contour in contours if contour.is_closed]
 
     def _chains(self) -> Chains:
         """All edges as contours; what is short, drawn twice or runs past a corner is accounted for."""
@@ -90,8 +90,8 @@ class Selection:
         chains = chain(self.content.edges, tolerance, self.styles)
         if self.wishes.open != "all":
             chains, cuts = without_overruns(chains, tolerance, self.styles)
-            fates.of_pieces([one.piece for one in cuts if not one.is_whole], PAST)
-            fates.of_edges([one.piece for one in cuts if one.is_whole], PAST)
+            fates.of_pieces([cut.piece for cut in cuts if not cut.is_whole], PAST)
+            fates.of_edges([cut.piece for cut in cuts if cut.is_whole], PAST)
             report.notes += _past(cuts, self.content)
         fates.of_edges(chains.short, SHORT)
         fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
@@ -100,41 +100,43 @@ class Selection:
     def _apart(self, chains: Chains) -> tuple[list[Contour], list[Contour]]:
         """The outlines, and what hangs together with others at junctions; what is repeated or is an axis is neither."""
         contours, every = chains.contours, chains.contours + chains.rest
-        found = relations(every, self.wishes.tolerance)
-        axes = _axes(contours, found, self.fates) if self.wishes.open != "all" and not self.wishes.layers else set()
-        for at, first in found.repeated.items():
-            self.fates.doubles.append((every[at].edges, every[first].edges[0]))
-        for at in sorted(axes):
-            self.fates.of_edges(contours[at].edges, AXIS)
-        self._say_meetings(contours, found, axes)
-        gone = set(found.repeated) | axes
-        hanging = {at for at in found.touched if at < len(contours)} - gone
-        rest = [one for at, one in enumerate(chains.rest, len(contours)) if at not in gone]
-        rest += [contours[at] for at in sorted(hanging)]
-        return [one for at, one in enumerate(contours) if at not in gone | hanging], rest
+        related = relations(every, self.wishes.tolerance)
+        axes = _axes(contours, related, self.fates) if self.wishes.open != "all" and not self.wishes.layers else set()
+        for number, first in related.repeated.items():
+            self.fates.doubles.append((every[number].edges, every[first].edges[0]))
+        for number in sorted(axes):
+            self.fates.of_edges(contours[number].edges, AXIS)
+        self._say_meetings(contours, related, axes)
+        gone = set(related.repeated) | axes
+        hanging = {number for number in related.touched if number < len(contours)} - gone
+        rest = [contour for number, contour in enumerate(chains.rest, len(contours)) if number not in gone]
+        rest += [contours[number] for number in sorted(hanging)]
+        return [contour for number, contour in enumerate(contours) if number not in gone | hanging], rest
 
-    def _say_meetings(self, contours: list[Contour], found: Relations, axes: set[int]) -> None:
+    def _say_meetings(self, contours: list[Contour], related: Relations, axes: set[int]) -> None:
         """Put into the report which outlines meet others."""
-        for what, one, at, place in found.meetings:
-            if at < len(contours) and not {one, at} & axes:
-                self.report.overlaps.append(self.fates.overlap(what, contours[at].edges[0], place))
-        if found.unseen:
-            self.report.notes.append(f"{counted(found.unseen, 'more pair')} of contours meet")
+        for kind, first, second, place in related.meetings:
+            if second < len(contours) and not {first, second} & axes:
+                self.report.overlaps.append(self.fates.overlap(kind, contours[second].edges[0], place))
+        if related.unseen:
+            self.report.notes.append(f"{counted(related.unseen, 'more pair')} of contours meet")
 
     def _wanted(self, kept: list[Contour], rest: list[Contour]) -> tuple[list[Contour], list[Contour]]:
         """Select outlines and the rest by --open and --layer; open dashes are left."""
         if self.wishes.open == "all":
             return kept + rest, []
-        if self.wishes.open == "cut" and rest and not any(one.is_closed for one in kept):
+        if self.wishes.open == "cut" and rest and not any(contour.is_closed for contour in kept):
             self.report.notes.append("no closed outline: lines that meet at junctions or cross are cut as drawn")
             kept, rest = kept + rest, []
-        dashed = {at for at, one in enumerate(kept) if self.fates.is_dashed(one)}
-        if self.wishes.layers or not any(one.is_closed and at not in dashed for at, one in enumerate(kept)):
+        dashed = {number for number, contour in enumerate(kept) if self.fates.is_dashed(contour)}
+        if self.wishes.layers or not any(
+            contour.is_closed and number not in dashed for number, contour in enumerate(kept)
+        ):
             return kept, rest
-        left = [at for at in sorted(dashed) if not kept[at].is_closed]
-        for at in left:
-            self.fates.of_edges(kept[at].edges, DASHED)
-        return [one for at, one in enumerate(kept) if at not in set(left)], rest
+        left = [number for number in sorted(dashed) if not kept[number].is_closed]
+        for number in left:
+            self.fates.of_edges(kept[number].edges, DASHED)
+        return [contour for number, contour in enumerate(kept) if number not in set(left)], rest
 
 
 class Fates:
@@ -161,9 +163,9 @@ class Fates:
         self.parts.update(piece.entity for piece in pieces)
         self.of_edges(pieces, why)
 
-    def overlap(self, what: str, edge: Edge, place: XY) -> Overlap:
+    def overlap(self, kind: str, edge: Edge, place: XY) -> Overlap:
         """A line of the report."""
-        return Overlap(what, self.entities[edge.entity].layer, place)
+        return Overlap(kind, self.entities[edge.entity].layer, place)
 
     def layers(self, contour: Contour) -> tuple[str, ...]:
         """The layers of a contour's edges."""
@@ -177,7 +179,7 @@ class Fates:
         """The report with the sums of the layers, where some contours (by their numbers) are left, and why; a sum that
         does not agree is a `UserError`. `begun`: what else it has."""
         fates, report = copy(self), replace(begun, notes=[*begun.notes], overlaps=[*begun.overlaps])
-        fates.gone = defaultdict(Counter, {at: Counter(gone) for at, gone in self.gone.items()})
+        fates.gone = defaultdict(Counter, {number: Counter(gone) for number, gone in self.gone.items()})
         fates.lost = self.lost.copy()
         for number, why in left.items():
             fates.of_edges(contours[number].edges, why)
@@ -191,21 +193,22 @@ class Fates:
         sums: dict[str, LayerSum] = {}
         rest: list[Entity] = []
         odd: list[Entity] = []
-        for at, entity in enumerate(self.entities):
+        for number, entity in enumerate(self.entities):
             layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
             layer.read += 1
-            gone = self.gone.get(at) or Counter()
-            if cut[at] + gone.total() != self.parts[at] or not (self.parts[at] or entity.left):
+            gone = self.gone.get(number) or Counter()
+            if cut[number] + gone.total() != self.parts[number] or not (self.parts[number] or entity.left):
                 raise UserError(
-                    f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: of its {self.parts[at]} parts "
-                    f"{cut[at] + gone.total()} are accounted for; a bug in skg, please report it"
+                    f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: "
+                    f"of its {self.parts[number]} parts {cut[number] + gone.total()} "
+                    "are accounted for; a bug in skg, please report it"
                 )
-            lost = [why for why in gone if not cut[at] or why not in _WITH_OTHERS]
+            lost = [why for why in gone if not cut[number] or why not in _WITH_OTHERS]
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
             entity = replace(entity, left=entity.left or " and ".join(lost))
-            if cut[at]:
+            if cut[number]:
                 layer.part += 1
             else:
                 layer.left += 1
@@ -217,11 +220,11 @@ class Fates:
         report.rest, report.not_understood = rest, odd
         report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
         dashed = defaultdict(list)
-        for at, entity in enumerate(self.entities):
-            if cut[at] and entity.dashes:
+        for number, entity in enumerate(self.entities):
+            if cut[number] and entity.dashes:
                 dashed[entity.dashes].append(entity)
-        for name, some in dashed.items():
-            report.notes += said(some, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
+        for name, entities in dashed.items():
+            report.notes += said(entities, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
 
     def _much_left(self, contours: list[Contour]) -> Iterator[str]:
         """Report that much of the layers that are cut is left, which nobody asked for."""
@@ -244,26 +247,26 @@ class Fates:
             middles[edge.entity].append(edge.at(0.5))
         overlaps = []
         for run, twin in self.doubles:
-            at, middle = twin.entity, twin.at(0.5)
-            near = (distance(middle, place) <= 2 * self.tolerance for place in middles[at])
-            if any(near) if at in partly else cut[at]:
+            number, middle = twin.entity, twin.at(0.5)
+            near = (distance(middle, place) <= 2 * self.tolerance for place in middles[number])
+            if any(near) if number in partly else cut[number]:
                 self.of_edges(run, DOUBLE)
                 overlaps.append(self.overlap(DOUBLE, run[0], run[0].start))
             else:
-                self.of_edges(run, next((why for why in self.gone[at] if why not in _WITH_OTHERS), DOUBLE))
+                self.of_edges(run, next((why for why in self.gone[number] if why not in _WITH_OTHERS), DOUBLE))
         report.overlaps[:0] = overlaps
 
 
 def _past(cuts: list[Overrun], content: Content) -> Iterator[str]:
     """Report ends that run past corners, a line for each layer."""
     layers: dict[str, list[Overrun]] = defaultdict(list)
-    for one in cuts:
-        layers[content.entities[one.piece.entity].layer].append(one)
-    for layer, some in sorted(layers.items()):
-        longest = max(one.piece.length for one in some)
+    for cut in cuts:
+        layers[content.entities[cut.piece.entity].layer].append(cut)
+    for layer, ends in sorted(layers.items()):
+        longest = max(cut.piece.length for cut in ends)
         yield (
-            f"{counted(len(some), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
-            f"{shown(some[0].corner)}: overrun trimmed; --open all keeps it"
+            f"{counted(len(ends), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
+            f"{shown(ends[0].corner)}: overrun trimmed; --open all keeps it"
         )
 
 
@@ -282,8 +285,8 @@ def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool) -> Iterato
     if not rest or len(kept) < 2:
         return
     boxes, outer = boxes_of(kept)[0], boxes_of(rest)[0]
-    for at, run in enumerate(rest):
-        if _reach_around(outer[at : at + 1], boxes):
+    for number, run in enumerate(rest):
+        if _reach_around(outer[number : number + 1], boxes):
             ends = (shown(end) for end in (run.edges[0].start, run.edges[-1].end))
             yield (
                 f"take care: an uncut line from {' to '.join(ends)} encloses every cut contour: "
@@ -304,7 +307,7 @@ def _reach_around(outer: Floats, boxes: Floats) -> bool:
 
 def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float) -> Iterator[str]:
     """Report free ends of uncut lines so near to a corner that an outline may be open."""
-    count = Counter(end for one in rest for edge in one.edges for end in (edge.start, edge.end))
+    count = Counter(end for run in rest for edge in run.edges for end in (edge.start, edge.end))
     corners = list(count)
     near = [
         (distance(place, other), place)
@@ -321,31 +324,33 @@ def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float) -> Iterator[
         )
 
 
-def _axes(contours: list[Contour], found: Relations, fates: Fates) -> set[int]:
+def _axes(contours: list[Contour], related: Relations, fates: Fates) -> set[int]:
     """The closed contours drawn with dashes that cross others, which are not: circles that holes lie on."""
-    pairs = [(one, at) for what, one, at, _ in found.meetings if what == "cross" and at < len(contours)]
+    pairs = [
+        (first, second) for kind, first, second, _ in related.meetings if kind == "cross" and second < len(contours)
+    ]
     return {
-        one
-        for one, other in (*pairs, *((at, one) for one, at in pairs))
-        if fates.is_dashed(contours[one]) and not fates.is_dashed(contours[other])
+        number
+        for number, other in (*pairs, *((second, first) for first, second in pairs))
+        if fates.is_dashed(contours[number]) and not fates.is_dashed(contours[other])
     }
 
 
 def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float) -> list[OpenEnd]:
     """Ends of open contours, each with the nearest other one; `edges`: all of the drawing."""
-    ends = [place for one in contours for place in (one.edges[0].start, one.edges[-1].end)]
+    ends = [place for contour in contours for place in (contour.edges[0].start, contour.edges[-1].end)]
     if not ends:
         return []
     shortest = _shortest(edges, tolerance)
-    found = []
+    open_ends = []
     for place, other in zip(ends, nearest(ends), strict=True):
         if other is None:
-            found.append(OpenEnd(place, None, inf))
+            open_ends.append(OpenEnd(place, None, inf))
             continue
         gap = distance(place, other)
         can_join = float(above(gap)) < shortest
-        found.append(OpenEnd(place, other, gap, can_join))
-    return found
+        open_ends.append(OpenEnd(place, other, gap, can_join))
+    return open_ends
 
 
 def _shortest(edges: list[Edge], tolerance: float) -> float:

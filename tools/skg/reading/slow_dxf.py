@@ -30,7 +30,7 @@ from skg.reading.dxf_record import Group, Record
 
 __all__ = ["binary_groups", "edges", "encoding", "entity", "is_through_places", "placed", "start", "view"]
 
-# What ezdxf would say is said here, in one line.
+# ezdxf's own messages are dropped: this module reports in one line.
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())
 logging.getLogger("ezdxf").propagate = False
 
@@ -85,12 +85,12 @@ def entity(record: Record) -> DXFGraphic:
 
 
 def _entity(record: Record) -> DXFGraphic:
-    found = factory.load(ExtendedTags(Tags(_tags(record.groups))))
+    graphic = factory.load(ExtendedTags(Tags(_tags(record.groups))))
     for part in record.parts:
         if part.kind != "SEQEND":
-            found.link_entity(_entity(part))
+            graphic.link_entity(_entity(part))
     # (only now does ezdxf see whether a polyline is a mesh)
-    return found.cast() if record.parts and hasattr(found, "cast") else found
+    return graphic.cast() if record.parts and hasattr(graphic, "cast") else graphic
 
 
 def placed(record: Record, base: tuple[float, float, float], outer: Matrix44 | None) -> list[Matrix44]:
@@ -259,5 +259,5 @@ def _together(tags: list[DXFTag], codes: tuple[int, int, int]) -> list[DXFTag]:
         whole = [DXFTag(code, given[code]) for code in codes if code in given]
     else:
         raise ValueError(f"code {codes[1] if codes[0] in given else codes[0]} is missing")
-    at = next(at for at, tag in enumerate(tags) if tag.code in codes)
-    return tags[:at] + whole + [tag for tag in tags[at:] if tag.code not in codes]
+    index = next(index for index, tag in enumerate(tags) if tag.code in codes)
+    return tags[:index] + whole + [tag for tag in tags[index:] if tag.code not in codes]

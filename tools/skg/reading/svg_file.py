@@ -22,12 +22,12 @@ from skg.reading.svg_style import Style, StyleSheet
 UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
 #: A pixel, mm.
 PX = 25.4 / 96
-#: What is drawn, and what is drawn but is nothing to cut.
+#: Elements that are cut; elements that are drawn, but are nothing to cut.
 SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
 NOTES = {"text": "text, convert it to paths", "image": "a picture", "foreignObject": "not SVG", "flowRoot": "text"}
-#: What holds others; what stands in anything else is drawn where it is used, or not at all.
+#: Elements that hold others; the children of any other are drawn where they are used, or not at all.
 _GROUPS = ("g", "a", "svg", "switch")
-#: What a line or an area may be filled with, and what moves or changes others.
+#: Paint servers, and elements that move or change others.
 _PAINTS = ("linearGradient", "radialGradient", "meshgradient", "pattern", "hatch", "solidcolor")
 _ANIMATIONS = ("animate", "animateTransform", "animateMotion", "animateColor", "set")
 _LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
@@ -40,11 +40,11 @@ _SIDES = {"left": "0", "top": "0", "center": "50%", "right": "100%", "bottom": "
 _DEPTH = 300
 #: A number.
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-#: What is outside a frame by no more than this part of its larger side is within.
+#: A point outside a frame by no more than this part of its larger side is within.
 _NEAR_FRAME = 1e-3
-#: How a DXF file begins that is text, remarks before it.
+#: Beginning of a DXF text file, remarks before it.
 _DXF = re.compile(rb"\s*(?:999\s*\n[^\n]*\n\s*)*0\s+SECTION\s")
-#: What a shape that cannot be read may raise.
+#: Exceptions of a shape that cannot be read.
 UNREADABLE = (ValueError, TypeError, ArithmeticError, IndexError, KeyError, AttributeError)
 
 
@@ -59,14 +59,14 @@ class _Frame:
     """The page, or what a nested drawing is seen through: corner and size, `matrix` from where it stands to pixels."""
 
     matrix: svgelements.Matrix
-    at: XY
+    corner: XY
     size: XY
 
     def holds(self, places: list[XY]) -> bool:
         """Tell whether all of some places, in pixels, lie in it, or hardly outside."""
         if not self.matrix.determinant:
             return True
-        (left, top), (width, height), near = self.at, self.size, _NEAR_FRAME * max(self.size)
+        (left, top), (width, height), near = self.corner, self.size, _NEAR_FRAME * max(self.size)
         return all(
             -near <= place.x - left <= width + near and -near <= place.y - top <= height + near
             for place in map(self._back.point_in_matrix_space, places)
@@ -159,9 +159,9 @@ class SvgFile:
         hidden = "not displayed" if self.style.display == "none" else ""
         view = replace(self.view, style=self.style, hidden=hidden)
         is_empty = True
-        for one in self._children(self.root, view, (self.root,), ()):
+        for shape in self._children(self.root, view, (self.root,), ()):
             is_empty = False
-            yield one
+            yield shape
         if is_empty:
             unshown = (element for element in self.root.iter() if tag_of(element) in (*SHAPES, "glyph"))
             yield from (Drawn(element, view, "shown nowhere") for element in unshown)
@@ -241,8 +241,8 @@ class SvgFile:
             style = self.sheet.style(target, target, view.style)
             matrix = _transform(style, view.size) * moved.matrix if style.transform else moved.matrix
             inner = replace(moved, style=style, matrix=matrix)
-            at = _corner(target, inner) if name == "svg" else (0.0, 0.0)
-            return self._children(target, _framed(target, element, inner, at), (*around, target), used)
+            place = _corner(target, inner) if name == "svg" else (0.0, 0.0)
+            return self._children(target, _framed(target, element, inner, place), (*around, target), used)
         if name in (*_GROUPS, *SHAPES, *NOTES, "use"):
             return self._one(target, name, moved, around, used)
         return []
@@ -280,15 +280,15 @@ def length_of(text: str, whole: float | None) -> float | None:
     text = text.strip()
     if text in ("", "auto"):
         return None
-    found = re.fullmatch(rf"({NUMBER})\s*([a-zA-Z]*|%)", text)
-    unit = found[2].lower() if found else None
-    if found is None or unit not in ("", "px", "%", *UNITS):
+    match = re.fullmatch(rf"({NUMBER})\s*([a-zA-Z]*|%)", text)
+    unit = match[2].lower() if match else None
+    if match is None or unit not in ("", "px", "%", *UNITS):
         raise ValueError(f"its length {text}")
     if unit == "%":
         if whole == 0:
             raise ValueError(f"its length {text}, of a frame without a size")
-        return None if whole is None else float(found[1]) / 100 * whole
-    return float(found[1]) * (UNITS[unit] / PX if unit in UNITS else 1.0)
+        return None if whole is None else float(match[1]) / 100 * whole
+    return float(match[1]) * (UNITS[unit] / PX if unit in UNITS else 1.0)
 
 
 def _page_side(text: str) -> float | None:
@@ -333,11 +333,11 @@ def _view_box(element: ElementTree.Element) -> tuple[float, float, float, float]
     return (x, y, width, height) if width > 0 and height > 0 else None
 
 
-def _fitted(element: ElementTree.Element, at: XY, size: XY) -> svgelements.Matrix:
+def _fitted(element: ElementTree.Element, place: XY, size: XY) -> svgelements.Matrix:
     """From the view box of an element to the frame at a place that it fills."""
     box = _view_box(element)
     if box is None or not all(size):
-        return svgelements.Matrix.translate(*at)
+        return svgelements.Matrix.translate(*place)
     scales = [side / part for side, part in zip(size, box[2:], strict=True)]
     words = (element.get("preserveAspectRatio") or "xMidYMid").split()
     if words[0] == "none":
@@ -347,22 +347,22 @@ def _fitted(element: ElementTree.Element, at: XY, size: XY) -> svgelements.Matri
     aligned = {"min": 0.0, "mid": 0.5, "max": 1.0}
     parts = [aligned.get(words[0][first : first + 3].lower(), 0.5) for first in (1, 5)]
     free = size[0] - sx * box[2], size[1] - sy * box[3]
-    x, y = (corner + part * rest for corner, part, rest in zip(at, parts, free, strict=True))
+    x, y = (corner + part * rest for corner, part, rest in zip(place, parts, free, strict=True))
     return svgelements.Matrix(sx, 0, 0, sy, x - sx * box[0], y - sy * box[1])
 
 
-def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: View, at: XY) -> View:
+def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: View, place: XY) -> View:
     """The view within a nested drawing or a symbol; `outer`, which may be what uses it, tells the frame's size."""
     sides = []
     for side, whole in zip(("width", "height"), view.size, strict=True):
-        # (what a `use` tells as attributes goes before the drawing's own; a style sheet before both)
+        # (attributes of a `use` go before the drawing's own; a style sheet before both)
         length = length_of(view.style.geometry.get(side) or outer.get(side) or inner.get(side, ""), whole)
         sides.append(whole if length is None else length)
     box = _view_box(inner)
     if box and not all(sides):
         raise ValueError("a view box in a frame without a size")
-    matrix = _fitted(inner, at, (sides[0], sides[1])) * view.matrix
+    matrix = _fitted(inner, place, (sides[0], sides[1])) * view.matrix
     frames = view.frames
     if all(sides) and not view.style.is_overflowing:
-        frames = (*frames, _Frame(view.matrix, at, (sides[0], sides[1])))
+        frames = (*frames, _Frame(view.matrix, place, (sides[0], sides[1])))
     return replace(view, matrix=matrix, frames=frames, size=(box[2], box[3]) if box else (sides[0], sides[1]))

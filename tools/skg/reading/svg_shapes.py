@@ -27,7 +27,7 @@ from skg.wording import counted
 _MOST = 1_000_000
 #: Shapes that may have markers at their ends and corners.
 _MARKED = ("path", "line", "polyline", "polygon")
-#: What stands in no path data.
+#: Characters that path data cannot have, and all behind them.
 _NO_PATH = re.compile(r"(?:[^\s,\d.eE+MmZzLlHhVvCcSsQqTtAa-]|[eE](?![+-]?\d)).*")
 #: A line that is wider than this is said, mm.
 _WIDE = 1.0
@@ -48,34 +48,34 @@ def _outline(element: ElementTree.Element, view: View) -> Sequence[svgelements.P
         rx, ry = (None if length is None or length < 0 else length for length in map(given, ("rx", "ry")))
         return ry if rx is None else rx, rx if ry is None else ry
 
-    def of(name: str) -> float:
+    def length(name: str) -> float:
         return given(name) or 0.0
 
     match tag_of(element):
         case "rect":
             rx, ry = radii()
-            wide, high = of("width"), of("height")
+            wide, high = length("width"), length("height")
             if wide <= 0 or high <= 0:
                 return []
-            x, y = of("x"), of("y")
+            x, y = length("x"), length("y")
             if rx and ry:
                 return svgelements.Rect(x, y, wide, high, min(rx, wide / 2), min(ry, high / 2)).segments(False)
             return _lines([(x, y), (x + wide, y), (x + wide, y + high), (x, y + high), (x, y)])
         case "circle":
-            return _around((of("cx"), of("cy")), of("r"), of("r"))
+            return _around((length("cx"), length("cy")), length("r"), length("r"))
         case "ellipse":
             rx, ry = radii()
-            return _around((of("cx"), of("cy")), rx or 0.0, ry or 0.0)
+            return _around((length("cx"), length("cy")), rx or 0.0, ry or 0.0)
         case "line":
-            return _lines([(of("x1"), of("y1")), (of("x2"), of("y2"))])
+            return _lines([(length("x1"), length("y1")), (length("x2"), length("y2"))])
         case "polyline":
             return _lines(_points(element))
         case "polygon":
             points = _points(element)
             return _lines([*points, *points[:1]])
         case _:
-            path = re.fullmatch(r"""path\(\s*["'](.*)["']\s*\)""", told := property_of(element, view, "d"), re.DOTALL)
-            return _path(path[1] if path else told)
+            path = re.fullmatch(r"""path\(\s*["'](.*)["']\s*\)""", data := property_of(element, view, "d"), re.DOTALL)
+            return _path(path[1] if path else data)
 
 
 class _PathData(svgelements.Path):
@@ -130,14 +130,14 @@ def collect(file: SvgFile, px: float, wishes: Wishes) -> Content:
     """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
     edge. `px`: mm in one pixel."""
     drawn: list[Drawn] = []
-    for one in file.drawn():
-        drawn.append(one)
+    for item in file.drawn():
+        drawn.append(item)
         if len(drawn) > _MOST:
             raise UserError(f"more than {_MOST:,} shapes, expected a drawing")
-    wishes.check_layers(one.view.layer for one in drawn)
+    wishes.check_layers(item.view.layer for item in drawn)
     collector = _SvgCollector(file, px, wishes)
-    for one in drawn:
-        collector.take(one)
+    for item in drawn:
+        collector.take(item)
     return collector.content()
 
 
@@ -150,49 +150,49 @@ class _SvgCollector:
         self.wishes = wishes
         self.shapes = _Shapes(file.height, px, wishes.fit_tolerance)
         self.found = Content()
-        # What is said of shapes, and those without a line or an area, which are cut where there is nothing else.
+        # Shapes that the notes mention, and shapes without a line or an area, cut if there is nothing else.
         self.clipped: list[Entity] = []
         self.outside: list[Entity] = []
         self.wide: list[Entity] = []
         self.marked: list[Entity] = []
         self.unpainted: list[tuple[Entity, list[Edge]]] = []
 
-    def take(self, one: Drawn) -> None:
+    def take(self, item: Drawn) -> None:
         """Account for one element that is drawn."""
-        kind, layer = tag_of(one.element), one.view.layer
-        account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or one.left)
+        kind, layer = tag_of(item.element), item.view.layer
+        account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or item.left)
         self.found.entities.append(account)
-        if kind not in SHAPES or one.left.startswith("cannot"):
-            account.is_odd = not one.view.hidden and kind not in NOTES
+        if kind not in SHAPES or item.left.startswith("cannot"):
+            account.is_odd = not item.view.hidden and kind not in NOTES
             return
         try:
-            outline = _outline(one.element, one.view)
-            self.shapes.matrix, self.shapes.entity = one.view.matrix, len(self.found.entities) - 1
+            outline = _outline(item.element, item.view)
+            self.shapes.matrix, self.shapes.entity = item.view.matrix, len(self.found.entities) - 1
             edges = list(self.shapes.edges(outline))
         except UNREADABLE as error:
             account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"
-            account.is_odd = not one.view.hidden
+            account.is_odd = not item.view.hidden
             return
         if edges:
             account.place = edges[0].start
-        is_seen = not one.left and one.view.style.is_painted and not one.view.style.is_hidden
+        is_seen = not item.left and item.view.style.is_painted and not item.view.style.is_hidden
         if self.wishes.is_by_layer(account.left) and is_seen and not self.wishes.is_start(layer):
             self.found.others += edges
-            account.dashes = "stroke-dasharray" if one.view.style.is_dashed else ""
-        account.left = account.left or ("invisible" if one.view.style.is_hidden else "")
+            account.dashes = "stroke-dasharray" if item.view.style.is_dashed else ""
+        account.left = account.left or ("invisible" if item.view.style.is_hidden else "")
         if account.left:
             return
         if self.wishes.is_start(layer):
             self._start(account, outline if edges else [])
-        elif not one.view.matrix.determinant:
+        elif not item.view.matrix.determinant:
             account.left = "its transform leaves no area, so that nothing is shown"
         elif not edges:
             account.left = "it has no length"
-        elif not one.view.style.is_painted:
+        elif not item.view.style.is_painted:
             account.left = _UNPAINTED
             self.unpainted.append((account, edges))
         else:
-            self._cut(account, one.view, edges)
+            self._cut(account, item.view, edges)
 
     def _start(self, account: Entity, outline: Sequence[svgelements.PathSegment]) -> None:
         """A shape on the layer of start holes: a circle is one, about its middle."""
@@ -217,17 +217,19 @@ class _SvgCollector:
 
     def content(self) -> Content:
         """All that was found, with what is to be said of it."""
-        result, some = self.found, ("shape", "shapes")
+        result, nouns = self.found, ("shape", "shapes")
         result.notes += self._of_page()
         if not result.edges:
             for account, edges in self.unpainted:
                 account.left = ""
                 result.edges += edges
-            result.notes += said((one for one, _ in self.unpainted), some, _UNPAINTED, "cut, there is nothing else")
-        result.notes += said(self.clipped, some, "clipped or masked", "cut whole")
-        result.notes += said(self.outside, some, "outside the page, or partly", "cut whole")
-        result.notes += said(self.wide, some, f"drawn with a line wider than {_WIDE:g} mm", "its centre line is cut")
-        result.notes += said(self.marked, some, "drawn with markers, such as heads of arrows", "these are not cut")
+            result.notes += said(
+                (account for account, _ in self.unpainted), nouns, _UNPAINTED, "cut, there is nothing else"
+            )
+        result.notes += said(self.clipped, nouns, "clipped or masked", "cut whole")
+        result.notes += said(self.outside, nouns, "outside the page, or partly", "cut whole")
+        result.notes += said(self.wide, nouns, f"drawn with a line wider than {_WIDE:g} mm", "its centre line is cut")
+        result.notes += said(self.marked, nouns, "drawn with markers, such as heads of arrows", "these are not cut")
         return result
 
     def _of_page(self) -> Iterator[str]:
@@ -287,10 +289,10 @@ class _Shapes:
 
     def arc(self, arc: svgelements.Arc) -> Iterator[Edge]:
         """An arc of an ellipse, or all of it."""
-        start, end, centre, one, other = (
+        start, end, centre, vertex, covertex = (
             self.point(point) for point in (arc.start, arc.end, arc.center, arc.prx, arc.pry)
         )
-        u, v = minus(one, centre), minus(other, centre)
+        u, v = minus(vertex, centre), minus(covertex, centre)
         area = cross(u, v)
         if abs(area) < 1e-12:
             # (an arc without a radius is a line)
@@ -300,8 +302,8 @@ class _Shapes:
         if (turned > 0) == (area > 0):
             # With y upwards a turn that SVG calls positive is clockwise.
             v, area = (-v[0], -v[1]), -area
-        ways = (minus(place, centre) for place in (start, end))
-        first, last = (atan2(cross(u, way) / area, cross(way, v) / area) for way in ways)
+        rays = (minus(place, centre) for place in (start, end))
+        first, last = (atan2(cross(u, ray) / area, cross(ray, v) / area) for ray in rays)
         sweep = (last - first) % (2 * pi)
         if distance(start, end) < 1e-9 and abs(turned) > 1:
             sweep = 2 * pi

@@ -17,7 +17,7 @@ from tinycss2 import ast
 
 from skg.errors import UserError
 
-#: What is drawn at the ends and corners of lines, such as heads of arrows.
+#: Properties of markers at the ends and corners of lines, such as heads of arrows.
 _MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
 #: Attributes that mean what the property of that name means.
 _PROPERTIES = (
@@ -35,7 +35,7 @@ _CLEAR = re.compile(
 )
 _PAINT = re.compile(r"url\(\s*[\"']?#([^\"')]*)[\"']?\s*\)\s*(.*)")
 _NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
-#: What stands for a value that is told elsewhere, with that where it is told nowhere.
+#: A reference to a variable, with its fallback.
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,((?:[^()]|\([^()]*\))*))?\)")
 #: Variables told by variables.
 _DEPTH = 32
@@ -107,7 +107,7 @@ class StyleSheet:
         self.imported: list[str] = []
         self._page = page
         self._rules = cssselect2.Matcher()
-        #: What the rules declare of a tree's elements; what goes before others stands behind them.
+        #: The rules' declarations for a tree's elements, those with precedence last.
         self._trees: dict[Element, dict[Element, list[_Declared]]] = {}
         for style in styles:
             if self._is_seen("media", style.get("media", "").strip()):
@@ -123,13 +123,13 @@ class StyleSheet:
         if tree not in self._trees:
             outermost = tree
             if tree is not self._page:
-                # (what is used is not the page, which :root is: it stands in something without a name)
+                # (:root is the page, not a used tree: that stands in an element without a name)
                 outermost = Element("")
                 outermost.append(tree)
             self._trees[tree] = {
-                wrapped.etree_element: [declared for *_, pseudo, declared in found if pseudo is None]
+                wrapped.etree_element: [declared for *_, pseudo, declared in matches if pseudo is None]
                 for wrapped in cssselect2.ElementWrapper.from_xml_root(outermost).iter_subtree()
-                if (found := self._rules.match(wrapped))
+                if (matches := self._rules.match(wrapped))
             }
         return self._trees[tree]
 
@@ -168,60 +168,60 @@ class StyleSheet:
         for selector in selectors or ():
             self._rules.add_selector(selector, declared)
 
-    def _colour(self, told: str) -> str:
+    def _colour(self, colour: str) -> str:
         """A colour in small letters; of a gradient that is not in the drawing the one in its place, or none."""
-        paint = _PAINT.fullmatch(told.lower())
-        return (paint[2] or "none") if paint and paint[1] not in self.paints else told.lower()
+        paint = _PAINT.fullmatch(colour.lower())
+        return (paint[2] or "none") if paint and paint[1] not in self.paints else colour.lower()
 
     def style(self, element: Element, tree: Element, outer: Style) -> Style:
         """Return the style of an element. `tree`: what rules know of around it, the whole page or all that is used
         with it; `outer`: how that is drawn in which it is shown."""
-        found = [*self._in(tree).get(element, ()), _declared(element.get("style", ""))]
+        declarations = [*self._in(tree).get(element, ()), _declared(element.get("style", ""))]
         declared: dict[str, str] = {}
-        for one in found:
-            declared |= one.usual
-        for one in found:
-            declared |= one.important
+        for declaration in declarations:
+            declared |= declaration.usual
+        for declaration in declarations:
+            declared |= declaration.important
         variables = outer.variables | {name: value for name, value in declared.items() if name.startswith("--")}
-        told = {name: value.strip() for name, value in element.items() if name in _PRESENTED} | declared
-        told = {name: _told(value, variables) for name, value in told.items()}
-        told = {name: value for name, value in told.items() if value and value != "inherit"}
-        visibility = told.get("visibility")
-        dashes = told.get("stroke-dasharray")
-        width = re.match(r"[\d.]+(?:e-?\d+)?", told.get("stroke-width", ""))
+        properties = {name: value.strip() for name, value in element.items() if name in _PRESENTED} | declared
+        properties = {name: _told(value, variables) for name, value in properties.items()}
+        properties = {name: value for name, value in properties.items() if value and value != "inherit"}
+        visibility = properties.get("visibility")
+        dashes = properties.get("stroke-dasharray")
+        width = re.match(r"[\d.]+(?:e-?\d+)?", properties.get("stroke-width", ""))
         return replace(
             outer,
-            fill=self._colour(told.get("fill", outer.fill)),
-            stroke=self._colour(told.get("stroke", outer.stroke)),
-            color=told.get("color", outer.color).lower(),
+            fill=self._colour(properties.get("fill", outer.fill)),
+            stroke=self._colour(properties.get("stroke", outer.stroke)),
+            color=properties.get("color", outer.color).lower(),
             stroke_width=float(width[0]) if width else outer.stroke_width,
-            is_fill_clear=_is_nothing(told.get("fill-opacity"), outer.is_fill_clear),
-            is_stroke_clear=_is_nothing(told.get("stroke-opacity"), outer.is_stroke_clear),
+            is_fill_clear=_is_nothing(properties.get("fill-opacity"), outer.is_fill_clear),
+            is_stroke_clear=_is_nothing(properties.get("stroke-opacity"), outer.is_stroke_clear),
             is_dashed=bool(re.search("[1-9]", dashes)) if dashes else outer.is_dashed,
             is_hidden=visibility in ("hidden", "collapse") if visibility else outer.is_hidden,
-            display=told.get("display", ""),
-            transform=told.get("transform", "").replace("none", ""),
-            origin=told.get("transform-origin", ""),
-            box=told.get("transform-box", ""),
-            is_clear=_is_nothing(told.get("opacity"), False),
-            markers=_markers(told, outer.markers),
-            geometry={name: told[name] for name in declared if name in _GEOMETRY and name in told},
+            display=properties.get("display", ""),
+            transform=properties.get("transform", "").replace("none", ""),
+            origin=properties.get("transform-origin", ""),
+            box=properties.get("transform-box", ""),
+            is_clear=_is_nothing(properties.get("opacity"), False),
+            markers=_markers(properties, outer.markers),
+            geometry={name: properties[name] for name in declared if name in _GEOMETRY and name in properties},
             variables=variables,
-            is_overflowing=told.get("overflow", "").startswith("visible"),
-            is_clipped=any(told.get(name, "none") != "none" for name in ("clip-path", "mask")),
+            is_overflowing=properties.get("overflow", "").startswith("visible"),
+            is_clipped=any(properties.get(name, "none") != "none" for name in ("clip-path", "mask")),
         )
 
 
 def _told(value: str, variables: dict[str, str]) -> str:
     """A value with what its variables stand for; nothing where one of them is told nowhere, or by itself."""
     for _ in range(_DEPTH):
-        found = _VARIABLE.search(value)
-        if found is None:
+        reference = _VARIABLE.search(value)
+        if reference is None:
             return value
-        known = variables.get(found[1].lower(), found[2])
+        known = variables.get(reference[1].lower(), reference[2])
         if known is None:
             return ""
-        value = f"{value[: found.start()]}{known.strip()}{value[found.end() :]}"
+        value = f"{value[: reference.start()]}{known.strip()}{value[reference.end() :]}"
     return ""
 
 
@@ -230,16 +230,16 @@ def _is_nothing(opacity: str | None, outer: bool) -> bool:
     return outer if opacity is None else _NOTHING.fullmatch(opacity) is not None
 
 
-def _markers(told: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:
+def _markers(properties: dict[str, str], outer: tuple[str, ...]) -> tuple[str, ...]:
     """Return the markers at start, corners and end; `marker` sets all of them."""
-    return tuple(told.get(name, told.get("marker", old)) for name, old in zip(_MARKERS, outer, strict=True))
+    return tuple(properties.get(name, properties.get("marker", old)) for name, old in zip(_MARKERS, outer, strict=True))
 
 
 def _selectors(
     tokens: list[ast.Node], namespaces: dict[str | None, str]
 ) -> list[cssselect2.compiler.CompiledSelector] | None:
     """Parse a rule; None if it is not understood."""
-    # (what stands somewhere behind another would be looked for among all of 20,000, for each of 20,000)
+    # (`~` would search all of 20,000 siblings, for each of 20,000)
     if "~" in tokens:
         return None
     try:
@@ -274,6 +274,6 @@ def _declared(text: str) -> _Declared:
         name, colon, value = declaration.partition(":")
         value, mark, important = value.partition("!")
         if colon:
-            some = result.important if mark and important.strip().lower() == "important" else result.usual
-            some[name.strip().lower()] = value.strip()
+            declarations = result.important if mark and important.strip().lower() == "important" else result.usual
+            declarations[name.strip().lower()] = value.strip()
     return result

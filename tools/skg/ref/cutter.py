@@ -38,7 +38,7 @@ class Closed:
 class Cutter:
     """The state between cutting statements. Places are in mm on the tape, arguments in the drawing's mm."""
 
-    #: What a run of FIT statements makes; tests look at it while it is made.
+    #: The curve of a run of FIT statements; tests look at it while it is made.
     new_curve = FittedCurve
 
     def __init__(self, tape: Punch, path: list[Segment]) -> None:

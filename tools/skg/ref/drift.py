@@ -101,7 +101,7 @@ class DriftlessPunch(Punch):
 
     def arc(self, end: Point, centre: Point, clockwise: bool, sweep: Real) -> None:
         """An arc of a true sweep in radians; a straight move where it is too flat or counts nothing."""
-        (x, y), (xe, ye), (xc, yc) = self.at, grid(end), grid(centre)
+        (x, y), (xe, ye), (xc, yc) = self.position, grid(end), grid(centre)
         near.note("sweep", sweep - real.mp.pi, 1e-6)
         made = arc((x - xc, y - yc), (xe - xc, ye - yc), clockwise, sweep > real.mp.pi)
         if made is None:
@@ -109,4 +109,4 @@ class DriftlessPunch(Punch):
         else:
             text, (dx, dy) = made
             self.lines.append(text)
-            self.at = x + dx, y + dy
+            self.position = x + dx, y + dy

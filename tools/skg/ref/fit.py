@@ -22,7 +22,7 @@ FLAT_NEAR = Real("1e-4")
 BACKWARDS = Real("1e-2")
 #: mm: what 32 bits leave open of how far a node is from a biarc, at 100 mm; 33 bits miss it by up to 4·10⁻⁸.
 PASSED_NEAR = Real("3e-7")
-#: How many nodes TOL may pass over between two that it keeps.
+#: Most nodes that TOL may pass over between two that it keeps.
 MOST_PASSED = 15
 
 

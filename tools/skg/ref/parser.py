@@ -45,10 +45,10 @@ LAST_LINE = 9999
 LONGEST = 126
 #: Bytes that the machine has for the words of a line (language.md, section 3).
 ROOM = 254
-#: What GOTO, GOSUB, IF, RESTORE take.
+#: The largest operand of GOTO, GOSUB, IF, RESTORE.
 LARGEST_NUMBER = 65535
 LAST_SUBSCRIPT = 999
-#: Which kind the first letter of a name stands for (as in `values.kind`).
+#: Kinds by the first letter of a name (as in `values.kind`).
 LETTERS = {letter: kind for kind, letters in {"D": "ADRIJ", "P": "POV", "C": "CBT", "S": "SXY"}.items()
            for letter in letters}  # fmt: skip
 

@@ -158,7 +158,7 @@ class Route:
         self.first: Element | None = None
         self.first_end: Point | None = None
         self.curves = 0
-        # What waits for the next item:
+        # State that waits for the next item:
         self.element: Element | None = None
         self.point: Point | None = None
         self.fillet: Real | None = None

@@ -117,42 +117,42 @@ def _travel(start: Grid, end: Grid, turns: int, axis: str) -> int:
         crossed = 4
     # The axis crossings' values of the counted coordinate, in the order 90°, 180°, 270°, 360°.
     extremes = (None, -radius, None, radius) if axis == "X" else (radius, None, -radius, None)
-    at, last = (xs, xe) if axis == "X" else (ys, ye)
+    ordinate, last = (xs, xe) if axis == "X" else (ys, ye)
     total = 0
     for i in range(crossed + 4 * turns):
         extreme = extremes[(quadrant - 1 + i) % 4]
         if extreme is not None:
-            total += abs(extreme - at)
-            at = extreme
-    return total + abs(last - at)
+            total += abs(extreme - ordinate)
+            ordinate = extreme
+    return total + abs(last - ordinate)
 
 
 @dataclass
 class Punch:
     """Blocks in the order of punching; keeps the place of the wire in whole micrometres."""
 
-    at: Grid = (0, 0)
+    position: Grid = (0, 0)
     lines: list[str] = field(default_factory=list)
 
     def place(self, p: Point) -> None:
         """Take the wire to be at p without a block."""
-        self.at = grid(p)
+        self.position = grid(p)
 
     def line(self, end: Point) -> None:
         """A straight move; nothing when the rounded ends coincide."""
         self._line(grid(end))
 
     def _line(self, end: Grid) -> None:
-        dx, dy = end[0] - self.at[0], end[1] - self.at[1]
+        dx, dy = end[0] - self.position[0], end[1] - self.position[1]
         if dx or dy:
             self.lines.append(line_block(dx, dy))
-        self.at = end
+        self.position = end
 
     def arc(self, end: Point, centre: Point, clockwise: bool, sweep: Real) -> None:
         """An arc of a true sweep in radians; where the rounded values make none of it, a straight move."""
         last, middle = grid(end), grid(centre)
-        xs, ys = self.at[0] - middle[0], self.at[1] - middle[1]
-        if last == self.at:
+        xs, ys = self.position[0] - middle[0], self.position[1] - middle[1]
+        if last == self.position:
             near.note("sweep", sweep - real.mp.pi, 1e-6)
             if sweep > real.mp.pi:
                 self._full_circle(xs, ys, clockwise)
@@ -162,7 +162,7 @@ class Punch:
             self._line(last)
         else:
             self.lines.append(block)
-            self.at = last
+            self.position = last
 
     def _full_circle(self, xs: int, ys: int, clockwise: bool) -> None:
         block = arc_block((xs, ys), (xs, ys), clockwise, 2 * real.mp.pi)

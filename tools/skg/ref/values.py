@@ -96,7 +96,7 @@ class Rotation:
 Value = Real | Point | Circle | Line | Rotation
 Curve = Line | Circle
 
-#: What a value is called in the table of operations; T is a rotation, which is no value of its own.
+#: Names of values in the table of operations; T is a rotation, which is no value of its own.
 D, P, C, S, T = "D", "P", "C", "S", "T"
 
 ORIGIN = Point(ZERO, ZERO)

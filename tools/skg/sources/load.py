@@ -79,8 +79,8 @@ def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
 def iso_of(text: str, name: str) -> GcodeProgram:
     """Read G-code; what it does not tell and is guessed, and what of it is no cut, is said on standard error."""
     program = read_gcode(text, name)
-    for said in (*program.guesses, *program.notes):
-        print(f"skg: {name}: {said}", file=sys.stderr, flush=True)
+    for remark in (*program.guesses, *program.notes):
+        print(f"skg: {name}: {remark}", file=sys.stderr, flush=True)
     return program
 
 

@@ -8,7 +8,7 @@ import re
 MILL_ROM = "mill"
 #: A line that begins as a statement of milling does; FROM, FIT, FREE, GOTO and GOSUB are the wire's, too.
 _ADDED = re.compile(r"\d*(?:F(?!ROM|IT|REE)|G(?!OTO|OSUB)|Z|M|HOLE)")
-#: What means nothing on a line, and what is not understood (language.md, section 6).
+#: Characters without a meaning on a line; the number of a syntax error (language.md, section 6).
 _NOTHING = re.compile(r"[\0- \x7f]")
 _SYNTAX = 1
 

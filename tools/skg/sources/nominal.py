@@ -30,7 +30,7 @@ def nominal(path: list[Segment]) -> tuple[Piece, ...]:
 
 def _contour(run: list[Segment]) -> list[Piece]:
     corners = [_foot(run[0], run[0].start)]
-    corners += [_corner(one, other) for one, other in pairwise(run)]
+    corners += [_corner(before, after) for before, after in pairwise(run)]
     corners.append(_foot(run[-1], run[-1].end))
     result = []
     for segment, (start, end) in zip(run, pairwise(corners), strict=True):
@@ -41,8 +41,8 @@ def _contour(run: list[Segment]) -> list[Piece]:
         sense = 1 if segment.radius > 0 else -1
         # The sweep of the wire's arc, set right for corners that lie elsewhere on the nominal one.
         sweep = sense * float(segment.sweep)
-        for at, wire, side in ((end, segment.end, 1), (start, segment.start, -1)):
-            sweep += side * _turn(centre, _xy(wire), at)
+        for corner, wire, side in ((end, segment.end, 1), (start, segment.start, -1)):
+            sweep += side * _turn(centre, _xy(wire), corner)
         result.append(Piece(start, end, centre, sweep))
     return result
 
@@ -51,9 +51,9 @@ def _xy(point: Point) -> XY:
     return float(point.x), float(point.y)
 
 
-def _turn(centre: XY, one: XY, other: XY) -> float:
+def _turn(centre: XY, first: XY, second: XY) -> float:
     """Angle from one point to another as seen from the centre, −π…π."""
-    (x, y), (u, v) = ((p[0] - centre[0], p[1] - centre[1]) for p in (one, other))
+    (x, y), (u, v) = ((p[0] - centre[0], p[1] - centre[1]) for p in (first, second))
     return atan2(x * v - y * u, x * u + y * v)
 
 
@@ -69,41 +69,41 @@ def _foot(segment: Segment, wire: Point) -> XY:
     return xc + radius * (x - xc) / distance, yc + radius * (y - yc) / distance
 
 
-def _corner(one: Segment, other: Segment) -> XY:
+def _corner(first: Segment, second: Segment) -> XY:
     """Return the crossing of two neighbours' nominal curves."""
-    wire = _xy(one.end)
+    wire = _xy(first.end)
     # A crossing much further away than the offsets explain belongs to another place of the same curves.
-    reach = 50 * max(abs(float(one.offset)), abs(float(other.offset))) + 0.01
+    reach = 50 * max(abs(float(first.offset)), abs(float(second.offset))) + 0.01
     crossings = [
         point
-        for point in _crossings(one.nominal, other.nominal)
+        for point in _crossings(first.nominal, second.nominal)
         if hypot(point[0] - wire[0], point[1] - wire[1]) <= reach
     ]
     if not crossings:
-        return _foot(one, one.end)
+        return _foot(first, first.end)
     return min(crossings, key=lambda point: hypot(point[0] - wire[0], point[1] - wire[1]))
 
 
-def _crossings(one: Curve, other: Curve) -> list[XY]:
+def _crossings(first: Curve, second: Curve) -> list[XY]:
     """Crossings of two of the reference's curves in floats; none where they only touch or run parallel."""
-    if isinstance(one, Circle) and not isinstance(other, Circle):
-        return _crossings(other, one)
-    if not isinstance(other, Circle):
-        (a, b, g), (c, d, h) = ((float(s.a), float(s.b), float(s.g)) for s in (one, other))
+    if isinstance(first, Circle) and not isinstance(second, Circle):
+        return _crossings(second, first)
+    if not isinstance(second, Circle):
+        (a, b, g), (c, d, h) = ((float(s.a), float(s.b), float(s.g)) for s in (first, second))
         area = a * d - b * c
         return [((g * d - b * h) / area, (a * h - g * c) / area)] if abs(area) > 1e-3 else []
-    xc, yc, radius = float(other.x), float(other.y), abs(float(other.r))
-    if isinstance(one, Circle):
+    xc, yc, radius = float(second.x), float(second.y), abs(float(second.r))
+    if isinstance(first, Circle):
         # The common chord of two circles is a line.
-        dx, dy = float(one.x) - xc, float(one.y) - yc
+        dx, dy = float(first.x) - xc, float(first.y) - yc
         distance = hypot(dx, dy)
         if distance < 1e-9:
             return []
-        along = (distance**2 + radius**2 - float(one.r) ** 2) / (2 * distance)
+        along = (distance**2 + radius**2 - float(first.r) ** 2) / (2 * distance)
         a, b = dx / distance, dy / distance
     else:
-        a, b = float(one.a), float(one.b)
-        along = float(one.g) - a * xc - b * yc
+        a, b = float(first.a), float(first.b)
+        along = float(first.g) - a * xc - b * yc
     if abs(along) > radius * (1 - 1e-6):
         return []
     half = sqrt(radius**2 - along**2)

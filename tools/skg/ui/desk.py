@@ -30,7 +30,7 @@ from skg.planning.route import PlannedContour
 from skg.ui import shown
 from skg.ui.json_text import encoded, told
 
-#: Who asks, in messages on what the page sends.
+#: The page's name in messages on its requests.
 _PAGE = "the page"
 #: So many contours that cannot be planned are told one by one.
 _MOST_ERRORS = 20
@@ -46,12 +46,12 @@ class Desk:
         self._job: Job | None = None
         self._drawn: DrawnJob | None = None
         self._routes: dict[int, PlannedContour] = {}
-        #: What was planned of the drawing before, and how it was told.
+        #: The drawing's plan before, and its form for the page.
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
         self._plans = shown.Plans()
         #: Contours that were found again too far from where they were, without their settings, and how far, mm.
         self._doubts: dict[Chosen, float] = {}
-        #: Why there is no drawing.
+        #: The error while no drawing is open.
         self._why = UserError("no drawing is open")
         self._cut: tuple[int, Job, CutDrawing] | None = None
 
@@ -85,8 +85,8 @@ class Desk:
         for number in numbers:
             if not 0 <= number < len(drawn.contours):
                 raise UserError(f"there is no contour {number}")
-        ways = {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
-        return encoded(ways)
+        paths = {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
+        return encoded(paths)
 
     def job(self) -> bytes:
         """The job as a file."""
@@ -143,10 +143,10 @@ class Desk:
     def _state(self) -> dict[str, Any]:
         """The part of the state that changes with the job, and the plan of those contours that it changes."""
         matches = []
-        for at, (chosen, match) in enumerate(zip(self._job.contours, self._drawn.matches.found, strict=True)):
+        for index, (chosen, match) in enumerate(zip(self._job.contours, self._drawn.matches.found, strict=True)):
             doubt = self._doubts.get(replace(chosen, partial=Partial()))
             moved = round(doubt or match.moved, 4)
-            matches.append({"chosen": at, "id": match.number, "moved": moved, "confirm": doubt is not None})
+            matches.append({"chosen": index, "id": match.number, "moved": moved, "confirm": doubt is not None})
         plan, changed = self._plan()
         state = {"name": self._job.drawing, "job": job_files.to_data(self._job), "matches": matches, "plan": plan}
         return {"state": state, "changed": changed}

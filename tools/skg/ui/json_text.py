@@ -21,7 +21,7 @@ def in_json(value: object) -> bytes:
     """A value as JSON."""
     if isinstance(value, bytes):
         return value
-    if isinstance(value, dict) and any(isinstance(one, bytes | dict) for one in value.values()):
+    if isinstance(value, dict) and any(isinstance(item, bytes | dict) for item in value.values()):
         return encoded(value)
     return _ENCODER.encode(value).encode("utf-8", "replace")
 
@@ -31,6 +31,6 @@ def told(error: UserError) -> dict[str, Any]:
     return {"message": str(error)} | about(error)
 
 
-def about(one: UserError | ReportLine) -> dict[str, Any]:
+def about(subject: UserError | ReportLine) -> dict[str, Any]:
     """The contour and the place that something is about, where these are known."""
-    return {name: value for name in ("contour", "place") if (value := getattr(one, name)) is not None}
+    return {name: value for name in ("contour", "place") if (value := getattr(subject, name)) is not None}

@@ -44,7 +44,7 @@ CONNECTIONS = 64
 PATIENCE = 25.0
 #: So often it is seen whether anybody still waits for that, s.
 GLANCE = 1.0
-#: What a page from here may do: nothing but talk to here.
+#: Permissions of a page from here: to talk to this server alone.
 POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -168,7 +168,7 @@ class Handler(BaseHTTPRequestHandler):
     def _refuse_strangers(self) -> None:
         """Refuse who comes from another page, or has not the token."""
         origin = self.headers.get_all("Origin", [])
-        if any(one != f"http://{self.server.host}" for one in origin):
+        if any(address != f"http://{self.server.host}" for address in origin):
             raise Refused(HTTPStatus.FORBIDDEN, "another page's request")
         given = self.headers.get("Authorization", "")
         if not compare_digest(given.encode("utf-8", "replace"), f"Bearer {self.server.token}".encode()):
@@ -189,7 +189,7 @@ class Handler(BaseHTTPRequestHandler):
         if self.command not in methods:
             raise Refused(HTTPStatus.METHOD_NOT_ALLOWED, f"{self.command} is not for this: {', '.join(methods)}")
 
-    # What comes.
+    # Requests.
 
     def _announced(self) -> int:
         """Length of a request's body; -1: not told in a way that is taken."""
@@ -217,12 +217,12 @@ class Handler(BaseHTTPRequestHandler):
 
     def _json(self) -> dict:
         try:
-            found = json.loads(self._body(MOST_JSON), parse_constant=_no_number)
+            data = json.loads(self._body(MOST_JSON), parse_constant=_no_number)
         except (ValueError, RecursionError) as error:
             raise Refused(HTTPStatus.BAD_REQUEST, f"the body is no JSON: {error}") from None
-        if not isinstance(found, dict):
+        if not isinstance(data, dict):
             raise Refused(HTTPStatus.BAD_REQUEST, "the body is no object of JSON")
-        return found
+        return data
 
     def _name(self) -> str:
         """The name of the file that the body has."""
@@ -234,7 +234,7 @@ class Handler(BaseHTTPRequestHandler):
             raise Refused(HTTPStatus.BAD_REQUEST, "X-Name: the name of a file, without a folder")
         return name
 
-    # What is answered.
+    # Answers.
 
     def _state(self, query: dict[str, str]) -> None:
         after, drawn = _number(query, "after"), _number(query, "drawn")
@@ -247,9 +247,9 @@ class Handler(BaseHTTPRequestHandler):
     def _awaited(self, ask: Callable[[float], dict | None], after: int | None) -> dict | None:
         """The state asked for; waits so long (s) for news after what the page knows."""
         last = time.monotonic() + PATIENCE
-        while (found := ask(GLANCE if after is not None else 0.0)) is None and time.monotonic() < last:
+        while (state := ask(GLANCE if after is not None else 0.0)) is None and time.monotonic() < last:
             self._expect_client()
-        return found
+        return state
 
     def _expect_client(self) -> None:
         """Give up what nobody waits for any more."""
@@ -270,7 +270,7 @@ class Handler(BaseHTTPRequestHandler):
     def _ways(self, query: dict[str, str]) -> None:
         data = self._json()
         ids = _field(data, "ids", list)
-        if not all(type(one) is int for one in ids):
+        if not all(type(number) is int for number in ids):
             raise Refused(HTTPStatus.BAD_REQUEST, "ids: expected numbers of contours")
         self._send_json(self.server.session.ways(_field(data, "rev", int), ids))
 
@@ -285,14 +285,14 @@ class Handler(BaseHTTPRequestHandler):
     def _cancel(self, query: dict[str, str], number: str) -> None:
         self._send_json(self.server.session.cancel(int(number)))
 
-    def _file(self, query: dict[str, str], number: str, what: str) -> None:
-        self._send(self.server.session.file(int(number), what), TYPES[what])
+    def _file(self, query: dict[str, str], number: str, kind: str) -> None:
+        self._send(self.server.session.file(int(number), kind), TYPES[kind])
 
     def _save(self, query: dict[str, str]) -> None:
         data = self._json()
-        what = _field(data, "what", list)
+        kinds = _field(data, "what", list)
         run = None if data.get("run") is None else _field(data, "run", int)
-        self._send_json({"written": self.server.session.save(run, what, data.get("overwrite") is True)})
+        self._send_json({"written": self.server.session.save(run, kinds, data.get("overwrite") is True)})
 
     def _send_json(self, data: dict, status: HTTPStatus = HTTPStatus.OK) -> None:
         self._send(encoded(data), "application/json", status)
@@ -316,7 +316,7 @@ class Handler(BaseHTTPRequestHandler):
 
     def _send(self, body: bytes, kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:
         if self._body_left:
-            # (what is not read is not the next request)
+            # (a body that is not read is not the next request)
             self.close_connection = True
         self.send_response(status)
         if kind:
@@ -358,8 +358,8 @@ def _field(data: dict, name: str, kind: type) -> object:
     """A field of a body."""
     value = data.get(name)
     if type(value) is not kind:
-        what = {int: "a whole number", list: "a list", dict: "an object"}[kind]
-        raise Refused(HTTPStatus.BAD_REQUEST, f"{name}: expected {what}")
+        expected = {int: "a whole number", list: "a list", dict: "an object"}[kind]
+        raise Refused(HTTPStatus.BAD_REQUEST, f"{name}: expected {expected}")
     return value
 
 

@@ -19,7 +19,7 @@ from skg.ui.worker import Ended, Worker
 _LOOK = 0.5
 #: The ways of no more contours are asked for at once.
 MOST_WAYS = 200
-#: What can be saved, in the order in which it is written: no tape where something else could not be.
+#: Files that can be saved, in the order of writing: no tape if another file fails.
 SAVED = ("program", "job", "sheet", "tape")
 #: The drawing, as the page is told of it, of a file that cannot be read.
 NOTHING: dict = {
@@ -41,24 +41,24 @@ class Conflict(UserError):
 
 @dataclass
 class Run:
-    """A tape in the making, or made, of the job of a drawing at a revision. `told`: how often something was told of it;
-    `files`: what came of it."""
+    """A tape in the making, or made, of the job of a drawing at a revision. `changes`: count of changes since it began;
+    `files`: those that are made."""
 
     number: int
     drawing: str
     rev: int
     state: str = "running"
-    told: int = 0
+    changes: int = 0
     stage: str = "plan"
     done: int = 0
-    of: int = 0
+    total: int = 0
     error: dict | None = None
     result: dict | None = None
     files: dict[str, bytes] = field(default_factory=dict)
 
     def data(self) -> dict:
         """The run as the page is told of it."""
-        data = {"state": self.state, "k": self.told, "stage": self.stage, "done": self.done, "of": self.of}
+        data = {"state": self.state, "k": self.changes, "stage": self.stage, "done": self.done, "of": self.total}
         return data | {name: value for name in ("error", "result") if (value := getattr(self, name)) is not None}
 
 
@@ -67,14 +67,14 @@ class Session:
 
     def __init__(self) -> None:
         self._worker = Worker()
-        #: Who has it may call the worker: one change, one cut at a time. `_is_long`: it may take its time, and what
-        #: takes its place ends it.
+        #: Lock for calls of the worker: one change, one cut at a time. `_is_long`: the call may take its time, and
+        #: ends if another takes its place.
         self._turn = Lock()
         self._is_long = False
         #: The state and the run, and news of these. `_drawn` goes up when the contours are new.
         self._news = Condition()
         self._rev = self._drawn = 0
-        #: What the page sees at all times, and what it has as long as the contours are the same.
+        #: The page's state, and the drawing, which stays as long as the contours are the same.
         self._state: dict = {"name": None}
         self._drawing: dict = {}
         self._run: Run | None = None
@@ -144,12 +144,12 @@ class Session:
         """Plan a job as the page has it; the whole state where the drawing is read anew for it, else of the plan's
         contours those alone that have changed."""
         with self._called(rev):
-            found = self._worker.call("plan", job)
-            self._take(found)
-            if found["drawing"] is not None:
+            answer = self._worker.call("plan", job)
+            self._take(answer)
+            if answer["drawing"] is not None:
                 return self.state()
-            job, matches = found["state"]["job"], found["state"]["matches"]
-            return {"rev": self._rev, "job": job, "matches": matches, "plan": found["changed"]}
+            job, matches = answer["state"]["job"], answer["state"]["matches"]
+            return {"rev": self._rev, "job": job, "matches": matches, "plan": answer["changed"]}
 
     def ways(self, rev: int, ids: list[int]) -> dict:
         """The ways of the wire along some contours."""
@@ -186,18 +186,18 @@ class Session:
             self._is_long = True
             self._worker.first = None
             try:
-                found = self._worker.call("open", data, name, job)
+                answer = self._worker.call("open", data, name, job)
             except Ended as ended:
                 if ended.is_wanted:
                     raise
-                found = _unread(name, ended)
+                answer = _unread(name, ended)
             except UserError as error:
-                found = _unread(name, error)
+                answer = _unread(name, error)
             finally:
                 with self._news:
                     self._is_long = False
             self._data = data
-            self._take(found)
+            self._take(answer)
 
     def _end_what_is_long(self, path: Path | None) -> None:
         """End a cut or the reading of another drawing: the drawing of a file, or of the page, takes its place."""
@@ -209,15 +209,15 @@ class Session:
             if self._is_long:
                 self._worker.end()
 
-    def _take(self, found: dict) -> None:
+    def _take(self, answer: dict) -> None:
         """Take what the worker found for the state."""
         with self._news:
             self._rev += 1
-            self._state = found["state"]
-            if found["drawing"] is not None:
-                self._drawn, self._drawing = self._rev, NOTHING | found["drawing"]
+            self._state = answer["state"]
+            if answer["drawing"] is not None:
+                self._drawn, self._drawing = self._rev, NOTHING | answer["drawing"]
             job = self._state["job"]
-            # (what has ended the process is not read once more by the next one)
+            # (a drawing that ended the process is not read once more by the next one)
             self._worker.first = ("open", (self._data, self._state["name"], job)) if job else None
             self._news.notify_all()
 
@@ -277,8 +277,8 @@ class Session:
         return run.number
 
     def _make(self, run: Run) -> None:
-        def progress(stage: str, done: int, of: int) -> None:
-            self._tell(run, stage=stage, done=done, of=of)
+        def progress(stage: str, done: int, total: int) -> None:
+            self._tell(run, stage=stage, done=done, total=total)
 
         try:
             result, files = self._worker.call("cut", run.number, progress=progress)
@@ -299,7 +299,7 @@ class Session:
             if run.state == "running":
                 for name, value in news.items():
                     setattr(run, name, value)
-                run.told += 1
+                run.changes += 1
                 self._news.notify_all()
 
     def _known(self, number: int) -> Run:
@@ -312,7 +312,7 @@ class Session:
         with self._news:
             run = self._known(number)
             is_news = self._news.wait_for(
-                lambda: run.told != after or run.state != "running" or self._closed.is_set(), patience
+                lambda: run.changes != after or run.state != "running" or self._closed.is_set(), patience
             )
             return run.data() if is_news else None
 
@@ -326,17 +326,17 @@ class Session:
                 self._worker.end()
             return run.data()
 
-    def file(self, number: int, what: str) -> bytes:
+    def file(self, number: int, kind: str) -> bytes:
         """A file of a run; the sheet is drawn when it is asked for."""
         run = self._known(number)
         if run.state != "done":
             raise UserError(f"run {number} has made no tape")
-        if what not in run.files:
+        if kind not in run.files:
             with self._called():
-                run.files[what] = self._worker.call(
-                    "sheet", number, run.result["tape_name"], what.partition(".")[2] or "pdf"
+                run.files[kind] = self._worker.call(
+                    "sheet", number, run.result["tape_name"], kind.partition(".")[2] or "pdf"
                 )
-        return run.files[what]
+        return run.files[kind]
 
     # Saving.
 
@@ -349,21 +349,21 @@ class Session:
         tape = stem + (WITHOUT_DRIFT if rom == ROMS[0] else ".3b")
         return {"program": f"{stem}.skg", "job": job, "sheet": f"{stem}.pdf", "tape": tape}
 
-    def save(self, number: int | None, what: list[str], is_over: bool) -> list[str]:
+    def save(self, number: int | None, kinds: list[str], is_over: bool) -> list[str]:
         """Write files of a run beside the drawing: their names. Some that are there are a `Conflict`."""
         if self._path is None:
             raise UserError("the drawing came out of the browser: nothing is known of its folder")
-        if unknown := [one for one in what if one not in SAVED]:
+        if unknown := [kind for kind in kinds if kind not in SAVED]:
             raise UserError(f"what: unknown {unknown[0]!r}, expected some of {', '.join(SAVED)}")
-        if number is None and what != ["job"]:
+        if number is None and kinds != ["job"]:
             raise UserError("run: expected a number, for what is made by a run")
         names, folder = self._names(), self._path.parent
         if number is not None:
-            files = {one: self.file(number, one) for one in SAVED if one in what}
+            files = {kind: self.file(number, kind) for kind in SAVED if kind in kinds}
             names["tape"] = self._known(number).result["tape_name"]
         else:
             files = {"job": self.job()}
-        files = {names[one]: data for one, data in files.items()}
+        files = {names[kind]: data for kind, data in files.items()}
         if not is_over and (exists := [name for name in files if (folder / name).exists()]):
             raise Conflict(f"{', '.join(exists)}: already there", exists=exists)
         written = []
@@ -385,6 +385,6 @@ def _unread(name: str, error: UserError) -> dict:
 def _stamp(path: Path) -> tuple[int, ...] | None:
     """A mark that changes when a file is written; None when it is not there."""
     with suppress(OSError):
-        found = path.stat()
-        return found.st_mtime_ns, found.st_size, found.st_ino
+        status = path.stat()
+        return status.st_mtime_ns, status.st_size, status.st_ino
     return None

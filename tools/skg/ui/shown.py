@@ -36,27 +36,27 @@ _LEFT: dict[str, Any] = {
 }
 
 
-def place(at: XY) -> list[float]:
+def place(point: XY) -> list[float]:
     """A place."""
-    return [round(at[0], _LENGTH), round(at[1], _LENGTH)]
+    return [round(point[0], _LENGTH), round(point[1], _LENGTH)]
 
 
-def edges(some: Iterable[Edge]) -> list[list[Any]]:
+def edges(pieces: Iterable[Edge]) -> list[list[Any]]:
     """Lines, arcs and curves."""
-    return [_edge(edge) for edge in some]
+    return [_edge(edge) for edge in pieces]
 
 
 def _edge(edge: Edge) -> list[Any]:
     if edge.nodes:
         line = shapely.LineString(edge.samples).simplify(_CURVE)
         return ["c", *np.round(shapely.get_coordinates(line), _LENGTH).ravel().tolist()]
-    found = [*place(edge.start), *place(edge.end)]
-    return found if edge.centre is None else [*found, *place(edge.centre), round(edge.sweep, _ANGLE)]
+    ordinates = [*place(edge.start), *place(edge.end)]
+    return ordinates if edge.centre is None else [*ordinates, *place(edge.centre), round(edge.sweep, _ANGLE)]
 
 
-def line(one: ReportLine) -> dict[str, Any]:
+def line(entry: ReportLine) -> dict[str, Any]:
     """A line of a report."""
-    return {"text": one.text, "care": one.is_care} | about(one)
+    return {"text": entry.text, "care": entry.is_care} | about(entry)
 
 
 def drawing(drawn: DrawnJob) -> dict[str, Any]:
@@ -67,8 +67,8 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         for layer in dict.fromkeys(contour.layers):
             on[layer].append(number)
     layers = [
-        {"name": one.layer, "contours": on[one.layer], "left": one.left, "why": ", ".join(one.why)}
-        for one in report.layers
+        {"name": layer.layer, "contours": on[layer.layer], "left": layer.left, "why": ", ".join(layer.why)}
+        for layer in report.layers
     ]
     return {
         "sha256": drawn.sha256,
@@ -77,9 +77,9 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "units": report.units,
         "units_from": report.units_from,
         "layers": layers,
-        "contours": in_json([_contour(drawn, *one) for one in enumerate(drawn.known.choose_all())]),
+        "contours": in_json([_contour(drawn, *numbered) for numbered in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],
-        "report": [line(one) for one in report.told()],
+        "report": [line(entry) for entry in report.told()],
     }
 
 
@@ -111,19 +111,21 @@ class Plans:
     ) -> tuple[bytes, bytes]:
         """The plan of all contours, and the same with those alone that were told otherwise the last time."""
         turns = {route.number: (turn, route) for turn, route in enumerate(routes, 1)}
-        why = {one.contour: str(one) for one in errors if one.contour is not None}
+        why = {error.contour: str(error) for error in errors if error.contour is not None}
         contours = []
         for number, want in enumerate(wanted):
             turn, route = turns.get(number, (None, None))
             contours.append(f'"{number}":{{"number":{turn or "null"},{self._contour(number, route, want, why)}')
-        changed = [one for one, before in zip_longest(contours, self._told) if one and one != before]
+        changed = [contour for contour, before in zip_longest(contours, self._told) if contour and contour != before]
         self._told = contours
         data = {
             "order": [route.number for route in routes],
             "said": [line(ReportLine(text)) for text in said((route.turn, route.around) for route in routes)],
             "error": told(errors[0]) if errors else None,
         }
-        whole, part = (encoded(data | {"contours": f"{{{','.join(some)}}}".encode()}) for some in (contours, changed))
+        whole, part = (
+            encoded(data | {"contours": f"{{{','.join(entries)}}}".encode()}) for entries in (contours, changed)
+        )
         return whole, part
 
     def _contour(self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, str]) -> str:
@@ -131,8 +133,8 @@ class Plans:
         wrong = why.get(number, "")
         known = self._known.get(number)
         if known is None or known[0] is not route or known[1:3] != (want, wrong):
-            found = (planned(route) if route else _LEFT) | {"error": wrong or None}
-            text = f'{in_json(found)[1:-1].decode()},"values":{_values(want)}}}'
+            plan = (planned(route) if route else _LEFT) | {"error": wrong or None}
+            text = f'{in_json(plan)[1:-1].decode()},"values":{_values(want)}}}'
             known = self._known[number] = route, want, wrong, text
         return known[3]
 
@@ -206,7 +208,7 @@ def result(cut: CutDrawing) -> dict[str, Any]:
     """The result of a cut."""
     made = cut.result
     return {
-        "lines": [line(one) for one in cut.lines],
+        "lines": [line(entry) for entry in cut.lines],
         "blocks": len(made.tape.blocks),
         "stops": len(made.tape.stops),
         "length": round(made.cut_length, _LENGTH),

@@ -45,13 +45,13 @@ class Worker:
         self._connection: Connection | None = None
         self._is_ended = False
 
-    def call(self, what: str, *arguments: object, progress: Progress | None = None) -> object:
+    def call(self, method: str, *arguments: object, progress: Progress | None = None) -> object:
         """Return what the call returns; what it refuses is a `UserError`, a process that is gone `Ended`.
 
         One that tells its progress takes as long as it takes.
         """
         self.begin()
-        return self._ask(what, arguments, progress)
+        return self._ask(method, arguments, progress)
 
     def end(self) -> None:
         """End the process, whatever it does: a call that waits for it, in another thread, raises `Ended`."""
@@ -75,17 +75,17 @@ class Worker:
         self._process, self._is_ended = process, False
         far.close()
         if self.first:
-            what, arguments = self.first
+            method, arguments = self.first
             try:
-                self._ask(what, arguments)
+                self._ask(method, arguments)
             except UserError:
                 self.end()
                 raise
 
-    def _ask(self, what: str, arguments: tuple, progress: Progress | None = None) -> object:
+    def _ask(self, method: str, arguments: tuple, progress: Progress | None = None) -> object:
         last = time.monotonic() + SECONDS
         try:
-            self._connection.send((what, arguments))
+            self._connection.send((method, arguments))
             while True:
                 if not self._connection.poll(None if progress else max(0.0, last - time.monotonic())):
                     self.end()
@@ -126,8 +126,8 @@ def work(connection: Connection) -> None:
     desk = Desk(_teller(connection))
     with suppress(EOFError, OSError):
         while True:
-            what, arguments = connection.recv()
-            connection.send(_answer(getattr(desk, what), arguments))
+            method, arguments = connection.recv()
+            connection.send(_answer(getattr(desk, method), arguments))
 
 
 def _answer(function: Callable, arguments: tuple) -> tuple:
@@ -155,13 +155,13 @@ def mistake(error: Exception) -> str:
 
 def _teller(connection: Connection) -> Progress:
     """Progress as messages, not too many of them."""
-    told = ["", 0.0]
+    last = ["", 0.0]
 
-    def tell(stage: str, done: int, of: int) -> None:
+    def tell(stage: str, done: int, total: int) -> None:
         now = time.monotonic()
-        if stage != told[0] or done == of or now - told[1] > _PAUSE:
-            told[:] = stage, now
-            connection.send(("progress", stage, done, of))
+        if stage != last[0] or done == total or now - last[1] > _PAUSE:
+            last[:] = stage, now
+            connection.send(("progress", stage, done, total))
 
     return tell
 

@@ -12,7 +12,7 @@ from skg.ref.values import Point
 
 #: After this block's number comes 1.
 LAST_NUMBER = 9999
-#: What the machine is told before all else: plane XY, millimetres, absolute places, feed in mm/min.
+#: The first block: plane XY, millimetres, absolute places, feed in mm/min.
 PREAMBLE = "G17G21G90G94"
 #: The travel height before a Z says another, µm.
 TRAVEL = 5000
@@ -49,12 +49,12 @@ def pair(first: str, second: str, values: Grid) -> str:
 class IsoPunch(Punch):
     """Blocks in the order of punching, and what the board knows of the machine.
 
-    `at` and `height` (whole µm) are where the tool is, None where that is not known; `cutting` and `travel` the
+    `position` and `height` (whole µm) are where the tool is, None where that is not known; `cutting` and `travel` the
     heights of Z, `feed` and `down` those of F (None: no such statement yet); `punched` is the last F on the tape.
     """
 
     line_end: str = "\r\n"
-    at: Grid | None = None
+    position: Grid | None = None
     height: int | None = None
     cutting: int | None = None
     travel: int = TRAVEL
@@ -71,7 +71,7 @@ class IsoPunch(Punch):
 
     def _begin(self) -> None:
         """A new tape: nothing is known of the machine, and its first block will be number 1."""
-        self.at = self.height = self.punched = None
+        self.position = self.height = self.punched = None
         self.number = 0
 
     def block(self, words: str) -> None:
@@ -96,9 +96,9 @@ class IsoPunch(Punch):
         """At the travel height to a place."""
         self.up()
         end = grid(p)
-        if self.at != end:
+        if self.position != end:
             self.block(f"G0{pair('X', 'Y', end)}")
-            self.at = end
+            self.position = end
 
     def lower(self) -> None:
         """Down to the cutting height, once there has been a Z."""
@@ -116,30 +116,30 @@ class IsoPunch(Punch):
         self.punched = feed
 
     def _line(self, end: Grid) -> None:
-        if end != self.at:
+        if end != self.position:
             self._cut(f"G1{pair('X', 'Y', end)}", self.feed)
-            self.at = end
+            self.position = end
 
     def arc(self, end: Point, centre: Point, clockwise: bool, sweep: Real) -> None:
         """An arc of a true sweep in radians, as a control will understand it (milling.md, section "Arcs")."""
         last, middle = grid(end), grid(centre)
-        to_centre = middle[0] - self.at[0], middle[1] - self.at[1]
+        to_centre = middle[0] - self.position[0], middle[1] - self.position[1]
         for length in to_centre:
             millimetres(length)
-        if last == self.at:
+        if last == self.position:
             near.note("sweep", sweep - real.mp.pi, 1e-6)
             if sweep > real.mp.pi and to_centre != (0, 0):
                 self._arc(last, to_centre, clockwise)
             return
-        dx, dy = last[0] - self.at[0], last[1] - self.at[1]
+        dx, dy = last[0] - self.position[0], last[1] - self.position[1]
         chord, square = dx * dx + dy * dy, to_centre[0] ** 2 + to_centre[1] ** 2
         if sweep <= real.mp.pi:
             near.note("flat arc", chord * chord / (4 * square or 1) - 1, 1e-9)
         # The arc's image about the X axis where it is clockwise: its ends relative to the centre.
-        way = -1 if clockwise else 1
+        sense = -1 if clockwise else 1
         turns = full_turns(
-            (-to_centre[0], -way * to_centre[1]),
-            (dx - to_centre[0], way * (dy - to_centre[1])),
+            (-to_centre[0], -sense * to_centre[1]),
+            (dx - to_centre[0], sense * (dy - to_centre[1])),
             sweep,
         )
         if turns is None or (sweep <= real.mp.pi and chord * chord <= 4 * square):
@@ -149,7 +149,7 @@ class IsoPunch(Punch):
 
     def _arc(self, end: Grid, to_centre: Grid, clockwise: bool) -> None:
         self._cut(f"G{2 if clockwise else 3}{pair('X', 'Y', end)}{pair('I', 'J', to_centre)}", self.feed)
-        self.at = end
+        self.position = end
 
     # Stops ----------------------------------------------------------------------------------------------
 
