@@ -283,7 +283,7 @@ def judged(part: Part, tape: bytes) -> str:
 
 
 def fault(part: Part, cuts: Contour) -> str:
-    """What of the contour the wire leaves out, or goes round the other way; empty: nothing."""
+    """The part of the contour that the wire leaves out, or follows the other way; empty: none."""
     path = LineString([place for edge in cuts for place in edge.points()])
     for edge in part.contour:
         if edge.centre is not None and not any(same_centre(edge, other) for other in part.contour if other is not edge):
@@ -301,5 +301,5 @@ def fault(part: Part, cuts: Contour) -> str:
 
 
 def same_centre(one: Edge, other: Edge) -> bool:
-    """Whether two arcs are about one centre."""
+    """Tells whether two arcs have one centre."""
     return other.centre is not None and np.hypot(*np.subtract(one.centre, other.centre)) < NEAR
