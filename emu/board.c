@@ -9,8 +9,8 @@ enum {
     POLLS_TO_TYPE = 8,
     POLLS_TO_WAIT = 64,
     POLL_GAP = 500,         /* cycles; a wait loop asks again sooner, the firmware between two statements later */
-    VAIN_READS = 1000,      /* so often a chip may be read before it is readied (its receiver may be emptied) */
-    NO_ANSWER = 0xff        /* what an open bus reads */
+    VAIN_READS = 1000,      /* reads of a chip before it is set up that count as normal (to empty its receiver) */
+    NO_ANSWER = 0xff        /* an open bus reads so */
 };
 
 enum { DC1 = 0x11, DC2 = 0x12, DC3 = 0x13, DC4 = 0x14 };
@@ -34,12 +34,12 @@ enum {
     // clang-format on
 };
 
-/* What each board has. */
+/* The hardware of each board. */
 typedef struct {
     enum { CHIP_6850, CHIP_8251, CHIP_SIO } chip;
     unsigned tty, aux;  /* first port of the teletype's pair, of the punch's and reader's */
     unsigned control;   /* bit 0 of the control side's port */
-    unsigned receives;  /* so many characters a receiver keeps */
+    unsigned receives;  /* characters that a receiver keeps */
     unsigned ram;       /* RAM begins there */
 } board_facts;
 
@@ -165,7 +165,7 @@ static bool holds_at(const board_uart *u, double cycle)
     return u->holds && cycle >= (double)u->holds_from;
 }
 
-/* Puts into the receiver what has come since it was looked at last. */
+/* Puts the characters into the receiver that have come since the last look. */
 static void send_what_is_due(board *b, board_uart *u, board_sender *s, board_queue *q)
 {
     if (s->cps <= 0) {
@@ -184,7 +184,7 @@ static void send_what_is_due(board *b, board_uart *u, board_sender *s, board_que
     }
 }
 
-/* The same for all that the port's receiver hears. */
+/* Does the same for every sender of a port. */
 static void hear(board *b, board_uart *u)
 {
     if (!u->receives) {
@@ -200,7 +200,7 @@ static void hear(board *b, board_uart *u)
     }
 }
 
-/* The board asks: who has something and is not held begins. */
+/* The board asks: a sender that has characters and is not held begins. */
 static void start(const board *b, const board_uart *u, board_sender *s, const board_queue *q)
 {
     if (s->cps > 0 && !s->running && !u->holds && !queue_empty(q)) {
@@ -235,7 +235,7 @@ static void set_hold(board *b, board_uart *u, bool holds)
     }
 }
 
-/* Puts the next character of the operator's into the receiver if it is due. */
+/* Puts the operator's next character into the receiver if it is due. */
 static void tty_arrive(board *b)
 {
     board_uart *u = &b->tty;
@@ -278,7 +278,7 @@ static bool is_tty(const board *b, const board_uart *u)
     return u == &b->tty;
 }
 
-/* What the status says of the two directions. */
+/* Readiness of the two directions, for the status. */
 static bool can_send(const board *b, const board_uart *u)
 {
     return u->sends && b->cpu.cycles >= u->sent_at;
@@ -456,7 +456,7 @@ static board_uart *find_uart(board *b, uint8_t port, bool *control)
     return pair == b->aux_ports && !b->punch_tty ? &b->aux : NULL;
 }
 
-/* The board reads a port where nobody answers: no chip, or one that does not work yet. */
+/* The board reads a port without a chip, or a chip that is not set up yet. */
 static void ask_in_vain(board *b, uint8_t port, board_uart *u)
 {
     if (!u || ++u->asked_in_vain == VAIN_READS) {
@@ -517,7 +517,7 @@ static void port_out(void *user, uint8_t port, uint8_t value)
     }
 }
 
-/* ---- the board's face ---- */
+/* ---- the interface ---- */
 
 unsigned board_ram_start(board_kind kind)
 {
@@ -635,7 +635,7 @@ bool board_idle(const board *b)
 board_reason board_run(board *b, uint64_t cycles)
 {
     if (b->waiting) {
-        b->waiting = false;     /* that has been said: now it must ask as often again */
+        b->waiting = false;     /* reported: the next report takes as many questions again */
         b->polls = 0;
     }
     b->nobody = false;

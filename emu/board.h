@@ -16,32 +16,33 @@
  *      SIO  RR0                                      TxE         RxRDY     WR0: register, command
  *           RR1                    OVRN                          sent
  *
- * A 6850 is dead after power-on until its master reset has been followed by another control word; an 8251 takes a
- * mode word first (and one or two sync characters when the mode is synchronous), then commands, of which bit 0 lets
- * it send and bit 2 receive; an SIO sends and receives when WR5 and WR3 say so.
+ * A 6850 is dead after power-on until its master reset has been followed by another control word; an 8251 takes a mode
+ * word first (and one or two sync characters when the mode is synchronous), then commands, of which bit 0 lets it send
+ * and bit 2 receive; an SIO sends and receives when WR5 and WR3 say so.
  *
  * The programmer's view of the outside: a teletype with an operator, a paper tape reader with one tape in it, and a
- * punch. With `punch_tty` there is the teletype alone: its own punch is on from DC2 to DC4, its own reader from DC1
- * (or the operator's lever) to DC3, and the reader's characters come in like typed ones.
+ * punch. With `punch_tty` there is the teletype alone: its own punch is on from DC2 to DC4, its own reader from DC1 (or
+ * the operator's lever) to DC3, and the reader's characters come in like typed ones.
  *
  * The operator types with care: a character arrives when the board waits for one, that is, when it has asked
- * POLLS_TO_TYPE times in close succession and could have sent if it had wanted to, and /RTS is low. Pressed keys (ctrl-C,
- * ctrl-S, ctrl-Q) arrive at once. The reader's tape waits likewise.
+ * POLLS_TO_TYPE times in close succession and could have sent if it had wanted to, and /RTS is low. Pressed keys
+ * (ctrl-C, ctrl-S, ctrl-Q) arrive at once. The reader's tape waits likewise.
  *
- * With a `board_sender` whose `cps` is not 0, what is typed, or the tape, comes as fast as that and waits for nobody: what the receiver
- * has no place for is lost. A 6850 keeps the old character then and shows OVRN behind it, with that character once
- * more; an 8251 keeps the new one, and OE stays until a command resets it; an SIO keeps three, the last of which the new one
- * replaces, and RR1 shows OVRN when that is read, until a command resets it. /RTS of an SIO rises when all is sent. A sender that looks at /RTS stops `lag`
- * characters late. The tape starts when the board first asks for it.
+ * With a `board_sender` whose `cps` is not 0, typed characters, or the tape, come at that rate whether the board is
+ * ready or not: a character that comes to a full receiver is lost. A 6850 keeps the old character then and shows OVRN
+ * behind it, with that character once more; an 8251 keeps the new one, and OE stays until a command resets it; an SIO
+ * keeps three, the last of which the new one replaces, and RR1 shows OVRN when that is read, until a command resets it.
+ * /RTS of an SIO rises when all is sent. A sender that looks at /RTS stops `lag` characters late. The tape starts when
+ * the board first asks for it.
  *
- * The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were
- * asked in one run or in many short ones.
+ * The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were asked in one run
+ * or in many short ones.
  *
- * A ROM made for another board asks ports where there is nothing, or a chip that it has never readied, and would ask for
- * ever: board_run says so (BOARD_NOBODY). Writes to such ports are lost without a word, as on a real board.
+ * A ROM made for another board asks ports without a chip, or with one that it has never set up, and would ask for ever:
+ * board_run returns BOARD_NOBODY. Writes to such ports are lost silently, as on a real board.
  *
- * NOT IMPLEMENTED: interrupts; parity and framing errors; modem lines that come in (CTS, DCD, DSR
- * are always on); synchronous mode's data; loss of bits that the control word's format leaves out.
+ * NOT IMPLEMENTED: interrupts; parity and framing errors; modem lines that come in (CTS, DCD, DSR are always on);
+ * synchronous mode's data; loss of bits that the control word's format leaves out.
  */
 #ifndef BOARD_H
 #define BOARD_H
@@ -67,7 +68,7 @@ typedef enum {
     BOARD_WAIT,         /* waits for a key anywhere else */
     BOARD_HALT,         /* HLT: nothing but a reset helps */
     BOARD_BREAK,        /* at a breakpoint of the core's */
-    BOARD_NOBODY        /* has read a port that nobody serves: see nobody_port; the next run goes on */
+    BOARD_NOBODY        /* read a port without a working chip: see nobody_port; the next run goes on */
 } board_reason;
 
 /* A queue of bytes that grows as needed. */
@@ -79,13 +80,13 @@ typedef struct {
 /* The standard board; one with two 8251s; an RC2014 with RAM from 8000 and one 6850 at 80H (`punch_tty` is its only line), or an SIO. */
 typedef enum { BOARD_6850, BOARD_8251, BOARD_RC2014, BOARD_RC2014_SIO } board_kind;
 
-/* How characters come into a receiver. */
+/* The pace at which characters come into a receiver. */
 typedef struct {
     double cps; /* characters a second; 0: each one waits until the board wants it */
-    int lag; /* so many come after /RTS has risen; negative: the sender does not look at it */
+    int lag; /* characters that still come after /RTS has risen; negative: the sender ignores /RTS */
     bool running; /* the next one is under way, */
-    double due; /* at this cycle it is there */
-    int late; /* since /RTS has risen */
+    double due; /* the cycle at which it arrives */
+    int late; /* characters sent since /RTS has risen */
 } board_sender;
 
 /* One serial port. */
@@ -94,12 +95,12 @@ typedef struct {
     bool sends, receives;
     bool holds; /* /RTS is high, */
     uint64_t holds_from; /* from this cycle on */
-    unsigned full; /* so many received characters have not been read */
-    bool lost; /* behind it others have been lost, which the status does not show yet (6850), */
-    bool overrun; /* or shows */
-    unsigned chosen; /* the SIO's register that is next */
+    unsigned full; /* received characters that have not been read */
+    bool lost; /* characters behind it are lost; the status does not show that yet (6850), */
+    bool overrun; /* or shows it */
+    unsigned chosen; /* the SIO's register for the next access */
     uint8_t received[BOARD_RECEIVED];
-    bool behind_loss[BOARD_RECEIVED]; /* in front of it others have been lost (SIO) */
+    bool behind_loss[BOARD_RECEIVED]; /* characters in front of it are lost (SIO) */
     unsigned asked_in_vain; /* reads since it was reset, while it was not ready */
     uint64_t sent_at, arrived_at; /* cycle at which the line is free again for the next character */
 } board_uart;
@@ -118,7 +119,7 @@ typedef struct board {
     void *user; /* of these two and of the drive's */
     drive drive;
 
-    board_sender typing, reading; /* of what is typed, and of the tape */
+    board_sender typing, reading; /* of the keyboard and of the tape */
     uint64_t lost; /* characters for which a receiver had no place */
     board_queue typed, pressed, tape;
     bool reader_on; /* the teletype's own reader (punch_tty) */
@@ -127,11 +128,11 @@ typedef struct board {
     size_t line_length;
     unsigned error_lines; /* lines on the paper that begin with `ERR ` */
     uint8_t nobody_port; /* the port of the last BOARD_NOBODY, */
-    bool nobody_chip; /* and whether a chip is there, which has never been readied */
+    bool nobody_chip; /* and whether it has a chip, never set up */
 
     /* The rest is the board's own. */
     board_uart tty, aux;
-    bool nobody; /* BOARD_NOBODY is to be said */
+    bool nobody; /* BOARD_NOBODY is due */
     uint64_t reader_asked_at, reader_asked_since;
     unsigned polls; /* questions in close succession */
     uint64_t polled_at;
@@ -139,7 +140,7 @@ typedef struct board {
     bool waiting;
 } board;
 
-/* Where a board's RAM begins, and the address behind the end of so many KiB of it. */
+/* The first address of a board's RAM, and the address behind the end of so many KiB of it. */
 unsigned board_ram_start(board_kind kind);
 unsigned board_ram_end(board_kind kind, unsigned ram_kib);
 
@@ -154,28 +155,28 @@ void board_rom(board *b, const uint8_t *bytes, size_t length);
 /* The reset button: processor, serial ports and drive; memory stays. */
 void board_reset(board *b);
 
-/* The operator: types when asked, presses a key now, puts a tape into the reader (behind what is left of the old).
+/* The operator: types when asked, presses a key now, puts a tape into the reader (behind the rest of the old).
  * False without memory. */
 bool board_type(board *b, const uint8_t *bytes, size_t length);
 bool board_press(board *b, uint8_t key);
 bool board_tape(board *b, const uint8_t *bytes, size_t length);
 
-/* Takes what is left of the tape out of the reader. */
+/* Takes the rest of the tape out of the reader. */
 void board_take_tape(board *b);
 
-/* Takes back what was typed and pressed and has not arrived yet. */
+/* Drops typed and pressed characters that have not arrived yet. */
 void board_forget_typed(board *b);
 
 /* The operator moves the lever of the teletype's own reader (punch_tty). */
 void board_reader(board *b, bool on);
 
-/* For so many cycles the board has asked the empty reader, and done nothing else with its ports; 0: it does not. */
+/* Cycles for which the board has polled the empty reader and used no other port; 0: it is not polling it. */
 uint64_t board_reader_silence(const board *b);
 
 /* True when everything typed and pressed has been taken by the board. */
 bool board_idle(const board *b);
 
-/* Runs until the board waits for the operator, with nothing left that was typed, or the cycles are used up. */
+/* Runs until the board waits for the operator with all typed characters taken, or the cycles are used up. */
 board_reason board_run(board *b, uint64_t cycles);
 
 #endif

@@ -1,4 +1,4 @@
-/* The firmware's calculator as a reader of it sees it. See calculator.h. */
+/* The firmware's byte-code and floats as readable text. See calculator.h. */
 #include "calculator.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static void add_name(calculator *k, unsigned code, const char *name)
     }
 }
 
-/* The register that a name loads, when there is one that stores beside it; else CALCULATOR_REGISTERS. */
+/* The register that a name loads, if another name stores it; else CALCULATOR_REGISTERS. */
 static unsigned register_of(const symbols *names, const symbol *s)
 {
     char other[SYMBOLS_NAME + 1];
@@ -94,7 +94,7 @@ static double float_at(const i8080 *c, unsigned address)
     return calculator_float(bytes);
 }
 
-/* Where the jump at an address goes: its distance counts from its second byte on. */
+/* The target of the jump at an address: its distance counts from its second byte on. */
 static uint16_t jump_target(const i8080 *c, uint16_t address)
 {
     return (uint16_t)(address + 1 + (int8_t)i8080_peek(c, (uint16_t)(address + 1)));
@@ -178,7 +178,7 @@ bool calculator_print_registers(const calculator *k, const i8080 *c, const char 
 
 uint16_t calculator_print_code(const calculator *k, const i8080 *c, uint16_t address, unsigned count, FILE *out)
 {
-    bool target[0x100] = { false }; /* of a jump, by the low byte of its address; no jump goes so far that it matters */
+    bool target[0x100] = { false }; /* of a jump, by the low byte of its address: jumps are short */
     for (bool ends = false; !ends && count; count--) {
         char text[CALCULATOR_TEXT], place[SYMBOLS_PLACE];
         uint8_t code = i8080_peek(c, address);

@@ -1,11 +1,11 @@
-/* The firmware's calculator as a reader of it sees it: byte-code by its names, floats as decimal numbers
+/* The firmware's calculator as readable text: byte-code by its names, floats as decimal numbers
  *
  * All names come from the firmware's symbols (asm/calc.asm, ops.asm, consts.asm, equ.asm): an operation is a Q name below
  * 40H, one that begins with QJ is followed by a distance; a register is a pair of names, Lxx of 40H to 7FH and Sxx 40H
- * above it; a constant is a Q name from C0H up to QRET, its value what stands in CONTAB; from there on an operation's
+ * above it; a constant is a Q name from C0H up to QRET, its value stands in CONTAB; from there on an operation's
  * number is added to QRET. Registers and constants may have several names, or none.
  *
- * NOT IMPLEMENTED: finding out where in the ROM byte-code begins: one looks where the calculator is, or where one knows.
+ * NOT IMPLEMENTED: finding byte-code in the ROM: the caller gives an address in it.
  */
 #ifndef CALCULATOR_H
 #define CALCULATOR_H
@@ -22,7 +22,7 @@ typedef struct {
     uint16_t next;                  /* CALC1: the next operation is the byte at BC */
     uint16_t stack, stack_pointer;  /* FSTK; FSP: the cell that points to the top, its low byte counts */
     uint16_t registers, constants;  /* MREG, CONTAB */
-    uint8_t end, leave;             /* the last bytes of byte-code: QEND; QRET, and what is above that */
+    uint8_t end, leave;             /* byte-code ends with one of them: QEND; QRET or a higher byte */
     char code[CALCULATOR_CODES][CALCULATOR_TEXT];       /* empty: no name */
     bool distance[CALCULATOR_CODES];
 } calculator;

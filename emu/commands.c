@@ -1,4 +1,4 @@
-/* What the operator may say to the debugger, and what it answers. See debug.h. */
+/* The debugger's commands and their answers. See debug.h. */
 #include "debug_state.h"
 
 #include "complain.h"
@@ -16,7 +16,7 @@ enum { LINE = 256, STACK_WORDS = 12, CODE_LINES = 12, MEMORY_ROW = 16, LONGEST =
 enum { OPCODE_CALL = 0xcd, OPCODE_CALLS = 0xc4, OPCODE_RST = 0xc7 };
 enum { RST_ERROR = 0xcf, RST_EXPECT = 0xe7, RST_CALC = 0xef };
 
-/* ---- what it shows ---- */
+/* ---- display ---- */
 
 static void show_place(const debug *d)
 {
@@ -337,7 +337,8 @@ static void obey(debug *d, char *line)
     }
 }
 
-/* A line of standard input, without the help of stdio: what lies behind it belongs to the board. False at its end. */
+/* A line of standard input, read without stdio's buffer: the characters behind it belong to the board. False at its
+ * end. */
 static bool read_line(char line[LINE])
 {
     size_t length = 0;

@@ -1,4 +1,4 @@
-/* What skg80 says to its user. See complain.h. */
+/* Messages of skg80. See complain.h. */
 #include "complain.h"
 
 #include "terminal.h"
@@ -34,7 +34,7 @@ int complain(int code, const char *format, ...)
     va_start(arguments, format);
     say(format, arguments);
     va_end(arguments);
-    open_line = NULL;               /* the last that is said of it */
+    open_line = NULL;               /* end it once only */
     return code;
 }
 

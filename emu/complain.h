@@ -1,6 +1,6 @@
-/* What skg80 says to its user: one line on standard error, and an exit code
+/* Messages of skg80: one line on standard error, and an exit code
  *
- * The line has a line of its own also when the teletype's paper is on the same screen, and is in the middle of one.
+ * A message never begins in the middle of a line of the teletype's paper on the same screen.
  */
 #ifndef COMPLAIN_H
 #define COMPLAIN_H

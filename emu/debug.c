@@ -1,4 +1,4 @@
-/* A small debugger between the operator and the board: how it runs. See debug.h. */
+/* The debugger's way of running the board. See debug.h. */
 #include "debug_state.h"
 
 #include "complain.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what it stands on ---- */
+/* ---- position ---- */
 
 debug *debug_new(board *b, const symbols *names, FILE *trace, bool stopped)
 {
@@ -88,7 +88,7 @@ void debug_catch_interrupt(void)
     terminal_catch_interrupt(on_interrupt);
 }
 
-/* Has the board come to where the operator wants to be asked? */
+/* Tells whether the board has reached the next stop of the present mode. */
 static bool arrived(debug *d)
 {
     const i8080 *c = &d->board->cpu;
@@ -116,7 +116,8 @@ static board_reason one_instruction(debug *d)
     return board_run(d->board, 1);
 }
 
-/* At full speed to a breakpoint, or to where one in byte-code would be seen. */
+/* Runs at full speed to a breakpoint in machine code, or to the calculator's next operation if there may be one in
+ * byte-code. */
 static board_reason run_free(debug *d, uint64_t cycles)
 {
     i8080 *c = &d->board->cpu;
@@ -147,7 +148,7 @@ board_reason debug_run(debug *d, uint64_t cycles)
                 return BOARD_CYCLES;
             }
         }
-        /* One instruction alone, since it may be the one at the breakpoint that was the last; then all that can be done. */
+        /* One instruction alone, which may be the one at the last breakpoint; then as many as the mode allows. */
         board_reason reason = one_instruction(d);
         if (reason == BOARD_CYCLES && !at_break(d) && d->mode == RUNS && !d->trace && c->cycles < end) {
             reason = run_free(d, end - c->cycles);
@@ -159,7 +160,7 @@ board_reason debug_run(debug *d, uint64_t cycles)
         }
         bool over = reason == BOARD_HALT || reason == BOARD_NOBODY || reason == BOARD_BREAK;
         if (reason != BOARD_CYCLES && (over || d->mode != STOPPED)) {
-            return reason; /* (a machine that waits for a key will say so again after the talk) */
+            return reason; /* (a board that waits for a key returns BOARD_WAIT again afterwards) */
         }
     }
     return BOARD_CYCLES;

@@ -1,6 +1,6 @@
 /* A small debugger between the operator and the board: skg80 --debug, --break, --trace
  *
- * It runs the board instead of board_run, stops where it was told to, and then talks: commands come from standard input,
+ * It runs the board instead of board_run, stops at breakpoints, and then talks: commands come from standard input,
  * answers go to standard error. `help` lists the commands. The board knows nothing of it.
  *
  * NOT IMPLEMENTED: breakpoints on data; going back; changing registers or memory.
@@ -26,16 +26,16 @@ bool debug_break(debug *d, const char *place);
 /* As board_run, but stops at breakpoints and talks there. */
 board_reason debug_run(debug *d, uint64_t cycles);
 
-/* The operator wants to talk: at the next instruction. */
+/* Stops at the next instruction, to talk. */
 void debug_stop(debug *d);
 
-/* Takes the signal INT for that wish from now on. */
+/* From now on the signal INT does the same. */
 void debug_catch_interrupt(void);
 
 /* Has the operator said `quit`, or has the input ended? */
 bool debug_left(const debug *d);
 
-/* Writes out what there is of a trace: the errno when that cannot be done, else 0. */
+/* Writes the trace to its file: 0, or the errno of a failure. */
 int debug_failure(debug *d);
 
 #endif

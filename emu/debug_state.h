@@ -1,4 +1,4 @@
-/* What the debugger knows of a session: for debug.c, which runs the board, and commands.c, which talks with the operator */
+/* The debugger's state: for debug.c, which runs the board, and commands.c, which talks with the operator */
 #ifndef DEBUG_STATE_H
 #define DEBUG_STATE_H
 
@@ -6,7 +6,7 @@
 #include "calculator.h"
 #include "debug.h"
 
-/* What the board does until the operator is asked again. */
+/* The board's work until the operator is asked again. */
 typedef enum {
     STOPPED,        /* nothing: the operator is asked now */
     RUNS,           /* until a breakpoint */

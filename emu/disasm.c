@@ -15,14 +15,14 @@ static const char *const ARITHMETIC[] = { "ADD", "ADC", "SUB", "SBB", "ANA", "XR
 static const char *const IMMEDIATE[] = { "ADI", "ACI", "SUI", "SBI", "ANI", "XRI", "ORI", "CPI" };
 static const char *const ROTATE[] = { "RLC", "RRC", "RAL", "RAR", "DAA", "CMA", "STC", "CMC" };
 
-/* What a format's operand is: none, a byte, or a word behind the opcode. */
+/* A format's operand: none, a byte, or a word behind the opcode. */
 enum { NONE = 1, BYTE = 2, WORD = 3 };
 
 enum { OPCODE_HLT = 0x76, OPCODE_RST = 0xc7 };
 
 enum { NAME = 16 };
 
-/* Writes a mnemonic with its registers, and gives the length of the instruction back. */
+/* Writes a mnemonic with its registers, and returns the instruction's length. */
 __attribute__((format(printf, 3, 4))) static unsigned put(char text[NAME], unsigned length, const char *format, ...)
 {
     va_list arguments;

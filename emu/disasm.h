@@ -6,8 +6,9 @@
 
 enum { DISASM_TEXT = 8 + SYMBOLS_NAMES };
 
-/* Writes the instruction whose bytes begin at code[0] (three can be read) and gives its length. The undocumented
- * duplicates are written as what they do. A word is a label or cell of `s` (which may be NULL) or hexadecimal. */
+/* Writes the instruction whose bytes begin at code[0] (three can be read) and gives its length. An undocumented
+ * duplicate is written as the instruction that it duplicates. A word is a label or cell of `s` (which may be NULL) or
+ * hexadecimal. */
 unsigned disasm(const symbols *s, const uint8_t code[3], char text[DISASM_TEXT]);
 
 #endif

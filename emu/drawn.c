@@ -1,4 +1,4 @@
-/* What the drive was told, as a drawing. See drawn.h. */
+/* The drive's steps as a drawing. See drawn.h. */
 #include "drawn.h"
 
 #include <inttypes.h>
@@ -81,7 +81,7 @@ static vector from_corner(const drawn *d, place to)
     return (vector){ (double)(to.x - from->x), (double)(to.y - from->y) };
 }
 
-/* Can the line go on to that place, `way` from its corner, with every place before it near enough? */
+/* Tells whether the line can go on to the place `way` from its corner, with every place before it near enough. */
 static bool fits(const drawn *d, vector way, double distance)
 {
     if (distance < d->furthest) {
@@ -90,7 +90,7 @@ static bool fits(const drawn *d, vector way, double distance)
     return !d->has_cone || (cross(d->right, way) >= 0 && cross(way, d->left) >= 0);
 }
 
-/* Narrows the cone to what comes near enough to the place just reached. */
+/* Narrows the cone to the lines that come near enough to the place just reached. */
 static void narrow(drawn *d, vector way, double distance)
 {
     d->furthest = fmax(d->furthest, distance);
@@ -154,7 +154,7 @@ bool drawn_step(drawn *d, uint8_t value)
     return true;
 }
 
-/* One path of all lines with the pen down, or up: a new line by its place, the rest by how far they go. */
+/* Writes one path of all lines with the pen down, or up: a line's beginning as a position, the rest as distances. */
 static void write_path(const drawn *d, bool pen_down, FILE *out)
 {
     place at = { 0, 0 };

@@ -26,7 +26,7 @@ enum {
     // clang-format on
 };
 
-/* Is told each step: the port's value with the pulse up, and when (cycles). */
+/* Receives each step: the port's value with the pulse up, and its time (cycles). */
 typedef void drive_sink(void *user, uint8_t value, uint64_t cycles);
 
 typedef struct {
@@ -39,7 +39,7 @@ typedef struct {
     uint8_t latch;              /* what is on the lines to the machine */
     bool stopped;               /* the stop line is up */
     uint64_t steps;             /* since power-on */
-    uint64_t hasty; /* those that came together with their direction, or whose direction changed under the pulse */
+    uint64_t hasty; /* steps that came together with their direction, or whose direction changed under the pulse */
     /* From one step to the next, where the board has taken no key in between: */
     uint64_t gaps, gap_cycles, longest_gap;
 
@@ -57,7 +57,7 @@ void drive_reset(drive *d);
 void drive_out(drive *d, uint8_t value, uint64_t cycles, void *user);
 uint8_t drive_in(const drive *d, uint64_t cycles, double hz);
 
-/* The board has taken a key of the operator's. */
+/* The board has taken a key that the operator pressed. */
 void drive_key(drive *d);
 
 #endif

@@ -47,7 +47,7 @@ static int hex_digit(char c)
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* One line's bytes (after the colon) into `record`; how many, or -1. */
+/* Reads one line's bytes (after the colon) into `record`; returns their number, or -1. */
 static int hex_bytes(const char *line, uint8_t record[256 + 5])
 {
     int count = 0;
@@ -63,7 +63,7 @@ static int hex_bytes(const char *line, uint8_t record[256 + 5])
     return count;
 }
 
-/* Carries out one line of a .hex file; NULL, or what is wrong with it. */
+/* Carries out one line of a .hex file; NULL, or its error. */
 static const char *hex_line(const char *line, uint8_t *rom, bool *given, size_t rom_size, int *ended)
 {
     uint8_t record[256 + 5];

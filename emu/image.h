@@ -2,7 +2,7 @@
  *
  *      :LLAAAATTDD...CC    LL bytes DD for address AAAA; TT 00 data, 01 end; CC makes the sum of all bytes 0
  *
- * NOT IMPLEMENTED: .hex records of addresses past FFFF (types 02 to 05, but for those that say nothing new).
+ * NOT IMPLEMENTED: .hex records of addresses past FFFF (types 02 to 05, except those that change nothing).
  */
 #ifndef IMAGE_H
 #define IMAGE_H
@@ -13,13 +13,13 @@
 
 enum { IMAGE_FILE_LIMIT = 1 << 20 };    /* bytes that a file with a ROM may have */
 
-/* Reads a whole file into fresh memory (free it), and one NUL more. NULL when that cannot be done or it has more than
- * `limit` bytes: then `error` (of `size` bytes) says why, in one line with the file's name. */
+/* Reads a whole file into fresh memory (free it), and one NUL more. NULL when that fails or it has more than
+ * `limit` bytes: then `error` (of `size` bytes) holds the reason, in one line with the file's name. */
 uint8_t *image_read(const char *path, size_t limit, size_t *length, char *error, size_t size);
 
-/* Reads the image of a ROM of `rom_size` bytes into `rom`; Intel hex when the name ends in .hex. A binary image must have
- * just that many bytes; an Intel hex file may leave some out, which then are FF, and `given` tells them. Returns 0, or -1
- * with `error` as above. */
+/* Reads the image of a ROM of `rom_size` bytes into `rom`; Intel hex when the name ends in .hex. A binary image must
+ * have exactly that many bytes; an Intel hex file may leave some out, which then are FF; `given` marks the others.
+ * Returns 0, or -1 with `error` as above. */
 int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size);
 
 /* The same of a file's bytes, which end in a NUL and are changed. */

@@ -1,4 +1,4 @@
-/* The board as a test sees it. See machine.h. */
+/* The board for tests. See machine.h. */
 #include "machine.h"
 
 #include "translations.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { RETURN_ADDRESS = 0xfffe };   /* where a called subroutine returns to; nothing of the ROM's is ever there */
+enum { RETURN_ADDRESS = 0xfffe };   /* a called subroutine returns to it; no instruction of the ROM is there */
 
 typedef struct {
     uint8_t *bytes;

@@ -1,4 +1,4 @@
-/* The board as a test sees it: what skg.machine (Python, ctypes) calls in build/libskg80.so
+/* The board for tests: the functions of build/libskg80.so that skg.machine (Python, ctypes) calls
  *
  * A board that keeps its paper, its punch tape and its drive's steps in memory, and on which single subroutines of the ROM can be called,
  * one at a time or a million in a row. Functions give counts and reasons; all memory is the machine's own.
@@ -18,13 +18,13 @@ typedef struct {
     uint16_t bc, de, hl, sp, pc;
 } machine_registers;
 
-/* What was counted; see i8080_watch and board for the meanings. */
+/* Counts; see i8080_watch and board for their meanings. */
 typedef struct {
     uint64_t cycles, instructions, fetches_outside;
     uint32_t lowest_sp, first_outside, error_lines;
 } machine_counts;
 
-/* How a call ended. */
+/* The end of a call. */
 typedef enum {
     MACHINE_RETURNED,
     MACHINE_CYCLES,     /* still running after max_cycles */
@@ -48,20 +48,20 @@ void machine_free(machine *m);
 void machine_ports(machine *m, uint8_t tty, uint8_t aux);
 board *machine_board(machine *m);
 
-/* What is typed (`typed`), or the tape, comes at so many characters a second whether the board is ready or not, and stops
- * `lag` characters after /RTS has risen (negative: never). 0: it waits for the board. */
+/* Typed characters (`typed`), or the tape, come at so many characters a second whether the board is ready or not, and
+ * stop `lag` characters after /RTS has risen (negative: never). 0: they wait for the board. */
 void machine_sender(machine *m, bool typed, double cps, int lag);
 
-/* Characters for which a receiver had no place. */
+/* Characters lost at a full receiver. */
 uint64_t machine_lost(const machine *m);
 
 /* The drive: its feed clock (0: full speed), and when its stop line, which is down now, rises: at a
- * step counted since power-on (0: never). Those that came together with their direction (drive.h). */
+ * step counted since power-on (0: never). The count of hasty steps (drive.h). */
 void machine_feed(machine *m, double hz);
 void machine_stop_at(machine *m, uint64_t step, bool stays);
 uint64_t machine_hasty_steps(const machine *m);
 
-/* What is on its lines to the machine now. */
+/* The present levels of its lines to the machine. */
 uint8_t machine_drive(const machine *m);
 
 /* The steps since the last machine_clear: the port's value, and the cycles at which the pulse rose. */
@@ -81,7 +81,7 @@ void machine_set(machine *m, const machine_registers *r);
 void machine_count(const machine *m, machine_counts *counts);
 void machine_watch(machine *m, bool on, uint16_t first, uint16_t last);
 
-/* Whether a translation of its ROM carries it out (i8080_translate). */
+/* Tells whether a translation of its ROM runs it (i8080_translate). */
 bool machine_is_translated(const machine *m);
 
 void machine_interrupt(machine *m, const uint8_t code[3]);

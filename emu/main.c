@@ -9,14 +9,14 @@
  *              2   wrong usage, a file that cannot be read or written, or a ROM that does not fit the board
  *              3   --max-cycles were not enough
  *
- * The teletype alone has no punch of its own in a terminal: without --punch FILE what is punched is lost, which is said
- * once. (The firmware lists every block on the paper anyway.)
+ * The teletype alone has no punch of its own in a terminal: without --punch FILE the punched tape is lost, with one
+ * message. (The firmware lists every block on the paper anyway.)
  *
- * With --punch-pty the punch and the reader are a pseudo-terminal with a machine behind it; standard output has its name
- * (behind that of --pty), and what is punched goes to --punch FILE alone besides. A part is read before the machine
- * is listened to. What the machine says waits until the board asks for it.
+ * With --punch-pty the punch and the reader are a pseudo-terminal with a machine behind it; standard output has its
+ * name (behind that of --pty), and the tape goes to the machine and to --punch FILE, not to standard output. A part is
+ * read before any character of the machine's. Its characters wait until the board asks for them.
  *
- * The drive's options take the operator's part too: with a part he types DRIVE 1 before RUN, and a key at each `D`.
+ * The drive's options also type for the operator: with a part, DRIVE 1 before RUN, and a key at each `D`.
  *
  * NOT IMPLEMENTED: the punch's own speed; saving the state of the machine.
  */
@@ -41,7 +41,7 @@
 
 enum {
     FILE_LIMIT = 16 << 20,          /* bytes; a part or a list of answers is a few thousand */
-    LINE_PATIENCE_MS = 5000,        /* so long a machine may leave its line full */
+    LINE_PATIENCE_MS = 5000,        /* a machine may leave its line full so long */
     CTRL_Z = 0x1a                   /* nothing follows on a tape of program lines */
 };
 
@@ -100,8 +100,8 @@ static int set_rom(session *s)
 #endif
 }
 
-/* What is to be typed when a part is loaded: RUN, or nothing when it has no line numbers and is carried out up to END; END
- * where that is missing, so that an open route gets its last block. */
+/* The line to type once a part is loaded: RUN. A part without line numbers runs while it loads: then NULL if it ends in
+ * END, else END, so that an open route gets its last block. */
 static const char *rest_of(const uint8_t *bytes, size_t length)
 {
     const char *rest = "END";
@@ -127,7 +127,7 @@ static const char *rest_of(const uint8_t *bytes, size_t length)
     return rest;
 }
 
-/* A tape for the reader; its last line is ended if the file does not. */
+/* Puts a tape into the reader, with a line end behind a last line that has none. */
 static int set_tape(session *s, const char *path)
 {
     char error[256];
@@ -146,7 +146,7 @@ static int set_tape(session *s, const char *path)
 
 static const char NAMELESS[] = ": no .sym file is beside the ROM, and no --sym FILE is given";
 
-/* The names of the ROM: from --sym, from beside --rom, or built in; none of these is no error. */
+/* Reads the names of the ROM: from --sym, from the file beside --rom, or built in. Having none is no error. */
 static int set_names(session *s)
 {
     char error[512], path[4096] = "";
@@ -180,7 +180,7 @@ static int open_output(FILE **file, const char *path)
     return 0;
 }
 
-/* Somebody looks at the machine from inside: --debug, --break, --trace. */
+/* Opens the debugger: --debug, --break, --trace. */
 static int set_debug(session *s)
 {
     const options *o = &s->o;
@@ -245,7 +245,7 @@ static int set_board(session *s)
     return set_rom(s);
 }
 
-/* The files that the drive's steps go to. */
+/* Opens the files of the drive's steps. */
 static int set_drive(session *s)
 {
     int code = open_output(&s->steps, s->o.steps);
@@ -268,7 +268,7 @@ static int offer(terminal *t)
     return 0;
 }
 
-/* The line to the machine, when there is one. */
+/* Opens the line to the machine, with --punch-pty. */
 static int offer_line(session *s)
 {
     int code = s->o.punch_pty ? offer(&s->line) : 0;

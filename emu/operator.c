@@ -6,11 +6,11 @@
 #include <string.h>
 
 enum {
-    PATIENCE = 20000000,            /* cycles that a silent machine may wait for a key nobody will press */
+    PATIENCE = 20000000,            /* cycles that a silent board may wait for a key that nobody can press */
     READER_PATIENCE = 6000000,      /* cycles; LOAD gives up after 4,000,000, unless nothing has come yet */
-    MACHINE_PATIENCE = 10000,       /* cycles that the board asks for the machine's answer before time stands still */
-    SLICE_MS = 5,                   /* real time is kept, and the keyboard looked at, so often */
-    UNPACED_SLICE = 1000000         /* cycles, when no time is kept */
+    MACHINE_PATIENCE = 10000,       /* cycles of polling for the machine's answer before the board's time stops */
+    SLICE_MS = 5,                   /* between two looks at clock and keyboard */
+    UNPACED_SLICE = 1000000         /* cycles, without real time */
 };
 
 /* Runs one slice of time, or less when the board asks for something or --max-cycles are used up. */
@@ -38,11 +38,11 @@ static bool left(const session *s)
     return s->terminal.left || (s->debug && debug_left(s->debug));
 }
 
-/* A port was read that nobody serves. */
+/* Reports a read of a port without a working chip. */
 static int report_nobody(const session *s)
 {
     static const struct {
-        const char *chip, *other;       /* the board with another one at the same ports */
+        const char *chip, *other;       /* the board that has the other chip at the same ports */
         bool is_rc2014;
     } boards[] = {
         [BOARD_6850] = { "6850", "8251", false },
@@ -62,7 +62,7 @@ static int report_nobody(const session *s)
                                    : "");
 }
 
-/* What ended the machine's work without an answer from the operator. */
+/* Reports a halt, a breakpoint, a port without a chip, a silent ROM, or the end of --max-cycles. */
 static int report(const session *s, board_reason reason)
 {
     const i8080 *c = &s->board->cpu;
@@ -87,7 +87,7 @@ static int report_reader(void)
     return complain(EXIT_ERR, "LOAD waits for a tape, and the reader is empty");
 }
 
-/* The machine asks for a key, and nobody will press one. */
+/* Reports that the board waits for a key that nobody can press. */
 static int report_wait(const session *s)
 {
     const board *b = s->board;
@@ -96,19 +96,19 @@ static int report_wait(const session *s)
                     unread ? ", its tape unread: is this ROM for --punch-tty?" : "");
 }
 
-/* The board waits for the machine's answer: it has asked the reader for a while, and that is empty. */
+/* Tells whether the board waits for the machine's answer: it has polled the empty reader for a while. */
 static bool asks_machine(const session *s)
 {
     return s->o.punch_pty && board_reader_silence(s->board) > MACHINE_PATIENCE;
 }
 
-/* What the machine has said by now is in the reader, where a block that goes out finds it: it is no answer to that block. */
+/* Puts the machine's characters into the reader before a block goes out, so that they are not taken for its answer. */
 static bool hear_machine(session *s)
 {
     return !s->o.punch_pty || terminal_feed(&s->line, s->board, 0);
 }
 
-/* Nothing has been printed, no motor has moved, and much longer than signing on takes. */
+/* Tells whether the board has printed nothing and moved no motor for much longer than signing on takes. */
 static bool is_silent(const session *s)
 {
     return s->printed == 0 && s->board->drive.steps == 0 && s->board->cpu.cycles > PATIENCE;
@@ -201,7 +201,7 @@ int operator_part(session *s, const char *answers)
             break;
         }
         case BOARD_WAIT:
-            /* (at a stop, when something has happened since the last one) */
+            /* (at a stop, when something was printed since the last one) */
             if (s->running && s->o.drives && s->printed != at_stop) {
                 at_stop = s->printed;
                 if (!type_line(s, "", 0)) {
@@ -216,8 +216,8 @@ int operator_part(session *s, const char *answers)
     }
 }
 
-/* LOAD, or DRIVE, has asked an empty reader for so long that the operator should know. Ends with an exit code when he cannot break
- * it off; else 0. */
+/* Reports a LOAD or DRIVE that has polled the empty reader for long. Returns an exit code when the operator cannot
+ * break it off; else 0. */
 static int watch_reader(const session *s, bool *told)
 {
     bool empty = board_reader_silence(s->board) > READER_PATIENCE && !s->o.punch_pty;
@@ -231,7 +231,7 @@ static int watch_reader(const session *s, bool *told)
     return 0;
 }
 
-/* At the prompt: says once that nothing keeps what was punched. */
+/* At the prompt: reports once that the punched tape is lost. */
 static void watch_punch(const session *s, bool *told)
 {
     if (s->punched_nowhere && !*told) {
@@ -240,7 +240,7 @@ static void watch_punch(const session *s, bool *told)
     }
 }
 
-/* Listens to the terminal, so many ms (-1: until something comes); false: no memory. */
+/* Listens to the terminal for so many ms (-1: until a character comes); false without memory. */
 static bool hear_operator(session *s, int wait)
 {
     terminal *t = &s->terminal;
@@ -291,7 +291,7 @@ int operator_terminal(session *s)
             wait = -1;
             break;
         case BOARD_WAIT:
-            wait = SLICE_MS; /* it may be counting the time until something comes */
+            wait = SLICE_MS; /* the board may be timing the wait for a character */
             break;
         case BOARD_CYCLES:
             break;

@@ -62,7 +62,7 @@ static bool whole_number(const char *text, uint64_t least, uint64_t most, uint64
     return !*end && !errno && *value >= least && *value <= most;
 }
 
-/* What is wrong with the options together, or NULL. */
+/* The error in the combination of options, or NULL. */
 static const char *misfit(const options *o)
 {
     if (o->com
@@ -96,7 +96,8 @@ static const char *misfit(const options *o)
 }
 
 #ifdef _WIN32
-/* Which file this is, of all that are there; false for what is no file on a disk. (stat numbers none.) */
+/* Identifies a file by volume and number; false for anything that is no file on a disk. (Windows' stat gives no
+ * number.) */
 static bool identify(const char *path, BY_HANDLE_FILE_INFORMATION *file)
 {
     HANDLE handle =
@@ -124,14 +125,14 @@ static bool same_file(const char *a, const char *b)
 }
 #endif
 
-/* Two files that are to be written, and may not be there yet. */
+/* Tells whether two output files, which need not exist yet, are the same. */
 static bool will_be_one(const char *a, const char *b)
 {
     struct stat file;
     return same_file(a, b) || (a && b && !strcmp(a, b) && stat(a, &file));
 }
 
-/* A file that would be written over what is read, or over what else is written; NULL: none. */
+/* The output file that is also an input, or another output; NULL: none. */
 static const char *overwritten(const options *o)
 {
     const char *const read[] = { o->part, o->rom, o->input, o->tape, o->sym };
@@ -220,7 +221,7 @@ static bool read_ports(const char *text, options *o)
     return true;
 }
 
-/* The drawing's name promises no other kind of picture. */
+/* Takes the drawing's name; false if its ending belongs to another kind of picture. */
 static bool read_drive(const char *text, options *o)
 {
     const char *slash = strrchr(text, '/'), *dot = strrchr(slash ? slash : text, '.');
@@ -287,7 +288,7 @@ typedef struct {
     option_kind kind;
     size_t at;                                      /* FLAG, TEXT: the member that it sets */
     bool (*read)(const char *text, options *o);     /* VALUE */
-    const char *wrong;                              /* VALUE: what is said when `read` does not take it */
+    const char *wrong;                              /* VALUE: the message when `read` refuses it */
 } option_rule;
 
 // clang-format off
@@ -328,7 +329,7 @@ static const option_rule RULES[] = {
 enum { RULE_COUNT = sizeof RULES / sizeof *RULES };
 _Static_assert(BOARD_RAM_MIN_KIB == 2 && BOARD_RAM_MAX_KIB == 56 && OPTIONS_BREAKS == 16, "as RULES and USAGE say");
 
-/* The rules as getopt_long reads them; it answers with the rule's index + 1: 0 in optopt is no option at all. */
+/* The rules as getopt_long reads them; it returns the rule's index + 1, so that 0 in optopt means no option. */
 static void getopt_list(struct option *list)
 {
     for (int i = 0; i < RULE_COUNT; i++) {
@@ -338,7 +339,7 @@ static void getopt_list(struct option *list)
     list[RULE_COUNT] = (struct option){ NULL, 0, NULL, 0 };
 }
 
-/* The end of what goes to standard output instead of a run. The result is that of options_read. */
+/* Ends the text that is printed instead of a run (--help, --version). The result is that of options_read. */
 static int printed(void)
 {
     return fflush(stdout) ? complain(EXIT_USAGE, "cannot write: %s", strerror(errno)) : -1;
@@ -375,7 +376,7 @@ static int take(const option_rule *rule, options *o)
     return 0;
 }
 
-/* What getopt_long did not like: an option that is not there, or a value where none belongs. */
+/* Reports an option that does not exist, or a value for an option that takes none. */
 static int refuse(char **argv)
 {
     const char *word = argv[optind - 1];

@@ -12,10 +12,10 @@ typedef struct {
     const char *sym, *trace, *breaks[OPTIONS_BREAKS];
     unsigned break_count;
     unsigned ram_kib, baud;
-    double mhz;                     /* 0: no time is kept */
+    double mhz;                     /* 0: no real time */
     double feed;                    /* 0: full speed */
     double reader_cps, keyboard_cps; /* 0: characters wait for the board */
-    int lag;                        /* of both, behind /RTS; negative: they do not look at it */
+    int lag;                        /* of both, behind /RTS; negative: they ignore it */
     uint64_t max_cycles;
     uint64_t stop_at;               /* 0: never */
     board_kind kind;
@@ -24,7 +24,7 @@ typedef struct {
     bool stop_stays, drives;        /* drives: one of the drive's options was given */
 } options;
 
-/* Fills `o`. Returns 0, or the exit code after a message; -1: all is said and done (--help). */
+/* Fills `o`. Returns 0, or the exit code after a message; -1: done (--help). */
 int options_read(int argc, char **argv, options *o);
 
 #endif

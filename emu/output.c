@@ -132,7 +132,7 @@ void output_counts(uint64_t cycles, uint64_t instructions)
             BOARD_HZ / 1000000);
 }
 
-/* The largest piece of RAM that was not written since the first prompt: what program and variables left between them. */
+/* Prints the largest piece of RAM not written since the first prompt: the gap between program and variables. */
 static void print_untouched(const session *s, unsigned end)
 {
     unsigned first = end, length = 0;

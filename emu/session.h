@@ -21,7 +21,7 @@ enum {
 typedef struct {
     options o;
     board *board;
-    debug *debug;                   /* NULL: nobody looks */
+    debug *debug;                   /* NULL: none */
     symbols *names;
     terminal terminal;
     terminal line;                  /* the machine's, with --punch-pty */
@@ -29,14 +29,14 @@ typedef struct {
     pacer pacer;
     FILE *paper, *punch, *steps;    /* NULL: nowhere */
     FILE *picture;                  /* of the drive; NULL: none */
-    drawn *drawn;                   /* what goes onto it, */
-    uint64_t steps_drawn;           /* and how many steps are there already */
-    bool punched_nowhere;           /* bytes were punched, and nothing keeps them */
+    drawn *drawn;                   /* its lines, */
+    uint64_t steps_drawn;           /* and the steps in the file so far */
+    bool punched_nowhere;           /* bytes were punched and are lost */
     uint64_t printed;               /* characters on the paper */
-    char printing[ERROR_LINE + 1];  /* how the present line of it begins */
-    size_t line_length;             /* and how long it is */
+    char printing[ERROR_LINE + 1];  /* the beginning of its present line */
+    size_t line_length;             /* and that line's length */
     bool below_error;               /* the line above is one with ERR */
-    const char *rest;               /* what is to be typed when the part is loaded; NULL: nothing */
+    const char *rest;               /* the line to type behind the loaded part; NULL: none */
     int failed;                     /* errno of output that was lost; 0: none */
     bool prompted;                  /* the machine has come to its first prompt */
     uint8_t written[I8080_SPACE];   /* since then (--stats) */

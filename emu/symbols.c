@@ -6,9 +6,9 @@
 #include <string.h>
 #include <strings.h>
 
-enum { ROM_SIZE = 0x2000, NEAR = 0x400 };   /* a label says nothing of what is farther away */
+enum { ROM_SIZE = 0x2000, NEAR = 0x400 };   /* NEAR: a label names no address farther behind it */
 
-/* The DS lines in front of the restarts have labels of their own, which name nothing but a gap. */
+/* Labels of the DS lines in front of the restarts name gaps. */
 static bool names_a_gap(const symbol *s)
 {
     return !strncmp(s->name, "GAP", 3);

@@ -1,4 +1,4 @@
-/* The firmware's names: what asm/build.py writes into a .sym file
+/* The firmware's names, from a .sym file that asm/build.py writes
  *
  *      VVVV NAME           an equate: a number, a character, an operation, a cell of RAM
  *      VVVV NAME file      a label of ROM, and the source file in which it stands
@@ -26,8 +26,8 @@ typedef struct {
     const symbol *label_at[0x2000]; /* the last label at or in front of each address of the ROM; NULL: none */
 } symbols;
 
-/* Reads the text of a .sym file; free with symbols_free. NULL when it is none: then `error` (of `size` bytes) says why,
- * beginning with `path`. */
+/* Reads the text of a .sym file; free with symbols_free. NULL when it is none: then `error` (of `size` bytes) holds the
+ * reason, beginning with `path`. */
 symbols *symbols_new(const char *path, const char *text, char *error, size_t size);
 void symbols_free(symbols *s);
 
@@ -39,8 +39,8 @@ bool symbols_value(const symbols *s, const char *name, uint16_t *value);
 enum { SYMBOLS_PLACE = SYMBOLS_NAME + 8 };
 const char *symbols_place(const symbols *s, uint16_t address, char text[SYMBOLS_PLACE]);
 
-/* The names of what begins just there, a label or cells of RAM: `MWORK/TXTP`; NULL: none. SYMBOLS_NAMES is enough for
- * `text`; names for which there is no room are left out. */
+/* The names of exactly that address, a label or cells of RAM: `MWORK/TXTP`; NULL: none. SYMBOLS_NAMES is enough for
+ * `text`; names that do not fit are left out. */
 enum { SYMBOLS_NAMES = 32 };
 const char *symbols_exact(const symbols *s, uint16_t address, char text[SYMBOLS_NAMES]);
 

@@ -1,4 +1,4 @@
-/* What the operator's keys mean, and real time, on every system. See terminal.h. */
+/* The operator's keys and real time, on every system. See terminal.h. */
 #include "terminal.h"
 
 enum { CTRL_C = 0x03, CTRL_Q = 0x11, CTRL_S = 0x13, CTRL_BACKSLASH = 0x1c, CTRL_BRACKET = 0x1d, CTRL_CARET = 0x1e };

@@ -2,11 +2,11 @@
  * may be one too; and real time
  *
  * A terminal is switched to raw mode and put back on exit and on every signal that ends or stops the program. ctrl-]
- * leaves, ctrl-\ is the reset button. ctrl-C, ctrl-S and ctrl-Q reach the board at once, ctrl-C drops what was typed
+ * leaves, ctrl-\ is the reset button. ctrl-C, ctrl-S and ctrl-Q reach the board at once, ctrl-C drops characters typed
  * ahead; everything else is typed when the board asks for it. From a pipe all characters are typed in their order, and
- * LF is CR. The signal USR1 is the reset button too, whatever the operator types at.
+ * LF is CR. The signal USR1 is the reset button too, with terminal, pipe and pseudo-terminal.
  *
- * What differs between systems is in terminal_posix.c and terminal_windows.c.
+ * The systems' own parts are terminal_posix.c and terminal_windows.c.
  *
  * NOT IMPLEMENTED: the modem lines, break and speed of a pseudo-terminal; more than one user of it; on Windows
  * pseudo-terminals and the signal USR1.
@@ -25,11 +25,11 @@ typedef struct {
     bool leaves; /* ctrl-] leaves, ctrl-\ resets */
     bool ended; /* no more will come, or ctrl-] */
     bool left; /* ctrl-] */
-    bool reset; /* ctrl-\ or USR1; who has seen to it makes it false again */
-    bool stop; /* ctrl-^, when there is a debugger to stop for; likewise */
-    bool stops; /* there is one */
+    bool reset; /* ctrl-\ or USR1; cleared by the caller that handles it */
+    bool stop; /* ctrl-^, with a debugger; likewise */
+    bool stops; /* there is a debugger */
     int failed; /* errno of a character that could not be printed; 0: none */
-    int patience; /* ms; so long a full pseudo-terminal may keep the board waiting */
+    int patience; /* ms that a full pseudo-terminal may keep the board waiting */
     bool deaf; /* nobody reads the pseudo-terminal */
     bool after_cr;
     FILE *copy; /* of all that is printed; NULL: none */
@@ -43,8 +43,7 @@ typedef struct {
     double start; /* s */
 } pacer;
 
-/* Sees to it that the three standard streams are there and take bytes as they are; before any file is opened. False when
- * that cannot be. */
+/* Opens closed standard streams and makes all three binary; call it before any file is opened. False on failure. */
 bool terminal_open_streams(void);
 
 /* Takes standard input and output; raw mode when the input is a terminal. */
@@ -69,18 +68,18 @@ bool terminal_is_raw(void);
 /* Prints one character of the paper. */
 void terminal_print(terminal *t, uint8_t c);
 
-/* Does what a key, or a character from a pipe, means: the board gets it, or it leaves, resets or stops. False without memory. */
+/* Handles a key, or a character from a pipe: the board gets it, or it leaves, resets or stops. False without memory. */
 bool terminal_take(terminal *t, board *b, uint8_t c);
 
 /* Waits up to so many milliseconds (-1: for ever) for keys and gives them to the board; a reset ends the waiting. False
  * without memory. */
 bool terminal_listen(terminal *t, board *b, int milliseconds);
 
-/* Waits up to so many milliseconds (-1: for ever) for what a machine says to the board, at a pseudo-terminal that is the
- * punch's and reader's, and puts it into the reader. False without memory. */
+/* Waits up to so many milliseconds (-1: for ever) for a machine's characters, at the pseudo-terminal of punch and
+ * reader, and puts them into the reader. False without memory. */
 bool terminal_feed(terminal *t, board *b, int milliseconds);
 
-/* Waits until all that was printed at a pseudo-terminal has been read; after its patience it is deaf. */
+/* Waits until the other end has read all output at a pseudo-terminal; after `patience` ms it counts as deaf. */
 void terminal_drain(terminal *t);
 
 /* Starts real time now, and sleeps until the processor's cycles are due. */

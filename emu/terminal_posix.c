@@ -12,12 +12,12 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { DEAF_AFTER = 1000 };         /* ms; so long a full teletype may keep the board waiting */
+enum { DEAF_AFTER = 1000 };         /* ms that a full teletype may keep the board waiting */
 
 /* ---- standard streams ---- */
 
-/* No file that is opened may take the place of a standard stream that is closed: input and output then fail; standard error
- * was silenced. */
+/* A file opened later must not get the number of a closed standard stream. So a closed input or output becomes one that
+ * fails, a closed standard error one that is silent. */
 bool terminal_open_streams(void)
 {
     static const int wrong_way[] = { O_WRONLY, O_RDONLY, O_WRONLY };
@@ -31,7 +31,7 @@ bool terminal_open_streams(void)
 
 /* ---- raw mode ---- */
 
-/* A signal handler has no other way to them. */
+/* Global, for the signal handler. */
 static struct termios cooked, raw;
 static volatile sig_atomic_t is_raw;
 
@@ -50,7 +50,7 @@ static void set_cooked(void)
     }
 }
 
-/* Restores the terminal, then lets the signal do what it does. */
+/* Restores the terminal, then lets the signal take its default effect. */
 static void on_fatal(int number)
 {
     set_cooked();
@@ -94,7 +94,7 @@ bool terminal_is_raw(void)
 
 /* ---- the reset button ---- */
 
-/* The signal writes into one end of a pipe, and whoever waits for keys waits at the other end too. */
+/* The signal handler writes into one end of a pipe; every wait for keys also waits at the other end. */
 static int reset_pipe[2] = { -1, -1 };
 
 static void on_reset(int number)
@@ -190,7 +190,7 @@ int terminal_open_pty(terminal *t)
         return -1;
     }
     strcpy(t->name, name);
-    /* Our own end of the line stays open, so that it is still there, and still raw, when its user hangs up. */
+    /* Keep one descriptor of the user's end open: the line then stays, and stays raw, when its user hangs up. */
     t->line = open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
     struct termios settings;
     if (t->line < 0 || tcgetattr(t->line, &settings)) {
@@ -261,7 +261,7 @@ bool terminal_listen(terminal *t, board *b, int milliseconds)
 bool terminal_feed(terminal *t, board *b, int milliseconds)
 {
     struct pollfd line = { .fd = t->in, .events = POLLIN };
-    uint8_t bytes[4096]; /* all that a line holds */
+    uint8_t bytes[4096]; /* a line holds no more */
     if (poll(&line, 1, milliseconds) <= 0) {
         return true;
     }
@@ -271,7 +271,7 @@ bool terminal_feed(terminal *t, board *b, int milliseconds)
 
 void terminal_drain(terminal *t)
 {
-    /* What was written is on its way for a while before it can be read: the line must be seen empty several times. */
+    /* Written characters take a while to show up as unread: the line must be seen empty several times. */
     enum { STEP_MS = 5, TIMES_EMPTY = 10 };
     int unread = 0;
     for (int ms = 0, empty = 0; empty < TIMES_EMPTY; ms += STEP_MS) {

@@ -33,7 +33,7 @@ bool terminal_open_streams(void)
 
 /* ---- raw mode ---- */
 
-/* What the console did before, and whether there is one at either end. */
+/* The console's former modes, and whether there is one at either end. */
 static struct {
     HANDLE handle;
     DWORD cooked;
@@ -63,7 +63,7 @@ static void restore(void)
     }
 }
 
-/* The window closes, or ctrl-break: the console is put right before the program ends. */
+/* Restores the console when the window closes, or at ctrl-break. */
 static BOOL WINAPI on_end(DWORD event)
 {
     (void)event;
@@ -106,7 +106,7 @@ void terminal_open(terminal *t)
     set_raw();
 }
 
-/* ---- what Windows has not ---- */
+/* ---- missing on Windows ---- */
 
 int terminal_open_pty(terminal *t)
 {
@@ -180,7 +180,7 @@ static bool listen_to_console(terminal *t, board *b, DWORD milliseconds)
     return true;
 }
 
-/* Waits for something in a pipe, or its end; a file has one or the other. */
+/* Waits for a byte in a pipe, or its end; a file always has one or the other. */
 static bool is_ready(int milliseconds)
 {
     if (milliseconds < 0 || GetFileType(input.handle) != FILE_TYPE_PIPE) {

@@ -2,9 +2,9 @@
  *
  *      translate ROM.bin PART...
  *
- * A ROM does not show which of its bytes are instructions. So the board LOADs and RUNs each part: what it fetches is an
- * instruction, and so is what follows one or is jumped to. Behind a CALL or RST that holds only where
- * somebody came back: there may be bytes that the subroutine reads.
+ * A ROM does not show which of its bytes are instructions. So the board LOADs and RUNs each part: a fetched byte begins
+ * an instruction, and so does the byte behind an instruction, or the target of a jump. The bytes behind a CALL or RST
+ * count only if a run returned to them: the subroutine may read them as data.
  */
 #include "board.h"
 #include "image.h"
@@ -16,7 +16,7 @@
 
 enum {
     PLACES = BOARD_ROM_SIZE + 3, /* an instruction may end behind the ROM */
-    MOST_STEPS = 2000000,       /* of the processor, for one command */
+    MOST_STEPS = 2000000,       /* instructions, for one command */
     MOST_TAPE = 1 << 20,
     ERROR_SIZE = 256,
     END_OF_TAPE = 0x1a          /* ctrl-Z: LOAD waits for nothing more */
@@ -29,7 +29,7 @@ enum {
 static const uint8_t length[256] = { EVERY_OPCODE(LENGTH_OF) };
 static const uint8_t cycles[256] = { EVERY_OPCODE(CYCLES_OF) };
 
-/* What an instruction does with PC. */
+/* An instruction's effect on PC. */
 typedef enum {
     GOES_ON,
     JUMPS,
@@ -103,7 +103,7 @@ static bool leaps(const program *p, unsigned at)
     return (w == JUMPS || w == MAY_JUMP || w == CALLS || w == MAY_CALL) && operand_of(p, at) < BOARD_ROM_SIZE;
 }
 
-/* Marks the instruction at an address and all that can be told to follow. */
+/* Marks the instruction at an address and all others that can be found from it. */
 static void follow(program *p, unsigned at)
 {
     while (at < BOARD_ROM_SIZE && !p->known[at] && way_of(p->rom[at]) != RARE) {
@@ -195,7 +195,7 @@ static void ignore(void *user, uint8_t byte)
     (void)byte;
 }
 
-/* Types a line, and sees where PC goes until the next prompt, or for so many instructions. */
+/* Types a line, and marks the instructions fetched until the next prompt, or until the limit of steps. */
 static void watch(program *p, board *b, const char *line)
 {
     board_type(b, (const uint8_t *)line, strlen(line));

@@ -37,7 +37,7 @@ _LOCALES = {"cp1252": "en_US.UTF-8", "cp936": "zh_CN.UTF-8"}
 
 
 class Failed(Exception):
-    """What is in dist/ is not as it should be."""
+    """A fault in dist/."""
 
 
 def run(*command: object, **variables: str) -> str:
@@ -87,7 +87,7 @@ def trial_folder(name: str) -> Path:
 
 
 def results(folder: Path, encoding: str = "utf-8") -> dict[str, object]:
-    """What a trial left, pictures by their presence; words without what differs between systems."""
+    """The files of a trial: pictures by their presence, texts without the differences between systems."""
     left: dict[str, object] = {}
     for file in sorted((folder / "out").iterdir()):
         data = file.read_bytes()
@@ -121,7 +121,7 @@ def compare_trials(name: str, folder: Path, encoding: str = "utf-8") -> str:
 
 @cache
 def own_trial() -> Path:
-    """Where the project's own skg did what all others are compared with."""
+    """The folder with the trial of the project's own skg, to which all others are compared."""
     folder = trial_folder("own")
     run(ROOT / ".venv" / "bin" / "python", ROOT / "release" / "trial.py", folder)
     return folder
@@ -272,7 +272,7 @@ def check_skg80(name: str, command: Callable[..., list[str]]) -> str:
 
 
 def check_macos() -> str:
-    """What is for macOS: for which processor, what it needs, signed where it must be."""
+    """Checks the files for macOS: processor, libraries needed, signature where it is required."""
     told = []
     with tempfile.TemporaryDirectory() as folder:
         binaries = list(DIST.glob("skg80-*-macos-*"))
@@ -301,7 +301,7 @@ def check_macos() -> str:
 
 
 def check_linux_tags() -> str:
-    """What the wheels for Linux need of a system is no more than their names say."""
+    """Checks that the wheels for Linux need no newer system than their names say."""
     told = []
     for package in sorted(DIST.glob("*linux_*.whl")):
         wanted = re.search(r"(many|musl)linux_\d+_\d+_\w+", package.name)[0]
@@ -321,7 +321,7 @@ def check_linux_tags() -> str:
 
 
 def libraries(package: Path) -> list[list[str]]:
-    """What each library of a wheel needs."""
+    """The libraries that each library of a wheel needs."""
     found = []
     with zipfile.ZipFile(package) as packed:
         for name in packed.namelist():

@@ -62,7 +62,7 @@ def fill(folder: Path) -> None:
 
 
 def judged(folder: Path) -> str:
-    """How many tapes are right; a wrong one, or a call that did not end as it should, is an error."""
+    """Counts the right tapes, as a message; a wrong tape, or an unexpected exit code, is an error."""
     out = folder / "out"
     tapes = {part.with_suffix(".3b").name for part in (ROOT / "examples").glob("*.skg")}
     wrong = [name for name in sorted(tapes) if (out / name).read_bytes() != (ROOT / "examples" / name).read_bytes()]

@@ -77,7 +77,7 @@ class Drive(cpm80.DiskDrive):
 
 
 class Mixin:
-    """What both machines have besides: interrupts, which use the stack of whoever runs."""
+    """Adds interrupts to both machines; they use the stack of the running program."""
 
     interrupts = 0
     _place, _bytes = -1, 0
@@ -156,7 +156,7 @@ class Cpm:
         return data
 
     def type(self, keys: str, end: str = "\r") -> str:
-        """What is printed from a line's end on (its echo left out), up to the next time that a key is awaited."""
+        """Types keys and returns the output from the line's end on (not its echo), up to the next wait for a key."""
         start = len(self.console.paper)
         self.console.patience = PATIENCE
         self.console.keys += (keys + end if keys else "").encode()
@@ -168,7 +168,7 @@ class Cpm:
         return self.console.paper[start:].decode().removeprefix(keys)
 
     def said(self, line: str) -> list[str]:
-        """What SKG prints after a line, up to its prompt, as lines."""
+        """Types a line and returns the lines that SKG prints up to its prompt."""
         return self.type(line).removesuffix(">").split("\r\n")[1:-1]
 
     def skg(self, tail: str = "") -> list[str]:

@@ -114,7 +114,7 @@ def test_editing(cpm: Cpm) -> None:
 
 
 def test_keys_wait_while_a_program_runs(cpm: Cpm) -> None:
-    """What is typed ahead, RUN's own line end included, comes to the prompt in its order; nothing is lost."""
+    """Keys typed ahead, RUN's own line end included, come to the prompt in their order; none is lost."""
     cpm.said("10 PRINT 1")
     assert cpm.type("RUN\rPRINT 2\rPRINT 3").split("\r\n")[-5:] == [">PRINT 2", "2", ">PRINT 3", "3", ">"]
 
@@ -356,7 +356,7 @@ def keeps(cpm: Cpm, names: list[str]) -> None:
 
 
 def written(cpm: Cpm, line: str) -> list[str]:
-    """What SAVE, or RUN behind PUNCH, prints of its own."""
+    """The messages of SAVE, or of RUN behind PUNCH."""
     return [said for said in cpm.said(line) if said.startswith(("ERR", "Bdos"))]
 
 

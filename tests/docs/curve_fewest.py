@@ -92,7 +92,7 @@ def arc_distance(p: complex, t: complex, q: complex, places: np.ndarray) -> floa
 
 @dataclass(frozen=True)
 class Saving:
-    """What TOL does to one curve: nodes, blocks without it, blocks with it, and the fewest that there can be."""
+    """The effect of TOL on one curve: nodes, blocks without it, blocks with it, and the fewest possible."""
 
     part: str
     nodes: int

@@ -50,7 +50,7 @@ def saving_table(found: list[Saving]) -> str:
 
 
 def of_curves(parts: Iterable[Path]) -> str:
-    """How near the curves come that the FIT statements of parts (SKG programs) make, by the reference: a row for each
+    """Deviations of the curves that the FIT statements of parts (SKG programs) make, by the reference: a row for each
     run of them. Where the true curve is known the distances from it follow, µm."""
     return quality_table([quality for part in parts for quality in measured(part)])
 

@@ -1,4 +1,4 @@
-"""What docs/firmware.md says of adding a statement and a board is followed step by step, in a copy of asm/."""
+"""The steps of docs/firmware.md to add a statement and a board work, in a copy of asm/."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ BLOCK = re.compile(r"(?:^ {8}.*\n|^\n(?= {8}))+", re.M)
 
 
 def blocks(heading: str, until: str) -> list[str]:
-    """What is to be typed between two places of the page."""
+    """The code blocks between two places of the page."""
     text = PAGE.read_text()
     begin = text.index(heading)
     found = BLOCK.findall(text[begin : text.index(until, begin)])

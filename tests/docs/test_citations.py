@@ -170,7 +170,7 @@ def _normal(path: Path) -> list[str]:
 
 
 def project_files() -> list[Path]:
-    """What git keeps, or would keep, and may cite."""
+    """The files that git keeps, or would keep, and that may cite."""
     listed = subprocess.run(
         ["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout

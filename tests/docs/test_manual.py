@@ -1,4 +1,4 @@
-"""What docs/manual.md and the README show is what happens; run as a program, this writes them anew.
+"""The sessions in docs/manual.md and the README are true; run as a program, this updates them.
 
 A fence ```skg holds a program; the fences ```paper and ```tape after it what it prints and punches. A word
 behind ```skg names its picture, `input=` what the operator answers. A fence ```prompt holds lines that begin
@@ -270,7 +270,7 @@ def boards() -> Iterator[tuple[re.Match[str], str, str]]:
 
 @pytest.mark.skipif(not (ROM.exists() and SKG80.exists()), reason="needs roms/skg.bin and build/skg80")
 def test_sessions_on_the_board() -> None:
-    """What the board says to commands, and the tape that SAVE punches."""
+    """The board's answers to commands, and the tape that SAVE punches, are those of the manual."""
     sessions = list(boards())
     assert len(sessions) >= 2
     for fence, said, _ in sessions:

@@ -46,7 +46,7 @@ def curves(part: Path) -> list[list[Node]]:
 
 
 def test_all_curves_are_there() -> None:
-    """What the project promised, by name, each with its true curve but the table of the airfoil."""
+    """The promised curves are there by name, each with its true curve except the airfoil, which is a table."""
     promised = {"ellipse", "parabola", "spiral", "cycloid", "epicycloid", "hypocycloid", "gear", "cam", "roller"}
     promised |= {"cam-constant", "cam-cycloidal", "envelope", "airfoil", "tol-cam", "tol-ellipse"}
     assert {part.stem.removeprefix("fit-") for part in PARTS} == promised
@@ -196,7 +196,7 @@ def test_tol_keeps_ends_and_bounds_its_memory() -> None:
 
 
 def test_tol_with_more_memory(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What the page says of 100 nodes, on the curve that is farthest from the optimum with 15."""
+    """The page's figure for 100 nodes holds, on the curve that is farthest from the optimum with 15."""
     monkeypatch.setattr(fit, "MOST_PASSED", 100)
     part = next(p for p in PARTS if p.stem == "fit-cam")
     assert max(s.ratio for s in savings(part, curves(part)[0], TOLERANCE)) < 1.145

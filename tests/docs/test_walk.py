@@ -1,4 +1,4 @@
-"""What docs/firmware.md shows of the debugger is what it says; run as a program, this writes it anew.
+"""The debugger's sessions in docs/firmware.md are true; run as a program, this updates them.
 
 A fence ```part holds a part, the fences ```debug after it one session with `skg80 --debug`: commands behind `debug> `
 and what comes of them. Cycles, addresses and the bytes that are free change with every byte of the firmware: they are
@@ -24,7 +24,7 @@ PLACES = re.compile(r"^\d+ (?=[0-9A-F]{4} )|\b[0-9A-F]{4}\b|(?<=SKG )\d+|(?<=[AF
 
 
 def session(part: str, commands: list[str]) -> list[str]:
-    """What each command brings, without its echo; first of all, what is said before there is any."""
+    """The answer to each command, without its echo; the first one is the text before any command."""
     with tempfile.TemporaryDirectory() as scratch:
         path = Path(scratch) / "one.skg"
         path.write_text(part)

@@ -1,4 +1,4 @@
-"""What the board takes to drive the machine: 8080 cycles a step, and between two blocks. `make bench-rom` prints it.
+"""8080 cycles to drive the machine: for a step, and between two blocks. `make bench-rom` prints them.
 
 Each tape of the examples by DRIVE, then each example by DRIVE 1 and RUN, at full speed and on a teletype that takes no
 time. A gap is from a block's last step to the next one's first, where no key is waited for.

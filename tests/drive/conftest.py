@@ -1,4 +1,4 @@
-"""Where the tests of the drive find their helpers; what they need is built first."""
+"""Path to the helpers of the drive's tests; builds the programs that they need."""
 
 from __future__ import annotations
 

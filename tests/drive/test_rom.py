@@ -254,7 +254,7 @@ def test_ctrl_c_stops_between_two_steps(board: Driver) -> None:
 @pytest.mark.parametrize("end", ["\r\n", "\n", "\r"])
 @pytest.mark.parametrize("ahead", ["B0B30B30GYL2 D B20B0B20GXL3 B5B0B5GXL1", "D B20B0B20GXL3 D B5B0B5GXL1", ""])
 def test_a_stop_with_a_line_read_ahead(board: Driver, ahead: str, end: str) -> None:
-    """What was read ahead, a block, D or DD, comes after the stop, whatever ends the lines; twice stopped too."""
+    """A block, D or DD read ahead is carried out after the stop, with every line end; after a second stop too."""
     tape = end.join(["B9000B4000B9000GXL1", *ahead.split(), "DD", ""])
     way = follow(tape)
     stopped = []
@@ -397,7 +397,7 @@ def test_no_clock_edge_is_missed(board: Driver) -> None:
 
 
 def test_between_two_blocks(board: Driver) -> None:
-    """What is read ahead is there when the block in hand has been followed."""
+    """The block read ahead is ready when the present one ends."""
     tape = "B9000B4000B9000GXL1\r\nB3000B4000B9000GXNR1\r\n" * 4 + "DD\r\n"
     board.go("DRIVE", tape)
     at, first, ends = board.machine.step_cycles, 0, []
@@ -436,7 +436,7 @@ def test_only_a_command(board: Driver) -> None:
 
 
 def test_the_manuals_session(board: Driver) -> None:
-    """What the manual shows of this image is what happens: the lines with a prompt are typed."""
+    """The manual's session with this image is true: the lines with a prompt are typed."""
     sessions = re.findall(r"^```drive\n(.*?)^```$", (ROOT / "docs" / "manual.md").read_text(), re.M | re.S)
     assert len(sessions) == 1
     paper = "".join(board.go(line) for line in re.findall(r"^>(.*)\n", sessions[0], re.M))

@@ -4,7 +4,7 @@
  *
  * Prints millions of 8080 instructions a second for both and their ratio. Both must print the same text and count the
  * same instructions and cycles, or the exit code is 1. Each is timed several times by turns, and its best time counts:
- * whatever else the host does only ever makes a run slower.
+ * other work of the host can only make a run slower.
  */
 #include "../../emu/com.h"
 #include "../../emu/image.h"
@@ -54,7 +54,7 @@ static bool run_ours(const uint8_t *program, size_t length, result *r)
     return end == COM_ENDED;
 }
 
-/* ---- the plain core, in the same surroundings ---- */
+/* ---- the plain core, with the same memory and BDOS ---- */
 
 typedef struct {
     plain8080 cpu;

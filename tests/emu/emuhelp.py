@@ -1,4 +1,4 @@
-"""How the emulator's tests run build/skg80."""
+"""Runs build/skg80 for the emulator's tests."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
  *
  *      fuzz SEED N FILE        N rounds; FILE is overwritten with random .hex and .bin images
  *
- * There is nothing to compare: the sanitizers, or a crash, are the test. Prints what was done.
+ * Nothing is compared: it fails by a sanitizer's report or a crash. Prints counts of its work.
  */
 #include "../../emu/com.h"
 #include "../../emu/image.h"
@@ -26,7 +26,7 @@ static void fill(uint8_t *bytes, size_t length)
     }
 }
 
-/* Any bytes, but that the board's ports are met often and the processor seldom halts. */
+/* Random bytes, in which the board's ports occur often and HLT seldom. */
 static void fill_rom(uint8_t *rom)
 {
     static const uint8_t io[] = { 0xdb, 0xd3, 0xfb, 0xf3 };
@@ -122,7 +122,7 @@ static uint64_t fuzz_com(FILE *out)
     return instructions;
 }
 
-/* An Intel hex file that is mostly right, or a binary one. */
+/* Writes and reads an Intel hex file that is mostly right, or a binary one. */
 static unsigned fuzz_image(const char *path)
 {
     static const char letters[] = ":0123456789ABCDEFabcdef \r\nxyz";

@@ -24,7 +24,7 @@ static const uint8_t CYCLES[256] = {
     /* F */   5, 10, 10,  4, 11, 11,  7, 11,  5,  5, 10,  4, 11, 17,  7, 11,
 };
 
-enum { CYCLES_TAKEN = 6 };      /* what a conditional call or return costs more when it is taken */
+enum { CYCLES_TAKEN = 6 };      /* more, for a conditional call or return that is taken */
 
 static uint8_t read8(plain8080 *c, uint16_t address)
 {

@@ -5,7 +5,7 @@
  *
  *      opcode  xx yyy zzz      registers  0 B, 1 C, 2 D, 3 E, 4 H, 5 L, 6 memory at HL, 7 A
  *
- * NOT IMPLEMENTED: what the tests do not need: stopping inside a run, more than one byte from the interrupting device.
+ * NOT IMPLEMENTED: stopping inside a run, more than one byte from the interrupting device (the tests need neither).
  */
 #ifndef PLAIN8080_H
 #define PLAIN8080_H

@@ -1,4 +1,4 @@
-"""How fast the board carries out the ROM, with its translation and without, by turns in one run: `make bench-emu`."""
+"""The board's speed with the ROM, with its translation and without, by turns in one run: `make bench-emu`."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ def test_operator_types_when_asked(board: str) -> None:
 @pytest.mark.parametrize("kind", ROM)
 @pytest.mark.parametrize("slice_cycles", [1, 300, 5000])
 def test_short_slices_change_nothing(kind: str, slice_cycles: int) -> None:
-    """What the board does depends on its cycles, not on how many of them the host lets it have at a time."""
+    """A run is the same in short slices of cycles as in long ones."""
     m = started(kind)
     m.type("PRINT 1\r")
     end = m.cycles + 2_000_000
@@ -92,7 +92,7 @@ def test_pressed_key_arrives_at_once(board: str) -> None:
 
 
 def test_tape_and_punch(board: str) -> None:
-    """What is on the tape comes in as it is; what is punched comes out as it is; silence ends the tape."""
+    """The bytes of tape and punch pass unchanged; silence ends the tape."""
     m = started(board)
     m.tape("10 CUT O,(1,0)\r\n20 BACK\r\n")
     m.type("LOAD\r")
@@ -223,7 +223,7 @@ def test_reset_keeps_ram_and_starts_the_ports_anew(kind: str) -> None:
 
 @pytest.mark.parametrize("rom", ["standard", "8251"])
 def test_a_new_tape_takes_the_place_of_one_that_was_refused(rom: str) -> None:
-    """What LOAD has not read of a tape with a mistake never comes into the program of the next one."""
+    """The unread rest of a refused tape does not get into the program of the next one."""
     board = skg.Board(rom)
     assert board.load("10 PRINT (\n20 PRINT 2\n30 PRINT 3\n")[-1] == "ERR 01"
     assert board.load("10 PRINT 1\n") == []

@@ -23,7 +23,7 @@ END = "10 END\n\x1a"
 
 
 def said(done: subprocess.CompletedProcess[bytes], *commands: str) -> list[str]:
-    """What each command brought."""
+    """The answer to each command."""
     text = done.stderr.decode().replace("\r\n", "\n")
     answers = []
     for command in commands:

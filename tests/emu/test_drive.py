@@ -63,7 +63,7 @@ def some_way(seed: int, longest: int, shortest: int = 1) -> bytes:
 
 
 def places(way: bytes) -> list[tuple[int, int]]:
-    """Where each step leads, from (0, 0)."""
+    """The position after each step, from (0, 0)."""
     x = y = 0
     found = []
     for value in way:
@@ -244,7 +244,7 @@ Line = tuple[str, tuple[int, int], tuple[int, int]]
 
 
 def pen_of(value: int) -> str:
-    """What a step is drawn as."""
+    """The kind of line that a step is drawn as."""
     return "cut" if value & CUTTING else "move"
 
 
@@ -267,7 +267,7 @@ def drawn_lines(path: Path, way: bytes) -> list[Line]:
 
 
 def beside(line: Line, place: tuple[int, int]) -> float:
-    """How far a place lies from a line between two others."""
+    """The distance of a place from a line between two others."""
     _, (xa, ya), (xb, yb) = line
     dx, dy, x, y = xb - xa, yb - ya, place[0] - xa, place[1] - ya
     along = max(0.0, min(1.0, (x * dx + y * dy) / (dx * dx + dy * dy))) if dx or dy else 0.0

@@ -262,7 +262,7 @@ def test_piped_text_is_typed(skg80: Skg80, end: bytes) -> None:
 
 
 def test_piped_text_waits_for_the_machine(skg80: Skg80, tmp_path: Path) -> None:
-    """What is typed behind RUN answers INPUT and is not lost while the program runs."""
+    """Text piped in behind RUN answers INPUT; none is lost while the program runs."""
     tape = tmp_path / "tape"
     tape.write_bytes(b"10 INPUT A\r\n20 INPUT B\r\n30 CUT O,(A,0)\r\n\x1a")
     done = skg80("--tape", tape, "--punch", tmp_path / "punch", stdin=b"LOAD\nRUN\n5\nO:1\nPRINT A\n")

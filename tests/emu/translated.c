@@ -3,9 +3,10 @@
  *      translated ROM.bin SEED PART...
  *
  * Two boards LOAD and RUN each part; one of them has the translation. After every slice of a random length their
- * registers, cycles, instructions and outputs must agree, and now and then all of memory. Breakpoints in the ROM and bytes
- * of it that are changed come and go: each ends the translation, which then begins anew. Prints how many slices and
- * instructions were compared, and how many of these the translation has carried out; or the first difference, exit 1.
+ * registers, cycles, instructions and outputs must agree, and now and then all of memory. Breakpoints in the ROM are
+ * set and deleted, and bytes of it written over themselves: each ends the translation, which then begins again. Prints
+ * how many slices and instructions were compared, and how many of these the translation has carried out; or the first
+ * difference, exit 1.
  */
 #include "../../emu/board.h"
 #include "../../emu/image.h"
@@ -32,7 +33,7 @@ static uint32_t random32(void)
     return (uint32_t)(random_state >> 32);
 }
 
-/* What the translation does between being called and coming back. */
+/* Calls the translation and counts its instructions. */
 static void run_counted(i8080 *c)
 {
     uint64_t before = c->instructions;
@@ -69,7 +70,7 @@ static bool same(const i8080 *p, const i8080 *q)
            && (random32() % 64 || !memcmp(p->mem, q->mem, sizeof p->mem));
 }
 
-/* One slice on both; false when they differ. */
+/* Runs one slice on both; false when they differ. */
 static bool run_both(side *s, uint64_t cycles, board_reason *reason)
 {
     *reason = board_run(s[0].board, cycles);
@@ -78,7 +79,7 @@ static bool run_both(side *s, uint64_t cycles, board_reason *reason)
            && same(&s[0].board->cpu, &s[1].board->cpu);
 }
 
-/* A breakpoint, or a byte of the ROM that is changed and changed back, for a slice. */
+/* Sets a breakpoint for one slice, or writes a byte of the ROM over itself: both end the translation. */
 static bool disturb(side *s)
 {
     uint16_t at = (uint16_t)(random32() % BOARD_ROM_SIZE);

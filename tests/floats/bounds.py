@@ -1,4 +1,4 @@
-"""How exact the operations of language.md, section 2.1, are: worst errors measured, and the bounds of docs/firmware.md.
+"""Errors of the operations of language.md, section 2.1: the worst ones measured, and the bounds of docs/firmware.md.
 
 `python tests/floats/bounds.py` writes that table anew. Constants are multiples of 1/64 up to 64 in size, which floats
 hold exactly, so that nothing but the operation itself is measured. The unit U is 2⁻³² of 64 mm, the last place of a

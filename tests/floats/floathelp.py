@@ -277,7 +277,7 @@ class Printer(Firmware):
         self.machine.poke(0x0010, bytes([0xC3, self.CAPTURE & 255, self.CAPTURE >> 8]))
 
     def printed(self, rows: NDArray[np.uint8], digits: int, power: int = 0) -> tuple[list[str], Batch]:
-        """What DECOUT prints of floats given as rows of bytes, times a power of ten, and the calls."""
+        """The text that DECOUT prints of floats given as rows of bytes, times a power of ten; and the calls."""
         pointer = np.tile(np.array([self.TEXT & 255, self.TEXT >> 8], np.uint8), (len(rows), 1))
         room = np.zeros((len(rows), self.WIDTH), np.uint8)
         inputs = np.concatenate([pointer, rows, room], axis=1)
@@ -288,7 +288,7 @@ class Printer(Firmware):
         return [line.rstrip(b"\0").decode("ascii") for line in lines], batch
 
     def read(self, texts: list[str]) -> tuple[list[bytes], list[str], Batch]:
-        """What DECIN makes of texts: floats, behind their tokens (OVERFLOW for ERR), what it leaves; the calls."""
+        """The results of DECIN: floats behind their tokens (OVERFLOW for ERR); the unread rests; the calls."""
         length = max(map(len, texts)) + 1
         inputs = np.array([list(text.encode() + b"\r" * (length - len(text))) for text in texts], np.uint8)
         out = X + 256

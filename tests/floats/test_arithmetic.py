@@ -85,7 +85,7 @@ def test_judge_of_roots() -> None:
 
 
 def root_error(x: Floats, root: Floats) -> list[float]:
-    """How far roots are from those of x, in units of their last place (exactly, from whole numbers)."""
+    """Errors of the roots of x, in units of their last place (exact, from whole numbers)."""
     errors = []
     for mantissa, exponent, got, power in zip(
         x.mantissa.tolist(), x.exponent.tolist(), root.mantissa.tolist(), root.exponent.tolist(), strict=True

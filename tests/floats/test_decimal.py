@@ -55,7 +55,7 @@ def form(number: Fraction, digits: int) -> str:
 
 
 def scaled(number: Fraction, digits: int) -> tuple[int, str]:
-    """How DECOUT goes about it: the power of ten it multiplies with, and what it prints.
+    """DECOUT's method: the power of ten that it multiplies by, and the text that it prints.
 
     It multiplies by the least power of ten that leaves `digits` digits before the point, rounded to a float, and
     rounds that half up. Right where that power is at most 10^EXACT and so exact.
@@ -105,7 +105,7 @@ def test_out(printer: Printer, record_property: Report, digits: int) -> None:
 
 
 def test_out_ties(printer: Printer) -> None:
-    """What lies half way between two numbers of 8 digits goes up in size."""
+    """A number half way between two numbers of 8 digits is rounded up in size."""
     random = np.random.default_rng(13)
     halves = []
     for power in range(8):
@@ -219,7 +219,7 @@ def test_in_nasty(printer: Printer, record_property: Report) -> None:
 
 
 def test_out_and_in(printer: Printer) -> None:
-    """What is printed with 9 digits is read as a float that prints the same, from 1E-4 to 1E22."""
+    """A number printed with 9 digits is read as a float that prints the same, from 1E-4 to 1E22."""
     rows = operands(np.random.default_rng(11), 2000).bytes()
     rows = np.array([row for row in rows if 10**-4 <= abs(value(row)) < 10**22])
     text, _ = printer.printed(rows, 9)
@@ -244,7 +244,7 @@ def test_out_and_in(printer: Printer) -> None:
     ],
 )  # fmt: skip
 def test_text(printer: Printer, text: str, number: str, left: str) -> None:
-    """What belongs to a number and what does not; what comes after 2^31 only counts for the power."""
+    """DECIN reads a number and stops at the right character; digits past 2^31 change the power alone."""
     floats, rest, _ = printer.read([text])
     assert (floats[0], rest[0]) == (nearest(Fraction(number)), left)
 

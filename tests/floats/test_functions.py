@@ -76,7 +76,7 @@ def test_function(firmware: Firmware, record_property: Report, name: str) -> Non
 
 @pytest.mark.parametrize("name", EXACT)
 def test_exact(firmware: Firmware, name: str) -> None:
-    """Where the true value is 0, 1/2, 1 or 45 and has an exact argument, so is the answer."""
+    """True values of 0, 1/2, 1 and 45 with exact arguments come out exact."""
     table = EXACT[name]
     got, _ = firmware.function(name, from_rows(rows([Fraction(number) for number in table])))
     assert {n: value(row) for n, row in zip(table, got, strict=True)} == table

@@ -1,13 +1,13 @@
 /* fuzz: the ROM under an operator who types anything at all
  *
- *      fuzz [options] EXAMPLE...       the examples' lines are what some of the noise is made of
+ *      fuzz [options] EXAMPLE...       some of the noise is made of the examples' lines
  *        --rom FILE --board KIND --punch-tty       the board (6850), as for skg80
  *        --sym FILE                  symbols: where stack and program are
  *        --lst FILE                  listing: where instructions begin (without it, anywhere in the ROM)
  *        --bytes N                   how much to type
  *        --seed S --session N        the first session of the run; a failure names both, to see it again
  *
- * A session is one board, switched on, typed at in rounds, reset now and then. What must hold after every round:
+ * A session is one board, switched on, typed at in rounds, reset now and then. After every round:
  *
  * - every instruction fetched began where the listing has one (so none in RAM, none in data), never at 0000 but for a
  *   reset, no HLT, and nothing was ever written to the ROM;
@@ -15,11 +15,11 @@
  *   slow loop with everything watched, after every push and call;
  * - after ctrl-C there is the prompt within PATIENCE cycles, and after a CR again;
  * - the program in memory is sound: records with check sums and ascending numbers, a zero length at PEND, below VBOT;
- * - lines that store nothing change no byte of the program, nor does what LIST prints; a reset at the prompt
+ * - lines that store nothing change no byte of the program, nor the output of LIST; a reset at the prompt
  *   neither, nor the variables;
  * - the paper gets printing characters and the few controls that the firmware uses.
  *
- * Exit 0, or 1 with the reason and what was typed last.
+ * Exit 0, or 1 with the reason and the last characters typed.
  */
 #include "../../emu/board.h"
 #include "../../emu/image.h"
@@ -57,7 +57,7 @@ typedef struct {
     uint8_t paper[PAPER];
     uint16_t lowest;            /* on the stack, of all sessions */
     uint64_t longest;           /* cycles from ctrl-C to the prompt */
-    uint64_t queued, dropped;   /* bytes that the operator had in hand, and those that never reached the board */
+    uint64_t queued, dropped;   /* bytes to type, and bytes that never reached the board */
     uint64_t resets, renewed, rounds, instructions, compared;
 } fuzz;
 
@@ -116,14 +116,14 @@ static void type(fuzz *f, const uint8_t *bytes, size_t length)
     }
 }
 
-/* ---- what must hold ---- */
+/* ---- checks ---- */
 
 static unsigned word(const fuzz *f, uint16_t address)
 {
     return i8080_peek(&f->board->cpu, address) | i8080_peek(&f->board->cpu, (uint16_t)(address + 1)) << 8;
 }
 
-/* After every round, and before any other fault is told, which is likely to come from this one. */
+/* Runs after every round, and before any other fault is reported, since that is likely to come from this one. */
 static void check_fetches(const fuzz *f)
 {
     const i8080 *c = &f->board->cpu;
@@ -169,7 +169,7 @@ static void check_watched(fuzz *f)
     f->lowest = c->lowest_sp < f->lowest ? c->lowest_sp : f->lowest;
 }
 
-/* The first address of the program at which something is wrong; 0 when nothing is. */
+/* The first address of the program with an error; 0: none. */
 static unsigned unsound(const fuzz *f)
 {
     const i8080 *c = &f->board->cpu;
@@ -221,11 +221,11 @@ static void reset(fuzz *f)
     i8080_break(c, 0, false);
     board_run(f->board, 1);
     i8080_break(c, 0, true);
-    c->sp = f->at.stktop;       /* (what RESET will do first; after power-on it is anywhere) */
+    c->sp = f->at.stktop;       /* (as RESET will set it; after power-on it is random) */
     f->resets++;
 }
 
-/* Gives up what was typed, breaks in, and demands the prompt, also after a CR. */
+/* Drops typed characters, sends ctrl-C, and checks that the prompt comes, also after a CR. */
 static void break_in(fuzz *f)
 {
     f->dropped += f->board->typed.end - f->board->typed.first;
@@ -241,7 +241,7 @@ static void break_in(fuzz *f)
     to_prompt(f);
 }
 
-/* A copy of the memory from..to, and whether it has stayed so. */
+/* Copies the memory from..to. */
 static uint8_t *copy(const fuzz *f, unsigned from, unsigned to)
 {
     uint8_t *bytes = malloc(to - from + 1);
@@ -260,7 +260,7 @@ static uint64_t listing(fuzz *f)
     return f->hash;
 }
 
-/* Lines that store nothing; the program must be the same, and what LIST prints. */
+/* Types lines that store nothing; the program and the output of LIST must stay the same. */
 static void harmless_round(fuzz *f)
 {
     noise *n = &f->noise;
@@ -303,7 +303,7 @@ static void reset_round(fuzz *f)
     free(variables);
 }
 
-/* A reset while anything goes on. When it cuts the storing of a line short, half the program may have been moved, and a
+/* Resets at a random moment. When it cuts the storing of a line short, half the program may have been moved, and a
  * check sum of 8 bits lets one garbled line in 256 pass: then the operator, who sees it in LIST, begins anew. */
 static void reset_in_the_middle(fuzz *f)
 {
@@ -364,7 +364,7 @@ static void any_round(fuzz *f)
     if (noise_random(n, 4)) {
         run(f, 100000 + noise_random(n, 6000000));
     } else {
-        /* Now and then a hand on the keys, or on the reset button, in the middle of whatever goes on. */
+        /* Sometimes presses keys or the reset button at a random moment. */
         for (unsigned times = 1 + noise_random(n, 5); times; times--) {
             run(f, noise_random(n, 400000));
             if (noise_random(n, 6) == 0) {
@@ -517,7 +517,7 @@ static void read_listing(fuzz *f, const char *path)
     }
 }
 
-/* What the command line asks for. */
+/* The command line's options. */
 typedef struct {
     const char *rom, *sym, *lst;
     uint64_t bytes;

@@ -85,7 +85,7 @@ static void name(noise *n, const char *letters)
 static const char *const numbers = "ADRIJ", *const points = "PVO", *const circles = "CBT", *const lines = "SXY";
 
 /* An expression of a kind: D number, P point, C circle, S line. The rows are those of language.md, section 2.1; in
- * a row D P C S stand for operands, the rest for itself. */
+ * a row D P C S stand for operands; other characters are literal. */
 static void expression(noise *n, char kind, unsigned depth)
 {
     static const char *const rows_d[] = {
@@ -145,7 +145,7 @@ static void expression(noise *n, char kind, unsigned depth)
     }
 }
 
-/* Nested as deep as a line has room for. */
+/* An expression nested as deep as fits a line. */
 static void deep(noise *n)
 {
     static const char *const nests[] = { "(", "-(", "A[", "SIN(", "1*(", "2^(", "1/(2+", "((1,2),", "K1(", "1-2*3/(" };
@@ -403,7 +403,7 @@ void noise_example(noise *n, unsigned count)
                     n->text[at] = (uint8_t)letters[noise_random(n, sizeof letters - 1)];
                 }
                 break;
-            default:        /* the rest of the line is another's */
+            default:        /* the rest comes from another line */
                 n->length = at;
                 const char *other = n->lines[noise_random(n, (unsigned)n->line_count)];
                 puts_(n, other + noise_random(n, (unsigned)strlen(other) + 1));
@@ -429,7 +429,7 @@ void noise_line_noise(noise *n, size_t from)
     }
 }
 
-/* Letters at the start of a line of which nothing that stores can be made by what follows: no digit, no NEW, no LOAD. */
+/* The line begins with letters that keep it from storing, whatever follows: no digit, no NEW, no LOAD. */
 void noise_harmless(noise *n)
 {
     size_t from = n->length;
@@ -441,14 +441,14 @@ void noise_harmless(noise *n)
             token(n);
         }
     }
-    /* Keys that edit take back a character or two of what they follow, never the line's first. */
+    /* Editing keys delete a character or two before them, never the line's first. */
     size_t length = n->length - from;
     if (length > 8 && chance(n, 20)) {
         put(n, chance(n, 50) ? 8 : 127);
         put(n, 'A');
     }
     if (chance(n, 5)) {
-        put(n, 3);          /* what was typed of the line is forgotten, and only a CR follows */
+        put(n, 3);          /* ctrl-C drops the line so far, and only a CR follows */
     }
     put(n, '\r');
 }

@@ -1,4 +1,4 @@
-/* noise: what a careless operator, a bad line and a mad programmer send to the teletype
+/* noise: random input to the teletype: typing errors, line noise, valid and invalid programs
  *
  * A text grows by pieces; every piece is random, and the same seed gives the same text.
  */
@@ -16,7 +16,7 @@ typedef struct {
     char **lines;               /* of the examples, which are mutated */
     size_t line_count;
     size_t length;
-    uint8_t text[NOISE_ROOM];   /* what is full takes no more */
+    uint8_t text[NOISE_ROOM];   /* when full, further text is dropped */
 } noise;
 
 /* The examples' lines; false when a file cannot be read. */
@@ -35,7 +35,7 @@ void noise_example(noise *n, unsigned lines);       /* lines of the examples, so
 void noise_command(noise *n);                       /* RUN, LIST, SAVE ... */
 void noise_line_noise(noise *n, size_t from);       /* puts control characters and wrong bits into the text */
 
-/* A line that stores nothing and loads nothing, whatever the board is waiting for; its CR too. */
+/* A line with its CR that stores nothing and loads nothing in any state of the board. */
 void noise_harmless(noise *n);
 
 #endif

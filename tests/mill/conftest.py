@@ -1,4 +1,4 @@
-"""What the milling tests share: helpers of the neighbours, the emulator and the libraries built once."""
+"""Shared by the milling tests: helpers of other folders; emulator and libraries, built once."""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ class Hunted(Waiting):
 
 @dataclass
 class Machine:
-    """What the machine says, by chance; it complains about block number `at` (0: about none) in the words `said`."""
+    """Random answers of the machine; it complains about block number `at` (0: about none) with `said`."""
 
     rng: Random
     board: Hunted
@@ -82,7 +82,7 @@ class Machine:
 
 @dataclass
 class Caught:
-    """What some programs brought on an image (None: that of roms/): blocks compared, complaints tried, what was set
+    """Counts for some programs on an image (None: that of roms/): blocks compared, complaints tried, programs set
     aside, what is wrong."""
 
     rom: bytes | None = None
@@ -106,7 +106,7 @@ def run(
 
 
 def undisturbed(result: Result, board: Board, paper: list[str]) -> str:
-    """What is wrong where the machine has taken every block."""
+    """The fault in a run whose blocks the machine took all; empty: none."""
     if board.tape != result.tape:
         return f"tape {board.tape!r}, reference {result.tape!r}"
     error = fault(paper)
@@ -114,7 +114,7 @@ def undisturbed(result: Result, board: Board, paper: list[str]) -> str:
 
 
 def complained(wanted: list[str], at: int, said: str, board: Hunted, paper: list[str], listing: list[str]) -> str:
-    """What is wrong where it has complained about block number `at` of those that should go out."""
+    """The fault in a run in which the machine complained about block number `at` of `wanted`; empty: none."""
     blocks, error = board.blocks, fault(paper)
     if blocks[:at] != wanted[:at] or blocks[at:] not in ([], [f"N{at % 9999 + 1}M0"]):
         return f"blocks {blocks[-3:]} behind a complaint about {wanted[at - 1]}"

@@ -24,7 +24,7 @@ class Move:
 
     @property
     def place(self) -> tuple[int | None, int | None]:
-        """Where to in the plane."""
+        """The end point in the plane."""
         return self.end[:2]
 
 

@@ -35,7 +35,7 @@ class Waiting(Board):
 
     @property
     def blocks(self) -> list[str]:
-        """What the machine has heard: lines without their ends."""
+        """The lines that the machine has received, without their ends."""
         return self.tape.decode("ascii").split("\n")[:-1]
 
     def clear(self) -> None:

@@ -21,7 +21,7 @@ Went = tuple[bool, float, float]
 
 
 def theirs(text: str, folder: Path) -> list[Went]:
-    """What the interpreter makes of a program, in the plane."""
+    """The interpreter's moves for a program, in the plane."""
     at, unit, found = (0.0, 0.0), 1.0, []
     for name, words in calls(text.encode(), folder):
         if name == "USE_LENGTH_UNITS":

@@ -75,7 +75,7 @@ def test_flat_arcs_are_no_circles(tmp_path: Path) -> None:
 
 
 def test_a_fault_is_seen(tmp_path: Path) -> None:
-    """What the tapes keep clear of is refused, or comes out otherwise."""
+    """Faults that the tapes avoid are refused, or change the result."""
     tape = b"N1G17G21G90G94\nN2G0X0Y0\nN3G1X10Y0F60\nN4G3X0Y10I-10J0\nN5M30\n"
     assert judged(tape.replace(b"\n", b"\r\n"), tmp_path) == 3
     for good, bad in ((b"F60", b""), (b"X0Y10", b"X0Y10.2"), (b"N5M30\n", b""), (b"N2G0", b"N2G123")):

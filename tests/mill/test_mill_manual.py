@@ -58,7 +58,7 @@ def test_example_on_the_board(example: re.Match[str], tmp_path: Path) -> None:
 
 
 def grbl(block: str, _number: int) -> bytes:
-    """What GRBL says: it has no tool changer."""
+    """GRBL's answer to a block: it has no tool changer."""
     return b"error:20\r\n" if "M6" in block else OK
 
 

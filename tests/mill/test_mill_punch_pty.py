@@ -86,7 +86,7 @@ def terminal(*options: object) -> Iterator[tuple[int, int]]:
 
 
 def until(end: int, wanted: bytes) -> bytes:
-    """What comes from a line until it ends in something."""
+    """Reads from a line until its output ends in `wanted`."""
     came, last = b"", time.monotonic() + PATIENCE
     while not came.endswith(wanted):
         assert time.monotonic() < last, came
@@ -169,7 +169,7 @@ def test_silence_waits(part: Path) -> None:
     "before", [GREETING + OK, b"error:9\r\nALARM:1\r\n", b"error:9\r\n" * 300], ids=["ok", "error", "much"]
 )
 def test_ctrl_c_ends_the_wait(before: bytes) -> None:
-    """What was said before the tape is no answer: an `ok` to what a pendant sent, to the M0 of the last run."""
+    """Characters sent before the tape are no answer: an `ok` to a pendant's command, or to the last run's M0."""
     with terminal("--rom", ROMS / "skg-grbl.bin") as (teletype, line):
         until(teletype, b">")
         for text in PART.splitlines():

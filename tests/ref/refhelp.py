@@ -26,7 +26,7 @@ def blocks(*lines: str) -> list[str]:
 
 
 def value(expression: str, *before: str) -> str:
-    """What PRINT writes for an expression."""
+    """The text that PRINT writes for an expression."""
     result = cut(*before, f"PRINT {expression}")
     assert result.error is None, result.paper
     return result.paper.rstrip("\n")

@@ -43,7 +43,7 @@ def cut(text: str, translate: Translate = xy.translate) -> Result:
 
 
 def fault(text: str, translate: Translate = xy.translate) -> str:
-    """What is wrong with a text; empty: nothing."""
+    """The error in a text; empty: none."""
     try:
         translate(text)
     except RivalFault as wrong:
@@ -52,7 +52,7 @@ def fault(text: str, translate: Translate = xy.translate) -> str:
 
 
 def gap(e: Point | Circle | Line, new: Circle | Line) -> float:
-    """How far (mm) a new circle or line is from touching an element in its direction (a point: from passing it)."""
+    """The distance (mm) of a circle or line from touching an element in its direction (a point: from passing it)."""
     if isinstance(e, Point):
         e = Circle(e.x, e.y, real.ZERO)
     if isinstance(new, Line):
@@ -65,7 +65,7 @@ def gap(e: Point | Circle | Line, new: Circle | Line) -> float:
 
 
 def apart(p: XY, q: XY) -> float:
-    """How far apart two places are."""
+    """The distance of two places."""
     return hypot(p[0] - q[0], p[1] - q[1])
 
 

@@ -1,4 +1,4 @@
-"""What is wrong is said with its line and column, and nothing is written (docs/spec/tekhtran.md, section 8)."""
+"""Errors are reported with line and column, and nothing is written (docs/spec/tekhtran.md, section 8)."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class Edge:
     radius: float = 0.0
 
     def right(self, p: XY) -> float:
-        """How far a place lies to the right."""
+        """The distance of a place to the right."""
         if self.radius:
             d = apart(p, self.centre)
             return d - self.radius if self.radius > 0 else -self.radius - d
@@ -71,7 +71,7 @@ def arc(start: XY, end: XY, rise: float) -> Edge:
 
 
 def wire_corner(e: Edge, f: Edge, right: float) -> XY:
-    """Where both paths cross, from the corner of the edges on."""
+    """The crossing of both paths, searched from the corner of the edges."""
     x, y = f.start
     for _ in range(60):
         (a, b), (c, d) = e.square((x, y)), f.square((x, y))
@@ -112,7 +112,7 @@ def ring(rng: random.Random) -> list[Edge]:
 
 
 def other_crossing(e: Edge, f: Edge) -> XY | None:
-    """Where the two whole curves cross besides their corner: its mirror image; None: they are lines."""
+    """The other crossing of the two whole curves: the mirror image of their corner; None: they are lines."""
     x, y = f.start
     if e.radius and f.radius:
         axis = Edge(e.centre, f.centre, "line")

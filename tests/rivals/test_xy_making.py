@@ -46,14 +46,14 @@ def same_angle(one: float, other: float) -> None:
 
 
 def turns_in_order(circle: Circle, places: list[Point]) -> bool:
-    """Whether a clockwise circle passes places in this order."""
+    """Tells whether a clockwise circle passes places in this order."""
     at = [float(mp.atan2(p.y - circle.y, p.x - circle.x)) for p in places]
     ahead = [(at[0] - a) % (2 * mp.pi) for a in at]
     return ahead == sorted(ahead)
 
 
 def touch(circle: Circle, e: Value) -> Point:
-    """Where a circle touches an element, found as the foot of the element's nearest place."""
+    """The point where a circle touches an element: the element's point nearest to it."""
     if isinstance(e, Point):
         return e
     if isinstance(e, Line):
@@ -175,7 +175,7 @@ def three(_: Elements, new: Circle, arguments: list) -> None:
 
 
 def _others(new: Circle, arguments: list) -> int:
-    """How many circles there are: with the order turned round, another one is made or the same."""
+    """The number of circles: with the order of the arguments reversed, another one is made or the same."""
     from skg.rivals.plane import ExactCircle, ExactLine, ExactPoint, touching_three
 
     def exact(e: Value) -> object:
@@ -316,7 +316,7 @@ def test_moves(seed: int) -> None:
 
 @pytest.mark.parametrize("frame", ["ZB(D1,30)", "ZB(3,-4,30)", "ZB(D1,0)", "ZB(0,0,90)", "ZB(D1,A)"])
 def test_frame(frame: str) -> None:
-    """What numbers mean in a frame: the same as outside, moved there; what was made before stays."""
+    """Numbers in a frame make the same elements as outside, moved with the frame; earlier elements stay."""
     inner = "⊕D(2,1)⇒D2;⊕X(2,1,15)⇒X2;⊕Y(2,1,3)⇒Y2;⊕X(D2,15)⇒X3;⊕X(Y2,15)⇒X4;⊕D(Y2,15)⇒D4;⊕PY(D2,1,2)⇒D5;"
     where = "D1" if "D1" in frame else "D9"
     turned_by = frame.split(",")[-1].rstrip(")")

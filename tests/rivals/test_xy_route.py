@@ -20,7 +20,7 @@ Hanger = tuple[float, float, float]
 
 
 def line(e: Hanger, f: Hanger) -> tuple[XY, XY]:
-    """Where the belt leaves one and joins the other."""
+    """The belt's points of leaving one hanger and joining the other."""
     d = hypot(f[0] - e[0], f[1] - e[1])
     way = atan2(f[1] - e[1], f[0] - e[0]) + asin((e[2] - f[2]) / d)
     # Counter-clockwise circles (r > 0) lie on the left.
@@ -43,7 +43,7 @@ def crossing(one: tuple[XY, XY], other: tuple[XY, XY]) -> XY:
 
 
 def corners(belt: list[Hanger], right: float) -> list[XY]:
-    """Where the wire's path has its corners, in order: for a pin one, for a pulley two."""
+    """The corners of the wire's path, in order: one for a pin, two for a pulley."""
     lines = [shifted(line(e, f), right) for e, f in zip(belt, belt[1:] + belt[:1], strict=True)]
     found: list[XY] = []
     for index, hanger in enumerate(belt):
@@ -168,7 +168,7 @@ SQUARE = "⊕D(0,0)⇒D0;⊕D(10,0)⇒D1;⊕D(10,10)⇒D2;⊕D(0,10)⇒D3;⊕D(5
 
 
 def places(route: str, made: str = "") -> list[tuple[float, float]]:
-    """Where the segments of the cut begin, to 0.1 µm."""
+    """The first points of the cut's segments, to 0.1 µm."""
     return [(round(x, 4) + 0.0, round(y, 4) + 0.0) for x, y in path(f"{SQUARE}{made}{route}")[0]]
 
 

@@ -1,4 +1,4 @@
-"""What the examples cost: 8080 cycles a block, RAM and stack used. `make bench-rom` prints it.
+"""Costs of the examples: 8080 cycles a block, RAM and stack used. `make bench-rom` prints them.
 
 The limit set for the firmware is 400,000 cycles a block in the mean: a punch of 50 characters a second then
 never waits for the board. Parts that compute their own points are shown, but are not in the mean: what they

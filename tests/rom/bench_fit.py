@@ -1,4 +1,4 @@
-"""What FIT costs: 8080 cycles a node over the fit examples, with the two blocks that a node makes and their punching.
+"""The cost of FIT: 8080 cycles a node over the fit examples, with the two blocks that a node makes and their punching.
 
 `bench.py` calls `main`; alone: `python tests/rom/bench_fit.py`. The limit is 900,000 cycles a node. SYM, REP and
 RECUT are taken out of the programs: their copies are not nodes. Two things have columns of their own and are not
@@ -43,7 +43,7 @@ class Cost:
 
 
 def operands(text: str) -> list[str]:
-    """What stands behind FIT: the node and, behind the outermost comma, its tangent."""
+    """The operands of FIT: the node and, behind the outermost comma, its tangent."""
     depth = 0
     for at, letter in enumerate(text):
         depth += (letter == "(") - (letter == ")")
@@ -88,7 +88,7 @@ def beside(board: Board, source: str) -> int:
 
 
 def cost(path: Path) -> Cost | None:
-    """What a part costs; None where the ROM has no FIT. Without its copies a route may end in ERR, with all cut."""
+    """The cost of a part; None if the ROM has no FIT. Without its copies a route may end in ERR, with all cut."""
     source = COPIES.sub("", path.read_text())
     board = Board()
     if fault(board.load(source)):

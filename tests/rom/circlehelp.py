@@ -103,7 +103,7 @@ def apart(one: Circle, other: Circle) -> mpf:
 
 
 def miss(elements: list[Element], circle: Circle) -> mpf:
-    """How far a circle is from touching the worst of its elements in that one's direction, in mm."""
+    """The largest distance of a circle from touching one of its elements in that one's direction, in mm."""
     x, y, r = circle
     worst = mpf(0)
     with workdps(50):
@@ -123,7 +123,7 @@ def miss(elements: list[Element], circle: Circle) -> mpf:
 
 @dataclass(frozen=True)
 class Asked:
-    """How an element is written in SKG, and the line of the subroutine that takes it."""
+    """An element as written in SKG, and the line of the subroutine that takes it."""
 
     statement: str
     entry: int

@@ -69,7 +69,7 @@ def lines(paper: str) -> list[str]:
 
 
 def same_line(a: str, b: str) -> bool:
-    """Whether two lines of paper are equal but for the last digits of their numbers."""
+    """Tells whether two lines of paper are equal except in the last digits of their numbers."""
     if NUMBER.sub("#", a) != NUMBER.sub("#", b):
         return False
     pairs = zip(map(float, NUMBER.findall(a)), map(float, NUMBER.findall(b)), strict=True)
@@ -77,13 +77,13 @@ def same_line(a: str, b: str) -> bool:
 
 
 def same_paper(a: list[str], b: list[str]) -> bool:
-    """Whether two papers say the same, but for what a PRINT had written before its ERR."""
+    """Tells whether two papers are the same, except for the text that a PRINT wrote before its ERR."""
     a, b = ([line for line in paper if not line.endswith(" ")] for paper in (a, b))
     return len(a) == len(b) and all(map(same_line, a, b))
 
 
 def refused(result: Result) -> bool:
-    """Whether the reference refused a line while loading: its paper ends in the line, a mark, the error."""
+    """Tells whether the reference refused a line while loading: its paper ends in the line, a mark, the error."""
     return bool(re.search(r"^ *\^\nERR \d\d(?: LINE \d+)?\n\Z", result.paper, re.M))
 
 
@@ -97,7 +97,7 @@ def as_if(result: Result) -> Outcome:
 
 
 def same_mark(a: list[str], b: list[str]) -> bool:
-    """Whether two papers that end in a refused line, its mark and the error mark the same word of it.
+    """Tells whether two papers that end in a refused line, its mark and the error mark the same word of it.
 
     The firmware marks where the word ends, the reference where it begins. Of a fillet that cannot stand the reference
     marks the radius, the firmware the end of the item that shows it.
@@ -110,7 +110,7 @@ def same_mark(a: list[str], b: list[str]) -> bool:
 
 
 def differs(outcome: Outcome, result: Result) -> tuple[str, str]:
-    """How the two differ: in a few words, and in full; both empty when they do not."""
+    """The difference of the two: in a few words, and in full; both empty when there is none."""
     wanted = as_if(result)
     if outcome.error != wanted.error:
         ours, theirs = (f"ERR {e[0]:02d}" if e else "no error" for e in (outcome.error, wanted.error))
@@ -128,7 +128,7 @@ def differs(outcome: Outcome, result: Result) -> tuple[str, str]:
 
 
 def difference(outcome: Outcome, result: Result) -> str:
-    """How the firmware's outcome differs from the reference's result; empty when it does not."""
+    """The difference of the firmware's outcome from the reference's result; empty when there is none."""
     return differs(outcome, result)[1]
 
 

@@ -17,7 +17,7 @@ def built(build: Callable[..., None]) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """How much was compared with the reference, over all test processes."""
+    """Prints how much was compared with the reference, over all test processes."""
     total, programs, aside = Counter(), Counter(), Counter()
     for report in terminalreporter.getreports("passed"):
         for name, value in report.user_properties:

@@ -44,7 +44,7 @@ WORD = re.compile(
 
 @dataclass
 class Catch:
-    """What some programs brought: how many, their blocks, what was set aside and why, what differs."""
+    """Results of some programs: their number, their blocks, programs set aside and why, differences."""
 
     programs: int = 0
     blocks: int = 0
@@ -64,12 +64,12 @@ class Catch:
 
 
 def board(bowl: Bowl) -> Outcome:
-    """What the firmware does with it."""
+    """The firmware's outcome."""
     return Board(RAM_KIB, limit=RUN_LIMIT).outcome(bowl.program, bowl.answers)
 
 
 def judge(bowl: Bowl, firmware: Callable[[Bowl], Outcome] = board) -> tuple[str, Verdict]:
-    """How firmware and reference differ, in a few words, and what comes of it."""
+    """The difference of firmware and reference, in a few words, and the verdict."""
     try:
         result = reference(bowl.program, bowl.answers, patience=PATIENCE)
     except Endless:

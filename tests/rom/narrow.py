@@ -287,7 +287,7 @@ def judged(part: Part, tape: bytes) -> str:
 
 
 def fault(part: Part, cuts: Contour) -> str:
-    """What of the contour the wire leaves out, or goes round the other way; empty: nothing."""
+    """The part of the contour that the wire leaves out, or follows the other way; empty: none."""
     path = LineString(np.concatenate([edge.points() for edge in cuts]))
     shapely.prepare(path)
     for edge in part.contour:
@@ -307,5 +307,5 @@ def fault(part: Part, cuts: Contour) -> str:
 
 
 def same_centre(one: Edge, other: Edge) -> bool:
-    """Whether two arcs are about one centre."""
+    """Tells whether two arcs have one centre."""
     return other.centre is not None and np.hypot(*np.subtract(one.centre, other.centre)) < NEAR

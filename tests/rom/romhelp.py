@@ -48,7 +48,7 @@ def image(kind: str) -> Path:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the firmware did: the punch's bytes, the paper without prompts and blocks, the last ERR."""
+    """The firmware's outcome: the punch's bytes, the paper without prompts and blocks, the last ERR."""
 
     tape: bytes
     paper: list[str]
@@ -67,7 +67,7 @@ class Board(skg.Board):
         return self.type("LIST")
 
     def load(self, source: str) -> list[str]:
-        """What is printed while a tape is loaded."""
+        """Loads a tape and returns the lines printed meanwhile."""
         return super().load(source.replace("\n", "\r\n") + "\x1a")
 
     def outcome(self, source: str, answers: tuple[str, ...] = ()) -> Outcome:

@@ -203,7 +203,7 @@ class _Cook:
         return re.sub(r"\{([DPCS])\}", operand, rng.choice(ROWS[kind]))
 
     def value(self, kind: str) -> str:
-        """What a name is given, or a statement takes."""
+        """An expression for an assignment or a statement."""
         return self.expression(kind, self.rng.choice([0, 1, 1, 1, 2]))
 
     # Statements -----------------------------------------------------------------------------------------

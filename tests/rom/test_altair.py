@@ -145,7 +145,7 @@ class Altair:
             self.until(ECHO.get(key, bytes([key])), start)
 
     def type(self, line: str) -> str:
-        """What is printed after a line has been typed."""
+        """Types a line and returns the output."""
         self.press(line)
         start = len(self.paper)
         os.write(self.line, b"\r")

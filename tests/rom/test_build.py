@@ -298,8 +298,8 @@ def walked(name: str, planted: dict[int, bytes] | None = None) -> Walk:
 
 
 def starting(name: str, walk: Walk) -> list[int]:
-    """Where code begins that no other leads to: the restarts and what stands in tables; of the calculator's operations
-    that are byte-code, what stands behind it."""
+    """Entries that no other code leads to: the restarts and the addresses in tables; of the calculator's operations
+    that are byte-code, the machine code behind it."""
     origin = labels(name)["ORIGIN"]
     starts = [origin] if origin else list(range(0, 0x40, 8))
     first = labels(name)["OPTAB"] + 2 * labels(name)["OPBYTE"]
@@ -360,7 +360,7 @@ def test_only_8080_code_is_reached(name: str) -> None:
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_every_instruction_is_the_8080s(name: str) -> None:
-    """What the listing calls an instruction, the test's own table calls by the same name."""
+    """The listing's instructions have the names of the test's own table."""
     image = memory(name)
     count = 0
     for line in listed(name):
@@ -389,7 +389,7 @@ def test_jumps_of_the_calculator_reach_their_labels(name: str) -> None:
 
 
 def refused(capsys: pytest.CaptureFixture[str], check: Callable[..., None], *arguments: object) -> str:
-    """What a check of asm/build.py says when it ends the build."""
+    """The message of a check of asm/build.py that ends the build."""
     with pytest.raises(SystemExit):
         check(*arguments)
     return capsys.readouterr().err

@@ -95,7 +95,7 @@ def test_tape(path: Path) -> None:
 
 @examples
 def test_its_circles(path: Path) -> None:
-    """What it prints is an exact circle, to the last digit printed; no two are the same."""
+    """Every printed circle is exact to the last digit printed; no two are the same."""
     circles = printed("\n".join(run(path.read_text()).paper))
     elements = TOUCHED[path.stem]
     assert len(circles) == len(elements)
@@ -168,7 +168,7 @@ def triples(seed: int, count: int, whole: bool) -> Iterator[list[Element]]:
 
 
 def judge(board: Board, elements: list[Element]) -> str:
-    """What three elements gave; an assertion fails where that is not right."""
+    """Judges the result for three elements; an assertion fails if it is wrong."""
     error, circles = firmware(board, elements)
     exact = solutions(elements)
     if not exact:

@@ -21,7 +21,7 @@ DISTANCE = re.compile(r"(\w+)-\$")
 
 
 def debugged(part: Path, *commands: str) -> list[str]:
-    """What each command brings, one session for all of them."""
+    """The answer to each command, in one session for all of them."""
     done = subprocess.run([SKG80, "--rom", ROM, "--debug", part], input="\n".join([*commands, ""]),
                           capture_output=True, text=True)  # fmt: skip
     assert done.returncode == 0

@@ -18,7 +18,7 @@ NAMES = {"CELL": 0x20B0, "NEXT": 0x20B1, "PAGE": 0x2300}
 
 
 def checked(text: str) -> tuple[int, list[str]]:
-    """What the checker says of a source of its own."""
+    """The checker's findings in a source."""
     return facts.check({"some": text}, NAMES)
 
 

@@ -55,7 +55,7 @@ MOST_FLAT_ASIDE, MOST_FLAT_CENTRES = 0.2, 0.2
 
 
 def rom_has_fit() -> bool:
-    """Whether this ROM knows the statement."""
+    """Tells whether this ROM knows the statement."""
     return not any("ERR 01" in line for line in Board().type("FIT (1,2)"))
 
 
@@ -81,7 +81,7 @@ def blocks_of(tape: bytes) -> list[tuple[str, list[int]]]:
 
 
 def doubtful_blocks(ours: bytes, theirs: bytes, doubts: list[float]) -> int | None:
-    """How many blocks differ by no more than a doubtful centre each may change; None: something else differs.
+    """The number of blocks that differ by no more than a doubtful centre may change; None: another difference.
 
     A centre that is off by n µm in x and y changes x and y by n and J, the travel, by 4·√2·n at most.
     """
@@ -102,7 +102,7 @@ def doubtful_blocks(ours: bytes, theirs: bytes, doubts: list[float]) -> int | No
 
 @dataclass
 class Count:
-    """What has been compared: blocks equal, programs, programs set aside and why, doubtful centres."""
+    """Counts of a comparison: equal blocks, programs, programs set aside and why, doubtful centres."""
 
     blocks: int = 0
     programs: int = 0

@@ -1,4 +1,4 @@
-"""What makes a line impossible: the firmware and the reference agree on the error, on the place, on every limit.
+"""Lines that are refused: firmware and reference agree on the error, on the place, on every limit.
 
 The first place that is wrong decides, whether it is the grammar, a constant out of range or a subscript.
 """

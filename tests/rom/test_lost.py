@@ -23,7 +23,7 @@ def tape_of(part: Path, end: str = "\r\n", nuls: int = 0) -> bytes:
 
 
 def listed(part: Path, lines: dict[Path, list[str]] = {}) -> list[str]:  # noqa: B006 (kept from test to test)
-    """What LIST prints of a program that came at leisure."""
+    """The output of LIST for a program loaded without haste."""
     if part not in lines:
         board = Board()
         board.load(part.read_text())

@@ -51,7 +51,7 @@ def sound(board: Board, records: bytes) -> None:
 
 
 def count(records: bytes) -> int:
-    """How many records there are, each with a sum of 0."""
+    """Counts the records, each with a sum of 0."""
     place = n = 0
     while place < len(records):
         record = records[place : place + records[place]]

@@ -63,12 +63,12 @@ class Waits(Waiting, Mill):
 
 
 def numbered(program: str) -> bool:
-    """Whether a program can be loaded where the reader's side is a machine's: it has no direct statements."""
+    """Tells whether a program can be loaded with a machine at the reader's port: it has no direct statements."""
     return all(line[:1].isdigit() for line in program.splitlines())
 
 
 def waits_for_the_same(program: str, answers: tuple[str, ...], without: Outcome) -> bool:
-    """Whether the image that waits does what the other one did, but for the CR of its blocks."""
+    """Tells whether the image that waits has the other one's outcome, except for the CR of its blocks."""
     return Waits().outcome(program, answers) == replace(without, tape=without.tape.replace(b"\r\n", b"\n"))
 
 

@@ -43,7 +43,7 @@ def test_the_routines_between_the_restarts_fit() -> None:
 
 
 def test_no_comma_in_front_of_the_program(board: Board) -> None:
-    """Where DATA begins, READ looks at PROG-2, which holds CLOSED, a flag: 0 or 1, however often RECUT comes."""
+    """At the beginning of DATA, READ looks at PROG-2: that is CLOSED, a flag of 0 or 1, however often RECUT comes."""
     assert labels()["CLOSED"] == labels()["PROG"] - 2
     lines(board, "10 DATA 7", "20 CUT (0,0):5", "30 BACK")
     board.type("RUN 20")
@@ -160,7 +160,7 @@ LISTED = {
 
 @pytest.mark.parametrize("typed", LISTED)
 def test_listed_form(board: Board, typed: str) -> None:
-    """What LIST prints; typed again it is the same program."""
+    """LIST prints the expected line, and retyping that gives the same program; None: the line is refused."""
     listed = LISTED[typed]
     paper = board.type(typed)
     if listed is None:
@@ -400,7 +400,7 @@ def test_a_wrong_answer_is_asked_again(board: Board) -> None:
 
 
 def test_wrong_answers_leave_nothing_behind(board: Board) -> None:
-    """What an answer has computed before it turns out wrong does not pile up."""
+    """Results of refused answers do not pile up."""
     lines(board, "10 INPUT A,P", "20 PRINT A,P")
     listed = board.listing()
     assert answer(board, *["1/0"] * 40, "5", *["TG 90"] * 40, "(1,2)")[-2:] == ["5 (1,2)", "DD"]

@@ -43,7 +43,7 @@ def without_the_rule() -> bytes:
 
 
 def verdicts(some: Iterator[Part], rom: bytes | None = None) -> tuple[Counter[str], list[str]]:
-    """How many parts came out how; programs that went wrong, each with what is wrong."""
+    """Numbers of parts by verdict; wrong programs, each with its fault."""
     counts: Counter[str] = Counter()
     wrong: list[str] = []
     loose = without_the_rule()

@@ -31,7 +31,7 @@ class Driftless(Board):
 
 
 def unsound(tape: bytes) -> list[str]:
-    """What `skg check` says of a tape's blocks (of a tape that an error ended not that DD is missing)."""
+    """The findings of `skg check` in a tape's blocks (without the missing DD of a tape that an error ended)."""
     return [str(finding) for finding in scan(tape)[1] if "expected DD" not in finding.message]
 
 

@@ -115,14 +115,14 @@ class Board:
         assert not self.stray, f"written where no RAM is: {self.stray[0]:04X}"
 
     def type(self, line: str) -> list[str]:
-        """What is printed after a line has been typed, up to the next prompt, its echo left out."""
+        """Types a line and returns the output up to the next prompt, without the echo."""
         start = len(self.paper)
         self.keys += line.encode() + b"\r"
         self.run()
         return self.paper[start:].decode().removesuffix(">").split("\r\n")[1:-1]
 
     def tape(self, source: str) -> bytes:
-        """What is punched when a program is loaded and run."""
+        """Loads and runs a program and returns the tape punched."""
         self.reader += source.replace("\n", "\r\n").encode() + bytes([CTRL_Z])
         for command in "LOAD", "RUN":
             start = len(self.sent)
@@ -132,7 +132,7 @@ class Board:
 
     @staticmethod
     def between(paper: bytes) -> bytes:
-        """What the teletype's own punch makes of its paper: all between DC2 and DC4."""
+        """The tape of the teletype's own punch: all characters between DC2 and DC4."""
         return b"".join(part.partition(bytes([DC4]))[0] for part in paper.split(bytes([DC2]))[1:])
 
 

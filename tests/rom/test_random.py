@@ -74,7 +74,7 @@ def test_expressions(share: int, record_property: Record) -> None:
 
 
 def test_one_board_after_another_program() -> None:
-    """What a program leaves behind, errors too, does not reach the next one."""
+    """A program's state, errors too, does not affect the next program."""
     rng = Random(f"{SEED} same board")
     board = Board()
     for _ in range(40):

@@ -25,17 +25,17 @@ def test_offers_and_uses() -> None:
 
 @pytest.mark.parametrize("image", IMAGES)
 def test_no_knot(image: str) -> None:
-    """Each file leans on those below it alone."""
+    """Each file uses only files below it."""
     assert rooms.tangled(IMAGES[image]) == []
 
 
 def test_no_idle_hook() -> None:
-    """What is a hook in no image may not be called one."""
+    """A label called a hook is a hook in some image."""
     assert rooms.idle_hooks(ALL) == []
 
 
 def test_no_silent_entry() -> None:
-    """Who goes to the middle of a routine is said there."""
+    """A comment at an entry in the middle of a routine names its callers."""
     assert rooms.silent_entries(ALL) == []
 
 
@@ -81,7 +81,7 @@ def test_rooms_leave_what_is_kept() -> None:
 
 
 def test_no_file_asks_which_image_it_is_in() -> None:
-    """What differs between images is a file of its own."""
+    """Differences between images are files of their own, not conditions in a file."""
     lines = [f"{room.name}.asm: {line}" for room in ALL.values() for line in map(rooms.code, room.lines)]
     assert len(lines) > 5000
     assert [line for line in lines if re.search(r"(?<!\w)(IF|ELSE|ENDIF|IFDEF|IFNDEF)\b", line, re.I)] == []

@@ -1,4 +1,4 @@
-"""What the tests of `skg cut` have in common: drawings, and a tape's places as the controller goes; shapely judges."""
+"""Shared by the tests of `skg cut`: drawings, and a tape's places as the controller goes; shapely judges."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def saved(page: Drawing, folder: Path) -> Path:
 
 
 def along(block: Block, at: XY) -> tuple[list[XY], XY]:
-    """Where the controller goes in a block, from a place in mm: its places, thinned out."""
+    """The controller's places in a block, thinned out, from a place in mm."""
     (dx, dy), start = run_block(block).move, block.start
     end = at[0] + dx / 1000, at[1] + dy / 1000
     if block.is_line:

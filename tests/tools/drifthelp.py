@@ -1,4 +1,4 @@
-"""How far the controller's steps lie from the exact contour: the reference's segments, its blocks, every step."""
+"""Distances of the controller's steps from the exact contour: the reference's segments, its blocks, every step."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def micrometres(segment: Segment) -> Curve:
 
 @cache
 def steps(part: Path, drift: bool) -> tuple[Step, ...]:
-    """What the reference does with a part, segment for segment."""
+    """The reference's steps for a part, segment by segment."""
     found: list[Step] = []
     emit = Cutter._emit
 

@@ -134,8 +134,8 @@ EDITS: dict[str, Callable[[Sequence[Contour], Random], Edited]] = {
 
 @dataclass
 class Count:
-    """How many contours were found right, were lost (and said), were found wrong and shown to be confirmed, were found
-    wrong in silence; `gone`: those that are not there, and are lost rightly."""
+    """Numbers of contours: found right; lost, and reported; found wrong, but shown to be confirmed; found wrong in
+    silence; `gone`: not in the drawing, so rightly lost."""
 
     right: int = 0
     lost: int = 0

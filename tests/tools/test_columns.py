@@ -104,7 +104,7 @@ def test_followed_together_as_one_by_one(together: int, monkeypatch: pytest.Monk
 
 
 def test_blocks_that_are_alike_are_followed_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where no block waits for the one before it: with the same outcome and progress as all one by one."""
+    """Equal blocks are followed once, if none waits for the one before it; outcome and progress stay the same."""
     asked = []
     monkeypatch.setattr("skg.tape.moves._parts", lambda steps: asked.append(len(steps)) or iter([slice(0, len(steps))]))
     mixed = [tapes.parse(CAD_TAPE).blocks[at] for at in (3, 0, 3, 1, 2, 0)] + list(turns(2).blocks)
@@ -147,7 +147,7 @@ def test_stops_where_nothing_is_between() -> None:
 
 
 def calls_for(tape: Tape) -> int:
-    """How many functions are called to find out where a tape's blocks start, to lay it out and to follow it."""
+    """Counts the function calls to find a tape's block starts, to lay it out and to follow it."""
     calls = 0
 
     def count(frame: object, event: str, argument: object) -> None:

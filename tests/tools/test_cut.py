@@ -193,7 +193,7 @@ def _cost(words: list[object]) -> tuple[float, int]:
 
 
 def _cost_of_squares(count: int, tmp_path: Path) -> tuple[float, int]:
-    """What the whole command takes (`_cost`) for some squares, each of four lines, in rows of 100, and their frame."""
+    """The cost (`_cost`) of the whole command for some squares, each of four lines, in rows of 100, and their frame."""
     part, tape = tmp_path / "part.dxf", tmp_path / "part.3b"
     squares = [(3 * (k % 100), 3 * (k // 100), 2) for k in range(count)]
     with part.open("w") as stream:
@@ -308,7 +308,7 @@ def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> No
 
 
 def test_the_controllers_steps_count() -> None:
-    """What is compared with 3 µm is where the controller goes, and it is what is said: on a slant it steps aside."""
+    """The controller's own path is compared with 3 µm and reported: on a slant it steps aside."""
     from skg.checking.check import check
     from skg.cutting.job import make
     from skg.cutting.settings import Settings
@@ -516,7 +516,7 @@ def test_an_opening_that_crosses_itself_and_the_edge(run: Run, tmp_path: Path) -
 
 
 def _bottoms(told: str) -> list[int]:
-    """Which of the strips (4: the pin) each start hole is at."""
+    """The strip (4: the pin) of each start hole."""
     holes = re.findall(r"\((\S+), (\S+)\)", told.split("start holes: ")[1].splitlines()[0])
     return [4 if float(y) > 9.5 else min(3, int(float(x) / 4.15)) for x, y in holes]
 
@@ -784,7 +784,7 @@ def test_boards_that_share_a_program(rom: str, monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_routes_that_lean_on_those_before(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where boards that share a program do not agree, one makes all of it."""
+    """If boards that share a program disagree, one board makes all of it."""
     monkeypatch.setattr(feeding, "_SHARE", 100)
     routes = [f"FROM ({at},0)\nCUT ({at},1),({at}.5,1),({at},2)\nBACK\n" for at in range(9)]
     parts = ["R=.05\n", *routes, "END\n"]
@@ -828,7 +828,7 @@ def start_of(program: Path, number: int = 0) -> XY:
 
 
 def rings(places: list[XY], hole: XY) -> list[LineString]:
-    """What the wire makes between two visits to its start hole, without the leads."""
+    """The wire's paths between two visits to its start hole, without the leads."""
     found: list[list[XY]] = [[]]
     for place in places:
         if Point(place).distance(Point(hole)) < 1e-3:

@@ -28,7 +28,7 @@ WRITTEN = re.compile(r"(?:-o|--program|--save-job|>) (build/\S+?)(?=;|\s|$)")
 
 
 def printed(command: str, folder: Path = ROOT) -> str:
-    """What a command of the page prints in a folder, both streams."""
+    """The output of a command of the page in a folder, both streams."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     (folder / "build").mkdir(exist_ok=True)
     done = subprocess.run(

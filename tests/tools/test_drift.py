@@ -182,7 +182,7 @@ def row(part: Path) -> str:
 
 
 def test_bytes_of_the_rule() -> None:
-    """What the page says that the rule takes in the ROM; what is not used of an image is FF."""
+    """The page's number of bytes for the rule is right; unused bytes of an image are FF."""
     standard, without = (
         len((ROOT / f"roms/{name}.bin").read_bytes().rstrip(b"\xff")) for name in ("skg", "skg-nodrift")
     )

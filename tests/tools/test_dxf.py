@@ -64,7 +64,7 @@ CONTOURS = int(os.environ.get("SKG_CONTOURS", "40"))
 
 
 def collect(drawing: Drawing, layers: tuple[str, ...] = (), **wishes: float) -> Content:
-    """What is read from a drawing."""
+    """The content read from a drawing."""
     text = io.StringIO()
     drawing.write(text)
     file = dxf_file.load(text.getvalue().encode())
@@ -73,7 +73,7 @@ def collect(drawing: Drawing, layers: tuple[str, ...] = (), **wishes: float) -> 
 
 @cache
 def content_of(make: Callable[[], Drawing]) -> Content:
-    """What a drawing holds, read once."""
+    """A drawing's content, read once."""
     return collect(make(), LAYERS.get(make, ()))
 
 
@@ -308,7 +308,7 @@ def test_sides(side: str) -> None:
 
 
 def comes_back(block: Block) -> bool:
-    """Whether the controller ends a block, and what the programmed ends call a full circle where it began, to 2 µm.
+    """Tells whether the controller ends a block, and a full circle (by its programmed ends) at its start, to 2 µm.
 
     J with the drift of an arc of a few µm may end it early, or send it round for ever.
     """
@@ -345,7 +345,7 @@ def test_any_tape_draws(items: list[Block]) -> None:
 @given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0))), min_size=1, max_size=12), st.booleans())
 @settings(max_examples=30)
 def test_written_as_drawn(items: list[Block | Stop], polylines: bool) -> None:
-    """What is written piece by piece is the drawing that ezdxf makes entity by entity, and ezdxf finds it sound."""
+    """A drawing written piece by piece equals the one that ezdxf makes entity by entity, and passes ezdxf's audit."""
     tape = tapes.Tape.of(
         "-", (replace(item, number=at) if isinstance(item, Block) else item for at, item in enumerate(items, 1))
     )

@@ -1,4 +1,4 @@
-"""What is looked for among many contours at once. The judges are shapely, and looking at all of them one by one."""
+"""Searches among many contours at once. The judges are shapely, and a search through all of them one by one."""
 
 from __future__ import annotations
 

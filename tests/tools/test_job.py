@@ -408,7 +408,7 @@ def test_layers_of_a_job(run: Run, tmp_path: Path) -> None:
 
 
 def test_progress_and_wanted(tmp_path: Path) -> None:
-    """What the page asks for: the steps of a run, what is wanted of each contour."""
+    """The page gets the steps of a run and the settings of each contour."""
     job = Job("part.dxf", machine=MachineSetup(offset=0.1), layers={"holes": Partial(cut=False)})
     drawn = open_drawing(job, plate(tmp_path).read_bytes())
     assert [want.cut for want in wanted_of(job, drawn)].count(True) == 1

@@ -1,4 +1,4 @@
-"""What lies in what, where not all of a drawing is cut: openings of a part that is left, parts in a frame."""
+"""Nesting in drawings that are cut in part: openings of a part that is left, parts in a frame."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_the_holes_of_a_plate_that_is_not_seen(run: Run, tmp_path: Path, state: 
     [(("OUT", "HOLES"), 4, 1), (("OUT",), 0, 1), (("HOLES",), 4, 0), (("OUT", "HOLES", "FRAME"), 1, 5)],
 )
 def test_a_frame(run: Run, tmp_path: Path, layers: tuple[str, ...], openings: int, outlines: int) -> None:
-    """What has openings itself is a part, also in a frame that is left; cut with its frame it is an opening of it."""
+    """A contour with openings is a part, also in a frame that is left; cut with its frame it is an opening of it."""
     path = saved(plate(frame=True), tmp_path)
     words = [word for layer in layers for word in ("--layer", layer)]
     found, told = ways(run, path, *words)
@@ -121,7 +121,7 @@ def test_an_open_line_in_an_opening_goes_before_it(run: Run, tmp_path: Path) -> 
 
 
 def test_a_part_far_from_the_origin(run: Run, tmp_path: Path) -> None:
-    """What is left is moved with what is cut."""
+    """Contours left uncut are moved with those that are cut."""
     page = drawing()
     by = 3.5e6, 5.4e6
     polygon([(x + by[0], y + by[1]) for x, y in PLATE], page, layer="OUT")
@@ -144,7 +144,7 @@ def test_layers_of_svg(run: Run, tmp_path: Path) -> None:
 
 
 def test_what_goes_with_an_opening_that_is_left_out() -> None:
-    """What lies in it, deeper: not an opening beside it that crosses it, nor the part around it."""
+    """Contours inside an opening are left out with it: not one that crosses it, nor the part around it."""
 
     def rectangle(left: float, low: float, right: float, high: float, depth: int) -> PlannedContour:
         corners = [(left, low), (right, low), (right, high), (left, high)]

@@ -67,5 +67,5 @@ def test_curve(run: Run, tmp_path: Path, shape: Callable[[Modelspace], LinearRin
 
 
 def test_flat_arcs_are_those_of_fit() -> None:
-    """What is a line to the reference's FIT is one where a drawing's curves are made into nodes."""
+    """The limits of a flat arc are the same in the reference's FIT and in the nodes of a drawing's curves."""
     assert (float(fit.FLAT), float(fit.STRAIGHT)) == (fitting.FLAT, fitting.STRAIGHT)

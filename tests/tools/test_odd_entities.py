@@ -65,7 +65,7 @@ def test_multiline_without_its_style() -> None:
 
 
 def test_old_line_in_space() -> None:
-    """What AutoCAD before release 11 wrote for a line that may leave the plane."""
+    """3DLINE, a line in space by AutoCAD before release 11, is read."""
     sides = [line(*p, *q).replace("LINE", "3DLINE", 1) for p, q in pairwise([(0, 0), (9, 0), (0, 9), (0, 0)])]
     assert checked(raw(*sides)).contours[0].is_closed
 
@@ -89,7 +89,7 @@ def types(*entities: str) -> bytes:
 
 
 def test_solids_are_named() -> None:
-    """What has no lines of its own is listed, with what a person can do; a region is exploded."""
+    """Solids are listed with advice to the user, a region with the advice to explode it."""
     solids = [f"{kind} 8 0 100 AcDbModelerGeometry 70 1" for kind in ("3DSOLID", "EXTRUDEDSURFACE", "REGION")]
     said = "a solid, not lines: draw its outline in the CAD program"
     reasons = [(one.kind, one.left) for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
@@ -192,7 +192,7 @@ def test_an_outline_that_dashes_start_from() -> None:
 
 
 def test_a_drawing_in_dashes_is_cut() -> None:
-    """Where no outline is drawn through, dashes mean nothing; they are said, as a dashed opening is."""
+    """Dashed lines are cut if no outline is solid; they are reported, as is a dashed opening."""
     reading = checked(types(*square(0, 0, 10, "AXES"), AXIS))
     assert len(reading.contours) == 2
     assert notes(reading, "dashes") == [
@@ -204,7 +204,7 @@ def test_a_drawing_in_dashes_is_cut() -> None:
 
 
 def test_dashes_of_a_block() -> None:
-    """What is drawn BYBLOCK has the line type of its reference."""
+    """An entity drawn BYBLOCK has the line type of its reference."""
     drawing = mm()
     drawing.linetypes.add("DASHED", [1.0, 0.6, -0.4])
     block = drawing.blocks.new("MARK")

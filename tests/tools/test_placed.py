@@ -1,4 +1,4 @@
-"""What the blocks of a tape are for: cut, way in and back, positioning. The reference knows, the tape has to tell."""
+"""Purposes of a tape's blocks: cut, way in and back, positioning. Found from the tape, compared with the reference."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ROLES = {
 
 
 def purposes(tape: tapes.Tape, positions: str = "programmed") -> list[str]:
-    """What the tools take each block for, in order."""
+    """The purpose of each block by the tools, in order."""
     found = []
     for route in place(tape, positions=positions):
         found += ["positioning"] if route.is_move else [part for part, blocks in route.parts() for _ in blocks]

@@ -93,7 +93,7 @@ def checked(data: bytes, **wishes: object) -> Reading:
 
 
 def left(reading: Reading) -> dict[str, int]:
-    """How many entities are left for each reason."""
+    """Numbers of entities left, by reason."""
     found: dict[str, int] = {}
     for layer in reading.report.layers:
         for why, kinds in layer.why.items():
@@ -255,7 +255,7 @@ PAST = [line(-0.1, 0, 40, 0), line(40, -0.05, 40, 20.12), line(40.2, 20, 0, 20),
 
 
 def test_ends_past_corners() -> None:
-    """What runs a little past a corner is not cut, and said; the outline closes at the crossings themselves."""
+    """Short ends past a corner are not cut, and reported; the outline closes at the crossings themselves."""
     reading = checked(raw(*PAST))
     (contour,) = reading.contours
     assert contour.is_closed
@@ -500,7 +500,7 @@ def test_an_outline_with_gaps_that_is_left_is_said() -> None:
 
 
 def test_outlines_of_one_layer() -> None:
-    """What is closed on its own layer is the outline, not what lines of another layer make of it."""
+    """A contour closed on its own layer is the outline, without lines of another layer."""
     rounded = [
         line(1, 0, 9, 0),
         line(9, 0, 9, 9),
@@ -718,7 +718,7 @@ def test_told_units_of_an_odd_size_are_doubted() -> None:
 
 
 def test_paper_space_alone() -> None:
-    """What is in paper space is cut where the model space has nothing to cut, with a word; else it is left."""
+    """Paper space is cut, with a note, if the model space has nothing to cut; else it is left."""
     paper = [f"{one} 67 1" for one in square(0, 0, 20)]
     reading = checked(raw(*paper, "TEXT 8 0 10 1 20 1 1 A"))
     assert len(reading.contours) == 1 and left(reading) == {"nothing to cut": 1}
@@ -751,7 +751,7 @@ def test_arcs_from_an_angle_to_the_same() -> None:
 
 
 def test_arcs_of_nothing_between_lines() -> None:
-    """What a program leaves of a fillet of no turn lies where two lines meet; a circle on a line's end stands alone."""
+    """An arc from an angle to the same angle is left where two lines meet; elsewhere it is a full circle."""
     corner = [
         "ARC 8 0 10 10 20 2 40 2 50 270 51 270",
         line(0, 0, 10, 0),
@@ -768,7 +768,7 @@ def test_arcs_of_nothing_between_lines() -> None:
 
 
 def test_arcs_of_next_to_nothing() -> None:
-    """What a fillet between lines that go straight on leaves is no circle; whole turns that were rounded are."""
+    """An arc of almost no sweep is no circle; a whole turn with rounded angles is."""
     ends = "ARC 8 A 10 0 20 0 40 {} 50 {} 51 {}".format
     reading = checked(raw(*square(9, 9, 5), ends(1, 174.9999996, "175.0000024"), ends(3, 0, "0.000000001")))
     assert [contour.edges[0].is_circle for contour in reading.contours] == [False]

@@ -260,7 +260,7 @@ def test_one_name_of_a_rom(spelling: str) -> None:
 
 
 def test_meaning_of_errors() -> None:
-    """What the tools say of an error is how the table of language.md, section 6, begins."""
+    """The tools' meaning of an error is the beginning of its row in the table of language.md, section 6."""
     from skg.machine.board import ERRORS
 
     table = (ROOT / "docs" / "spec" / "language.md").read_text().partition("## 6. Errors")[2]
@@ -295,7 +295,7 @@ MIXED = {
 
 @pytest.mark.parametrize("program", MIXED)
 def test_a_route_that_is_given_up_is_said(program: str) -> None:
-    """What is said is so: the board's tape does, or does not, come to the last point."""
+    """The report is true: the board's tape does, or does not, come to the last point."""
     from skg.machine.feeding import feed, given_up
 
     fed = feed(program)

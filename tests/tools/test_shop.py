@@ -1,4 +1,4 @@
-"""What docs/shop.md shows happens; run as a program, this writes the page anew."""
+"""The sessions of docs/shop.md are true; run as a program, this updates the page."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def test_page(tmp_path: Path) -> None:
 
 
 def test_report_is_explained() -> None:
-    """What the table has of the report's lines is in the report."""
+    """The report's lines in the page's table are in the report."""
     text = PAGE.read_text()
     report = re.search(r"\$ skg cut docs/pictures/bracket.*\n((?:    .*\n)+)", text)[1]
     told = re.search(r"\| the report says .*\n\|---.*\n((?:\|.*\n)+)", text)[1]

@@ -51,7 +51,7 @@ def slow_trace(block: Block) -> list[tuple[int, int]]:
 
 
 def most_missed(axis: str, first: float, sweep: float) -> float:
-    """How far along the arc the controller may end from where it should, µm.
+    """The greatest error along the arc at the controller's end point, µm.
 
     Where the count axis passes an extreme J counts the rounded radius, but the controller may pass there 1 µm
     further out or in: that is 2 µm of J. On the count axis a step is at least √½ of the way along the arc.
@@ -63,7 +63,7 @@ def most_missed(axis: str, first: float, sweep: float) -> float:
 
 
 def travel_along(axis: str, radius: float, first: float, sweep: float) -> float:
-    """How far a coordinate travels on an arc: the sum over the pieces between its extremes."""
+    """The travel of a coordinate on an arc: the sum over the pieces between its extremes."""
     wave = cos if axis == "X" else sin
     turns = [k * pi / 2 for k in range(-16, 17)]
     low, high = sorted((first, first + sweep))

@@ -214,7 +214,7 @@ def test_every_style_is_read_again(items: list[Block | Stop]) -> None:
 
 
 def test_start_point(run: Run, tmp_path: Path) -> None:
-    """Where a header says where the wire starts, it is drawn there."""
+    """A tape is drawn at the wire's start that its header gives."""
     path = tmp_path / "other.3b"
     path.write_text(SAME["with header and places"][0])
     drawing = run("dxf", path).stdout

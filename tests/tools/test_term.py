@@ -213,7 +213,7 @@ def test_a_character_that_got_lost(machine: Machine, tmp_path: Path) -> None:
 
 
 def test_a_board_that_takes_one_character_at_a_time(machine: Machine, tmp_path: Path) -> None:
-    """What is typed ahead gets lost, as with SIMH's Altair: each echo is waited for then, and that is said."""
+    """With a board that loses characters typed ahead, as SIMH's Altair does, each echo is awaited, and reported."""
     part = tmp_path / "part.skg"
     part.write_text(PROGRAM)
     machine.is_slow = True
@@ -352,7 +352,7 @@ def test_gives_up(machine: Machine) -> None:
 
 
 def read_until(descriptor: int, wanted: bytes) -> bytes:
-    """What comes out of a terminal up to something."""
+    """Reads a terminal's output up to `wanted`."""
     seen = b""
     while wanted not in seen:
         assert select.select([descriptor], [], [], PATIENCE)[0], seen

@@ -299,7 +299,7 @@ def test_a_tape_that_cannot_be_kept(tmp_path: Path) -> None:
 
 
 def test_answers_from_a_pipe(tmp_path: Path) -> None:
-    """What stands on the standard input is typed behind RUN: INPUT's answers, as they are asked for."""
+    """Standard input is typed behind RUN: INPUT's answers, as they are asked for."""
     part = tmp_path / "part.skg"
     part.write_text("10 INPUT A,D\n20 CUT O,(A,D)\n")
     with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:

@@ -160,8 +160,8 @@ def test_one_name_one_meaning() -> None:
 
 
 def test_test_helpers_have_names_of_their_own() -> None:
-    """What a test imports from beside it is found by its name alone, whatever folders run with it: no other folder may
-    have it, and every folder has a conftest."""
+    """A module that a test imports from its folder is found by name alone, with any folders in one run: no other
+    folder may have that name, and every folder has a conftest."""
     tests = sorted((ROOT.parent / "tests").rglob("*.py"))
     names = Counter(path.stem for path in tests)
     imported = {

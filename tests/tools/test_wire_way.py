@@ -135,7 +135,7 @@ def test_a_curve_with_a_cusp_is_soon_told_from_a_way_beside_it(run: Run, tmp_pat
 
 @pytest.mark.parametrize(("height", "style"), [(0.05, "round"), (1, "round"), (3.9, "round"), (4.2, "mitre")])
 def test_around_a_tip(run: Run, tmp_path: Path, height: float, style: str) -> None:
-    """Where the parallels meet more than 10 R away the wire goes around the tip: it does not come to the other part."""
+    """If the parallels meet more than 10 R away the wire goes around the tip: it does not reach the other part."""
     page = drawing()
     wanted = polygon([(0, 0), (20, 0), (0, height)], page)
     polygon([(21.5, -5), (30, -5), (30, 5), (21.5, 5)], page)
@@ -341,7 +341,7 @@ def test_an_outline_that_is_too_short_for_the_tab(run: Run, tmp_path: Path) -> N
 
 
 def test_the_largest_offset_with_passes(run: Run, tmp_path: Path) -> None:
-    """What fits is said of the last pass too; with that it is cut, with a micrometre more it is not."""
+    """The largest offset is reported for the last pass too; with it the part is cut, with 4 µm more it is not."""
     page = drawing()
     polygon([(0, 0), (30, 0), (30, 20), (0, 20)], page)
     page.modelspace().add_circle((10, 10), 0.2)

@@ -1,4 +1,4 @@
-"""What the host tools' tests have in common beside the fixtures of conftest.py."""
+"""Shared by the host tools' tests, besides the fixtures of conftest.py."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ CAD_TAPE = (
 
 
 def least_time(work: Callable[[], T], times: int = 3) -> tuple[T, float]:
-    """What some work returns, and the processor's seconds that it takes: the least of some runs, without the garbage
-    collector, which looks through all that the tests before have left behind."""
+    """The result of some work, and its time in processor seconds: the least of some runs, without the garbage
+    collector, which would go through the objects of earlier tests."""
     least = float("inf")
     for _ in range(times):
         gc.collect()

@@ -1,4 +1,4 @@
-"""How long the server of `skg ui` takes: a drawing opened, a start hole dragged. `python tests/ui/speed.py [circles]`.
+"""Times of the server of `skg ui`: opening a drawing, dragging a start hole. `python tests/ui/speed.py [circles]`.
 
 Over HTTP, as a page does it; the process that reads is warm. Medians of some runs, on a machine that does nothing else.
 """

@@ -1,4 +1,4 @@
-"""What breaks: a process that is killed, a cut that is cancelled, a full disk, drawings made to take the machine."""
+"""Breakdowns: a killed process, a cancelled cut, a full disk, drawings made to exhaust the machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the server refuses: strangers, other pages, what is too much, and what is no request at all."""
+"""Refusals of the server: strangers, other pages, too large requests, and malformed ones."""
 
 from __future__ import annotations
 
@@ -157,7 +157,7 @@ def test_too_long(page: Page) -> None:
 
 
 def raw(page: Page, text: bytes, seconds: float = 5.0) -> bytes:
-    """What comes back for bytes that no library would send."""
+    """Sends raw bytes that no library would send, and returns the answer."""
     host, port = page.host.split(":")
     with socket.create_connection((host, int(port)), seconds) as connection:
         connection.sendall(text)
@@ -215,7 +215,7 @@ def test_what_is_no_request(page: Page, text: bytes) -> None:
 
 
 def test_slow_clients(serve: Callable[[], Server], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Who says nothing, or too little at a time, is left; there are not too many of them, and others are served."""
+    """Clients that send nothing, or too slowly, are dropped; their number is limited, and others are served."""
     monkeypatch.setattr(server_module.Handler, "timeout", 1.0)
     monkeypatch.setattr(server_module, "BODY", 2.0)
     page = Page(serve())

@@ -78,7 +78,7 @@ def test_plan_and_ways(page: Page, tmp_path: Path) -> None:
 
 
 def test_contour_by_itself(page: Page, tmp_path: Path) -> None:
-    """What is said of a contour goes over its layer's, and that over all."""
+    """A contour's settings override its layer's, and those the job's."""
     state = page.open(plate(tmp_path))
     first, second = ({key: one[key] for key in ("layer", "kind", "at", "size")} for one in state["contours"][1:])
     state |= page.put(
@@ -117,7 +117,7 @@ def test_what_has_changed_alone_is_told(page: Page, tmp_path: Path) -> None:
 
 
 def test_errors_of_a_contour(page: Page, tmp_path: Path) -> None:
-    """What is wrong with one contour is told with its number, and the others are planned all the same."""
+    """An error in one contour is reported with its number, and the others are planned all the same."""
     state = page.open(plate(tmp_path))
     which = {key: state["contours"][0][key] for key in ("layer", "kind", "at", "size")}
     state |= page.put(state, machine={"offset": 0.1}, contour=[which | {"start": [30, 28]}])
@@ -146,7 +146,7 @@ def test_bad_jobs(page: Page, tmp_path: Path) -> None:
 
 
 def test_other_units(page: Page, tmp_path: Path) -> None:
-    """Where the job asks for another reading, the drawing is read anew."""
+    """With other units in the job the drawing is read again."""
     state = page.open(plate(tmp_path))
     answer = page.put(state, read={"units": "inch"})
     assert answer["size"] == [60 * 25.4, 30 * 25.4] and answer["drawn"] > state["drawn"]
@@ -189,7 +189,7 @@ def test_two_tabs(page: Page, tmp_path: Path) -> None:
 
 
 def test_news(page: Page, tmp_path: Path) -> None:
-    """Who asks for news gets them when they come; the drawing only when it is another one."""
+    """A request for news is answered when they come; the drawing is sent only when it has changed."""
     state = page.open(plate(tmp_path))
     Timer(0.5, page.put, (state,), {"machine": {"offset": 0.1}}).start()
     news = page.done("GET", f"/api/state?after={state['rev']}&drawn={state['drawn']}")
@@ -333,7 +333,7 @@ def test_job_file(serve: Callable[[Path], Server], tmp_path: Path, page: Page) -
 
 
 def test_saved_again(serve: Callable[[Path], Server], tmp_path: Path) -> None:
-    """When the drawing's file changes it is read again, and its contours are found in it."""
+    """A changed drawing is read again, and its contours are found in it."""
     page = Page(serve(plate(tmp_path)))
     state = page.state()
     which = {key: state["contours"][1][key] for key in ("layer", "kind", "at", "size")}
@@ -363,7 +363,7 @@ def test_saved_again_without_a_contour(serve: Callable[[Path], Server], tmp_path
 
 
 def test_saved_again_with_a_contour_elsewhere(serve: Callable[[Path], Server], tmp_path: Path) -> None:
-    """What was found again, but not where it was, is to be confirmed, as long as nobody chooses it anew."""
+    """A contour found at another place is to be confirmed, until somebody chooses it again."""
     page = Page(serve(plate(tmp_path)))
     state = page.state()
     which = {key: state["contours"][1][key] for key in ("layer", "kind", "at", "size")}

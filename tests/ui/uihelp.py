@@ -1,4 +1,4 @@
-"""What the tests of `skg ui` have in common: a page's calls, and drawings."""
+"""Shared by the tests of `skg ui`: a page's calls, and drawings."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Json = dict
 
 @dataclass
 class Answer:
-    """What came back."""
+    """An answer of the server."""
 
     status: int
     headers: http.client.HTTPMessage

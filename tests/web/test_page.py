@@ -65,7 +65,7 @@ def test_types() -> None:
 
 
 def roles(routes: list[PlacedRoute]) -> list[str]:
-    """What each block is for, in the page's words."""
+    """The purpose of each block, in the page's words."""
     words = {WAY_IN: "in", CUT: "cut", WAY_BACK: "back"}
     return [
         "move" if route.is_move else words[part] for route in routes for part, blocks in route.parts() for _ in blocks
@@ -95,7 +95,7 @@ ROM_BYTES = 0x2000
 
 
 def debugger(stop: str) -> dict[str, object]:
-    """What `skg80 --debug` says where the wrench comes to a stop the second time: floats, registers, the ROM's code."""
+    """The output of `skg80 --debug` at the wrench's second stop: floats, registers, the ROM's code."""
     skg80, part = ROOT / "build" / "skg80", ROOT / "examples" / "wrench.skg"
     listings = [f"list {address:X} 1" for address in range(ROM_BYTES)]
     commands = ["continue", "floats", "m", *listings]
@@ -118,7 +118,7 @@ def debugger(stop: str) -> dict[str, object]:
 
 
 def shape(entity: DXFEntity) -> tuple[object, ...]:
-    """What an entity is and where, to a nanometre; a line or an arc by its ends in either order."""
+    """An entity's type and place, to a nanometre; a line or an arc by its ends in either order."""
 
     def at(point: object) -> tuple[float, float]:
         return round(point[0], 6) + 0.0, round(point[1], 6) + 0.0

@@ -1,8 +1,8 @@
 /* Memory and strings for a module without a C library.
  *
  * The heap: pieces in a row behind the data, each with its size in front. A freed piece goes onto a list, and the next
- * request that fits it gets it whole; pieces are never put together again. That does for a board or two and queues that
- * grow now and then.
+ * request that fits it gets it whole; pieces are never joined again. That is enough for a board or two and queues that
+ * seldom grow.
  *
  * NOT IMPLEMENTED: alignment above 16; more threads than one.
  */
@@ -80,7 +80,7 @@ void *realloc(void *old, size_t size)
     return made;
 }
 
-/* (-fno-builtin: the compiler may not make calls of these functions to themselves out of the loops) */
+/* (-fno-builtin: else the compiler turns each loop into a call of the function itself) */
 
 void *memset(void *to, int value, size_t length)
 {

@@ -1,16 +1,17 @@
-/* The board as the page holds it: what board.ts calls in board.wasm
+/* The board of the page: the functions of board.wasm that board.ts calls
  *
- * One board for the visitor, and a second one to look into copies of its memory (`which` 0 and 1). Paper and punch are kept
- * until they are taken. Of every line on the punch (a block, D, DD) it is noted which line of the program made it and
- * where the wire stands behind it.
+ * One board for the visitor, and a second one for copies of its memory (`which` 0 and 1). Paper and punch are kept
+ * until they are taken. For every line on the punch (a block, D, DD) it records the line of the program that made it
+ * and the wire's position behind it.
  *
- * That is read in the firmware's cells and at two of its labels (page_names): when an element of the route becomes the
- * present one (`element`), the line that runs is its line; while the wire goes along it (from `along` until it returns),
- * what is punched is that line's. All else - the way from the start hole and back, from hole to hole, D, DD - belongs to the
- * line that runs. Line 0: a direct statement. Where a run begins (`run`), the punch gets a line RUN that is not the
- * firmware's: what follows is a new tape.
+ * Both come from the firmware's cells and labels (page_names): at `element` an element of the route becomes the present
+ * one, and the running line is its line; while the wire goes along it (from `along` until that returns), output of the
+ * punch belongs to that line. All other output - the way from the start hole and back, from hole to hole, D, DD -
+ * belongs to the running line. Line 0: a direct statement. At `run` a run begins: the punch gets a line RUN, which is
+ * not the firmware's, and a new tape follows.
  *
- * The page's debugger stops at addresses of machine code or byte-code (page_stop_at), and goes on step by step (page_step).
+ * The page's debugger stops at addresses of machine code or byte-code (page_stop_at), and goes on step by step
+ * (page_step).
  */
 #include "../../emu/board.h"
 #include "../../emu/breaks.h"
@@ -27,7 +28,7 @@ typedef struct {
     size_t length, size;
 } record;
 
-/* What made a line on the punch, and where the wire stands behind it (um). */
+/* The program line that made a line on the punch, and the wire's position behind it (um). */
 typedef struct {
     double line, x, y;
 } maker;
@@ -38,11 +39,11 @@ static struct held {
     bool punching;              /* in the middle of a line of the punch */
     uint16_t element_line;      /* of the present element of the route */
     bool along;                 /* the wire goes along it */
-    uint16_t back;              /* where that ends */
+    uint16_t back;              /* its return address: the way ends there */
     breaks stops;               /* of the page's debugger */
 } boards[BOARDS];
 
-static record buffer;           /* what goes in */
+static record buffer;           /* bytes for the next call */
 
 static struct {
     uint16_t current, direct, element, along, run, wire, operation;
@@ -99,7 +100,7 @@ static uint16_t running_line(const struct held *h)
     return i8080_peek(&h->board->cpu, (uint16_t)(names.direct + 1)) ? word_at(h, names.current) : 0;
 }
 
-/* Does the board stop there, for the page or for its debugger? */
+/* Tells whether the board stops at an address, for the page or for its debugger. */
 static bool is_marked(const struct held *h, uint16_t address)
 {
     return address == names.element || address == names.along || address == names.run
@@ -107,7 +108,7 @@ static bool is_marked(const struct held *h, uint16_t address)
            || (h->stops.count && address == names.operation);
 }
 
-/* Is the board where its debugger wants to be asked, in machine code or in byte-code? */
+/* Tells whether the board is at a breakpoint, in machine code or in byte-code. */
 static bool at_stop(const struct held *h)
 {
     const i8080 *c = &h->board->cpu;
@@ -132,17 +133,17 @@ static void punch(void *user, uint8_t byte)
     h->punching = byte >= ' ';
 }
 
-/* ---- what board.ts calls ---- */
+/* ---- called by board.ts ---- */
 
-/* Room for so many bytes that go in with the next call; 0 without memory. */
+/* A buffer for so many bytes of the next call; 0 without memory. */
 EXPORT(page_buffer) uint8_t *page_buffer(uint32_t length)
 {
     buffer.length = 0;
     return room(&buffer, length) ? buffer.bytes : NULL;
 }
 
-/* Addresses: cell of the line that runs; cell whose high byte is 0 for a direct statement; the three labels; the first of
- * two floats, where the wire stands; where the calculator takes its next operation, the byte at BC. */
+/* Addresses: cell of the running line; cell whose high byte is 0 for a direct statement; the three labels; the first of
+ * two floats, the wire's position; the label at which the calculator takes its next operation, the byte at BC. */
 EXPORT(page_names)
 void page_names(uint32_t current, uint32_t direct, uint32_t element, uint32_t along, uint32_t run, uint32_t wire,
                 uint32_t operation)
@@ -226,7 +227,7 @@ EXPORT(page_cycles) double page_cycles(uint32_t which)
     return (double)boards[which].board->cpu.cycles;
 }
 
-/* The present element changes, or the wire sets out along it, or comes back from there. */
+/* Follows the firmware at its labels: the present element changes, the way along it begins or ends. */
 static void follow(struct held *h)
 {
     i8080 *c = &h->board->cpu;
@@ -241,7 +242,7 @@ static void follow(struct held *h)
         }
     } else if (c->pc == names.element) {
         h->element_line = running_line(h);
-        h->along = false; /* (an error may have left it so) */
+        h->along = false; /* (an error may have left it true) */
     } else if (c->pc == names.along) {
         h->along = true;
         h->back = word_at(h, c->sp);
@@ -261,7 +262,7 @@ static board_reason go_over(struct held *h)
     return reason;
 }
 
-/* Runs as board_run does; BOARD_BREAK: where the debugger wants to be asked. */
+/* Runs as board_run does; BOARD_BREAK: at a breakpoint of the debugger. */
 EXPORT(page_run) uint32_t page_run(uint32_t which, double cycles)
 {
     struct held *h = &boards[which];
@@ -279,7 +280,7 @@ EXPORT(page_run) uint32_t page_run(uint32_t which, double cycles)
     }
 }
 
-/* Stops there, or no more; false when there are too many places. */
+/* Sets or deletes a breakpoint; false when there are too many. */
 EXPORT(page_stop_at) bool page_stop_at(uint32_t which, uint32_t address, bool stops)
 {
     struct held *h = &boards[which];
@@ -290,8 +291,8 @@ EXPORT(page_stop_at) bool page_stop_at(uint32_t which, uint32_t address, bool st
     return done;
 }
 
-/* Goes on from where it stands by an instruction, to the calculator's next operation, or until the stack pointer is above
- * `stack`; not past a stop. BOARD_BREAK: it is there; else as page_run. */
+/* Runs one instruction, or to the calculator's next operation, or until the stack pointer is above `stack`; not past a
+ * breakpoint. BOARD_BREAK: done; else as page_run. */
 EXPORT(page_step) uint32_t page_step(uint32_t which, uint32_t how, uint32_t stack, double cycles)
 {
     enum { INSTRUCTION, OPERATION, RETURN };
@@ -341,7 +342,7 @@ static uint8_t *taken(record *r)
     return r->bytes;
 }
 
-/* Length of what was printed, punched, and of its makers; then the bytes, which are forgotten. */
+/* The length of the paper, of the punched tape and of its makers; then their bytes, which are dropped here. */
 EXPORT(page_printed) uint32_t page_printed(uint32_t which)
 {
     return boards[which].paper.length;

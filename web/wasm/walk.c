@@ -1,5 +1,5 @@
-/* The 3B controller as the page holds it: what walk.ts calls in walk.wasm. One block on its way; all lengths in um, as
- * doubles, since JavaScript has no 64-bit integers that are as quick. The stepping itself is skg sim's. */
+/* The 3B controller of the page: the functions of walk.wasm that walk.ts calls. One block at a time; all lengths in um,
+ * as doubles, since 64-bit integers are slow in JavaScript. The stepping itself is skg sim's. */
 #include "../../tools/skg/native/skgsim.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))

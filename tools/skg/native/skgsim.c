@@ -30,7 +30,7 @@ static int64_t sign_y(int64_t quadrant)
     return quadrant <= 2 ? 1 : -1;
 }
 
-/* What a drive's port shows of the two steps: directions of both, and the one that is made. */
+/* The value of a drive's port: the directions of the two possible steps; port_step adds the step that is made. */
 static uint8_t directions(steps s)
 {
     return (uint8_t)((s.in_x + s.out_x < 0 ? SKGSIM_X_MINUS : 0) | (s.in_y + s.out_y < 0 ? SKGSIM_Y_MINUS : 0));
@@ -74,7 +74,7 @@ static inline int run(skgsim_block *b, int64_t budget, int64_t *trace, uint8_t *
         const int64_t in_counts = b->axis ? s.in_y != 0 : s.in_x != 0;
         int64_t px = b->px, py = b->py, f = b->f, counted = b->counted, taken = 0;
         int64_t f_max = b->f_max, f_min = b->f_min, d_max = b->d_max, d_min = b->d_min;
-        /* Changes of F on the next step inside or outside, and how such a step changes them. */
+        /* Changes of F by the next step inside or outside; a step adds `grow` to its own. */
         int64_t f_in, f_out, grow, distance;
         /* The deviation against the intended curve is d = f + d_rest; d_rest changes by a constant per step. */
         int64_t d_rest, d_in, d_out;

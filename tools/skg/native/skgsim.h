@@ -26,14 +26,14 @@ typedef struct {
 /* Bits of a drive's port (docs/spec/drive.md). */
 enum { SKGSIM_X_STEP = 1, SKGSIM_X_MINUS = 2, SKGSIM_Y_STEP = 4, SKGSIM_Y_MINUS = 8 };
 
-/* Take at most budget steps. When trace is not null, the position after each of them goes into
- * trace[2k], trace[2k + 1]; when port is not null, what a drive's port shows with the pulse up into port[k]: the step, and
- * the directions that both axes have in the quadrant. STALLED: the count axis does not move any more, J will never be reached. */
+/* Take at most budget steps. When trace is not null, the position after each of them goes into trace[2k], trace[2k +
+ * 1]; when port is not null, the value of a drive's port with the pulse up goes into port[k]: the step, and the
+ * directions of both axes in the quadrant. STALLED: the count axis does not move any more, so J is never reached. */
 int skgsim_run(skgsim_block *block, int64_t budget, int64_t *trace, uint8_t *port);
 
 /* Follow blocks one after the other, each to its end; px and py are then the way from its start. should[2k], should[2k + 1] is
- * the way that block k ought to make: what it misses is added to the drift of the next one, which begins with that of
- * blocks[0]. NULL: all have that drift. Returns count, or which block STALLED. */
+ * the exact way of block k: its error is added to the drift of the next block, beginning with the drift of blocks[0].
+ * NULL: all blocks have that drift. Returns count, or the index of the block that STALLED. */
 int64_t skgsim_walk(skgsim_block *blocks, int64_t count, const int64_t *should);
 
 #endif

@@ -1,4 +1,4 @@
-/* What emu/ wants of a C library, without one: memory.c has it. */
+/* The functions of a C library that emu/ calls; memory.c defines them. */
 #ifndef PAGE_STRING_H
 #define PAGE_STRING_H
 
