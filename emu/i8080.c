@@ -165,7 +165,11 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 #define IMM16 ((reg)(code[1] | code[2] << 8))
 #define WR(address, value) store(c, address, value)
 #define WR16(address, value)                                                        \
-    (store(c, address, (value) & 0xff), store(c, (address) + 1, (value) >> 8))
+    do {                                                                            \
+        reg at_ = (address); /* (once: SHLD may write onto its own operand) */      \
+        store(c, at_, (value) & 0xff);                                              \
+        store(c, at_ + 1, (value) >> 8);                                            \
+    } while (0)
 #define PUSH(value)                                                                 \
     do {                                                                            \
         reg v_ = (value);                                                           \

@@ -217,6 +217,10 @@ static bool each_anywhere(pair *p, unsigned opcode, uint64_t *count)
         uint32_t x = random32(), y = random32(), z = random32();
         uint16_t pc = (uint16_t)z;
         poke_both(p, pc, (uint8_t)opcode);
+        if (!(z >> 16 & 15)) {          /* the operand is its own address */
+            poke_both(p, (uint16_t)(pc + 1), (uint8_t)(pc + 1));
+            poke_both(p, (uint16_t)(pc + 2), (uint8_t)((pc + 1) >> 8));
+        }
         set_both(p, (uint8_t)i, flags, (uint16_t)x, (uint16_t)(x >> 16), (uint16_t)y, (uint16_t)(y >> 16), pc);
         if (!one(p, opcode)) {
             return false;
