@@ -74,13 +74,13 @@ build/libskg80.so: $(EMU_TRANSLATED)
 	$(EMU_CC) -shared -o $@ $^
 
 # Tests
-build/emu/compare build/asan/compare: build/%/compare: $(addprefix build/%/,tests/compare.o tests/plain8080.o i8080.o)
+build/emu/compare build/asan/compare: build/%/compare: $(addprefix build/%/,tests/compare.o tests/plain8080.o i8080.o i8080_small.o)
 	$(EMU_CC) $(if $(findstring asan,$*),$(EMU_ASAN)) -o $@ $^
 
 build/emu/translated: build/emu/tests/translated.o $(EMU_TRANSLATED)
 	$(EMU_CC) -o $@ $^
 
-build/emu/bench: $(addprefix build/emu/,tests/bench.o tests/plain8080.o com.o image.o i8080.o)
+build/emu/bench: $(addprefix build/emu/,tests/bench.o tests/plain8080.o com.o image.o i8080.o i8080_small.o)
 	$(EMU_CC) -o $@ $^
 
 build/asan/fuzz: build/asan/tests/fuzz.o $(call EMU_OBJECTS,build/asan,com.c $(EMU_LIBRARY))
@@ -88,6 +88,14 @@ build/asan/fuzz: build/asan/tests/fuzz.o $(call EMU_OBJECTS,build/asan,com.c $(E
 
 build/emu/%.com: tests/emu/%.asm tests/emu/asm8080.py
 	@mkdir -p $(@D); $(PYTHON) tests/emu/asm8080.py $< $@
+
+# The small core and the ROM for a BBC micro:bit, on which qemu-system-arm runs them in a test.
+MICRO_CC     := arm-none-eabi-gcc
+MICRO_CFLAGS := -O2 -std=c11 -Wall -Wextra -Werror -mthumb -mcpu=cortex-m0 --specs=nano.specs -nostartfiles \
+                -ffunction-sections -fdata-sections -Wl,--gc-sections
+
+build/emu/micro.elf: $(addprefix tests/emu/micro/,main.c microbit.ld) $(wildcard emu/i8080*.[ch]) roms/skg.bin emu/emu.mk
+	@mkdir -p $(@D); $(MICRO_CC) $(MICRO_CFLAGS) -DROM='"roms/skg.bin"' -T $(filter %.ld,$^) -o $@ tests/emu/micro/main.c emu/i8080_small.c
 
 # SIMH's Altair, in which tests run core and ROM. Who may install it gets it; without it these tests are skipped.
 altairz80:

@@ -30,10 +30,7 @@ enum {
     MARK_ENTRY = 64             /* of the translation */
 };
 
-enum {
-    MIRRORED = 4,           /* bytes at 0000 that are kept a second time past FFFF */
-    SLICE = 1 << 25         /* cycles; less than 4 * 2^24, so that instructions never overflow their 24 bits */
-};
+enum { MIRRORED = 4 };          /* bytes at 0000 that are kept a second time past FFFF */
 
 /* Places in the table of the fast loop's handlers; below these, the opcodes. */
 enum {
@@ -129,7 +126,7 @@ void i8080_break(i8080 *c, uint16_t address, bool on)
 
 /* ---- the careful loop ---- */
 
-static void store(i8080 *c, uint64_t address, uint64_t value)
+static void store(i8080 *c, reg address, reg value)
 {
     unsigned at = address & 0xffff;
     uint8_t mark = c->mark[at];
@@ -164,14 +161,18 @@ static const uint8_t instruction_length[256] = { EVERY_OPCODE(LENGTH_OF) };
  * True when it stands at a breakpoint. */
 static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 {
-#define IMM8 ((uint64_t)code[1])
-#define IMM16 ((uint64_t)(code[1] | code[2] << 8))
+#define IMM8 ((reg)code[1])
+#define IMM16 ((reg)(code[1] | code[2] << 8))
 #define WR(address, value) store(c, address, value)
 #define WR16(address, value)                                                        \
-    (store(c, address, (value) & 0xff), store(c, (address) + 1, (value) >> 8))
+    do {                                                                            \
+        reg at_ = (address); /* (once: SHLD may write onto its own operand) */      \
+        store(c, at_, (value) & 0xff);                                              \
+        store(c, at_ + 1, (value) >> 8);                                            \
+    } while (0)
 #define PUSH(value)                                                                 \
     do {                                                                            \
-        uint64_t v_ = (value);                                                      \
+        reg v_ = (value);                                                           \
         sp = (sp - 2) & 0xffff;                                                     \
         store(c, sp + 1, v_ >> 8);                                                  \
         store(c, sp, v_ & 0xff);                                                    \
@@ -197,7 +198,7 @@ static bool run_careful(i8080 *c, const uint8_t *bus, bool single)
 
     REGISTERS;
     bool at_break = false;
-    int64_t left;
+    tally left;
     COUNT_SLICE;
     LOAD_REGISTERS;
     do {
@@ -280,7 +281,7 @@ static bool run_fast(i8080 *c, bool labels)
     };
 
     REGISTERS;
-    int64_t left;
+    tally left;
 
     if (labels) {
         c->handlers = handlers;

@@ -10,6 +10,8 @@
  * the cycles are used up. Every flag, every cycle count and the twelve undocumented duplicate opcodes are those
  * of the chip. Interrupts are taken between instructions; the device puts up to three bytes on the bus.
  *
+ * 400 KB for each; i8080_small.h is the same for a microcontroller (README.md, section "On a microcontroller").
+ *
  * NOT IMPLEMENTED: HOLD and bus-level signals (SYNC, status byte, READY wait states); memory-mapped devices;
  * cycles inside an instruction (a device sees the count at the instruction's start).
  */

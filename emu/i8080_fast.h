@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Stores a word as one, since a host that must gather a later 16-bit load (RET, POP) from two stores waits for both. */
-static inline void put16(uint8_t *at, uint64_t value)
+static inline void put16(uint8_t *at, reg value)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     uint16_t word = (uint16_t)value;
@@ -17,7 +17,7 @@ static inline void put16(uint8_t *at, uint64_t value)
 
 #define WR(address, value)                  \
     do {                                    \
-        uint64_t at_ = (address);           \
+        reg at_ = (address);                \
         if (UNLIKELY(c->mark[at_])) {       \
             goto careful;                   \
         }                                   \
@@ -25,7 +25,7 @@ static inline void put16(uint8_t *at, uint64_t value)
     } while (0)
 #define WR16(address, value)                                \
     do {                                                    \
-        uint64_t at_ = (address);                           \
+        reg at_ = (address);                                \
         if (UNLIKELY(c->mark[at_] | c->mark[at_ + 1])) {    \
             goto careful;                                   \
         }                                                   \
@@ -33,8 +33,8 @@ static inline void put16(uint8_t *at, uint64_t value)
     } while (0)
 #define PUSH(value)                         \
     do {                                    \
-        uint64_t v_ = (value);              \
-        uint64_t sp_ = (sp - 2) & 0xffff;   \
+        reg v_ = (value);                   \
+        reg sp_ = (sp - 2) & 0xffff;        \
         WR16(sp_, v_);                      \
         sp = sp_;                           \
     } while (0)

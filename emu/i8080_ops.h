@@ -1,6 +1,6 @@
 /* The 8080's instruction table: opcode, length in bytes, cycles (of the path not taken), what it does.
  *
- * Included by i8080.c, which gives the words of the third column their meaning, once for each of its two loops.
+ * Included by each file with a loop, which gives the words of the third column their meaning (i8080_words.h).
  * A * marks the undocumented duplicates, which the silicon carries out like the opcode they double.
  * A body that writes memory does so before it changes any register: the fast loop may leave it at the write
  * and have the whole instruction carried out by the careful one.

@@ -85,8 +85,8 @@ static void run(i8080 *c)
     };
 
     REGISTERS;
-    int64_t left, rest;
-    uint64_t operand;
+    tally left, rest;
+    reg operand;
     LOAD_REGISTERS;
     COUNT_SLICE;
 

@@ -3,11 +3,13 @@
  *      compare each                every opcode over all A x operand for arithmetic, and all A x flags x 16 random
  *                                  states for all; once in the fast loop and once in the careful one
  *      compare streams SEED N      N random programs with random slices, interrupts, ROM and open bus
+ *      compare small each          the same of the small core, with fewer states: its words are the large one's, so of
+ *      compare small streams ...   arithmetic the immediate opcodes do, and a state for all A x flags
  *
- * Registers, flags, cycles, instructions, interrupt state, ports and all of memory must agree. Prints what was compared
+ * Ports stop the run and raise interrupts. Registers, flags, cycles, instructions, interrupt state, ports and all of memory must agree. Prints what was compared
  * and exits 0, or prints the first difference and exits 1.
  */
-#include "../../emu/i8080.h"
+#include "../../emu/i8080_small.h"
 #include "plain8080.h"
 
 #include <stdio.h>
@@ -20,8 +22,12 @@ typedef struct {
     uint16_t written[2];        /* addresses of the last instruction's writes */
     unsigned writes;
     uint64_t ports, our_ports;  /* hash of everything that went through the ports */
+    bool stop, irq;             /* the plain core's: a port has said so */
+    uint8_t irq_code;
     plain8080 plain;
     i8080 core;
+    i8080_small small;          /* if it is compared, `core` keeps its memory, and its registers between runs */
+    bool is_small;
 } pair;
 
 static uint64_t random_state;
@@ -51,31 +57,110 @@ static void write_memory(void *user, uint16_t address, uint8_t value)
     p->written[p->writes++ & 1] = address;
 }
 
-/* What a port gives depends on what went before, so that an access too many or too few shows. */
+static const uint8_t bus_opcodes[] = { 0xc7, 0xcf, 0xd7, 0xff, 0x00, 0x23, 0x80, 0xe5, 0xfb, 0xf3, 0x76 };
+
+static void interrupt(pair *p, uint8_t opcode)
+{
+    const uint8_t code[3] = { opcode, 0, 0 };
+    if (p->is_small) {
+        i8080_small_interrupt(&p->small, code);
+    } else {
+        i8080_interrupt(&p->core, code);
+    }
+}
+
+/* What a port gives, and whether it stops the run or raises an interrupt, depends on what went before, so that an access
+ * too many or too few shows. */
+static void plain_port(pair *p, uint8_t port, unsigned value)
+{
+    p->ports = mixed(p->ports, port, value);
+    if (!(p->ports >> 40 & 7)) {
+        p->stop = true;
+    }
+    if (!(p->ports >> 44 & 7)) {
+        p->irq = true;
+        p->irq_code = bus_opcodes[(p->ports >> 48) % sizeof bus_opcodes];
+    }
+}
+
+static void core_port(pair *p, uint8_t port, unsigned value)
+{
+    p->our_ports = mixed(p->our_ports, port, value);
+    if (!(p->our_ports >> 40 & 7)) {
+        if (p->is_small) {
+            i8080_small_stop(&p->small);
+        } else {
+            i8080_stop(&p->core);
+        }
+    }
+    if (!(p->our_ports >> 44 & 7)) {
+        interrupt(p, bus_opcodes[(p->our_ports >> 48) % sizeof bus_opcodes]);
+    }
+}
+
 static uint8_t plain_in(void *user, uint8_t port)
 {
     pair *p = user;
-    p->ports = mixed(p->ports, port, 256);
+    plain_port(p, port, 256);
     return (uint8_t)(p->ports >> 32);
 }
 
 static void plain_out(void *user, uint8_t port, uint8_t value)
 {
-    pair *p = user;
-    p->ports = mixed(p->ports, port, value);
+    plain_port(user, port, value);
 }
 
 static uint8_t core_in(void *user, uint8_t port)
 {
     pair *p = user;
-    p->our_ports = mixed(p->our_ports, port, 256);
+    core_port(p, port, 256);
     return (uint8_t)(p->our_ports >> 32);
 }
 
 static void core_out(void *user, uint8_t port, uint8_t value)
 {
-    pair *p = user;
-    p->our_ports = mixed(p->our_ports, port, value);
+    core_port(user, port, value);
+}
+
+/* Runs the core; with the small one `core` has its registers before and after. */
+static i8080_reason run_core(pair *p, uint64_t cycles)
+{
+    i8080 *c = &p->core;
+    i8080_small *s = &p->small;
+    if (!p->is_small) {
+        return i8080_run(c, cycles);
+    }
+#define COPY(to, from)                                                                                              \
+    ((to)->a = (from)->a, (to)->f = (from)->f, (to)->bc = (from)->bc, (to)->de = (from)->de, (to)->hl = (from)->hl, \
+     (to)->sp = (from)->sp, (to)->pc = (from)->pc, (to)->inte = (from)->inte, (to)->halted = (from)->halted)
+    COPY(s, c);
+    i8080_reason reason = i8080_small_run(s, cycles);
+    COPY(c, s);
+    c->cycles = s->cycles;
+    c->instructions = s->instructions;
+    return reason;
+}
+
+/* The same of the plain core. */
+static i8080_reason run_plain(pair *p, uint64_t cycles)
+{
+    plain8080 *c = &p->plain;
+    for (uint64_t end = c->cycles + cycles;;) {
+        if (p->stop) {
+            p->stop = false;
+            return I8080_STOPPED;
+        }
+        if (c->cycles >= end) {
+            return I8080_CYCLES;
+        }
+        if (p->irq && plain8080_interrupt(c, p->irq_code)) {
+            p->irq = false;
+        } else if (c->halted) {
+            return I8080_HALTED;
+        } else {
+            plain8080_step(c);
+        }
+    }
 }
 
 static uint16_t pair_of(const plain8080 *c, unsigned high)
@@ -146,14 +231,24 @@ static bool same_memory(const pair *p)
     return !memcmp(p->memory, p->core.mem, sizeof p->memory);
 }
 
+/* Runs both, which must end alike. */
+static bool run_both(pair *p, uint64_t cycles)
+{
+    p->writes = 0;
+    return run_core(p, cycles) == run_plain(p, cycles) && same(p);
+}
+
 /* Both empty, both with the same random memory. */
-static pair *new_pair(void)
+static pair *new_pair(bool is_small)
 {
     pair *p = calloc(1, sizeof *p);
     if (!p) {
         abort();
     }
+    p->is_small = is_small;
     i8080_init(&p->core, core_in, core_out, p);
+    i8080_small_init(&p->small, core_in, core_out, p);
+    i8080_small_map(&p->small, 0, 0xffff, p->core.mem, p->core.mem);
     p->plain = (plain8080){
         // clang-format off
         .read = read_memory, .write = write_memory, .in = plain_in, .out = plain_out, .user = p,
@@ -169,11 +264,8 @@ static pair *new_pair(void)
 
 static bool one(pair *p, unsigned opcode)
 {
-    p->writes = 0;
     p->core.halted = p->plain.halted = false;
-    i8080_run(&p->core, 1);
-    plain8080_step(&p->plain);
-    if (same(p)) {
+    if (run_both(p, 1)) {
         return true;
     }
     char what[32];
@@ -208,15 +300,19 @@ static bool each_arithmetic(pair *p, unsigned opcode, uint64_t *count)
     return true;
 }
 
-/* Any opcode over all A and all flags in random states, anywhere in memory. */
-static bool each_anywhere(pair *p, unsigned opcode, uint64_t *count)
+/* Any opcode over all A and all flags in so many random states, anywhere in memory. */
+static bool each_anywhere(pair *p, unsigned opcode, unsigned states, uint64_t *count)
 {
-    for (unsigned i = 0; i < 256 * 32 * 16; i++) {
+    for (unsigned i = 0; i < 256 * 32 * states; i++) {
         unsigned set = i >> 8 & 31;
         uint8_t flags = (uint8_t)((set & 0x18) << 3 | (set & 4) << 2 | (set & 2) << 1 | 2 | (set & 1));
         uint32_t x = random32(), y = random32(), z = random32();
         uint16_t pc = (uint16_t)z;
         poke_both(p, pc, (uint8_t)opcode);
+        if (!(z >> 16 & 15)) { /* the operand is its own address */
+            poke_both(p, (uint16_t)(pc + 1), (uint8_t)(pc + 1));
+            poke_both(p, (uint16_t)(pc + 2), (uint8_t)((pc + 1) >> 8));
+        }
         set_both(p, (uint8_t)i, flags, (uint16_t)x, (uint16_t)(x >> 16), (uint16_t)y, (uint16_t)(y >> 16), pc);
         if (!one(p, opcode)) {
             return false;
@@ -226,15 +322,16 @@ static bool each_anywhere(pair *p, unsigned opcode, uint64_t *count)
     return true;
 }
 
-static int compare_each(void)
+static int compare_each(bool is_small)
 {
     uint64_t count = 0;
-    for (int careful = 0; careful < 2; careful++) {
-        pair *p = new_pair();
+    for (int careful = 0; careful < (is_small ? 1 : 2); careful++) {
+        pair *p = new_pair(is_small);
         i8080_watch(&p->core, careful, 0, 0xffff);
         for (unsigned opcode = 0; opcode < 256; opcode++) {
-            bool arithmetic = (opcode & 0xc0) == 0x80 || (opcode & 0xc7) == 0xc6;
-            if ((arithmetic && !each_arithmetic(p, opcode, &count)) || !each_anywhere(p, opcode, &count)) {
+            bool arithmetic = ((opcode & 0xc0) == 0x80 && !is_small) || (opcode & 0xc7) == 0xc6;
+            if ((arithmetic && !each_arithmetic(p, opcode, &count))
+                || !each_anywhere(p, opcode, is_small ? 1 : 16, &count)) {
                 return 1;
             }
             if (!same_memory(p)) {
@@ -264,6 +361,8 @@ static void map_at_random(pair *p)
             memset(p->memory + (page << 8), 0xff, 256);
         }
     }
+    i8080_small_map(&p->small, 0, 0x1fff, p->core.mem, NULL);
+    i8080_small_map(&p->small, 0xe000, 0xffff, NULL, NULL);
 }
 
 /* Some programs are noise; most hold many instructions that go on to the next, so that they get somewhere. */
@@ -284,22 +383,17 @@ static void write_program(pair *p)
 /* Raises an interrupt, also where it must not be taken or only after the next instruction. */
 static bool interrupt_both(pair *p)
 {
-    static const uint8_t opcodes[] = { 0xc7, 0xcf, 0xd7, 0xff, 0x00, 0x23, 0x80, 0xe5, 0xfb, 0xf3, 0x76 };
-    uint8_t code[3] = { opcodes[random32() % sizeof opcodes], 0, 0 };
-    bool taken = false;
-    i8080_interrupt(&p->core, code);
-    for (int tries = 0; tries < 2 && !taken; tries++) {
-        p->writes = 0;
-        i8080_run(&p->core, 1);
-        taken = plain8080_interrupt(&p->plain, code[0]);
-        if (!taken) {
-            plain8080_step(&p->plain);
-        }
-        if (!same(p)) {
+    p->irq = true;
+    p->irq_code = bus_opcodes[random32() % sizeof bus_opcodes];
+    interrupt(p, p->irq_code);
+    for (int tries = 0; tries < 2 && p->irq; tries++) {
+        if (!run_both(p, 1)) {
             return false;
         }
     }
+    p->irq = false;
     i8080_interrupt_clear(&p->core);
+    i8080_small_interrupt_clear(&p->small);
     return true;
 }
 
@@ -313,13 +407,7 @@ static bool stream(pair *p, uint64_t *instructions)
     i8080_watch(&p->core, random32() % 8 == 0, 0, 0xffff);
     for (unsigned slices = 0; slices < 40; slices++) {
         uint64_t cycles = random32() % (random32() & 1 ? 30 : 3000);
-        uint64_t end = p->plain.cycles + cycles;
-        p->writes = 0;
-        i8080_run(&p->core, cycles);
-        while (p->plain.cycles < end && !p->plain.halted) {
-            plain8080_step(&p->plain);
-        }
-        if (!same(p) || (random32() % 2 && !interrupt_both(p))) {
+        if (!run_both(p, cycles) || (random32() % 2 && !interrupt_both(p))) {
             return false;
         }
         if (p->plain.halted) {
@@ -330,13 +418,13 @@ static bool stream(pair *p, uint64_t *instructions)
     return same_memory(p);
 }
 
-static int compare_streams(uint64_t seed, unsigned count)
+static int compare_streams(bool is_small, uint64_t seed, unsigned count)
 {
     uint64_t instructions = 0;
     for (unsigned i = 0; i < count; i++) {
         random_state = seed + i;
         random32();
-        pair *p = new_pair();
+        pair *p = new_pair(is_small);
         if (!stream(p, &instructions)) {
             char what[64];
             snprintf(what, sizeof what, "stream with seed %llu", (unsigned long long)(seed + i));
@@ -351,12 +439,15 @@ static int compare_streams(uint64_t seed, unsigned count)
 
 int main(int argc, char **argv)
 {
+    bool is_small = argc > 1 && !strcmp(argv[1], "small");
+    argc -= is_small;
+    argv += is_small;
     if (argc == 2 && !strcmp(argv[1], "each")) {
-        return compare_each();
+        return compare_each(is_small);
     }
     if (argc == 4 && !strcmp(argv[1], "streams")) {
-        return compare_streams(strtoull(argv[2], NULL, 10), (unsigned)atoi(argv[3]));
+        return compare_streams(is_small, strtoull(argv[2], NULL, 10), (unsigned)atoi(argv[3]));
     }
-    fputs("usage: compare each | compare streams SEED N\n", stderr);
+    fputs("usage: compare [small] each | compare [small] streams SEED N\n", stderr);
     return 2;
 }

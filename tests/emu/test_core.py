@@ -42,6 +42,13 @@ def test_random_programs_are_sound() -> None:
     assert run("asan/compare", "streams", "7", "600").startswith("600 streams, ")
 
 
+def test_the_small_core_agrees_with_the_plain_core() -> None:
+    """The same of emu/i8080_small.c, with fewer states: its words are the large core's."""
+    assert run("emu/compare", "small", "each") == "6291456 instructions compared\n"
+    assert run("emu/compare", "small", "streams", "1", "1000").startswith("1000 streams, ")
+    assert run("asan/compare", "small", "streams", "7", "200").startswith("200 streams, ")
+
+
 def test_board_and_files_are_sound(tmp_path: Path) -> None:
     """Random firmware, operators, calls and ROM images under the sanitizers."""
     assert run("asan/fuzz", "7", "300", str(tmp_path / "image")).startswith("300 rounds, ")
