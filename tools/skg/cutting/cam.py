@@ -16,7 +16,7 @@ from skg.geometry.plane import XY
 from skg.job.wanted import Wanted
 from skg.planning.plan import plan
 
-#: What FIT may be off the cam between its nodes, mm.
+#: Largest deviation of FIT from the cam between its nodes, mm.
 TOLERANCE = 0.0002
 
 #: A motion law: what part of the lift is done at a part of the rise, and the first two derivatives of that.

@@ -22,7 +22,7 @@ from skg.planning.plan import plan
 from skg.planning.route import PlannedContour
 from skg.tape.block import MAX_DIGITS
 
-#: What FIT may be off the involute between its nodes, mm.
+#: Largest deviation of FIT from the involute between its nodes, mm.
 TOLERANCE = 0.0002
 #: The number of a block that is one more than the largest, mm.
 _TOO_LARGE = 10.0 ** (MAX_DIGITS - 3)
@@ -108,7 +108,7 @@ class Gear:
 
     def _refuse(self) -> None:
         if self.tip_radius >= _TOO_LARGE:
-            # (which its tip circle's blocks would have in them)
+            # (blocks of the tip circle would have its radius in them)
             raise UserError(f"the tip circle has a radius of {self.tip_radius / 1000:g} m, a tape ends at 100 m")
         if self.root_radius <= 0:
             raise UserError(f"{self.teeth} teeth leave no room inside the root circle: more teeth, or a larger --shift")

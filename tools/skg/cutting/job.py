@@ -163,15 +163,15 @@ class _Ladder:
 
     def through(self) -> CutResult:
         """Try all contours, and those by themselves that did not go through, until all do."""
-        some = list(self.routes)
+        numbers = list(self.routes)
         while True:
-            job, troubles = self._try({number: self.routes[number] for number in some})
+            job, troubles = self._try({number: self.routes[number] for number in numbers})
             if troubles:
                 self._climb(troubles)
-            elif len(some) == len(self.routes):
+            elif len(numbers) == len(self.routes):
                 return job
             again = [number for number in self.routes if number in troubles]
-            some = again if 0 < 2 * len(again) < len(self.routes) else list(self.routes)
+            numbers = again if 0 < 2 * len(again) < len(self.routes) else list(self.routes)
 
     def around_tips(self, job: CutResult) -> CutResult:
         """The tape of which the wire goes around the tips that it would run far past, with its own way, where that is
@@ -196,7 +196,7 @@ class _Ladder:
         job = _tried(program, self.settings, self.progress)
         if isinstance(job, ErrorLine):
             refused = _refused(program, self.settings) or dict.fromkeys(range(len(numbers)), job)
-            return None, {numbers[at]: error for at, error in refused.items()}
+            return None, {numbers[index]: error for index, error in refused.items()}
         troubles: dict[int, _Trouble] = defaultdict(list)
         for fault in job.checked.faults:
             troubles[numbers[fault.route]].append(fault)
@@ -302,17 +302,17 @@ def _refused(program: Program, settings: Settings) -> dict[int, ErrorLine]:
     """The routes that the ROM refuses; behind one of these a new board goes on."""
     _, *routes, _ = program.unnumbered()
     refused: dict[int, ErrorLine] = {}
-    at = 0
-    while at < len(routes):
-        fed, done = feed_lines(map(_text, routes[at:]), settings.rom, settings.ram_kib)
-        at += done
+    index = 0
+    while index < len(routes):
+        fed, done = feed_lines(map(_text, routes[index:]), settings.rom, settings.ram_kib)
+        index += done
         if fed.error:
-            refused[at] = fed.error
-        at += 1
+            refused[index] = fed.error
+        index += 1
     return refused
 
 
-def _through(program: Program, settings: Settings, told: Callable[[int], None]) -> tuple[str, bool, Fed]:
+def _through(program: Program, settings: Settings, on_done: Callable[[int], None]) -> tuple[str, bool, Fed]:
     """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
     text = ""
     if _LEAST_STORED * len(program.routes) <= 1024 * settings.ram_kib:
@@ -323,7 +323,7 @@ def _through(program: Program, settings: Settings, told: Callable[[int], None]) 
         if fed.error is None or fed.error.number != MEMORY_FULL:
             return text, True, fed
     parts, written = tee(map(_text, program.unnumbered()))
-    fed = feed_routes(parts, settings.rom, settings.ram_kib, told)
+    fed = feed_routes(parts, settings.rom, settings.ram_kib, on_done)
     return "".join(written), False, fed
 
 

@@ -55,15 +55,15 @@ def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
 
 def stops(routes: Sequence[PlannedContour]) -> Iterator[str]:
     """Reasons for stops of the machine, each with the contours; each takes two stops, wire off and wire threaded."""
-    twice = [one for one in routes if one.contour.is_closed and len(one.passes) > 1 and not one.tab]
-    for some, what in (
+    twice = [route for route in routes if route.contour.is_closed and len(route.passes) > 1 and not route.tab]
+    for group, template in (
         (routes[1:], "before {}"),
-        ([one for one in twice if one.is_opening], "to take the slug out of {}"),
-        ([one for one in twice if not one.is_opening], "with the part of {} free"),
-        ([one for one in routes if one.tab], "to hold the part before the tab of {} is cut"),
+        ([route for route in twice if route.is_opening], "to take the slug out of {}"),
+        ([route for route in twice if not route.is_opening], "with the part of {} free"),
+        ([route for route in routes if route.tab], "to hold the part before the tab of {} is cut"),
     ):
-        if some:
-            yield what.format(numbered(one.turn for one in some))
+        if group:
+            yield template.format(numbered(route.turn for route in group))
 
 
 def numbered(numbers: Iterable[int]) -> str:
@@ -75,5 +75,5 @@ def numbered(numbers: Iterable[int]) -> str:
         else:
             runs.append([number])
     noun = "contour" if len(runs) == 1 and len(runs[0]) == 1 else "contours"
-    told = [" to ".join(map(str, run)) if run[-1] - run[0] > 1 else ", ".join(map(str, run)) for run in runs[:_RUNS]]
-    return f"{noun} {', '.join(told)}" + " …" * (len(runs) > _RUNS)
+    spans = [" to ".join(map(str, run)) if run[-1] - run[0] > 1 else ", ".join(map(str, run)) for run in runs[:_RUNS]]
+    return f"{noun} {', '.join(spans)}" + " …" * (len(runs) > _RUNS)

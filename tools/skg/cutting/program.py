@@ -29,7 +29,7 @@ _TANGENT = 1e-5
 _FILLET_MISS = 1e-5
 
 
-#: What edges are, in the order in which a title has them.
+#: Kinds of edges, in the order in which a title has them.
 _KINDS = ("LINE", "ARC", "CIRCLE", "CURVE")
 
 
@@ -69,11 +69,11 @@ def _circle(edge: Edge) -> _Item:
     return _Item(f"{literal(edge.centre)}:{number(radius)}", "C", edge.at(0.5))
 
 
-def _fillet(edges: tuple[Edge, ...], at: int) -> tuple[XY, float] | None:
-    """The corner and radius of the arc after edge number `at`, where a fillet makes it, else None."""
-    if at + 2 >= len(edges):
+def _fillet(edges: tuple[Edge, ...], index: int) -> tuple[XY, float] | None:
+    """The corner and radius of the arc after edge number `index`, where a fillet makes it, else None."""
+    if index + 2 >= len(edges):
         return None
-    before, arc, after = edges[at : at + 3]
+    before, arc, after = edges[index : index + 3]
     if not before.is_line or arc.centre is None or not after.is_line:
         return None
     bend = turn(before.direction(), after.direction())
@@ -98,15 +98,15 @@ def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
         yield _point(edges[0].start)
     # A contour that was entered in the middle of an edge ends with the rest of it: BACK goes along that to the entry.
     is_split = goes_back and not edges[0].nodes
-    at = 0
-    while at < len(edges):
-        edge = edges[at]
+    index = 0
+    while index < len(edges):
+        edge = edges[index]
         if edge.nodes:
-            if at and edges[at - 1].nodes:
+            if index and edges[index - 1].nodes:
                 # Two curves that follow each other are two runs of FIT with a statement between them.
                 yield _point(edge.start)
             yield edge
-            at += 1
+            index += 1
             continue
         if edge.centre is not None:
             yield _circle(edge)
@@ -114,19 +114,19 @@ def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
             # (not the only thing in its route: the point on its far side makes it a whole one)
             yield _point(edge.at(0.5))
             yield _circle(edge)
-        fillet = _fillet(edges, at) if fillets else None
+        fillet = _fillet(edges, index) if fillets else None
         if fillet:
             corner, radius = fillet
             yield _point(corner)
             yield _Item(number(radius), "", corner)
-            at += 2
+            index += 2
             continue
         # A curve's first node is the corner before it, but a line between two curves must be written.
-        is_between = edge.is_line and at and edges[at - 1].nodes
-        is_last = at + 1 == len(edges)
-        if (is_last and not is_split) or (not is_last and not edges[at + 1].nodes) or is_between:
+        is_between = edge.is_line and index and edges[index - 1].nodes
+        is_last = index + 1 == len(edges)
+        if (is_last and not is_split) or (not is_last and not edges[index + 1].nodes) or is_between:
             yield _point(edge.end)
-        at += 1
+        index += 1
 
 
 def _into(lead: Lead, r: float) -> Iterator[float | _Item]:
@@ -158,13 +158,13 @@ RoutePart = str | float | _Item | Edge
 def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
     """A route in parts."""
     here: XY | None = None
-    for at, run in enumerate(route.runs()):
+    for index, run in enumerate(route.runs()):
         hole = run.into.hole if run.into else route.start
         if run.stop:
             yield f"REM STOP: {run.stop}"
         if not run.into:
             yield run.offset
-        if at == 0 or run.stop:
+        if index == 0 or run.stop:
             yield f"FROM {literal(hole)}"
             here = None
         parts = [
@@ -296,9 +296,11 @@ class Program:
         """The program with line numbers; too many lines are a `UserError`."""
         pieces = [list(self.parts_of(route)) for route in self.routes]
         writer = _Writer(True)
-        writer.uses.update((piece.letter, piece.text) for some in pieces for piece in some if isinstance(piece, _Item))
-        for route, some in zip(self.routes, pieces, strict=True):
-            writer.write(_title(route), some)
+        writer.uses.update(
+            (piece.letter, piece.text) for items in pieces for piece in items if isinstance(piece, _Item)
+        )
+        for route, items in zip(self.routes, pieces, strict=True):
+            writer.write(_title(route), items)
         lines = [self.head.text, *(statement.text for statement in writer.statements), "END"]
         subroutine = len(lines)
         if writer.data:
@@ -319,7 +321,7 @@ class Program:
                 "a larger --fit-tolerance makes fewer nodes"
             )
         target = str((subroutine + 2) * step)
-        return "".join(f"{at * step} {_pointed(line, target)}\n" for at, line in enumerate(lines, 1))
+        return "".join(f"{number * step} {_pointed(line, target)}\n" for number, line in enumerate(lines, 1))
 
 
 def _pointed(line: str, target: str) -> str:
@@ -361,14 +363,14 @@ def describe(route: PlannedContour) -> str:
     parts = ", ".join(_count(kinds[noun], noun) for noun in _KINDS if noun in kinds)
     if not contour.is_closed:
         return f"OPEN: {parts}"
-    way = "COUNTER-CLOCKWISE" if contour.area > 0 else "CLOCKWISE"
-    return f"{'OPENING' if route.is_opening else 'OUTLINE'}, {way}: {parts}"
+    sense = "COUNTER-CLOCKWISE" if contour.area > 0 else "CLOCKWISE"
+    return f"{'OPENING' if route.is_opening else 'OUTLINE'}, {sense}: {parts}"
 
 
 def writes_fillets(route: PlannedContour) -> bool:
     """Tell whether an arc between lines of a route is written as a fillet's radius."""
-    edges = (run.edges for run in route.runs())
-    return route.has_fillets and any(_fillet(some, at) is not None for some in edges for at in range(len(some)))
+    runs = (run.edges for run in route.runs())
+    return route.has_fillets and any(_fillet(edges, index) is not None for edges in runs for index in range(len(edges)))
 
 
 def write(routes: list[PlannedContour], title: str) -> str:

@@ -16,7 +16,7 @@ from skg.geometry.offset import NoRoom, widest, wire_way
 from skg.planning.route import PlannedContour
 from skg.wording import counted, short, shown
 
-#: What the errors of a route mean (language.md, section 6), and what to do.
+#: Meanings of the errors of a route (language.md, section 6), and advice.
 _MEANING = {
     5: ("a number is out of range", "is a radius or a place in the drawing absurdly small or large?"),
     6: (
@@ -34,8 +34,8 @@ _MANY = 2000
 
 def meaning(error: int) -> str:
     """An error of the ROM in a route, and what to do."""
-    what, then = _MEANING.get(error, ("the board refuses it", "see language.md, section 6"))
-    return f"ERR {error:02d}, {what}: {then}"
+    cause, then = _MEANING.get(error, ("the board refuses it", "see language.md, section 6"))
+    return f"ERR {error:02d}, {cause}: {then}"
 
 
 def too_short(fit: float) -> str:
@@ -45,9 +45,9 @@ def too_short(fit: float) -> str:
 
 def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], settings: Settings) -> UserError:
     """Report outlines that their tab does not fit: the shortest one."""
-    at = min(fits, key=fits.__getitem__)
-    route = routes[at]
-    message = f"{route.name}: {too_short(fits[at])}"
+    number = min(fits, key=fits.__getitem__)
+    route = routes[number]
+    message = f"{route.name}: {too_short(fits[number])}"
     if len(fits) > 1:
         message += f"; {counted(len(fits) - 1, 'more contour')} without room for the tab"
     return UserError(f"{message}: take a shorter --tab{_or_leave(settings)}", route.number, route.entry)
@@ -55,10 +55,10 @@ def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], se
 
 def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], settings: Settings) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
-    at, fit = _tightest(routes, none)
-    route = routes[at]
-    message = f"{route.name}: {none[at]} {shown(none[at].place)}"
-    if none[at].is_crossing:
+    number, fit = _tightest(routes, none)
+    route = routes[number]
+    message = f"{route.name}: {none[number]} {shown(none[number].place)}"
+    if none[number].is_crossing:
         message += ", the wire does not fit beside it"
         help_ = "redraw it"
     else:
@@ -69,7 +69,7 @@ def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], 
         help_ = "take a smaller offset or a thinner wire"
     if len(none) > 1:
         message += f"; {counted(len(none) - 1, 'more contour')} without room for the wire"
-    return UserError(f"{message}: {help_}{_or_leave(settings)}", route.number, none[at].place)
+    return UserError(f"{message}: {help_}{_or_leave(settings)}", route.number, none[number].place)
 
 
 def _in_passes(route: PlannedContour, fit: float) -> str:
@@ -85,16 +85,16 @@ def _in_passes(route: PlannedContour, fit: float) -> str:
 def _tightest(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom]) -> tuple[int, float | None]:
     """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
     it, mm; None when that is not looked for."""
-    found: tuple[int, float] | None = None
-    for at, no_room in none.items():
-        if found and not found[1]:
+    tightest: tuple[int, float] | None = None
+    for number, no_room in none.items():
+        if tightest and not tightest[1]:
             break
         if no_room.is_crossing:
-            return at, 0.0
-        contour, r = routes[at].contour, routes[at].widest
-        if len(contour.edges) <= _MANY and (found is None or not _fits(contour, copysign(found[1], r))):
-            found = at, widest(contour, r)
-    return found or (next(iter(none)), None)
+            return number, 0.0
+        contour, r = routes[number].contour, routes[number].widest
+        if len(contour.edges) <= _MANY and (tightest is None or not _fits(contour, copysign(tightest[1], r))):
+            tightest = number, widest(contour, r)
+    return tightest or (next(iter(none)), None)
 
 
 def _fits(contour: Contour, r: float) -> bool:
@@ -148,14 +148,18 @@ def refuse(checked: Checked, routes: list[PlannedContour], settings: Settings) -
                 route.number,
                 route.entry,
             )
-    spoilt = [one for one in checked.crossings if all(routes[at].contour.is_closed for at in (one.route, one.other))]
+    spoilt = [
+        crossing
+        for crossing in checked.crossings
+        if all(routes[number].contour.is_closed for number in (crossing.route, crossing.other))
+    ]
     if spoilt and settings.into != "cut":
         raise _spoilt(spoilt, routes, settings)
 
 
 def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], settings: Settings) -> UserError:
     """Report gouges: the deepest one."""
-    worst = max(spoilt, key=lambda one: (one.is_through, one.depth))
+    worst = max(spoilt, key=lambda crossing: (crossing.is_through, crossing.depth))
     message = (
         f"{routes[worst.route].name}: its wire would gouge {into(worst)} "
         f"{routes[worst.other].name} at {shown(worst.place)}"
@@ -180,6 +184,6 @@ def _advice(fault: Misfit, route: PlannedContour, settings: Settings) -> str:
         return "--rom no-drift is nearer"
     edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
     ends = " to ".join(shown(end) for end in (edge.start, edge.end))
-    what = "curve" if edge.nodes else "arc" if edge.centre else "line"
+    noun = "curve" if edge.nodes else "arc" if edge.centre else "line"
     others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
-    return f"{others}redraw the {what} from {ends}, {short(edge.length)} long, or its neighbour"
+    return f"{others}redraw the {noun} from {ends}, {short(edge.length)} long, or its neighbour"

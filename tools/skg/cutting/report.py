@@ -31,7 +31,10 @@ def report(job: CutResult, offset: float = 0.0) -> list[ReportLine]:
     routes = job.routes
     return [
         *map(ReportLine, _facts(job, offset)),
-        *(ReportLine(f"take care, left out: {one.name}: {one.why}", one.number) for one in job.left[:_PLACES]),
+        *(
+            ReportLine(f"take care, left out: {contour.name}: {contour.why}", contour.number)
+            for contour in job.left[:_PLACES]
+        ),
         *_more(job.left, "more contour left out", "more contours left out"),
         *map(ReportLine, said((route.turn, route.around) for route in routes)),
         *_corners(routes),
@@ -45,7 +48,7 @@ def _facts(job: CutResult, offset: float) -> Iterator[str]:
     kinds = Counter(route.kind for route in routes)
     holes = [shown(route.start) for route in routes]
     yield (
-        f"cut in this order: {', '.join(counted(count, one) for one, count in kinds.items())}; "
+        f"cut in this order: {', '.join(counted(count, kind) for kind, count in kinds.items())}; "
         f"{counted(len(holes), 'start hole')}: {', '.join(holes[:_PLACES])}"
         + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
     )
@@ -54,8 +57,8 @@ def _facts(job: CutResult, offset: float) -> Iterator[str]:
         f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {settings.feed:g} mm/min; "
         f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}"
     )
-    if what := "; ".join(stops(routes)):
-        yield f"two stops each time, wire off and wire threaded: {what}"
+    if reasons := "; ".join(stops(routes)):
+        yield f"two stops each time, wire off and wire threaded: {reasons}"
     how = (
         "a stored program"
         if job.is_stored
@@ -126,12 +129,12 @@ def _sides(routes: list[PlannedContour]) -> Iterator[str]:
         (True, "outside", "opening", "wider"),
         (False, "inside", "outline", "smaller"),
     ):
-        some = [route for route in closed if route.is_opening is is_opening is route.is_outside]
-        if some:
-            wide = " or ".join(dict.fromkeys(short(2 * abs(route.passes[-1])) for route in some))
+        affected = [route for route in closed if route.is_opening is is_opening is route.is_outside]
+        if affected:
+            wide = " or ".join(dict.fromkeys(short(2 * abs(route.passes[-1])) for route in affected))
             yield (
-                f"take care: the wire runs {side} of {counted(len(some), noun)} "
-                f"{_contours([route.turn for route in some])}: {wide} mm {than} than drawn, because of --side"
+                f"take care: the wire runs {side} of {counted(len(affected), noun)} "
+                f"{_contours([route.turn for route in affected])}: {wide} mm {than} than drawn, because of --side"
             )
 
 
@@ -165,7 +168,7 @@ def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
             route.number,
             place,
         )
-        for far, place, route in sorted(off, key=lambda one: -one[0])
+        for far, place, route in sorted(off, key=lambda corner: -corner[0])
     ]
     return [line for lines in (straight, around, chords, narrow) for line in _first(lines)]
 
@@ -180,13 +183,17 @@ def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, Planne
     corners = []
     for route in routes:
         is_beside = route.contour.is_closed and route.passes and route.passes[-1]
-        if is_beside and (route.is_around or not route.traced) and (one := sharpest(route.contour, route.passes[-1])):
-            corners.append((*one, route))
+        if (
+            is_beside
+            and (route.is_around or not route.traced)
+            and (corner := sharpest(route.contour, route.passes[-1]))
+        ):
+            corners.append((*corner, route))
     corners.sort(key=lambda corner: -corner[0])
     for number, (_, _, route) in enumerate(corners[:_PLACES]):
         with suppress(NoRoom):
-            way = route.traced[-1] if route.traced else wire_way(route.contour, route.passes[-1])
-            corners[number] = *uncut(route.contour, way, route.passes[-1]), route
+            wire = route.traced[-1] if route.traced else wire_way(route.contour, route.passes[-1])
+            corners[number] = *uncut(route.contour, wire, route.passes[-1]), route
     return corners
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 Progress = Callable[[str, int, int], None]
 
 
-def in_silence(step: str, done: int, of: int) -> None:
+def in_silence(step: str, done: int, total: int) -> None:
     """Tell nobody."""
 
 

@@ -31,12 +31,12 @@ _MORE_FONTS = (
 def as_it_stands(text: str) -> dict[str, object]:
     """Escape a file's name or a title for matplotlib: no formula between dollars, in a font that has
     its letters; what is no letter (bytes that are not UTF-8, control characters) is a question mark."""
-    shown = "".join(one if one.isprintable() else "?" for one in text)
-    told: dict[str, object] = {"s": shown, "parse_math": False}
+    shown = "".join(character if character.isprintable() else "?" for character in text)
+    options: dict[str, object] = {"s": shown, "parse_math": False}
     letters = font_manager.get_font(font_manager.findfont(_FONT))
-    if not all(letters.get_char_index(ord(one)) for one in shown):
-        told["fontfamily"] = [_FONT, *_installed()]
-    return told
+    if not all(letters.get_char_index(ord(character)) for character in shown):
+        options["fontfamily"] = [_FONT, *_installed()]
+    return options
 
 
 @cache

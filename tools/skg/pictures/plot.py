@@ -83,27 +83,27 @@ def _path(pieces: Sequence[Piece], scale: float = 1.0, begins: Sequence[int] = (
     if arcs.any():
         curves = np.maximum(1, np.ceil(abs(sweeps) / (pi / 8) - 1e-9).astype(int))
         counts[arcs] = 3 * curves
-    # Where each piece begins among all vertices, its start included.
+    # Index of each piece's first vertex, its start.
     first = np.concatenate([[0], np.cumsum(counts + 1)])
     vertices = np.empty((first[-1], 2))
     vertices[first[:-1]] = starts
     vertices[first[1:] - 1] = ends
     codes = np.full(first[-1], Outline.LINETO)
     if arcs.any():
-        of = np.repeat(np.arange(len(sweeps)), curves)
-        at = numbers_up_to(curves)
+        owner = np.repeat(np.arange(len(sweeps)), curves)
+        number = numbers_up_to(curves)
         arms = starts[arcs] - centres
         radii, angles, steps = np.hypot(*arms.T), np.arctan2(arms[:, 1], arms[:, 0]), sweeps / curves
         # The control points of an arc as L. Maisonobe has them, "Drawing an elliptical arc".
         reach = np.sin(steps) * (np.sqrt(4 + 3 * np.tan(steps / 2) ** 2) - 1) / 3
         for ahead in (0, 1):
-            angle = angles[of] + (at + ahead) * steps[of]
-            way = np.column_stack([np.cos(angle), np.sin(angle)])
-            across = np.column_stack([-way[:, 1], way[:, 0]]) * (reach[of] * (1 - 2 * ahead))[:, None]
-            place = first[:-1][arcs][of] + 3 * at + 1
-            vertices[place + ahead] = centres[of] + radii[of, None] * (way + across)
+            angle = angles[owner] + (number + ahead) * steps[owner]
+            radial = np.column_stack([np.cos(angle), np.sin(angle)])
+            across = np.column_stack([-radial[:, 1], radial[:, 0]]) * (reach[owner] * (1 - 2 * ahead))[:, None]
+            place = first[:-1][arcs][owner] + 3 * number + 1
+            vertices[place + ahead] = centres[owner] + radii[owner, None] * (radial + across)
             if ahead:
-                vertices[place + 2] = centres[of] + radii[of, None] * way
+                vertices[place + 2] = centres[owner] + radii[owner, None] * radial
         codes[np.concatenate([place, place + 1, place + 2])] = Outline.CURVE4
     vertices *= scale
     apart = np.hypot(*(vertices[first[1:-1]] - vertices[first[1:-1] - 1]).T) >= 0.01
@@ -122,14 +122,14 @@ class _TakenBoxes:
     """Boxes that are taken on a page, mm."""
 
     def __init__(self) -> None:
-        #: Which boxes reach into a square of `_SQUARE`.
+        #: Boxes that reach into each square of `_SQUARE`.
         self.squares: dict[tuple[int, int], list[tuple[float, float, float, float]]] = defaultdict(list)
 
     def take(self, left: float, bottom: float, right: float, top: float) -> bool:
         """Take a box, if nothing is in it."""
         columns = range(floor(left / _SQUARE), floor(right / _SQUARE) + 1)
         rows = range(floor(bottom / _SQUARE), floor(top / _SQUARE) + 1)
-        squares = [self.squares[at] for at in product(columns, rows)]
+        squares = [self.squares[cell] for cell in product(columns, rows)]
         for square in squares:
             for west, south, east, north in square:
                 if west < right and left < east and south < top and bottom < north:
@@ -150,7 +150,7 @@ class Picture:
         self.low, self.high = (min(xs), min(ys)), (max(xs), max(ys))
         width, height = (max(high - low, 0.01) for low, high in zip(self.low, self.high, strict=True))
         largest = max(width, height)
-        self.scale = scale or next((one for one in SCALES if one * largest <= PAPER), PAPER / largest)
+        self.scale = scale or next((scale for scale in SCALES if scale * largest <= PAPER), PAPER / largest)
         self.head = MARGIN if title or len(sheets) > 1 else MARGIN / 2
         paper = width * self.scale + 2 * MARGIN, height * self.scale + MARGIN + self.head
         if max(paper) > 5000:
@@ -267,7 +267,7 @@ class Picture:
         """Draw all routes as `_route` does, each kind as one collection."""
         look = {"facecolor": "none", "edgecolor": colour, "joinstyle": "round"}
         if wire and cuts:
-            # (where cuts overlap it shows: each is drawn by itself)
+            # (overlaps of cuts show: each is drawn by itself)
             width = wire * self.description["mm_to_points"]
             curves = [_path(route.blocks, 0.001) for route in cuts]
             kerfs = PathCollection(curves, alpha=0.25, capstyle="round", linewidths=width, zorder=1, **look)
@@ -331,8 +331,11 @@ class Picture:
                 continue
             last, placed = behind[index], laid[int(index)]
             x, y = (ordinate / 1000 for ordinate in placed.at(0.5))
-            way, size = placed.direction(0.5), self.on_paper(1.3)
-            yield [(x + size * 1.4 * cos(way + turn), y + size * 1.4 * sin(way + turn)) for turn in (0, 2.5, -2.5)]
+            direction, size = placed.direction(0.5), self.on_paper(1.3)
+            yield [
+                (x + size * 1.4 * cos(direction + turn), y + size * 1.4 * sin(direction + turn))
+                for turn in (0, 2.5, -2.5)
+            ]
 
     def _heads(self, heads: list[list[XY]], colour: str) -> None:
         if len(heads) > FEW:
@@ -348,9 +351,9 @@ class Picture:
             (x, y), number = placed.at(0.5), str(placed.block.number)
             wide, high = (part * _FONT / 72 * _INCH / 2 for part in (_WIDE * len(number), _HIGH))
             for side in (pi / 2, -pi / 2):
-                way, away = placed.direction(0.5) + side, self.on_paper(2.2)
-                place = x / 1000 + away * cos(way), y / 1000 + away * sin(way)
-                left, bottom = (at * self.scale for at in minus(place, self.corner))
+                direction, away = placed.direction(0.5) + side, self.on_paper(2.2)
+                place = x / 1000 + away * cos(direction), y / 1000 + away * sin(direction)
+                left, bottom = (ordinate * self.scale for ordinate in minus(place, self.corner))
                 if self.taken.take(left - wide, bottom - high, left + wide, bottom + high):
                     self.axes.text(*place, number, fontsize=_FONT, ha="center", va="center", color=colour)
                     break

@@ -38,7 +38,7 @@ _MARGIN, _HEAD = 10.0, 26.0
 _ROW, _COLUMN, _NOTE = 2.9, 54.0, 3.4
 #: Room for dimensions left of the part and under it, for numbers right of it and above.
 _AROUND, _BESIDE = 15.0, 7.0
-#: Where a column's cells end, or begin (the fourth), mm.
+#: Right edges of a column's cells, the left one of the fourth, mm.
 _CELLS = (5.5, 16.9, 28.3, 29.5, 45.0, 53.5)
 #: A table of no more rows than this has letters that are so much larger.
 _ROWS, _LARGER = 30, 1.3
@@ -101,8 +101,8 @@ class _Taken:
 
     def along(self, places: np.ndarray) -> None:
         """Take what a line passes; places no further apart than the grid."""
-        at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
-        self.cells[at[:, 0], at[:, 1]] = True
+        indices = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
+        self.cells[indices[:, 0], indices[:, 1]] = True
 
     def _corners(self, places: np.ndarray, behind: int) -> np.ndarray:
         """The cells of places, or those `behind` them, as ends of slices."""
@@ -110,15 +110,15 @@ class _Taken:
 
     def is_free_along(self, places: np.ndarray) -> bool:
         """Tell whether nothing is where a line passes; places no further apart than the grid."""
-        at = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
-        return not self.cells[at[:, 0], at[:, 1]].any()
+        indices = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
+        return not self.cells[indices[:, 0], indices[:, 1]].any()
 
     def are_free(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """In which of some boxes, near to each other, nothing is; their lower and upper corners (n × 2)."""
         low, high = self._corners(low, 0), self._corners(high, 1)
         first, last = low.min(axis=0), high.max(axis=0)
         window = self.cells[first[0] : last[0], first[1] : last[1]]
-        # How many cells are taken below and left of each: four of these sums tell how many in a box.
+        # Counts of taken cells below and left of each: four of these sums give the count in a box.
         sums = np.zeros((window.shape[0] + 1, window.shape[1] + 1), int)
         sums[1:, 1:] = window.cumsum(axis=0, dtype=int).cumsum(axis=1)
         (left, bottom), (right, top) = (low - first).T, (high - first).T
@@ -137,20 +137,20 @@ class _Marks:
         self.places, self.radii = places, radii
         self._tree = shapely.STRtree(shapely.points(places))
 
-    def are_alone(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
+    def are_alone(self, number: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
         """Mark the boxes (middles, n × 2; half their sides) that are clearly nearer to a mark than to others."""
         if not len(middles):
             return np.zeros(0, bool)
-        reach = half + self.radii[at] + 2 * _ALONE + 2.2
+        reach = half + self.radii[number] + 2 * _ALONE + 2.2
         near = self._tree.query(shapely.box(*(middles.min(0) - reach), *(middles.max(0) + reach)))
-        near = near[np.any(self.places[near] != self.places[at], axis=1)]
-        apart = [self._distance(one, middles, half) for one in near]
-        return self._distance(at, middles, half) + 0.3 < np.min(apart, axis=0, initial=np.inf)
+        near = near[np.any(self.places[near] != self.places[number], axis=1)]
+        apart = [self._distance(other, middles, half) for other in near]
+        return self._distance(number, middles, half) + 0.3 < np.min(apart, axis=0, initial=np.inf)
 
-    def _distance(self, at: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
+    def _distance(self, number: int, middles: np.ndarray, half: np.ndarray) -> np.ndarray:
         """Distance of boxes from a mark."""
-        beside = np.maximum(np.abs(self.places[at] - middles) - half, 0)
-        return np.hypot(*beside.T) - self.radii[at]
+        beside = np.maximum(np.abs(self.places[number] - middles) - half, 0)
+        return np.hypot(*beside.T) - self.radii[number]
 
 
 class SetupSheet:
@@ -178,7 +178,7 @@ class SetupSheet:
         self.axes.set_xlim(0, self.page[0])
         self.axes.set_ylim(0, self.page[1])
         self.axes.axis("off")
-        # What texts stay off; what lines from numbers to holes stay off: other numbers, holes, such lines.
+        # Cells that texts stay off; cells that lines from numbers to holes stay off: other numbers, holes, such lines.
         self.taken, self.marked = _Taken(self.page), _Taken(self.page)
         self._place()
 
@@ -198,12 +198,12 @@ class SetupSheet:
 
     def _notes(self) -> list[list[str]]:
         """Text under the drawing: stops of the machine, and the manners in words, two in a line."""
-        told = [f"{_letters(at)}: {manner.told}" for at, manner in enumerate(self.manners)]
-        if len(told) > _MANNERS:
-            told[_MANNERS:] = [f"and {counted(len(told) - _MANNERS, 'manner')} more: the program has them"]
-        lines = [told[at : at + 2] for at in range(0, len(told), 2)]
-        if what := "; ".join(stops(self.job.routes)):
-            lines.insert(0, [f"two stops each time, wire off and wire threaded: {what}"])
+        texts = [f"{_letters(index)}: {manner.told}" for index, manner in enumerate(self.manners)]
+        if len(texts) > _MANNERS:
+            texts[_MANNERS:] = [f"and {counted(len(texts) - _MANNERS, 'manner')} more: the program has them"]
+        lines = [texts[index : index + 2] for index in range(0, len(texts), 2)]
+        if reasons := "; ".join(stops(self.job.routes)):
+            lines.insert(0, [f"two stops each time, wire off and wire threaded: {reasons}"])
         return lines
 
     def _measure(self) -> None:
@@ -232,7 +232,7 @@ class SetupSheet:
         """The scale of the drawing beside a table."""
         size = [max(b - a, 1e-3) for a, b in zip(self.least, self.most, strict=True)]
         fits = min(max(space, 1.0) / side for space, side in zip(self._room(table), size, strict=True))
-        return next((one for one in _SCALES if one <= fits), fits)
+        return next((scale for scale in _SCALES if scale <= fits), fits)
 
     def _place(self) -> None:
         """Place the part on the page, with its scale."""
@@ -271,20 +271,20 @@ class SetupSheet:
     def _take_lines(self, starts: np.ndarray, ends: np.ndarray) -> None:
         """Take what straight lines between places of the page (n × 2) pass."""
         for first in range(0, len(starts), _LINES):
-            begin, way = (part[first : first + _LINES] for part in (starts, ends - starts))
-            count = (np.hypot(*way.T) / _GRID * 1.5).astype(int) + 2
-            which = np.repeat(np.arange(len(way)), count)
-            part = numbers_up_to(count) / (count[which] - 1)
-            self.taken.along(begin[which] + part[:, None] * way[which])
+            begin, vectors = (part[first : first + _LINES] for part in (starts, ends - starts))
+            count = (np.hypot(*vectors.T) / _GRID * 1.5).astype(int) + 2
+            owners = np.repeat(np.arange(len(vectors)), count)
+            part = numbers_up_to(count) / (count[owners] - 1)
+            self.taken.along(begin[owners] + part[:, None] * vectors[owners])
 
     def _wire(self) -> None:
         """The wire's path, the moves between start holes, an arrow on each contour."""
         laid = self.job.checked.followed.laid
-        cuts = [some for cut in self.job.checked.cuts if len(some := laid[cut.blocks])]
+        cuts = [part for cut in self.job.checked.cuts if len(part := laid[cut.blocks])]
         if cuts:
             curve = outlines(Laid.joined(cuts))
             self._patch(curve, 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire")
-            # (what lies beside the contours: leads)
+            # (the leads lie beside the contours)
             starts, ends = (
                 self._all_on_paper(np.concatenate([places[[0, -1]] for places in side]) / 1000)
                 for side in ([cut.starts for cut in cuts], [cut.ends for cut in cuts])
@@ -294,7 +294,7 @@ class SetupSheet:
                 # (elsewhere the wire's path is where the part's lines are)
                 tenths = Affine2D().scale(0.001 * self.scale).translate(*self.shift).scale(10)
                 path = [places / 10 for places in curve.to_polygons(tenths, closed_only=False)]
-                self._take_lines(*(np.concatenate([places[some] for places in path]) for some in _STEPS))
+                self._take_lines(*(np.concatenate([places[rows] for places in path]) for rows in _STEPS))
         holes = self._all_on_paper(route.start for route in self.job.routes)
         moves = np.stack([holes[:-1], holes[1:]], axis=1)
         self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
@@ -302,7 +302,7 @@ class SetupSheet:
         if arrows:
             places = np.array(arrows)
             self._lines(places, edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
-            self._take_lines(*(places[:, some].reshape(-1, 2) for some in _STEPS))
+            self._take_lines(*(places[:, rows].reshape(-1, 2) for rows in _STEPS))
 
     def _arrow(self, route: PlannedContour) -> list[XY]:
         """An arrow on the longest edge of a contour shows the way and covers nothing: it is open and thin. None where
@@ -312,8 +312,8 @@ class SetupSheet:
         if size <= 0.3:
             return []
         x, y = self.on_paper(edge.at(0.5))
-        way = edge.direction(0.5) if not edge.nodes else _way(edge.samples)
-        ends = [(x - size * cos(way + turn), y - size * sin(way + turn)) for turn in (0.4, -0.4)]
+        direction = edge.direction(0.5) if not edge.nodes else _way(edge.samples)
+        ends = [(x - size * cos(direction + turn), y - size * sin(direction + turn)) for turn in (0.4, -0.4)]
         return [ends[0], (x, y), ends[1]]
 
     def _dimensions(self) -> None:
@@ -330,17 +330,19 @@ class SetupSheet:
         self._text((left, under - 5.2), corner, size, _GREY)
         self.taken.take((left, under - 5.2 - half[1]), (left + 2 * half[0], under - 5.2 + 2 * half[1]))
 
-    def _dimension(self, one: XY, other: XY, from_one: XY, from_other: XY, text: str) -> None:
-        for p, q in ((one, other), (one, from_one), (other, from_other)):
+    def _dimension(self, first: XY, second: XY, from_first: XY, from_second: XY, text: str) -> None:
+        for p, q in ((first, second), (first, from_first), (second, from_second)):
             self.axes.plot(*zip(p, q, strict=True), color=_GREY, linewidth=0.35, zorder=1)
             self._take_lines(np.array([p]), np.array([q]))
-        length, is_flat = distance(one, other), one[1] == other[1]
+        length, is_flat = distance(first, second), first[1] == second[1]
         size = min(1.6, length / 3)
-        for tip, way in ((one, 0.0), (other, pi)):
-            way += 0 if is_flat else pi / 2
-            sides = [(tip[0] + size * cos(way + turn), tip[1] + size * sin(way + turn)) for turn in (0.25, -0.25)]
+        for tip, direction in ((first, 0.0), (second, pi)):
+            direction += 0 if is_flat else pi / 2
+            sides = [
+                (tip[0] + size * cos(direction + turn), tip[1] + size * sin(direction + turn)) for turn in (0.25, -0.25)
+            ]
             self.axes.add_patch(Polygon([tip, *sides], facecolor=_GREY, edgecolor="none"))
-        middle = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+        middle = (first[0] + second[0]) / 2, (first[1] + second[1]) / 2
         place = (middle[0], middle[1] - 2.4) if is_flat else (middle[0] - 2, middle[1])
         self._text(place, text, 7, _INK, ha="center", va="center", rotation=0 if is_flat else 90)
         half = self._half_a_box(text, 7)[:: 1 if is_flat else -1]
@@ -380,21 +382,21 @@ class SetupSheet:
         rooms = np.array([route.room for route in routes]) * self.scale
         leads = np.array([distance(route.start, route.entry) for route in routes]) * self.scale
         points, apart = shapely.points(places), np.full(len(places), np.inf)
-        (which, _), found = shapely.STRtree(points).query_nearest(
+        (indices, _), distances = shapely.STRtree(points).query_nearest(
             points, exclusive=True, return_distance=True, all_matches=False
         )
-        apart[which] = found
+        apart[indices] = distances
         limits = [0.5 * rooms, np.where(leads > 0, 0.5 * leads, _HOLE), 0.4 * apart]
         return np.clip(np.min(limits, axis=0), 0.1, _HOLE)
 
-    def _number(self, at: int, marks: _Marks) -> bool:
+    def _number(self, index: int, marks: _Marks) -> bool:
         """Write a number where there is room near its hole, with a line to it where it does not stand beside it alone;
         whether there was room."""
-        number = str(self.job.routes[at].turn)
+        number = str(self.job.routes[index].turn)
         for size in (_FONT, _LEAST):
             half = self._half_a_box(number, size)
-            if found := self._room_beside(at, marks, half):
-                middle, line = found
+            if room := self._room_beside(index, marks, half):
+                middle, line = room
                 if len(line):
                     look = {"linewidth": 0.25, "capstyle": "projecting", "zorder": 4, "gid": "number-line"}
                     self._lines(line[None, [0, -1]], edgecolor=_MARK, **look)
@@ -402,28 +404,35 @@ class SetupSheet:
                     taken.along(line)
                     taken.take(middle - half, middle + half)
                 self._text(
-                    middle, str(self.job.routes[at].turn), size, _MARK, ha="center", va="center", gid="number", zorder=6
+                    middle,
+                    str(self.job.routes[index].turn),
+                    size,
+                    _MARK,
+                    ha="center",
+                    va="center",
+                    gid="number",
+                    zorder=6,
                 )
                 return True
         return False
 
-    def _room_beside(self, at: int, marks: _Marks, half: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    def _room_beside(self, index: int, marks: _Marks, half: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
         """The middle of a free box near a hole, and places along the line to it, none where it needs no line; `half`:
         half the box's sides."""
-        hole, radius = marks.places[at], marks.radii[at]
+        hole, radius = marks.places[index], marks.radii[index]
         rings = np.arange(radius + 0.5, _FAR, 0.8)
         middles = (hole + (rings[:, None, None] + half) * _AROUND_A_HOLE).reshape(-1, 2)
         free = np.flatnonzero(self.taken.are_free(middles - half, middles + half))
         far = rings[free // len(_AROUND_A_HOLE)]
         near = middles[free[far <= np.minimum(radius + 2.2, far[:1] + _ALONE)]]
-        alone = near[marks.are_alone(at, near, half)]
+        alone = near[marks.are_alone(index, near, half)]
         if len(alone):
             return alone[0], np.zeros((0, 2))
-        for one, length in zip(free, far, strict=True):
+        for number, length in zip(free, far, strict=True):
             along = np.linspace(radius, length, int(length / _GRID) + 2)
-            line = hole + along[:, None] * _AROUND_A_HOLE[one % len(_AROUND_A_HOLE)]
+            line = hole + along[:, None] * _AROUND_A_HOLE[number % len(_AROUND_A_HOLE)]
             if self.marked.is_free_along(line[along > radius + 2 * _GRID]):
-                return middles[one], line
+                return middles[number], line
         return None
 
     def _table(self) -> None:
@@ -432,7 +441,7 @@ class SetupSheet:
         lengths = np.zeros(len(routes))
         for cut in self.job.checked.cuts:
             lengths[cut.route] += cut.length
-        letters = {number: _letters(at) for at, some in enumerate(self.manners.values()) for number in some}
+        letters = {number: _letters(index) for index, numbers in enumerate(self.manners.values()) for number in numbers}
         count = min(len(routes), table.columns * table.rows)
         row_height, column_width = _ROW * self.larger, _COLUMN * self.larger
         top = self.page[1] - _MARGIN - 2 if table.is_beside else self.foot + self._height(table) - row_height / 2
@@ -507,8 +516,8 @@ class SetupSheet:
 
 def _way(samples: Places) -> float:
     """The direction in the middle of a curve."""
-    at = min(len(samples) - 2, int(0.5 * (len(samples) - 1)))
-    (x, y), (u, v) = samples[at], samples[at + 1]
+    index = min(len(samples) - 2, int(0.5 * (len(samples) - 1)))
+    (x, y), (u, v) = samples[index], samples[index + 1]
     return float(np.arctan2(v - y, u - x))
 
 
@@ -519,15 +528,15 @@ def _called(route: PlannedContour) -> str:
     return f"{route.kind} {'ccw' if route.contour.area > 0 else 'cw'}"
 
 
-def _letters(at: int) -> str:
+def _letters(number: int) -> str:
     """The name of a manner: A to Z, AA to AZ…"""
-    return (_letters(at // 26 - 1) if at >= 26 else "") + chr(ord("A") + at % 26)
+    return (_letters(number // 26 - 1) if number >= 26 else "") + chr(ord("A") + number % 26)
 
 
 def _fitted(text: str, width: float) -> tuple[str, float]:
     """A text that is no wider than `width` mm, and the size of its letters: small ones before some in the middle are
     left out."""
-    letters = [_WIDE * 0.95 * _POINT * (1.7 if east_asian_width(one) in "WF" else 1) for one in text]
+    letters = [_WIDE * 0.95 * _POINT * (1.7 if east_asian_width(character) in "WF" else 1) for character in text]
     size = max(_LEAST, min(_FACT, width / max(sum(letters), 1e-9)))
     room = width / size
     if sum(letters) <= room:

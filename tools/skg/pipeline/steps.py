@@ -59,16 +59,16 @@ class DrawnJob:
     def chosen(self, job: Job) -> dict[int, Chosen]:
         """The job's wishes by the numbers of contours; places are where the drawing is now."""
         return {
-            match.number: _moved(one, match.shift)
-            for one, match in zip(job.contours, self.matches.found, strict=True)
+            match.number: _moved(chosen, match.shift)
+            for chosen, match in zip(job.contours, self.matches.found, strict=True)
             if match.number is not None
         }
 
 
 def _moved(chosen: Chosen, by: XY) -> Chosen:
     """A chosen contour with its start hole and its entry elsewhere."""
-    said = chosen.partial.said()
-    places = {key: shifted(said[key], by) for key in ("start", "entry") if key in said}
+    settings = chosen.partial.said()
+    places = {key: shifted(settings[key], by) for key in ("start", "entry") if key in settings}
     return replace(chosen, partial=replace(chosen.partial, **places))
 
 
@@ -86,7 +86,7 @@ def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
     name = name or job.drawing
     reading = read(data, name, wishes_of(job))
     nesting = Nesting.of(reading.contours, reading.others)
-    known = Known(reading.contours, [nesting.kind(at) for at in range(len(reading.contours))])
+    known = Known(reading.contours, [nesting.kind(number) for number in range(len(reading.contours))])
     return DrawnJob(name, data, reading, nesting, known, known.find(job.contours, job.box))
 
 
@@ -121,15 +121,15 @@ def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
 
 def refuse_lost(job: Job, drawn: DrawnJob) -> None:
     """Refuse a job with settings for a contour that is not there."""
-    for at in drawn.matches.lost:
-        raise UserError(_lost(job, at, drawn))
+    for index in drawn.matches.lost:
+        raise UserError(_lost(job, index, drawn))
 
 
-def _lost(job: Job, at: int, drawn: DrawnJob) -> str:
+def _lost(job: Job, index: int, drawn: DrawnJob) -> str:
     """Tell that a contour is not there."""
     more = len(drawn.matches.lost) - 1
     return (
-        f"{drawn.name}: contour {at + 1} of the job, {job.contours[at].name}, is not there any more"
+        f"{drawn.name}: contour {index + 1} of the job, {job.contours[index].name}, is not there any more"
         + f", nor {'is' if more == 1 else 'are'} {counted(more, 'other')}" * (more > 0)
         + ": choose it anew, or delete it from the job"
     )
@@ -153,7 +153,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
         raise _named(error, drawn) from None
     account = reading.report
     if result.left:
-        account = reading.account({one.number: WITHIN if one.is_within else SMALL for one in result.left})
+        account = reading.account({contour.number: WITHIN if contour.is_within else SMALL for contour in result.left})
     return CutDrawing(result, account, _lines(job, drawn, account, result))
 
 
@@ -182,12 +182,12 @@ def _matched(job: Job, drawn: DrawnJob) -> list[ReportLine]:
     x, y = drawn.matches.shift
     moved = f", moved by ({short(x)}, {short(y)}) mm" if (x, y) != (0.0, 0.0) else ""
     lines = [ReportLine(f"take care: {job.drawing} has changed since the job was written{moved}")]
-    for one, match in zip(job.contours, drawn.matches.found, strict=True):
+    for chosen, match in zip(job.contours, drawn.matches.found, strict=True):
         if match.is_doubtful:
             place = drawn.contours[match.number].edges[0].start
             lines.append(
                 ReportLine(
-                    f"take care: {one.name} is taken for one {short(match.moved)} mm from there", match.number, place
+                    f"take care: {chosen.name} is taken for one {short(match.moved)} mm from there", match.number, place
                 )
             )
     return lines
@@ -198,8 +198,8 @@ def written(job: Job, drawn: DrawnJob) -> Job:
     lost)."""
     chosen = drawn.chosen(job)
     contours = tuple(
-        one if match.number is None else drawn.known.choose(match.number, chosen[match.number].partial)
-        for one, match in zip(job.contours, drawn.matches.found, strict=True)
+        contour if match.number is None else drawn.known.choose(match.number, chosen[match.number].partial)
+        for contour, match in zip(job.contours, drawn.matches.found, strict=True)
     )
     box = tuple(round(bound, 6) + 0.0 for bound in drawn.known.box)
     starts = tuple(shifted(start, drawn.matches.shift) for start in job.starts)

@@ -11,7 +11,7 @@ from skg.geometry.contour import Contour
 from skg.geometry.plane import XY, distance, turn
 from skg.planning.route import split_curve
 
-#: How many edges of a contour are tried for a start hole with room around it.
+#: Most edges of a contour that are tried for a start hole with room around it.
 _TRIED = 8
 #: Edges of so often R are surely there beside the contour.
 _SURE = 4.0
@@ -19,21 +19,21 @@ _SURE = 4.0
 _LONG, _ROOM = 3, 1.2
 
 
-def _turned_to(contour: Contour, at: int) -> Contour:
+def _turned_to(contour: Contour, index: int) -> Contour:
     """The closed contour, beginning with another of its edges."""
-    return contour if not at else replace(contour, edges=contour.edges[at:] + contour.edges[:at])
+    return contour if not index else replace(contour, edges=contour.edges[index:] + contour.edges[:index])
 
 
 class EntryAt(NamedTuple):
-    """A possible start of a closed contour: at `part` of its edge number `at`, or at a `node` of that edge, a curve."""
+    """A possible start of a closed contour: at `part` of edge number `edge`, or at a `node` of that edge, a curve."""
 
-    at: int
+    edge: int
     part: float = 0.0
     node: int = 0
 
     def begun(self, contour: Contour) -> Contour:
         """The contour, beginning with the edge of the entry: at its part, at the node."""
-        turned = _turned_to(contour, self.at)
+        turned = _turned_to(contour, self.edge)
         if not self.node:
             return turned
         before, after = split_curve(turned.edges[0], self.node)
@@ -63,14 +63,14 @@ def nearest_entry(contour: Contour, place: XY, offset: float, with_curves: bool 
 
 def _entries_on_curve(contour: Contour) -> Iterator[EntryAt]:
     """Begin a contour at nodes inside its longest curve (first, a closed one at its seam)."""
-    at = max(range(len(contour.edges)), key=lambda k: contour.edges[k].length)
-    edge = contour.edges[at]
+    index = max(range(len(contour.edges)), key=lambda k: contour.edges[k].length)
+    edge = contour.edges[index]
     is_smooth = len(contour.edges) == 1 and abs(turn(edge.nodes[0].angle, edge.nodes[-1].angle)) < 1e-3
     inner = {len(edge.nodes) * k // 4 for k in (1, 2, 3)} - {0, len(edge.nodes) - 1}
     if is_smooth or not inner:
-        yield EntryAt(at)
+        yield EntryAt(index)
     for node in sorted(inner, key=lambda k: abs(2 * k - len(edge.nodes))):
-        yield EntryAt(at, node=node)
+        yield EntryAt(index, node=node)
 
 
 def is_long(contour: Contour, tab: float) -> bool:
@@ -95,30 +95,30 @@ def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]
         return
     lengths = [edge.length for edge in contour.edges]
     ranked = sorted(
-        (at for at, edge in enumerate(contour.edges) if not edge.nodes),
-        key=lambda at: (not contour.edges[at].is_line, -lengths[at]),
+        (index for index, edge in enumerate(contour.edges) if not edge.nodes),
+        key=lambda index: (not contour.edges[index].is_line, -lengths[index]),
     )
-    fitting = [at for at in ranked if lengths[at] > _ROOM * tab]
+    fitting = [index for index in ranked if lengths[index] > _ROOM * tab]
     # (a short edge may not be there any more beside the contour)
-    sure = [at for at in fitting if lengths[at] > _SURE * widest]
-    unsure = [at for at in fitting if lengths[at] <= _SURE * widest]
-    yield from _on_edges(contour, [(at, lengths[at]) for at in sure[:_TRIED]], tab)
+    sure = [index for index in fitting if lengths[index] > _SURE * widest]
+    unsure = [index for index in fitting if lengths[index] <= _SURE * widest]
+    yield from _on_edges(contour, [(index, lengths[index]) for index in sure[:_TRIED]], tab)
     if any(edge.nodes and length > _ROOM * tab for edge, length in zip(contour.edges, lengths, strict=True)):
         yield from _entries_on_curve(contour)
-    yield from _on_edges(contour, [(at, lengths[at]) for at in unsure[:_TRIED]], tab)
+    yield from _on_edges(contour, [(index, lengths[index]) for index in unsure[:_TRIED]], tab)
     if not fitting and is_long(contour, tab):
-        for at in ranked[:_TRIED]:
-            yield EntryAt(at, 0.5)
+        for index in ranked[:_TRIED]:
+            yield EntryAt(index, 0.5)
         if not ranked:
             yield from _entries_on_curve(contour)
 
 
 def _on_edges(contour: Contour, edges: Iterable[tuple[int, float]], tab: float) -> Iterator[EntryAt]:
     """Entries in the middle of edges, given by their numbers and lengths, and aside from it, behind a tab."""
-    for at, length in edges:
-        is_circle = contour.edges[at].is_circle
+    for index, length in edges:
+        is_circle = contour.edges[index].is_circle
         aside = tab / 2 / length if tab else 0.0
         for part in (0.0, 0.25, 0.5, 0.75) if is_circle else (0.5, 0.3, 0.7):
             part += aside
             if is_circle or part - 2 * aside > 0.05 and part < 0.95:
-                yield EntryAt(at, part % 1)
+                yield EntryAt(index, part % 1)

@@ -13,18 +13,20 @@ from skg.planning.route import PlannedContour
 
 def islands(routes: Mapping[int, PlannedContour], openings: Collection[int]) -> dict[int, int]:
     """The routes (by their numbers) that lie in some openings, other routes, and the innermost of these for each."""
-    around = sorted((at for at in openings if routes[at].is_opening), key=lambda at: routes[at].depth)
+    around = sorted(
+        (number for number in openings if routes[number].is_opening), key=lambda number: routes[number].depth
+    )
     if not around:
         return {}
     least = routes[around[0]].depth
-    others = [at for at, route in routes.items() if at not in openings and route.depth > least]
+    others = [number for number, route in routes.items() if number not in openings and route.depth > least]
     if not others:
         return {}
-    places = places_in([routes[at].contour for at in others])
-    areas = areas_of([routes[at].contour for at in around])
-    one, other = shapely.STRtree(places).query(areas, predicate="contains")
+    places = places_in([routes[number].contour for number in others])
+    areas = areas_of([routes[number].contour for number in around])
+    holders, held = shapely.STRtree(places).query(areas, predicate="contains")
     islands: dict[int, int] = {}
-    for opening, inner in zip(one.tolist(), other.tolist(), strict=True):
+    for opening, inner in zip(holders.tolist(), held.tolist(), strict=True):
         # (the openings come in the order of their depths)
         if routes[others[inner]].depth > routes[around[opening]].depth:
             islands[others[inner]] = around[opening]

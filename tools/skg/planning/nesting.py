@@ -46,7 +46,7 @@ class Nesting:
         field = Field(list(contours))
         depths = field.depths()
         around = around_all(contours, depths, others)
-        if openings := [at for at, one in around.items() if not one.is_frame]:
+        if openings := [number for number, outer in around.items() if not outer.is_frame]:
             depths = deeper(contours, depths, openings)
         return cls(contours, depths, around, field)
 
@@ -60,11 +60,11 @@ class Nesting:
         """Give the room of the field back, as much as all contours take; who asks for it again waits for a new one."""
         self._field = None
 
-    def kind(self, at: int) -> str:
+    def kind(self, number: int) -> str:
         """A contour's kind: "outline", "opening" or "open"."""
-        if not self.contours[at].is_closed:
+        if not self.contours[number].is_closed:
             return "open"
-        return "opening" if self.depths[at] % 2 else "outline"
+        return "opening" if self.depths[number] % 2 else "outline"
 
 
 def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Sequence[Contour]) -> dict[int, Around]:
@@ -72,21 +72,24 @@ def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Seque
 
     `depths`: how many of the contours lie around each. In a frame at least half of them have openings themselves.
     """
-    outer = [number for number, one in enumerate(contours) if one.is_closed and not depths[number]]
+    outer = [number for number, contour in enumerate(contours) if contour.is_closed and not depths[number]]
     if not outer or not others:
         return {}
     areas, wholes = areas_of([contours[number] for number in outer]), areas_of(list(others))
     sizes, large = shapely.area(areas), shapely.area(wholes)
-    one, other = shapely.STRtree(wholes).query(areas, predicate="intersects")
-    is_in = large[other] > _SAME * sizes[one]
-    one, other = one[is_in], other[is_in]
-    is_in = shapely.area(shapely.intersection(areas[one], wholes[other])) > _WITHIN * sizes[one]
+    firsts, seconds = shapely.STRtree(wholes).query(areas, predicate="intersects")
+    is_in = large[seconds] > _SAME * sizes[firsts]
+    firsts, seconds = firsts[is_in], seconds[is_in]
+    is_in = shapely.area(shapely.intersection(areas[firsts], wholes[seconds])) > _WITHIN * sizes[firsts]
     holder: dict[int, int] = {}
-    for inner, whole in zip(one[is_in].tolist(), other[is_in].tolist(), strict=True):
+    for inner, whole in zip(firsts[is_in].tolist(), seconds[is_in].tolist(), strict=True):
         holder[inner] = min(whole, holder.get(inner, whole), key=large.__getitem__)
-    inner = [*others, *(one for one, depth in zip(contours, depths, strict=True) if depth and one.is_closed)]
-    of, which = shapely.STRtree(areas).query(places_in(inner), predicate="within")
-    held = set(which[shapely.area(areas_of(inner))[of] < sizes[which]].tolist())
+    inner = [
+        *others,
+        *(contour for contour, depth in zip(contours, depths, strict=True) if depth and contour.is_closed),
+    ]
+    inner_indices, outer_indices = shapely.STRtree(areas).query(places_in(inner), predicate="within")
+    held = set(outer_indices[shapely.area(areas_of(inner))[inner_indices] < sizes[outer_indices]].tolist())
     inside = Counter(holder.values())
     with_openings = Counter(whole for inner, whole in holder.items() if inner in held)
     return {
@@ -97,13 +100,13 @@ def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Seque
 
 def deeper(contours: Sequence[Contour], depths: Sequence[int], openings: Sequence[int]) -> list[int]:
     """The depths; of some outermost contours and all that lies in them one more."""
-    found = list(depths)
+    deepened = list(depths)
     areas = areas_of([contours[number] for number in openings])
     inner = [number for number, depth in enumerate(depths) if depth]
-    of, _ = shapely.STRtree(areas).query(places_in([contours[number] for number in inner]), predicate="within")
-    for number in (*openings, *(inner[k] for k in np.unique(of).tolist())):
-        found[number] += 1
-    return found
+    held, _ = shapely.STRtree(areas).query(places_in([contours[number] for number in inner]), predicate="within")
+    for number in (*openings, *(inner[k] for k in np.unique(held).tolist())):
+        deepened[number] += 1
+    return deepened
 
 
 def places_in(contours: Sequence[Contour]) -> np.ndarray:
@@ -117,18 +120,18 @@ def places_in(contours: Sequence[Contour]) -> np.ndarray:
 def said(around: Iterable[tuple[int, Around | None]]) -> Iterator[str]:
     """Report contours, by their numbers in the order of cutting, that lie in an uncut contour."""
     groups: dict[Around, list[int]] = defaultdict(list)
-    for number, one in around:
-        if one:
-            groups[one].append(number)
-    for one, numbers in groups.items():
-        which = f"{', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)}"
-        layers = ", ".join(one.layers)
-        what, then = (
+    for number, outer in around:
+        if outer:
+            groups[outer].append(number)
+    for outer, numbers in groups.items():
+        listed = f"{', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)}"
+        layers = ", ".join(outer.layers)
+        noun, then = (
             ("outline", "a frame: --side inside cuts openings")
-            if one.is_frame
+            if outer.is_frame
             else ("opening", "the outline of their part: --side outside cuts outlines")
         )
         yield (
-            f"take care: {counted(len(numbers), what)} (contour {which}) in a contour on layer {layers}, which is not "
+            f"take care: {counted(len(numbers), noun)} (contour {listed}) in a contour on layer {layers}, which is not "
             f"cut and taken for {then}"
         )

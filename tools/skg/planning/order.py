@@ -26,8 +26,8 @@ def nearest_order(places: Floats, begin: XY) -> list[int]:
     rings = [[i * column + j for i, j in _ring(ring)] for ring in range(_RINGS)]
     cells: dict[int, list[int]] = defaultdict(list)
     home = [int((p - left) / cell) * column + int((q - low) / cell) for p, q in zip(xs, ys, strict=True)]
-    for at, key in enumerate(home):
-        cells[key].append(at)
+    for index, key in enumerate(home):
+        cells[key].append(index)
     order: list[int] = []
     p, q = begin
     for _ in xs:
@@ -35,11 +35,11 @@ def nearest_order(places: Floats, begin: XY) -> list[int]:
         nearest, best = -1, inf
         for number, ring in enumerate(rings):
             for beside in ring:
-                for at in cells.get(here + beside, ()):
-                    u, v = xs[at] - p, ys[at] - q
+                for index in cells.get(here + beside, ()):
+                    u, v = xs[index] - p, ys[index] - q
                     far = u * u + v * v
-                    if far < best or far == best and at < nearest:
-                        nearest, best = at, far
+                    if far < best or far == best and index < nearest:
+                        nearest, best = index, far
             # All that is in no ring yet is at least so many cells away.
             if best < (number * cell) ** 2 * (1 - 1e-9):
                 break
@@ -56,5 +56,5 @@ def _ring(number: int) -> list[tuple[int, int]]:
     """Columns and rows from a cell to those that are so many cells around it."""
     if not number:
         return [(0, 0)]
-    found = [(i, j) for i in range(-number, number + 1) for j in (-number, number)]
-    return found + [(i, j) for i in (-number, number) for j in range(1 - number, number)]
+    sides = [(i, j) for i in range(-number, number + 1) for j in (-number, number)]
+    return sides + [(i, j) for i in (-number, number) for j in range(1 - number, number)]

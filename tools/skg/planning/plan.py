@@ -33,7 +33,7 @@ _NEAR = 1e-3
 _LEAST_ARC, _ROUND = 0.05, 0.998
 
 
-#: What is wanted of a contour, and the start hole that it is given.
+#: The settings of a contour, and its given start hole.
 Asked = tuple[Wanted, XY | None]
 
 
@@ -54,11 +54,11 @@ class _Choice:
         self.entries = entries
         self.entry = next(entries, None)
         self.room = -inf
-        self.found: tuple[EntryAt, float, XY, XY] | None = None
+        self.best: tuple[EntryAt, float, XY, XY] | None = None
 
     def keep(self, part: float, start: XY, tab_hole: XY, room: float) -> None:
         """Keep what was found for the entry, the best one so far."""
-        self.room, self.found = room, (self.entry, part, start, tab_hole)
+        self.room, self.best = room, (self.entry, part, start, tab_hole)
 
     def go_on(self) -> bool:
         """Go on to the next entry; whether there is one."""
@@ -67,7 +67,7 @@ class _Choice:
 
     def planned(self) -> PlannedContour:
         """The contour as it is entered best."""
-        entry, part, start, tab_hole = self.found
+        entry, part, start, tab_hole = self.best
         contour = entry.begun(self.made.contour)
         return replace(self.made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=self.room)
 
@@ -98,9 +98,9 @@ class _Columns(NamedTuple):
         ]
         return cls(*np.array(lengths, float).reshape(-1, 2).T, *np.array(flags, bool).reshape(-1, 4).T)
 
-    def rows(self, some: Whole) -> _Columns:
+    def rows(self, numbers: Whole) -> _Columns:
         """Some of the rows."""
-        return _Columns(*(column[some] for column in self))
+        return _Columns(*(column[numbers] for column in self))
 
 
 class _Planner:
@@ -148,14 +148,14 @@ class _Planner:
         self._choose(choices)
         # (an arc takes more room than a line)
         cramped = [
-            at
-            for at, choice in enumerate(choices)
+            index
+            for index, choice in enumerate(choices)
             if choice.made.is_arc and choice.room < _ROOMY * choice.wanted.widest
         ]
-        for at in cramped:
-            made = replace(choices[at].made, is_arc=False, is_cramped=True)
-            choices[at] = _Choice(made, choices[at].wanted, choices[at].is_outside)
-        self._choose([choices[at] for at in cramped])
+        for index in cramped:
+            made = replace(choices[index].made, is_arc=False, is_cramped=True)
+            choices[index] = _Choice(made, choices[index].wanted, choices[index].is_outside)
+        self._choose([choices[index] for index in cramped])
         done |= {choice.made.number: choice.planned() for choice in choices}
         return [done[number] for number in asked]
 
@@ -165,14 +165,14 @@ class _Planner:
         is_in = made.number in self.field.around([made.start])[0]
         least = min(map(abs, made.passes))
         if is_in == is_outside:
-            what = f"lies {'inside' if is_in else 'outside'}"
+            trouble = f"lies {'inside' if is_in else 'outside'}"
         elif min(edge.far(made.start) for edge in contour.edges) < least - _NEAR:
-            what = f"is less than {least:g} mm beside"
+            trouble = f"is less than {least:g} mm beside"
         else:
             return
         u, v = contour.edges[0].start
         raise UserError(
-            f"the start hole ({x:g}, {y:g}) {what} the contour from ({u:.3f}, {v:.3f}), which is cut from "
+            f"the start hole ({x:g}, {y:g}) {trouble} the contour from ({u:.3f}, {v:.3f}), which is cut from "
             f"{'outside' if is_outside else 'inside'} (mm): give another one, or another --side",
             made.number,
             made.start,
@@ -186,63 +186,65 @@ class _Planner:
             return replace(made, contour=contour, part=part)
         contour, part = self._tab_before(contour, part, made)
         end, reach = _before_tab(contour, part, made.tab), distance(made.start, contour.edges[0].at(part))
-        one = (np.array([what]) for what in (is_right, reach, abs(made.widest), made.is_arc))
-        ((x, y),) = self._tab_holes([end], *one).tolist()
+        arrays = (np.array([value]) for value in (is_right, reach, abs(made.widest), made.is_arc))
+        ((x, y),) = self._tab_holes([end], *arrays).tolist()
         return replace(made, contour=contour, part=part, tab_hole=(x, y))
 
     def _choose(self, choices: Sequence[_Choice]) -> None:
         """Choose the entry with the most room: the first one with enough, else the best one."""
         edges = [choice.made.contour.edges for choice in choices]
         first = np.cumsum([0, *map(len, edges)])
-        edges = [edge for some in edges for edge in some]
+        edges = [edge for group in edges for edge in group]
         rows, is_curve = rows_of(edges), np.array([bool(edge.nodes) for edge in edges], bool)
         columns = _Columns.of(choices)
         best = np.full(len(choices), -inf)
-        left = [at for at, choice in enumerate(choices) if choice.entry is not None]
+        left = [index for index, choice in enumerate(choices) if choice.entry is not None]
         while left:
-            some, tried = np.array(left), [choices[at] for at in left]
-            at = first[some] + np.array([choice.entry.at for choice in tried])
+            numbers, tried = np.array(left), [choices[index] for index in left]
+            edge_rows = first[numbers] + np.array([choice.entry.edge for choice in tried])
             parts = np.array([choice.entry.part for choice in tried])
-            curves = np.flatnonzero(is_curve[at]).tolist()
-            *found, room, is_enough = self._try(tried, rows[at], parts, curves, columns.rows(some))
-            better = np.flatnonzero(room > best[some])
-            best[some[better]] = room[better]
-            found = (column[better].tolist() for column in (*found, room))
-            for at, part, start, tab_hole, space in zip(better.tolist(), *found, strict=True):
-                tried[at].keep(part, tuple(start), tuple(tab_hole), space)
-            left = [at for at in some[~is_enough].tolist() if choices[at].go_on()]
+            curves = np.flatnonzero(is_curve[edge_rows]).tolist()
+            *results, room, is_enough = self._try(tried, rows[edge_rows], parts, curves, columns.rows(numbers))
+            better = np.flatnonzero(room > best[numbers])
+            best[numbers[better]] = room[better]
+            results = (column[better].tolist() for column in (*results, room))
+            for index, part, start, tab_hole, space in zip(better.tolist(), *results, strict=True):
+                tried[index].keep(part, tuple(start), tuple(tab_hole), space)
+            left = [index for index in numbers[~is_enough].tolist() if choices[index].go_on()]
 
     def _try(
-        self, choices: Sequence[_Choice], rows: Floats, parts: Floats, curves: Sequence[int], told: _Columns
+        self, choices: Sequence[_Choice], rows: Floats, parts: Floats, curves: Sequence[int], columns: _Columns
     ) -> tuple[Floats, Floats, Floats, Floats, Flags]:
         """Try the entries of contours, at parts of the edges in some rows, some of them `curves`.
 
         Returns the parts, the start holes and those of the tabs, how far the nearest contour is from these, and
         whether that is enough.
         """
-        places, ways = _places(rows, parts)
-        for at in curves:
-            edge = choices[at].entry.begun(choices[at].made.contour).edges[0]
-            places[at], ways[at] = edge.at(0.0), edge.direction()
-        reach, widest, is_right, is_arc, has_tab, is_central = told
+        places, bearings = _places(rows, parts)
+        for index in curves:
+            edge = choices[index].entry.begun(choices[index].made.contour).edges[0]
+            places[index], bearings[index] = edge.at(0.0), edge.direction()
+        reach, widest, is_right, is_arc, has_tab, is_central = columns
         # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
         circles = np.flatnonzero(_are_circles(rows) & is_central)
         central = circles[self._is_clear_from_centre(rows[circles], widest[circles])]
-        for at in central.tolist():
-            edge = choices[at].made.contour.edges[choices[at].entry.at]
-            parts[at] = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
-            places[at] = edge.at(float(parts[at]))
+        for index in central.tolist():
+            edge = choices[index].made.contour.edges[choices[index].entry.edge]
+            parts[index] = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
+            places[index] = edge.at(float(parts[index]))
         starts = rows[:, 4:6].copy()
         others = np.delete(np.arange(len(choices)), central)
-        starts[others] = self._holes(*(some[others] for some in (places, ways, rows, is_right, reach, widest, is_arc)))
+        starts[others] = self._holes(
+            *(array[others] for array in (places, bearings, rows, is_right, reach, widest, is_arc))
+        )
         far = hypots(*(starts - places).T)
-        # How far the nearest contour is from the start holes.
+        # Distances of the start holes from the nearest contour.
         around = 2 * far + 1e-3
         room = self.field.near(starts, around)
         tab_holes = np.zeros((len(choices), 2))
         tabs = np.flatnonzero(has_tab)
         if len(tabs):
-            begun = [(choices[at].made, choices[at].entry, float(parts[at])) for at in tabs.tolist()]
+            begun = [(choices[index].made, choices[index].entry, float(parts[index])) for index in tabs.tolist()]
             ends = [_before_tab(entry.begun(made.contour), part, made.tab) for made, entry, part in begun]
             # The start hole at the other side of the tab is as far from the contour as the first one.
             tab_holes[tabs] = self._tab_holes(ends, is_right[tabs], far[tabs], widest[tabs], is_arc[tabs])
@@ -255,11 +257,11 @@ class _Planner:
     ) -> Floats:
         """The start holes at the other sides of tabs, which begin where some edges end."""
         rows = rows_of(edges)
-        places, ways = _places(rows, np.ones(len(edges)))
+        places, bearings = _places(rows, np.ones(len(edges)))
         for number, edge in enumerate(edges):
             if edge.nodes:
-                places[number], ways[number] = edge.at(1.0), edge.direction(1.0)
-        return self._holes(places, ways, rows, is_right, reach, widest, is_arc)
+                places[number], bearings[number] = edge.at(1.0), edge.direction(1.0)
+        return self._holes(places, bearings, rows, is_right, reach, widest, is_arc)
 
     def _tab_before(self, contour: Contour, part: float, made: PlannedContour) -> tuple[Contour, float]:
         edge, tab = contour.edges[0], made.tab
@@ -281,16 +283,16 @@ class _Planner:
     def _holes(
         self,
         places: Floats,
-        ways: Floats,
+        bearings: Floats,
         rows: Floats,
         is_right: Flags,
         reach: Floats,
         widest: Floats,
         is_arc: Flags,
     ) -> Floats:
-        """Start holes square to the ways at places on edges (in rows), on the wire's side: `reach` away, or in the
+        """Start holes square to the bearings at places on edges (in rows), on the wire's side: `reach` away, or in the
         middle of the room there is."""
-        square = headings(np.where(is_right, ways - pi / 2, ways + pi / 2))
+        square = headings(np.where(is_right, bearings - pi / 2, bearings + pi / 2))
         # An arc's own chords lie up to 0.1 % of its radius inside of it.
         least = np.where(rows[:, 8] != 0, 1e-3 * (1 + rows[:, 6]), 1e-3)
         reach = np.minimum(reach, self.field.ahead(places, square, 2 * reach + least, least) / 2)
@@ -310,20 +312,20 @@ class _Planner:
     def _is_clear_from_centre(self, circles: Floats, widest: Floats) -> Flags:
         """Tell whether the wire gets from circles' centres to their +X sides and cuts nothing that lies in the
         circle."""
-        ways, wide = np.tile((1.0, 0.0), (len(circles), 1)), np.maximum(_ROUND * widest, 1e-3)
+        vectors, wide = np.tile((1.0, 0.0), (len(circles), 1)), np.maximum(_ROUND * widest, 1e-3)
         # (not as far as the circle itself)
         reach = np.maximum(0.0, _ROUND * circles[:, 6] - widest)
-        return self.field.before(circles[:, 4:6], ways, reach, np.zeros(len(circles)), wide) == inf
+        return self.field.before(circles[:, 4:6], vectors, reach, np.zeros(len(circles)), wide) == inf
 
     def _clear(self, places: Floats, square: Floats, reach: Floats, widest: Floats) -> Floats:
         """Return the distance that the wire gets away from entries: all the way it stays R off other contours."""
-        some = np.flatnonzero((widest > 0) & (reach > widest))
-        r = widest[some]
-        far = self.field.before(places[some], square[some], reach[some], r, _ROUND * r)
+        indices = np.flatnonzero((widest > 0) & (reach > widest))
+        r = widest[indices]
+        far = self.field.before(places[indices], square[indices], reach[indices], r, _ROUND * r)
         # (halfway to where it is no longer free)
-        found = reach.copy()
-        found[some] = np.where(far == inf, reach[some], (r + far) / 2)
-        return found
+        distances = reach.copy()
+        distances[indices] = np.where(far == inf, reach[indices], (r + far) / 2)
+        return distances
 
 
 def _are_circles(rows: Floats) -> Flags:
@@ -335,13 +337,13 @@ def _places(rows: Floats, parts: Floats) -> tuple[Floats, Floats]:
     """The places at parts of the lengths of lines and arcs (n, 2), and the direction angles there: as `Piece.at` and
     `Piece.direction` have them."""
     sides = rows[:, 2:4] - rows[:, 0:2]
-    places, ways = rows[:, 0:2] + parts[:, None] * sides, directions(sides)
+    places, bearings = rows[:, 0:2] + parts[:, None] * sides, directions(sides)
     arcs = np.flatnonzero(rows[:, 8])
     radius, first, sweep = rows[arcs, 6:].T
     angles = first + parts[arcs] * sweep
     places[arcs] = rows[arcs, 4:6] + radius[:, None] * headings(angles)
-    ways[arcs] = angles + np.copysign(pi / 2, sweep)
-    return places, ways
+    bearings[arcs] = angles + np.copysign(pi / 2, sweep)
+    return places, bearings
 
 
 def _before_tab(contour: Contour, part: float, tab: float) -> Edge:
@@ -383,7 +385,7 @@ def plan_nested(
     before = {} if before is None else before
     given = _given_starts(nesting, wanted, list(starts))
     asked = {number: (want, given.get(number)) for number, want in enumerate(wanted) if want.cut}
-    new = {number: one for number, one in asked.items() if number not in before or before[number][0] != one}
+    new = {number: request for number, request in asked.items() if number not in before or before[number][0] != request}
     for route in _Planner(nesting).plan(new):
         is_auto = wanted[route.number].side == "auto"
         around = nesting.around.get(route.number) if is_auto else None
@@ -423,8 +425,8 @@ def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
     ordered: list[PlannedContour] = []
     at_now = 0.0, 0.0
     for depth in sorted(set(depths.tolist()), reverse=True):
-        some = np.flatnonzero(depths == depth)
-        ordered += [routes[at] for at in some[nearest_order(places[some], at_now)].tolist()]
+        indices = np.flatnonzero(depths == depth)
+        ordered += [routes[index] for index in indices[nearest_order(places[indices], at_now)].tolist()]
         at_now = ordered[-1].start
     return ordered
 
@@ -434,13 +436,13 @@ def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted]) -> list[P
     placed = {route.number: order for route in routes if (order := wanted[route.number].order) is not None}
     free = iter([route for route in routes if route.number not in placed])
     ranked = sorted((route for route in routes if route.number in placed), key=lambda route: placed[route.number])
-    found: list[PlannedContour] = []
-    while len(found) < len(routes):
-        if ranked and placed[ranked[0].number] <= len(found) + 1:
-            found.append(ranked.pop(0))
+    merged: list[PlannedContour] = []
+    while len(merged) < len(routes):
+        if ranked and placed[ranked[0].number] <= len(merged) + 1:
+            merged.append(ranked.pop(0))
         else:
-            found.append(next(free, None) or ranked.pop(0))
-    return found
+            merged.append(next(free, None) or ranked.pop(0))
+    return merged
 
 
 def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
@@ -460,13 +462,13 @@ def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
 def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
     """Assign each given start hole to a contour (by its number)."""
     field, depths = nesting.field, nesting.depths
-    found = {number: want.start for number, want in enumerate(wanted) if want.cut and want.start is not None}
-    taken = {number for number, want in enumerate(wanted) if not want.cut} | set(found)
+    given = {number: want.start for number, want in enumerate(wanted) if want.cut and want.start is not None}
+    taken = {number for number, want in enumerate(wanted) if not want.cut} | set(given)
     if len(starts) > len(depths) - len(taken):
         raise UserError(f"{len(starts)} start holes for {len(depths) - len(taken)} contours")
     for start, holding in zip(starts, field.around(starts), strict=True):
         around = [number for number in holding if number not in taken and depths[number] % 2]
         chosen = max(around, key=depths.__getitem__) if around else field.nearest(start, taken)
-        found[chosen] = start
+        given[chosen] = start
         taken.add(chosen)
-    return found
+    return given

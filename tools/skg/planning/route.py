@@ -173,9 +173,9 @@ class PlannedContour:
                 yield _backwards(run) if index % 2 else run
 
     def _lead(self, hole: XY, edge: Edge, at_end: bool = False) -> Lead:
-        way = edge.direction(1.0 if at_end else 0.0)
+        direction = edge.direction(1.0 if at_end else 0.0)
         entry = edge.end if at_end else edge.start
-        return Lead(hole, entry, way, self.is_arc and _is_square(hole, entry, way))
+        return Lead(hole, entry, direction, self.is_arc and _is_square(hole, entry, direction))
 
     def _with_tab(self, edges: tuple[Edge, ...], passes: tuple[float, ...]) -> Iterator[Way]:
         """The passes up to the tab, forth and back, then the tab."""
@@ -208,18 +208,20 @@ class PlannedContour:
         edges = tuple(chord for edge in self.contour.edges for chord in _chords(edge))
         return replace(self, traced=(edges,) * len(self.passes))
 
-    def _way(self, at: int, run: Way) -> Way:
+    def _way(self, index: int, run: Way) -> Way:
         """A run of a pass along the wire's own way, if there are such."""
         if not self.traced:
             return run
         first, last = (
-            _beside(place, way, run.offset)
-            for place, way in (
+            _beside(place, direction, run.offset)
+            for place, direction in (
                 (run.edges[0].start, run.edges[0].direction()),
                 (run.edges[-1].end, run.edges[-1].direction(1.0)),
             )
         )
-        edges = part_between(self.traced[at], self.start if self.is_moved else first, None if run.is_closed else last)
+        edges = part_between(
+            self.traced[index], self.start if self.is_moved else first, None if run.is_closed else last
+        )
         into, out = run.into, run.out
         if into and out:
             into = replace(into, entry=edges[0].start, is_arc=into.is_arc and distance(edges[0].start, first) < _SQUARE)
@@ -244,18 +246,18 @@ def _backwards(run: Way) -> Way:
     return Way(edges, -run.offset, into, out, run.stop)
 
 
-def _beside(place: XY, way: float, r: float) -> XY:
+def _beside(place: XY, direction: float, r: float) -> XY:
     """The place R to the right of one that is passed in a direction (radians)."""
-    return place[0] + r * sin(way), place[1] - r * cos(way)
+    return place[0] + r * sin(direction), place[1] - r * cos(direction)
 
 
-def _is_square(hole: XY, entry: XY, way: float) -> bool:
+def _is_square(hole: XY, entry: XY, direction: float) -> bool:
     """Tell whether a hole stands square to a place that is passed in a direction (radians)."""
-    return abs(cos(_angle(minus(hole, entry)) - way)) < _SQUARE
+    return abs(cos(_angle(minus(hole, entry)) - direction)) < _SQUARE
 
 
-def _angle(way: XY) -> float:
-    return float(np.arctan2(way[1], way[0]))
+def _angle(vector: XY) -> float:
+    return float(np.arctan2(vector[1], vector[0]))
 
 
 def chain_from(contour: Contour, part: float) -> tuple[Edge, ...]:
@@ -284,21 +286,21 @@ def split_at_end(edges: tuple[Edge, ...], length: float) -> tuple[tuple[Edge, ..
         part = min(1 - _INSIDE, max(_INSIDE, part)) if tail else part
         return (*before, part_of(last, 0, part)), (part_of(last, part, 1), *tail)
     lengths = np.cumsum([0.0, *last.steps()])
-    near = [node_sample(last, at) for at in range(len(last.nodes))]
-    at = max((at for at in range(1, len(near) - 1) if lengths[-1] - lengths[near[at]] >= left), default=0)
-    if not at:
+    near = [node_sample(last, index) for index in range(len(last.nodes))]
+    index = max((index for index in range(1, len(near) - 1) if lengths[-1] - lengths[near[index]] >= left), default=0)
+    if not index:
         return tuple(before), (last, *tail)
-    head, rest = split_curve(last, at)
+    head, rest = split_curve(last, index)
     return (*before, head), (rest, *tail)
 
 
-def node_sample(edge: Edge, at: int) -> int:
+def node_sample(edge: Edge, index: int) -> int:
     """The number of the sample at a curve's node."""
-    return int(np.argmin(((edge.samples - edge.nodes[at].point) ** 2).sum(1)))
+    return int(np.argmin(((edge.samples - edge.nodes[index].point) ** 2).sum(1)))
 
 
-def split_curve(edge: Edge, at: int) -> tuple[Edge, Edge]:
-    """A curve as two, the first up to its node number `at`."""
-    point, cut = edge.nodes[at].point, node_sample(edge, at)
-    head = replace(edge, end=point, nodes=edge.nodes[: at + 1], samples=edge.samples[: cut + 1])
-    return head, replace(edge, start=point, nodes=edge.nodes[at:], samples=edge.samples[cut:])
+def split_curve(edge: Edge, index: int) -> tuple[Edge, Edge]:
+    """A curve as two, the first up to its node number `index`."""
+    point, cut = edge.nodes[index].point, node_sample(edge, index)
+    head = replace(edge, end=point, nodes=edge.nodes[: index + 1], samples=edge.samples[: cut + 1])
+    return head, replace(edge, start=point, nodes=edge.nodes[index:], samples=edge.samples[cut:])

@@ -149,7 +149,7 @@ class _SvgCollector:
         self.px = px
         self.wishes = wishes
         self.shapes = _Shapes(file.height, px, wishes.fit_tolerance)
-        self.found = Content()
+        self.result = Content()
         # Shapes that the notes mention, and shapes without a line or an area, cut if there is nothing else.
         self.clipped: list[Entity] = []
         self.outside: list[Entity] = []
@@ -161,13 +161,13 @@ class _SvgCollector:
         """Account for one element that is drawn."""
         kind, layer = tag_of(item.element), item.view.layer
         account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or item.left)
-        self.found.entities.append(account)
+        self.result.entities.append(account)
         if kind not in SHAPES or item.left.startswith("cannot"):
             account.is_odd = not item.view.hidden and kind not in NOTES
             return
         try:
             outline = _outline(item.element, item.view)
-            self.shapes.matrix, self.shapes.entity = item.view.matrix, len(self.found.entities) - 1
+            self.shapes.matrix, self.shapes.entity = item.view.matrix, len(self.result.entities) - 1
             edges = list(self.shapes.edges(outline))
         except UNREADABLE as error:
             account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"
@@ -177,7 +177,7 @@ class _SvgCollector:
             account.place = edges[0].start
         is_seen = not item.left and item.view.style.is_painted and not item.view.style.is_hidden
         if self.wishes.is_by_layer(account.left) and is_seen and not self.wishes.is_start(layer):
-            self.found.others += edges
+            self.result.others += edges
             account.dashes = "stroke-dasharray" if item.view.style.is_dashed else ""
         account.left = account.left or ("invisible" if item.view.style.is_hidden else "")
         if account.left:
@@ -198,11 +198,11 @@ class _SvgCollector:
         """A shape on the layer of start holes: a circle is one, about its middle."""
         account.left = "a start hole" if account.kind == "circle" else NOTE
         if account.kind == "circle" and outline:
-            self.found.starts.append(self.shapes.point(outline[0].center))
+            self.result.starts.append(self.shapes.point(outline[0].center))
 
     def _cut(self, account: Entity, view: View, edges: list[Edge]) -> None:
         """A shape that is cut; how it is drawn may have to be said."""
-        self.found.edges += edges
+        self.result.edges += edges
         style = view.style
         account.dashes = "stroke-dasharray" if style.is_dashed else ""
         places = [(x / self.px, self.file.height - y / self.px) for edge in edges for x, y in edge.extremes()]
@@ -217,7 +217,7 @@ class _SvgCollector:
 
     def content(self) -> Content:
         """All that was found, with what is to be said of it."""
-        result, nouns = self.found, ("shape", "shapes")
+        result, nouns = self.result, ("shape", "shapes")
         result.notes += self._of_page()
         if not result.edges:
             for account, edges in self.unpainted:

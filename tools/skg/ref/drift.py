@@ -97,7 +97,7 @@ def arc(start: Grid, end: Grid, clockwise: bool, is_long: bool) -> tuple[str, Gr
 
 
 class DriftlessPunch(Punch):
-    """A tape whose every block starts where the controller stands: `at` is that place."""
+    """A tape whose every block starts where the controller stands: `position` is that place."""
 
     def arc(self, end: Point, centre: Point, clockwise: bool, sweep: Real) -> None:
         """An arc of a true sweep in radians; a straight move where it is too flat or counts nothing."""

@@ -44,7 +44,7 @@ class Argument:
     kind: str
     value: Real | ExactElement
     text: SkgText
-    at: Token
+    token: Token
     sign: Token | None = None
 
 
@@ -120,13 +120,13 @@ def _point(frame: XYFrame, x: Argument, y: Argument) -> NewElement:
 @_form("D", "YN")
 def _point_of_circle(frame: XYFrame, circle: Argument, angle: Argument) -> NewElement:
     value, text = frame.turned(angle)
-    at = join(centre_text(circle.text), "-", join(call("K3", circle.text), "#", text))
-    return NewElement(circle.value.centre + direction(value) * abs(circle.value.r), at)
+    place = join(centre_text(circle.text), "-", join(call("K3", circle.text), "#", text))
+    return NewElement(circle.value.centre + direction(value) * abs(circle.value.r), place)
 
 
 @_form("D", "±X±X")
-def _crossing(_: XYFrame, one: Argument, other: Argument) -> NewElement:
-    return NewElement(crossings(one.value, other.value)[0], join(_unsigned(one), "*", _unsigned(other)))
+def _crossing(_: XYFrame, first: Argument, second: Argument) -> NewElement:
+    return NewElement(crossings(first.value, second.value)[0], join(_unsigned(first), "*", _unsigned(second)))
 
 
 def _unsigned(argument: Argument) -> SkgText:
@@ -151,15 +151,15 @@ def _line(frame: XYFrame, x: Argument, y: Argument, angle: Argument) -> NewEleme
 
 
 @_form("X", "DN", "±YN")
-def _line_at(frame: XYFrame, at: Argument, angle: Argument) -> NewElement:
+def _line_at(frame: XYFrame, point: Argument, angle: Argument) -> NewElement:
     value, text = frame.turned(angle)
-    return NewElement(touching_line(at.value, direction(value)), join(sloping(text), ":", at.text))
+    return NewElement(touching_line(point.value, direction(value)), join(sloping(text), ":", point.text))
 
 
 @_form("X", "D±XN", "±Y±XN")
-def _line_from_line(_: XYFrame, at: Argument, line: Argument, angle: Argument) -> NewElement:
-    way = rotated(line.value.way, angle.value, ExactPoint(ZERO, ZERO))
-    return NewElement(touching_line(at.value, way), join(join(line.text, "#", angle.text), ":", at.text))
+def _line_from_line(_: XYFrame, point: Argument, line: Argument, angle: Argument) -> NewElement:
+    direction = rotated(line.value.way, angle.value, ExactPoint(ZERO, ZERO))
+    return NewElement(touching_line(point.value, direction), join(join(line.text, "#", angle.text), ":", point.text))
 
 
 @_form("X", *_all(("D", "±Y"), 2))
@@ -174,12 +174,12 @@ def _parallel(_: XYFrame, line: Argument, left: Argument) -> NewElement:
 
 
 @_form("X", "±X±X")
-def _bisector(_: XYFrame, one: Argument, other: Argument) -> NewElement:
-    crossing = crossings(one.value, other.value)[0]
-    half = mp.degrees(turn(one.value.way, other.value.way)) / 2
-    angle = join(pair(one.text, other.text), "/", SkgText("2"))
-    text = join(join(one.text, "#", angle), ":", join(one.text, "*", other.text))
-    return NewElement(ExactLine(crossing, rotated(one.value.way, half, ExactPoint(ZERO, ZERO))), text)
+def _bisector(_: XYFrame, first: Argument, second: Argument) -> NewElement:
+    crossing = crossings(first.value, second.value)[0]
+    half = mp.degrees(turn(first.value.way, second.value.way)) / 2
+    angle = join(pair(first.text, second.text), "/", SkgText("2"))
+    text = join(join(first.text, "#", angle), ":", join(first.text, "*", second.text))
+    return NewElement(ExactLine(crossing, rotated(first.value.way, half, ExactPoint(ZERO, ZERO))), text)
 
 
 @_form("Y", "NNN")

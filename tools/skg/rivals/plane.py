@@ -185,11 +185,11 @@ def parallel(curve: ExactCurve, to_right: Real) -> ExactCurve:
     return ExactCircle(curve.centre, curve.r + to_right)
 
 
-def touching_line(at: ExactPoint | ExactCircle, way: ExactPoint) -> ExactLine:
+def touching_line(place: ExactPoint | ExactCircle, direction: ExactPoint) -> ExactLine:
     """The line along a unit vector through a point, or touching a circle where it runs that way."""
-    if isinstance(at, ExactPoint):
-        return ExactLine(at, way)
-    return ExactLine(at.centre - way.left() * at.r, way)
+    if isinstance(place, ExactPoint):
+        return ExactLine(place, direction)
+    return ExactLine(place.centre - direction.left() * place.r, direction)
 
 
 def belt_line(e: ExactPoint | ExactCircle, f: ExactPoint | ExactCircle) -> ExactLine | None:
@@ -208,8 +208,8 @@ def belt_line(e: ExactPoint | ExactCircle, f: ExactPoint | ExactCircle) -> Exact
         raise PlaneError("there is no line that touches both")
     u = v * (1 / d)
     sine = (r1 - r2) / d
-    way = u * mp.sqrt(1 - sine * sine) + u.left() * sine
-    return ExactLine(c1 - way.left() * r1, way)
+    direction = u * mp.sqrt(1 - sine * sine) + u.left() * sine
+    return ExactLine(c1 - direction.left() * r1, direction)
 
 
 def joining_line(e: ExactPoint | ExactCircle, f: ExactPoint | ExactCircle) -> ExactLine:

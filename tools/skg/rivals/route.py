@@ -41,7 +41,7 @@ class Arc:
 
     radius: Real
     text: SkgText
-    at: Token
+    token: Token
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Hung:
 
     value: ExactPoint | ExactCircle
     text: SkgText
-    at: Token
+    token: Token
     arc: Arc | None = None
 
     @property
@@ -115,8 +115,8 @@ def is_same(a: Hung, b: Hung) -> bool:
 def _merged(a: Hung, b: Hung) -> Hung:
     """Two neighbours that are one item."""
     if not a.is_pin and a.arc:
-        raise TextFault(a.arc.at.start_pos, "a connecting arc stands between two circles, this is one")
-    return Hung(a.value, a.text, a.at, (a.arc if a.is_pin else None) or b.arc)
+        raise TextFault(a.arc.token.start_pos, "a connecting arc stands between two circles, this is one")
+    return Hung(a.value, a.text, a.token, (a.arc if a.is_pin else None) or b.arc)
 
 
 def without_doubles(items: list[Hung]) -> list[Hung]:
@@ -132,7 +132,7 @@ def without_doubles(items: list[Hung]) -> list[Hung]:
         if last.is_pin:
             merged[0] = _merged(merged[0], last)
         elif last.arc:
-            raise TextFault(last.arc.at.start_pos, "a connecting arc stands between two circles, this is one")
+            raise TextFault(last.arc.token.start_pos, "a connecting arc stands between two circles, this is one")
     return merged
 
 
@@ -145,7 +145,7 @@ def mirror_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hung]
         arc = item.arc if item.is_pin else None
         if not item.is_pin and index and not items[index - 1].is_pin:
             arc = items[index - 1].arc
-        pins.append(Hung(made.value, made.text, made.at, arc))
+        pins.append(Hung(made.value, made.text, made.token, arc))
     return pins
 
 
@@ -155,23 +155,23 @@ def mirrored_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hun
     last = items[-1]
     if is_same(last, images[0]):
         if not last.is_pin and last.arc:
-            raise TextFault(last.arc.at.start_pos, "a connecting arc stands between two circles, this is one")
-        items = [*items[:-1], Hung(last.value, last.text, last.at, images[0].arc)]
+            raise TextFault(last.arc.token.start_pos, "a connecting arc stands between two circles, this is one")
+        items = [*items[:-1], Hung(last.value, last.text, last.token, images[0].arc)]
         images = images[1:]
     return [*items, *images]
 
 
-# What lies between two of them ---------------------------------------------------------------------------------
+# The pieces between two of them --------------------------------------------------------------------------------
 
 
-def between(a: Hung, b: Hung, at: int) -> tuple[ExactPoint, ExactPoint, list[Part]]:
-    """The points at which the belt leaves a and reaches b, and the pieces between; `at`: the place to blame.
+def between(a: Hung, b: Hung, index: int) -> tuple[ExactPoint, ExactPoint, list[Part]]:
+    """The points at which the belt leaves a and reaches b, and the pieces between; `index`: the place to blame.
 
     The table of xy.md, section 4.
     """
     if a.arc and not a.is_pin:
         if b.is_pin:
-            raise TextFault(a.arc.at.start_pos, "a connecting arc stands between two circles")
+            raise TextFault(a.arc.token.start_pos, "a connecting arc stands between two circles")
         arc = _connecting(a, b, a.arc)
         return arc.start, arc.end, [arc]
     if a.is_pin and b.is_pin:
@@ -182,11 +182,11 @@ def between(a: Hung, b: Hung, at: int) -> tuple[ExactPoint, ExactPoint, list[Par
             if on(circle.value, pin.value):
                 return pin.value, pin.value, []
             if (pin.value - circle.value.centre).size() < abs(circle.value.r):
-                raise TextFault(at, "the point lies inside the circle")
+                raise TextFault(index, "the point lies inside the circle")
     try:
         line = belt_line(a.value, b.value)
     except PlaneError:
-        raise TextFault(at, "no belt lies between these circles so: they cross, or one lies in the other") from None
+        raise TextFault(index, "no belt lies between these circles so: they cross, or one lies in the other") from None
     if line is None:
         touch = touching_point(a.value, b.value)
         return touch, touch, [Pin(touch, join(a.text, "*", b.text))]
@@ -208,15 +208,15 @@ def _connecting(a: Hung, b: Hung, arc: Arc) -> Stretch:
             raise PlaneError("it would be the circle itself")
         circles = [ExactCircle(centre, -step) for centre in crossings(*beside)]
     except PlaneError as error:
-        raise TextFault(arc.at.start_pos, f"the connecting arc does not reach: {error}") from None
+        raise TextFault(arc.token.start_pos, f"the connecting arc does not reach: {error}") from None
 
     def stretch(circle: ExactCircle) -> Stretch:
         return Stretch(circle, touching_point(a.value, circle), touching_point(b.value, circle))
 
     best = min(map(stretch, circles), key=Stretch.angle)
-    one, other = (join(h.text, ":", text if clockwise else minus(text)) for h in (a, b))
-    right = SkgText(f"-({other})", 0o55) if clockwise else other
-    best.text = join(join(one, "*", right), ":", minus(text) if clockwise else text)
+    first, second = (join(h.text, ":", text if clockwise else minus(text)) for h in (a, b))
+    right = SkgText(f"-({second})", 0o55) if clockwise else second
+    best.text = join(join(first, "*", right), ":", minus(text) if clockwise else text)
     if len(circles) > 1 and not same_point(crossing_that_turns(*beside, left=not clockwise), best.curve.centre):
         best.text = literal(best.curve)
     return best
@@ -234,12 +234,14 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
         if items[0].is_pin:
             raise TextFault(closes, "a route of one point")
         if items[0].arc:
-            raise TextFault(items[0].arc.at.start_pos, "a connecting arc stands between two circles")
+            raise TextFault(items[0].arc.token.start_pos, "a connecting arc stands between two circles")
         circle = items[0].value
         return [Stretch(circle, circle.centre, circle.centre, items[0].text, whole=True)], [0]
     follows = [
         between(
-            item, items[(index + 1) % len(items)], items[index + 1].at.start_pos if index + 1 < len(items) else closes
+            item,
+            items[(index + 1) % len(items)],
+            items[index + 1].token.start_pos if index + 1 < len(items) else closes,
         )
         for index, item in enumerate(items)
     ]
@@ -268,9 +270,9 @@ def _round(parts: list[Part]) -> None:
     for index, pin in enumerate(parts):
         if not isinstance(pin, Pin) or pin.fillet is None:
             continue
-        at = pin.fillet.at.start_pos
+        start = pin.fillet.token.start_pos
         if pin.fillet.radius <= TINY:
-            raise TextFault(at, "the radius of a fillet must be more than 0")
+            raise TextFault(start, "the radius of a fillet must be more than 0")
         around = [part for part in parts[index + 1 :] + parts[:index] if isinstance(part, Stretch)]
         if not around or around[0].whole:
             pin.fillet = None
@@ -283,9 +285,9 @@ def _round(parts: list[Part]) -> None:
         try:
             pin.arc = _fillet(before.curve, after.curve, pin.fillet.radius, angle)
         except PlaneError as error:
-            raise TextFault(at, f"the fillet does not fit: {error}") from None
+            raise TextFault(start, f"the fillet does not fit: {error}") from None
         if not before.has(pin.arc.start) or not after.has(pin.arc.end):
-            raise TextFault(at, "the fillet does not fit: it ends past its neighbours")
+            raise TextFault(start, "the fillet does not fit: it ends past its neighbours")
         before.end, after.start = pin.arc.start, pin.arc.end
 
 

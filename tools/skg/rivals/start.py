@@ -87,12 +87,12 @@ def inner_corner(last: ExactCurve, first: ExactCurve, p: ExactPoint, offset: Rea
     return corner if ahead > NEAR else None
 
 
-def written(parts: list[Part], at: Entry, name: Namer) -> list[str]:
+def written(parts: list[Part], entry: Entry, name: Namer) -> list[str]:
     """The items of the CUT that cuts the whole route from its entry, up to where BACK closes it."""
     index = next(
-        i for i, part in enumerate(parts) if part is at.first or isinstance(part, Pin) and part.arc is at.first
+        i for i, part in enumerate(parts) if part is entry.first or isinstance(part, Pin) and part.arc is entry.first
     )
-    first = at.first
+    first = entry.first
     if isinstance(parts[index], Pin):
         # It begins with the arc of a fillet.
         begin = name(None, first.start)
@@ -107,12 +107,12 @@ def written(parts: list[Part], at: Entry, name: Namer) -> list[str]:
     if isinstance(before, Pin) and before.arc is None:
         begin = _short(before.text, before.point, name)
         rest.pop()
-        if at.inner is None:
+        if entry.inner is None:
             return [str(begin), *_texts(rest, name), str(begin)]
         if isinstance(first.curve, ExactLine):
-            return [str(name(None, foot(at.inner, first.curve))), *_texts(rest, name), str(begin)]
+            return [str(name(None, foot(entry.inner, first.curve))), *_texts(rest, name), str(begin)]
         return [
-            str(name(None, nearest(at.inner, first.curve))),
+            str(name(None, nearest(entry.inner, first.curve))),
             *_texts(rest, name),
             str(begin),
             *_texts([first], name),
@@ -147,14 +147,14 @@ def _short(text: SkgText, value: ExactElement, name: Namer) -> SkgText:
     return text if len(text.text) <= LONGEST_ITEM else name(text, value)
 
 
-def repeated(parts: list[Part], count: int, at: Entry, name: Namer) -> list[str] | None:
+def repeated(parts: list[Part], count: int, entry: Entry, name: Namer) -> list[str] | None:
     """The items of the CUT that REP repeats: the first `count` parts, which lead to the second copy.
 
     None where the wire enters elsewhere than where the first item is reached.
     """
     begins = parts[0]
     first = next(part for part in parts if isinstance(part, Stretch))
-    if at.inner is not None or at.first.whole or at.first is not first:
+    if entry.inner is not None or entry.first.whole or entry.first is not first:
         return None
     if isinstance(begins, Pin):
         return None if begins.arc else _texts(parts[:count], name)

@@ -19,9 +19,9 @@ from skg.rivals.plane import Real
 class TextFault(Exception):
     """An error in a text, and the index of its character."""
 
-    def __init__(self, at: int, message: str) -> None:
+    def __init__(self, index: int, message: str) -> None:
         super().__init__(message)
-        self.at = at
+        self.index = index
         self.message = message
 
 
@@ -31,8 +31,8 @@ def placing(text: str) -> Iterator[None]:
     try:
         yield
     except TextFault as fault:
-        before = text[: fault.at]
-        column = fault.at - (before.rfind("\n") + 1) + 1
+        before = text[: fault.index]
+        column = fault.index - (before.rfind("\n") + 1) + 1
         raise RivalFault(f"{before.count(chr(10)) + 1}:{column}: {fault.message}") from None
     except RecursionError:
         raise RivalFault("1:1: parentheses too deep") from None

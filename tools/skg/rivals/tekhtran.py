@@ -20,7 +20,7 @@ LETTERS = {"POINT": "P", "LINE": "S", "CIRCLE": "C", "VECTOR": "V", "NUMBER": "D
 #: Names that keep their number, up to 899; the first of those that do not.
 _NUMBERED = re.compile(r"(?:ТЧ|ПР|КР|ВЕ)(0|[1-9][0-9]?|[1-8][0-9][0-9])")
 OWN = 900
-#: How tokens of names that may be defined begin; the tokens of those that are.
+#: Prefix of the tokens of names that may be defined; the tokens of defined names.
 NEW, KIND_WORDS = "NEW_", {*LETTERS, "MATRIX", "PLANE"}
 #: Words that only hold others apart.
 FILLERS = {"COMMA", "PERESECH", "CENTR"}
@@ -54,14 +54,14 @@ class _Named:
 class _Wire:
     """The wire's place, its point in SKG, and whether it is moving from its start hole."""
 
-    at: ExactPoint
+    place: ExactPoint
     name: str = ""
     is_moving: bool = False
 
     @property
     def text(self) -> str:
         """The place in SKG."""
-        return self.name or str(literal(self.at))
+        return self.name or str(literal(self.place))
 
 
 @dataclass
@@ -107,10 +107,10 @@ class _TekhtranMachine:
 
     def _coordinate(self, index: Tree, name: Token) -> Figure:
         """КООРД."""
-        which, _ = self.number(index)
-        if which not in (1, 2, 3):
+        axis, _ = self.number(index)
+        if axis not in (1, 2, 3):
             raise TextFault(first_token(index).start_pos, "expected 1, 2 or 3")
-        return self.canonical(name)[int(which) - 1]
+        return self.canonical(name)[int(axis) - 1]
 
     def canonical(self, name: Token) -> list[Figure]:
         """The numbers of a name's canonical form, and SKG's expressions for them."""
@@ -213,9 +213,9 @@ class _TekhtranMachine:
             return _Wire(operands[0].value, str(operands[0].text))
         return _Wire(ExactPoint(operands[0].value, operands[1].value))
 
-    def _started(self, at: Token) -> _Wire:
+    def _started(self, token: Token) -> _Wire:
         if self.wire is None:
-            raise TextFault(at.start_pos, "the wire has not been started by ИЗ")
+            raise TextFault(token.start_pos, "the wire has not been started by ИЗ")
         return self.wire
 
     def _go(self, children: list) -> None:
@@ -225,16 +225,16 @@ class _TekhtranMachine:
         wire = self._started(children[0])
         steps = [self.number(child)[0] for child in children if isinstance(child, Tree)]
         if len(steps) > 1:
-            self._move(children[0], _Wire(wire.at + ExactPoint(*steps[:2])))
+            self._move(children[0], _Wire(wire.place + ExactPoint(*steps[:2])))
 
     def _approach(self, children: list) -> None:
         wire = self._started(children[0])
-        self._move(children[0], _Wire(nearest(wire.at, self.named[children[2]].value)))
+        self._move(children[0], _Wire(nearest(wire.place, self.named[children[2]].value)))
 
-    def _move(self, at: Token, to: _Wire) -> None:
+    def _move(self, token: Token, to: _Wire) -> None:
         """Straight to a place, on the wire's centre: a point more in an open CUT."""
-        wire = self._started(at)
-        if same_point(wire.at, to.at):
+        wire = self._started(token)
+        if same_point(wire.place, to.place):
             return
         body = self.program.body
         if not wire.is_moving:
@@ -265,16 +265,16 @@ class _TekhtranMachine:
         self.program.body.append(f"REM CONTOUR {self.contours}")
         own = self.last.get("P", OWN - 1)
 
-        def name(expression: SkgText, at: ExactPoint) -> SkgText:
+        def name(expression: SkgText, place: ExactPoint) -> SkgText:
             """A point of this contour's own; the next contour takes the same names."""
             nonlocal own
             own += 1
             if own > LAST_SUBSCRIPT:
-                return literal(at)
-            self.program.assign(f"P{own}", expression, at)
+                return literal(place)
+            self.program.assign(f"P{own}", expression, place)
             return SkgText(f"P{own}")
 
-        cuts = cut_items(self._items(rest), word, wire.at, offset, name)
+        cuts = cut_items(self._items(rest), word, wire.place, offset, name)
         self.program.assign("R", text, offset)
         self.program.body += [*packed("CUT", cuts), "BACK"]
 

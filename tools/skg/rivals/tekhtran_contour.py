@@ -38,7 +38,7 @@ class ContourItem:
 
     value: ExactElement
     name: str
-    at: Token
+    token: Token
     choice: Token | None = None
     is_backwards: bool = False
 
@@ -65,15 +65,15 @@ CornerNamer = Callable[[SkgText, ExactPoint], SkgText]
 class _Corner:
     """Meeting point of two neighbours; a text if neither is a point."""
 
-    at: ExactPoint
+    place: ExactPoint
     text: SkgText | None = None
 
 
-def cut_items(items: list[ContourItem], at: Token, wire: ExactPoint, offset: Real, name: CornerNamer) -> list[str]:
-    """The items of the CUT that BACK makes a contour, from where the wire is; `at`: the statement's word."""
+def cut_items(items: list[ContourItem], token: Token, wire: ExactPoint, offset: Real, name: CornerNamer) -> list[str]:
+    """The items of the CUT that BACK makes a contour, from where the wire is; `token`: the statement's word."""
     items = _without_doubles(items)
     if len(items) == 1 and not isinstance(items[0].value, ExactCircle):
-        raise TextFault(at.start_pos, "a contour of one point or line")
+        raise TextFault(token.start_pos, "a contour of one point or line")
     if len(items) == 1:
         return [str(items[0].text)]
     corners = [_corner(items[index - 1], item) for index, item in enumerate(items[1:], 1)]
@@ -83,7 +83,7 @@ def cut_items(items: list[ContourItem], at: Token, wire: ExactPoint, offset: Rea
         items = [_run(*between) for between in zip(items, corners, ends, strict=True)]
         stretches = _stretches(items, corners, ends)
         if not any(stretch.is_travelled for stretch in stretches):
-            raise TextFault(at.start_pos, "there is nothing to travel: the items meet in one point")
+            raise TextFault(token.start_pos, "there is nothing to travel: the items meet in one point")
         _check_entry(items[0], stretches, wire, offset)
     return _texts(items, corners, name)
 
@@ -114,26 +114,26 @@ def _corner(before: ContourItem, item: ContourItem) -> _Corner:
     for point, curve in ((item, before), (before, item)):
         if point.is_point:
             if not curve.is_point and not on(curve.value, point.value):
-                raise TextFault(point.at.start_pos, f"{point.at} does not lie on {curve.at}")
+                raise TextFault(point.token.start_pos, f"{point.token} does not lie on {curve.token}")
             return _Corner(point.value)
     try:
         points = crossings(before.value, item.value)
         if len(points) > 1 and item.choice is None:
             raise PlaneError("there are two: choose by ХБ, ХМ, УБ or УМ")
-        at = chosen(points, item.choice)
+        place = chosen(points, item.choice)
     except PlaneError as error:
-        raise TextFault(item.at.start_pos, f"the corner of {before.at} and {item.at}: {error}") from None
+        raise TextFault(item.token.start_pos, f"the corner of {before.token} and {item.token}: {error}") from None
     e, f = (-each.value if each.is_backwards else each.value for each in (before, item))
-    return _Corner(at, crossing_text(e, f, at, (SkgText(before.name), SkgText(item.name))))
+    return _Corner(place, crossing_text(e, f, place, (SkgText(before.name), SkgText(item.name))))
 
 
 def _run(item: ContourItem, start: _Corner, end: _Corner) -> ContourItem:
     """A line as it runs from one corner to the other; all else as it is."""
     if not isinstance(item.value, ExactLine):
         return item
-    if same_point(start.at, end.at):
-        raise TextFault(item.at.start_pos, f"{item.at} begins and ends in one point")
-    return item if item.value.way.dot(end.at - start.at) > 0 else item.backwards()
+    if same_point(start.place, end.place):
+        raise TextFault(item.token.start_pos, f"{item.token} begins and ends in one point")
+    return item if item.value.way.dot(end.place - start.place) > 0 else item.backwards()
 
 
 def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corner]) -> list[Stretch]:
@@ -142,10 +142,10 @@ def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corn
     following = [*items[1:], items[0]]
     for item, start, end, after in zip(items, starts, ends, following, strict=True):
         if not item.is_point:
-            pieces.append(Stretch(item.value, start.at, end.at))
+            pieces.append(Stretch(item.value, start.place, end.place))
         elif after.is_point:
-            way = (after.value - item.value).unit()
-            pieces.append(Stretch(ExactLine(item.value, way), item.value, after.value))
+            direction = (after.value - item.value).unit()
+            pieces.append(Stretch(ExactLine(item.value, direction), item.value, after.value))
     return pieces
 
 
@@ -154,20 +154,20 @@ def _check_entry(item: ContourItem, stretches: list[Stretch], wire: ExactPoint, 
     last, first, second = stretches[-1], stretches[0], stretches[1]
     if item.is_point:
         if inner_corner(last.curve, first.curve, item.value, offset):
-            raise TextFault(item.at.start_pos, "an inner corner for the wire: begin with a line or circle")
+            raise TextFault(item.token.start_pos, "an inner corner for the wire: begin with a line or circle")
         return
     if not (first.is_travelled and first.has(nearest(wire, first.curve))):
-        raise TextFault(item.at.start_pos, f"the wire would not enter {item.at} between its corners")
+        raise TextFault(item.token.start_pos, f"the wire would not enter {item.token} between its corners")
     path = parallel(first.curve, offset)
     start = wire_corner(last.curve, first.curve, first.start, offset)
     end = wire_corner(first.curve, second.curve, first.end, offset)
-    # (where there is no corner, SKG says so)
+    # (without a corner SKG itself reports an error)
     if start and end and not Stretch(path, start, end).has(nearest(wire, path)):
-        raise TextFault(item.at.start_pos, f"the wire would enter {item.at} outside of its own corners beside it")
+        raise TextFault(item.token.start_pos, f"the wire would enter {item.token} outside of its own corners beside it")
 
 
 def _texts(items: list[ContourItem], corners: list[_Corner], name: CornerNamer) -> list[str]:
-    names = [str(name(corner.text, corner.at)) if corner.text else "" for corner in corners]
+    names = [str(name(corner.text, corner.place)) if corner.text else "" for corner in corners]
     texts: list[str] = []
     for item, corner in zip(items, names, strict=True):
         texts += [corner, str(item.text)] if corner else [str(item.text)]

@@ -46,7 +46,7 @@ class Operand:
 
     value: ExactElement | Real | Matrix
     text: SkgText
-    at: Token
+    token: Token
     z: Real = ZERO
 
 
@@ -72,15 +72,15 @@ def chosen(choices: Sequence[T], choice: str, place: Callable[[T], ExactPoint] =
     """Of one or two the one with the greater (Б) or smaller (М) coordinate."""
     if len(choices) == 1:
         return choices[0]
-    one, other = ((place(e).x if choice[0] == "Х" else place(e).y) for e in choices)
-    if abs(one - other) <= NEAR:
+    first, second = ((place(e).x if choice[0] == "Х" else place(e).y) for e in choices)
+    if abs(first - second) <= NEAR:
         raise PlaneError(f"{choice} does not decide between two")
-    return choices[(one < other) == (choice[1] == "Б")]
+    return choices[(first < second) == (choice[1] == "Б")]
 
 
-def crossing_text(e: ExactCurve, f: ExactCurve, at: ExactPoint, texts: tuple[SkgText, SkgText]) -> SkgText:
+def crossing_text(e: ExactCurve, f: ExactCurve, place: ExactPoint, texts: tuple[SkgText, SkgText]) -> SkgText:
     """SKG's expression for one of the places where two curves cross or touch."""
-    turns_right = len(crossings(e, f)) > 1 and way_at(e, at).cross(way_at(f, at)) < 0
+    turns_right = len(crossings(e, f)) > 1 and way_at(e, place).cross(way_at(f, place)) < 0
     return join(texts[0], "*", minus(texts[1]) if turns_right else texts[1])
 
 
@@ -99,7 +99,7 @@ def _distance(d: Operand) -> Real:
 
 def _on(curve: Operand, point: Operand) -> None:
     if not on(curve.value, point.value):
-        raise TextFault(point.at.start_pos, f"{point.at} does not lie on {curve.at}")
+        raise TextFault(point.token.start_pos, f"{point.token} does not lie on {curve.token}")
 
 
 def _clockwise(turn: Token, value: Real, text: SkgText) -> tuple[Real, SkgText]:
@@ -116,21 +116,21 @@ def point_at(x: Operand, y: Operand, z: Operand | None = None) -> Defined:
 
 
 @_form
-def point_of_lines(one: Operand, other: Operand) -> Defined:
-    return Defined(crossings(one.value, other.value)[0], join(one.text, "*", other.text))
+def point_of_lines(first: Operand, second: Operand) -> Defined:
+    return Defined(crossings(first.value, second.value)[0], join(first.text, "*", second.text))
 
 
 @_form
 def point_of_curves(e: Operand, f: Operand, choice: Token) -> Defined:
-    at = chosen(crossings(e.value, f.value), choice)
-    return Defined(at, crossing_text(e.value, f.value, at, (e.text, f.text)))
+    place = chosen(crossings(e.value, f.value), choice)
+    return Defined(place, crossing_text(e.value, f.value, place, (e.text, f.text)))
 
 
 @_form
 def point_at_angle(circle: Operand, turn: Token, angle: Operand) -> Defined:
     value, text = _clockwise(turn, angle.value, angle.text)
-    at = circle.value.centre + direction(value) * circle.value.r
-    return Defined(at, join(centre_text(circle.text), "+", join(call("K3", circle.text), "#", text)))
+    place = circle.value.centre + direction(value) * circle.value.r
+    return Defined(place, join(centre_text(circle.text), "+", join(call("K3", circle.text), "#", text)))
 
 
 @_form
@@ -161,8 +161,8 @@ def point_along_line(line: Operand, point: Operand, d: Operand, choice: Token) -
     if _distance(d) <= TINY:
         return Defined(point.value, point.text)
     circle, text = ExactCircle(point.value, d.value), join(point.text, ":", d.text)
-    at = chosen(crossings(line.value, circle), choice)
-    return Defined(at, crossing_text(line.value, circle, at, (line.text, text)))
+    place = chosen(crossings(line.value, circle), choice)
+    return Defined(place, crossing_text(line.value, circle, place, (line.text, text)))
 
 
 @_form
@@ -198,19 +198,19 @@ def point_of_vector(vector: Operand) -> Defined:
 
 @_form
 def line_of_numbers(x1: Operand, y1: Operand, x2: Operand, y2: Operand) -> Defined:
-    one, other = (point_at(x, y) for x, y in ((x1, y1), (x2, y2)))
-    return _line_through(one.value, other.value, (one.text, other.text))
+    first, second = (point_at(x, y) for x, y in ((x1, y1), (x2, y2)))
+    return _line_through(first.value, second.value, (first.text, second.text))
 
 
-def _line_through(one: ExactPoint, other: ExactPoint, texts: tuple[SkgText, SkgText]) -> Defined:
-    if same_point(one, other):
+def _line_through(first: ExactPoint, second: ExactPoint, texts: tuple[SkgText, SkgText]) -> Defined:
+    if same_point(first, second):
         raise PlaneError("through one point twice there is no line")
-    return Defined(joining_line(one, other), join(texts[0], ":", texts[1]))
+    return Defined(joining_line(first, second), join(texts[0], ":", texts[1]))
 
 
 @_form
-def line_through(one: Operand, other: Operand) -> Defined:
-    return _line_through(one.value, other.value, (one.text, other.text))
+def line_through(first: Operand, second: Operand) -> Defined:
+    return _line_through(first.value, second.value, (first.text, second.text))
 
 
 def _sided(side: Token, circle: Operand) -> tuple[ExactCircle, SkgText]:
@@ -226,11 +226,11 @@ def line_touching(point: Operand, side: Token, circle: Operand) -> Defined:
 
 @_form
 def line_touching_chosen(point: Operand, circle: Operand, choice: Token) -> Defined:
-    ways = ((circle.value, circle.text), (-circle.value, minus(circle.text)))
+    directed = ((circle.value, circle.text), (-circle.value, minus(circle.text)))
     if belt_line(point.value, circle.value) is None:
-        ways = ways[:1]
-    lines = [(joining_line(point.value, value), value, text) for value, text in ways]
-    line, _, text = chosen(lines, choice, lambda way: touching_point(way[1], way[0]))
+        directed = directed[:1]
+    lines = [(joining_line(point.value, value), value, text) for value, text in directed]
+    line, _, text = chosen(lines, choice, lambda entry: touching_point(entry[1], entry[0]))
     return Defined(line, join(point.text, ":", text))
 
 
@@ -256,8 +256,8 @@ def line_square(point: Operand, _: Token, line: Operand) -> Defined:
 
 
 def _line_at(point: Operand, line: Operand, angle: Real, text: SkgText) -> Defined:
-    way = rotated(line.value.way, angle, ORIGIN)
-    return Defined(ExactLine(point.value, way), join(join(line.text, "#", text), ":", point.text))
+    direction = rotated(line.value.way, angle, ORIGIN)
+    return Defined(ExactLine(point.value, direction), join(join(line.text, "#", text), ":", point.text))
 
 
 @_form
@@ -286,14 +286,14 @@ def circle_about(centre: Operand, r: Operand) -> Defined:
 
 
 @_form
-def circle_through(one: Operand, other: Operand, third: Operand) -> Defined:
+def circle_through(first: Operand, second: Operand, third: Operand) -> Defined:
     bisectors = [
         ExactLine((p.value + q.value) * Real("0.5"), (q.value - p.value).unit().left())
-        for p, q in ((one, other), (other, third))
+        for p, q in ((first, second), (second, third))
     ]
     centre = crossings(*bisectors)[0]
-    halves = join(join(one.text, "#", other.text), "*", join(other.text, "#", third.text))
-    return _circle(centre, (other.value - centre).size(), join(halves, "/", other.text))
+    halves = join(join(first.text, "#", second.text), "*", join(second.text, "#", third.text))
+    return _circle(centre, (second.value - centre).size(), join(halves, "/", second.text))
 
 
 # Vectors, matrices, planes, numbers --------------------------------------------------------------------------------

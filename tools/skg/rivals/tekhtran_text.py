@@ -32,7 +32,7 @@ def latin(text: str) -> str:
 #: Words of kinds -> the kind.
 KINDS = {"ТОЧКА": "POINT", "ПРЯМАЯ": "LINE", "ОКРУЖИ": "CIRCLE", "ОКРУЖН": "CIRCLE", "ВЕКТОР": "VECTOR",
          "МАТР": "MATRIX", "ПЛОСК": "PLANE"}  # fmt: skip
-#: How names begin that need no word.
+#: Prefixes of names that need no word.
 BEGINNINGS = {"ТЧ": "POINT", "ПР": "LINE", "КР": "CIRCLE", "ВЕ": "VECTOR", "МК": "MATRIX", "ПЛ": "PLANE"}
 _OTHER_WORDS = """ДЕТАЛЬ КОНЕЦ ПЛЗ ПЧТ1 СЛЕД ИЗ ВТОЧКУ ПРИРАЩ ИДИ НА КОНТУР ПЕРЕСЕЧ ЦЕНТР ПРЧС ПОЧС ХБ ХМ УБ УМ ХКООРД
 УКООРД ПЕРЕНОС СПРАВА СЛЕВА ПЕРП ПАРЛЕЛ КООРД ОТМЕН ВКЛ ВСЕ ВЫКЛ"""

@@ -176,8 +176,8 @@ class _Machine:
         return (angle, text) if sign is not None else (-angle, minus(text))
 
     def _frame_at(self, children: list) -> None:
-        at = self.element(children[3])
-        self._take_frame(at.value, self.name_own(at.text, at.value), children[5])
+        element = self.element(children[3])
+        self._take_frame(element.value, self.name_own(element.text, element.value), children[5])
 
     def _frame(self, children: list) -> None:
         (x, _), (y, _) = self.number(children[3]), self.number(children[5])
@@ -227,15 +227,15 @@ class _Machine:
         if enclosed < 0:
             distance, text = -distance, minus(text)
         self.routes += 1
-        way = "COUNTER-CLOCKWISE" if enclosed > 0 else "CLOCKWISE"
-        self.program.body.append(f"REM ROUTE {self.routes}, {way}")
-        at = entry(parts, near.value, distance)
+        sense = "COUNTER-CLOCKWISE" if enclosed > 0 else "CLOCKWISE"
+        self.program.body.append(f"REM ROUTE {self.routes}, {sense}")
+        start = entry(parts, near.value, distance)
         cuts = None
         if copies and len(hung) == len(items):
             is_open = copies.goes_round or hung[0].is_pin and hung[copies.items - 1].is_pin
-            cuts = repeated(parts, begins[copies.items], at, self.name_own) if is_open else None
+            cuts = repeated(parts, begins[copies.items], start, self.name_own) if is_open else None
         last = [copies.statement, "BACK"] if cuts else ["BACK"]
-        cuts = cuts or written(parts, at, self.name_own)
+        cuts = cuts or written(parts, start, self.name_own)
         self.program.body += [f"FROM {hole.text}", f"R={'0' if distance == 0 else text}", *packed("CUT", cuts), *last]
 
     def items(self, trees: list[Tree]) -> tuple[list[Hung], _Copies | None]:
@@ -243,22 +243,22 @@ class _Machine:
         items: list[Hung] = []
         copies: _Copies | None = None
         for tree in trees:
-            at = first_token(tree)
+            token = first_token(tree)
             if tree.data in ("number", "times", "mirrored") and not items:
-                raise TextFault(at.start_pos, "expected a point or a circle first")
+                raise TextFault(token.start_pos, "expected a point or a circle first")
             copies = None
             match tree.data:
                 case "point" | "circle":
                     e = self.element(tree.children[-1], tree.children[0] if len(tree.children) > 1 else None)
-                    items.append(Hung(e.value, e.text, at))
+                    items.append(Hung(e.value, e.text, token))
                 case "number":
                     value, text = self.number(tree.children[0])
-                    items[-1] = _with_arc(items[-1], Arc(value, text, at))
+                    items[-1] = _with_arc(items[-1], Arc(value, text, token))
                 case "mirrored":
                     mirror = self.element(tree.children[3])
 
                     def mirror_item(item: Hung, mirror: Argument = mirror) -> Hung:
-                        return Hung(mirrored(item.value, mirror.value), join(item.text, "/", mirror.text), item.at)
+                        return Hung(mirrored(item.value, mirror.value), join(item.text, "/", mirror.text), item.token)
 
                     items = mirrored_items(items, mirror_item)
                 case _:
@@ -285,7 +285,7 @@ class _Machine:
                 Hung(
                     rotated(item.value, angle * copy, about.value),
                     spin(item.text, about.text, whole),
-                    item.at,
+                    item.token,
                     item.arc,
                 )
                 for item in items
@@ -297,7 +297,7 @@ class _Machine:
 
 def _with_arc(item: Hung, arc: Arc) -> Hung:
     if item.arc is not None:
-        raise TextFault(arc.at.start_pos, "two numbers in a row")
+        raise TextFault(arc.token.start_pos, "two numbers in a row")
     if item.is_pin and arc.radius <= TINY:
-        raise TextFault(arc.at.start_pos, "the radius of a fillet must be more than 0")
-    return Hung(item.value, item.text, item.at, arc)
+        raise TextFault(arc.token.start_pos, "the radius of a fillet must be more than 0")
+    return Hung(item.value, item.text, item.token, arc)

@@ -38,7 +38,7 @@ _SUBSCRIPT = re.compile(r"|0|[1-9][0-9]?")
 def _folded(text: str) -> tuple[str, list[int], TextFault | None]:
     """One character for each symbol, the index in `text` of each, and what breaks the text off, if anything does."""
     out: list[str] = []
-    at: list[int] = []
+    indices: list[int] = []
     index = 0
     while index < len(text):
         char = text[index]
@@ -47,18 +47,18 @@ def _folded(text: str) -> tuple[str, list[int], TextFault | None]:
             word = _TEX.match(text, index)
             if not word or word[0] not in WORDS:
                 fault = TextFault(index, f"unknown word {word[0] if word else char}")
-                return "".join(out), [*at, index], fault
+                return "".join(out), [*indices, index], fault
             char, length = WORDS[word[0]], len(word[0])
         if char not in DROPPED:
             out.append(char.translate(FOLDED))
-            at.append(index)
+            indices.append(index)
         index += length
-    return "".join(out), [*at, len(text)], None
+    return "".join(out), [*indices, len(text)], None
 
 
 def tokens(text: str) -> Iterator[Token]:
     """The tokens of a text; `TextFault` at the first that is none. A last one, $END, stands behind the others."""
-    folded, at, fault = _folded(text)
+    folded, indices, fault = _folded(text)
     index = end = 0
     while index < len(folded):
         token = _TOKEN.match(folded, index)
@@ -69,32 +69,32 @@ def tokens(text: str) -> Iterator[Token]:
                 continue
             case "other":
                 wrong = f"unknown character {word!r}" if word != "." else "a number begins with a digit"
-                raise TextFault(at[start], wrong)
+                raise TextFault(indices[start], wrong)
             case "symbol":
                 kind = SYMBOLS[word]
             case "number":
                 if folded[index : index + 1] == "." and "." not in word:
-                    raise TextFault(at[index] + 1, "expected a digit behind the point")
+                    raise TextFault(indices[index] + 1, "expected a digit behind the point")
                 kind = "DECIMAL" if "." in word else "WHOLE"
             case _:
                 word = word.upper()
-                kind = _kind(word, at[start])
-        end = at[index - 1] + 1
-        yield Token(kind, word, start_pos=at[start], end_pos=end)
+                kind = _kind(word, indices[start])
+        end = indices[index - 1] + 1
+        yield Token(kind, word, start_pos=indices[start], end_pos=end)
     if fault:
         raise fault
     yield Token("$END", "", start_pos=end, end_pos=end)
 
 
-def _kind(word: str, at: int) -> str:
+def _kind(word: str, index: int) -> str:
     if word in ("FS", "PY", "ZD", "ZB"):
         return word
     name = _NAME.fullmatch(word)
     if not name:
-        raise TextFault(at, f"unknown word {word}")
+        raise TextFault(index, f"unknown word {word}")
     letter, subscript = name.groups()
     if not _SUBSCRIPT.fullmatch(subscript):
-        raise TextFault(at, f"{word}: names go from {letter}0 to {letter}99")
+        raise TextFault(index, f"{word}: names go from {letter}0 to {letter}99")
     if letter not in "DXY":
         return "VARIABLE"
     return f"{'OTHER' if subscript else 'BARE'}_{letter}"

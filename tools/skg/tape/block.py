@@ -15,12 +15,12 @@ from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
 
 #: No x, y or J has more digits.
 MAX_DIGITS = 8
-#: How far an arc may go on past a full circle: its ends are rounded (tape-3b.md), or where the controller stands.
+#: Most that an arc may go on past a full circle, as its ends are rounded (tape-3b.md) or the controller's position.
 MAX_OVERLAP = 4
 CODES = tuple(f"{kind}{quadrant}" for kind in ("L", "NR", "SR") for quadrant in range(1, 5))
 #: Signs of x and y in quadrants 1 to 4 (index 0 is unused).
 _SIGNS = ((0, 0), (1, 1), (-1, 1), (-1, -1), (1, -1))
-#: What a code says: the quadrant, the sense, and the signs of where the block starts (a line at its origin).
+#: Parts of a code: the quadrant, the sense, and the signs of the block's start (a line's is its origin).
 _QUADRANTS = {code: int(code[-1]) for code in CODES}
 _SENSES = {code: {"L": 0, "N": 1, "S": -1}[code[0]] for code in CODES}
 _STARTS = {code: _SIGNS[_QUADRANTS[code] if _SENSES[code] else 0] for code in CODES}
@@ -247,7 +247,7 @@ class Block:
             if self.j not in [4 * radius for radius in radii]:
                 problems.append(f"J = {self.j} is a full circle by the other count, expected {4 * radii[0]}")
         else:
-            # What a tape without drift counts differs by up to 4 (docs/drift.md): one of the two must fit.
+            # The counts of a tape without drift differ by up to 4 (docs/drift.md): one of the two must fit.
             ends = [self.count_end(radius)[0] for radius in radii]
             if all(distance > self._beside(distance) + 3 for distance in ends):
                 axis = "Y" if self.axis == "X" else "X"
@@ -284,7 +284,7 @@ class Tape:
     kept: dict[str, object] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod
-    def of(cls, name: str, items: Iterable[Block | Stop], **said: object) -> Tape:
+    def of(cls, name: str, items: Iterable[Block | Stop], **fields: object) -> Tape:
         """The tape of blocks and stops one after the other; `said` are other fields."""
         blocks: list[Block] = []
         stops: list[Stop] = []
@@ -293,7 +293,7 @@ class Tape:
                 stops.append(Stop(len(blocks)))
             else:
                 blocks.append(item)
-        return cls(name, blocks, tuple(stops), **said)
+        return cls(name, blocks, tuple(stops), **fields)
 
     @property
     def items(self) -> Iterator[Block | Stop]:

@@ -77,15 +77,15 @@ class Blocks(Sequence[Block]):
         return len(self.rows)
 
     @overload
-    def __getitem__(self, at: int) -> Block: ...
+    def __getitem__(self, index: int) -> Block: ...
     @overload
-    def __getitem__(self, at: slice) -> Blocks: ...
-    def __getitem__(self, at: int | slice) -> Block | Blocks:
-        if isinstance(at, slice):
+    def __getitem__(self, index: slice) -> Blocks: ...
+    def __getitem__(self, index: int | slice) -> Block | Blocks:
+        if isinstance(index, slice):
             part = Blocks.__new__(Blocks)
-            part.columns, part._part = self.columns, self.rows[at]
+            part.columns, part._part = self.columns, self.rows[index]
             return part
-        row = self.rows[at]
+        row = self.rows[index]
         return _block(*(column[row] for column in self.columns))
 
     def __iter__(self) -> Iterator[Block]:

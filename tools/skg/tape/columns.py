@@ -22,9 +22,9 @@ _Found = TypeVar("_Found")
 #: Squares of larger numbers are not sure to fit in 64 bits: they are reckoned with Python's own.
 _FITS = 10**9
 _SIGNS_X, _SIGNS_Y = np.array([0, 1, -1, -1, 1]), np.array([0, 1, 1, -1, -1])
-#: What each of `CODES` says.
+#: Senses and quadrants of `CODES`.
 _SENSES, _QUADRANTS = np.array(
-    [(one.sense, one.quadrant) for one in (Block(0, 0, 0, "X", code) for code in CODES)], np.int8
+    [(block.sense, block.quadrant) for block in (Block(0, 0, 0, "X", code) for code in CODES)], np.int8
 ).T
 
 

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 #: A place, or a cutting and a travel height, µm.
 Spot = tuple[int, int]
 
-#: How a file's name ends that holds G-code.
+#: Endings of the names of G-code files.
 ENDINGS = (".nc", ".ngc", ".gcode", ".tap", ".iso")
-#: What stands in front of everything: plane XY, millimetres, absolute places, feed in mm/min.
+#: The first block: plane XY, millimetres, absolute places, feed in mm/min.
 PREAMBLE = "G17G21G90G94"
 LAST_NUMBER = 9999
 
@@ -32,7 +32,7 @@ class _GcodeWriter:
 
     def __init__(self) -> None:
         self.lines: list[str] = []
-        self.at: Spot | None = None
+        self.spot: Spot | None = None
         self.height: int | None = None
         self.feed = ""
         self.block(PREAMBLE)
@@ -41,9 +41,9 @@ class _GcodeWriter:
         self.lines.append(f"N{len(self.lines) % LAST_NUMBER + 1}{words}")
 
     def rapid(self, end: Spot) -> None:
-        if end != self.at:
+        if end != self.spot:
             self.block(f"G0{_pair('XY', end)}")
-            self.at = end
+            self.spot = end
 
     def to_height(self, g: int, height: int, feed: str = "") -> None:
         if height != self.height:
@@ -51,14 +51,14 @@ class _GcodeWriter:
             self.height = height
 
     def line(self, end: Spot, feed: str) -> None:
-        if end != self.at:
+        if end != self.spot:
             self.block(f"G1{_pair('XY', end)}{self._fed(feed)}")
-            self.at = end
+            self.spot = end
 
     def arc(self, end: Spot, centre: Spot, sense: int, feed: str) -> None:
-        to_centre = centre[0] - self.at[0], centre[1] - self.at[1]
+        to_centre = centre[0] - self.spot[0], centre[1] - self.spot[1]
         self.block(f"G{3 if sense > 0 else 2}{_pair('XY', end)}{_pair('IJ', to_centre)}{self._fed(feed)}")
-        self.at = end
+        self.spot = end
 
     def _fed(self, feed: str) -> str:
         if not feed or feed == self.feed:
@@ -129,12 +129,12 @@ def _cut(writer: _GcodeWriter, placed: Placed, feed: str) -> None:
     end, turns = grid(placed.end), abs(placed.sweep)
     if not placed.is_line and turns > 2 * pi - 1e-9:
         # Round once, and the few µm by which a block goes on.
-        writer.arc(writer.at, grid(placed.centre), placed.block.sense, feed)
+        writer.arc(writer.spot, grid(placed.centre), placed.block.sense, feed)
         writer.line(end, feed)
         return
-    (dx, dy), (x, y) = minus(end, writer.at), placed.block.start
+    (dx, dy), (x, y) = minus(end, writer.spot), placed.block.start
     is_flat = turns <= pi and (dx * dx + dy * dy) ** 2 <= 4 * (x * x + y * y)
-    if placed.is_line or is_flat or grid(placed.centre) in (writer.at, end):
+    if placed.is_line or is_flat or grid(placed.centre) in (writer.spot, end):
         writer.line(end, feed)
     else:
         writer.arc(end, grid(placed.centre), placed.block.sense, feed)
@@ -145,6 +145,6 @@ def grid(place: tuple[float, float]) -> Spot:
     return round(place[0]), round(place[1])
 
 
-def minus(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
-    """The way from the other place to the one."""
-    return one[0] - other[0], one[1] - other[1]
+def minus(end: tuple[float, float], start: tuple[float, float]) -> tuple[float, float]:
+    """The vector from the start to the end."""
+    return end[0] - start[0], end[1] - start[1]

@@ -33,9 +33,9 @@ def to_centre(modes: Modes, values: dict[str, Word], to_end: Spot, column: int) 
     return x, y
 
 
-def _by_radius(way: Spot, radius: float, sense: int, column: int) -> Spot:
-    """From an arc's start to its centre, of the way to its end and its radius; below 0: more than half a turn."""
-    chord = hypot(*way)
+def _by_radius(vector: Spot, radius: float, sense: int, column: int) -> Spot:
+    """The vector from an arc's start to its centre, by that to its end and the radius; below 0: over half a turn."""
+    chord = hypot(*vector)
     if not chord:
         raise Misread(column, "an arc by its radius that ends where it begins")
     if chord / 2 - abs(radius) > _OFF_CONTROL:
@@ -43,7 +43,7 @@ def _by_radius(way: Spot, radius: float, sense: int, column: int) -> Spot:
     aside = max(radius * radius - chord * chord / 4, 0) ** 0.5 / chord
     if (radius > 0) != (sense > 0):
         aside = -aside
-    return round(way[0] / 2 - way[1] * aside), round(way[1] / 2 + way[0] * aside)
+    return round(vector[0] / 2 - vector[1] * aside), round(vector[1] / 2 + vector[0] * aside)
 
 
 def is_no_way(modes: Modes, values: dict[str, Word], x: float, y: float) -> bool:

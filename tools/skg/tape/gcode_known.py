@@ -29,14 +29,14 @@ GROUPS = [
 PLACES = "XYZIJKR"
 VALUES = PLACES + "F"
 DWELL, NO_MOTION = Decimal(4), Decimal(80)
-#: How near to its corners a path may be cut: P, and Q for lines that are nearly one.
+#: Path blending of G64: P, the tolerance at corners, and Q, that for lines that are nearly one.
 BLEND = Decimal(64)
 #: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
 HOMES, MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
 AWAY = {*HOMES, MACHINE}
 #: M words of boards for printers: from the first on, and these.
 _BOARDS, _BOARD = 100, {17, 18, 84, 92}
-#: What is expected where another G word stands.
+#: G words that a message names as expected.
 EXPECTED = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 
 

@@ -158,7 +158,7 @@ class Modes:
             return here
         if self.absolute is None:
             self.absolute = True
-            said = "no G90 or G91 yet: places are taken for absolute, as G90 says"
-            self.findings.warn(values[letter].column, said, is_guess=True)
+            message = "no G90 or G91 yet: places are taken for absolute, as G90 says"
+            self.findings.warn(values[letter].column, message, is_guess=True)
         value = self.value(values, letter)
         return value + origin if self.absolute else here + value

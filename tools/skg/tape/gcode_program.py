@@ -122,12 +122,12 @@ class GcodeProgram:
     @property
     def stop_places(self) -> list[Spot]:
         """Places of stops, each once."""
-        at, stop_places = self.home, []
+        spot, stop_places = self.home, []
         for part in self.path.parts():
             if isinstance(part, Stop):
-                stop_places.append(at)
+                stop_places.append(spot)
             else:
-                at = part.place if isinstance(part, Drilled) else self.path.end(part.last - 1)
+                spot = part.place if isinstance(part, Drilled) else self.path.end(part.last - 1)
         return list(dict.fromkeys(stop_places))
 
     @property
@@ -145,21 +145,21 @@ class GcodeProgram:
         """Describe the heights of cuts, holes and moves; empty where none is known."""
         holes = self._drilled
         deep = list(dict.fromkeys(hole.depth for hole in holes if hole.depth is not None))
-        said = [
+        phrases = [
             f"cuts at {several(self.depths)}" if self.depths else "",
             f"{_counted_holes(len(holes))} down to {several(deep)}" if deep else "",
             f"travels at {several(self.travels)}" if self.travels else "",
         ]
-        return ", ".join(filter(None, said))
+        return ", ".join(filter(None, phrases))
 
     def left_out(self) -> tuple[str, ...]:
         """Describe what a 3B tape of the same path leaves out."""
         holes = len(self._drilled)
-        said = [
+        phrases = [
             _counted_holes(holes) if holes else "",
             f"the heights of its cuts, {several(self.depths)}" if self.depths else "",
         ]
-        return (f"left out, as 3B has no word for it: {' and '.join(filter(None, said))}",) if any(said) else ()
+        return (f"left out, as 3B has no word for it: {' and '.join(filter(None, phrases))}",) if any(phrases) else ()
 
     def tape(self) -> Tape:
         """The 3B tape of the same path: a move goes straight, between two stops; holes have no blocks.
@@ -168,29 +168,29 @@ class GcodeProgram:
         """
         self._look_at_ends()
         blocks, stops = Blocks(), []
-        at, moved_from = self.home, None
+        spot, moved_from = self.home, None
         for part in self.path.parts():
             if isinstance(part, Drilled):
                 continue
             if isinstance(part, GcodeRun) and part.is_move:
                 if moved_from is None:
-                    moved_from = at
+                    moved_from = spot
                     if not stops or stops[-1].after < len(blocks):
                         stops.append(Stop(len(blocks)))
-                at = self.path.end(part.last - 1)
+                spot = self.path.end(part.last - 1)
                 continue
             if moved_from is not None:
-                blocks.extend(_between(moved_from, at))
+                blocks.extend(_between(moved_from, spot))
                 if isinstance(part, GcodeRun):
                     stops.append(Stop(len(blocks)))
                 moved_from = None
             if isinstance(part, GcodeRun):
                 blocks.extend(self.path.blocks[part.first : part.last])
-                at = self.path.end(part.last - 1)
+                spot = self.path.end(part.last - 1)
             else:
                 stops.append(Stop(len(blocks)))
         if moved_from is not None:
-            blocks.extend(_between(moved_from, at))
+            blocks.extend(_between(moved_from, spot))
         return Tape(self.name, blocks.numbered(), tuple(stops), drift=True)
 
     def _look_at_ends(self) -> None:

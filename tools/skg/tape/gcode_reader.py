@@ -20,13 +20,13 @@ from skg.tape.gcode_words import SPACE, Findings, GcodeFinding, Misread, Word
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
-#: What GRBL alone knows: settings, and what it is asked and told; `$H` sends it home.
+#: Lines that GRBL alone knows: settings, queries and commands; `$H` sends it home.
 _SYSTEM = re.compile(r"(\$(?:\d+\s*=\s*[\d.]+|[GHICNX#$]|RST\s*=.*|SLP)?|\?)" + SPACE.pattern, re.I)
-#: What begins and ends a file for some controls.
+#: Marks of a file's beginning and end for some controls.
 _MARK = re.compile(r"([%:O])\d*" + SPACE.pattern, re.I)
-#: How lines begin that may be no block of words.
+#: First characters of lines that may be no block of words.
 _APART = "%:Oo$?"
-#: What is said of a program that has rapids and nothing else.
+#: The message for a program with rapids alone.
 _GOES_ONLY = "nothing is cut: it goes everywhere with G0"
 
 
@@ -37,8 +37,8 @@ class _Reader:
         self.tool, self.path = Tool(idle), path
         self.findings = Findings()
         self.modes = Modes(self.findings, untold)
-        # Where the tool is in the plane, and that in whole µm.
-        self.at = Decimal(0), Decimal(0)
+        # The tool's position in the plane, and the same in whole µm.
+        self.position = Decimal(0), Decimal(0)
         self.spot: Spot = (0, 0)
         self.height: Decimal | None = None
         # (heights that begin with a relative one are from an unknown place)
@@ -54,7 +54,7 @@ class _Reader:
         self.fed = self.has_rapids = False
         # Gone to a place of the machine's own, nobody knows where in the plane.
         self.is_away = False
-        # Where a G92 in mid-program has moved the origin of its places to; `at` goes on from the first one.
+        # The origin of places after a G92 in mid-program; `position` goes on from the first one.
         self.origin = {"X": Decimal(0), "Y": Decimal(0)}
 
     def take(self, line: str) -> None:
@@ -65,12 +65,12 @@ class _Reader:
             self.findings.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
         if not text or (text[0] in _APART and self.is_apart(text)):
             return
-        said = self.modes.take(line)
-        values, codes = said.values, said.codes
-        if OUTPUTS.intersection(said.turns):
-            self.tool.outputs.add(said.output)
-        if said.turns or said.power is not None:
-            self.tool.turn(self.findings.line, said.turns, said.power, known.DWELL in codes)
+        block = self.modes.take(line)
+        values, codes = block.values, block.codes
+        if OUTPUTS.intersection(block.turns):
+            self.tool.outputs.add(block.output)
+        if block.turns or block.power is not None:
+            self.tool.turn(self.findings.line, block.turns, block.power, known.DWELL in codes)
         if feed := values.pop("F", None):
             self.fed = feed.number > 0
             if not self.fed:
@@ -80,7 +80,7 @@ class _Reader:
         if values and known.DWELL in codes:
             place = next(iter(values.values()))
             raise Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
-        if said.is_origin:
+        if block.is_origin:
             self.name_place(values)
         elif not known.AWAY.isdisjoint(codes):
             self.go_away(values, known.MACHINE not in codes)
@@ -88,7 +88,7 @@ class _Reader:
             self.drill(values)
         elif values:
             self.move(values)
-        if said.is_stop:
+        if block.is_stop:
             self.mark(Stop(self.blocks))
 
     def is_apart(self, text: str) -> bool:
@@ -111,7 +111,7 @@ class _Reader:
 
     def name_place(self, values: dict[str, Word]) -> None:
         """G92: the tool's place has these coordinates; what is not named keeps its own."""
-        here = dict(zip("XY", self.at, strict=True))
+        here = dict(zip("XY", self.position, strict=True))
         named = {letter: self.modes.value(values, letter, here[letter] - self.origin[letter]) for letter in "XY"}
         if "Z" in values:
             self.height = self.modes.value(values, "Z")
@@ -122,8 +122,8 @@ class _Reader:
         if self.begun:
             self.origin = {letter: here[letter] - named[letter] for letter in "XY"}
         else:
-            self.at = named["X"], named["Y"]
-            self.home = self.spot = _rounded(self.at)
+            self.position = named["X"], named["Y"]
+            self.home = self.spot = _rounded(self.position)
 
     def move(self, values: dict[str, Word]) -> None:
         """Carry out a block that moves."""
@@ -141,19 +141,19 @@ class _Reader:
             return
         goal = self.place(values, feeds)
         end = _rounded(goal)
-        way = minus(end, start)
+        chord = minus(end, start)
         lowest = (self.height if before is None else min(before, self.height)) if self.knows_height else None
         cuts = self.cuts(lowest, feeds, is_arc or start != end)
         if is_arc:
             if modes.plane != 17:
                 raise Misread(column, f"an arc of G{modes.plane} stands upright: expected arcs of the plane XY, G17")
             if not self.is_no_way(values, goal, end):
-                self.arc(start, end, arcs.to_centre(modes, values, way, column), column, cuts)
+                self.arc(start, end, arcs.to_centre(modes, values, chord, column), column, cuts)
         elif not values.keys().isdisjoint("IJKR"):
             raise Misread(column, "I, J, K and R belong to G02 and G03")
         else:
             self.go(start, end, cuts)
-        self.at, self.spot = goal, end
+        self.position, self.spot = goal, end
 
     def cuts(self, lowest: Decimal | None, feeds: bool, moves: bool) -> bool:
         """Tell whether a move that comes down to `lowest` cuts; record its height as cutting or travel."""
@@ -166,7 +166,7 @@ class _Reader:
 
     def is_no_way(self, values: dict[str, Word], goal: tuple[Decimal, Decimal], end: Spot) -> bool:
         """Tell whether an arc ends less than 1 µm ahead of where it begins: rounded it would be a full circle."""
-        x, y = (float(to - here) for to, here in zip(goal, self.at, strict=True))
+        x, y = (float(to - here) for to, here in zip(goal, self.position, strict=True))
         return (x, y) != (0, 0) and end == self.spot and arcs.is_no_way(self.modes, values, x, y)
 
     def look_for_feed(self, column: int) -> None:
@@ -179,7 +179,7 @@ class _Reader:
         """Return a line's goal in the plane, µm."""
         goal = tuple(
             self.modes.goal(values, letter, here, self.origin[letter])
-            for letter, here in zip("XY", self.at, strict=True)
+            for letter, here in zip("XY", self.position, strict=True)
         )
         if self.is_away and (feeds or not self.modes.absolute or not values.keys() >= {"X", "Y"}):
             column = next(iter(values.values())).column
@@ -216,7 +216,7 @@ class _Reader:
             self.tool.rapid_heights.add(travels)
         self.travels[travels] = None
         self.go(self.spot, end, cuts=False)
-        self.at, self.spot = goal, end
+        self.position, self.spot = goal, end
         self.dipped = None
         self.mark(Drilled(end, self.cycle["Z"]))
         self.height, self.knows_height = retract if self.modes.is_low else travels, True
@@ -299,15 +299,15 @@ def _read_all(text: str, keeps: bool) -> _Reader:
     reader = _read_through(text, Idle(), keeps, None)
     if reader.modes.is_mixed:
         reader = _read_through(text, Idle(), keeps, MILLIMETRE)
-    # (what does not cut is known when all has been read; mostly there is nothing)
+    # (moves that do not cut are known when all has been read; mostly there are none)
     idle = reader.tool.idle_in_all()
     if idle != Idle():
         again = _read_through(text, idle, keeps, reader.modes.untold)
         if again.tool.idled < again.tool.feeds:
             reader = again
     for beam, line in reader.tool.always_off.items():
-        said = f"each G1 finds the beam off ({beam}), as if nothing were cut: taken for cuts all the same"
-        reader.findings.all.append(GcodeFinding(line, 1, said, is_fatal=False, is_guess=True))
+        message = f"each G1 finds the beam off ({beam}), as if nothing were cut: taken for cuts all the same"
+        reader.findings.all.append(GcodeFinding(line, 1, message, is_fatal=False, is_guess=True))
     if not reader.modes.ended:
         # (with nothing in front of it, it is no program)
         missing = "expected M02 or M30, found the end of the program"

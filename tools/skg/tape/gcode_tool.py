@@ -11,15 +11,16 @@ from decimal import Decimal
 
 from skg.tape.gcode_program import several
 
-#: What turns a beam (or spindle) off, for people, and the M words that turn it on and off: those of controls; those of
-#: a fan's output and of any pin, to which small lasers are connected on boards for printers; LinuxCNC's outputs.
+#: Words that turn a beam (or spindle) off, as messages name them, and the M words that turn it on and off: those of
+#: controls; those of a fan's output and of any pin, to which small lasers are connected on boards for printers;
+#: LinuxCNC's outputs.
 _BEAM, _FAN, _PIN, _OUTPUT = "M5 or S0", "M107 or S0", "M42 S0", "M63 or M65"
 _SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set()), _OUTPUT: ({62, 64}, {63, 65})}
 #: M words of which a line has one at most.
 TURNS = set.union(*_SWITCHES[_BEAM])
 #: An S in a line with an M word that is none of these is that word's.
 _PLAIN = {*range(10), 30, 48, 49}
-#: What turns a spindle, or moves a pen that is connected instead.
+#: The M word that turns a spindle, or moves a pen that is connected instead.
 _TURN = Decimal(3)
 #: M words that turn a servo, to a place that is their S.
 _SERVOS = {280, 300}
@@ -48,9 +49,9 @@ class Tool:
         self.turned_on: dict[str, int] = {}
         self.is_on = dict.fromkeys(_SWITCHES, False)
         self.dark = dict.fromkeys(_SWITCHES, 0)
-        # Which of LinuxCNC's outputs are switched: with several it is not known which one is a beam's.
+        # LinuxCNC's outputs that are switched: with several it is not known which one is a beam's.
         self.outputs: set[Decimal] = set()
-        # What may lift a pen: the S of a servo's M word, or else that of M3 and M4; how often it changes between moves.
+        # Words that may lift a pen: the S of a servo's M word, or else that of M3 and M4; its changes between moves.
         self.servo: tuple[Decimal, Decimal] | None = None
         self.lifts: dict[tuple[Decimal, Decimal | None], None] = {}
         self.lift: tuple[Decimal, Decimal | None] | None = None
@@ -124,25 +125,25 @@ class Tool:
         """Describe moves with G1 to G3 that do not cut."""
         up = "" if self.idle.above is None else f"the tool is up, {several([self.idle.above])}"
         why = " or ".join(filter(None, [self.idle.beam and f"the beam is off ({self.idle.beam})", up]))
-        said = f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}" if self.idled else ""
-        return tuple(filter(None, [said, self._said_of_outputs(), self._said_of_pen()]))
+        note = f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}" if self.idled else ""
+        return tuple(filter(None, [note, self._note_on_outputs(), self._note_on_pen()]))
 
-    def _said_of_outputs(self) -> str:
-        """That an output may be a beam's, of which nobody knows when it is off."""
+    def _note_on_outputs(self) -> str:
+        """Note that an output may be a beam's, and that it is not known when the beam is off."""
         lit = self.feeds - self.dark[_OUTPUT]
         if self.idle.beam == _OUTPUT or not 0 < lit < self.feeds:
             return ""
-        said = f"M62 to M65 switch outputs, on in {lit} of {self.feeds} moves with G1 to G3"
-        return f"{said}: if one of them is a beam, it is not known when it is off: all are taken for cuts"
+        note = f"M62 to M65 switch outputs, on in {lit} of {self.feeds} moves with G1 to G3"
+        return f"{note}: if one of them is a beam, it is not known when it is off: all are taken for cuts"
 
-    def _said_of_pen(self) -> str:
-        """That there may be a pen, of which nobody knows when it is up."""
+    def _note_on_pen(self) -> str:
+        """Note that there may be a pen, and that it is not known when it is up."""
         # (in a program with a servo the S of M3 lifts nothing)
         turns = [lift for lift in self.lifts if lift[1] is not None and (self.servo is None or lift[0] in _SERVOS)]
         if len(turns) != 2 or self.lift_changes < (1 if self.servo else _CHANGES):
             return ""
-        (code, one), (_, other) = turns
-        if not self.servo and not (one and other):
+        (code, first), (_, second) = turns
+        if not self.servo and not (first and second):
             return ""
-        said = f"moves with G1 to G3 have S{one:f} and S{other:f} of M{code:f}"
-        return f"{said}: if one of them lifts a pen, it is not known which: all are taken for cuts"
+        note = f"moves with G1 to G3 have S{first:f} and S{second:f} of M{code:f}"
+        return f"{note}: if one of them lifts a pen, it is not known which: all are taken for cuts"

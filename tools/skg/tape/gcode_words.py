@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import NamedTuple
 
-#: What stands between words, or behind a line: comments in parentheses and after `;` are nothing.
+#: Text between words, or behind a line: blanks, comments in parentheses and after `;`.
 SPACE = re.compile(r"(?:\s|\([^()]*\)|;.*)*")
 _WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))" + SPACE.pattern)
 #: M words behind which the rest of the line is a text, on boards for printers.
@@ -68,15 +68,15 @@ class Word(NamedTuple):
 def words(text: str) -> Iterator[Word]:
     """Split a line into words; comments in parentheses and after `;` are nothing, and N words say nothing."""
     text = text.upper()
-    at, end = SPACE.match(text).end(), len(text)
-    while at < end:
-        match = _WORD.match(text, at)
+    index, end = SPACE.match(text).end(), len(text)
+    while index < end:
+        match = _WORD.match(text, index)
         if not match:
-            raise Misread(at + 1, f"expected a word such as G01 or X-9900, found {text[at]!r}")
+            raise Misread(index + 1, f"expected a word such as G01 or X-9900, found {text[index]!r}")
         letter, number = match.groups()
         if letter != "N":
-            word = Word(letter, Decimal(number), "." in number, at + 1)
+            word = Word(letter, Decimal(number), "." in number, index + 1)
             yield word
             if letter == "M" and word.number in _TEXTS:
                 return
-        at = match.end()
+        index = match.end()

@@ -22,7 +22,7 @@ from skg.tape.positions import decide
 
 #: So many blocks at once leave the columns.
 AT_ONCE = 4096
-#: Where the four axes point.
+#: Directions of the four half-axes.
 _QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
 #: The parts of a route that is cut: from the start hole to the contour, the contour, and back to the hole.
 WAY_IN, CUT, WAY_BACK = "way in", "cut", "way back"
@@ -74,14 +74,14 @@ class PlacedRoute:
         A way in is a line, the way back the line that goes back along it later on: the path between them is closed.
         There may be several, one after the other, when a contour is cut more than once.
         """
-        blocks, at = self.blocks, 0
-        while at < len(blocks) and (back := self._way_back(at)):
-            yield WAY_IN, blocks[at : at + 1]
-            yield CUT, blocks[at + 1 : back]
+        blocks, index = self.blocks, 0
+        while index < len(blocks) and (back := self._way_back(index)):
+            yield WAY_IN, blocks[index : index + 1]
+            yield CUT, blocks[index + 1 : back]
             yield WAY_BACK, blocks[back : back + 1]
-            at = back + 1
-        if at < len(blocks):
-            yield CUT, blocks[at:]
+            index = back + 1
+        if index < len(blocks):
+            yield CUT, blocks[index:]
 
     def _way_back(self, first: int) -> int | None:
         """The line that goes back along the line `first`."""
@@ -135,24 +135,24 @@ class Laid(Sequence[Placed]):
         """The columns of blocks in their places."""
         if isinstance(placed, Laid):
             return placed
-        rows = [(*one.start, *one.end, *(one.centre or (0, 0)), one.sweep, one.is_line) for one in placed]
+        rows = [(*item.start, *item.end, *(item.centre or (0, 0)), item.sweep, item.is_line) for item in placed]
         columns = np.array(rows, float).reshape(-1, 8)
         places = (columns[:, first : first + 2] for first in (0, 2, 4))
-        return cls([one.block for one in placed], *places, columns[:, 6], columns[:, 7] > 0)
+        return cls([item.block for item in placed], *places, columns[:, 6], columns[:, 7] > 0)
 
     def __len__(self) -> int:
         return len(self.blocks)
 
     @overload
-    def __getitem__(self, at: int) -> Placed: ...
+    def __getitem__(self, index: int) -> Placed: ...
     @overload
-    def __getitem__(self, at: slice) -> Laid: ...
-    def __getitem__(self, at: int | slice) -> Placed | Laid:
-        if isinstance(at, slice):
+    def __getitem__(self, index: slice) -> Laid: ...
+    def __getitem__(self, index: int | slice) -> Placed | Laid:
+        if isinstance(index, slice):
             columns = (self.starts, self.ends, self.centres, self.sweeps, self.is_line)
-            return Laid(self.blocks[at], *(column[at] for column in columns))
-        at = range(len(self))[at]
-        return next(iter(self[at : at + 1]))
+            return Laid(self.blocks[index], *(column[index] for column in columns))
+        index = range(len(self))[index]
+        return next(iter(self[index : index + 1]))
 
     def __iter__(self) -> Iterator[Placed]:
         for first in range(0, len(self), AT_ONCE):
@@ -165,17 +165,19 @@ class Laid(Sequence[Placed]):
     @classmethod
     def joined(cls, parts: Sequence[Laid]) -> Laid:
         """The blocks of several, at least one, one after the other."""
-        blocks = [one.blocks for one in parts]
-        is_packed = all(isinstance(one, Blocks) for one in blocks)
-        columns = zip(*((one.starts, one.ends, one.centres, one.sweeps, one.is_line) for one in parts), strict=True)
+        blocks = [part.blocks for part in parts]
+        is_packed = all(isinstance(sequence, Blocks) for sequence in blocks)
+        columns = zip(
+            *((part.starts, part.ends, part.centres, part.sweeps, part.is_line) for part in parts), strict=True
+        )
         return cls(
             Blocks.joined(blocks) if is_packed else list(chain.from_iterable(blocks)), *map(np.concatenate, columns)
         )
 
     def lengths(self) -> Floats:
         """Lengths of the lines and arcs, µm."""
-        ways = np.where(self.is_line[:, None], self.ends, self.centres) - self.starts
-        return hypots(*ways.T) * np.where(self.is_line, 1.0, abs(self.sweeps))
+        vectors = np.where(self.is_line[:, None], self.ends, self.centres) - self.starts
+        return hypots(*vectors.T) * np.where(self.is_line, 1.0, abs(self.sweeps))
 
     def extents(self) -> tuple[XY, XY]:
         """The smallest and the largest x and y, bulges of arcs included; of at least one block."""
@@ -203,9 +205,9 @@ def place(tape: Tape, start: tuple[int, int] = (0, 0), positions: str = "auto") 
     return [PlacedRoute(laid[first:last], is_move) for (first, last), is_move in bounds if first < last]
 
 
-def _apart(one: XY, other: XY) -> float:
+def _apart(first: XY, second: XY) -> float:
     """The larger coordinate of the way from one place to another."""
-    return max(abs(one[0] - other[0]), abs(one[1] - other[1]))
+    return max(abs(first[0] - second[0]), abs(first[1] - second[1]))
 
 
 def stop_places(tape: Tape, routes: list[PlacedRoute], home: XY) -> list[XY]:

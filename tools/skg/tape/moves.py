@@ -107,7 +107,7 @@ def walk(
     else:
         for part in parts:
             progress(follow(part))
-    off_curve, off_path = (_distances(columns, *extremes[:, some].T) for some in (slice(0, 2), slice(2, 4)))
+    off_curve, off_path = (_distances(columns, *extremes[:, pair].T) for pair in (slice(0, 2), slice(2, 4)))
     return Walk(moves[like], steps[like], off_curve[like], off_path[like])
 
 
@@ -143,10 +143,10 @@ def _closed_moves(columns: Columns, bounds: list[tuple[int, int]]) -> Whole:
         gaps = sums[lasts] - sums[firsts]
         for index in np.flatnonzero((gaps != 0) & (abs(gaps) <= counts[lasts] - counts[firsts])):
             gap, rows = gaps[index], firsts[index] + np.flatnonzero(gives[firsts[index] : lasts[index]])
-            way, arcs = -1 if gap > 0 else 1, columns[rows]
-            may_give = _may_give(arcs, axis, way)
-            ranked = np.argsort(-way * _doubts(arcs, axis), kind="stable")
-            moves[rows[ranked[may_give[ranked]][: abs(gap)]], axis] += way
+            step, arcs = -1 if gap > 0 else 1, columns[rows]
+            may_give = _may_give(arcs, axis, step)
+            ranked = np.argsort(-step * _doubts(arcs, axis), kind="stable")
+            moves[rows[ranked[may_give[ranked]][: abs(gap)]], axis] += step
     return moves
 
 
@@ -155,7 +155,7 @@ def _doubts(arcs: Columns, axis: int) -> Floats:
     return arcs.on_circles(arcs.ends)[:, axis] - arcs.ends[:, axis]
 
 
-def _may_give(arcs: Columns, axis: int, way: int) -> Flags:
+def _may_give(arcs: Columns, axis: int, step: int) -> Flags:
     """Tell whether the count direction is still right when an arc's end moves by a µm across it."""
-    other, along = abs(arcs.ends[:, axis] + way), abs(arcs.ends[:, 1 - axis])
+    other, along = abs(arcs.ends[:, axis] + step), abs(arcs.ends[:, 1 - axis])
     return np.where(arcs.counts_y, along < other, along <= other)

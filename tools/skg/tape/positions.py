@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from skg.errors import UserError
 from skg.tape.block import Tape
 
-#: Where a block starts: where the block before should have ended (programmed), or where the controller really stands
-#: then (machine: tapes without drift); auto: as the tape says, else programmed.
+#: Starts of blocks: the programmed end of the block before (programmed), or the controller's real position then
+#: (machine: tapes without drift); auto: as the tape says, else programmed.
 POSITIONS = ("auto", "programmed", "machine")
 #: The end of the name of a tape without drift.
 WITHOUT_DRIFT = ".nodrift.3b"
 
-#: What the two are called when something is said of a tape.
+#: Names of the two in messages on a tape.
 _MEANING = {"programmed": "with drift (programmed)", "machine": "without drift (machine)"}
 
 
@@ -31,8 +31,8 @@ def decide(tape: Tape, positions: str = "auto") -> Decision:
     if positions != "auto":
         return Decision(positions)
     if tape.drift is not None:
-        told = "programmed" if tape.drift else "machine"
-        return Decision(told, tape.drift_by and f"{_MEANING[told]}, {tape.drift_by} says so")
+        decided = "programmed" if tape.drift else "machine"
+        return Decision(decided, tape.drift_by and f"{_MEANING[decided]}, {tape.drift_by} says so")
     why = f"taken as {_MEANING['programmed']}; without: --positions machine, or a name that ends in {WITHOUT_DRIFT}"
     return Decision("programmed", why if depends(tape) else "")
 

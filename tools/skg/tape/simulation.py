@@ -85,9 +85,9 @@ class _Each(Sequence[BlockReport]):
     def __len__(self) -> int:
         return len(self.blocks)
 
-    def __getitem__(self, at: int) -> BlockReport:
-        should, really, steps, off_curve = (column[at].tolist() for column in self.columns)
-        block = self.blocks[at]
+    def __getitem__(self, index: int) -> BlockReport:
+        should, really, steps, off_curve = (column[index].tolist() for column in self.columns)
+        block = self.blocks[index]
         return BlockReport(block.number, str(block), tuple(should), tuple(really), steps, off_curve)
 
 
@@ -114,10 +114,12 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     with bar:
         walked = walk(tape, np.arange(len(columns)), should, bar.update)
     should = walked.moves if should is None else should
-    # Where it stands, and where the blocks' ends add up to, before each block and at the end.
+    # The controller's position, and the sum of the programmed moves, before each block and at the end.
     real, programmed = (np.concatenate([[[0, 0]], moves]).cumsum(axis=0) for moves in (walked.moves, should))
     routes = [
-        RouteReport(first + 1, last, *((tuple((at[last] - at[first]).tolist())) for at in (real, programmed)), is_move)
+        RouteReport(
+            first + 1, last, *(tuple((places[last] - places[first]).tolist()) for places in (real, programmed)), is_move
+        )
         for (first, last), is_move in zip(tape.bounds, tape.positioning(), strict=True)
         if first < last
     ]

@@ -76,10 +76,10 @@ class _StyleReader:
     numbers: list[int] = field(default_factory=list)
     blocks: int = 0
 
-    def error(self, at: int, message: str) -> UserError:
+    def error(self, index: int, message: str) -> UserError:
         """Raise an error at a place of the text."""
-        line = self.text.count("\n", 0, at) + 1
-        column = at - (self.text.rfind("\n", 0, at) + 1) + 1
+        line = self.text.count("\n", 0, index) + 1
+        column = index - (self.text.rfind("\n", 0, index) + 1) + 1
         return UserError(f"{self.name}: line {line}, column {column}: {message}")
 
     def read(self) -> Tape:
@@ -88,31 +88,31 @@ class _StyleReader:
         bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), self.text)
         self.seen["comments"] += bare != self.text
         self.seen["blank tape or rubouts between blocks"] += "\0" in bare or "\x7f" in bare
-        at = self._header(bare)
+        index = self._header(bare)
         end, behind = None, 0
-        while (at := _BLANK.match(bare, at).end()) < len(bare):
-            if block := _BLOCK.match(bare, at):
+        while (index := _BLANK.match(bare, index).end()) < len(bare):
+            if block := _BLOCK.match(bare, index):
                 self._block(block)
-                self._note(not re.search(r"[\r\n]", bare[behind:at]) and behind > 0, "several blocks in a line")
-                at = behind = block.end()
-            elif word := _WORD.match(bare, at):
-                at = word.end()
+                self._note(not re.search(r"[\r\n]", bare[behind:index]) and behind > 0, "several blocks in a line")
+                index = behind = block.end()
+            elif word := _WORD.match(bare, index):
+                index = word.end()
                 self._number(word)
                 name = "".join(word[3].upper().split())
                 if name in ENDS:
                     end = name
                     break
                 self._note(word[3] != "D", f"{name} for a stop")
-                self._note("\n" not in bare[behind:at] and behind > 0, "a stop in a block's line")
+                self._note("\n" not in bare[behind:index] and behind > 0, "a stop in a block's line")
                 self.items.append(Stop(self.blocks))
             else:
-                raise self.error(at, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, at)}")
-        self._trailer(bare, at, end)
+                raise self.error(index, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, index)}")
+        self._trailer(bare, index, end)
         place = (float(start[1]), float(start[2])) if start else None
         return Tape.of(self.name, self.items, notes=self._notes(), start=place)
 
-    def _note(self, is_so: bool, what: str) -> None:
-        self.seen[what] += is_so
+    def _note(self, is_so: bool, note: str) -> None:
+        self.seen[note] += is_so
 
     def _header(self, bare: str) -> int:
         """Pass by what stands before the first block."""
@@ -132,27 +132,27 @@ class _StyleReader:
         header = bare[: first.start()]
         if like := _LIKE_A_BLOCK.search(header):
             raise self.error(like.start() + len(like[0]) - len(like[0].lstrip()), "expected a block B x B y B J G Z")
-        at = 0
-        while word := _WORD.match(bare, _BLANK.match(bare, at).end()):
-            at = word.end()
-        if _BLANK.match(bare, at).end() >= first.start():
+        index = 0
+        while word := _WORD.match(bare, _BLANK.match(bare, index).end()):
+            index = word.end()
+        if _BLANK.match(bare, index).end() >= first.start():
             # Nothing but stops: no header.
             return 0
         lines = sum(bool(line.strip()) for line in header.split("\n"))
         self.seen[f"a header of {lines} line{'s' * (lines > 1)}"] += 1
         return first.start()
 
-    def _trailer(self, bare: str, at: int, end: str | None) -> None:
+    def _trailer(self, bare: str, index: int, end: str | None) -> None:
         """Look at what stands after the last word."""
-        at = _BLANK.match(bare, at).end()
-        if _BLOCK.search(bare, at):
-            raise self.error(at, f"expected nothing after {end}, found a block")
-        if like := _LIKE_A_BLOCK.search(bare, at):
-            raise self.error(at, f"expected nothing after {end}, found {_found(bare, like.start())}")
+        index = _BLANK.match(bare, index).end()
+        if _BLOCK.search(bare, index):
+            raise self.error(index, f"expected nothing after {end}, found a block")
+        if like := _LIKE_A_BLOCK.search(bare, index):
+            raise self.error(index, f"expected nothing after {end}, found {_found(bare, like.start())}")
         self._note(end not in ("DD", None), f"{end} for the end")
-        lines = sum(bool(line.strip()) for line in bare[at:].split("\n"))
+        lines = sum(bool(line.strip()) for line in bare[index:].split("\n"))
         if lines and not self.styled():
-            raise self.error(at, f"expected nothing after DD, found {_found(bare, at)}")
+            raise self.error(index, f"expected nothing after DD, found {_found(bare, index)}")
         self._note(lines > 0, f"{lines} more line{'s' * (lines > 1)} after the end")
         if end is None and not self.styled():
             raise self.error(len(bare), "expected DD, found the end of the tape")
@@ -216,18 +216,18 @@ class _StyleReader:
         return Block(given.x, given.y, given.j, given.axis, f"{given.code[:2]}{quadrant}", given.number)
 
     def _notes(self) -> tuple[str, ...]:
-        notes = [what for what, count in self.seen.items() if count]
+        notes = [note for note, count in self.seen.items() if count]
         steps = {later - earlier for earlier, later in zip(self.numbers, self.numbers[1:], strict=False)}
         if len(steps) > 1:
             notes.append("block numbers that do not go on evenly: is a line missing?")
         return (f"written in another style: {', '.join(notes)}",) if notes else ()
 
 
-def _found(text: str, at: int) -> str:
+def _found(text: str, index: int) -> str:
     """Quote the text at a place, for a message."""
-    if at >= len(text):
+    if index >= len(text):
         return "the end of the tape"
-    word = re.match(r"\w+|.", text[at:])[0][:20]
+    word = re.match(r"\w+|.", text[index:])[0][:20]
     return repr(word) if word.isprintable() else f"byte {ord(word[0]):02X}H"
 
 

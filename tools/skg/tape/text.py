@@ -39,29 +39,29 @@ class _Scanner:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.at = 0
+        self.index = 0
 
     def take(self, *words: str, expected: str = "") -> str:
         """Take whichever of `words` stands here."""
         for word in words:
-            if self.text.startswith(word, self.at):
-                self.at += len(word)
+            if self.text.startswith(word, self.index):
+                self.index += len(word)
                 return word
-        raise _Unexpected(self.at, f"expected {expected or words[0]}, found {self.found()}")
+        raise _Unexpected(self.index, f"expected {expected or words[0]}, found {self.found()}")
 
     def found(self) -> str:
         """Quote the text here, for a message."""
-        if self.at >= len(self.text):
+        if self.index >= len(self.text):
             return "the end of the line"
-        character = self.text[self.at]
+        character = self.text[self.index]
         return repr(character) if character.isprintable() else f"byte {ord(character):02X}H"
 
     def number(self, name: str) -> int:
         """Take a whole number of 1 to 8 digits without leading zeros."""
-        first = self.at
-        while self.text[self.at : self.at + 1] in tuple("0123456789"):
-            self.at += 1
-        digits = self.text[first : self.at]
+        first = self.index
+        while self.text[self.index : self.index + 1] in tuple("0123456789"):
+            self.index += 1
+        digits = self.text[first : self.index]
         if not digits:
             raise _Unexpected(first, f"expected digits of {name}, found {self.found()}")
         if len(digits) > MAX_DIGITS:
@@ -72,9 +72,9 @@ class _Scanner:
 
 
 class _Unexpected(Exception):
-    def __init__(self, at: int, message: str) -> None:
+    def __init__(self, index: int, message: str) -> None:
         super().__init__(message)
-        self.at = at
+        self.index = index
 
 
 def parse_block(text: str, number: int = 0) -> Block:
@@ -82,7 +82,7 @@ def parse_block(text: str, number: int = 0) -> Block:
     try:
         return Block(*_parse(text), number)
     except _Unexpected as error:
-        raise UserError(str(Finding(number, error.at + 1, str(error)))) from None
+        raise UserError(str(Finding(number, error.index + 1, str(error)))) from None
 
 
 def _values(block: re.Match[str]) -> tuple[int, int, int, str, str]:
@@ -104,8 +104,8 @@ def _parse(text: str) -> tuple[int, int, int, str, str]:
     scanner.take("G")
     axis = scanner.take("X", "Y", expected="X or Y")
     code = scanner.take(*CODES, expected="L1…L4, NR1…NR4 or SR1…SR4")
-    if scanner.at < len(text):
-        raise _Unexpected(scanner.at, f"expected the end of the block, found {scanner.found()}")
+    if scanner.index < len(text):
+        raise _Unexpected(scanner.index, f"expected the end of the block, found {scanner.found()}")
     return *values, axis, code
 
 
@@ -148,7 +148,7 @@ class _Reading:
         try:
             self.blocks.add(*_parse(line), self.number)
         except _Unexpected as error:
-            self._find(self.number, error.at, str(error))
+            self._find(self.number, error.index, str(error))
 
     def _behind(self, rest: str) -> None:
         """Report text behind DD."""
@@ -162,8 +162,8 @@ class _Reading:
         if not self.ended:
             self._find(self.number + 1, 0, "expected DD, found the end of the tape")
 
-    def _find(self, block: int, at: int, message: str) -> None:
-        self.findings.append(Finding(block, at + 1, message))
+    def _find(self, block: int, index: int, message: str) -> None:
+        self.findings.append(Finding(block, index + 1, message))
 
 
 def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, list[Finding]]:
@@ -179,7 +179,9 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     reading.end()
     tape = Tape(name, reading.blocks, tuple(reading.stops))
     # (of a block there is either this or what could not be read)
-    wrong = [Finding(one.number, 1, text) for one in _doubtful(tape, positions) for text in one.problems(positions)]
+    wrong = [
+        Finding(block.number, 1, text) for block in _doubtful(tape, positions) for text in block.problems(positions)
+    ]
     return tape, sorted(wrong + reading.findings, key=lambda finding: (finding.block, finding.column))
 
 
