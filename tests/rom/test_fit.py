@@ -273,7 +273,7 @@ MISTAKES = {
     "the last span is lost": ("if self.after:\n            self._span", "if not self.nodes:\n            self._span"),
 }
 #: Programs that the mistakes are looked for in, and of them so many may hang on a close call of TOL.
-TOL_PROGRAMS, MOST_CLOSE = 80, 3
+TOL_PROGRAMS, MOST_CLOSE = 120, 4
 #: In one process: their results are computed once.
 of_tol_programs = pytest.mark.xdist_group("TOL programs")
 
