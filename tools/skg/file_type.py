@@ -33,8 +33,8 @@ def kind_of(data: bytes) -> str:
 
 def named(data: bytes) -> str:
     """Return the type of a file that is not text, for the beginning of a message; empty for text."""
-    found = kind_of(data)
-    return f"{found}, " if found not in ("", TAPE, PROGRAM, GCODE) else ""
+    kind = kind_of(data)
+    return f"{kind}, " if kind not in ("", TAPE, PROGRAM, GCODE) else ""
 
 
 def refuse_others(data: bytes, name: str, expected: str) -> None:

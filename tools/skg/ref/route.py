@@ -314,7 +314,7 @@ class Route:
         inner_e, inner_f = _moved_inwards(e.nominal, signed), _moved_inwards(f.nominal, signed)
         middle = _chosen(crossings(inner_e, inner_f, ZERO), signed < 0)
         arc = Circle(middle.x, middle.y, signed)
-        # Where they touch within 1 µm only, the place is on the circle, of two circles on the first.
+        # If they touch within 1 µm only, the place is on the circle, of two circles on the first.
         touch_e = _touching(e.nominal if isinstance(e.nominal, Circle) else arc, e.nominal, arc)
         touch_f = _touching(arc, f.nominal, arc)
         if isinstance(e.curve, Circle):
