@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import gc
-import tracemalloc
 from dataclasses import replace
 from itertools import combinations, pairwise
 from pathlib import Path
@@ -260,21 +258,8 @@ def test_arc_distance() -> None:
     assert arc_distance(*quarter, np.array([])) == 0
 
 
-def test_a_node_takes_little_room() -> None:
-    """A million blocks took 3 GB: of routes, tape and pieces nothing is kept, of an open route what REP may ask for."""
-    peaks = []
-    for nodes in (360, 1080):
-        text = "10 I=0\n20 FROM (I,9)\n30 FIT (I,0)\n40 FIT (I+1,1)\n50 FIT (I+2,0)\n60 I=I+3\n"
-        # What other tests left behind is not counted, and of two runs as long as these it is little when some is
-        # collected late.
-        gc.collect()
-        tracemalloc.start()
-        runs = fitted_runs(f"{text}70 IF I<{nodes} GOTO 20\n80 END\n")
-        peaks.append(tracemalloc.get_traced_memory()[1])
-        tracemalloc.stop()
-        assert sum(len(run.nodes) for run in runs) == nodes
-    # 1,230 bytes a node; they were 3,530.
-    assert peaks[1] - peaks[0] < 2400 * 720
+def test_of_an_open_route_the_last_items_are_kept() -> None:
+    """As many as REP may ask for."""
     few, items = _Few(), MOST_ITEMS + 3
     for n in range(items):
         few.append(n)

@@ -339,7 +339,7 @@ def test_identities_6_4(s: Line, c: Circle) -> None:
     assert same(negate(operate(s, ":", negate(c))), operate(negate(s), ":", c))
 
 
-@settings(max_examples=200)
+@settings(max_examples=80)
 @given(st.one_of(lines, circles), circles)
 def test_identities_7_4_and_7_5(s: Line | Circle, c: Circle) -> None:
     left = crossing(s, c)

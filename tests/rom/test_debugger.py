@@ -34,6 +34,10 @@ def debugged(part: Path, *commands: str) -> list[str]:
     return [*answers[1:], text.partition(PROMPT)[0]]
 
 
+#: In one process with test_build.py, whose listing this reads.
+pytestmark = pytest.mark.xdist_group("images")
+
+
 @pytest.fixture(scope="module")
 def nothing(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A part that does nothing."""

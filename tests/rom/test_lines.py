@@ -172,7 +172,7 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=600)
+@settings(max_examples=240)
 @given(
     st.sampled_from(["", "10 ", "10 PRINT ", "10 CUT ", "PRINT ", "10 A=", "10 DATA ", "10 IF A=1 GOTO ", "10 READ "]),
     st.lists(PIECES, max_size=12),

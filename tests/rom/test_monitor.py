@@ -220,7 +220,7 @@ STATEMENTS = st.one_of(
 )
 
 
-@settings(max_examples=300)
+@settings(max_examples=120)
 @given(STATEMENTS)
 def test_a_listed_line_is_the_same_line(statement: str) -> None:
     """LIST's text, typed again, gives the same bytes in memory; a listed line that has grown too long is refused."""

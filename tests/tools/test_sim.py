@@ -86,7 +86,7 @@ def arcs(draw: st.DrawFn, smallest: int = 60, largest: int = 3000) -> tuple[tupl
 
 
 @given(arcs())
-@settings(max_examples=600)
+@settings(max_examples=240)
 def test_arc_against_geometry(arc: tuple[tuple[int, int], float, int]) -> None:
     start, sweep, sense = arc
     radius, first = hypot(*start), atan2(start[1], start[0])
@@ -141,7 +141,7 @@ def test_every_pair_of_quadrants() -> None:
 
 
 @given(arcs(20, 300), st.booleans())
-@settings(max_examples=300)
+@settings(max_examples=120)
 def test_arc_against_slow_controller(arc: tuple[tuple[int, int], float, int], full: bool) -> None:
     start, sweep, sense = arc
     last = atan2(start[1], start[0]) + sense * sweep
@@ -151,7 +151,7 @@ def test_arc_against_slow_controller(arc: tuple[tuple[int, int], float, int], fu
 
 
 @given(st.integers(-400, 400), st.integers(-400, 400))
-@settings(max_examples=300)
+@settings(max_examples=120)
 def test_line(dx: int, dy: int) -> None:
     if dx == dy == 0:
         return

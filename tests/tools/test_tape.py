@@ -45,7 +45,7 @@ def test_round_trip(items: list[Block | Stop]) -> None:
 
 
 @given(blocks())
-@settings(max_examples=400)
+@settings(max_examples=160)
 def test_geometry_gives_the_block_again(block: Block) -> None:
     """The end that a block tells makes the same block again."""
     again = line_block(*block.move) if block.is_line else arc_block(block.start, block.end, block.sense)
