@@ -135,7 +135,7 @@ function compare(found: string[], listed: string[]): void {
   if (odd.length) throw new Error(`web/src/catalogue.ts and examples/ differ: ${[...new Set(odd)].join(" ")}`);
 }
 
-/** What lies in the one file, in base64; with the pictures of the manuals. */
+/** The files inside the one file, in base64; with the pictures of the manuals. */
 const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", ...Object.keys(MANUALS)];
 
 /** The whole page as one file, skg.html: it runs from a double click, too. */

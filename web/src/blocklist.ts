@@ -13,7 +13,7 @@ export class BlockList {
   readonly #chooser: Chooser;
   #layout: Layout = nothing();
   readonly #ask = onFrame(() => this.#draw());
-  /** How a row says which line made its block, and that the controller stops after it. */
+  /** The text of a row about the line that made its block, and about a stop after it. */
   describe: (line: number, stop: boolean) => string = () => "";
 
   /** `box`: a scrolling element with role listbox. */

@@ -54,12 +54,12 @@ interface Exports {
   page_restore(which: number, length: number): void;
 }
 
-/** How far the debugger goes: an instruction, to the calculator's next operation, until the stack pointer is above a value; in
+/** The steps of the debugger: an instruction, to the calculator's next operation, until the stack pointer is above a value; in
  * the order of page_step. */
 const STEPS = ["instruction", "operation", "return"] as const;
 export type Step = (typeof STEPS)[number];
 
-/** What the debugger sees: A with F, BC, DE, HL, SP and PC; all memory. */
+/** The board's state for the debugger: A with F, BC, DE, HL, SP and PC; all memory. */
 export interface Look {
   af: number;
   bc: number;
@@ -202,7 +202,7 @@ export class Board {
     return this.#wasm.page_silence(VISITORS) > SILENCE;
   }
 
-  /** What was printed since this was last asked. */
+  /** The characters printed since the last call. */
   takePaper(): Uint8Array {
     const length = this.#wasm.page_printed(VISITORS);
     return this.#copy(this.#wasm.page_take_paper(VISITORS), length);

@@ -2,7 +2,7 @@
  * numbers. */
 import { hex, type Symbols } from "./symbols.ts";
 
-/** Where each kind of code begins. */
+/** The first code of each kind. */
 const OPERATIONS = 0x40;
 const LOADS = 0x40;
 const STORES = 0x80;
@@ -25,7 +25,7 @@ export class Calculator {
   readonly #isJump = new Set<number>();
   readonly #end: number;
   readonly #leave: number;
-  /** Where the next operation, the byte at BC, is taken. */
+  /** The address at which the calculator takes its next operation, the byte at BC. */
   readonly next: number;
 
   constructor(symbols: Symbols) {
@@ -108,7 +108,7 @@ export class Calculator {
   }
 }
 
-/** Where the jump at an address goes: its distance counts from its second byte on. */
+/** The target of the jump at an address: its distance counts from its second byte on. */
 const jump = (memory: Uint8Array, address: number): number => (address + 1 + (((memory[address + 1] ?? 0) << 24) >> 24)) & 0xffff;
 
 /** A float of the firmware's: excess, then the mantissa with the sign in place of its first bit. */

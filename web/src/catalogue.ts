@@ -21,7 +21,7 @@ const part = (name: string, english: string, chinese: string, hint?: Both): Entr
   ...(hint ? { hint } : {}),
 });
 
-/** What the parts' sliders set. */
+/** The labels of the parts' sliders. */
 const LABELS: Readonly<Record<string, string>> = {
   "module, mm": "模数，mm",
   teeth: "齿数",
@@ -149,5 +149,5 @@ export function partTitle(name: string): string | undefined {
   return entry && inLanguage(entry.title, spoken());
 }
 
-/** What a slider sets, in the present language where it is a part's. */
+/** A slider's label, in the present language if it is a part's. */
 export const labelOf = (label: string): string => (spoken() === "zh" ? (LABELS[label] ?? label) : label);

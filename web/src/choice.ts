@@ -1,4 +1,4 @@
-/** What is pointed at: a block, or all blocks of a program line. Drawing, block list and program show it alike. */
+/** The selection: a block, or all blocks of a program line. Drawing, block list and program show it alike. */
 
 export type Choice = { block: number } | { line: number } | undefined;
 

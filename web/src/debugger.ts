@@ -87,7 +87,7 @@ export class Debugger {
     this.#debug("look", [...this.#stops]);
   }
 
-  /** What the board is like now. */
+  /** Shows the board's present state. */
   show(look: Look, isHeld: boolean): void {
     this.#look = look;
     this.#isHeld = isHeld;

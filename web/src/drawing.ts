@@ -38,7 +38,7 @@ export interface Colours {
   grid: string;
 }
 
-/** Where the controller is, for the picture of the wire. */
+/** The controller's position, for the picture of the wire. */
 export interface Wire {
   place: XY;
   at: number;
@@ -64,7 +64,7 @@ export class Drawing {
   #pixels = 1;
   #size: XY = [300, 200];
   #since = ARROWS;
-  /** Where arrow heads are drawn already. */
+  /** The places of arrow heads drawn so far. */
   readonly #heads = new Set<number>();
   #grid = false;
   #from: XY | undefined;

@@ -27,7 +27,7 @@ function entity(placed: Placed, layer: string): string {
   return head("ARC") + circle + pair(50, degrees(low)) + pair(51, degrees(high));
 }
 
-/** Which layer a block is on; the way back to the start hole lies on the way in, which is drawn. */
+/** The layer of a block. The way back to the start hole has none: it lies on the way in, which is drawn. */
 const LAYER_OF: Record<Role, string | undefined> = { cut: "WIRE", in: "LEAD", back: undefined, move: "MOVES" };
 
 export function dxfText(layout: Layout): string {

@@ -6,7 +6,7 @@ import type { Chooser } from "./choice.ts";
 import { narrow, nextNumber, skg, WIDE } from "./language-skg.ts";
 import type { Layout } from "./placed.ts";
 
-/** What is wrong with a line: its place in the text from 0, the column or -1, the sentence, and where to read more of it. */
+/** An error in a line: its place in the text from 0, the column or -1, the sentence, and a button for more about it. */
 export interface Mark {
   row: number;
   column: number;
@@ -181,7 +181,7 @@ export class Editor {
     this.#view.dispatch({ changes: { from, to, insert: after.slice(from, end) }, annotations: Transaction.remote.of(true) });
   }
 
-  /** What screen readers call it. */
+  /** Its name for screen readers. */
   set name(name: string) {
     this.#view.contentDOM.setAttribute("aria-label", name);
   }

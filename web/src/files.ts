@@ -1,4 +1,4 @@
-/** Files that come in: what they are, and what is wrong with them; and files that go out. */
+/** Files that come in: their kinds and errors; and files that go out. */
 import type { Word } from "./language.ts";
 import { layOutSteps } from "./placed.ts";
 import type { Opened } from "./recording.ts";
@@ -6,7 +6,7 @@ import { type Everything, readEverything } from "./store.ts";
 import { readTapeSteps, TapeError } from "./tape.ts";
 import { writeSteps } from "./written.ts";
 
-/** What a file is; `refused`: a word of language.ts with its values, the file's name first. */
+/** The kind of a file; `refused`: a word of language.ts with its values, the file's name first. */
 export type Found =
   | { kind: "program"; text: string }
   | { kind: "tape"; text: string }

@@ -61,7 +61,7 @@ export const narrow = (text: string): string =>
     return sign < "\u3000" ? '"' : String.fromCharCode(sign.charCodeAt(0) - 0xfee0);
   });
 
-/** What is wrong with a text before the machine has seen it. */
+/** An error that the page finds in a text before the machine reads it. */
 export interface Fault {
   row: number;
   column: number;

@@ -238,7 +238,7 @@ export function preferred(languages: readonly string[]): Language {
   return "en";
 }
 
-/** What is written in both languages, in the present one, with values for `{0}`, `{1}`… */
+/** A phrase of both languages in the present one, with values for `{0}`, `{1}`… */
 export function phrase(both: readonly [string, string], ...values: readonly (string | number)[]): string {
   return both[present === "en" ? 0 : 1].replace(/\{(\d)\}/g, (_, at: string) => String(values[Number(at)] ?? ""));
 }

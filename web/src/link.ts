@@ -57,7 +57,7 @@ export async function unpack(code: string): Promise<string> {
   }
 }
 
-/** What an address' `#…` says. */
+/** Reads the `#…` of an address. */
 export async function readLink(hash: string): Promise<Link> {
   const fields = new URLSearchParams(hash.replace(/^#/, ""));
   const link: Link = { run: fields.has("run"), embed: fields.has("embed") };

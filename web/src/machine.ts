@@ -9,14 +9,14 @@ export interface Listener {
   state(state: State): void;
   memory(ram: Uint8Array, program: string, rom: string): void;
   failed(why: string): void;
-  /** What the debugger sees of the board; `isHeld`: the board stands until it is told to go on. */
+  /** The board's registers and memory, for the debugger; `isHeld`: the board stands until it is told to go on. */
   look(look: Look, isHeld: boolean): void;
 }
 
 export class Machine {
   readonly #worker: Worker;
   readonly #listener: Listener;
-  /** How often it was loaded, restored or reset: what it did before is no news any more. */
+  /** The number of loads, restores and resets: older news are dropped. */
   #taken = 0;
   #asked = 0;
   readonly #answers = new Map<number, (refused: Refused[]) => void>();

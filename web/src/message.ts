@@ -7,7 +7,7 @@ export interface Offer {
   take: () => void;
 }
 
-/** What stays until it is put away: other messages cover it for a while. */
+/** A message that stays until it is put away: others cover it for a while. */
 let lasting: { text: string; offer: Offer | undefined } | undefined;
 
 export function say(word: Word, ...values: (string | number)[]): void {

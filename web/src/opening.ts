@@ -1,4 +1,4 @@
-/** What comes in: parts of the list, links, files. */
+/** Opens parts of the list, links, files. */
 import { get } from "./dom.ts";
 import { readWhole, recognize, tooLarge } from "./files.ts";
 import { t } from "./language.ts";
@@ -22,7 +22,7 @@ export class Opening {
     this.#apply = apply;
   }
 
-  /** The part is shown cut. */
+  /** Opens a part, and shows it cut. */
   part(part: Part, run = true): void {
     markPart(get("part-list"), part.name);
     void this.#bench.open(part.name, part.program, run, true);

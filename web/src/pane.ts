@@ -1,4 +1,4 @@
-/** What is opened beside the page, one at a time: the manual, the machine's inside. */
+/** The pane beside the page, with one thing at a time: the manual, the machine's inside. */
 import { get } from "./dom.ts";
 
 let whenClosed: (() => void) | undefined;

@@ -3,7 +3,7 @@ import { make } from "./dom.ts";
 
 export interface Parameter {
   label: string;
-  /** Where in the text the number stands. */
+  /** The number's place in the text. */
   from: number;
   to: number;
   value: number;

@@ -13,7 +13,7 @@ import { titleOf } from "./works.ts";
 /** A machine's feed, mm a minute. */
 const FEED = 5;
 
-/** What made a tape: a part of the list, a link, or one's own program by its title. */
+/** The name of a tape's maker: a part of the list, a link, or one's own program by its title. */
 const shownName = ({ name, program }: Maker): string => partTitle(name) ?? (name === "link" ? t("link") : titleOf(program ?? ""));
 
 export class Pictures {

@@ -30,7 +30,7 @@ export function workerAddress(): string | URL {
   return bytes ? URL.createObjectURL(new Blob([bytes], { type: "text/javascript" })) : new URL("worker.js", document.baseURI);
 }
 
-/** What the worker cannot fetch. */
+/** The machine's files, if they are inside the page: the worker cannot fetch them there. */
 export function readImages(): Images | undefined {
   const [code, rom, sym] = ["board.wasm", "skg.bin", "skg.sym"].map(inside);
   return code && rom && sym ? { code, rom, sym } : undefined;

@@ -29,7 +29,7 @@ export interface Placed {
   role: Role;
 }
 
-/** What a block is for: to cut, the way from the start hole or back to it, or positioning from hole to hole. It is known when
+/** The purpose of a block: to cut, the way from the start hole or back to it, or positioning from hole to hole. It is known when
  * the route is at its end. */
 export type Role = "cut" | "in" | "back" | "move";
 
@@ -44,9 +44,9 @@ export interface Route {
 export interface Layout {
   readonly blocks: Placed[];
   readonly routes: Route[];
-  /** Where the controller stops, and the number of the block that it stops after. */
+  /** The places at which the controller stops, and the number of the block before each. */
   readonly stops: { at: XY; after: number }[];
-  /** Where a wire is threaded. */
+  /** The places at which a wire is threaded. */
   readonly holes: XY[];
 }
 
@@ -235,7 +235,7 @@ export function* layOutSteps(items: readonly Item[], start: XY = [0, 0]): Genera
   return placer;
 }
 
-/** Where each item ends; a stop, where it stands. */
+/** The end of each item; of a stop, its place. */
 function* placesOf(items: readonly Item[], start: XY): Generator<undefined, XY[]> {
   const found: XY[] = [];
   let at = start;

@@ -4,7 +4,7 @@ import { type Layout, Placer } from "./placed.ts";
 import { type Item, readBlock } from "./tape.ts";
 import { Written } from "./written.ts";
 
-/** What made a tape: a program's name and text, or a file, whose program nobody knows. */
+/** The maker of a tape: a program's name and text, or a file, whose program is unknown. */
 export interface Maker {
   name: string;
   program: string | undefined;
@@ -52,7 +52,7 @@ export class Recording {
     return this.#written.text;
   }
 
-  /** Where in the tape's text each block begins. */
+  /** The place in the tape's text at which each block begins. */
   get offsets(): readonly number[] {
     return this.#written.offsets;
   }
@@ -82,7 +82,7 @@ export class Recording {
     return made.program !== undefined && this.#lines.length <= MOST_KEPT ? { made, lines: this.#lines } : null;
   }
 
-  /** What is still punched by the run that is broken off is no part of the next tape. */
+  /** Skips the rest of a run that is broken off: it is no part of the next tape. */
   leave(isLeaving: boolean): void {
     this.#isLeaving = isLeaving;
   }

@@ -4,14 +4,14 @@ import { type Move, Stepper } from "./stepper.ts";
 
 export type Speed = "real" | "fast";
 
-/** What the machine is made of; without them the worker fetches them beside itself. */
+/** The files of the machine; without them the worker fetches them from its own folder. */
 export interface Images {
   code: ArrayBuffer;
   rom: ArrayBuffer;
   sym: ArrayBuffer;
 }
 
-/** What the page says. */
+/** Orders of the page. */
 export type Order =
   | { kind: "start"; ram?: Uint8Array; program?: string; rom?: string; speed: Speed; images?: Images }
   | { kind: "type"; bytes: Uint8Array }
@@ -25,7 +25,7 @@ export type Order =
   | { kind: "debug"; how: Move; stops: readonly number[] }
   | { kind: "seen" };
 
-/** What the board does now; `tape`: LOAD waits for one; `held`: the debugger holds it. */
+/** The board's state; `tape`: LOAD waits for one; `held`: the debugger holds it. */
 export type State = "busy" | "prompt" | "input" | "wait" | "tape" | "halt" | "held";
 
 /** A line of a text that the machine does not take: its place in the text from 0, the ERR, the column of the mark or -1. */
@@ -35,7 +35,7 @@ export interface Refused {
   column: number;
 }
 
-/** What the worker says. `taken`: how often it was loaded, restored or reset until then. `memory`: at a prompt, when the RAM has
+/** News of the worker. `taken`: the number of loads, restores and resets until then. `memory`: at a prompt, when the RAM has
  * changed; `rom` names the ROM that it belongs to. */
 export type News =
   | { kind: "out"; paper: string; punched: Punched[]; state: State; taken: number; cycles: number }
@@ -64,15 +64,15 @@ export class Runner {
   #unseen = 0;
   #kept: Uint8Array = new Uint8Array(0);
   #keptProgram = "";
-  /** When it was last at its prompt or had something left to type; whether the program that runs since has been looked at. */
+  /** The last time it was at its prompt or had characters left to type; whether the program running since has been looked at. */
   #quiet = 0;
   #looked = false;
-  /** What is to be done at the next prompts, unless there is an ERR on the way. */
+  /** Steps to take at the next prompts; an ERR drops them. */
   #script: (() => void)[] = [];
   #errors = "";
-  /** A ctrl-C that makes room for the script has been pressed: its ERR 10 is none of the script's. */
+  /** A ctrl-C has been pressed for the script to begin: its ERR 10 is none of the script's. */
   #broken = false;
-  /** It has not been at its prompt since it was switched on or reset: nothing runs that could be broken off. */
+  /** It has not been at its prompt since it was switched on or reset: no program runs. */
   #isStarting = true;
   #taken = 0;
   #last = 0;

@@ -1,4 +1,4 @@
-/** What the menu Save and the links give: files of the tape and the program, and everything as one. */
+/** The menu Save and the links: files of the tape and the program, and everything as one. */
 import { dxfText } from "./dxf.ts";
 import { saveFile } from "./files.ts";
 import { isoText } from "./iso.ts";

@@ -19,9 +19,9 @@ export interface Hooks {
   /** An ERR on the paper; line 0: of a command. */
   error(number: string, line: number): void;
   failed(why: string): void;
-  /** What the debugger sees. */
+  /** Gets the board's registers and memory, for the debugger. */
   look(look: Look, isHeld: boolean): void;
-  /** Something was typed that the machine has no character for. */
+  /** A typed character does not exist on the machine. */
   strange(character: string): void;
 }
 
@@ -31,7 +31,7 @@ export class Session {
   readonly #store: Store | undefined;
   readonly #hooks: Hooks;
   #kept: { ram: string; rom: string } | undefined;
-  /** What was kept at the last visit: there until the machine tells what is in it. */
+  /** The state kept at the last visit, until the machine reports its own. */
   #last: Kept | null = null;
   state: State = "busy";
   program = "";

@@ -1,4 +1,4 @@
-/** What a page has around its contents: views, menus, the message and the question. */
+/** The frame of a page: views, menus, the message and the question. */
 import { get, onClick } from "./dom.ts";
 import { dismiss } from "./message.ts";
 import { closePane } from "./pane.ts";

@@ -1,4 +1,4 @@
-/** What the machine does now, in words, and what RUN means then. */
+/** The machine's state in words, and the meaning of the button RUN. */
 
 import { get } from "./dom.ts";
 import { t, type Word } from "./language.ts";
@@ -27,7 +27,7 @@ export class StatusLine {
     this.#teletype = teletype;
   }
 
-  /** Where something is asked, the keys go there. */
+  /** Shows a state; at an INPUT by hand the keys go to the teletype. */
   show(state: State): void {
     const { session, isByHand } = this.#bench;
     const word = STATES[state];

@@ -1,7 +1,7 @@
-/** What the debugger has the board do: stand where it is, go on to a stop, or so far. */
+/** The board under the debugger: it stands, or goes on to a stop or by a step. */
 import type { Board, Reason, Step } from "./board.ts";
 
-/** What the debugger may say: it looks at the board from now on, holds it, lets it go on to a stop or so far, or leaves it. */
+/** Orders of the debugger: look at the board from now on, hold it, let it go on to a stop or by a step, or leave it. */
 export type Move = "look" | "hold" | "go" | "leave" | "over" | "up" | Exclude<Step, "return">;
 
 /** Opcodes that call: CALL, those under a condition, restarts. */
@@ -10,11 +10,11 @@ const isCall = (opcode: number): boolean => opcode === 0xcd || (opcode & 0xc7) =
 export class Stepper {
   readonly #board: Board;
   #stops: readonly number[] = [];
-  /** How far it goes: until the stack pointer is above that. */
+  /** The step under way; `stack`: it ends when the stack pointer is above that. */
   #step: { how: Step; stack: number } | undefined;
-  /** Behind its step it runs on: that one is past the stop where it stands. */
+  /** It runs on behind its step, which only takes it past the stop at which it stands. */
   #runsOn = false;
-  /** The debugger is there. */
+  /** The debugger is open. */
   isWatched = false;
   isHeld = false;
   /** It is to be held when its present slice of time is over. */

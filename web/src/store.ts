@@ -1,5 +1,5 @@
-/** What the page keeps from visit to visit, in the browser's own store; where that refuses, it is told once, and what it refused
- * is kept until the page is left. */
+/** The data kept from visit to visit, in the browser's own store. If that refuses, the user is told once, and the refused data
+ * are kept until the page is left. */
 import type { Punched } from "./board.ts";
 import type { KeptTape } from "./recording.ts";
 import type { Work } from "./works.ts";

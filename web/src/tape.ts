@@ -23,7 +23,7 @@ const SIGNS: readonly XY[] = [
   [-1, -1],
   [1, -1],
 ];
-/** How far an arc may go on past a full circle: its ends are rounded. */
+/** µm that an arc may go on past a full circle: its ends are rounded. */
 const MAX_OVERLAP = 4;
 
 export const blockText = (b: Block): string =>
@@ -51,7 +51,7 @@ function roundRoot(x: number, y: number, less = 0): number {
 
 export const radiusOf = (b: Block): number => roundRoot(b.x, b.y);
 
-/** Where the controller passes an axis on an arc: the least whole number whose square + 1 is x² + y² or more. A tape
+/** The distance from the centre at which the controller passes an axis on an arc: the least whole number whose square + 1 is x² + y² or more. A tape
  * without drift counts it as the radius. */
 function turnOf(b: Block): number {
   const square = BigInt(b.x) * BigInt(b.x) + BigInt(b.y) * BigInt(b.y) - 1n;
@@ -60,14 +60,14 @@ function turnOf(b: Block): number {
 
 export const isFullCircle = (b: Block): boolean => b.sense !== 0 && (b.j === 4 * radiusOf(b) || b.j === 4 * turnOf(b));
 
-/** Where the block starts: a line at (0, 0), an arc relative to its centre. */
+/** The start of a block: a line at (0, 0), an arc relative to its centre. */
 export function startOf(b: Block): XY {
   if (!b.sense) return [0, 0];
   const [sx, sy] = SIGNS[b.quadrant] as XY;
   return [sx * b.x, sy * b.y];
 }
 
-/** Whether the distance from the centre along `axis` shrinks on an arc in `quadrant`. */
+/** Tells whether the distance from the centre along `axis` shrinks on an arc in `quadrant`. */
 const shrinks = (axis: Axis, quadrant: number, sense: number): boolean => (axis === 0) === ((quadrant % 2 === 1) === sense > 0);
 
 const nextQuadrant = (quadrant: number, sense: number): number => ((quadrant - 1 + sense + 4) % 4) + 1;
@@ -87,7 +87,7 @@ function countEnd(b: Block, radius = radiusOf(b)): { distance: number; quadrant:
   }
 }
 
-/** Where the block should end, relative to the origin of `startOf`. Across the count axis an arc's end is the nearest µm on
+/** The exact end of a block, relative to the origin of `startOf`. Across the count axis an arc's end is the nearest µm on
  * the circle, but not so near 0 that the count direction would be the other one. */
 export function endOf(b: Block): XY {
   if (!b.sense) {
@@ -126,7 +126,7 @@ export function sweepOf(b: Block): number {
 
 export const modulo = (value: number, by: number): number => ((value % by) + by) % by;
 
-/** What a controller would choke on in this block, in the words of `skg check`; empty when it is sound. */
+/** The error in this block, in the words of `skg check`; empty when it is sound. */
 export function problem(b: Block): string {
   if (!b.x && !b.y) return "x and y are both 0";
   if (!b.sense) {
@@ -248,7 +248,7 @@ export class TapeError extends Error {
 /** Blocks of a step. */
 export const STEP = 500;
 
-/** What stands between blocks of other packages' tapes: blanks, line ends, NULs, numbers before blocks (`N1:`, `0001`), and
+/** The gap between blocks of other packages' tapes: blanks, line ends, NULs, numbers before blocks (`N1:`, `0001`), and
  * comments from `;`, `(` or `/` to the end of the line. */
 const GAP = /(?:[\s\0,.:]|N\s*\d+|\d+(?=[\s:]*B)|[;(/][^\r\n]*)*/iy;
 const LOOSE = /B\s*(\d{0,8})\s*B\s*(\d{0,8})\s*B\s*(\d{0,8})\s*G\s*([XY])\s*(L|NR|SR)\s*([1-4])(?!\d)/iy;

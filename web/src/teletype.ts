@@ -46,7 +46,7 @@ export class Teletype {
     this.fit();
   }
 
-  /** What screen readers call it. */
+  /** Its name for screen readers. */
   set name(name: string) {
     this.#terminal.textarea?.setAttribute("aria-label", name);
   }
@@ -55,7 +55,7 @@ export class Teletype {
     this.#terminal.options.theme = theme;
   }
 
-  /** What was printed last, as it is kept for the next visit. */
+  /** The last lines printed, which are kept for the next visit. */
   get paper(): string {
     return this.#paper;
   }

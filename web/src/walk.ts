@@ -19,14 +19,14 @@ export interface Walked {
   /** Steps before it, and its own. */
   readonly before: number;
   readonly steps: number;
-  /** Where the controller stands before it, and behind it. */
+  /** The controller's positions before it, and behind it. */
   readonly from: XY;
   readonly to: XY;
   /** Largest distance from the line or arc as it should lie. */
   readonly offPath: number;
 }
 
-/** Where the controller is. */
+/** The controller's position. */
 export interface Position {
   /** Index of the block, and the steps taken in it. */
   readonly at: number;
@@ -114,7 +114,7 @@ export class Walk {
     return wasm.walk_steps() - before;
   }
 
-  /** Where the controller is after `step` of all steps (as far as measured). */
+  /** The controller's position after `step` of all steps (as far as measured). */
   locate(step: number): Position | undefined {
     if (!this.#walked.length) return undefined;
     const at = this.#find(step);
@@ -146,7 +146,7 @@ export class Walk {
     return low;
   }
 
-  /** How far the end of a route that is cut lies from its start, the worst of them, µm; undefined where none is at its end. */
+  /** The largest gap between end and start of a cut route, µm; undefined while none has ended. */
   closing(routes: readonly Route[]): XY | undefined {
     let worst: XY | undefined;
     for (const { first, last, isMove } of routes) {
@@ -164,7 +164,7 @@ function set(wasm: Exports, { block, start }: Placed, from: XY): void {
   wasm.walk_block(block.sense, block.quadrant, block.x, block.y, block.j, block.axis, from[0] - start[0], from[1] - start[1]);
 }
 
-/** Where the controller stands. */
+/** The controller's place. */
 function standing(wasm: Exports, { block }: Placed, from: XY): XY {
   const [x, y] = startOf(block);
   return [from[0] + wasm.walk_x() - x, from[1] + wasm.walk_y() - y];

@@ -158,7 +158,7 @@ export class WalkBar {
   }
 }
 
-/** How well a contour closes: its arcs' ends are rounded, so a few µm are nothing to look for. */
+/** Words for a contour's gap. Arcs' ends are rounded, so a gap of a few µm is normal. */
 function closingWords(gap: XY): string {
   const most = Math.max(...gap.map(Math.abs));
   return !most ? t("closes") : most <= ROUNDED ? t("near", most) : t("gap", ...gap);

@@ -67,7 +67,7 @@ export class Workbench {
     });
   }
 
-  /** What is drawn was made by another program than the one that is seen. */
+  /** The drawing was made by another program than the one in the editor. */
   get isStale(): boolean {
     return this.stage.isOther(this.editor.text);
   }

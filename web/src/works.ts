@@ -10,7 +10,7 @@ export interface Work {
   program: string;
 }
 
-/** Where works are kept; read anew each time, since another tab may have written there. */
+/** The store of works; read again each time, since another tab may have written there. */
 export interface Shelf {
   works: Work[];
 }
@@ -54,12 +54,12 @@ export class Works {
     return this.#shelf.works.filter(({ program }) => !this.#isKnown(program)).sort((a, b) => b.when - a.when);
   }
 
-  /** A program that nobody else has. */
+  /** Tells whether a program is the visitor's own. */
   isOwn(program: string): boolean {
     return program.trim() !== "" && !this.#isKnown(program);
   }
 
-  /** What is written from now on is another program, whatever it looks like. */
+  /** Begins another program, however like the last one it is. */
   begin(): void {
     this.#id = undefined;
     this.#last = "";

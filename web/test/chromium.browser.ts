@@ -36,7 +36,7 @@ import {
 } from "./chromium.ts";
 import { longTape, WHOLE } from "./served.ts";
 
-/** What the page hears of its worker: pieces of news, the most of them whose paper was not shown yet, the board's cycles. */
+/** Counts of the worker's news at the page: all of them, the most whose paper was not shown yet, the board's cycles. */
 declare const heardOfWorker: { heard: number; unseen: number; mostUnseen: number; cycles: number };
 
 describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium is not installed", timeout: WHOLE }, () => {
@@ -155,7 +155,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
       heard + 100,
     );
     t.diagnostic(`longest time between two frames while it prints without end: ${longest.toFixed(0)} ms`);
-    // What holds a page up is paper that comes faster than it is shown: the board waits for that.
+    // Paper that comes faster than it is shown would hold the page up: the board waits for it.
     assert.ok((await page.evaluate(() => heardOfWorker.mostUnseen)) <= 7);
     await says(page, "#run", "Stop (ctrl-C)");
     await page.click("#run");
@@ -262,7 +262,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     const empty = await height();
     await runPart(page, "die");
     await says(page, "#closing", /close/);
-    // What is said of a tape has its room from the start: the drawing does not move under the pointer.
+    // The line about a tape has its height from the start: the drawing does not move under the pointer.
     assert.equal(await height(), empty);
     const view = async () => {
       await drawn(page);

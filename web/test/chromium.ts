@@ -1,4 +1,4 @@
-/** What the tests in chromium do: visits, what the page says, files in and out. */
+/** Shared by the tests in chromium: visits, the page's texts, files in and out. */
 import { mkdirSync, readFileSync } from "node:fs";
 import { type Browser, type BrowserContext, type BrowserContextOptions, chromium, type Page } from "playwright-core";
 import type { Part } from "../src/parts.ts";
@@ -88,7 +88,7 @@ export function paste(page: Page, text: string): Promise<void> {
   }, text);
 }
 
-/** What a button of the menu Save gives. */
+/** The file that a button of the menu Save gives. */
 export async function saved(page: Page, kind: string): Promise<string> {
   await page.locator("details.menu summary").first().click();
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-save="${kind}"]`)]);

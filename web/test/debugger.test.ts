@@ -10,7 +10,7 @@ const SYM = readFileSync("roms/skg.sym", "latin1");
 const symbols = new Symbols(SYM);
 const calculator = new Calculator(symbols);
 
-/** What `skg80 --debug` says (tests/web/test_page.py). */
+/** The output of `skg80 --debug` (tests/web/test_page.py). */
 interface Said {
   stop: string;
   floats: string;

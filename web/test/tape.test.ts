@@ -8,7 +8,7 @@ import { svgText } from "../src/svg.ts";
 import { readBlock, readTape, TapeError, tapeText } from "../src/tape.ts";
 import { Walk } from "../src/walk.ts";
 
-/** What the tools in Python make of the same tapes; tests/web/test_page.py writes it. */
+/** Results of the tools in Python for the same tapes; tests/web/test_page.py writes them. */
 interface Golden {
   tape: string;
   iso: string;

@@ -1,4 +1,4 @@
-/** What is done with the chosen contours by a key or in their menu. */
+/** Actions on the chosen contours, by a key or in their menu. */
 import type { Desk } from "./desk.ts";
 import { type Change, change, isCut, reset } from "./edits.ts";
 import type { Side } from "./types.ts";

@@ -197,7 +197,7 @@ export class Canvas {
     this.overlay.draw(over, this.view, this.#size, this.handles, this.#drag?.grip);
     if (!isWhole) this.#soon();
     else if (!this.#drag) void this.#ways.want(this.#sketch.inView(this.view, this.#size));
-    // (for who looks at the page from outside: the window, how long this took, whether more is to come, handles in mm)
+    // (for tests: the window, the time this took, whether the picture is complete, handles in mm)
     const { scale, x, y } = this.view;
     const took = String(performance.now() - began);
     Object.assign(this.#base.dataset, { window: `${scale} ${x} ${y}`, took, whole: String(isWhole) });
@@ -205,7 +205,7 @@ export class Canvas {
     this.#over.dataset["handles"] = JSON.stringify(handles);
   }
 
-  /** What is wanted of a handle's contour. */
+  /** Changes the settings of a handle's contour. */
   want(handle: Handle, wanted: Change | undefined, joined: string): void {
     if (!wanted) return;
     const { edited, contours } = this.#desk;

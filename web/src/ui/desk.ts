@@ -1,10 +1,10 @@
-/** The job on the desk: the drawing as the server has read it, what is wanted of it, the plan, what is chosen; undo and redo. */
+/** The job on the desk: the drawing as the server has read it, its settings, the plan, the selection; undo and redo. */
 import { type Edited, edited, moved, type Scope } from "./edits.ts";
 import { type Shape, shapeOf } from "./geometry.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
 import type { Contour, Empty, Later, Plan, Planned, State } from "./types.ts";
 
-/** What has changed. */
+/** The thing that has changed. */
 export type News = "drawing" | "job" | "plan" | "selection" | "server";
 
 /** Steps that can be undone. */

@@ -7,7 +7,7 @@ export interface Edited {
   readonly ids: readonly (number | null)[];
 }
 
-/** What a value is wanted of: contours, a layer, or everything. */
+/** The scope of a setting: contours, a layer, or everything. */
 export type Scope = { contours: readonly number[] } | { layer: string } | "all";
 
 /** undefined: inherited again. */
@@ -32,7 +32,7 @@ export function moved({ job }: Edited, fresh: Edited, contours: readonly Contour
   return { job, ids: (job.contour ?? []).map((chosen) => numbers.get(key(chosen)) ?? null) };
 }
 
-/** What is wanted of it itself, without what it inherits. */
+/** The scope's own settings, without inherited ones. */
 export function own(edited: Edited, scope: Scope): Wanted[] {
   const { job } = edited;
   if (scope === "all") return [job.default ?? {}];
@@ -96,7 +96,7 @@ export function reset(before: Edited, scope: Scope, contours: ReadonlyMap<number
   return change(before, scope, none as Change, contours);
 }
 
-/** What was wanted of a contour that is not there any more is given up. */
+/** Drops the settings of a contour that is not in the drawing any more. */
 export function forget({ job, ids }: Edited, index: number): Edited {
   const without = <T>(list: readonly T[]): T[] => list.filter((_, each) => each !== index);
   return { job: { ...job, contour: without(job.contour ?? []) }, ids: without(ids) };

@@ -9,7 +9,7 @@ import { w } from "./words.ts";
 
 type Key = keyof Wanted;
 
-/** What a contour alone has, and what everything has not: the machine's offset is its. */
+/** Settings of single contours only, and settings that the whole drawing has not (its offset is the machine's). */
 const SINGLE: ReadonlySet<Key> = new Set(["start", "entry", "order"]);
 const NOT_ALL: ReadonlySet<Key> = new Set(["cut", "offset"]);
 const USUAL: Wanted = { cut: true, side: "auto", passes: [0], tab: 0, lead: 3, lead_shape: "perpendicular", reverse: false };

@@ -156,7 +156,7 @@ export function* corners({ edges }: Shape): Generator<XY> {
 /** A length along a closed contour within its own, `whole`. */
 export const wrapped = (along: number, whole: number): number => ((along % whole) + whole) % whole;
 
-/** How far the wire goes on a closed contour from a place to the entry, µm, and whether that is the contour's own way. */
+/** The wire's way on a closed contour from a place to the entry, µm, and whether that is the contour's own direction. */
 export function wayToEntry(
   shape: Shape,
   along: number,

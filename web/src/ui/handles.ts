@@ -1,4 +1,4 @@
-/** What can be taken hold of on the chosen contour: its start hole, its entry, its tab. */
+/** Handles of the chosen contour: its start hole, its entry, its tab. */
 import type { XY } from "../tape.ts";
 import type { Desk } from "./desk.ts";
 import { type Change, rounded } from "./edits.ts";
@@ -33,7 +33,7 @@ export function handlesOf(desk: Desk): Handle[] {
   return places.flatMap(([grip, place]) => (place ? [{ grip, id, place: micrometres(place) }] : []));
 }
 
-/** What is wanted when a handle is dragged to a place; `reach`: what is nearer snaps, µm. */
+/** The change made by dragging a handle to a place; `reach`: distance at which it snaps, µm. */
 export function dragged(desk: Desk, { grip, id }: Handle, place: XY, reach: number): Change | undefined {
   const shape = desk.shapes.get(id);
   const planned = desk.planned(id);
@@ -49,7 +49,7 @@ export function dragged(desk: Desk, { grip, id }: Handle, place: XY, reach: numb
   return { tab: Math.max(SHORTEST, Math.round(length) / 1000) };
 }
 
-/** What is wanted when a handle is moved by an arrow key; `dx`, `dy`: -1, 0 or 1. */
+/** The change made by moving a handle with an arrow key; `dx`, `dy`: -1, 0 or 1. */
 export function stepped(desk: Desk, { grip, id, place }: Handle, [dx, dy]: XY, isFine: boolean): Change | undefined {
   const shape = desk.shapes.get(id);
   const planned = desk.planned(id);

@@ -6,7 +6,7 @@ import { find, type Word, w } from "./words.ts";
 
 export type Value = number | string | boolean | readonly number[] | undefined;
 
-/** What a field is for. `options`: values and their words; `at`: a point's x or y. */
+/** The description of a field. `options`: values and their words; `at`: a point's x or y. */
 export interface Plan {
   readonly key: string;
   readonly label: Word;
@@ -74,7 +74,7 @@ export class Field {
     return input;
   }
 
-  /** What is in the field; null: it cannot be read. */
+  /** The field's value; null: it cannot be read. */
   #read(): Value | null {
     const [first, second] = this.#inputs;
     if (!first) return undefined;

@@ -1,14 +1,14 @@
-/** How numbers are written and read, and how thick the pointer is. */
+/** Numbers as text and back, and the kind of pointer. */
 const coarse = globalThis.matchMedia?.("(pointer: coarse)");
 
-/** The pointer is a finger: what it is to meet is 44 pixels large. */
+/** The pointer is a finger: its targets are 44 pixels large. */
 export const isCoarse = (): boolean => coarse?.matches ?? false;
 export const onCoarse = (changed: () => void): void => coarse?.addEventListener("change", changed);
 
 /** A length with no more than three decimals. */
 export const shown = (value: number): string => String(Number(value.toFixed(3)));
 
-/** What somebody has typed: a number, also with a comma; undefined for nothing, null for what is none. */
+/** Reads a typed number, also with a comma; undefined for an empty field, null for an error. */
 export function typed(text: string): number | undefined | null {
   const plain = text.trim().replace(/^([+-]?\d*),(\d+)$/, "$1.$2");
   if (!plain) return undefined;

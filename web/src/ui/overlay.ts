@@ -1,4 +1,4 @@
-/** What is drawn above the picture: what is chosen and pointed at, its handles, a place of the report, the controller's walk. */
+/** The layer above the picture: contours chosen and pointed at, handles, a place of the report, the controller's walk. */
 import type { Wire } from "../drawing.ts";
 import { isLine, type Placed } from "../placed.ts";
 import type { XY } from "../tape.ts";

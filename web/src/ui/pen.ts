@@ -70,7 +70,7 @@ export function pathOf(edges: readonly (readonly number[])[], view: View): Path2
   return path;
 }
 
-/** What of the part is seen on so many pixels, and a margin, µm. */
+/** The visible area of the part on so many pixels, with a margin, µm. */
 export function seenBox(view: View, [width, height]: XY, margin: number): Box {
   const [left, bottom] = view.toPlace([-margin, height + margin]);
   const [right, top] = view.toPlace([width + margin, -margin]);

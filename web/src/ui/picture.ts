@@ -29,7 +29,7 @@ export class Picture {
     this.#draw = draw;
   }
 
-  /** What it shows has changed. */
+  /** Draws it again: its contents have changed. */
   renew(): void {
     this.#isOld = true;
   }

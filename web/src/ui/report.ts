@@ -16,7 +16,7 @@ export class Report {
   readonly #cutting: Cutting;
   readonly #canvas: Canvas;
   #told = "";
-  /** What is wrong with contours of a plan: it may have many. */
+  /** Errors of single contours of a plan, kept for `#plan`: there may be many. */
   #plan: Plan | undefined;
   #each: Told[] = [];
 

@@ -1,4 +1,4 @@
-/** What came of the cut: its figures, the blocks, the program, the sheet, and the controller's walk over the drawing. */
+/** The result of the cut: its figures, the blocks, the program, the sheet, and the controller's walk over the drawing. */
 import { BlockList } from "../blocklist.ts";
 import { Chooser } from "../choice.ts";
 import { get, make } from "../dom.ts";

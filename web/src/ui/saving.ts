@@ -1,4 +1,4 @@
-/** What is saved: beside the drawing, or given to the browser where the drawing was dropped. */
+/** Saves files beside the drawing, or as downloads if the drawing was dropped on the page. */
 import { get } from "../dom.ts";
 import { saveFile } from "../files.ts";
 import { ask, show } from "../message.ts";

@@ -10,7 +10,7 @@ const GLYPHS = { outline: "▢", opening: "◯", open: "∿" } as const;
 
 export const kindWord = (kind: Kind): string => w(kind === "open" ? "openLine" : kind);
 
-/** What a contour is called in words. */
+/** The name of a contour. */
 export const titleOf = (contour: Contour): string => `${kindWord(contour.kind)} ${contour.size.map(shown).join(" × ")}`;
 
 /** Writes a layer into its row. */

@@ -1,4 +1,4 @@
-/** What the server and the page tell each other; lengths in mm, angles in radians. */
+/** Messages between the server and the page; lengths in mm, angles in radians. */
 
 export type Point = readonly [number, number];
 /** A line `x0 y0 x1 y1`, an arc `x0 y0 x1 y1 cx cy sweep`, or a curve `"c" x0 y0 x1 y1 …`. */
@@ -6,7 +6,7 @@ export type Edge = readonly (number | "c")[];
 export type Side = "auto" | "inside" | "outside" | "left" | "right" | "on";
 export type Kind = "outline" | "opening" | "open";
 
-/** What is wanted of a contour; what is absent is inherited. */
+/** The settings of a contour; absent ones are inherited. */
 export interface Wanted {
   cut?: boolean;
   side?: Side;

@@ -15,14 +15,14 @@ export class WireWays {
   readonly #come: () => void;
   #isAsking = false;
 
-  /** `come`: there are more of them. */
+  /** `come`: called when more of them have come. */
   constructor(desk: Desk, server: Server, come: () => void) {
     this.#desk = desk;
     this.#server = server;
     this.#come = come;
   }
 
-  /** Where the wire goes along a contour, µm; undefined: it is not known as it is planned now. */
+  /** The wire's ways along a contour, µm; undefined: not known yet for the present plan. */
   of(id: number): readonly Way[] | undefined {
     const known = this.#known.get(id);
     return known && known.of === this.#plan(id) ? known.ways : undefined;

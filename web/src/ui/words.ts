@@ -176,5 +176,5 @@ export type Word = keyof typeof WORDS;
 
 export const w = (word: Word, ...values: readonly (string | number)[]): string => phrase(WORDS[word], ...values);
 
-/** What data-t and data-l of the page mean. */
+/** The text for a data-t or data-l of the page. */
 export const find = (word: string): string | undefined => (word in WORDS ? w(word as Word) : undefined);
