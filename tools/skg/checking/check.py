@@ -25,8 +25,8 @@ from skg.checking.gouges import Crossing
 from skg.checking.wire_path import Misfit, WirePath
 from skg.geometry.arrays import Floats
 from skg.geometry.contour import Edge
-from skg.geometry.nearest_pieces import Pieces
 from skg.geometry.piece import Piece
+from skg.geometry.pieces import Pieces
 from skg.planning.route import PlannedContour, split_at_end
 from skg.tape.block import Tape
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from skg.checking.wire_path import LIMIT, Misfit, WirePath, first_of_each, place_of, spacing_of
 from skg.geometry.arrays import Flags, Floats, Whole
-from skg.geometry.nearest_pieces import Pieces
+from skg.geometry.pieces import Pieces
 from skg.geometry.plane import cross
 
 #: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.

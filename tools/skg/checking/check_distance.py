@@ -16,8 +16,8 @@ import shapely
 from skg.checking.gouges import Crossing, crossings
 from skg.checking.wire_path import LIMIT, Misfit, WirePath, first_of_each, place_of, spacing_of
 from skg.geometry.arrays import Floats, Whole, numbers_up_to
-from skg.geometry.nearest_pieces import Nearest, Pieces
 from skg.geometry.piece import Piece
+from skg.geometry.pieces import Nearest, Pieces
 from skg.geometry.plane import XY
 from skg.planning.route import Lead, PlannedContour
 

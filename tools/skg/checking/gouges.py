@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from skg.geometry.arrays import Flags, Floats, Whole
 from skg.geometry.chords import MEASURED, chords_of
-from skg.geometry.nearest_pieces import Pieces, spread
+from skg.geometry.pieces import Pieces, spread
 from skg.geometry.plane import XY
 
 Shapes = NDArray[np.object_]

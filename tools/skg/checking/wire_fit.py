@@ -18,8 +18,8 @@ from skg.checking.check_coverage import has_room
 from skg.checking.gouges import crossings
 from skg.checking.wire_path import LIMIT, place_of
 from skg.geometry.arrays import Floats
-from skg.geometry.nearest_pieces import Pieces
 from skg.geometry.piece import Piece
+from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY, distance
 from skg.ref.route import Segment
 from skg.ref.values import Curve, Point

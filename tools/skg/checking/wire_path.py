@@ -10,7 +10,7 @@ import numpy as np
 
 from skg.checking.follow import Followed
 from skg.geometry.arrays import Floats, Whole
-from skg.geometry.nearest_pieces import Pieces
+from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY
 from skg.planning.route import PlannedContour
 from skg.tape.controller import trace_array

@@ -13,6 +13,7 @@ import shapely
 from skg.geometry.areas import areas_of
 from skg.geometry.contour import Contour
 from skg.geometry.field import Field
+from skg.geometry.holding import Holding
 from skg.wording import counted
 
 #: One that is no larger than this is the same contour, drawn on another layer.
@@ -38,27 +39,34 @@ class Nesting:
     contours: Sequence[Contour]
     depths: list[int]
     around: dict[int, Around]
+    _holding: Holding | None = None
     _field: Field | None = None
 
     @classmethod
     def of(cls, contours: Sequence[Contour], others: Sequence[Contour] = ()) -> Nesting:
         """Find what lies in what; `others`: closed contours on layers that are not cut."""
-        field = Field(list(contours))
-        depths = field.depths()
+        holding = Holding(contours)
+        depths = holding.depths()
         around = around_all(contours, depths, others)
         if openings := [number for number, outer in around.items() if not outer.is_frame]:
             depths = deeper(contours, depths, openings)
-        return cls(contours, depths, around, field)
+        return cls(contours, depths, around, holding)
+
+    @property
+    def holding(self) -> Holding:
+        """Which contours hold a place."""
+        self._holding = self._holding or Holding(self.contours)
+        return self._holding
 
     @property
     def field(self) -> Field:
-        """The contours' places."""
-        self._field = self._field or Field(list(self.contours))
+        """Distances to the contours."""
+        self._field = self._field or Field(self.holding.points, self.holding.first)
         return self._field
 
     def release(self) -> None:
-        """Give the room of the field back, as much as all contours take; who asks for it again waits for a new one."""
-        self._field = None
+        """Give back the memory of both, as much as all contours take; they are made anew when they are asked for."""
+        self._holding = self._field = None
 
     def kind(self, number: int) -> str:
         """A contour's kind: "outline", "opening" or "open"."""

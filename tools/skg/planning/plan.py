@@ -13,7 +13,7 @@ from skg.errors import UserError
 from skg.geometry.arrays import Flags, Floats, Whole, directions, headings, hypots
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import rows_of
-from skg.geometry.field import Field
+from skg.geometry.holding import Holding
 from skg.geometry.plane import XY, distance
 from skg.job.wanted import Wanted
 from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
@@ -162,7 +162,7 @@ class _Planner:
     def _refuse_misplaced(self, made: PlannedContour, is_outside: bool) -> None:
         """Refuse a start hole that is given in the part, or so near to it that the wire would come into it there."""
         (x, y), contour = made.start, made.contour
-        is_in = made.number in self.field.around([made.start])[0]
+        is_in = made.number in self.nesting.holding.around([made.start])[0]
         least = min(map(abs, made.passes))
         if is_in == is_outside:
             trouble = f"lies {'inside' if is_in else 'outside'}"
@@ -396,7 +396,7 @@ def plan_nested(
             before[route.number] = asked[route.number], replace(route, turn=turn)
     ordered = [before[route.number][1] for route in ordered]
     if any(want.order is not None for want in wanted):
-        _refuse_outer_first(ordered, nesting.field)
+        _refuse_outer_first(ordered, nesting.holding)
     return ordered
 
 
@@ -445,10 +445,10 @@ def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted]) -> list[P
     return merged
 
 
-def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
+def _refuse_outer_first(routes: list[PlannedContour], holding: Holding) -> None:
     """Refuse an order that cuts a contour before what lies in it: that would fall with the part or the slug."""
     numbered = {route.number: route for route in routes}
-    around = field.around([route.contour.edges[0].at(0.5) for route in routes])
+    around = holding.around([route.contour.edges[0].at(0.5) for route in routes])
     for route, holders in zip(routes, around, strict=True):
         for outer in (numbered[number] for number in holders if number in numbered):
             if outer.depth < route.depth and outer.turn < route.turn:
@@ -461,14 +461,14 @@ def _refuse_outer_first(routes: list[PlannedContour], field: Field) -> None:
 
 def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
     """Assign each given start hole to a contour (by its number)."""
-    field, depths = nesting.field, nesting.depths
+    holding, depths = nesting.holding, nesting.depths
     given = {number: want.start for number, want in enumerate(wanted) if want.cut and want.start is not None}
     taken = {number for number, want in enumerate(wanted) if not want.cut} | set(given)
     if len(starts) > len(depths) - len(taken):
         raise UserError(f"{len(starts)} start holes for {len(depths) - len(taken)} contours")
-    for start, holding in zip(starts, field.around(starts), strict=True):
-        around = [number for number in holding if number not in taken and depths[number] % 2]
-        chosen = max(around, key=depths.__getitem__) if around else field.nearest(start, taken)
+    for start, holders in zip(starts, holding.around(starts), strict=True):
+        around = [number for number in holders if number not in taken and depths[number] % 2]
+        chosen = max(around, key=depths.__getitem__) if around else holding.nearest(start, taken)
         given[chosen] = start
         taken.add(chosen)
     return given

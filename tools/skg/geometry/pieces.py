@@ -12,15 +12,13 @@ import numpy as np
 
 from skg.geometry.arrays import Floats, Whole, columns_at, directions, hypots, numbers_up_to
 from skg.geometry.edge_arrays import rows_of
+from skg.geometry.index import Boxes, Index
 from skg.geometry.piece import Piece
 
-#: Pairs of a place and a piece that are looked at together, and so many places: more do not fit into a fast memory.
-_PAIRS = 50_000
-_PLACES = 20_000
-#: A path is laid out on about so many cells at most.
-_MOST_CELLS = 200_000
-#: And in no more rows and columns.
-_MOST_ROWS = 1_000_000
+#: So many places on pieces are worked out together, and so many pieces turned into rows.
+_PLACES, _ROWS = 50_000, 20_000
+#: Long pieces stand in several boxes: for all together so many and so many a piece, but no more than the last.
+_LEAST_BOXES, _BOXES, _MOST_BOXES = 1000, 16, 200_000
 
 
 @dataclass(frozen=True)
@@ -81,7 +79,7 @@ class Pieces:
         self.length = np.hypot(way[:, 0], way[:, 1])
         arcs = np.flatnonzero(self.is_arc)
         self.length[arcs] = self.radius[arcs] * np.abs(self.sweep[arcs])
-        self._grids: dict[float, _Grid] = {}
+        self._made: Index | None = None
         self._making = Lock()
 
     def at(self, which: Whole, part: Floats) -> Floats:
@@ -117,20 +115,20 @@ class Pieces:
         arc = np.mod(ahead, 2 * pi) / np.maximum(np.abs(self.sweep[which]), 1e-300)
         return np.where(self.is_arc[which], arc, line)
 
-    def batches(self, spacing: float, least: int) -> Iterator[tuple[Whole, Floats]]:
+    def batches(self, spacing: float, least: int, turn: float = pi / 12) -> Iterator[tuple[Whole, Floats]]:
         """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
-        an arc one for every 15 degrees besides. Some pieces after the other."""
-        for low in range(0, len(self.length), _PAIRS):
-            spaces = self._spaces(slice(low, low + _PAIRS), spacing, least)
+        an arc no further than it takes to `turn` (radians). Some pieces after the other."""
+        for low in range(0, len(self.length), _PLACES):
+            spaces = self._spaces(slice(low, low + _PLACES), spacing, least, turn)
             ends = np.cumsum(spaces + 1)
-            cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1] + _PAIRS, _PAIRS), "right"))
+            cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1] + _PLACES, _PLACES), "right"))
             for begin, end in pairwise(cuts.tolist()):
                 which, part = spread(spaces, begin, end)
                 yield low + which, part
 
-    def _spaces(self, some: slice, spacing: float, least: int) -> Whole:
+    def _spaces(self, some: slice, spacing: float, least: int, turn: float) -> Whole:
         """In how many spaces places divide each of some pieces."""
-        turns = np.ceil(np.abs(self.sweep[some]) / (pi / 12)) * self.is_arc[some]
+        turns = np.ceil(np.abs(self.sweep[some]) / turn) * self.is_arc[some]
         return np.maximum(np.maximum(np.ceil(self.length[some] / spacing), turns), least).astype(np.int64)
 
     def from_place(self, places: Floats, which: Whole) -> Floats:
@@ -178,9 +176,11 @@ class Pieces:
         result = Nearest(*(np.full(len(places), nothing) for nothing in (np.inf, -1, np.inf, -1)))
         if not len(self.length) or not len(places):
             return result
-        grid = self._grid(max(1.5 * reach, float(self.length.sum()) / _MOST_CELLS, 1e-6))
-        for low in range(0, len(places), _PLACES):
-            self._look(grid, places, owners, low, reach, result)
+        for of, which in self._index().within(places - reach, places + reach):
+            far = self.from_place(places[of], which)
+            own = self.owner[which] == owners[of]
+            _keep_nearest(far[own], of[own], which[own], result.own, result.own_at)
+            _keep_nearest(far[~own], of[~own], which[~own], result.other, result.other_at)
         return result
 
     def nearest_own(self, places: Floats, owners: Whole, reach: float) -> Whole:
@@ -203,81 +203,26 @@ class Pieces:
         result._measure()
         return result
 
-    def _grid(self, cell: float) -> _Grid:
-        """The pieces laid out on cells."""
-        # (who comes while another thread is making the same one waits for it)
+    def _index(self) -> Index:
+        """The pieces by place."""
+        # (who comes while another thread is making it waits for it)
         with self._making:
-            if cell not in self._grids:
-                self._grids[cell] = _Grid(self, cell)
-            return self._grids[cell]
+            if self._made is None:
+                self._made = Index(self._boxes())
+            return self._made
 
-    def _look(self, grid: _Grid, places: Floats, owners: Whole, low: int, reach: float, found: Nearest) -> None:
-        """Find what is nearest to the places from number `low` on."""
-        place, first, counts = grid.around(places[low : low + _PLACES], reach)
-        place += low
-        ends = np.cumsum(counts)
-        begin = 0
-        while begin < len(place):
-            until = int(np.searchsorted(ends, (ends[begin - 1] if begin else 0) + _PAIRS, "right"))
-            # (what is found for a place in one batch stands beside that of the next)
-            some = slice(begin, max(until, begin + 1))
-            which = grid.pieces(first[some], counts[some])
-            at = np.repeat(place[some], counts[some])
-            far = self.from_place(places[at], which)
-            own = self.owner[which] == owners[at]
-            _keep_nearest(far[own], at[own], which[own], found.own, found.own_at)
-            _keep_nearest(far[~own], at[~own], which[~own], found.other, found.other_at)
-            begin = some.stop
-
-
-class _Grid:
-    """Pieces laid out on square cells: `which` pieces stand in the cells `keys`, in the order of these; those of each
-    cell from where it `begins` on, up to where the next one does."""
-
-    def __init__(self, pieces: Pieces, cell: float) -> None:
-        low = np.minimum(pieces.start.min(0), pieces.end.min(0))
-        high = np.maximum(pieces.start.max(0), pieces.end.max(0))
-        #: (the number of a cell and that of a piece have room in one)
-        self.cell = cell = max(cell, float((high - low).max()) / _MOST_ROWS)
-        #: Sampling distance: the farthest that a piece lies from its next sample.
-        self.apart = cell / 8
-        beside = 2 * pieces.radius.max() + 2 * cell
-        self.corner = low - beside
-        #: So many rows, no piece is in the last one.
-        self.width = int(self._cells(high + beside)[1]) + 2
-        # (a path may have millions of pieces: each is one number with its cell, and stands once in that)
-        count, found = len(pieces.owner), []
-        for which, part in pieces.batches(2 * self.apart, 1):
-            column, row = self._cells(pieces.at(which, part))
-            found.append(_once((column * self.width + row) * count + which))
-        keys = np.concatenate(found)
-        found.clear()
-        keys.sort()
-        keys = _once(keys)
-        self.which = (keys % count).astype(np.int32)
-        keys //= count
-        begins = np.flatnonzero(np.diff(keys, prepend=-1))
-        self.keys, self.begins = keys[begins], np.append(begins, len(keys))
-
-    def _cells(self, places: Floats) -> Whole:
-        return np.floor((places - self.corner) / self.cell).astype(np.int64).T
-
-    def around(self, places: Floats, reach: float) -> tuple[Whole, Whole, Whole]:
-        """For each column of cells around each place: the place, and where the pieces there begin and how many."""
-        aside = reach + self.apart
-        low, bottom = np.maximum(self._cells(places - aside), 0)
-        high, top = self._cells(places + aside)
-        top = np.minimum(top, self.width - 1)
-        columns = np.where(top >= bottom, np.maximum(high - low + 1, 0), 0)
-        place = np.repeat(np.arange(len(places)), columns)
-        column = low[place] + numbers_up_to(columns)
-        first = self.begins[np.searchsorted(self.keys, column * self.width + bottom[place])]
-        counts = self.begins[np.searchsorted(self.keys, column * self.width + top[place], "right")] - first
-        return place, first, counts
-
-    def pieces(self, first: Whole, counts: Whole) -> Whole:
-        """The pieces that stand there."""
-        return self.which[np.repeat(first, counts) + numbers_up_to(counts)].astype(np.int64)
+    def _boxes(self) -> Iterator[Boxes]:
+        """The boxes around parts of the pieces, so short that little else comes into these."""
+        count = min(_MOST_BOXES, _LEAST_BOXES + _BOXES * len(self.length))
+        for which, part in self.batches(float(self.length.sum()) / count or 1.0, 1, pi / 4):
+            is_part = which[1:] == which[:-1]
+            piece = which[1:][is_part]
+            places = self.at(which, part)
+            # (an arc leaves the chord of a part that it turns in by a little)
+            bulge = self.radius[piece] * (1 - np.cos(np.diff(part)[is_part] * self.sweep[piece] / 2))
+            ends = places[:-1][is_part], places[1:][is_part]
+            low, high = np.minimum(*ends) - bulge[:, None], np.maximum(*ends) + bulge[:, None]
+            yield Boxes(low, high, piece, self.owner[piece])
 
 
 #: Pieces that follow each other: starts, ends, whose they are; centre, radius, first angle and sweep, None of chords.
@@ -289,7 +234,7 @@ def _parts(pieces: Iterable[tuple[Piece | Floats, int]]) -> Iterator[_Part]:
     for piece, owner in pieces:
         if isinstance(piece, Piece):
             some.append((piece, owner))
-        if some and (len(some) == _PLACES or not isinstance(piece, Piece)):
+        if some and (len(some) == _ROWS or not isinstance(piece, Piece)):
             yield _lines_and_arcs(some)
             some.clear()
         if not isinstance(piece, Piece):
@@ -304,13 +249,6 @@ def _parts(pieces: Iterable[tuple[Piece | Floats, int]]) -> Iterator[_Part]:
 def _lines_and_arcs(some: list[tuple[Piece, int]]) -> _Part:
     rows = rows_of([piece for piece, _ in some])
     return rows[:, 0:2], rows[:, 2:4], np.array([owner for _, owner in some], np.int64), rows[:, 4:]
-
-
-def _once(numbers: Whole) -> Whole:
-    """Numbers without those that are like the one before."""
-    is_new = np.ones(len(numbers), bool)
-    is_new[1:] = numbers[1:] != numbers[:-1]
-    return numbers[is_new]
 
 
 def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at: Whole) -> None:
