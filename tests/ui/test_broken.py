@@ -50,7 +50,7 @@ def test_killed_in_a_call(server: Server, tmp_path: Path) -> None:
     page = Page(server)
     page.open(plate(tmp_path))
     answers = []
-    reading = Thread(target=lambda: answers.append(page.open(circles(tmp_path, 3000))))
+    reading = Thread(target=lambda: answers.append(page.open(circles(tmp_path, 20_000))))
     before = process_of(server)
     reading.start()
     until(lambda: server.session._is_long)
