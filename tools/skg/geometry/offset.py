@@ -30,6 +30,8 @@ _HAIR = 5e-4
 _SLIT = 1e-5
 #: An arc that is this near to its chord is cut as the chord, mm.
 _FLAT = 1e-4
+#: The ends of an arc may be so much further from its centre than each other, mm: half of what the ROM lets pass.
+_BESIDE = 5e-4
 #: Directions (radians) that differ by less run on without a corner.
 _SMOOTH = 1e-3
 #: A tip is a spike where its parallels meet farther than this from it, in R.
@@ -106,7 +108,11 @@ class _Beside:
             sweep -= self.sense * 2 * pi
         if self.radius * (1 - cos(min(pi, abs(sweep)) / 2)) < _FLAT:
             return Edge(start, end, entity=self.edge.entity)
-        return Edge(start, end, self.centre, sweep, entity=self.edge.entity)
+        centre = self.centre
+        if abs(distance(start, centre) - distance(end, centre)) > _BESIDE:
+            # (the circle that is nearest to it through both ends: the ROM refuses an end that lies beside its circle)
+            centre = _on_bisector(centre, start, end)
+        return Edge(start, end, centre, sweep, entity=self.edge.entity)
 
 
 def as_arcs(edge: Edge) -> Iterator[Edge]:
@@ -262,6 +268,9 @@ def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, 
     travel: list[float] = []
     for at, begin, middle, length in zip(nearest, ring[:-1][kept], middles[kept], lengths[kept], strict=True):
         beside = _beside(edges, int(at), (float(middle[0]), float(middle[1])), r)
+        if beside.radius < 0:
+            # (of an inner arc smaller than R: a place between its neighbours' parallels that rounding gave to it)
+            continue
         if runs and runs[-1][0] == beside:
             travel[-1] += float(length)
         else:
@@ -295,7 +304,7 @@ def _beside(edges: list[Edge], at: int, place: XY, r: float) -> _Beside:
 
 
 def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
-    """Return the place near another where the wire changes guides."""
+    """Return the place near another where the wire changes guides: where they meet, else in the middle between them."""
     place = near
     for _ in range(30):
         (off, square), (too, athwart) = one.off(place, r), other.off(place, r)
@@ -304,19 +313,29 @@ def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
             break
         step = (too * square[1] - off * athwart[1]) / area, (off * athwart[0] - too * square[0]) / area
         place = place[0] + step[0], place[1] + step[1]
-        if hypot(*step) < 1e-11:
-            break
         if distance(place, near) > abs(r):
             place = near
             break
+        if hypot(*step) < 1e-11:
+            return place
     else:
-        return place
-    (off, square), (too, athwart) = one.off(place, r), other.off(place, r)
-    if abs(cross(square, athwart)) >= _SMOOTH:
-        return place
-    # They touch: halfway between their own nearest places.
-    aside = tuple(off * p + too * q for p, q in zip(square, athwart, strict=True))
-    return place[0] - aside[0] / 2, place[1] - aside[1] / 2
+        # (they miss each other: the step goes to and fro)
+        place = near
+    for _ in range(30):
+        (off, square), (too, athwart) = one.off(place, r), other.off(place, r)
+        step = tuple((off * p + too * q) / 2 for p, q in zip(square, athwart, strict=True))
+        place = minus(place, step)
+        if hypot(*step) < 1e-11:
+            break
+    return place
+
+
+def _on_bisector(centre: XY, start: XY, end: XY) -> XY:
+    """The place nearest to a centre that is as far from one place as from another."""
+    way = minus(end, start)
+    ahead = (dot(minus(end, centre), minus(end, centre)) - dot(minus(start, centre), minus(start, centre))) / 2
+    part = ahead / dot(way, way)
+    return centre[0] + part * way[0], centre[1] + part * way[1]
 
 
 def uncut(contour: Contour, way: Sequence[Edge], r: float) -> tuple[float, XY]:
