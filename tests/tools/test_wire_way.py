@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import random
 import re
 from collections.abc import Callable
 from itertools import pairwise
-from math import atan, cos, pi, radians, sin, sqrt, tan
+from math import atan, atan2, cos, dist, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
 import pytest
 from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretches
 from ezdxf.layouts import Modelspace
-from shapely import union_all
+from shapely import hausdorff_distance, union_all
 from shapely.geometry import LinearRing, LineString, Point, Polygon
 from toolhelp import Run, least_time
 
 from skg.geometry.contour import Contour, Edge
+from skg.geometry.fitting import curve_edge
 from skg.geometry.offset import NoRoom, part_between, wire_way
 from skg.geometry.plane import XY
 
@@ -419,6 +421,40 @@ def test_a_way_that_is_entered_at_a_narrow_end(run: Run, tmp_path: Path) -> None
     (found,), _ = cut(run, page, tmp_path, "--offset", 0.2, "--side", "inside", "--start", "6.8,5")
     assert apart(LineString(found[1:-1]), parallel(Polygon(places), 0.2, "inside")) < LIMIT
     assert found[0] == pytest.approx(found[-1], abs=1e-9)
+
+
+def wavy(seed: int) -> Contour:
+    """A closed curve about 0, 0 with waves of all lengths, some of them narrower than R."""
+    rng = random.Random(seed)
+    waves = [(k, rng.uniform(0, 0.35) / k**1.05, rng.uniform(0, 2 * pi)) for k in rng.sample(range(3, 40), 9)]
+    size = rng.choice([0.5, 0.8, 1.5, 3])
+
+    def radius(t: float) -> float:
+        return size * (1 + sum(a * cos(k * t + f) for k, a, f in waves))
+
+    def heading(t: float) -> float:
+        far, grows = radius(t), size * sum(-a * k * sin(k * t + f) for k, a, f in waves)
+        return atan2(grows * sin(t) + far * cos(t), grows * cos(t) - far * sin(t))
+
+    def at(turns: list[float]) -> list[XY]:
+        return [(radius(t) * cos(t), radius(t) * sin(t)) for t in turns]
+
+    return Contour((curve_edge(at, heading, [2 * pi * k / 32 for k in range(33)], 0.0005),), True)
+
+
+@pytest.mark.parametrize("seed", range(66, 100, 3))
+def test_beside_waves(seed: int) -> None:
+    """The wire is where shapely's buffer ends, as near as the check asks for; its arcs have both ends on their circles,
+    as the ROM asks for."""
+    contour = wavy(seed)
+    area = Polygon(contour.points())
+    for r in (0.11, -0.11):
+        way = wire_way(contour, r)
+        path = LineString([place for edge in way for place in edge.points()])
+        assert (
+            max(abs(dist(edge.start, edge.centre) - dist(edge.end, edge.centre)) for edge in way if edge.centre) < 5e-4
+        )
+        assert hausdorff_distance(path, area.buffer(r, quad_segs=512).exterior) < 0.003
 
 
 def test_the_wire_passes_short_bows_in_a_row() -> None:
