@@ -6,6 +6,7 @@ window, that edge is cut away, whatever the wire does there. A window is smaller
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -96,10 +97,20 @@ def _cut_away(lines: Shapes, owners: Whole, inner: Flags, outer: Flags) -> bool:
             (holes if is_hole else parts).setdefault(mine, []).append(area)
     for mine, some in parts.items():
         # (a window may reach from one part into another)
-        lines[pieces[mine]] = shapely.intersection(lines[pieces[mine]], shapely.union_all(some))
+        lines[pieces[mine]] = _clipped(lines[pieces[mine]], shapely.union_all(some), shapely.intersection)
     for mine, some in holes.items():
-        lines[pieces[mine]] = shapely.difference(lines[pieces[mine]], shapely.union_all(some))
+        lines[pieces[mine]] = _clipped(lines[pieces[mine]], shapely.union_all(some), shapely.difference)
     return bool(parts or holes)
+
+
+def _clipped(lines: Shapes, area: shapely.Geometry, clip: Callable[[Shapes, shapely.Geometry], Shapes]) -> Shapes:
+    """Lines clipped by an area. (only those that its edge passes are worked out: it may have as many edges)"""
+    shapely.prepare(area)
+    within, without = shapely.contains_properly(area, lines), shapely.disjoint(area, lines)
+    clipped, passed = lines.copy(), ~(within | without)
+    clipped[without if clip is shapely.intersection else within] = shapely.LineString()
+    clipped[passed] = clip(lines[passed], area)
+    return clipped
 
 
 def _lines(pieces: Pieces, which: Whole) -> Shapes:
