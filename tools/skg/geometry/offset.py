@@ -157,17 +157,19 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
         return (replace(edge, start=start, end=start),)
     ring = _ring(edges, r)
     runs = _runs(edges, ring, r)
+    corners = [_corner(one, other, near, r) for (one, _), (other, near) in pairwise([*runs[-1:], *runs])]
+    way = [beside.piece(*ends) for (beside, _), ends in zip(runs, pairwise([*corners, *corners[:1]]), strict=True)]
     while len(runs) > 1:
-        corners = [_corner(one, other, near, r) for (one, _), (other, near) in pairwise([runs[-1], *runs])]
-        way = [
-            beside.piece(start, end)
-            for (beside, _), (start, end) in zip(runs, pairwise([*corners, corners[0]]), strict=True)
-        ]
         short = min(range(len(way)), key=lambda k: way[k].length)
         if way[short].length >= _LEAST:
             _refuse_slots(contour, way, r)
             return tuple(way)
-        del runs[short]
+        # (its neighbours meet instead)
+        del runs[short], corners[short], way[short]
+        behind = short % len(runs)
+        corners[behind] = _corner(runs[behind - 1][0], *runs[behind], r)
+        for k in (behind - 1, behind):
+            way[k] = runs[k][0].piece(corners[k], corners[(k + 1) % len(runs)])
     raise NoRoom(contour.edges[0].start, _NONE)
 
 
