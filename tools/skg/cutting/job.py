@@ -17,7 +17,7 @@ from skg.cutting.settings import Progress, Settings, in_silence
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom, has_spike
 from skg.machine.board import ErrorLine
-from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes
+from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
 from skg.planning.entries import longest_tab
 from skg.planning.islands import islands
 from skg.planning.route import PlannedContour
@@ -299,17 +299,9 @@ def _tried(program: Program, settings: Settings, progress: Progress) -> CutResul
 
 
 def _refused(program: Program, settings: Settings) -> dict[int, ErrorLine]:
-    """The routes that the ROM refuses; behind one of these a new board goes on."""
-    _, *routes, _ = program.unnumbered()
-    refused: dict[int, ErrorLine] = {}
-    index = 0
-    while index < len(routes):
-        fed, done = feed_lines(map(_text, routes[index:]), settings.rom, settings.ram_kib)
-        index += done
-        if fed.error:
-            refused[index] = fed.error
-        index += 1
-    return refused
+    """The routes that the ROM refuses."""
+    _, *routes, _ = map(_text, program.unnumbered())
+    return refused_routes(routes, settings.rom, settings.ram_kib)
 
 
 def _through(program: Program, settings: Settings, on_done: Callable[[int], None]) -> tuple[str, bool, Fed]:

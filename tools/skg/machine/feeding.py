@@ -19,6 +19,8 @@ MEMORY_FULL = 9
 #: Of a program that several boards share each takes about so many characters at a time, and two of them take a route
 #: of so many.
 _SHARE, _TWICE = 50_000, 5_000
+#: And so many routes where each is to be known that is refused.
+_ROUTES = 16
 #: Ctrl-Z: nothing follows on a tape of program lines.
 TAPE_END = "\x1a"
 #: A line's number: blanks mean nothing, inside it too.
@@ -161,6 +163,25 @@ def feed_routes(
             return feed("".join(written), rom, ram_kib)
         tape += share.tape[len(begun) :]
     return Fed(tape, None, cycles)
+
+
+def refused_routes(routes: Sequence[str], rom: str | bytes, ram_kib: int) -> dict[int, ErrorLine]:
+    """The errors of routes, each from its FROM on, by their numbers: behind one that is refused a new board goes on."""
+    from concurrent.futures import ThreadPoolExecutor  # (slow to import, and needed here alone)
+
+    def refused_from(first: int) -> dict[int, ErrorLine]:
+        some, errors, number = routes[first : first + _ROUTES], {}, 0
+        while number < len(some):
+            fed, done = feed_lines(some[number:], rom, ram_kib)
+            number += done
+            if fed.error:
+                errors[first + number] = fed.error
+            number += 1
+        return errors
+
+    with ThreadPoolExecutor(os.cpu_count()) as boards:
+        found = boards.map(refused_from, range(0, len(routes), _ROUTES))
+        return {number: error for errors in found for number, error in errors.items()}
 
 
 def _shares(parts: Iterable[str]) -> Iterator[Sequence[str]]:

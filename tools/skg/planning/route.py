@@ -156,8 +156,12 @@ class PlannedContour:
         """The edges from the entry on; a closed contour's come back to it."""
         return chain_from(self.contour, self.part)
 
-    def runs(self) -> Iterator[Way]:
+    @cached_property
+    def runs(self) -> tuple[Way, ...]:
         """Every way of the wire, in order."""
+        return tuple(self._runs())
+
+    def _runs(self) -> Iterator[Way]:
         edges = self.chain
         passes = self.passes or (self.offset,)
         if not self.contour.is_closed:
