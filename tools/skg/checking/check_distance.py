@@ -127,7 +127,7 @@ class _Wanted:
 
 def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
     """The ways between start holes and the contour that a route may take."""
-    for run in route.runs:
+    for run in route.runs():
         if not run.into:
             begin = run.edges[0]
             yield _straight(route.start, begin.start, begin.direction(), run.offset)

@@ -72,7 +72,7 @@ def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
     if len(route.passes) == 1 and not route.tab:
         return [(0,)]
     found: list[tuple[int, ...]] = []
-    for number, run in enumerate(route.runs):
+    for number, run in enumerate(route.runs()):
         if not found or run.stop:
             found.append(())
         found[-1] += (min(number, len(route.passes) - 1),)

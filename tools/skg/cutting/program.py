@@ -158,7 +158,7 @@ RoutePart = str | float | _Item | Edge
 def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
     """A route in parts."""
     here: XY | None = None
-    for index, run in enumerate(route.runs):
+    for index, run in enumerate(route.runs()):
         hole = run.into.hole if run.into else route.start
         if run.stop:
             yield f"REM STOP: {run.stop}"
@@ -369,7 +369,7 @@ def describe(route: PlannedContour) -> str:
 
 def writes_fillets(route: PlannedContour) -> bool:
     """Tell whether an arc between lines of a route is written as a fillet's radius."""
-    runs = (run.edges for run in route.runs)
+    runs = (run.edges for run in route.runs())
     return route.has_fillets and any(_fillet(edges, index) is not None for edges in runs for index in range(len(edges)))
 
 

@@ -156,12 +156,8 @@ class PlannedContour:
         """The edges from the entry on; a closed contour's come back to it."""
         return chain_from(self.contour, self.part)
 
-    @cached_property
-    def runs(self) -> tuple[Way, ...]:
+    def runs(self) -> Iterator[Way]:
         """Every way of the wire, in order."""
-        return tuple(self._runs())
-
-    def _runs(self) -> Iterator[Way]:
         edges = self.chain
         passes = self.passes or (self.offset,)
         if not self.contour.is_closed:

@@ -170,7 +170,7 @@ def ways(route: PlannedContour) -> list[list[list[Any]]]:
         with suppress(NoRoom):
             return ways(route.with_wire_ways())
         return []
-    return [edges(_wire(run, route)) for run in route.runs]
+    return [edges(_wire(run, route)) for run in route.runs()]
 
 
 def _wire(run: Way, route: PlannedContour) -> Iterator[Edge]:
