@@ -63,9 +63,7 @@ def test_plate(run: Run, tmp_path: Path) -> None:
         program,
     )
     assert result.exit_code == 0
-    assert (
-        says(result.stderr, "40 x 33 mm") and says(result.stderr, "3 start holes") and says(result.stderr, "no-drift")
-    )
+    assert all(says(result.stderr, fact) for fact in ("40 x 33 mm", "3 start holes", "no-drift"))
     assert feed(program.read_text(), "no-drift").tape == tape.read_bytes()
     first = program.read_text().split("FROM (")[1].split(")")[0].split(",")
     wanted = [hole.buffer(-0.1, join_style="mitre") for hole in holes]
@@ -541,9 +539,8 @@ def test_what_is_cut_on_its_line_is_said(run: Run, tmp_path: Path) -> None:
     assert quiet and set(quiet) == {line for line in told.splitlines() if line.startswith(CARE)}
     page.modelspace().delete_entity(page.modelspace()[0])
     told = run("cut", saved(page, tmp_path), *words[2:]).stderr
-    assert says(told, "contours 1, 2", "open contours", "wire") and not says(told, CARE, re.compile(r"contour \d")), (
-        told
-    )
+    assert says(told, "contours 1, 2", "open contours", "wire"), told
+    assert not says(told, CARE, re.compile(r"contour \d")), told
 
 
 def test_the_wire_ends_where_a_slot_narrows(run: Run, tmp_path: Path) -> None:

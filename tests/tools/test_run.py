@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 import pytest
+from facthelp import each_says, pattern, says
 
 import skg
 
@@ -83,7 +84,7 @@ def test_an_open_route_without_numbers_is_whole(run_program: Program, tmp_path: 
         typed = [line for line in done.stderr.split("\n") if line.startswith(">")]
         assert typed == [">LOAD", *([f">{command}"] if command else []), ">"]
     assert run_program("ref", part).stdout == tape
-    assert run_program("check", part).stdout == f"{part}: 2 blocks, nothing wrong\n"
+    assert each_says(run_program("check", part).stdout, (f"{part}: ", "2 blocks"))
 
 
 def test_a_tape_whose_name_does_not_say_what_it_is(run_program: Program, tmp_path: Path) -> None:
@@ -156,23 +157,23 @@ def test_a_machine_that_halts(run_program: Program, tmp_path: Path) -> None:
     rom = tmp_path / "halt.bin"
     rom.write_bytes(b"\x76" * 8192)
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
-    assert (done.returncode, done.stderr) == (1, f"skg: {ROOT}/examples/wrench.skg: the machine halted at 0000\n")
+    assert done.returncode == 1 and each_says(done.stderr, (f"skg: {ROOT}/examples/wrench.skg: ", "halted", "0000"))
 
 
 def test_half_a_rom(run_program: Program, tmp_path: Path) -> None:
     rom = tmp_path / "half.bin"
     rom.write_bytes((ROMS / "skg.bin").read_bytes()[:4096])
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
-    assert (done.returncode, done.stderr) == (2, f"skg: {rom}: 4096 bytes, and the ROM has 8192\n")
+    assert done.returncode == 2 and each_says(done.stderr, (f"skg: {rom}: ", "4096 bytes", 8192))
 
 
 def test_a_rom_for_another_board(run_program: Program) -> None:
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-8251.bin")
     assert done.returncode == by_skg80("--rom", ROMS / "skg-8251.bin", "examples/wrench.skg").returncode == 2
-    assert done.stderr.endswith("never readied: is this ROM for another board?\n")
+    assert says(done.stderr.splitlines()[-1], "ROM", "board")
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-rc2014.bin")
     assert done.returncode == by_skg80("--rom", ROMS / "skg-rc2014.bin", "examples/wrench.skg").returncode == 2
-    assert done.stderr.startswith("skg: ") and "is this ROM for another board?" in done.stderr
+    assert says(done.stderr, "skg: ", "ROM", "board")
 
 
 def test_a_rom_with_a_hole(run_program: Program, tmp_path: Path) -> None:
@@ -221,7 +222,7 @@ def test_board_breaks_off_input_without_answers() -> None:
 def test_board_says_why_it_stopped() -> None:
     board = skg.Board(max_cycles=10_000_000)
     board.load("10 GOTO 10\n")
-    with pytest.raises(skg.BoardStopped, match="not done after 10000000 cycles") as stopped:
+    with pytest.raises(skg.BoardStopped, match=pattern("10000000 cycles")) as stopped:
         board.run()
     assert stopped.value.reason == "cycles"
     board.machine.press("\x03")
@@ -245,7 +246,7 @@ def test_board_shows_the_paper_as_it_is_printed() -> None:
 
 
 def test_board_takes_ascii_alone() -> None:
-    with pytest.raises(skg.errors.UserError, match="'é' is not ASCII"):
+    with pytest.raises(skg.errors.UserError, match=pattern("'é'", "ASCII")):
         skg.Board().type("REM é")
 
 
@@ -310,7 +311,7 @@ def test_every_command_says_what_is_given_up(run_program: Program, tmp_path: Pat
     for words in (["run"], ["ref"], ["sim"], ["gcode"], ["plot", "-o", tmp_path / "part.svg"]):
         done = run_program(*words, part)
         assert done.returncode == 0
-        assert done.stderr.count("given up by line 3") == 1, words
+        assert sum(says(line, "line 3") for line in done.stderr.splitlines()) == 1, words
 
 
 def test_a_broken_run_leaves_its_tape_without_an_end(run_program: Program, tmp_path: Path) -> None:
