@@ -1,14 +1,14 @@
 """Messages by their facts: what a test asks of a message is what it tells, not how it is worded.
 
-A fact is a place, a number of a line or contour, a quantity, an option, a file's name; or a noun, where nothing else tells
-the message from others. It stands as a whole: 12 is not in 120, in 12.5 or in -12, `gap` not in `gape`, but in `Gaps`.
-A compiled pattern is a fact too, for a number that is known to some places.
+A fact is a place, a number of a line or contour, a quantity, an option, a name of a file; or a noun, where nothing else
+tells the message from others. It stands as a whole: 12 is not in 120, in 12.5 or in -12, `gap` not in `gape`, but in
+`Gaps`. A compiled pattern is a fact too, for a number that is known to some places.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 #: How a line begins that warns and does not refuse.
 CARE = "take care"
@@ -51,3 +51,15 @@ def each_says(lines: str | Iterable[object], *facts: object) -> bool:
 def pattern(*facts: object) -> str:
     """What `pytest.raises` matches: a line that says these facts in this order."""
     return ".*".join(map(shape, facts))
+
+
+def counts_say(counts: Mapping[str, int], expected: Mapping[object, int]) -> bool:
+    """Tell whether texts with a number each are those expected: facts (one, or a tuple) and the number of the one text
+    that says them; what says more facts is looked for first."""
+    rest = dict(counts)
+    groups = [(facts if isinstance(facts, tuple) else (facts,), count) for facts, count in expected.items()]
+    for facts, count in sorted(groups, key=lambda group: -len(group[0])):
+        saying = [text for text in rest if says(text, *facts)]
+        if len(saying) != 1 or rest.pop(saying[0]) != count:
+            return False
+    return not rest

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from facthelp import says
 import contextlib
 import os
 import pty
@@ -17,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from facthelp import says
 from toolhelp import CAD_TAPE, PATIENCE
 
 from skg.machine.teletype import DC2, DC4, XOFF, XON, Splitter

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from facthelp import says
 import contextlib
 import subprocess
 import sys
@@ -11,6 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from facthelp import says
 
 from skg.machine.feeding import feed
 
