@@ -330,8 +330,7 @@ def test_survives_the_port_going_away(machine: Machine, tmp_path: Path) -> None:
     machine.plug()
     errors = process.communicate()[1].decode()
     assert process.returncode == 0, errors
-    assert "went away" in errors
-    assert "is back" in errors
+    assert sum(says(line, machine.link) for line in errors.splitlines()) >= 2
     # The line in hand when the port went may have lost its beginning; all others arrive whole.
     whole = [line for line in machine.lines if line.endswith("REM LINE")]
     assert len(whole) >= 88
@@ -414,22 +413,19 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("arguments", "facts"),
     [
-        (["/nowhere"], "skg: /nowhere: no such file or directory\n"),
-        (["nonsense://x"], "skg: nonsense://x: invalid URL"),
-        (["/dev/null"], "skg: /dev/null: no serial port\n"),
-        (
-            ["/dev/null", "--punch-port", "/dev/../dev/null"],
-            "skg: /dev/../dev/null: the teletype's port too: --punch-port",
-        ),
-        (["/dev/null", "--send", "/nowhere.skg"], "skg: /nowhere.skg: No such file or directory\n"),
+        (["/nowhere"], ["skg: /nowhere: ", "no such file or directory"]),
+        (["nonsense://x"], ["skg: nonsense://x: ", "URL"]),
+        (["/dev/null"], ["skg: /dev/null: ", "serial port"]),
+        (["/dev/null", "--punch-port", "/dev/../dev/null"], ["skg: /dev/../dev/null: ", "teletype", "--punch-port"]),
+        (["/dev/null", "--send", "/nowhere.skg"], ["skg: /nowhere.skg: ", "No such file or directory"]),
     ],
 )
-def test_bad_ports(arguments: list[str], message: str) -> None:
+def test_bad_ports(arguments: list[str], facts: list[str]) -> None:
     result = term(*arguments)
     assert result.returncode == 2
-    assert result.stderr.decode().startswith(message)
+    assert says(result.stderr.decode(), *facts)
     assert result.stderr.count(b"\n") == 1
 
 

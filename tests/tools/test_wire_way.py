@@ -123,7 +123,7 @@ def test_past_what_is_too_small(
     way = LineString(places[1:-1])
     assert min(apart(way, parallel(wanted, offset, side, style)) for style in ("round", "mitre")) < LIMIT
     assert places[0] == pytest.approx(places[-1], abs=1e-9)
-    assert says(words, CARE, "contour 1", "narrow") == (side == "inside" or shape is steps)
+    assert says(words, CARE, "contour 1", "corner") == (side == "inside" or shape is steps)
 
 
 def test_a_curve_with_a_cusp_is_soon_told_from_a_way_beside_it(run: Run, tmp_path: Path) -> None:
@@ -158,7 +158,7 @@ def test_a_start_hole_that_is_chosen_is_where_the_wire_comes_to(run: Run, tmp_pa
     wanted = polygon([*tail, *((x, y + 0.15) for x, y in reversed(tail)), *head], page)
     (places,), words = cut(run, page, tmp_path, "--offset", 0.1, "--side", "inside")
     assert apart(LineString(places[1:-1]), parallel(wanted, 0.1, "inside")) < LIMIT
-    assert says(words, CARE, "contour 1", "narrow")
+    assert says(words, CARE, "contour 1", "corner")
 
 
 def test_a_start_hole_between_two_circles_moves_to_the_inner_side(run: Run, tmp_path: Path) -> None:
@@ -203,7 +203,7 @@ def test_how_far_the_wire_stays_off_a_wedge_is_said(run: Run, tmp_path: Path, de
     polygon([(0, 0), (4.5, 0), *tip, (5.5, 0), (10, 0), (10, 10), (5, 20), (0, 10)], page)
     (places,), words = cut(run, page, tmp_path, "--offset", 0.1)
     far = LineString(places).distance(Point(tip[0])) - 0.1
-    said = re.search(rf"{CARE}.* narrow .*\((\S+), (\S+)\).*? (\S+) mm", words)
+    said = re.search(rf"{CARE}.* corner.*\((\S+), (\S+)\).*? (\S+) mm", words)
     assert bool(said) == (depth > 0.5 * sqrt(3)), words
     if said:
         assert (float(said[1]), float(said[2])) == tip[0] and float(said[3]) == pytest.approx(far, abs=LIMIT)
@@ -221,7 +221,7 @@ def test_the_wire_ends_where_a_slot_of_curves_narrows(run: Run, tmp_path: Path) 
         for p, q in zip(places, places[1:], strict=False):
             space.add_line(p, q)
     _, words = cut(run, page, tmp_path, "--offset", 0.5)
-    assert says(words, CARE, "corner", "narrow", re.compile(r"\(0, [\d.-]+\)"))
+    assert says(words, CARE, "corner", re.compile(r"\(0, [\d.-]+\)"))
 
 
 def test_passes_and_tab(run: Run, tmp_path: Path) -> None:
@@ -229,7 +229,7 @@ def test_passes_and_tab(run: Run, tmp_path: Path) -> None:
     page = drawing()
     wanted = steps(page.modelspace())
     cuts, words = cut(run, page, tmp_path, "--offset", 0.1, "--passes", "0.05,0", "--tab", 2)
-    assert len(cuts) == 2 and says(words, CARE, "contour 1", "narrow")
+    assert len(cuts) == 2 and says(words, CARE, "contour 1", "corner")
     outer, inner = (parallel(wanted, away, "outside", "mitre") for away in (0.15, 0.1))
     for ring in (outer, inner):
         part = LineString(cuts[0]).intersection(ring.buffer(LIMIT))
@@ -321,7 +321,7 @@ def test_a_cusp(run: Run, tmp_path: Path) -> None:
     polygon([(-5, -5), (30, -5), (30, 10), (-5, 10)], page)
     page.modelspace().add_lwpolyline([(0, 0), (20, 0, -1), (20, 4), (0, 4, -1)], format="xyb", close=True)
     cuts, words = cut(run, page, tmp_path, "--offset", 0.1, "--passes", "0.06,0")
-    assert says(words, CARE, "corner", "narrow")
+    assert says(words, CARE, "corner")
     for places, r in zip(cuts, (0.16, 0.1), strict=False):
         room = Polygon([(0, r), (20, r), (20, 4 - r), (0, 4 - r)])
         for x in (0, 20):
@@ -458,7 +458,7 @@ def test_what_the_wire_stays_off_is_said_beside_other_lines(run: Run, tmp_path: 
     first = next(at for at, line in enumerate(lines) if says(line, "lead", "arc"))
     leads = [("contour", "room", "lead", "arc")] * 5
     assert each_says(
-        lines[first : first + 7], *leads, re.compile(r"\d more"), (CARE, re.compile(r"contour \d"), "narrow")
+        lines[first : first + 7], *leads, re.compile(r"\d more"), (CARE, re.compile(r"contour \d"), "corner")
     )
 
 

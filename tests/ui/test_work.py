@@ -286,7 +286,7 @@ def test_save_asks(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
     assert (tmp_path / "plate.skg").read_text() == "mine"
     answer = page.call("POST", "/api/save", body | {"overwrite": True})
     # (the program is written, the tape is a folder)
-    assert answer.status == 400 and "plate.nodrift.3b" in answer.message and "plate.skg is written" in answer.message
+    assert answer.status == 400 and says(answer.message, "plate.nodrift.3b", "plate.skg")
     (tmp_path / "plate.nodrift.3b").rmdir()
     assert page.done("POST", "/api/save", body | {"overwrite": True})["written"] == ["plate.skg", "plate.nodrift.3b"]
     for what in (["exe"], [None], [["tape"]], [7], ["tape", "../x"]):
