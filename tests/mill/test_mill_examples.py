@@ -10,6 +10,7 @@ from pathlib import Path
 import ezdxf
 import pytest
 from click.testing import CliRunner
+from facthelp import each_says, says
 
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parent))
@@ -66,7 +67,7 @@ def test_is_well_conditioned(path: Path) -> None:
 def test_check_and_plot(path: Path, tmp_path: Path) -> None:
     tape, picture = path.with_suffix(".nc"), tmp_path / "picture.svg"
     done = CliRunner().invoke(cli, ["check", str(tape)])
-    assert done.output == f"{tape}: {len(tape.read_text().splitlines())} lines, nothing wrong\n"
+    assert done.exit_code == 0 and each_says(done.output, (tape, f"{len(tape.read_text().splitlines())} lines"))
     plotted(tape, picture)
     assert picture.read_text() == path.with_suffix(".svg").read_text()
 
@@ -82,23 +83,25 @@ def invoked(*words: object) -> tuple[str, str]:
 def test_a_program_is_run_by_the_mill_rom_and_its_tape_taken(name: str, tmp_path: Path) -> None:
     """plot, check, dxf, gcode, sim and run of a program do what they do with its tape, and say who made that."""
     program, tape, ours = FOLDER / f"{name}.skg", FOLDER / f"{name}.nc", tmp_path / "ours"
-    said = f"skg: {program}: a milling program, run by the mill ROM\n"
+    said = (f"skg: {program}: ", "milling", "ROM")
     for command, form in (("plot", "svg"), ("dxf", "dxf"), ("gcode", "nc"), ("run", "ngc")):
         output = ours.with_suffix(f".{form}")
         _, first = invoked(command, program, "-o", output)
-        assert first.startswith(said), (command, first)
+        how, _, rest = first.partition("\n")
+        assert says(how, *said), (command, first)
         wanted = tape.read_bytes()
         if command in ("plot", "dxf"):
             _, again = invoked(command, tape, "-o", tmp_path / f"theirs.{form}")
-            assert again.replace(str(tape), str(program)) == first.removeprefix(said)
+            assert again.replace(str(tape), str(program)) == rest
             wanted = (tmp_path / f"theirs.{form}").read_bytes()
         assert strip(output.read_bytes()) == strip(wanted), command
     for command in ("check", "sim"):
         of_program, of_tape = (invoked(command, given)[0] for given in (program, tape))
         # (`check` lays the cutter beside what a program draws; a tape does not tell that)
         laid = (command, name) == ("check", "panel")
-        beside = f"{program}: the path beside 4 contours, nothing wrong\n" if laid else ""
-        assert of_program == of_tape.replace(str(tape), str(program)) + beside
+        of_tape = of_tape.replace(str(tape), str(program))
+        assert of_program.startswith(of_tape)
+        assert each_says(of_program.removeprefix(of_tape), *[(f"{program}: ", "4 contours")] * laid)
 
 
 def strip(data: bytes) -> bytes:
@@ -108,20 +111,21 @@ def strip(data: bytes) -> bytes:
 
 def test_what_is_said_of_heights_and_holes(tmp_path: Path) -> None:
     program = FOLDER / "plate.skg"
-    heights = "cuts at Z-2, Z-4, Z-6.2, 4 holes down to Z-6.5, travels at Z5\n"
-    said = f"skg: {program}: a milling program, run by the reference\n"
+    name = f"skg: {program}: "
+    heights = (name, "Z-2", "Z-4", "Z-6.2", "4 holes", "Z-6.5", "Z5")
+    made = (name, "milling", "reference")
     drawing = tmp_path / "plate.dxf"
     words = ("plot", program, "-o", tmp_path / "plate.svg", "--skg80", "reference", "--show-offset")
-    assert invoked(*words)[1] == f"{said}skg: {program}: {heights}"
+    assert each_says(invoked(*words)[1], made, heights)
     assert 'id="tape-1-contour"' in (tmp_path / "plate.svg").read_text()
-    assert invoked("dxf", program, "-o", drawing)[1].endswith(f"skg: {program}: all in one plane: {heights}")
+    assert says(invoked("dxf", program, "-o", drawing)[1].splitlines()[-1], "plane", *heights)
     space = ezdxf.readfile(drawing).modelspace()
     holes = [tuple(point.dxf.location)[:2] for point in space.query('POINT[layer=="HOLES"]')]
     assert sorted(holes) == [(10, 10), (10, 40), (70, 10), (70, 40)]
     moved = [(tuple(line.dxf.start)[:2], tuple(line.dxf.end)[:2]) for line in space.query('LINE[layer=="MOVES"]')]
     assert moved[:3] == [((10, 10), (70, 10)), ((70, 10), (70, 40)), ((70, 40), (10, 40))]
-    left = "left out, as 3B has no word for it: 4 holes and the heights of its cuts, Z-2, Z-4, Z-6.2"
-    assert invoked("tape", program, "-o", tmp_path / "plate.3b")[1].endswith(f"skg: {program}: {left}\n")
+    left = invoked("tape", program, "-o", tmp_path / "plate.3b")[1].splitlines()[-1]
+    assert says(left, name, "3B", "4 holes", "Z-2", "Z-4", "Z-6.2")
     # A pen plotter's program has no heights; heights that begin with a relative one are from nowhere.
     assert invoked("plot", FOLDER / "gasket.nc", "-o", tmp_path / "gasket.svg")[1] == ""
     part = tmp_path / "part.nc"
@@ -130,16 +134,13 @@ def test_what_is_said_of_heights_and_holes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["gcode", "--feed", "60"], "a milling program says its own places, feeds and heights"),
-        (["dxf", "--start", "1,2"], "an ISO tape has its own places: --start is for 3B"),
-    ],
+    ("words", "facts"),
+    [(["gcode", "--feed", "60"], ["milling", "feed"]), (["dxf", "--start", "1,2"], ["ISO", "--start", "3B"])],
 )
-def test_what_a_milling_program_has_no_use_for(words: list[str], said: str) -> None:
+def test_what_a_milling_program_has_no_use_for(words: list[str], facts: list[str]) -> None:
     done = CliRunner().invoke(cli, [*words, str(FOLDER / "panel.skg")])
     assert isinstance(done.exception, UserError)
-    assert said in str(done.exception)
+    assert says(done.exception, *facts)
 
 
 #: A line, and whether it makes the program one for the mill.
@@ -163,7 +164,7 @@ def test_mistakes_in_a_milling_program(tmp_path: Path) -> None:
         assert str(done.exception) == f"{part}: {error}"
     done = CliRunner(mix_stderr=False).invoke(cli, ["ref", str(part)])
     assert done.exit_code == 1
-    assert done.stderr.endswith(f"skg: {part}: a milling program: --mill runs it\n")
+    assert says(done.stderr.splitlines()[-1], f"skg: {part}: ", "milling", "--mill")
 
 
 @needs_rs274

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from facthelp import each_says
 
 SKG = Path(sys.executable).with_name("skg")
 
@@ -57,15 +58,15 @@ def test_syntax_error_runs_nothing(part: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "wrong"),
+    ("arguments", "facts"),
     [
-        ([], "Missing argument 'PART'"),
-        (["--wrong"], "No such option: --wrong"),
+        ([], ["argument", "'PART'"]),
+        (["--wrong"], ["option", "--wrong"]),
     ],
 )
-def test_wrong_usage(arguments: list[str], wrong: str) -> None:
+def test_wrong_usage(arguments: list[str], facts: list[str]) -> None:
     done = skg(*arguments)
-    assert (done.returncode, done.stderr.decode()) == (2, f"skg: {wrong} (see skg ref --help)\n")
+    assert done.returncode == 2 and each_says(done.stderr.decode(), ("skg: ", *facts, "skg ref --help"))
 
 
 def test_no_such_file() -> None:
@@ -77,4 +78,4 @@ def test_foreign_characters_are_named(part: Path) -> None:
     part.write_bytes("10 REM plate\n20 REM größer\n".encode())
     done = skg(part)
     assert done.returncode == 2
-    assert done.stderr.decode() == f"skg: {part}: line 2: not plain ASCII\n"
+    assert each_says(done.stderr.decode(), (f"skg: {part}: ", "line 2", "ASCII"))

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from facthelp import pattern, says
 from romhelp import ROOT
 
 from skg.machine import symbols
@@ -332,12 +333,12 @@ def test_what_differs_is_found(name: str, opcode: str) -> None:
 @pytest.mark.parametrize("opcode", [*range(0x08, 0x40, 8), 0xCB, 0xD9, 0xDD, 0xED, 0xFD])
 def test_what_another_processor_takes_for_something_else_is_found(opcode: int) -> None:
     """Twelve opcodes that the 8080 has no use for: the 8085's RIM, SIM and secret ones, a Z80's jumps and prefixes."""
-    with pytest.raises(AssertionError, match="is no documented 8080 opcode"):
+    with pytest.raises(AssertionError, match=pattern("8080 opcode")):
         walked("skg", {labels("skg")["FMUL"]: bytes([opcode])})
 
 
 def test_a_walk_that_finds_nothing_has_failed() -> None:
-    with pytest.raises(AssertionError, match="only 0 instructions"):
+    with pytest.raises(AssertionError, match=pattern("0 instructions")):
         Walk(bytes(ROM_SIZE), {}).differences()
 
 
@@ -396,24 +397,24 @@ def refused(capsys: pytest.CaptureFixture[str], check: Callable[..., None], *arg
 
 
 @pytest.mark.parametrize(
-    ("line", "why"),
+    ("line", "fact"),
     [
-        ("MB      EQU     5", "MB is a word"),
-        ("LINE:   NOP", "LINE is a word"),
+        ("MB      EQU     5", "MB"),
+        ("LINE:   NOP", "LINE"),
         ("        RST     5", "RST"),
         ("X1:     RST     2", "RST"),
-        ("        NOP", "no label found"),
+        ("        NOP", "no label"),
     ],
 )
-def test_words_that_an_assembler_refuses(line: str, why: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert why in refused(capsys, builder.check_words, {"some": f"{line}\n"})
+def test_words_that_an_assembler_refuses(line: str, fact: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert says(refused(capsys, builder.check_words, {"some": f"{line}\n"}), fact)
 
 
 def test_jumps_that_do_not_fit_and_listings_that_are_not_understood(capsys: pytest.CaptureFixture[str]) -> None:
     fit = "\n".join(f"{n:04X}   00  DB      THERE-$" for n in range(100))
     builder.check_jumps(fit, {"THERE": 0x20})
-    assert "0000 to THERE: 128 bytes do not fit" in refused(capsys, builder.check_jumps, fit, {"THERE": 0x80})
-    assert "only 0 jumps" in refused(capsys, builder.check_jumps, fit.lower(), {"THERE": 0x20})
+    assert says(refused(capsys, builder.check_jumps, fit, {"THERE": 0x80}), "0000", "THERE", "128 bytes")
+    assert says(refused(capsys, builder.check_jumps, fit.lower(), {"THERE": 0x20}), "0 jumps")
 
 
 def test_what_cannot_be_one_byte_with_qret(capsys: pytest.CaptureFixture[str]) -> None:
@@ -423,8 +424,8 @@ def test_what_cannot_be_one_byte_with_qret(capsys: pytest.CaptureFixture[str]) -
     builder.check_returns(fit, names)
     for wrong in ("QFAR", "QJN", "QEND"):
         other = {"other": f"        DB      {wrong}+QRET\n"}
-        assert f"other.asm:1: {wrong}+QRET" in refused(capsys, builder.check_returns, fit | other, names)
-    assert "only 0" in refused(capsys, builder.check_returns, {"some": "        DB      QADD,QRET\n"}, names)
+        assert says(refused(capsys, builder.check_returns, fit | other, names), "other.asm:1", f"{wrong}+QRET")
+    assert says(refused(capsys, builder.check_returns, {"some": "        DB      QADD,QRET\n"}, names), 0)
 
 
 def test_z88dks_listing_is_read() -> None:

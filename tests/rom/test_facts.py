@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 import pytest
+from facthelp import each_says
 from romhelp import ROM, ROOT
 
 from skg.machine import symbols
@@ -36,17 +37,17 @@ def test_holds(fact: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "told"),
     [
-        ("CELL == NEXT -- READY takes both", "some.asm: CELL == NEXT does not hold: READY takes both"),
-        ("CELL & 0FH == 1 -- X", "does not hold: X"),
-        ("OTHER == 1 -- X", "there is no OTHER"),
-        ("CELL == -- X", "no expression"),
-        ("CELL.x == 1 -- X", "no expression"),
-        ("CELL == NEXT-1", "no fact"),
+        ("CELL == NEXT -- READY takes both", ["CELL == NEXT", "READY takes both"]),
+        ("CELL & 0FH == 1 -- X", ["CELL & 0FH == 1", "X"]),
+        ("OTHER == 1 -- X", ["no OTHER"]),
+        ("CELL == -- X", ["CELL ==", "expression"]),
+        ("CELL.x == 1 -- X", ["CELL.x == 1", "expression"]),
+        ("CELL == NEXT-1", ["CELL == NEXT-1", "no fact"]),
     ],
 )
-def test_refused(line: str, said: str) -> None:
+def test_refused(line: str, told: list[str]) -> None:
     count, wrong = checked(f"\n;! {line}\n")
     assert count == 1
-    assert len(wrong) == 1 and said in wrong[0]
+    assert each_says(wrong, ("some.asm: ", *told))

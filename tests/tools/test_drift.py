@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from drifthelp import EXAMPLES, OPEN, Curve, farthest, stepped, steps
+from facthelp import says
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from toolhelp import ROOT, Run
@@ -160,11 +161,11 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     assert run("check", tape).exit_code == 0
     closed = run("sim", "--strict-close", tape)
     assert closed.exit_code == 0
-    assert "closes to 0 µm" in closed.output and "0 miss, by at most 0 µm" in closed.output
+    assert says(closed.output, "path", "0 µm") and says(closed.output, "0 miss", "0 µm")
     assert run("sim", "--strict-close", part.with_suffix(".3b")).exit_code == 1
     # As programmed, the blocks' own ends do not add up: their centres have been moved.
-    assert "drift at most 0 µm" in run("sim", "--positions", "machine", tape).output
-    assert "drift at most 0 µm" not in run("sim", "--positions", "programmed", tape).output
+    assert says(run("sim", "--positions", "machine", tape).output, "drift", "0 µm")
+    assert not says(run("sim", "--positions", "programmed", tape).output, "drift", "0 µm")
     assert run("ref", "--drift", part, "-o", tape).exit_code == 0
     assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()
 

@@ -21,6 +21,7 @@ import numpy as np
 import pytest
 from click.testing import Result
 from ezdxf.document import Drawing
+from facthelp import pattern, says
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
@@ -411,7 +412,7 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     program, tape, back = (tmp_path / f"plate.{kind}" for kind in ("skg", "3b", "out.dxf"))
     result = run("cut", drawing, "--offset", "0.1", "-o", os.devnull, "--program", program)
     assert result.exit_code == 0
-    assert "layer 0: 10 entities, 9 cut, 1 left: 1 TEXT (nothing to cut)\n" in result.stderr
+    assert says(result.stderr, "layer 0", "10 entities", "9 cut", "1 left", "1 TEXT")
     tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").tape.items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
@@ -536,7 +537,7 @@ def test_no_outline(run_program: Run, tmp_path: Path) -> None:
     branching().saveas(tmp_path / "star.dxf")
     result = program_by(run_program, tmp_path / "star.dxf")
     assert result.returncode == 0
-    assert "no closed outline: lines that meet at junctions or cross are cut as drawn\n" in result.stderr
+    assert says(result.stderr, "no closed outline")
     assert result.stdout.count("CUT ") == 3
 
 
@@ -545,7 +546,7 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
     result = program_by(run_program, "-", stdin=data)
     assert result.returncode == 2
     assert len(result.stderr.splitlines()) == 1
-    assert result.stderr.startswith("skg: -: no lines" if "SECTION" in data else "skg: -: not a DXF drawing")
+    assert says(result.stderr, "skg: -: ", "no lines" if "SECTION" in data else "DXF drawing")
 
 
 @pytest.mark.parametrize(
@@ -589,7 +590,7 @@ def test_round_openings(run: Run, tmp_path: Path) -> None:
 
 def test_too_many_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("skg.cutting.program._LAST_LINE", 20)
-    with pytest.raises(UserError, match="the program would have .* lines, at most 20 fit"):
+    with pytest.raises(UserError, match=pattern("program", "lines", 20)):
         program_of(drawings.ratchet)
 
 

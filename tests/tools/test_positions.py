@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
+from facthelp import CARE, each_says, says
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
@@ -67,7 +68,7 @@ def test_check_goes_by_it(run: Run) -> None:
             result = run("check", "-", "--positions", positions, stdin=f"{tape}\r\nDD\r\n")
             assert (result.exit_code == 0) == (positions in ("auto", right)), result.stdout
             if result.exit_code:
-                assert f"J = {expected} is a full circle by the other count, expected" in result.stdout
+                assert says(result.stdout, f"J = {expected}", "circle")
 
 
 def test_name_says_it(run: Run, tmp_path: Path) -> None:
@@ -75,7 +76,7 @@ def test_name_says_it(run: Run, tmp_path: Path) -> None:
     path.write_bytes((ROOT / "examples" / "ratchet.3b").read_bytes())
     result = run("sim", "--json", path)
     assert json.loads(result.stdout)[0]["positions"] == "machine"
-    assert result.stderr == f"skg: {path}: without drift (machine), its name says so\n"
+    assert each_says(result.stderr, (f"skg: {path}: ", "(machine)", "name"))
 
 
 def test_program_needs_no_word(run: Run) -> None:
@@ -87,7 +88,7 @@ def test_program_needs_no_word(run: Run) -> None:
 def test_a_name_that_gets_lost(run: Run, tmp_path: Path) -> None:
     path, other = tmp_path / "a.nodrift.3b", tmp_path / "b.3b"
     path.write_bytes((ROOT / "examples" / "ratchet.3b").read_bytes())
-    assert "its name says that it is without drift; end that of " in run("tape", path, "-o", other).stderr
+    assert says(run("tape", path, "-o", other).stderr, "name", "drift", other.name)
     for output in (tmp_path / "b.nodrift.3b", "-"):
         assert run("tape", path, "-o", output).stderr == ""
 
@@ -99,6 +100,6 @@ def test_cut_says_when_the_name_does_not_tell() -> None:
         tape = tapes.parse(feed((ROOT / "examples" / f"{name}.skg").read_text(), "no-drift").tape)
         assert ".nodrift.3b" in unmarked("slot.3b", tape, "no-drift")[0]
         assert unmarked("slot.NoDrift.3b", tape, "no-drift") == unmarked("slot.3b", tape, "standard") == []
-        assert unmarked("slot.nodrift.3b", tape, "standard")[0].startswith("take care")
+        assert unmarked("slot.nodrift.3b", tape, "standard")[0].startswith(CARE)
     lines = tapes.parse(feed((ROOT / "examples" / "xy-star.skg").read_text(), "no-drift").tape)
     assert unmarked("star.3b", lines, "no-drift") == []

@@ -14,6 +14,7 @@ import ezdxf
 import pytest
 from ezdxf import path as dxf_path
 from ezdxf.document import Drawing
+from facthelp import CARE, counts_say, each_says, pattern, says
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from toolhelp import Run, least_time
@@ -101,7 +102,7 @@ def left(reading: Reading) -> dict[str, int]:
     return found
 
 
-JUNCTION = "at a junction, of no closed outline"
+JUNCTION = "junction"
 
 
 def test_handles_that_repeat() -> None:
@@ -203,7 +204,7 @@ def test_layers_that_are_not_seen() -> None:
     reading = checked(dxf_bytes(drawing))
     # What is on another layer is seen in a block on a layer that is off, not in one on a frozen layer.
     assert sorted(contour.edges[0].radius for contour in reading.contours) == pytest.approx([2, 10])
-    assert left(reading) == {"the layer is off": 2, "the layer is frozen": 3, "invisible": 1, "in paper space": 1}
+    assert counts_say(left(reading), {("off", "layer"): 2, ("layer", "frozen"): 3, "invisible": 1, "paper space": 1})
     assert len(checked(dxf_bytes(drawing), layers=("off",)).contours) == 2
 
 
@@ -229,8 +230,8 @@ def test_what_is_not_flat_or_not_known() -> None:
         ("SPLINE", "NAN", (0, 0)),
     ]
     text = "\n".join(report.lines())
-    assert "not cut: INSERT on layer LOST at (7, 8): its block NOWHERE is not in the file" in text
-    assert "layer NOTE: 1 entity, 1 left: 1 TEXT (nothing to cut)" in text
+    assert says(text, "INSERT", "layer LOST", "(7, 8)", "block NOWHERE")
+    assert says(text, "layer NOTE", "1 entity", "1 left", "1 TEXT")
 
 
 @pytest.mark.parametrize("gap", [1, 2, 5, 6, 10, 20, 50])
@@ -244,7 +245,7 @@ def test_gaps(gap: int) -> None:
         assert [end.gap for end in reading.report.open_ends] == pytest.approx([gap / 1e3] * 2)
         wider = float("\n".join(reading.report.lines()).split("--tolerance ")[1].split()[0])
         assert checked(data, tolerance=wider).contours[0].is_closed
-        with pytest.raises(UserError, match=r"1 open contour, the first end at \(0, 0"):
+        with pytest.raises(UserError, match=pattern("1 open contour", re.compile(r"\(0, 0"))):
             checked(data, open="refuse")
     else:
         assert max(abs(y) for edge in contour.edges for _, y in (edge.start,) if y < 1) <= gap / 2e3 + 1e-9
@@ -263,7 +264,7 @@ def test_ends_past_corners() -> None:
     assert found == [(0, 0), (0, 20), (40, 0), (40, 20)]
     assert left(reading) == {}
     text = "\n".join(reading.report.lines())
-    assert "6 ends on layer 0 past a corner by up to 0.2 mm, as at (" in text
+    assert says(text, "6 ends", "layer 0", "corner", "0.2 mm")
     assert length(checked(raw(*PAST), open="all").contours) == pytest.approx(length(reading.contours) + 0.55)
 
 
@@ -275,10 +276,8 @@ def test_lines_of_their_own_past_corners(stub: float, is_corner: bool) -> None:
     assert [one.is_closed for one in reading.contours] == ([True] if is_corner else [False] * len(reading.contours))
     if is_corner:
         assert length(reading.contours) == pytest.approx(120)
-        assert left(reading) == {"runs past a corner": 1}
-        assert f"3 ends on layer 0 past a corner by up to {max(stub, 0.1):g} mm, as at (" in "\n".join(
-            reading.report.lines()
-        )
+        assert counts_say(left(reading), {"corner": 1})
+        assert any(says(line, "3 ends", "layer 0", f"{max(stub, 0.1):g} mm") for line in reading.report.lines())
     # A part whose lines meet at another junction, too, is left as it was.
     reading = checked(raw(*lines, line(40, 0, 40 + stub, 0), line(0, 20, -9, 20)))
     assert not any(one.is_closed for one in reading.contours)
@@ -378,7 +377,7 @@ def test_touching_and_repeated() -> None:
     )
     reading = checked(data)
     assert len(reading.contours) == 6
-    assert left(reading) == {"drawn twice": 2}
+    assert counts_say(left(reading), {"twice": 2})
     what = [(overlap.kind, overlap.place) for overlap in reading.report.overlaps]
     assert what == [
         ("drawn twice", (30, 20)),
@@ -396,16 +395,16 @@ def test_what_is_drawn_on_lines_that_are_left_is_left_with_them() -> None:
     split = [line(0, 0, 8, 0), line(8, 0, 20, 0), line(20, 0, 20, 20), line(20, 20, 8, 20), line(8, 20, 0, 20)]
     data = raw(*split, line(0, 20, 0, 0), line(8, 0, 8, 20), line(8, 20, 8, 0), line(0, 20, 0, 0))
     reading = checked(data)
-    assert left(reading) == {JUNCTION: 2, "drawn twice": 1}
+    assert counts_say(left(reading), {JUNCTION: 2, "twice": 1})
     assert [(one.kind, one.place) for one in reading.report.overlaps] == [("drawn twice", (0, 20))]
     # A polyline on the divider and on an edge.
     bent = "LWPOLYLINE 8 0 90 3 70 0 10 8 20 20 10 8 20 0 10 0 20 0"
     reading = checked(raw(*split, line(0, 20, 0, 0), line(8, 0, 8, 20), bent))
-    assert left(reading) == {JUNCTION: 1, f"{JUNCTION} and drawn twice": 1}
+    assert counts_say(left(reading), {JUNCTION: 1, ("junction", "twice"): 1})
     # Contours: open ones that hang on an outline.
     hung = "LWPOLYLINE 8 0 90 3 70 0 10 20 20 5 10 30 20 5 10 30 20 9"
     reading = checked(raw(*square(0, 0, 20), hung, hung))
-    assert left(reading) == {JUNCTION: 2} and reading.report.overlaps == []
+    assert counts_say(left(reading), {JUNCTION: 2}) and reading.report.overlaps == []
 
 
 def test_edges_that_parts_share_are_said() -> None:
@@ -415,9 +414,8 @@ def test_edges_that_parts_share_are_said() -> None:
     within = [((20, 0), (20, 9)), ((20, 9), (20, 20)), ((0, 9), (20, 9)), ((20, 9), (40, 9)), ((0, 0), (-9, -9))]
     data = raw(*(line(*p, *q) for p, q in frame + within))
     reading = checked(data)
-    assert left(reading) == {JUNCTION: 5}
-    (shared,) = (note for note in reading.report.notes if "edge to edge" in note)
-    assert shared.startswith("take care: 4 lines") and "(20, 0)" in shared and "--open all" in shared
+    assert counts_say(left(reading), {JUNCTION: 5})
+    assert each_says(reading.report.notes, (CARE, "4 lines", "(20, 0)", "--open all"), (CARE, "120 mm"))
     assert checked(data, open="all").report.notes == []
 
 
@@ -427,11 +425,11 @@ def test_lines_on_a_contour_are_drawn_twice() -> None:
     over = "LWPOLYLINE 8 0 90 3 70 0 10 15 20 0 10 20 20 0 10 20 20 8"
     circle, arc = "CIRCLE 8 0 10 40 20 5 40 5", "ARC 8 0 10 40 20 5 40 5 50 20 51 130"
     reading = checked(raw(plate, circle, line(0, 0, 12, 0), over, arc))
-    assert left(reading) == {"drawn twice": 3}
+    assert counts_say(left(reading), {"twice": 3})
     assert [one.kind for one in reading.report.overlaps] == ["drawn twice"] * 3
     bay = "LWPOLYLINE 8 0 90 4 70 0 10 3 20 0 10 5 20 0 10 9 20 4 10 14 20 0"
     reading = checked(raw(plate, circle, line(0, 0, 20, 10), bay, "ARC 8 0 10 40 20 5.1 40 5 50 -20 51 130"))
-    assert left(reading) == {JUNCTION: 3}
+    assert counts_say(left(reading), {JUNCTION: 3})
 
 
 def test_hatching_centre_lines_and_frames() -> None:
@@ -446,13 +444,10 @@ def test_hatching_centre_lines_and_frames() -> None:
     )
     reading = checked(data)
     assert [contour.layers for contour in reading.contours] == [("PART",), ("PART",)]
-    assert left(reading) == {JUNCTION: 6}
+    assert counts_say(left(reading), {JUNCTION: 6})
     text = "\n".join(reading.report.lines())
-    assert (
-        "not cut, it belongs to no closed outline (--open all cuts it): 3 LINE on layer HATCH at (3, 0), (6, 0), (9, 0)"
-        in text
-    )
-    assert "1 LINE on layer LEADER at (40, 40)" in text
+    assert says(text, "--open all", "3 LINE", "layer HATCH", "(3, 0), (6, 0), (9, 0)")
+    assert says(text, "1 LINE", "layer LEADER", "(40, 40)")
     assert len(checked(data, open="all").contours) == 8
 
 
@@ -460,10 +455,11 @@ def test_an_outline_that_is_left_is_said() -> None:
     """Its ends lie on a circle that was drawn for half of one: the openings alone are no part."""
     outline = [line(0, 0, 40, 0), line(40, 0, 40, 9), line(40, 11, 40, 20), line(40, 20, 0, 20), line(0, 20, 0, 0)]
     circles = [f"CIRCLE 8 0 10 {x} 20 10 40 1" for x in (10, 30, 40)]
-    said = "take care: an uncut line from (40, 9) to (40, 11) encloses every cut contour: is it the outline"
-    assert any(note.startswith(said) for note in checked(raw(*outline, *circles)).report.notes)
+    said = [note for note in checked(raw(*outline, *circles)).report.notes if says(note, CARE, "outline")]
+    assert each_says(said, ("(40, 9)", "(40, 11)"))
     for closed in (line(40, 9, 40, 11), line(20, 0, 20, 9)):
-        assert not any("encloses" in note for note in checked(raw(*square(0, 0, 40), *circles, closed)).report.notes)
+        notes = checked(raw(*square(0, 0, 40), *circles, closed)).report.notes
+        assert not any(says(note, CARE, "outline") for note in notes)
 
 
 def test_a_gap_in_what_is_left_is_said() -> None:
@@ -477,14 +473,14 @@ def test_a_gap_in_what_is_left_is_said() -> None:
     ]
     drawing = raw(*outline, line(40, 20, 50, 30), "CIRCLE 8 0 10 10 20 10 40 5")
     reading = checked(drawing)
-    assert left(reading) == {JUNCTION: 6}
+    assert counts_say(left(reading), {JUNCTION: 6})
     notes = "\n".join(reading.report.notes)
-    assert "2 ends of uncut lines up to 0.0125 mm from the next one, as at (20, 20" in notes
-    wider = re.search(r"--tolerance ([0-9.]+) joins them", notes)
+    assert says(notes, "2 ends", "0.0125 mm", re.compile(r"\(20, 20[\d.]*\)"), "--tolerance")
+    wider = re.search(r"--tolerance ([0-9.]+)", notes)
     assert wider
     again = checked(drawing, tolerance=float(wider[1]))
-    assert left(again) == {JUNCTION: 1}
-    assert not any("joins them" in note for note in again.report.notes)
+    assert counts_say(left(again), {JUNCTION: 1})
+    assert not any("--tolerance" in note for note in again.report.notes)
 
 
 def test_an_outline_with_gaps_that_is_left_is_said() -> None:
@@ -493,10 +489,10 @@ def test_an_outline_with_gaps_that_is_left_is_said() -> None:
     sides = [line(*p, *q) for p, q in pairwise(corners[:4])] + [line(0, 20, 0, 0.0125)]
     hanging = [line(x, y, x * 1.2 - 4, y * 1.2 - 2) for x, y in corners[:4]]
     circles = [f"CIRCLE 8 0 10 {x} 20 10 40 1" for x in (10, 30)]
-    said = "take care: an uncut line encloses every cut contour: is it the outline, with gaps?"
-    assert said in checked(raw(*sides, *hanging, *circles)).report.notes
+    said = CARE, "outline", "gap"
+    assert any(says(note, *said) for note in checked(raw(*sides, *hanging, *circles)).report.notes)
     for some in ([*sides, *hanging, circles[0]], [*sides[:2], *hanging, *circles], [*square(0, 0, 40), *circles]):
-        assert said not in checked(raw(*some)).report.notes
+        assert not any(says(note, *said) for note in checked(raw(*some)).report.notes)
 
 
 def test_outlines_of_one_layer() -> None:
@@ -517,7 +513,7 @@ def test_outlines_of_one_layer() -> None:
     # Two rings of two layers that share a corner or two, and what makes a ring of both.
     reading = checked(raw(*square(0, 0, 10, "A"), *square(10, 10, 10, "B"), line(10, 0, 20, 10, "C")))
     assert [contour.layers for contour in reading.contours] == [("A",), ("B",)]
-    assert left(reading) == {JUNCTION: 1}
+    assert counts_say(left(reading), {JUNCTION: 1})
     # An outline that is drawn on two layers is one.
     half, other = square(0, 0, 10)[:2], square(0, 0, 10, "B")[2:]
     assert length(checked(raw(*half, *other, line(0, 0, 10, 10, "C"))).contours) == pytest.approx(40)
@@ -588,12 +584,12 @@ def test_arcs_of_a_large_radius(radius: float) -> None:
 
 def test_no_outline_is_refused() -> None:
     star = raw(*(line(0, 0, *end) for end in ((5, 0), (0, 5), (-5, -5))))
-    with pytest.raises(UserError, match=r"no closed outline: 3 entities meet .* as at \(0, 0\).*--open all"):
+    with pytest.raises(UserError, match=pattern("no closed outline", "3 entities", "(0, 0)", "--open all")):
         checked(star, open="leave")
     # Where nothing else is asked for it is cut as it is drawn, with a word.
     reading = checked(star)
     assert len(reading.contours) == 3 and not left(reading)
-    assert "no closed outline: lines that meet at junctions or cross are cut as drawn" in reading.report.notes
+    assert any(says(note, "no closed outline") for note in reading.report.notes)
 
 
 @given(st.integers(0, 10**9))
@@ -651,35 +647,34 @@ def test_many_that_touch() -> None:
     assert len(reading.contours) == 2500
     assert len(reading.report.overlaps) == 300
     # each of 50 by 50 squares meets its neighbours at 2·50·49 sides and 2·49·49 corners
-    assert f"{2 * 50 * 49 + 2 * 49 * 49 - 300} more pairs of contours meet" in reading.report.notes
+    assert any(says(note, f"{2 * 50 * 49 + 2 * 49 * 49 - 300} more", "contour") for note in reading.report.notes)
 
 
 def test_units() -> None:
     """Those of the file, those asked for; a file without any is asked about when its size is odd."""
     inches = raw(*square(0, 0, 2), header="9\n$INSUNITS\n70\n1\n")
     assert read(inches, "a.dxf").report.size == (50.8, 50.8)
-    assert read(inches, "a.dxf").report.lines()[0].startswith("50.8 x 50.8 mm, read in inch (as the file says); ")
-    assert read(raw(*square(0, 0, 20)), "a.dxf").report.units_from == "the file does not say"
+    assert says(read(inches, "a.dxf").report.lines()[0], "50.8 x 50.8 mm", "inch", "file")
+    assert says(read(raw(*square(0, 0, 20)), "a.dxf").report.units_from, "file", "not")
     assert read(raw(*square(0, 0, 2)), "a.dxf", Wishes(units="foot")).report.size == pytest.approx((609.6, 609.6))
-    with pytest.raises(UserError, match=r"give --units \(.*\); it would be 50.8 x 50.8 mm in inch, 20 x 20 mm in cm"):
+    with pytest.raises(UserError, match=pattern("--units", "50.8 x 50.8 mm in inch", "20 x 20 mm in cm")):
         read(raw(*square(0, 0, 2)), "a.dxf")
     mile = raw(*square(0, 0, 1e-5), header="9\n$INSUNITS\n70\n3\n")
-    assert read(mile, "a.dxf").report.lines()[0].startswith("16.0934 x 16.0934 mm, read in mile (as the file says); ")
-    nothing = "a.dxf: nothing to cut, read in mm: shorter than the tolerance; --units and --tolerance may help"
-    with pytest.raises(UserError, match=nothing):
+    assert says(read(mile, "a.dxf").report.lines()[0], "16.0934 x 16.0934 mm", "mile", "file")
+    with pytest.raises(UserError, match=pattern("a.dxf: ", "mm", "tolerance", "--units", "--tolerance")):
         read(raw(*square(0, 0, 2e-5), "TEXT 8 0 10 0 20 0 1 A"), "a.dxf")
     # ezdxf writes m where it is told nothing.
     metres = read(raw(*square(0, 0, 60), header="9\n$INSUNITS\n70\n6\n"), "a.dxf").report
     assert metres.size == (60, 60)
-    assert metres.lines()[0].startswith("60 x 60 mm, read in mm (the file says m, but 60 x 60 m is no part")
+    assert says(metres.lines()[0], "60 x 60 mm", "60 x 60 m ", "file")
     for side in (0.5, 2.0, 15000.0):
-        with pytest.raises(UserError, match=r"a.dxf: the file does not say its units, and .* mm .*: give --units"):
+        with pytest.raises(UserError, match=pattern("a.dxf: ", "file", "units", "mm", "--units")):
             read(raw(*square(0, 0, side)), "a.dxf")
-    with pytest.raises(UserError, match="a tape has room for 100 m"):
+    with pytest.raises(UserError, match=pattern("tape", "100 m")):
         read(raw(*square(0, 0, 9e4)), "a.dxf", Wishes(units="m"))
     # Where no units make it a usual part, those are offered that a tape has room for.
     house = raw(*square(0, 0, 2e4), header="9\n$INSUNITS\n70\n1\n")
-    with pytest.raises(UserError, match=r"508000 mm, read in inch: .*; it would be 20000 x 20000 mm in mm$"):
+    with pytest.raises(UserError, match=pattern("508000 mm", "inch", "20000 x 20000 mm in mm") + "$"):
         read(house, "a.dxf")
 
 
@@ -689,13 +684,12 @@ def test_parts_of_unknown_units_are_doubted() -> None:
     def notes(side: float, wishes: Wishes | None = None) -> list[str]:
         return read(raw(*square(0, 0, side)), "a.dxf", wishes).report.notes
 
-    doubt = "take care: 8 x 8 mm is small, units unconfirmed; it would be 203.2 x 203.2 mm in inch"
-    assert notes(8) == [doubt + ", 80 x 80 mm in cm: set --units to change it"]
+    units = CARE, "--units"
+    assert each_says(notes(8), (*units, "8 x 8 mm", "203.2 x 203.2 mm in inch", "80 x 80 mm in cm"))
     assert len(notes(3)) == 1 and notes(8, Wishes(units="mm")) == [] and notes(26) == []
-    doubt = "take care: 3500 x 3500 mm is large, units unconfirmed; it would be 88.9 x 88.9 mm in mil: "
-    assert notes(3500) == [doubt + "set --units to change it"]
+    assert each_says(notes(3500), (*units, "3500 x 3500 mm", "88.9 x 88.9 mm in mil"))
     assert notes(3500, Wishes(units="mm")) == [] and notes(1000) == []
-    with pytest.raises(UserError, match="15000 x 15000 mm is an implausible size: .* 381 x 381 mm in mil$"):
+    with pytest.raises(UserError, match=pattern("15000 x 15000 mm", "--units", "381 x 381 mm in mil") + "$"):
         notes(15000)
 
 
@@ -706,12 +700,10 @@ def test_told_units_of_an_odd_size_are_doubted() -> None:
         data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{units}\n")
         return read(data, "a.dxf", wishes).report.notes
 
-    doubt = "take care: 2387.6 x 2387.6 mm is an implausible size; it would be 94 x 94 mm in mm, 940 x 940 mm in cm: "
-    assert notes(1, 94) == [doubt + "set --units to change it"]
-    doubt = "take care: 2.5 x 2.5 mm is an implausible size; it would be 63.5 x 63.5 mm in inch, 25 x 25 mm in cm: "
-    assert notes(4, 2.5) == [doubt + "set --units to change it"]
-    (doubt,) = notes(1, 1500)
-    assert "38100 x 38100 mm is an implausible size" in doubt and "1500 x 1500 mm in mm" in doubt
+    doubt = CARE, "--units"
+    assert each_says(notes(1, 94), (*doubt, "2387.6 x 2387.6 mm", "94 x 94 mm in mm", "940 x 940 mm in cm"))
+    assert each_says(notes(4, 2.5), (*doubt, "2.5 x 2.5 mm", "63.5 x 63.5 mm in inch", "25 x 25 mm in cm"))
+    assert each_says(notes(1, 1500), (*doubt, "38100 x 38100 mm", "1500 x 1500 mm in mm"))
     for units, side in ((1, 30), (4, 40), (4, 2000), (5, 60)):
         assert notes(units, side) == []
     assert notes(1, 94, Wishes(units="inch")) == []
@@ -721,17 +713,17 @@ def test_paper_space_alone() -> None:
     """Paper space is cut, with a note, if the model space has nothing to cut; else it is left."""
     paper = [f"{one} 67 1" for one in square(0, 0, 20)]
     reading = checked(raw(*paper, "TEXT 8 0 10 1 20 1 1 A"))
-    assert len(reading.contours) == 1 and left(reading) == {"nothing to cut": 1}
-    assert "there is nothing to cut in the model space: the paper space was read" in reading.report.notes
+    assert len(reading.contours) == 1 and counts_say(left(reading), {"nothing": 1})
+    assert any(says(note, "model space", "paper space") for note in reading.report.notes)
     both = checked(raw(*paper, *square(50, 0, 10)))
-    assert left(both) == {"in paper space": 4} and both.report.size == (10, 10)
+    assert counts_say(left(both), {"paper space": 4}) and both.report.size == (10, 10)
 
 
 def test_widths_are_said() -> None:
     """A polyline with a width is cut along its middle: said with layer and place, however the width is written."""
     corners = "10 0 20 0 10 30 20 0 10 30 20 20"
     wide = checked(raw(f"LWPOLYLINE 8 WIDE 90 3 70 1 43 0.5 {corners}"))
-    assert wide.report.notes[0].startswith("1 polyline on layer WIDE drawn with a width, as at (0, 0)")
+    assert says(wide.report.notes[0], "1 polyline", "layer WIDE", "width", "(0, 0)")
     tapering = checked(raw(f"LWPOLYLINE 8 0 90 3 70 1 40 0.0 41 1.5 {corners}"))
     assert "with a width" in tapering.report.notes[0]
     plain = checked(raw(f"LWPOLYLINE 8 0 90 3 70 1 43 0.0 40 0 41 0.00 {corners}"))
@@ -760,11 +752,11 @@ def test_arcs_of_nothing_between_lines() -> None:
         line(0, 9, 0, 0),
     ]
     reading = checked(raw(*corner, "ARC 8 0 10 50 20 2 40 2 50 90 51 90", line(50, 4, 60, 4)), open="all")
-    assert left(reading) == {"it ends where it begins, between two other lines": 1}
+    assert counts_say(left(reading), {("end", "line"): 1})
     assert sum(contour.edges[0].is_circle for contour in reading.contours) == 1
-    assert "1 arc on layer 0 from an angle to the same angle, as at (50, 4): a full turn is cut" in reading.report.notes
+    assert any(says(note, "1 arc", "layer 0", "angle", "(50, 4)") for note in reading.report.notes)
     twice = checked(raw(*["ARC 8 0 10 50 20 2 40 2 50 90 51 90"] * 2))
-    assert left(twice) == {"drawn twice": 1}
+    assert counts_say(left(twice), {"twice": 1})
 
 
 def test_arcs_of_next_to_nothing() -> None:
@@ -772,19 +764,19 @@ def test_arcs_of_next_to_nothing() -> None:
     ends = "ARC 8 A 10 0 20 0 40 {} 50 {} 51 {}".format
     reading = checked(raw(*square(9, 9, 5), ends(1, 174.9999996, "175.0000024"), ends(3, 0, "0.000000001")))
     assert [contour.edges[0].is_circle for contour in reading.contours] == [False]
-    assert left(reading) == {"shorter than the tolerance": 2}
+    assert counts_say(left(reading), {"tolerance": 2})
     for last in ("360", "359.9999999", "360.0000001", "0.00000000000001"):
         reading = checked(raw(ends(5, 0, last)))
         assert reading.contours[0].edges[0].is_circle
         assert len(reading.report.notes) == (last[:2] == "0.")
     # From just below a whole turn on: a circle or next to nothing, so that it is said.
     reading = checked(raw(ends(5, "359.9999999999", 0)))
-    assert reading.contours[0].edges[0].is_circle and "a full turn is cut" in reading.report.notes[0]
+    assert reading.contours[0].edges[0].is_circle and says(reading.report.notes[0], "turn")
 
 
 def test_only_unseen_layers() -> None:
     frozen = "0\nLAYER\n2\nPART\n70\n1\n62\n7\n"
-    with pytest.raises(UserError, match="4 LINE: the layer is frozen.*: --layer PART takes what is on that layer"):
+    with pytest.raises(UserError, match=pattern("4 LINE", "frozen", "--layer PART")):
         checked(raw(*square(0, 0, 20, "PART"), layers=frozen))
 
 
@@ -796,7 +788,7 @@ def test_repeated_vertices_and_no_length() -> None:
     )
     reading = checked(data)
     assert [len(contour.edges) for contour in reading.contours] == [4]
-    assert left(reading) == {"it has no length": 1, "shorter than the tolerance": 1}
+    assert counts_say(left(reading), {"length": 1, "tolerance": 1})
 
 
 def spline(controls: list[XY], knots: list[float], degree: int = 3) -> str:
@@ -906,12 +898,12 @@ def test_encoding_is_an_option(run: Run, tmp_path: Path) -> None:
         words = ["cut", part, "-o", os.devnull, "--program", "-", "--layer", name]
         assert run(*words, "--encoding", encoding.upper()).stdout.count("FROM") == 1
         assert name in run("cut", part, "--list-layers", "--encoding", encoding).stdout
-    with pytest.raises(UserError, match="line 26: not in the encoding utf-8"):
+    with pytest.raises(UserError, match=pattern("line 26", "utf-8")):
         run("cut", part, "--encoding", "utf-8")
     assert run("cut", part, "--encoding", "klingon").exit_code == 2
     picture = tmp_path / "part.svg"
     picture.write_text('<svg xmlns="http://www.w3.org/2000/svg"><circle r="40"/></svg>')
-    with pytest.raises(UserError, match="--encoding is for DXF"):
+    with pytest.raises(UserError, match=pattern("--encoding", "DXF")):
         run("cut", picture, "--encoding", "gbk")
 
 
@@ -923,9 +915,8 @@ def test_a_gap_that_is_wider_than_a_wire_is_not_welded(gap: float, is_joined: bo
     reading = checked(raw(line(0, 0, 80, 0), line(80, 0, 80, 80), line(80, 80, 0, 80), line(0, 80, 0, gap)))
     assert [end.gap for end in reading.report.open_ends] == pytest.approx([gap, gap])
     text = "\n".join(reading.report.lines())
-    assert f"{gap:g} mm from" in text and "(0, 0)" in text
-    assert ("joins them" in text) == is_joined
-    assert ("close it in the drawing" in text) != is_joined
+    assert says(text, f"{gap:g} mm", "(0, 0)")
+    assert says(text, re.compile(r"--tolerance [\d.]+")) == is_joined
 
 
 CROSS = [line(0, 0, 40, 40), line(0, 40, 40, 0)]
@@ -936,15 +927,15 @@ def test_without_any_closed_outline_all_is_cut(free: list[str]) -> None:
     """Lines that cross are cut as they are drawn, whatever lies free beside them; with an outline they are left."""
     reading = checked(raw(*CROSS, *free))
     assert len(reading.contours) == 2 + len(free) and left(reading) == {}
-    assert any("no closed outline" in note for note in reading.report.notes)
+    assert any(says(note, "no closed outline") for note in reading.report.notes)
     outlined = checked(raw(*CROSS, *free, *square(100, 100, 50)))
-    assert left(outlined) == {JUNCTION: 2}
+    assert counts_say(left(outlined), {JUNCTION: 2})
     assert len(outlined.contours) == 1 + len(free)
 
 
 @pytest.mark.parametrize("word", ["leave", "refuse"])
 def test_without_any_closed_outline_what_is_asked_for_holds(word: str) -> None:
-    with pytest.raises(UserError, match="no closed outline|open contour"):
+    with pytest.raises(UserError, match=f"{pattern('closed outline')}|{pattern('open contour')}"):
         checked(raw(*CROSS, line(60, 0, 60, 87.5)), open=word)
 
 
@@ -962,13 +953,13 @@ def test_without_any_closed_outline_what_is_asked_for_holds(word: str) -> None:
 def test_much_that_is_left_is_said(rest: list[str], is_said: bool) -> None:
     """With both lengths, when it is more than a tenth of what is cut and on its layers, and nobody asked for that."""
     reading = checked(raw(*square(100, 0, 30), *rest))
-    said = [note for note in reading.report.notes if "take care" in note and "are left" in note]
+    said = [note for note in reading.report.notes if says(note, CARE, "--open all", "mm")]
     assert bool(said) == is_said
     if is_said:
         words = [[float(word) for word in entity.split()[4::2]] for entity in rest]
         total = short(sum(hypot(x2 - x1, y2 - y1) for x1, y1, x2, y2 in words))
         assert f"{total} mm" in said[0] and "120 mm" in said[0]
-    assert not any("are left" in note for note in checked(raw(*square(100, 0, 30), *rest), open="all").report.notes)
+    assert not any(CARE in note for note in checked(raw(*square(100, 0, 30), *rest), open="all").report.notes)
 
 
 def test_dashes_that_are_left_count_and_what_is_open_by_choice_does_not() -> None:
@@ -976,10 +967,9 @@ def test_dashes_that_are_left_count_and_what_is_open_by_choice_does_not() -> Non
     types = "0\nLTYPE\n2\nCENTER\n73\n4\n"
     axis = line(-50, 15, 50, 15).replace("8 0", "8 0 6 CENTER")
     data = raw(*square(0, 100, 30), axis, line(200, 0, 200, 99), layers=types + layers)
-    (said,) = (note for note in checked(data).report.notes if "are left" in note)
-    assert "100 mm" in said and "219 mm" in said
-    (said,) = (note for note in checked(data, open="leave").report.notes if "are left" in note)
-    assert "100 mm" in said and "120 mm" in said
+    for wishes, cut in (({}, "219 mm"), ({"open": "leave"}, "120 mm")):
+        said = [note for note in checked(data, **wishes).report.notes if says(note, CARE, "--open all")]
+        assert each_says(said, ("100 mm", cut))
 
 
 @pytest.mark.parametrize(("side", "is_said"), [(999.0, False), (2001.0, True), (15000.0, True)])
@@ -989,7 +979,7 @@ def test_a_size_above_two_metres_is_said(side: float, is_said: bool, told: int) 
     side /= 25.4 if told == 1 else 1
     data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{told}\n")
     reading = read(data, "part.dxf", Wishes())
-    said = [note for note in reading.report.notes if note.startswith("take care")]
+    said = [note for note in reading.report.notes if note.startswith(CARE)]
     assert len(said) == is_said and all("--units" in note for note in said)
     asked = read(data, "part.dxf", Wishes(units="mm" if told == 4 else "inch"))
     assert not asked.report.notes
@@ -1009,7 +999,7 @@ def test_every_unit_that_a_file_tells(code: int) -> None:
         corners = [(0, 0), (side, 0), (side, side), (0, side), (0, 0)]
         square = (line(*(f"{value:.17g}" for value in (*p, *q))) for p, q in pairwise(corners))
         report = read(raw(*square, header=f"9\n$INSUNITS\n70\n{code}\n"), "part.dxf").report
-        assert report.size == pytest.approx((100, 100), rel=1e-6) and report.units_from == "as the file says"
+        assert report.size == pytest.approx((100, 100), rel=1e-6) and says(report.units_from, "as", "file")
 
 
 def test_characters_that_are_told_by_numbers() -> None:
@@ -1028,12 +1018,12 @@ def test_old_files() -> None:
     )
     reading = checked(data)
     assert reading.contours[0].is_closed
-    assert "the file has no EOF at its end, it may have been cut off" in reading.report.lines()
+    assert any(says(line, "EOF") for line in reading.report.lines())
     # Empty lines where a group should begin are none; an empty value is one.
     blank = raw(*square(0, 0, 9), "TEXT 8 0 10 1 20 1 1 A").replace(b"\n1\nA\n", b"\n1\n\n \n\n\n")
     reading = checked(blank)
-    assert len(reading.contours) == 1 and left(reading) == {"nothing to cut": 1}
-    assert reading.report.notes == ["there are empty lines between the file's groups: ignored"]
+    assert len(reading.contours) == 1 and counts_say(left(reading), {"nothing": 1})
+    assert each_says(reading.report.notes, "empty lines")
 
 
 @given(st.data())
@@ -1103,7 +1093,7 @@ def test_svg_shapes() -> None:
         '<line x1="5" y1="95" x2="9" y2="95"/><text x="1" y="1">A</text><path d="M0 0"/>'
     )
     report = reading.report
-    assert (report.units, report.units_from) == ("mm", "as the file says")
+    assert report.units == "mm" and says(report.units_from, "as", "file")
     assert [contour.is_closed for contour in reading.contours] == [True] * 9 + [False]
     assert sorted(reading.contours[0].points())[0] == pytest.approx((10, 40))
     assert len(reading.contours[1].edges) == 8
@@ -1116,7 +1106,7 @@ def test_svg_shapes() -> None:
         if any(edge.centre for edge in contour.edges) and len(contour.edges) == 2
     ]
     assert max(y for _, y in half.points()) == pytest.approx(55)
-    assert left(reading) == {"text, convert it to paths": 1, "it has no length": 1}
+    assert counts_say(left(reading), {("text", "path"): 1, "length": 1})
 
 
 def test_svg_path_without_any_data() -> None:
@@ -1150,10 +1140,10 @@ def test_svg_layers_and_units(run: Run, tmp_path: Path) -> None:
     )
     reading = read_svg(content)
     assert reading.starts == [pytest.approx((20, 80))]
-    assert left(reading) == {"a start hole": 1, "not displayed": 1}
+    assert counts_say(left(reading), {"start hole": 1, "displayed": 1})
     part = tmp_path / "part.svg"
     part.write_bytes(svg(content, 'width="400" height="200" viewBox="0 0 200 100"'))
-    assert "read in px (the file does not say; 96 px are an inch)" in run("cut", part).stderr
+    assert says(run("cut", part).stderr, "px", "file", 96, "inch")
     assert (
         "CUT (40,160):18"
         in run("cut", part, "--units", "mm", "--layer", "cut", "-o", os.devnull, "--program", "-").stdout
@@ -1162,20 +1152,20 @@ def test_svg_layers_and_units(run: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("data", "message"),
+    ("data", "facts"),
     [
-        (b"<svg", "not an SVG drawing that can be read"),
-        (b"<html></html>", "not an SVG drawing, its root is html"),
-        (svg("<path d='M0 0 L10 x'/><text>a</text>"), "no lines, arcs or curves to cut"),
-        (svg("<image/>"), "a picture"),
+        (b"<svg", ["SVG drawing"]),
+        (b"<html></html>", ["SVG", "html"]),
+        (svg("<path d='M0 0 L10 x'/><text>a</text>"), ["line", "arc", "curve"]),
+        (svg("<image/>"), ["picture"]),
         (
             svg("<defs><path d='M0 0h9'/><font><glyph d='M0 0h9'/></font></defs>"),
-            "1 path: shown nowhere; 1 glyph: shown",
+            ["1 path", "1 glyph"],
         ),
     ],
 )
-def test_svg_that_is_none(data: bytes, message: str) -> None:
-    with pytest.raises(UserError, match=message):
+def test_svg_that_is_none(data: bytes, facts: list[str]) -> None:
+    with pytest.raises(UserError, match=pattern(*facts)):
         read(data, "part.svg")
 
 
@@ -1185,15 +1175,15 @@ def test_dxf_whose_name_says_svg(before: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("data", "message"),
+    ("data", "facts"),
     [
-        (b"AC1015\0\0\0", "a DWG file, expected DXF"),
-        (b"AutoCAD Binary DXF\r\n\x1a\0\0\0SEC", "not a binary DXF drawing that can be read"),
-        (b"0\nSECTION\n2\nENTITIES\nLINE\n", "line 5: expected a group code, found 'LINE'"),
+        (b"AC1015\0\0\0", ["DWG", "DXF"]),
+        (b"AutoCAD Binary DXF\r\n\x1a\0\0\0SEC", ["binary DXF"]),
+        (b"0\nSECTION\n2\nENTITIES\nLINE\n", ["line 5", "group code", "'LINE'"]),
     ],
 )
-def test_files_that_are_none(data: bytes, message: str) -> None:
-    with pytest.raises(UserError, match=f"part.dxf: {message}"):
+def test_files_that_are_none(data: bytes, facts: list[str]) -> None:
+    with pytest.raises(UserError, match=pattern("part.dxf: ", *facts)):
         read(data, "part.dxf")
 
 
@@ -1204,8 +1194,8 @@ def test_command(run: Run, tmp_path: Path) -> None:
     with pytest.raises(UserError) as refused:
         run("cut", part, "--offset", "0.1")
     told = str(refused.value)
-    assert told.startswith(f"{part}: 1 open contour, the first end at (0, 0), 14.1421 mm from that at (10, 10); ")
-    assert "--tolerance is no help" in told and "--open cut" in told and "--open leave" in told
+    assert re.match(pattern(f"{part}: ", "1 open contour", "(0, 0)", "14.1421 mm", "(10, 10)"), told)
+    assert says(told, "--tolerance", "--open cut", "--open leave")
     counts = [
         run("cut", part, "--offset", "0.1", "--open", word, "-o", os.devnull, "--program", "-").stdout.count("FROM")
         for word in ("cut", "leave", "all")

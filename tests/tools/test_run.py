@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 import pytest
+from facthelp import CARE, each_says, pattern, says
 
 import skg
 
@@ -83,7 +84,7 @@ def test_an_open_route_without_numbers_is_whole(run_program: Program, tmp_path: 
         typed = [line for line in done.stderr.split("\n") if line.startswith(">")]
         assert typed == [">LOAD", *([f">{command}"] if command else []), ">"]
     assert run_program("ref", part).stdout == tape
-    assert run_program("check", part).stdout == f"{part}: 2 blocks, nothing wrong\n"
+    assert each_says(run_program("check", part).stdout, (f"{part}: ", "2 blocks"))
 
 
 def test_a_tape_whose_name_does_not_say_what_it_is(run_program: Program, tmp_path: Path) -> None:
@@ -156,33 +157,30 @@ def test_a_machine_that_halts(run_program: Program, tmp_path: Path) -> None:
     rom = tmp_path / "halt.bin"
     rom.write_bytes(b"\x76" * 8192)
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
-    assert (done.returncode, done.stderr) == (1, f"skg: {ROOT}/examples/wrench.skg: the machine halted at 0000\n")
+    assert done.returncode == 1 and each_says(done.stderr, (f"skg: {ROOT}/examples/wrench.skg: ", "halted", "0000"))
 
 
 def test_half_a_rom(run_program: Program, tmp_path: Path) -> None:
     rom = tmp_path / "half.bin"
     rom.write_bytes((ROMS / "skg.bin").read_bytes()[:4096])
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
-    assert (done.returncode, done.stderr) == (2, f"skg: {rom}: 4096 bytes, and the ROM has 8192\n")
+    assert done.returncode == 2 and each_says(done.stderr, (f"skg: {rom}: ", "4096 bytes", 8192))
 
 
 def test_a_rom_for_another_board(run_program: Program) -> None:
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-8251.bin")
     assert done.returncode == by_skg80("--rom", ROMS / "skg-8251.bin", "examples/wrench.skg").returncode == 2
-    assert done.stderr.endswith("never readied: is this ROM for another board?\n")
+    assert says(done.stderr.splitlines()[-1], "ROM", "board")
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-rc2014.bin")
     assert done.returncode == by_skg80("--rom", ROMS / "skg-rc2014.bin", "examples/wrench.skg").returncode == 2
-    assert done.stderr.startswith("skg: ") and "is this ROM for another board?" in done.stderr
+    assert says(done.stderr, "skg: ", "ROM", "board")
 
 
 def test_a_rom_with_a_hole(run_program: Program, tmp_path: Path) -> None:
     rom = tmp_path / "hole.hex"
     rom.write_text(":0300000000000000FD\n:00000001FF\n".replace("0000000000FD", "00000000FD"))
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
-    assert (done.returncode, done.stderr) == (
-        2,
-        f"skg: {ROOT}/examples/wrench.skg: the machine runs into 0003, where the ROM image has nothing\n",
-    )
+    assert done.returncode == 2 and each_says(done.stderr, (f"skg: {ROOT}/examples/wrench.skg: ", "0003", "ROM"))
 
 
 # The board ------------------------------------------------------------------------------------------------
@@ -221,7 +219,7 @@ def test_board_breaks_off_input_without_answers() -> None:
 def test_board_says_why_it_stopped() -> None:
     board = skg.Board(max_cycles=10_000_000)
     board.load("10 GOTO 10\n")
-    with pytest.raises(skg.BoardStopped, match="not done after 10000000 cycles") as stopped:
+    with pytest.raises(skg.BoardStopped, match=pattern("10000000 cycles")) as stopped:
         board.run()
     assert stopped.value.reason == "cycles"
     board.machine.press("\x03")
@@ -245,7 +243,7 @@ def test_board_shows_the_paper_as_it_is_printed() -> None:
 
 
 def test_board_takes_ascii_alone() -> None:
-    with pytest.raises(skg.errors.UserError, match="'é' is not ASCII"):
+    with pytest.raises(skg.errors.UserError, match=pattern("'é'", "ASCII")):
         skg.Board().type("REM é")
 
 
@@ -282,14 +280,14 @@ def test_one_wording_of_error_7() -> None:
 
 #: Lines without numbers in front of one with a number; whether their last leg is cut.
 MIXED = {
-    "CUT (0,0),(5,0),(5,5)\n\n10 A=1\n": "of line 1 is given up by line 3,",
-    "10 A=1\nFROM (1,1)\ncut (0,0),(5,0)\nCUT (5,5)": "of line 3 is given up by RUN,",
-    "FIT (0,0),0\nFIT (5,0)\nFIT (5,5)\r\n10 A=1\n": "of line 1 is given up by line 4,",
-    "CUT (0,0),(5,0),(5,5)\nFROM (0,0)\n10 A=1\n": "",
-    "CUT (0,0),(5,0),(5,5)\nEND\n10 A=1\n": "",
-    "CUT (0,0),(5,0),(5,5),(0,0)\nBACK\n10 A=1\n": "",
-    "10 CUT (0,0),(5,0),(5,5)\n": "",
-    "CUT (0,0),(5,0),(5,5)\n": "",
+    "CUT (0,0),(5,0),(5,5)\n\n10 A=1\n": ("line 1", "line 3"),
+    "10 A=1\nFROM (1,1)\ncut (0,0),(5,0)\nCUT (5,5)": ("line 3", "RUN"),
+    "FIT (0,0),0\nFIT (5,0)\nFIT (5,5)\r\n10 A=1\n": ("line 1", "line 4"),
+    "CUT (0,0),(5,0),(5,5)\nFROM (0,0)\n10 A=1\n": (),
+    "CUT (0,0),(5,0),(5,5)\nEND\n10 A=1\n": (),
+    "CUT (0,0),(5,0),(5,5),(0,0)\nBACK\n10 A=1\n": (),
+    "10 CUT (0,0),(5,0),(5,5)\n": (),
+    "CUT (0,0),(5,0),(5,5)\n": (),
 }
 
 
@@ -301,7 +299,7 @@ def test_a_route_that_is_given_up_is_said(program: str) -> None:
     fed = feed(program)
     assert fed.error is None
     assert (b"B0B5000B5000GYL2" in fed.tape) == (not MIXED[program])
-    assert (MIXED[program] in given_up(program)) if MIXED[program] else not given_up(program)
+    assert says(given_up(program), CARE, *MIXED[program]) if MIXED[program] else not given_up(program)
 
 
 def test_every_command_says_what_is_given_up(run_program: Program, tmp_path: Path) -> None:
@@ -310,7 +308,7 @@ def test_every_command_says_what_is_given_up(run_program: Program, tmp_path: Pat
     for words in (["run"], ["ref"], ["sim"], ["gcode"], ["plot", "-o", tmp_path / "part.svg"]):
         done = run_program(*words, part)
         assert done.returncode == 0
-        assert done.stderr.count("given up by line 3") == 1, words
+        assert sum(says(line, "line 3") for line in done.stderr.splitlines()) == 1, words
 
 
 def test_a_broken_run_leaves_its_tape_without_an_end(run_program: Program, tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from facthelp import says
 from toolhelp import CAD_TAPE, PATIENCE
 
 from skg.machine.teletype import DC2, DC4, XOFF, XON, Splitter
@@ -163,7 +164,7 @@ def test_sends_and_records(machine: Machine, tmp_path: Path) -> None:
     assert tape.read_bytes() == CAD_TAPE
     assert b"B9900B0B9900GXL3" in result.stdout, "what is punched is on the paper too"
     assert result.stdout.count(b">") == 5
-    assert result.stderr.decode().endswith(f"{len(CAD_TAPE)} bytes punched to {tape}\n")
+    assert says(result.stderr.decode().splitlines()[-1], f"{len(CAD_TAPE)} bytes", tape)
 
 
 def test_keyboard_from_a_pipe(machine: Machine) -> None:
@@ -329,8 +330,7 @@ def test_survives_the_port_going_away(machine: Machine, tmp_path: Path) -> None:
     machine.plug()
     errors = process.communicate()[1].decode()
     assert process.returncode == 0, errors
-    assert "went away" in errors
-    assert "is back" in errors
+    assert sum(says(line, machine.link) for line in errors.splitlines()) >= 2
     # The line in hand when the port went may have lost its beginning; all others arrive whole.
     whole = [line for line in machine.lines if line.endswith("REM LINE")]
     assert len(whole) >= 88
@@ -348,7 +348,7 @@ def test_gives_up(machine: Machine) -> None:
     machine.unplug()
     errors = process.communicate()[1].decode()
     assert process.returncode == 2
-    assert errors.splitlines()[-1] == f"skg: {machine.link}: no such file or directory, given up"
+    assert says(errors.splitlines()[-1], "skg: ", f"{machine.link}: ", "no such file or directory")
 
 
 def read_until(descriptor: int, wanted: bytes) -> bytes:
@@ -406,29 +406,26 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
     while not machine.lines:
         time.sleep(0.01)
     os.write(outer, b"\x03")
-    assert process.communicate()[1].decode().splitlines()[-1].strip() == "skg term: broken off"
+    assert process.communicate()[1].decode().splitlines()[-1].strip().startswith("skg term: ")
     assert process.returncode == 1
     for descriptor in (inner, outer):
         os.close(descriptor)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("arguments", "facts"),
     [
-        (["/nowhere"], "skg: /nowhere: no such file or directory\n"),
-        (["nonsense://x"], "skg: nonsense://x: invalid URL"),
-        (["/dev/null"], "skg: /dev/null: no serial port\n"),
-        (
-            ["/dev/null", "--punch-port", "/dev/../dev/null"],
-            "skg: /dev/../dev/null: the teletype's port too: --punch-port",
-        ),
-        (["/dev/null", "--send", "/nowhere.skg"], "skg: /nowhere.skg: No such file or directory\n"),
+        (["/nowhere"], ["skg: /nowhere: ", "no such file or directory"]),
+        (["nonsense://x"], ["skg: nonsense://x: ", "URL"]),
+        (["/dev/null"], ["skg: /dev/null: ", "serial port"]),
+        (["/dev/null", "--punch-port", "/dev/../dev/null"], ["skg: /dev/../dev/null: ", "teletype", "--punch-port"]),
+        (["/dev/null", "--send", "/nowhere.skg"], ["skg: /nowhere.skg: ", "No such file or directory"]),
     ],
 )
-def test_bad_ports(arguments: list[str], message: str) -> None:
+def test_bad_ports(arguments: list[str], facts: list[str]) -> None:
     result = term(*arguments)
     assert result.returncode == 2
-    assert result.stderr.decode().startswith(message)
+    assert says(result.stderr.decode(), *facts)
     assert result.stderr.count(b"\n") == 1
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from math import dist
 
 import pytest
+from facthelp import pattern
 
 from skg.cutting.job import make
 from skg.cutting.settings import Settings
@@ -75,7 +77,7 @@ def test_order() -> None:
     wanted[5], wanted[1] = replace(OFFSET, order=1), replace(OFFSET, order=3)
     assert cut(holes, wanted) == [5, 2, 1, 3, 4, 0]
     wanted[0] = replace(OFFSET, order=2)
-    with pytest.raises(UserError, match=r"outline from \(0, 0\)\) would be cut before contour [3-6] \(opening"):
+    with pytest.raises(UserError, match=pattern("outline from (0, 0)", re.compile(r"contour [3-6] \(opening"))):
         plan(holes, [], wanted)
 
 
@@ -84,7 +86,7 @@ def test_start_holes_of_the_drawing_go_to_what_is_cut() -> None:
     wanted = [replace(OFFSET, cut=False), replace(OFFSET, start=(6.0, 6.0)), OFFSET, replace(OFFSET, cut=False)]
     routes = {route.number: route for route in plan(plate(), [(21.5, 10.0)], wanted)}
     assert routes[1].start == (6.0, 6.0) and routes[2].start == (21.5, 10.0)
-    with pytest.raises(UserError, match="2 start holes for 1"):
+    with pytest.raises(UserError, match=pattern("2 start holes", 1)):
         plan(plate(), [(21.5, 10.0), (1.0, 1.0)], wanted)
 
 

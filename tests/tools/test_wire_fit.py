@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from random import Random
 
 import pytest
 import shapely
 from cuthelp import drawing, polygon, saved, stretches
+from facthelp import says
 from toolhelp import ROOT, Run
 
 from skg.errors import UserError
@@ -61,7 +63,7 @@ def test_a_neck_that_is_narrower_than_the_wire(run: Run, tmp_path: Path) -> None
     with pytest.raises(UserError, match="ERR 06 LINE"):
         checked(run, tmp_path, f"10 R=-.11\n{NECK}")
     code, told = checked(run, tmp_path, f"10 R=-.09\n{NECK}")
-    assert code == 0 and "beside 1 contour, nothing wrong" in told
+    assert code == 0 and says(told, "1 contour")
 
 
 def test_as_json(run: Run, tmp_path: Path) -> None:
@@ -78,7 +80,7 @@ def test_a_cutter(run: Run, tmp_path: Path) -> None:
     """A milling program: the mouth is 5 mm wide."""
     part = mouth(5.0, 3.0).replace("END\n", "")
     code, told = checked(run, tmp_path, f"Z -2,5\nF 300,60\n{part}END\n")
-    assert code == 1 and "the cutter cuts 1 mm" in told
+    assert code == 1 and says(told, "cutter", "1 mm")
     code, told = checked(run, tmp_path, f"Z -2,5\nF 300,60\n{mouth(5.0, 2.0)}")
     assert code == 0 and "1 contour" in told
 
@@ -92,7 +94,7 @@ def test_nothing_is_said_of_a_wire_on_its_contour(run: Run, tmp_path: Path) -> N
 def test_the_way_from_the_start_hole(run: Run, tmp_path: Path, hole: XY, is_in: bool) -> None:
     """A start hole in the part: the wire comes through its edge."""
     code, told = checked(run, tmp_path, contour([(0, 0), (10, 0), (10, 10), (0, 10)], 0.1, hole))
-    assert code == is_in and ("into the contour" in told) == is_in
+    assert code == is_in and says(told, "mm", "contour") == is_in
 
 
 def test_two_windows_with_a_wall_thinner_than_the_wire(run: Run, tmp_path: Path) -> None:
@@ -102,7 +104,7 @@ def test_two_windows_with_a_wall_thinner_than_the_wire(run: Run, tmp_path: Path)
         first, second = (contour(one, r, (one[0][0] + 5, 5.0 if r < 0 else -3.0)) for one in squares)
         code, told = checked(run, tmp_path, first.replace("END\n", "") + second)
         assert code == is_into, (r, gap, told)
-        assert told.count("the wire of another contour cuts 0.05") == 2 * is_into
+        assert sum(says(line, "wire", "another", "0.05 mm") for line in told.splitlines()) == 2 * is_into
 
 
 @pytest.mark.parametrize("width", [0.15, 0.19, 0.21, 0.3])
@@ -115,7 +117,7 @@ def test_walls_that_are_no_neighbours(run: Run, tmp_path: Path, shape: str, widt
     code, told = checked(run, tmp_path, program)
     assert code == (not fits)
     if not fits:
-        assert f"cuts {2 * 0.1 - width:.4g} mm into" in told
+        assert says(told, f"{2 * 0.1 - width:.4g} mm")
 
 
 def test_what_the_check_says_shapely_says(run: Run, tmp_path: Path) -> None:
@@ -183,4 +185,4 @@ def test_examples(run: Run) -> None:
         beside += "beside" in done.stdout
     assert beside > len(paths) / 2
     told = run("check", ROOT / "examples/xy-die-set.xy").stdout
-    assert "into the contour" in told and "near line" not in told
+    assert says(told, "mm", "contour") and not says(told, re.compile(r"near .*line \d"))

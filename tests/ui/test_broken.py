@@ -16,6 +16,7 @@ from threading import Thread
 from urllib.parse import quote
 
 import pytest
+from facthelp import says
 from uihelp import Json, Page, circles, plate, until
 
 from skg.ui import worker
@@ -79,7 +80,7 @@ def test_sheet_of_a_process_that_is_gone(server: Server, tmp_path: Path) -> None
     assert run["state"] == "done"
     os.kill(process_of(server), signal.SIGKILL)
     time.sleep(0.2)
-    assert "cut again" in page.call("GET", f"/api/run/{number}/sheet").message
+    assert says(page.call("GET", f"/api/run/{number}/sheet").message, "again")
     assert page.get(f"/api/run/{number}/tape").status == 200
 
 
@@ -248,7 +249,7 @@ def test_time_is_limited(server: Server, tmp_path: Path, monkeypatch: pytest.Mon
     page.open(plate(tmp_path))
     monkeypatch.setattr(worker, "SECONDS", 0.05)
     state = page.open(circles(tmp_path, 3000))
-    assert "given up" in state["error"]["message"]
+    assert says(state["error"]["message"], "given up")
     monkeypatch.undo()
     assert len(page.open(plate(tmp_path))["contours"]) == 3
 

@@ -12,6 +12,7 @@ import ezdxf
 import pytest
 from click.testing import CliRunner
 from ezdxf import units
+from facthelp import says
 from uihelp import Json, Page, circles, plate, until
 
 from skg.cli import cli
@@ -285,7 +286,7 @@ def test_save_asks(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
     assert (tmp_path / "plate.skg").read_text() == "mine"
     answer = page.call("POST", "/api/save", body | {"overwrite": True})
     # (the program is written, the tape is a folder)
-    assert answer.status == 400 and "plate.nodrift.3b" in answer.message and "plate.skg is written" in answer.message
+    assert answer.status == 400 and says(answer.message, "plate.nodrift.3b", "plate.skg")
     (tmp_path / "plate.nodrift.3b").rmdir()
     assert page.done("POST", "/api/save", body | {"overwrite": True})["written"] == ["plate.skg", "plate.nodrift.3b"]
     for what in (["exe"], [None], [["tape"]], [7], ["tape", "../x"]):
@@ -355,7 +356,7 @@ def test_saved_again_without_a_contour(serve: Callable[[Path], Server], tmp_path
     state |= page.put(state, contour=[which | {"cut": False}])
     plate(tmp_path, holes=1)
     new = page.done("GET", f"/api/state?after={state['rev']}")
-    assert new["matches"][0]["id"] is None and "not there" in new["plan"]["error"]["message"]
+    assert new["matches"][0]["id"] is None and says(new["plan"]["error"]["message"], "contour", "job")
     assert new["plan"]["order"] == [1, 0] and len(new["job"]["contour"]) == 1
     assert page.cut(new["rev"])[1]["state"] == "failed"
     del new["job"]["contour"]
