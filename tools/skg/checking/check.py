@@ -96,10 +96,10 @@ def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
 
 def _in_tabs(contours: Pieces, routes: list[PlannedContour]) -> np.ndarray:
     """Mark the pieces of contours that are cut in the last pass alone."""
-    found = np.zeros(len(contours.owner), bool)
+    is_in_tab = np.zeros(len(contours.owner), bool)
     ends = np.searchsorted(contours.owner, np.arange(len(routes)), "right")
     for end, route in zip(ends.tolist(), routes, strict=True):
         if route.tab:
             tab = Pieces((path, 0) for path in _paths(_parts(route)[1]))
-            found[end - len(tab.owner) : end] = True
-    return found
+            is_in_tab[end - len(tab.owner) : end] = True
+    return is_in_tab

@@ -49,11 +49,11 @@ def not_reached(
             off = near.own.copy()
             is_near = near.own_at >= 0
             off[is_near] += path.aside[near.own_at[is_near]]
-            for at in path.doubtful(near.own, off).tolist():
-                off[at] = np.hypot(*(path.steps(int(near.own_at[at])) - places[at]).T).min()
-            for owner, at in first_of_each(owners[free], off > LIMIT):
-                found = Misfit(owner, place_of(places[at]), float(off[at]), is_missed=off[at] == np.inf)
-                faults.setdefault((number, owner), found)
+            for row in path.doubtful(near.own, off).tolist():
+                off[row] = np.hypot(*(path.steps(int(near.own_at[row])) - places[row]).T).min()
+            for owner, row in first_of_each(owners[free], off > LIMIT):
+                fault = Misfit(owner, place_of(places[row]), float(off[row]), is_missed=off[row] == np.inf)
+                faults.setdefault((number, owner), fault)
             worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
     return [faults[key] for key in sorted(faults)], worst
 
@@ -93,16 +93,17 @@ def _by_inner_corners(wire: Pieces, contours: Pieces, widest: float) -> tuple[Wh
     corners: it may turn off too early there, before a step that is lower than R."""
     before = np.flatnonzero(wire.owner[1:] == wire.owner[:-1])
     # (a wire that turns by less leaves nothing)
-    one, other = (wire.normal(at, np.full(len(at), end)) for at, end in ((before, 1.0), (before + 1, 0.0)))
-    turns = np.abs(cross(one.T, other.T)) > _TURN
-    before, one, other = before[turns], one[turns], other[turns]
+    arriving = wire.normal(before, np.ones(len(before)))
+    leaving = wire.normal(before + 1, np.zeros(len(before)))
+    turns = np.abs(cross(arriving.T, leaving.T)) > _TURN
+    before, arriving, leaving = before[turns], arriving[turns], leaving[turns]
     near = contours.nearest(wire.end[before], wire.owner[before], widest + 2 * LIMIT)
     is_there = (near.own_at >= 0) & ~contours.is_chord[near.own_at]
-    before, one, other, which = before[is_there], one[is_there], other[is_there], near.own_at[is_there]
+    before, arriving, leaving, which = before[is_there], arriving[is_there], leaving[is_there], near.own_at[is_there]
     part = contours.part(wire.end[before], which)
     away = wire.end[before] - contours.at(which, part)
     # (the wire's way is square to its normal)
-    is_inner = cross((other - one).T, away.T) > 0
+    is_inner = cross((leaving - arriving).T, away.T) > 0
     which, part, aside = which[is_inner], part[is_inner], 2 * LIMIT / contours.length[which[is_inner]]
     part = np.concatenate((part - aside, part + aside))
     is_on = (part > 0) & (part < 1)

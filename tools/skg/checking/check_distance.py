@@ -165,11 +165,11 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
     reach = max(float(wanted.max(initial=0.0)), LIMIT)
     left = np.arange(len(places))
     while True:
-        found = own_at >= 0
-        at, place = left[found], places[left][found]
-        first = np.searchsorted(contours.owner, owners[at])
-        count = np.searchsorted(contours.owner, owners[at], "right") - first
-        nearest = own_at[found]
+        is_known = own_at >= 0
+        known, place = left[is_known], places[left][is_known]
+        first = np.searchsorted(contours.owner, owners[known])
+        count = np.searchsorted(contours.owner, owners[known], "right") - first
+        nearest = own_at[is_known]
         # The corner of two pieces that a place is nearest to.
         is_behind = _far(place, contours.end[nearest]) < _far(place, contours.start[nearest])
         other = first + (nearest - first + np.where(is_behind, 1, -1)) % count
@@ -178,11 +178,11 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
         ways = [contours.normal(piece, np.full(len(piece), end)) for piece, end in ((before, 1.0), (after, 0.0))]
         bend = _bend(*ways)
         # Where two lines meet the wire is R / cos(bend / 2) from the corner; arcs may take it a little further.
-        is_there = _far(place, corner) * bend <= _TIP * wanted[at].max(1, initial=0.0) + LIMIT
+        is_there = _far(place, corner) * bend <= _TIP * wanted[known].max(1, initial=0.0) + LIMIT
         for piece in (before, after):
-            carrier = np.abs(contours.from_carrier(place, piece)[:, None] - wanted[at]).min(1)
-            off[at] = np.minimum(off[at], np.where(is_there, carrier, np.inf))
-        left = left[~found]
+            carrier = np.abs(contours.from_carrier(place, piece)[:, None] - wanted[known]).min(1)
+            off[known] = np.minimum(off[known], np.where(is_there, carrier, np.inf))
+        left = left[~is_known]
         if not len(left) or reach > _FAR * wanted.max():
             return off
         left = left[_by_tips(places[left], owners[left], contours, wanted, reach)]
@@ -218,6 +218,6 @@ def _far(places: Floats, others: Floats) -> Floats:
     return np.hypot(*(places - others).T)
 
 
-def _bend(one: Floats, other: Floats) -> Floats:
+def _bend(vectors: Floats, others: Floats) -> Floats:
     """The cosine of half the angle between unit vectors."""
-    return np.sqrt(np.maximum(0, (1 + (one * other).sum(1)) / 2))
+    return np.sqrt(np.maximum(0, (1 + (vectors * others).sum(1)) / 2))

@@ -71,9 +71,9 @@ def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
         return [(-1,)]
     if len(route.passes) == 1 and not route.tab:
         return [(0,)]
-    found: list[tuple[int, ...]] = []
+    groups: list[tuple[int, ...]] = []
     for number, run in enumerate(route.runs()):
-        if not found or run.stop:
-            found.append(())
-        found[-1] += (min(number, len(route.passes) - 1),)
-    return found
+        if not groups or run.stop:
+            groups.append(())
+        groups[-1] += (min(number, len(route.passes) - 1),)
+    return groups

@@ -40,17 +40,17 @@ def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
 
 def said(routes: Sequence[PlannedContour]) -> list[ReportLine]:
     """Report split parts."""
-    found = [
+    lines = [
         ReportLine(
-            f"take care: the part of contour {routes[at].turn} falls into {count} pieces, what is cut out reaches its "
-            f"edge: the smallest is at {shown(place)}",
-            routes[at].number,
+            f"take care: the part of contour {routes[number].turn} falls into {count} pieces, what is cut out reaches "
+            f"its edge: the smallest is at {shown(place)}",
+            routes[number].number,
             place,
         )
-        for at, count, place in fallen(routes)
+        for number, count, place in fallen(routes)
     ]
-    more = len(found) - _PLACES
-    return found[:_PLACES] + [ReportLine(f"and {counted(more, 'more such part')}")] * (more > 0)
+    more = len(lines) - _PLACES
+    return lines[:_PLACES] + [ReportLine(f"and {counted(more, 'more such part')}")] * (more > 0)
 
 
 def _pieces(area: shapely.Geometry) -> int:

@@ -95,55 +95,55 @@ def look(
 
 def _runs(wire: Sequence[Segment], drawn: Sequence[Segment]) -> Iterator[_Run]:
     """The contours of a route with R, in order."""
-    groups = [list(group) for group in _beside(wire, lambda one: one.offset != 0)]
-    offsets = {one.nominal: float(one.offset) for group in groups for one in group}
-    contours = [list(group) for group in _beside(drawn, lambda one: one.nominal in offsets)]
+    groups = [list(group) for group in _beside(wire, lambda segment: segment.offset != 0)]
+    offsets = {segment.nominal: float(segment.offset) for group in groups for segment in group}
+    contours = [list(group) for group in _beside(drawn, lambda segment: segment.nominal in offsets)]
     if len(groups) != len(contours):
         # (an element so short that the wire passes it over has divided one of the two)
-        groups, contours = ([[one for group in some for one in group]] for some in (groups, contours))
-    leads = [one for one in wire if not one.offset]
+        groups, contours = ([[segment for group in some for segment in group]] for some in (groups, contours))
+    leads = [segment for segment in wire if not segment.offset]
     for group, contour in zip(groups, contours, strict=True):
         if not group or not contour:
             continue
-        run = _Run(contour, group, leads, {one.nominal: float(one.offset) for one in group})
+        run = _Run(contour, group, leads, {segment.nominal: float(segment.offset) for segment in group})
         if loop := _loop(contour):
             run.is_closed = True
         else:
             loop = _without_leads(contour, drawn)
         if len(contour[loop]) < len(contour):
             run.drawn = contour[loop]
-            known = {one.nominal for one in run.drawn}
-            run.leads = leads + [one for one in group if one.nominal not in known]
-            run.wire = [one for one in group if one.nominal in known]
+            known = {segment.nominal for segment in run.drawn}
+            run.leads = leads + [segment for segment in group if segment.nominal not in known]
+            run.wire = [segment for segment in group if segment.nominal in known]
         yield run
 
 
 def _beside(segments: Iterable[Segment], is_beside: Callable[[Segment], bool]) -> Iterator[list[Segment]]:
     """Stretches of segments that are elements of the contour with R."""
-    found: list[Segment] = []
-    for one in segments:
-        if one.nominal is not None and is_beside(one):
-            found.append(one)
-        elif found:
-            yield found
-            found = []
-    if found:
-        yield found
+    stretch: list[Segment] = []
+    for segment in segments:
+        if segment.nominal is not None and is_beside(segment):
+            stretch.append(segment)
+        elif stretch:
+            yield stretch
+            stretch = []
+    if stretch:
+        yield stretch
 
 
 def _loop(contour: Sequence[Segment]) -> slice | None:
     """The longest stretch of a contour that ends where it begins: without the leads that are drawn with R."""
     best = None
     begins: dict[tuple[int, int], int] = {}
-    for number, one in enumerate(contour):
-        begins.setdefault(_cell(one.start), number)
-        x, y = _cell(one.end)
+    for number, segment in enumerate(contour):
+        begins.setdefault(_cell(segment.start), number)
+        x, y = _cell(segment.end)
         near = [
             begin
             for i in (-1, 0, 1)
             for j in (-1, 0, 1)
             if (begin := begins.get((x + i, y + j))) is not None
-            and distance(_xy(contour[begin].start), _xy(one.end)) <= _CORNER
+            and distance(_xy(contour[begin].start), _xy(segment.end)) <= _CORNER
         ]
         if near and (best is None or number + 1 - min(near) > best.stop - best.start):
             best = slice(min(near), number + 1)
@@ -152,7 +152,7 @@ def _loop(contour: Sequence[Segment]) -> slice | None:
 
 def _without_leads(contour: Sequence[Segment], drawn: Sequence[Segment]) -> slice:
     """An open contour without the arcs that come to it from a line with R 0, or go to one (a part up to its tab)."""
-    places = {id(one): number for number, one in enumerate(drawn)}
+    places = {id(segment): number for number, segment in enumerate(drawn)}
     first, last = places[id(contour[0])], places[id(contour[-1])]
     begins = contour[0].is_arc and first > 0 and drawn[first - 1].role == "cut"
     ends = contour[-1].is_arc and last + 1 < len(drawn) and drawn[last + 1].role == "cut"
@@ -179,21 +179,21 @@ def _turned(runs: Sequence[_Run]) -> Iterator[Spoilt]:
     for run in runs:
         sweeps: dict[Curve, float] = {}
         for sign, segments in ((1, run.wire), (-1, run.drawn)):
-            for one in segments:
-                if one.is_arc:
-                    sweeps[one.nominal] = sweeps.get(one.nominal, 0.0) + sign * float(one.sweep)
-        for one in run.drawn:
-            if one.is_arc and abs(sweeps.pop(one.nominal, 0.0)) > _TURN:
-                yield Spoilt(_xy(one.start), abs(run.r(one)), one.line)
+            for segment in segments:
+                if segment.is_arc:
+                    sweeps[segment.nominal] = sweeps.get(segment.nominal, 0.0) + sign * float(segment.sweep)
+        for segment in run.drawn:
+            if segment.is_arc and abs(sweeps.pop(segment.nominal, 0.0)) > _TURN:
+                yield Spoilt(_xy(segment.start), abs(run.r(segment)), segment.line)
 
 
 def _cut_into(runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Sequence[int | None]) -> Iterator[Spoilt]:
     """The deepest place of each piece of a contour that its own wire comes into."""
     least = [min(map(abs, run.offsets.values())) for run in runs]
     parts = [
-        (_piece(one), number, abs(float(one.offset)) or least[number])
+        (_piece(segment), number, abs(float(segment.offset)) or least[number])
         for number, run in enumerate(runs)
-        for one in (*run.wire, *(run.leads if run.is_closed else ()))
+        for segment in (*run.wire, *(run.leads if run.is_closed else ()))
     ]
     wire, wanted = Pieces((piece, number) for piece, number, _ in parts), np.array([r for _, _, r in parts])
     widest = float(np.abs(offsets).max())
@@ -217,7 +217,7 @@ def _not_reached(
     runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Sequence[int | None]
 ) -> Iterator[Spoilt]:
     """The middle one of the places of each piece of a contour that have room for the wire, which was never there."""
-    wire = Pieces((_piece(one), number) for number, run in enumerate(runs) for one in run.wire)
+    wire = Pieces((_piece(segment), number) for number, run in enumerate(runs) for segment in run.wire)
     missed: dict[int, list[XY]] = defaultdict(list)
     for which, part in contours.batches(_SPACING * float(np.abs(offsets).min()), 2):
         aside = offsets[which]

@@ -62,20 +62,20 @@ class WirePath:
 
     def of_pass(self, number: int) -> Pieces:
         """The pieces; those that surely belong to other passes are nobody's."""
-        found = copy(self.pieces)
-        found.owner = np.where((self.passes == number) | (self.passes < 0), self.pieces.owner, -1)
-        return found
+        pieces = copy(self.pieces)
+        pieces.owner = np.where((self.passes == number) | (self.passes < 0), self.pieces.owner, -1)
+        return pieces
 
     def doubtful(self, off: Floats, total: Floats) -> Whole:
         """Return the places, with their distances without and with the steps, that are too far off by the steps
         alone."""
         return np.flatnonzero((off <= LIMIT) & (total > LIMIT))
 
-    def steps(self, at: int) -> Floats:
+    def steps(self, number: int) -> Floats:
         """The controller's places on a piece, mm (m, 2)."""
-        piece = self.laid[int(self.rows[at])]
-        found = np.frombuffer(trace_array(piece.block), np.int64).reshape(-1, 2)
-        return (found - piece.block.start + piece.start) / 1000
+        piece = self.laid[int(self.rows[number])]
+        places = np.frombuffer(trace_array(piece.block), np.int64).reshape(-1, 2)
+        return (places - piece.block.start + piece.start) / 1000
 
 
 def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
@@ -94,9 +94,9 @@ def spacing_of(pieces: Pieces, widest: float) -> float:
 
 def first_of_each(owners: Whole, mask: np.ndarray) -> Iterator[tuple[int, int]]:
     """The owners of places where something is so, each with the first one."""
-    at = np.flatnonzero(mask)
-    found, first = np.unique(owners[at], return_index=True)
-    return zip(found.tolist(), at[first].tolist(), strict=True)
+    marked = np.flatnonzero(mask)
+    each, first = np.unique(owners[marked], return_index=True)
+    return zip(each.tolist(), marked[first].tolist(), strict=True)
 
 
 def place_of(place: Floats) -> XY:

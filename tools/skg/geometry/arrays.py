@@ -35,6 +35,6 @@ def numbers_up_to(counts: Whole) -> Whole:
     return np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
-def columns_at(table: Floats, at: Whole) -> tuple[Floats, Floats]:
+def columns_at(table: Floats, rows: Whole) -> tuple[Floats, Floats]:
     """x and y of some rows. (numpy is slow along rows of two)"""
-    return table[:, 0][at], table[:, 1][at]
+    return table[:, 0][rows], table[:, 1][rows]

@@ -64,7 +64,7 @@ class Edge(Piece):
     def far(self, place: XY) -> float:
         """Distance of a place from the edge; of a curve from its samples."""
         places = self.points() if self.nodes else [self.at(self.nearest(place))]
-        return min(distance(one, place) for one in places)
+        return min(distance(point, place) for point in places)
 
     def reversed(self) -> Edge:
         """The same edge, run through backwards."""

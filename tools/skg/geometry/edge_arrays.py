@@ -22,21 +22,21 @@ def points_of(contours: Sequence[Contour], off: float | None = None) -> tuple[Fl
     counts = np.array([edge.chords(off) for edge in edges], np.int64)
     first = np.cumsum([0, *(len(contour.edges) for contour in contours)])
     per_contour = np.add.reduceat(counts, first[:-1]) + 1 if edges else counts
-    at = np.cumsum(counts) - counts + np.repeat(np.arange(len(contours)), np.diff(first))
+    begins = np.cumsum(counts) - counts + np.repeat(np.arange(len(contours)), np.diff(first))
     points = np.empty((int(per_contour.sum()), 2))
-    points[at] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
+    points[begins] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
     points[np.cumsum(per_contour) - 1] = np.array([contour.edges[-1].end for contour in contours]).reshape(-1, 2)
     arcs = [number for number, edge in enumerate(edges) if not edge.is_line and not edge.nodes]
     for begin in range(0, len(arcs), _ARCS):
         some = arcs[begin : begin + _ARCS]
-        _inner_points([edges[number] for number in some], at[some], counts[some], points)
+        _inner_points([edges[number] for number in some], begins[some], counts[some], points)
     for number, edge in enumerate(edges):
         if edge.nodes:
-            points[at[number] : at[number] + counts[number]] = edge.samples[:-1]
+            points[begins[number] : begins[number] + counts[number]] = edge.samples[:-1]
     return points, per_contour
 
 
-def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> None:
+def _inner_points(arcs: list[Edge], begins: Whole, pieces: Whole, points: Floats) -> None:
     """Put the points of arcs behind their first ones, which are at some places."""
     inner = pieces - 1
     rows = rows_of(arcs)
@@ -48,8 +48,8 @@ def _inner_points(arcs: list[Edge], at: Whole, pieces: Whole, found: Floats) -> 
     number = numbers_up_to(inner)
     across, up = columns_at(ways, np.repeat((np.cumsum(many) - many)[kind], inner) + number)
     x, y, radius = (np.repeat(column, inner) for column in rows[:, 4:7].T)
-    places = np.repeat(at, inner) + number + 1
-    found[places, 0], found[places, 1] = x + radius * across, y + radius * up
+    places = np.repeat(begins, inner) + number + 1
+    points[places, 0], points[places, 1] = x + radius * across, y + radius * up
 
 
 def rows_of(pieces: Sequence[Piece]) -> Floats:

@@ -31,8 +31,8 @@ class Field:
     def near(self, places: Floats, reach: Floats) -> Floats:
         """Distance of the nearest contour from each of n places (n, 2), mm: infinite where none is within its reach."""
 
-        def measure(at: Whole, one: Whole) -> Floats:
-            return _beside(*self._chords(at, places, one), reach[one])
+        def measure(chords: Whole, asked: Whole) -> Floats:
+            return _beside(*self._chords(chords, places, asked), reach[asked])
 
         return self._look(places, places, reach + _HAIR, measure)
 
@@ -40,8 +40,8 @@ class Field:
         """Distance from each of n places along its way (n, 2; unit vectors) to the next contour, mm: infinite
         where none is within its reach. What is nearer than `least` is none."""
 
-        def measure(at: Whole, one: Whole) -> Floats:
-            return _ahead(*self._chords(at, places, one), *columns_at(ways, one), reach[one], least[one])
+        def measure(chords: Whole, asked: Whole) -> Floats:
+            return _ahead(*self._chords(chords, places, asked), *columns_at(ways, asked), reach[asked], least[asked])
 
         return self._look(places, places + reach[:, None] * ways, np.full(len(places), _HAIR), measure)
 
@@ -49,17 +49,19 @@ class Field:
         """Distance that a disc so wide on each side gets from each of n places along its way (n, 2; unit vectors)
         before it touches a contour, mm: from `least` on, infinite where it touches none within its reach."""
 
-        def measure(at: Whole, one: Whole) -> Floats:
-            return _before(*self._chords(at, places, one), *columns_at(ways, one), reach[one], least[one], wide[one])
+        def measure(chords: Whole, asked: Whole) -> Floats:
+            return _before(
+                *self._chords(chords, places, asked), *columns_at(ways, asked), reach[asked], least[asked], wide[asked]
+            )
 
         return self._look(places, places + reach[:, None] * ways, wide + _HAIR, measure)
 
-    def _chords(self, at: Whole, places: Floats, one: Whole) -> tuple[Floats, Floats, Floats, Floats]:
+    def _chords(self, chords: Whole, places: Floats, asked: Whole) -> tuple[Floats, Floats, Floats, Floats]:
         """The ways from where some chords begin to some places, and to where they end: x and y of each."""
         (x, y), (x1, y1), (x2, y2) = (
-            columns_at(places, one),
-            columns_at(self._points, at),
-            columns_at(self._points, at + 1),
+            columns_at(places, asked),
+            columns_at(self._points, chords),
+            columns_at(self._points, chords + 1),
         )
         return x - x1, y - y1, x2 - x1, y2 - y1
 
@@ -72,11 +74,11 @@ class Field:
         def look(first: int) -> None:
             """Look from some of the places."""
             some = slice(first, first + _PLACES)
-            for of, at in self._index.within(low[some], high[some]):
-                one = first + of
-                starts = np.flatnonzero(np.diff(one, prepend=-1))
-                least = np.minimum.reduceat(measure(at, one), starts)
-                result[one[starts]] = np.minimum(result[one[starts]], least)
+            for of, chords in self._index.within(low[some], high[some]):
+                asked = first + of
+                starts = np.flatnonzero(np.diff(asked, prepend=-1))
+                least = np.minimum.reduceat(measure(chords, asked), starts)
+                result[asked[starts]] = np.minimum(result[asked[starts]], least)
 
         firsts = range(0, len(places), _PLACES)
         if len(firsts) > 1:

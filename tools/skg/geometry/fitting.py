@@ -62,14 +62,14 @@ def _off_arc(points: list[XY], start: XY, angle: float, end: XY) -> tuple[float,
 
 
 def _off(
-    at: At, heading: Heading, one: CurveNode, low: float, high: float, breaks: Sequence[float]
+    places_at: At, heading: Heading, one: CurveNode, low: float, high: float, breaks: Sequence[float]
 ) -> tuple[float, float]:
     """Distance of the curve from the biarc between two parameters, and from what FIT cuts of it; infinity without a
     good one. It is tried at eleven places, and at three between two breaks. `one`: the node at `low`."""
-    other = CurveNode(*at([high]), heading(high))
+    other = CurveNode(*places_at([high]), heading(high))
     if distance(one.point, other.point) < 1e-6:
         # A stretch without any length is one place; else the curve comes back to where it was.
-        between = at([low + k / 8 * (high - low) for k in range(1, 8)])
+        between = places_at([low + k / 8 * (high - low) for k in range(1, 8)])
         return (0.0, 0.0) if all(distance(place, one.point) < 1e-6 for place in between) else (inf, inf)
     if abs(turn(one.angle, other.angle)) > _BEND:
         return inf, inf
@@ -86,7 +86,7 @@ def _off(
     (x, y), (u, v) = one.point, chord
     before: list[XY] = []
     behind: list[XY] = []
-    for place in at(tried):
+    for place in places_at(tried):
         (behind if (place[0] - x) * u + (place[1] - y) * v >= middle else before).append(place)
     first = _off_arc(before, one.point, one.angle, joint)
     # Seen from its end the second arc leaves along the reversed tangent.
@@ -94,32 +94,34 @@ def _off(
     return max(first[0], second[0]), max(first[1], second[1])
 
 
-def curve_edge(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Edge:
+def curve_edge(places_at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Edge:
     """Return a smooth curve as an edge whose nodes FIT takes to within `tolerance`, mm.
 
     `breaks`: parameters in rising order, the first and the last one included; between two of them the curve is as
     smooth as a polynomial of low degree.
     """
-    found = list(_stations(at, heading, breaks, tolerance))
-    nodes = tuple(CurveNode(place, heading(t)) for place, t in zip(at(found), found, strict=True))
+    stations = list(_stations(places_at, heading, breaks, tolerance))
+    nodes = tuple(CurveNode(place, heading(t)) for place, t in zip(places_at(stations), stations, strict=True))
     spans: list[tuple[float, float, float]] = []
-    for (one, other), (low, high) in zip(pairwise(nodes), pairwise(found), strict=True):
+    for (one, other), (low, high) in zip(pairwise(nodes), pairwise(stations), strict=True):
         bend = abs(turn(one.angle, other.angle)) + 0.01
         inner = [low, *breaks[bisect_right(breaks, low) : bisect_left(breaks, high)], high]
         spans += [(begin, end, bend) for begin, end in pairwise(inner)]
-    ends = at([found[0], *(end for _, end, _ in spans)])
-    samples = [_samples(at, *span, distance(p, q))[:-1] for span, (p, q) in zip(spans, pairwise(ends), strict=True)]
+    ends = places_at([stations[0], *(end for _, end, _ in spans)])
+    samples = [
+        _samples(places_at, *span, distance(p, q))[:-1] for span, (p, q) in zip(spans, pairwise(ends), strict=True)
+    ]
     samples.append(np.array([nodes[-1].point]))
     return Edge(nodes[0].point, nodes[-1].point, nodes=nodes, samples=np.concatenate(samples))
 
 
-def _samples(at: At, low: float, high: float, bend: float, chord: float) -> Places:
+def _samples(places_at: At, low: float, high: float, bend: float, chord: float) -> Places:
     """Places along a span that bends by an angle, or a part of it without a break in it, both ends included: so many
     that the chords between them are near the curve. `chord`: from end to end, mm."""
     # n chords of a span of length l that bends by θ are lθ/8n² away from it, where it is run through evenly.
     pieces = 2 * ceil(sqrt(chord * bend / 8 / MEASURED) / 2) + 2
     while True:
-        places = np.array(at([low + k / pieces * (high - low) for k in range(pieces + 1)]))
+        places = np.array(places_at([low + k / pieces * (high - low) for k in range(pieces + 1)]))
         # (chords that are twice as long are four times as far away)
         if _off_chords(places[1::2], places[::2]) <= 4 * MEASURED or pieces > _MOST:
             return places
@@ -136,7 +138,7 @@ def _off_chords(between: Places, places: Places) -> float:
     return float(np.where(stands, np.hypot(p, q), np.abs(u * q - v * p) / (length + stands)).max())
 
 
-def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Iterator[float]:
+def _stations(places_at: At, heading: Heading, breaks: Sequence[float], tolerance: float) -> Iterator[float]:
     """The parameters of the nodes: each span as long as the tolerance allows, the last two of one length.
 
     A biarc's error is of third order: what is tried next follows from the error found. A flat arc is cut as its chord
@@ -149,14 +151,14 @@ def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: floa
     tolerance *= _SPARE
     yield now
     while now < end:
-        node = CurveNode(*at([now]), heading(now))
+        node = CurveNode(*places_at([now]), heading(now))
         # The longest good step, how far FIT's cut is off there; the shortest bad one.
         good, off_cut, bad = 0.0, inf, inf
         for _ in range(16):
             step = min(step, end - now)
             if step < least:
                 break
-            off, off_this = _off(at, heading, node, now, now + step, breaks)
+            off, off_this = _off(places_at, heading, node, now, now + step, breaks)
             if off <= tolerance:
                 good, off_cut = step, off_this
                 if now + step >= end or off > 0.6 * tolerance:
@@ -170,7 +172,7 @@ def _stations(at: At, heading: Heading, breaks: Sequence[float], tolerance: floa
         step = good or least
         while step > least and off_cut > tolerance:
             step *= 0.8
-            off_cut = _off(at, heading, node, now, now + step, breaks)[1]
+            off_cut = _off(places_at, heading, node, now, now + step, breaks)[1]
         if now + step < end < now + 1.4 * step:
             step = (end - now) / 2
         now = end if now + step > end - least else now + step

@@ -131,8 +131,8 @@ class Holding:
         """The closed contours around each of some places, by their numbers."""
         result: list[list[int]] = [[] for _ in places]
         of, holding = self._holding(np.array(places, float).reshape(-1, 2), np.full(len(places), -1))
-        for at, one in sorted(zip(of.tolist(), holding.tolist(), strict=True)):
-            result[at].append(one)
+        for place, holder in sorted(zip(of.tolist(), holding.tolist(), strict=True)):
+            result[place].append(holder)
         return result
 
     def _holding(self, places: Floats, on: Whole) -> tuple[Whole, Whole]:
@@ -142,14 +142,14 @@ class Holding:
             return np.empty(0, np.int64), np.empty(0, np.int64)
         low, high = (of.reduceat(self.points, self.first[:-1])[closed] for of in (np.minimum, np.maximum))
         boxes, tree = shapely.box(*low.T, *high.T), shapely.STRtree(shapely.points(places))
-        found = []
+        pairs = []
         for first in range(0, len(closed), _BOXES):
             box, of = tree.query(boxes[first : first + _BOXES])
             holding = closed[first + box]
             of, holding = (some[on[of] != holding] for some in (of, holding))
             is_in = self._hold(holding, places, of)
-            found.append((of[is_in], holding[is_in]))
-        return tuple(np.concatenate(some) for some in zip(*found, strict=True))
+            pairs.append((of[is_in], holding[is_in]))
+        return tuple(np.concatenate(some) for some in zip(*pairs, strict=True))
 
     def _hold(self, contours: Whole, places: Floats, of: Whole) -> Flags:
         """Mark the pairs of a closed contour and a place inside it (`_holds`)."""
@@ -185,11 +185,11 @@ class Holding:
         far = np.minimum.reduceat(np.hypot(*off.T), self.first[:-1])
         far[list(without)] = inf
         near = np.flatnonzero(far <= far.min() + _HAIR).tolist()
-        return min(near, key=lambda at: min(edge.far(place) for edge in self.contours[at].edges))
+        return min(near, key=lambda number: min(edge.far(place) for edge in self.contours[number].edges))
 
-    def _holds(self, at: int, places: Floats) -> Flags:
+    def _holds(self, number: int, places: Floats) -> Flags:
         """Mark the places inside a closed contour (counts crossings of rays to the right)."""
-        points = self.points[self.first[at] : self.first[at + 1]]
+        points = self.points[self.first[number] : self.first[number + 1]]
         is_inside = np.zeros(len(places), bool)
         order = np.argsort(places[:, 1])
         size = max(1, min(_PAIRS // len(points), 64 if len(points) > 64 else len(places)))

@@ -216,8 +216,8 @@ def _ring(edges: list[Edge], r: float) -> np.ndarray:
         if other.length > 10 * _LEAST and shapely.Polygon(other).area > _SLIT * other.length:
             neck = shapely.get_coordinates(shapely.shortest_line(rings[0], other)).mean(0)
             raise NoRoom((float(neck[0]), float(neck[1])), _NECK)
-    found = shapely.get_coordinates(rings[0])
-    return found if rings[0].is_ccw == is_ccw else found[::-1]
+    places = shapely.get_coordinates(rings[0])
+    return places if rings[0].is_ccw == is_ccw else places[::-1]
 
 
 def _area(edges: list[Edge]) -> shapely.Polygon:
@@ -227,8 +227,8 @@ def _area(edges: list[Edge]) -> shapely.Polygon:
     if not area.is_empty and area.is_valid:
         return area
     # (such as: Self-intersection[3.5 2])
-    found = re.search(r"\[(\S+) (\S+)]", shapely.is_valid_reason(area))
-    raise NoRoom((float(found[1]), float(found[2])) if found else edges[0].start, _CROSSES, True)
+    named = re.search(r"\[(\S+) (\S+)]", shapely.is_valid_reason(area))
+    raise NoRoom((float(named[1]), float(named[2])) if named else edges[0].start, _CROSSES, True)
 
 
 def _near(edge: Edge, r: float) -> Iterator[np.ndarray]:
@@ -268,8 +268,8 @@ def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, 
     nearest = tree.query_nearest(shapely.points(middles[kept]), all_matches=False)[1]
     runs: list[tuple[_Beside, XY]] = []
     travel: list[float] = []
-    for at, begin, middle, length in zip(nearest, ring[:-1][kept], middles[kept], lengths[kept], strict=True):
-        beside = _beside(edges, int(at), (float(middle[0]), float(middle[1])), r)
+    for number, begin, middle, length in zip(nearest, ring[:-1][kept], middles[kept], lengths[kept], strict=True):
+        beside = _beside(edges, int(number), (float(middle[0]), float(middle[1])), r)
         if beside.radius < 0:
             # (of an inner arc smaller than R: a place between its neighbours' parallels that rounding gave to it)
             continue
@@ -290,19 +290,19 @@ def _runs(edges: list[Edge], ring: np.ndarray, r: float) -> list[tuple[_Beside, 
     return result
 
 
-def _beside(edges: list[Edge], at: int, place: XY, r: float) -> _Beside:
+def _beside(edges: list[Edge], number: int, place: XY, r: float) -> _Beside:
     """Return the wire's guide at a place: the edge with a number, or one of its ends."""
-    edge = edges[at]
+    edge = edges[number]
     part = edge.nearest(place)
-    for end, before in ((0.0, at - 1), (1.0, at)):
+    for end, before in ((0.0, number - 1), (1.0, number)):
         if part == end:
             one, other = edges[before], edges[(before + 1) % len(edges)]
             if abs(turn(one.direction(1.0), other.direction())) > _SMOOTH:
                 return _Beside(one, before % len(edges), other.start, abs(r), 1 if r > 0 else -1)
     if edge.centre is None:
-        return _Beside(edge, at, None)
+        return _Beside(edge, number, None)
     sense = 1 if edge.sweep > 0 else -1
-    return _Beside(edge, at, edge.centre, edge.radius + sense * r, sense)
+    return _Beside(edge, number, edge.centre, edge.radius + sense * r, sense)
 
 
 def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
@@ -359,11 +359,11 @@ def sharpest(contour: Contour, r: float) -> tuple[float, XY] | None:
     and where that is; None where no corner is sharper than 60 degrees, so that it is no more than R."""
     ways = [(edge.direction(), edge.direction(1.0)) for edge in contour.edges]
     turns = [turn(start, end) if r > 0 else turn(end, start) for (_, end), (start, _) in pairwise([ways[-1], *ways])]
-    at = max(range(len(turns)), key=turns.__getitem__)
-    if turns[at] < _SHARP:
+    corner = max(range(len(turns)), key=turns.__getitem__)
+    if turns[corner] < _SHARP:
         return None
     # (in a cusp that closes for good it never ends)
-    return abs(r) * (1 / max(cos(turns[at] / 2), _SMOOTH) - 1), contour.edges[at].start
+    return abs(r) * (1 / max(cos(turns[corner] / 2), _SMOOTH) - 1), contour.edges[corner].start
 
 
 def _refuse_slots(contour: Contour, way: Sequence[Edge], r: float) -> None:
@@ -388,7 +388,7 @@ def _without_ends(places: np.ndarray, ends: float) -> shapely.LineString:
     first = min(ends, 0.49 * along[-1])
     last = along[-1] - first
     between = places[(along > first) & (along < last)]
-    one, other = (np.array([np.interp(at, along, column) for column in places.T]) for at in (first, last))
+    one, other = (np.array([np.interp(station, along, column) for column in places.T]) for station in (first, last))
     return shapely.LineString([one, *between, other])
 
 
@@ -399,7 +399,7 @@ def _walls(edges: Sequence[Edge]) -> Iterator[list[Edge]]:
         turn(one.direction(), other.direction()) if one.is_line and other.is_line else pi
         for one, other in pairwise([edges[-1], *edges])
     ]
-    first = max(range(len(turns)), key=lambda at: abs(turns[at]))
+    first = max(range(len(turns)), key=lambda corner: abs(turns[corner]))
     wall: list[Edge] = []
     turned = 0.0
     for edge, by in zip((*edges[first:], *edges[:first]), (*turns[first:], *turns[:first]), strict=True):
@@ -446,7 +446,7 @@ def part_between(way: tuple[Edge, ...], first: XY, last: XY | None = None) -> tu
 
 
 def _nearest(way: tuple[Edge, ...], place: XY, is_within: bool) -> tuple[int, float]:
-    found = []
+    nearest = []
     # (of a very short edge what is left behind the entry would be lost)
     short = min(10 * _LEAST, max(edge.length for edge in way)) if is_within else 0.0
     for index, edge in enumerate(way):
@@ -456,5 +456,5 @@ def _nearest(way: tuple[Edge, ...], place: XY, is_within: bool) -> tuple[int, fl
         if is_within and not edge.is_circle:
             margin = min(_INSIDE, 10 * _LEAST / edge.length)
             part = min(1 - margin, max(margin, part))
-        found.append((distance(edge.at(part), place), index, part))
-    return min(found)[1:]
+        nearest.append((distance(edge.at(part), place), index, part))
+    return min(nearest)[1:]

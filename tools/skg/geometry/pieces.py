@@ -192,8 +192,8 @@ class Pieces:
         numbers = np.repeat(first, count) + numbers_up_to(count)
         if 2 * len(numbers) > len(self.length):
             return self.nearest(places, owners, reach).own_at
-        found = self._some(numbers).nearest(places, owners, reach).own_at
-        return np.where(found >= 0, np.append(numbers, -1)[found], -1)
+        own_at = self._some(numbers).nearest(places, owners, reach).own_at
+        return np.where(own_at >= 0, np.append(numbers, -1)[own_at], -1)
 
     def _some(self, numbers: Whole) -> Pieces:
         """Some of the pieces."""
@@ -251,7 +251,7 @@ def _lines_and_arcs(some: list[tuple[Piece, int]]) -> _Part:
     return rows[:, 0:2], rows[:, 2:4], np.array([owner for _, owner in some], np.int64), rows[:, 4:]
 
 
-def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at: Whole) -> None:
+def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, nearest: Whole) -> None:
     """Keep the nearest of the pieces that were looked at for each place, where it is nearer than the one known."""
     if not len(far):
         return
@@ -259,7 +259,7 @@ def _keep_nearest(far: Floats, place: Whole, which: Whole, distance: Floats, at:
     least = np.minimum.reduceat(far, begins)
     is_least = far == np.repeat(np.minimum(least, distance[place[begins]]), np.diff(begins, append=len(place)))
     distance[place[is_least]] = far[is_least]
-    at[place[is_least]] = which[is_least]
+    nearest[place[is_least]] = which[is_least]
 
 
 def spread(spaces: Whole, begin: int, end: int) -> tuple[Whole, Floats]:
