@@ -1,7 +1,8 @@
 """The cost of FIT: 8080 cycles a node over the fit examples, with the two blocks that a node makes and their punching.
 
-`bench.py` calls `main`; alone: `python tests/rom/bench_fit.py`. The limit is 900,000 cycles a node. SYM, REP and
-RECUT are taken out of the programs: their copies are not nodes. Two things have columns of their own and are not
+`bench.py` calls `main`; alone: `python tests/rom/bench_fit.py`. The limit is 950,000 cycles a node: 900,000, and what
+the looks for lost characters cost where a part has few nodes. SYM, REP and RECUT are taken out of the programs: their
+copies are not nodes. Two things have columns of their own and are not
 FIT's: what the program takes to compute its nodes, measured by a run that keeps them in P99 and A99 instead, and
 the CUT and BACK statements that begin while no curve is open. Statements that end a curve count whole: the corner
 with what follows is FIT's, and so is the block before a curve, which goes out when its first arc has come.
@@ -17,7 +18,7 @@ from romhelp import EXAMPLES, ROM, RUN_LIMIT, Board, fault
 
 from skg.machine import symbols
 
-LIMIT = 900_000
+LIMIT = 950_000
 FIT_EXAMPLES = [path for path in EXAMPLES if path.stem.startswith("fit-")]
 HEADING = "part                  nodes       cycles  per node  computing it  CUT beside    FIT alone"
 #: The statements that cut copies of what has been cut.
