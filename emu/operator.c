@@ -52,14 +52,14 @@ static int report_nobody(const session *s)
     };
     const board *b = s->board;
     if (b->nobody_chip) {
-        return complain(EXIT_USAGE, "port %02X is read, and its %s was never readied: is this ROM for --board %s?",
+        return complain(EXIT_USAGE, "the ROM reads port %02X before it sets up the %s there: is it for --board %s?",
                         b->nobody_port, boards[b->kind].chip, boards[b->kind].other);
     }
-    return complain(EXIT_USAGE, "port %02X is read, and nobody serves it%s", b->nobody_port,
-                    b->nobody_port >> 2 == 0x80 >> 2 ? ": is this ROM for --board rc2014 or rc2014-sio?"
-                    : boards[b->kind].is_rc2014      ? " on an RC2014: is this ROM for --board 6850 or 8251?"
-                    : b->punch_tty ? " with --punch-tty: is this ROM for a punch and reader of their own?"
-                                   : "");
+    return complain(EXIT_USAGE, "the ROM reads port %02X, where this board has no chip%s", b->nobody_port,
+                    b->nobody_port >> 2 == 0x80 >> 2 ? ": is it for --board rc2014 or rc2014-sio?"
+                    : boards[b->kind].is_rc2014      ? " (an RC2014): is it for --board 6850 or 8251?"
+                    : b->punch_tty                   ? " with --punch-tty: is it for a punch and reader of their own?"
+                                                     : "");
 }
 
 /* Reports a halt, a breakpoint, a port without a chip, a silent ROM, or the end of --max-cycles. */
@@ -235,7 +235,7 @@ static int watch_reader(const session *s, bool *told)
 static void watch_punch(const session *s, bool *told)
 {
     if (s->punched_nowhere && !*told) {
-        remark("nothing keeps what was punched (--punch FILE does)");
+        remark("the punched tape is not kept: --punch FILE keeps it");
         *told = true;
     }
 }

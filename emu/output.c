@@ -120,7 +120,7 @@ bool output_flush(session *s)
 int output_failure(const session *s)
 {
     if (s->line.deaf) {
-        return complain(EXIT_USAGE, "%s: nobody reads what is punched", s->line.name);
+        return complain(EXIT_USAGE, "%s: the tape is not taken: is a reader at its other end?", s->line.name);
     }
     return complain(EXIT_USAGE, "cannot write: %s", strerror(s->failed));
 }
@@ -135,15 +135,15 @@ void output_counts(uint64_t cycles, uint64_t instructions)
 /* Prints the largest piece of RAM not written since the first prompt: the gap between program and variables. */
 static void print_untouched(const session *s, unsigned end)
 {
-    unsigned first = end, length = 0;
-    for (unsigned at = board_ram_start(s->o.kind), run = 0; at < end; at++) {
+    unsigned start = board_ram_start(s->o.kind), first = end, length = 0;
+    for (unsigned at = start, run = 0; at < end; at++) {
         run = s->written[at] ? 0 : run + 1;
         if (run > length) {
             length = run;
             first = at + 1 - run;
         }
     }
-    fprintf(stderr, "RAM           2000 to %04X, untouched %04X to %04X: %u bytes\n", end - 1, first,
+    fprintf(stderr, "RAM           %04X to %04X, untouched %04X to %04X: %u bytes\n", start, end - 1, first,
             first + length - 1, length);
 }
 
@@ -166,7 +166,7 @@ void output_drive(const session *s)
 {
     const drive *d = &s->board->drive;
     if (!d->steps && s->o.drives) {
-        remark("the drive was told no step");
+        remark("the drive got no step");
     }
     if (d->hasty) {
         remark("of the drive's steps %llu came together with their direction, or it changed under the pulse",

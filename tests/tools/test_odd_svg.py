@@ -186,7 +186,7 @@ def test_pages(size: str, expected: Box) -> None:
         ("<rect width='5' height='5' fill='rgba(9,9,9,0.0)'/>", "drawn with neither line nor area"),
         ("<rect width='5' height='5' fill='rgb(9 9 9 / 0%)'/>", "drawn with neither line nor area"),
         ("<rect width='5' height='5' fill='hsla(9, 9%, 9%, .0)'/>", "drawn with neither line nor area"),
-        ("<rect width='5' height='5' transform='matrix(1 2)'/>", "cannot be read (tuple index out of range)"),
+        ("<rect width='5' height='5' transform='matrix(1 2)'/>", "cannot be read (its transform, matrix(1 2))"),
         (
             "<rect width='5' height='5' transform='scale(2)' style='transform-origin:1px 1px;transform-box:fill-box'/>",
             "cannot be read (its transform-origin, 1px 1px, fill-box)",

@@ -254,7 +254,7 @@ WRONG = {
         b">600",
     ),
     "jumps": ("10 IF 1>2 GOTO 10\n", ["--run", "--unnumbered"], "part.skg: not without its line numbers", b"GOTO"),
-    "asks": ("10 INPUT A\n", ["--run"], "INPUT asks, and nobody answers", b"20"),
+    "asks": ("10 INPUT A\n", ["--run"], "INPUT asks, and there is no answer", b"20"),
 }
 
 

@@ -222,8 +222,8 @@ class Board:
                 return f"the machine halted at {(address - 1) & 0xFFFF:04X}"
             case "nobody":
                 port, chip = self.machine.nobody
-                served = "its chip was never readied" if chip else "nobody serves it"
-                return f"port {port:02X} is read, and {served}: is this ROM for another board?"
+                trouble = "before it sets up the chip there" if chip else "where this board has no chip"
+                return f"the ROM reads port {port:02X} {trouble}: is it for another board?"
             case _:
                 return f"the machine runs into {address:04X}, where the ROM image has nothing"
 

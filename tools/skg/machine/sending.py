@@ -228,7 +228,7 @@ def finish(typist: Typist, quiet: float, needs_tape: bool) -> None:
     teletype = typist.teletype
     if teletype.asks:
         typist.port.write(_CTRL_C)
-        raise Stopped("INPUT asks, and nobody answers: broken off with ctrl-C")
+        raise Stopped("INPUT asks, and there is no answer: broken off with ctrl-C")
     teletype.wait(lambda: teletype.ended, quiet)
     if teletype.error:
         raise Stopped(_meaning(teletype.error))

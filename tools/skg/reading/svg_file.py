@@ -321,7 +321,11 @@ def _transform(style: Style, size: XY) -> svgelements.Matrix:
         raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
     x, y = whole
     translate = svgelements.Matrix.translate
-    return translate(-x, -y) * svgelements.Matrix(style.transform) * translate(x, y)
+    try:
+        matrix = svgelements.Matrix(style.transform)
+    except LookupError:
+        raise ValueError(f"its transform, {style.transform}") from None
+    return translate(-x, -y) * matrix * translate(x, y)
 
 
 def _view_box(element: ElementTree.Element) -> tuple[float, float, float, float] | None:
