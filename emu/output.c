@@ -120,7 +120,7 @@ bool output_flush(session *s)
 int output_failure(const session *s)
 {
     if (s->line.deaf) {
-        return complain(EXIT_USAGE, "%s: the tape is not taken: is a reader at its other end?", s->line.name);
+        return complain(EXIT_USAGE, "%s: no program reads the punched tape", s->line.name);
     }
     return complain(EXIT_USAGE, "cannot write: %s", strerror(s->failed));
 }
