@@ -250,8 +250,10 @@ def path_of(tape: bytes, hole: Place) -> list[Edge]:
 
 
 def beside(edge: Edge, r: float) -> np.ndarray:
-    """Places R to the right of an edge, without its very ends (n, 2)."""
+    """Places R to the right of an edge, without its very ends (n, 2); none beside one without length."""
     parts = np.linspace(0.01, 0.99, SAMPLES)
+    if edge.centre is None and edge.start == edge.end:
+        return np.empty((0, 2))
     if edge.centre is None:
         start, way = np.array(edge.start), np.subtract(edge.end, edge.start)
         normal = np.array([way[1], -way[0]]) / np.hypot(*way)
