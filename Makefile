@@ -111,7 +111,7 @@ lint: venv emu web-lint
 # (A hash seed, since a drawing's classes come out of a set.)
 docs: venv rom emu tools
 	$(PY) asm/rooms.py --headers
-	@for page in $(PAGES); do echo $(PY) $$page; PYTHONHASHSEED=0 $(PY) $$page || exit 1; done
+	@for page in $(PAGES); do echo $(PY) $$page; PYTHONPATH=tests PYTHONHASHSEED=0 $(PY) $$page || exit 1; done
 
 bench: bench-emu bench-floats bench-rom
 
