@@ -182,8 +182,8 @@ int operator_part(session *s, const char *answers)
             if (!type_line(s, commands[given], strlen(commands[given]))) {
                 return complain(EXIT_ERR, "out of memory");
             }
-            if (given++ == 0) {
-                board_reader(s->board, true);
+            if (given++ == 0 && s->o.reader_cps <= 0) {
+                board_reader(s->board, true); /* one that does not wait would come before LOAD: DC1 starts it */
             }
             s->running = given == count;
             break;

@@ -217,13 +217,17 @@ def test_one_key_waits_while_a_statement_works() -> None:
     assert "ERR 10" in board.machine.tty[-30:]
 
 
+@every_board
 @pytest.mark.parametrize("options", [[], ["--cts", "2"]])
-def test_skg80(options: list[str]) -> None:
+def test_skg80(kind: str, options: list[str]) -> None:
     part = ROOT / "examples" / "wrench.skg"
+    facts = BOARDS[kind]
     command = [
         ROOT / "build" / "skg80",
         "--rom",
-        image("skg"),
+        image(kind),
+        *(["--board", facts["board"]] if "board" in facts else []),
+        *(["--punch-tty"] if facts.get("punch_tty") else []),
         "--reader-cps",
         "960",
         *options,
