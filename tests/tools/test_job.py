@@ -416,3 +416,6 @@ def test_progress_and_wanted(tmp_path: Path) -> None:
     done = cut_drawing(job, drawn, lambda stage, done, of: steps.append(stage))
     assert len(done.result.routes) == 1 and steps[0] == "plan"
     assert any(line.is_care for line in done.lines) is False
+    told = [line.text for line in done.lines]
+    assert "layer HOLES: 3 entities, 3 left: 3 LWPOLYLINE (cut = false in the job)" in told
+    assert "layer PLATE: 1 entity, 1 cut" in told and told[3].startswith("1 contour: 1 closed; ")

@@ -28,7 +28,7 @@ from skg.planning.plan import plan_nested
 from skg.planning.route import PlannedContour
 from skg.reading.account import Account
 from skg.reading.read import Reading, read
-from skg.reading.selection import SMALL, WITHIN
+from skg.reading.selection import SMALL, UNWANTED, WITHIN
 from skg.wording import ReportLine, counted, short
 
 
@@ -151,9 +151,9 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
         result = make(routes, job.drawing, settings, progress)
     except UserError as error:
         raise _named(error, drawn) from None
-    account = reading.report
-    if result.left:
-        account = reading.account({contour.number: WITHIN if contour.is_within else SMALL for contour in result.left})
+    left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
+    left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
+    account = reading.account(left) if left else reading.report
     return CutDrawing(result, account, _lines(job, drawn, account, result))
 
 

@@ -25,6 +25,7 @@ SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a jun
 DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
 AXIS = "drawn with dashes, across outlines: --open all cuts it"
 SMALL, WITHIN = "no room for the wire or the tab", "in an opening that is left out"
+UNWANTED = "cut = false in the job"
 PAST = "runs past a corner"
 OPENED = "of an open contour"
 #: Reasons that are no loss: short or doubled edges are cut with their neighbours, overruns are reported by themselves.
