@@ -43,7 +43,7 @@ def test_an_example_typed_at_the_prompt(firmware: Path, tmp_path: Path, name: st
     typed = b"".join(line + b"\r" for line in [*program.split(b"\n"), b"RUN"])
     debugger = ["-semihosting-config", "enable=on,target=native", "-icount", "shift=0"]
     machine = [QEMU, "-M", "microbit", "-display", "none", "-monitor", "none", "-serial", "none", "-kernel", firmware]
-    done = subprocess.run([*machine, *debugger], cwd=tmp_path, input=typed, capture_output=True, timeout=120)
+    done = subprocess.run([*machine, *debugger], cwd=tmp_path, input=typed, capture_output=True)
     assert done.returncode == 0, done.stderr
     assert b"ERR" not in without_sign_on(done.stdout)
     assert (tmp_path / "tape.3b").read_bytes() == (ROOT / "examples" / f"{name}.3b").read_bytes()

@@ -233,7 +233,7 @@ def test_skg80(kind: str, options: list[str]) -> None:
         *options,
         part,
     ]
-    done = subprocess.run(command, capture_output=True, timeout=60)
+    done = subprocess.run(command, capture_output=True)
     if options:
         assert (done.returncode, done.stdout) == (
             0,
