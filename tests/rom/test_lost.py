@@ -123,6 +123,14 @@ def test_a_reader_without_handshake_needs_nuls(kind: str, cps: int, nuls: int) -
         )
 
 
+def test_the_command_that_puts_nuls_behind_lines(tmp_path: Path) -> None:
+    """That of boards.md, by whichever awk there is: mawk ends a printf at the first NUL."""
+    (command,) = [line for line in (ROOT / "docs" / "boards.md").read_text().splitlines() if "> part.tape" in line]
+    (tmp_path / "part.skg").write_bytes(EXAMPLES[0].read_bytes())
+    subprocess.run(["sh", "-c", command], cwd=tmp_path, check=True)
+    assert (tmp_path / "part.tape").read_bytes() == tape_of(EXAMPLES[0], nuls=4)
+
+
 #: Cycles of an RC2014 in those of the 2 MHz board.
 RC2014_HZ = 7_372_800
 
