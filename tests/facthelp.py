@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-#: How a line begins that warns and does not refuse.
+#: The beginning of a line that warns and does not refuse.
 CARE = "take care"
 
 
@@ -37,7 +37,7 @@ def says(text: object, *facts: object) -> bool:
     """Tell whether one line of a text says all these facts, in whatever order."""
     assert facts, "no fact"
     shapes = [re.compile(shape(fact)) for fact in facts]
-    return any(all(one.search(line) for one in shapes) for line in str(text).splitlines())
+    return any(all(fact.search(line) for fact in shapes) for line in str(text).splitlines())
 
 
 def each_says(lines: str | Iterable[object], *facts: object) -> bool:
@@ -49,7 +49,7 @@ def each_says(lines: str | Iterable[object], *facts: object) -> bool:
 
 
 def pattern(*facts: object) -> str:
-    """What `pytest.raises` matches: a line that says these facts in this order."""
+    """A regular expression for `pytest.raises`: a line that says these facts in this order."""
     return ".*".join(map(shape, facts))
 
 

@@ -2,9 +2,9 @@
 
 `bench.py` calls `main`; alone: `python tests/rom/bench_fit.py`. The limit is 950,000 cycles a node: 900,000, and what
 the looks for lost characters cost where a part has few nodes. SYM, REP and RECUT are taken out of the programs: their
-copies are not nodes. Two things have columns of their own and are not
-FIT's: what the program takes to compute its nodes, measured by a run that keeps them in P99 and A99 instead, and
-the CUT and BACK statements that begin while no curve is open. Statements that end a curve count whole: the corner
+copies are not nodes. Two things have columns of their own and are not FIT's: what the program takes to compute its
+nodes, measured by a run that keeps them in P99 and A99 instead, and the CUT and BACK statements that begin while no
+curve is open. Statements that end a curve count whole: the corner
 with what follows is FIT's, and so is the block before a curve, which goes out when its first arc has come.
 """
 

@@ -175,6 +175,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.click("#question-yes");
     // (the message of the first time may still be seen)
     while (["mine", ""].includes(file(tape).toString())) await page.waitForTimeout(20);
+    await message(page, /Saved beside/);
     assert.ok(file(tape).equals(cutByCommand(folder, job)));
     await context.close();
   });

@@ -6,7 +6,6 @@ window, that edge is cut away, whatever the wire does there. A window is smaller
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -97,19 +96,19 @@ def _cut_away(lines: Shapes, owners: Whole, inner: Flags, outer: Flags) -> bool:
             (holes if is_hole else parts).setdefault(mine, []).append(area)
     for mine, some in parts.items():
         # (a window may reach from one part into another)
-        lines[pieces[mine]] = _clipped(lines[pieces[mine]], shapely.union_all(some), shapely.intersection)
+        lines[pieces[mine]] = _clipped(lines[pieces[mine]], shapely.union_all(some), True)
     for mine, some in holes.items():
-        lines[pieces[mine]] = _clipped(lines[pieces[mine]], shapely.union_all(some), shapely.difference)
+        lines[pieces[mine]] = _clipped(lines[pieces[mine]], shapely.union_all(some), False)
     return bool(parts or holes)
 
 
-def _clipped(lines: Shapes, area: shapely.Geometry, clip: Callable[[Shapes, shapely.Geometry], Shapes]) -> Shapes:
-    """Lines clipped by an area. (only those that its edge passes are worked out: it may have as many edges)"""
+def _clipped(lines: Shapes, area: shapely.Geometry, is_inner: bool) -> Shapes:
+    """The parts of lines in an area, or those outside of it. (only lines that cross its edge are worked out)"""
     shapely.prepare(area)
-    within, without = shapely.contains_properly(area, lines), shapely.disjoint(area, lines)
-    clipped, passed = lines.copy(), ~(within | without)
-    clipped[without if clip is shapely.intersection else within] = shapely.LineString()
-    clipped[passed] = clip(lines[passed], area)
+    within, outside = shapely.contains_properly(area, lines), shapely.disjoint(area, lines)
+    clipped, crossing = lines.copy(), ~(within | outside)
+    clipped[outside if is_inner else within] = shapely.LineString()
+    clipped[crossing] = (shapely.intersection if is_inner else shapely.difference)(lines[crossing], area)
     return clipped
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from skg.geometry.arrays import Floats, Whole, columns_at
 from skg.geometry.index import Boxes, Index
 
-#: What is within a reach may seem to lie this much farther away, mm.
+#: Rounding of a reach: a chord within it may seem to lie this much farther away, mm.
 _HAIR = 1e-9
 #: So many places are looked at by one thread after the other, and so many chords get boxes together.
 _PLACES, _CHORDS = 1000, 50_000

@@ -14,7 +14,7 @@ from skg.geometry.edge_arrays import points_of
 from skg.geometry.index import batches
 from skg.geometry.plane import XY
 
-#: What is within a reach may seem to lie this much farther away, mm.
+#: Contours whose distances from a place differ by no more are as near as each other, mm.
 _HAIR = 1e-9
 #: Areas that differ by less than this part of them are the same.
 _ALIKE = 1e-9

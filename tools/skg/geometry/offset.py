@@ -31,7 +31,7 @@ _SLIT = 1e-5
 #: An arc that is this near to its chord is cut as the chord, mm.
 _FLAT = 1e-4
 #: The ends of an arc may be so much further from its centre than each other, mm: half of what the ROM lets pass.
-_BESIDE = 5e-4
+_UNEVEN = 5e-4
 #: Directions (radians) that differ by less run on without a corner.
 _SMOOTH = 1e-3
 #: A tip is a spike where its parallels meet farther than this from it, in R.
@@ -109,7 +109,7 @@ class _Beside:
         if self.radius * (1 - cos(min(pi, abs(sweep)) / 2)) < _FLAT:
             return Edge(start, end, entity=self.edge.entity)
         centre = self.centre
-        if abs(distance(start, centre) - distance(end, centre)) > _BESIDE:
+        if abs(distance(start, centre) - distance(end, centre)) > _UNEVEN:
             # (the circle that is nearest to it through both ends: the ROM refuses an end that lies beside its circle)
             centre = _on_bisector(centre, start, end)
         return Edge(start, end, centre, sweep, entity=self.edge.entity)

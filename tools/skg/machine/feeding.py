@@ -19,7 +19,7 @@ MEMORY_FULL = 9
 #: Of a program that several boards share each takes about so many characters at a time, and two of them take a route
 #: of so many.
 _SHARE, _TWICE = 50_000, 5_000
-#: And so many routes where each is to be known that is refused.
+#: Routes that one board takes at a time where each refused one is looked for.
 _ROUTES = 16
 #: Ctrl-Z: nothing follows on a tape of program lines.
 TAPE_END = "\x1a"
@@ -180,8 +180,8 @@ def refused_routes(routes: Sequence[str], rom: str | bytes, ram_kib: int) -> dic
         return errors
 
     with ThreadPoolExecutor(os.cpu_count()) as boards:
-        found = boards.map(refused_from, range(0, len(routes), _ROUTES))
-        return {number: error for errors in found for number, error in errors.items()}
+        shares = boards.map(refused_from, range(0, len(routes), _ROUTES))
+        return {number: error for errors in shares for number, error in errors.items()}
 
 
 def _shares(parts: Iterable[str]) -> Iterator[Sequence[str]]:

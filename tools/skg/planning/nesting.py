@@ -54,7 +54,7 @@ class Nesting:
 
     @property
     def holding(self) -> Holding:
-        """Which contours hold a place."""
+        """The contours around places."""
         self._holding = self._holding or Holding(self.contours)
         return self._holding
 
