@@ -158,6 +158,8 @@ BDRD1:  XRA     A
         ANA     M
         LXI     H,VSUM
         RZ
+        XRA     A
+        STA     BATCH           ; (an error on that disk ends at the prompt)
         LXI     H,SUBFIL
         LXI     D,WFCB
         CALL    FBLOCK
@@ -178,7 +180,7 @@ REBOOT: LXI     SP,STKTOP
         MVI     A,WLOST
         STA     WMODE
         STA     LASTC           ; (no LF: the paper's line goes on)
-        CALL    ANEW            ; (what it has not written is not on the disk)
+        STA     GAVEUP          ; (the disk may be out: none is looked at before one is wanted)
         DB      ERROR,ETAPE
 
 ; NEWFIL - takes the name of a file that is to be written, and demands the statement's end
@@ -292,16 +294,6 @@ SDIR6:  LDA     WPOS
 SDIR7:  ANI     3
         RZ
         JMP     CRLF
-
-; ANEW - the BDOS forgets what it knows of the disks, as at a warm boot
-; Clobbers all
-ANEW:   MVI     C,FALL
-        CALL    CPBDOS
-        LDA     CPDRV           ; (the BDOS knows it no more when it gave up while it looked at another)
-        ANI     0FH
-        MOV     E,A
-        MVI     C,FDRIVE
-        JMP     CPBDOS
 
 ; DIRPUT - prints B characters at HL
 ; Out: HL behind   Clobbers A, B

@@ -1,6 +1,6 @@
 ; io_disk.asm - punch and reader are files of CP/M
-; Offers: CQUEST CDOLLR FALL FDRIVE FFIRST FNEXT FDEL FDMA FERMOD WTAPE WSAVE WLOST FCALL FILE
-;         ONEFIL FBLOCK FCOPY WOPEN WDROP WCLOSE BDPUN BDREAD SLOAD TYPSKG PUNOFF PUNON BDOFF BDZERO
+; Offers: CQUEST CDOLLR FFIRST FNEXT FDEL FDMA FERMOD WTAPE WSAVE WLOST ANEW FCALL FILE ONEFIL
+;         FBLOCK FCOPY WOPEN WDROP WCLOSE BDPUN BDREAD SLOAD TYPSKG PUNOFF PUNON BDOFF BDZERO
 ; Uses:   [ports] io start
 ; Room:   790 bytes
 ;
@@ -37,6 +37,29 @@ FERMOD  EQU     45              ; of CP/M 3: E = 0FFH: errors come back to the p
 WTAPE   EQU     1               ; a tape, closed at the prompt
 WSAVE   EQU     2               ; SAVE's program, dropped at the prompt
 WLOST   EQU     0FFH            ; it could not be written
+
+; ANEW - the BDOS forgets what it knows of the disks, as at a warm boot
+; Clobbers all
+ANEW:   MVI     C,FALL
+        CALL    CPBDOS
+        LDA     CPDRV           ; (the BDOS knows it no more when it gave up while it looked at another)
+        ANI     0FH
+        MOV     E,A
+        MVI     C,FDRIVE
+        CALL    CPBDOS
+        XRA     A
+        STA     GAVEUP
+        RET
+
+; OPEN - opens a file; first the BDOS forgets the disks, when it has given up an error on one
+; In:  DE -> block   Out: as FCALL   Clobbers all
+OPEN:   PUSH    D
+        LDA     GAVEUP
+        ORA     A
+        CNZ     ANEW
+        POP     D
+        MVI     C,FOPEN
+; (fall into FCALL)
 
 ; FCALL - calls the BDOS for a file
 ; In:  C = function, DE -> block   Out: Z: it has failed, A = 0 then   Clobbers all
@@ -237,8 +260,7 @@ WOPEN:  PUSH    PSW
         LXI     H,WNAME
         LXI     D,WFCB
         CALL    FBLOCK
-        MVI     C,FOPEN
-        CALL    FCALL
+        CALL    OPEN
         JZ      WOPEN1          ; there is none
         LDA     WFCB+9
         ORA     A
@@ -435,8 +457,7 @@ SLOAD:  LXI     H,TYPSKG
         LXI     H,FNAME
         LXI     D,RFCB
         CALL    FBLOCK
-        MVI     C,FOPEN
-        CALL    FCALL
+        CALL    OPEN
         JZ      ERTAPE
         MVI     A,80H           ; RBUF is used up
         STA     RPOS

@@ -34,7 +34,8 @@ FILEF   EQU CPZERO+4    ; not 0: LOAD's lines come from a file, not from the scr
 WMODE   EQU CPZERO+5    ; 0: no file is written; else WTAPE, WSAVE, WLOST
 PUNF    EQU CPZERO+6    ; not 0: PUNCH has given a name
 BATCH   EQU CPZERO+7    ; not 0: back to CP/M when the run is over
-CPZEND  EQU CPZERO+8
+GAVEUP  EQU CPZERO+8    ; not 0: the BDOS has given up an error on a disk since it last looked at the disks anew
+CPZEND  EQU CPZERO+9
 SCRIPT  EQU CPZEND      ; lines that the command line asks for: 127 bytes of it, and what stands around
 CPEND   EQU SCRIPT+168
 

@@ -411,18 +411,35 @@ def test_a_disk_that_fails(lines: list[str]) -> None:
     assert cpm.read("OLD.SKG") == b"10 CUT (0,0),(1,0)\r\n"
 
 
-@pytest.mark.parametrize("lines", [['LOAD "B:X"'], ['SAVE "B:X"'], ['DIR "B:"'], ['PUNCH "B:X"', "GOTO 10"]], ids=str)
-def test_a_drive_without_a_disk(lines: list[str]) -> None:
-    """The BDOS tells it once; one ctrl-C, and all is as it was, on the present drive."""
+@pytest.mark.parametrize("lines", [['LOAD "{}X"'], ['SAVE "{}X"'], ['DIR "{}"'], ['PUNCH "{}X"', "GOTO 10"]], ids=str)
+@pytest.mark.parametrize("drive", ["A:", "B:"])
+def test_a_drive_without_a_disk(drive: str, lines: list[str]) -> None:
+    """The BDOS tells it once each time; one ctrl-C, and all is as it was, on the present drive, A:."""
     cpm = prepared()
-    cpm.drives[1].is_empty = True
+    cpm.drives[drive == "B:"].is_empty = True
     cpm.console.after = [(b"Bad Sector", b"\x03")] * 9
-    said = sum((written(cpm, line) for line in lines), [])
-    assert said in (["Bdos Err On B: Bad Sector", error] for error in ("ERR 10", "ERR 10 LINE 10"))
+    for _ in range(2):
+        said = sum((written(cpm, line.format(drive)) for line in lines), [])
+        assert said in ([f"Bdos Err On {drive} Bad Sector", error] for error in ("ERR 10", "ERR 10 LINE 10"))
     keeps(cpm, ["OLD.SKG", "SKG.COM"])
+    cpm.drives[0].is_empty = False
     assert cpm.said("PUNCH") == []
     assert cpm.said('LOAD "OLD"') == []
     assert cpm.said("DIR") != []
+    assert len(cpm.console.after) == 7
+
+
+def test_the_disk_of_a_job_is_taken_out() -> None:
+    """The tape has failed, and so does what deletes the rest of a SUBMIT: SKG's prompt then, with the program."""
+    cpm = Cpm(files={"PART.SKG": text("10 INPUT A\n20 CUT (0,0),(1,0)\n")})
+    cpm.type("SKG PART T")
+    cpm.drives[0].is_empty = True
+    cpm.console.after = [(b"Bad Sector", b"\x03")] * 9
+    assert cpm.type("1").endswith("\r\nERR 10 LINE 20\r\n>")
+    assert len(cpm.console.after) == 7
+    assert cpm.said("LIST") == ["10 INPUT A", "20 CUT (0,0),(1,0)"]
+    cpm.drives[0].is_empty = False
+    assert cpm.said('SAVE "PART"') == []
 
 
 def test_a_disk_that_cannot_be_read(cpm: Cpm) -> None:
