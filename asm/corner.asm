@@ -1,7 +1,7 @@
 ; corner.asm - where the wire goes from one element to the next: corners, fillets, the entry; which curves are the same
 ; Offers: JOINED CPYEL CPYPL FILLET TON PASSED OFFCHK CORND FIRST PATC SAMEF SAMEC SAMEL
 ; Uses:   [post] calc consts float geom round route start value
-; Room:   472 bytes
+; Room:   477 bytes
 
 ; (FILLET comes here when it turns by nothing)
 FILL9:  DB      QDOT,QE6N,QEND  ; -             straight on, or straight back
@@ -112,16 +112,17 @@ OFFCHK: DB      CALC,QNA,LNR,QSENS,QJN ; -
 OFFCH1: DB      QEND
         DB      ERROR,EOFFS
 
-; CORND - the corner between C and N as drawn
-; In:  C, N, RTURN, RNAMED, P   Out: K   Clobbers all
-CORND:  DB      CALC,Q0,Q0,QJMP ; 0 0
-        DB      CORN0-$
+; CORND - the corner between C and N as drawn, which no point names
+; In:  C, N, RTURN   Out: P; TL, for CORNER too   Clobbers all
+CORND:  DB      CALC,QEPS,STL   ; -             a corner is no `*`: curves that do cross do so
+        DB      Q0,SO1,Q0,SO2,QXING ; -
+        DB      QVEC,SPY,SPX,QRET ; -
+
 ; CORNER - the corner between C and N as offset
-; In:  C, N, RTURN, RNAMED, P   Out: K, O1, O2   Clobbers all
-CORNER: DB      CALC,LCR,LNR    ; o1 o2
-CORN0:  DB      SO2,SO1,QEND    ; -
+; In:  C, N, RTURN, RNAMED; P, or TL from CORND   Out: K, O1, O2   Clobbers all
+CORNER: DB      CALC,LCR,SO1,LNR,SO2,QEND ; -
 ; CORNO - the corner between C and N offset by O1 and O2
-; In:  C, N, O1, O2, RTURN, RNAMED, P   Out: K   Clobbers all
+; In:  C, N, O1, O2, RTURN, RNAMED; P, or TL   Out: K   Clobbers all
 ; A named one is P itself when there is no offset; else of the crossings the one nearest to P,
 ; where both run the same way through P, P moved R to the right.  Lines between points (bit 7 of
 ; their kind) are taken to pass P: gamma is rounded, and at a flat corner that would be magnified.
@@ -259,9 +260,9 @@ SAME9:  DB      QRET            ;               (leaves Z clear)
 
 ; SAMEL - is the last item, as written, the first one?
 ; Out: Z set when it is   Clobbers all
-SAMEL:  LDA     RLASTP
-        LXI     H,RFSTP
-        CMP     M
+SAMEL:  LHLD    RLASTP          ; and RFSTP
+        MOV     A,L
+        CMP     H
         RNZ
         ORA     A
         JZ      SAMEF

@@ -1,7 +1,7 @@
 ; decimal.asm - numbers as decimal digits: read, printed
 ; Offers: DECOUT PRDEC DECIN LEXDEC TEN DIGIT LEXCH
 ; Uses:   calc consts float start
-; Room:   454 bytes
+; Room:   451 bytes
 ;
 ; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
 ; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
@@ -231,7 +231,7 @@ DECI4:  INR     E
         JNZ     DECI8
         PUSH    H               ; -> E, which may begin a word
         INX     H
-        MVI     C,0FFH          ; C = 0 for a negative exponent
+        MVI     C,7FH           ; C = 80H for a negative exponent
         CALL    LEXCH
         CPI     CPLUS
         JZ      DECI5
@@ -246,8 +246,6 @@ DECI6:  CALL    LEXDEC          ; DE = exponent
         JZ      DECI9
         MVI     E,0FFH          ; 256 and more are as good as that
 DECI9:  MOV     A,C             ; B + 128 less the exponent, or plus a negative one: held at 0 and 255
-        XRI     80H
-        MOV     C,A
         XRA     B
         ADD     E
         MOV     D,A

@@ -2,7 +2,7 @@
 ; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
 ;         XALNG XROTV XTURN XSB XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   516 bytes
+; Room:   515 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -101,6 +101,7 @@ RMUL    EQU 150
 RDIV    EQU 175
 RSTAR   EQU RMUL/25
 
+;! GCXC-GSXC < KEY1 -- a longer way is two distances, as that to GPNT
 GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      GSUB-GADD,RMIN+ONN,RMIN+OPP
         DB      GFOOT-GSUB,RTRN+OPS
@@ -118,7 +119,7 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      GSXS-GPOLAR,RMUL+OSS
         DB      GCXS-GSXS,RMUL+OCS
         DB      GSXC-GCXS,RMUL+OSC
-        DB      KEY1-1,GCXC-GSXC-KEY1+1,RMUL+OCC
+        DB      GCXC-GSXC,RMUL+OCC
         DB      KEY1-1,GPNT-GCXC-KEY1+1,RCOM+ONN
         DB      KINDS+KTURN,RCOL+ONP
         DB      KINDS+KNUM

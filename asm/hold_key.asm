@@ -1,6 +1,6 @@
 ; hold_key.asm - whoever sends is held while a key is worked on, too: at 115,200 baud the next one comes before it is done
-; Offers: LISTEN LETGO
-; Uses:   [ports] [punch] io
+; Offers: LISTEN LETGO LINGAP
+; Uses:   [ports] [punch] io start
 ; Room:   24 bytes
 ;
 ; A 6850 keeps one character, and a sender stops two late: the echo of the key takes the first one into KEYB, or the next
@@ -22,3 +22,7 @@ LISTE1: CALL    BDRTS
 LETGO:  MVI     A,SIO8N2
         CALL    BDRTS
         JMP     BREAK
+
+; LINGAP - behind a line of LIST and SAVE: nothing
+; Clobbers A
+LINGAP  EQU CHECK

@@ -1,7 +1,7 @@
 ; items.asm - CUT: items that arrive become elements of the route
 ; Offers: SCUT ITEMT ITEMR ADDEL CORDON POSIT ITPNT PNTDON GETR SCALED XSCL
 ; Uses:   calc consts corner fit float geom parser round route start value
-; Room:   380 bytes
+; Room:   362 bytes
 
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 
@@ -96,17 +96,13 @@ ADDEL1: CALL    ITDONE
         JZ      FIRST
         LDA     RNAMED
         ORA     A
-        JNZ     ADDEL2
-        CALL    SAMEC
+        CZ      SAMEC
         RZ                      ; the same curve goes on: no corner
-ADDEL2: DB      CALC,QEPS,STL,QEND ; -             a corner is no `*`: curves that do cross do so
         CALL    OFFCHK
         LDA     RNAMED
         ORA     A
-        JNZ     ADDEL3
-        CALL    CORND
-        DB      CALC,LKX,SPX,LKY,SPY,QEND ; -    P = the corner as drawn
-ADDEL3: LDA     RFILW
+        CZ      CORND
+        LDA     RFILW
         ORA     A
         JNZ     FILLET
         JMP     JOINED
@@ -142,9 +138,8 @@ ITCHK:  LXI     H,VKIND
 ; ITFIL - a fillet radius
 ; In:  a0   Out: FI; ERR 05, ERR 06   Clobbers all
 ITFIL:  CALL    POSIT
-        CALL    NEEDEL          ; before or at the entry
-        CALL    NOFIL           ; two in a row (leaves A = 0)
-        INR     A
+        CALL    NOFIL           ; two in a row
+        CALL    NEEDEL          ; before or at the entry (leaves A not 0)
         STA     RFILW
         DB      CALC,LA0,SFI    ; -
 ITPN4:  DB      QRET            ; (for ITPNT too)
@@ -192,13 +187,12 @@ ITPN3:  DB      LJX,SPX,LJY,SPY ; -
 ; (fall into ITDONE)
 
 ; ITDONE - notes that an item was written
-; In:  A = 1 for a point, 0 for an element   Clobbers A, B, HL
+; In:  A = 1 for a point, 0 for an element   Clobbers HL
 ITDONE: STA     RLASTP
         LXI     H,RITEMS
-        MOV     B,M
-        MVI     M,2
-        INR     B
-        DCR     B
+        INR     M
+        DCR     M
+        MVI     M,2             ; (Z stays)
         RNZ
         DCR     M               ; it is the first one
         STA     RFSTP

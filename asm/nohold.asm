@@ -1,6 +1,6 @@
 ; nohold.asm - nobody is held: a line that lost characters is refused
-; Offers: LISTEN LETGO ENDLIN LEXTOK
-; Uses:   decimal io
+; Offers: LISTEN LETGO ENDLIN LEXTOK LINGAP
+; Uses:   decimal io start
 ; Room:   0 bytes
 
 ; LISTEN - looks for a break before a character is waited for.  LETGO - the same while a program runs
@@ -15,3 +15,7 @@ ENDLIN  EQU CRLF
 ; LEXTOK - LEXCH at a token's beginning
 ; In, Out: as LEXCH   Clobbers nothing else
 LEXTOK  EQU LEXCH
+
+; LINGAP - behind a line of LIST and SAVE: nothing
+; Clobbers A
+LINGAP  EQU CHECK

@@ -2,7 +2,7 @@
 ; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBNEW RBSET GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   592 bytes
+; Room:   590 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -162,14 +162,11 @@ OPNEG:  CALL    OPND
 ; NEGVAL - negates the value: of a circle the radius, else everything
 ; In:  a0 a1 a2, VKIND   Clobbers all
 NEGVAL: CALL    CHKRET
+        DB      CALC,LA2,QNEG,SA2,QEND ; -
         CALL    NOTURN
         CPI     KCIR
-        JZ      NEGV1
-        DB      CALC,LA0,QNEG   ; x
-        DB      LA1,QNEG,QSA    ; -
-        DB      QEND
-NEGV1:  DB      CALC,LA2,QNEG,SA2 ; -
-        DB      QRET
+        RZ
+        DB      CALC,LA0,QNEG,LA1,QNEG,QSA,QRET ; -
 
 ; NAME - a name with its subscript worked out
 ; In:  A = its first token, taken   Out: DE = name   Clobbers all

@@ -1,7 +1,7 @@
 ; program.asm - the lines of the program: how they are kept, their numbers, LIST
 ; Offers: STORE FINDLN PLINE LOADDE SUMREC VARSUM LINENO OPTLN LNEND SLIST
-; Uses:   float lexer parser start value
-; Room:   283 bytes
+; Uses:   [punch] float lexer parser start value
+; Room:   286 bytes
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
@@ -205,5 +205,6 @@ SLIS3:  CALL    PLINE
         RC
         PUSH    B
         CALL    LISTLN
+        CALL    LINGAP
         INX     H               ; check byte
         JMP     SLIS3

@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: SREP SSYM SRECUT SSCALE
 ; Uses:   calc consts ends fit float geom io items parser route start value
-; Room:   339 bytes
+; Room:   333 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
@@ -14,6 +14,8 @@ RJOIN   EQU CWORK+26    ; turn at the corner that SYM or REP makes
 ROP     EQU CWORK+27    ; operation on the items: rank
 ROPK    EQU CWORK+28    ; and kind of its right operand
 RCOUNT  EQU CWORK+31    ; copies that are wanted
+
+;! KNUM == 0 and KTURN == 4 -- SREP: of the kinds 1 to 3 all have bits that KTURN has not
 
 ; FETCH - an item of the buffer as the value
 ; In:  RSRC; bit 7 of A: its corner turns right   Out: a0 a1 a2, VKIND, RTURN
@@ -101,11 +103,9 @@ SREP:   CALL    JOINT
         ORA     L
         JZ      ERRNG
         LDA     VKIND
-        ORA     A
-        JZ      SREP1
-        CPI     KTURN
+        ANI     0FFH-KTURN      ; a number (0) or a rotation (4)
         JNZ     ERKIND
-SREP1:  DB      CALC,LA1,QSCL,SA1,QEND ; -
+        DB      CALC,LA1,QSCL,SA1,QEND ; -
         LXI     H,KTURN*256+2   ; #
         CALL    OPENRT
 SREP2:  LHLD    RCOUNT
@@ -141,13 +141,13 @@ SYM1:   CALL    STEPB
         LHLD    PEND
         CALL    CPHD
         RNC                     ; that was the first
-        LDAX    D
+        XCHG
+        MOV     A,M
         ADD     A               ; 2 * kind
         JZ      SYM1            ; a fillet goes with the item before it
         CPI     2*KPNT
         PUSH    PSW
         CNZ     SYMFIL
-        LHLD    RSRC
         MOV     A,M
         LXI     H,RJOIN
         MOV     B,M
@@ -159,7 +159,7 @@ SYM1:   CALL    STEPB
         JMP     SYM1
 
 ; SYMFIL - feeds the item behind RSRC when it is a fillet
-; Clobbers all
+; Out: HL = RSRC, as it was   Clobbers all
 SYMFIL: CALL    STEP
         JZ      STEPB
         MOV     A,M

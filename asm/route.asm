@@ -31,12 +31,13 @@ RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RKEPT   EQU MREG+335    ; behind the registers: element kept while a fillet goes first
 
 ;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET clear two cells at once
+;! RFSTP == RLASTP+1 -- SAMEL compares two cells that it takes at once
 ;! RBFULL == CLOSED+1 and FITSM == FITN+1 -- RBNEW and FITEND clear two cells at once
 ;! MKX+PLCSIZ <= MREG+320 and RKEPT+ELSIZE <= LINBUF -- copies stay in their rooms
 ;! RELEMS/100H == RCORN/100H -- JOINED changes the low byte alone
 
 ; NEEDEL - demands that the route has an element
-; Out: ERR 06   Clobbers A
+; Out: A = RELEMS, not 0; ERR 06   Clobbers nothing else
 NEEDEL: LDA     RELEMS
         ORA     A
         RNZ
@@ -60,8 +61,8 @@ PASSP:  CALL    ADVANC
 ; Clobbers all
 ; The wire's travel is that as drawn, and what its ends are moved by, when the moves are no more than half a turn
 ; together: then the sum of their cosines is not negative.  That of the travels may be wrapped around: when one is less
-; than half a turn, the other one more.  With a and b their cosines and sines, they differ by more than half a turn
-; when the sine of b less a has the sign of b's own.
+; than half a turn, the other one more.  From D to K and from A to P it is as far, on the mean, as the two travels; that
+; mean lies beside half a turn when they are not wrapped around, else beside none: then the cosines add up to more than 0.
 WRAP:   LDA     FITSM           ; (arcs of one curve touch each other: their corners stay)
         ORA     A
         RNZ
@@ -69,13 +70,12 @@ WRAP:   LDA     FITSM           ; (arcs of one curve touch each other: their cor
         DB      LPX,LPY,LKX,LKY,QSEEN,QDOT,QADD,QE6N ; -
         DB      LDX,LDY,LPX,LPY,QTRAV ; s
         DB      LC2,QABS,QMU,QMUL,QADD ; s      none when 1 um backwards
-        DB      QDUP,LT3,QSIG,QNEG,QJN ; s      both in one half
+        DB      LT3,QSIG,QNEG,QJN ; -           both in one half
         DB      WRAP1-$
-        DB      QDOT            ; s c
-        DB      LAX,LAY,LKX,LKY,QTRAV,QDOT ; s c s c
-        DB      SA0,SA1,SB0,SB1 ; -             a = the wire's travel, b = that as drawn
-        DB      QCRS,LB1,QSIG,QNEG,QE6N+QRET ; -
-WRAP1:  DB      QDRP+QRET       ; -
+        DB      LDX,LDY,LKX,LKY,QSEEN,QDOT ; c
+        DB      LAX,LAY,LPX,LPY,QSEEN,QDOT ; c c
+        DB      QADD,QNEG,QE6N  ; -
+WRAP1:  DB      QRET            ; -
 
 ; Operations of the calculator that the route adds
 

@@ -238,7 +238,7 @@ def test_prompt_on_the_board(fence: re.Match[str]) -> None:
 def said_by_the_board(session: str, reader: str = "", punched: list[str] | None = None) -> str:
     """A session as the board's paper shows it, from the first prompt on, when these lines are typed.
 
-    The tape `reader` is in the reader; what is punched, but for blocks and the ctrl-Z behind it, is added to `punched`.
+    The tape `reader` is in the reader; the lines that are punched, but for blocks, are added to `punched`.
     """
     typed = "".join(f"{line[1:]}\r" for line in session.splitlines() if line.startswith(">"))
     with tempfile.TemporaryDirectory() as scratch:
@@ -251,9 +251,9 @@ def said_by_the_board(session: str, reader: str = "", punched: list[str] | None 
             check=False,
         )
         if punched is not None:
-            lines = punch.read_text().rstrip("\x1a").splitlines()
+            lines = punch.read_text().replace("\0", "").rstrip("\x1a").splitlines()
             punched.append("".join(f"{line}\n" for line in lines if line and not re.match("[BD]", line)))
-    paper = done.stdout.decode().replace("\r", "").replace("\x1a", "")
+    paper = done.stdout.decode().translate(dict.fromkeys(b"\r\0\x1a"))
     return paper[paper.index(">") :].removesuffix(">")
 
 

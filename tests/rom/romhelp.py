@@ -25,6 +25,8 @@ BOARDS: dict[str, dict[str, Any]] = {
     "skg-rc2014": {"board": "rc2014"},
     "skg-rc2014-sio": {"board": "rc2014-sio"},
 }
+#: Those whose speed a teletype's reader has: SAVE punches NULs behind each line, as board.md says.
+PAPER_TAPES = ("skg", "skg-8251", "skg-tty")
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 #: Those that foreign processors and machines run too: each so-many-th, all in `make hunt`.
 SOME_EXAMPLES = EXAMPLES[:: int(os.environ.get("SKG_EVERY", "3"))]
@@ -44,6 +46,12 @@ def labels() -> dict[str, int]:
 def image(kind: str) -> Path:
     """The ROM of one of the `BOARDS`, or another one for the standard board."""
     return ROM if kind == "skg" else ROM.with_name(f"{kind}.bin")
+
+
+def saved_tape(lines: list[str], kind: str) -> bytes:
+    """The tape that SAVE punches for a listing."""
+    end = b"\r\n" + bytes(4 * (kind in PAPER_TAPES))
+    return b"".join(line.encode() + end for line in lines) + b"\x1a"
 
 
 @dataclass(frozen=True)

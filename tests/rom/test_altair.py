@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from romhelp import ROM, ROOT, SOME_EXAMPLES, Board
+from romhelp import ROM, ROOT, SOME_EXAMPLES, Board, saved_tape
 from test_examples import EXAMPLES, stem
 
 sys.path.insert(0, str(ROOT / "tests" / "emu"))
@@ -28,8 +28,8 @@ ALTAIR = shutil.which("altairz80")
 pytestmark = pytest.mark.skipif(ALTAIR is None, reason="no SIMH: apt-get install simh")
 
 CTRL_E = b"\x05"
-#: How the paper ends when the board waits for a line; SAVE leaves the ctrl-Z of its tape in front of the prompt.
-PROMPT = (b"\r\n>", b"\r\n\x1a>")
+#: How the paper ends when the board waits for a line; behind SAVE it is the end of its tape.
+PROMPT = (b"\r\n>", b"\r\n\0\0\0\0\x1a>")
 #: What keys that edit print: RUBOUT, ctrl-U.
 ECHO = {0x7F: b"\b \b", 0x15: b"\r\n"}
 #: Seconds for anything that SIMH is asked to do.
@@ -207,9 +207,9 @@ def test_saved(tmp_path: Path) -> None:
     with altair(tmp_path) as theirs:
         for line in part.read_text().splitlines():
             theirs.type(line)
-        listed = theirs.type("LIST").removeprefix("\r\n").removesuffix(">")
+        listed = theirs.type("LIST").removesuffix(">").split("\r\n")[1:-1]
         theirs.type("SAVE")
-        assert theirs.punched() == listed.encode() + b"\x1a"
+        assert theirs.punched() == saved_tape(listed, "skg")
 
 
 def test_editing_and_errors(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, Board, image
+from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, Board, image, saved_tape
 from test_examples import EXAMPLES, stem
 
 from skg.machine.emulator import Machine
@@ -72,7 +72,7 @@ def test_saved_and_loaded(kind: str, part: Path) -> None:
     board.machine.clear()
     board.type("SAVE")
     saved = board.machine.punch
-    assert saved == "".join(f"{line}\r\n" for line in listed).encode() + bytes([CTRL_Z])
+    assert saved == saved_tape(listed, kind)
     assert board.type("NEW") == board.listing() == []
     board.machine.tape(saved)
     board.type("LOAD")

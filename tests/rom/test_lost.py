@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from romhelp import BOARDS, EXAMPLES, ROOT, RUN_LIMIT, Board, image
+from romhelp import BOARDS, EXAMPLES, PAPER_TAPES, ROOT, RUN_LIMIT, Board, image
 
 #: 9600 to 110 baud.
 SPEEDS = [960, 480, 240, 120, 60, 30, 15, 10]
@@ -121,6 +121,20 @@ def test_a_reader_without_handshake_needs_nuls(kind: str, cps: int, nuls: int) -
             part.stem,
             paper,
         )
+
+
+@pytest.mark.parametrize("kind", PAPER_TAPES)
+def test_a_saved_tape_needs_no_handshake(kind: str) -> None:
+    """At a teletype's 10 characters a second. (each board a third of the examples, all together all)"""
+    for part in EXAMPLES[PAPER_TAPES.index(kind) :: 3]:
+        board = Board(kind=kind)
+        board.load(part.read_text())
+        board.machine.clear()
+        board.type("SAVE")
+        saved = board.machine.punch
+        board.type("NEW")
+        paper = loaded(board, saved, 10, None)
+        assert "ERR" not in paper and board.machine.lost == 0 and board.listing() == listed(part), (part.stem, paper)
 
 
 def test_the_command_that_puts_nuls_behind_lines(tmp_path: Path) -> None:

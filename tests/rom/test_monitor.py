@@ -7,7 +7,7 @@ import random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from romhelp import BOARDS, ROM, RUN_LIMIT, Board, fault, labels
+from romhelp import BOARDS, ROM, RUN_LIMIT, Board, fault, labels, saved_tape
 
 from skg.machine import Machine
 
@@ -631,7 +631,7 @@ def test_a_saved_tape_is_the_same_program(name: str) -> None:
     board.machine.type("SAVE\r")
     assert board.machine.run(RUN_LIMIT) == "prompt"
     saved = board.machine.punch
-    assert saved.strip(b"\x12\x14").decode() == "".join(f"{line}\r\n" for line in listed) + chr(CTRL_Z)
+    assert saved.strip(b"\x12\x14") == saved_tape(listed, name)
     lines(board, "NEW")
     assert program(board) == b""
     board.machine.tape(saved)

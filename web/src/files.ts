@@ -34,14 +34,14 @@ export function recognize(name: string, bytes: Uint8Array): Found {
     const saved = readEverything(utf8(bytes) ?? text);
     return saved ? { kind: "saved", saved } : refuse("badSaved");
   }
-  // (an editor's mark at the start, a ctrl-Z at the end and blank tape are let pass)
+  // (an editor's mark at the start, a ctrl-Z at the end and blank tape, such as that of SAVE, are let pass)
   const plain = text.replace(/^\xef\xbb\xbf/, "").replace(/\x1a[^]*$/, "");
   const isTape =
     /\.3b$/i.test(name) || (!/\.skg$/i.test(name) && /(^|[\s:])B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*B[ \t]*\d*[ \t]*G/i.test(plain));
   if (isTape) return { kind: "tape", text: plain };
   const strange = /[^\t\n\r -~\0]/.exec(plain);
   if (!/\.skg$/i.test(name) && ((strange && !utf8(bytes)) || !/^[\s\0]*\d+\s*[A-Za-z]/.test(plain))) return refuse("badKind");
-  const program = strange ? utf8(bytes) : plain;
+  const program = strange ? utf8(bytes) : plain.replace(/\0/g, "");
   if (program === undefined) return refuse("badText", text.indexOf(strange?.[0] ?? "") + 1);
   if (!program.trim()) return refuse("badEmpty");
   if (program.length > MOST_PROGRAM) return refuse("badLarge", MOST_PROGRAM / 1024);

@@ -70,6 +70,8 @@ test("files are what they are", () => {
   ] as const) {
     assert.equal(kind(name, text), expected, `${name} ${text.slice(0, 20)}`);
   }
+  const saved = "10 A=1\r\n\0\0\0\x0020 END\r\n\0\0\0\0\x1a";
+  assert.deepEqual(recognize("a.skg", bytes(saved)), { kind: "program", text: "10 A=1\r\n20 END\r\n" });
   assert.equal(tooLarge("a.3b", 20_000_000)?.kind, "refused");
   assert.equal(tooLarge("a.3b", 1_000_000), undefined);
   assert.ok(isWord("badLarge") && t("badTape", "a.3b", 1, 2, 3, "x").includes("a.3b"));
