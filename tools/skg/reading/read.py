@@ -137,12 +137,13 @@ def _near_origin(reading: Reading) -> Reading:
     return replace(reading, contours=contours, starts=starts, others=others, opened=opened)
 
 
-def layer_lines(data: bytes, name: str, wishes: Wishes) -> list[str]:
-    """List the entities of each layer of a drawing file, a line each."""
+def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[str]]:
+    """List the entities of each layer of a drawing file, a line each; and what was guessed or mended to read it."""
+    content, report = _content(data, name, wishes)
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
-    for entity in _content(data, name, wishes)[0].entities:
+    for entity in content.entities:
         kinds[entity.layer][entity.kind] += 1
-    return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)]
+    return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)], report.notes
 
 
 def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
