@@ -139,11 +139,13 @@ def command(
                 if keyed:
                     send(typist, keyed, "standard input")
                 if not is_attended:
-                    is_known = typist.paced and bool(lines or keyed) and not (record and (run or punch_port))
-                    finish(typist, 0.0 if is_known else quiet, bool(record and run))
+                    is_followed = typist.paced and bool(lines or keyed)
+                    is_known = is_followed and not (record and (run or punch_port))
+                    ports = [port for port, _ in readers]
+                    finish(typist, ports, 0.0 if is_known else quiet, bool(record and run), is_followed)
             except Stopped as reason:
                 stopped = True
-                teletype.say(f"{reason}; nothing more was sent")
+                teletype.say(f"{reason}" + "; nothing more was sent" * bool(lines or keyed))
             if is_attended:
                 converse(machine, teletype)
         except BrokenOff:

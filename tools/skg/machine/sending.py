@@ -223,21 +223,28 @@ def _say_given_up(typist: Typist, lines: Sequence[TypedLine], name: str, is_run:
         typist.teletype.say(f"{name}: {lost}")
 
 
-def finish(typist: Typist, quiet: float, needs_tape: bool) -> None:
-    """Wait for what still comes, `quiet` seconds at most after the last character; `Stopped` if that is not all."""
+def finish(typist: Typist, ports: Sequence[Port], quiet: float, needs_tape: bool, is_followed: bool) -> None:
+    """Wait for what still comes, `quiet` seconds at most after the last character; `Stopped` if that is not all.
+
+    `ports`: all that are listened to; `is_followed`: the answer to each line was waited for, again where the port had
+    gone away.
+    """
     teletype = typist.teletype
     if teletype.asks:
         typist.port.write(_CTRL_C)
         raise Stopped("INPUT asks, and there is no answer: broken off with ctrl-C")
     teletype.wait(lambda: teletype.ended, quiet)
+    for port in ports:
+        if port.is_away:
+            raise Stopped(f"{port.name} is not back: what came meanwhile is lost")
     if teletype.error:
         raise Stopped(_meaning(teletype.error))
     if needs_tape and not teletype.punched:
         raise Stopped("nothing was punched on this port: has the punch one of its own, for --punch-port?")
     if needs_tape and not teletype.ended:
         raise Stopped("the tape's DD has not come")
-    if needs_tape and (teletype.gaps or teletype.losses and not typist.paced):
-        raise Stopped("a port went away in between: what was punched meanwhile is not on the tape")
+    if teletype.gaps or teletype.losses and not is_followed:
+        raise Stopped("a port went away in between: what came meanwhile is lost")
 
 
 def _store(typist: Typist, lines: list[TypedLine], name: str, program: str) -> bool:
