@@ -70,8 +70,8 @@ class Splitter:
 class Port:
     """A serial port that is opened again when it went away.
 
-    `say` tells the operator, `on_back` is called when the port is there again; `is_away` until then. A port that stays away longer
-    than `patience` seconds (0: for ever) is a `UserError`.
+    `say` tells the operator, `on_back` is called when the port is there again; `is_away` until then. A port that stays
+    away longer than `patience` seconds (0: for ever) is a `UserError`.
     """
 
     def __init__(
