@@ -5,7 +5,8 @@
  *      skg80 --com FILE            a CP/M program on a bare 8080
  *
  *      exit    0   done
- *              1   the run ended in ERR, INPUT found no answer, LOAD no tape, or the machine halted
+ *              1   the run ended in ERR, a line of a pipe was answered with ERR, INPUT found no answer, LOAD no tape, or
+ *                  the machine halted
  *              2   wrong usage, a file that cannot be read or written, or a ROM that does not fit the board
  *              3   --max-cycles were not enough
  *
