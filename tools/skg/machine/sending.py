@@ -16,13 +16,14 @@ from typing import NamedTuple
 from tqdm import tqdm
 
 from skg.errors import UserError
+from skg.files import board_text
 from skg.machine.board import ERRORS, ErrorLine, is_printed
 from skg.machine.feeding import MEMORY_FULL, given_up, is_end, is_numbered, least_ram, without_numbers
 from skg.machine.teletype import Port, Teletype
 
 #: Characters that the board takes in a line (language.md, section 3).
 LONGEST = 126
-_CTRL_C, _CTRL_U, _CTRL_Z, _CR = b"\x03", b"\x15", b"\x1a", b"\r"
+_CTRL_C, _CTRL_U, _CR = b"\x03", b"\x15", b"\r"
 #: Seconds of silence after which an echo does not come any more; how often a line is typed that comes back wrong.
 _ECHO, _TRIES = 1.5, 3
 #: The same of what tells whether the board is there at all: an emulator may have to wait for its computer.
@@ -53,11 +54,9 @@ class _Refused(Exception):
 def lines_to_type(data: bytes, name: str) -> list[TypedLine]:
     """The lines of a file up to ctrl-Z; one that the board could not take is a `UserError`."""
     lines = []
-    for number, raw in enumerate(re.split(rb"\r\n|[\r\n]", data.partition(_CTRL_Z)[0]), 1):
-        if not raw.isascii():
-            raise UserError(f"{name}: line {number}: {raw.decode('utf-8', 'replace').strip()!r} is not plain ASCII")
+    for number, raw in enumerate(re.split(r"\r\n|[\r\n]", board_text(data, name)), 1):
         # ctrl-U forgets what stands before it, other control characters mean nothing.
-        text = re.sub(r"[\x00-\x1f\x7f]", "", raw.rpartition(_CTRL_U)[2].decode())
+        text = re.sub(r"[\x00-\x1f\x7f]", "", raw.rpartition(_CTRL_U.decode())[2])
         if len(text) > LONGEST:
             raise UserError(f"{name}: line {number}: {len(text)} characters, the board takes {LONGEST}")
         if text.strip():
