@@ -4,9 +4,9 @@
  *
  * Two boards LOAD and RUN each part; one of them has the translation. After every slice of a random length their
  * registers, cycles, instructions and outputs must agree, and now and then all of memory. Breakpoints in the ROM are
- * set and deleted, and bytes of it written over themselves: each ends the translation, which then begins again. Prints
- * how many slices and instructions were compared, and how many of these the translation has carried out; or the first
- * difference, exit 1.
+ * set and deleted, and bytes of it written over themselves: each ends the translation, which then begins again. The last
+ * slice of a part goes through a byte that was changed. Prints how many slices and instructions were compared, and how
+ * many of these the translation has carried out; or the first difference, exit 1.
  */
 #include "../../emu/board.h"
 #include "../../emu/image.h"
@@ -79,7 +79,8 @@ static bool run_both(side *s, uint64_t cycles, board_reason *reason)
            && same(&s[0].board->cpu, &s[1].board->cpu);
 }
 
-/* Sets a breakpoint for one slice, or writes a byte of the ROM over itself: both end the translation. */
+/* Sets a breakpoint for one slice, or writes a byte of the ROM over itself, so that the part goes on as it was: both end
+ * the translation. */
 static bool disturb(side *s)
 {
     uint16_t at = (uint16_t)(random32() % BOARD_ROM_SIZE);
@@ -102,6 +103,19 @@ static bool disturb(side *s)
         begin(&s[1]);
     }
     return agree;
+}
+
+/* Writes another byte over the one that comes next, and has both carry it out. It spoils the firmware: the last slice. */
+static bool spoil(side *s)
+{
+    uint16_t at = s[0].board->cpu.pc;
+    uint8_t byte = i8080_peek(&s[0].board->cpu, at) ^ (uint8_t)(random32() % 255 + 1);
+    board_reason reason;
+    for (int i = 0; i < 2; i++) {
+        board_type(s[i].board, (const uint8_t *)"PRINT 1\r", 8);
+        i8080_poke(&s[i].board->cpu, at, byte);
+    }
+    return run_both(s, LONG_SLICE, &reason);
 }
 
 static bool compare(const uint8_t *rom, const uint8_t *tape, size_t length)
@@ -128,6 +142,7 @@ static bool compare(const uint8_t *rom, const uint8_t *tape, size_t length)
             agree = kind ? run_both(s, random32() % (kind < 4 ? 40 : LONG_SLICE) + 1, &reason) : disturb(s);
         }
     }
+    agree = agree && spoil(s);
     if (!agree) {
         const i8080 *p = &s[0].board->cpu, *q = &s[1].board->cpu;
         printf("after slice %llu: PC %04X and %04X, cycle %llu and %llu\n", (unsigned long long)slices, p->pc, q->pc,

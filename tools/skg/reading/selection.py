@@ -213,16 +213,16 @@ class Fates:
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
-            entity = replace(entity, left=entity.left or " and ".join(lost))
+            left = replace(entity, left=entity.left or " and ".join(lost))
             if cut[number]:
                 layer.part += 1
             else:
                 layer.left += 1
-            layer.why[entity.left][entity.kind] += 1
+            layer.why[left.left][left.kind] += 1
             if JUNCTION in gone:
-                rest.append(entity)
-            elif entity.is_odd:
-                odd.append(entity)
+                rest.append(left)
+            elif left.is_odd:
+                odd.append(left)
         report.rest, report.not_understood = rest, odd
         report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
         dashed = defaultdict(list)
