@@ -5,7 +5,8 @@
  *      skg80 --com FILE            a CP/M program on a bare 8080
  *
  *      exit    0   done
- *              1   the run ended in ERR, INPUT found no answer, LOAD no tape, or the machine halted
+ *              1   the run ended in ERR, a line of a pipe was answered with ERR, INPUT found no answer, LOAD no tape, or
+ *                  the machine halted
  *              2   wrong usage, a file that cannot be read or written, or a ROM that does not fit the board
  *              3   --max-cycles were not enough
  *
@@ -42,6 +43,8 @@
 enum {
     FILE_LIMIT = 16 << 20,          /* bytes; a part or a list of answers is a few thousand */
     LINE_PATIENCE_MS = 5000,        /* a machine may leave its line full so long */
+    CTRL_C = 0x03,
+    CTRL_S = 0x13,
     CTRL_Z = 0x1a                   /* nothing follows on a tape of program lines */
 };
 
@@ -127,14 +130,38 @@ static const char *rest_of(const uint8_t *bytes, size_t length)
     return rest;
 }
 
-/* Puts a tape into the reader, with a line end behind a last line that has none. */
+/* Refuses a part with a character that would stop the board, as `skg` does (board_text of tools/skg/files.py). */
+static int refuse_stops(const char *path, const uint8_t *bytes, size_t length)
+{
+    unsigned line = 1;
+    for (size_t at = 0; at < length && bytes[at] != CTRL_Z; at++) {
+        if (bytes[at] == CTRL_C || bytes[at] == CTRL_S) {
+            return complain(EXIT_USAGE, "%s: line %u: a ctrl-%s: delete it", path, line,
+                            bytes[at] == CTRL_C ? "C breaks LOAD off" : "S holds the board");
+        }
+        line += bytes[at] == '\n' || (bytes[at] == '\r' && bytes[at + 1] != '\n');
+    }
+    return 0;
+}
+
+/* Puts a tape into the reader, without the mark of UTF-8 and with a line end behind a last line that has none. */
 static int set_tape(session *s, const char *path)
 {
+    static const char mark[] = "\xef\xbb\xbf";
     char error[256];
     size_t length;
     uint8_t *bytes = image_read(path, FILE_LIMIT, &length, error, sizeof error);
     if (!bytes) {
         return complain(EXIT_USAGE, "%s", error);
+    }
+    if (length >= sizeof mark - 1 && !memcmp(bytes, mark, sizeof mark - 1)) {
+        length -= sizeof mark - 1;
+        memmove(bytes, bytes + sizeof mark - 1, length + 1);
+    }
+    int code = s->o.part ? refuse_stops(path, bytes, length) : 0;
+    if (code) {
+        free(bytes);
+        return code;
     }
     /* (an empty file becomes an empty line: LOAD waits for a first character) */
     bool ended = length && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r');

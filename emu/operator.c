@@ -172,8 +172,7 @@ int operator_part(session *s, const char *answers)
         }
         switch (reason) {
         case BOARD_PROMPT:
-            /* (PRINT may write the same words: the prompt does not follow them) */
-            if (s->below_error) {
+            if (s->refused) {
                 return EXIT_ERR;
             }
             if (given == count) {
@@ -280,7 +279,7 @@ int operator_terminal(session *s)
         case BOARD_PROMPT:
             watch_punch(s, &punch_told);
             if (t->ended) {
-                return 0;
+                return s->refused ? EXIT_ERR : 0;
             }
             wait = -1;
             break;

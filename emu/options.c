@@ -49,7 +49,7 @@ static const char USAGE[] =
     "  --com FILE        run a CP/M program instead\n"
     "  --version         the version, and the built-in ROM's CRC-32\n"
     "  --help            this\n"
-    "exit: 0 done, 1 the run ended in ERR, 2 wrong usage or a file that cannot be read or written, 3 --max-cycles\n";
+    "exit: 0 done, 1 ERR with a part or a pipe, 2 wrong usage or a file that cannot be read or written, 3 --max-cycles\n";
 
 static bool whole_number(const char *text, uint64_t least, uint64_t most, uint64_t *value)
 {

@@ -28,7 +28,7 @@ static bool is_error(const char *line)
     return !*line || (!strncmp(line, where, at) && line[at] && !line[at + strspn(line + at, "0123456789")]);
 }
 
-/* Keeps the paper's present line, and whether the one above is an error's. */
+/* Keeps the paper's present line, whether the one above is an error's, and whether the prompt followed one. */
 static void follow(session *s, uint8_t c)
 {
     if (c == '\r' || c == '\n') {
@@ -38,6 +38,8 @@ static void follow(session *s, uint8_t c)
         }
         s->line_length = 0;
     } else if (c >= ' ') {
+        /* (PRINT may write the same words: the prompt does not follow them) */
+        s->refused |= c == '>' && !s->line_length && s->below_error;
         if (s->line_length < ERROR_LINE) {
             s->printing[s->line_length] = (char)c;
         }

@@ -36,6 +36,7 @@ typedef struct {
     char printing[ERROR_LINE + 1];  /* the beginning of its present line */
     size_t line_length;             /* and that line's length */
     bool below_error;               /* the line above is one with ERR */
+    bool refused;                   /* the board answered something with ERR */
     const char *rest;               /* the line to type behind the loaded part; NULL: none */
     int failed;                     /* errno of output that was lost; 0: none */
     bool prompted;                  /* the machine has come to its first prompt */

@@ -256,9 +256,25 @@ def test_sanitizers_find_nothing(tmp_path: Path) -> None:
 @pytest.mark.parametrize("end", [b"\n", b"\r\n", b"\r"])
 def test_piped_text_is_typed(skg80: Skg80, end: bytes) -> None:
     """With any line ends; at its end the board's prompt ends the program."""
-    done = skg80(stdin=b"PRINT 1" + end + b"PRINT A" + end)
-    assert without_sign_on(done.stdout) == b">PRINT 1\r\n1\r\n>PRINT A\r\nERR 03\r\n>"
+    done = skg80(stdin=b"PRINT 1" + end + b"PRINT 2" + end)
+    assert without_sign_on(done.stdout) == b">PRINT 1\r\n1\r\n>PRINT 2\r\n2\r\n>"
     assert (done.returncode, done.stderr) == (0, b"\r\n")
+
+
+@pytest.mark.parametrize(
+    ("lines", "code"),
+    [
+        ("PRINT A\nPRINT 1\n", 1),
+        ("10 PRINT A\nRUN\nNEW\n", 1),
+        ('10 PRINT "ERR 05"\nRUN\n', 0),
+        ('10 PRINT "ERR 05"\n20 INPUT A\nRUN\n1\n', 0),
+    ],
+)
+def test_piped_text_that_is_answered_with_err(skg80: Skg80, lines: str, code: int) -> None:
+    """All lines are typed; the exit code says that one was refused. What a program prints is no answer."""
+    done = skg80(stdin=lines.encode())
+    last = lines.splitlines()[-1].encode()
+    assert done.returncode == code and last in done.stdout, done.stdout
 
 
 def test_piped_text_waits_for_the_machine(skg80: Skg80, tmp_path: Path) -> None:

@@ -4,9 +4,9 @@
  *
  * Two boards LOAD and RUN each part; one of them has the translation. After every slice of a random length their
  * registers, cycles, instructions and outputs must agree, and now and then all of memory. Breakpoints in the ROM are
- * set and deleted, and bytes of it written over themselves: each ends the translation, which then begins again. Prints
- * how many slices and instructions were compared, and how many of these the translation has carried out; or the first
- * difference, exit 1.
+ * set and deleted, and bytes of it written over themselves: each ends the translation, which then begins again. Then the
+ * part begins anew some times, and after some slices a byte is changed where both go on. Prints how many slices and
+ * instructions were compared, and how many of these the translation has carried out; or the first difference, exit 1.
  */
 #include "../../emu/board.h"
 #include "../../emu/image.h"
@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_TAPE = 1 << 20, LONG_SLICE = 60000, PART_CYCLES = 400000000 };
+enum { MOST_TAPE = 1 << 20, LONG_SLICE = 60000, SPOILT = 4, SHORT = 100, PART_CYCLES = 400000000 };
 
 typedef struct {
     board *board;
@@ -79,7 +79,8 @@ static bool run_both(side *s, uint64_t cycles, board_reason *reason)
            && same(&s[0].board->cpu, &s[1].board->cpu);
 }
 
-/* Sets a breakpoint for one slice, or writes a byte of the ROM over itself: both end the translation. */
+/* Sets a breakpoint for one slice, or writes a byte of the ROM over itself, so that the part goes on as it was: both end
+ * the translation. */
 static bool disturb(side *s)
 {
     uint16_t at = (uint16_t)(random32() % BOARD_ROM_SIZE);
@@ -104,7 +105,20 @@ static bool disturb(side *s)
     return agree;
 }
 
-static bool compare(const uint8_t *rom, const uint8_t *tape, size_t length)
+/* Writes another byte over the one that comes next, and has both carry it out. It spoils the firmware: the last slice. */
+static bool spoil(side *s)
+{
+    uint16_t at = s[0].board->cpu.pc;
+    uint8_t byte = i8080_peek(&s[0].board->cpu, at) ^ (uint8_t)(random32() % 255 + 1);
+    board_reason reason;
+    for (int i = 0; i < 2; i++) {
+        i8080_poke(&s[i].board->cpu, at, byte);
+    }
+    return run_both(s, LONG_SLICE, &reason);
+}
+
+/* Compares both on a part; with `most`, on so many slices and one more in a spoilt firmware. */
+static bool compare(const uint8_t *rom, const uint8_t *tape, size_t length, uint64_t most)
 {
     static const char *const typed[] = { "", "LOAD\r", "RUN\r" };
     side s[2] = { { NULL, 0 }, { NULL, 0 } };
@@ -116,6 +130,7 @@ static bool compare(const uint8_t *rom, const uint8_t *tape, size_t length)
         board_tape(s[i].board, tape, length);
     }
     begin(&s[1]);
+    const uint64_t last = slices + most;
     bool agree = true;
     for (size_t k = 0; agree && k < sizeof typed / sizeof *typed; k++) {
         for (int i = 0; i < 2; i++) {
@@ -123,11 +138,13 @@ static bool compare(const uint8_t *rom, const uint8_t *tape, size_t length)
         }
         uint64_t end = s[0].board->cpu.cycles + PART_CYCLES;
         board_reason reason = BOARD_CYCLES;
-        while (agree && (reason == BOARD_CYCLES || reason == BOARD_BREAK) && s[0].board->cpu.cycles < end) {
+        while (agree && (!most || slices < last) && (reason == BOARD_CYCLES || reason == BOARD_BREAK)
+               && s[0].board->cpu.cycles < end) {
             uint32_t kind = random32() % 16;
             agree = kind ? run_both(s, random32() % (kind < 4 ? 40 : LONG_SLICE) + 1, &reason) : disturb(s);
         }
     }
+    agree = agree && (!most || spoil(s));
     if (!agree) {
         const i8080 *p = &s[0].board->cpu, *q = &s[1].board->cpu;
         printf("after slice %llu: PC %04X and %04X, cycle %llu and %llu\n", (unsigned long long)slices, p->pc, q->pc,
@@ -161,7 +178,11 @@ int main(int argc, char **argv)
             return EXIT_FAILURE;
         }
         tape[length] = 0x1a; /* ctrl-Z, in place of the NUL: LOAD waits for nothing more */
-        if (!compare(rom, tape, length + 1)) {
+        bool agree = compare(rom, tape, length + 1, 0);
+        for (int k = 0; agree && k < SPOILT; k++) {
+            agree = compare(rom, tape, length + 1, random32() % SHORT + 1);
+        }
+        if (!agree) {
             printf("%s: they differ\n", argv[i]);
             return EXIT_FAILURE;
         }

@@ -111,6 +111,49 @@ def test_what_makes_no_opening(run: Run, tmp_path: Path, around: str) -> None:
     assert len(found) == 5
 
 
+GAPS = {
+    "one line": [[(1, 0), *PLATE[1:], (0, 0)]],
+    "four lines": [[(1, 0), (59, 0)], [(60, 1), (60, 39)], [(59, 40), (1, 40)], [(0, 39), (0, 1)]],
+    "past corners": [[(-1, 0), (61, 0)], [(60, -1), (60, 41)], [(61, 40), (-1, 40)], [(0, 41), (0, -1)]],
+    "with a stub": [[(1, 0), *PLATE[1:3]], [(60, 40), (70, 50)], [(60, 40), (0, 40), (0, 0)]],
+}
+
+
+@pytest.mark.parametrize("gaps", GAPS)
+def test_the_holes_of_a_plate_that_is_open(run: Run, tmp_path: Path, gaps: str) -> None:
+    """Holes within lines whose ends nearly meet are cut as outlines, and where the gap is, is said, whether the lines
+    are on another layer, left or cut."""
+    page = drawing()
+    for line in GAPS[gaps]:
+        page.modelspace().add_lwpolyline(line, dxfattribs={"layer": "OUT"})
+    for centre in HOLES:
+        page.modelspace().add_circle(centre, 4, {"layer": "HOLES"})
+    path = saved(page, tmp_path)
+    width = re.compile(r"1(\.414\d)? mm")
+    for words in (["--layer", "HOLES"], ["--open", "leave"], ["--open", "cut"]):
+        done = run("cut", path, "-o", tmp_path / "a.3b", "--offset", OFFSET, "--quiet", *words)
+        assert done.exit_code == 0 and says(done.stderr, CARE, "4 outlines", "layer OUT", width, "--side inside"), words
+    done = run("cut", path, "-o", tmp_path / "a.3b", "--offset", OFFSET, "--layer", "HOLES", "--side", "inside")
+    assert done.exit_code == 0 and not says(done.stderr, CARE, "layer OUT")
+
+
+@pytest.mark.parametrize("beside", ["U", "thread", "parts"])
+def test_open_lines_that_are_no_outline(run: Run, tmp_path: Path, beside: str) -> None:
+    """A wide gap, three quarters of a circle, and a frame with a gap around parts with openings: nothing is said."""
+    page = drawing()
+    for x, y in HOLES:
+        page.modelspace().add_circle((x, y), 4, {"layer": "CUT"})
+        if beside == "thread":
+            page.modelspace().add_arc((x, y), 5, 10, 280, {"layer": "MARKS"})
+        if beside == "parts":
+            page.modelspace().add_circle((x, y), 2, {"layer": "CUT"})
+    if beside != "thread":
+        gap = {"U": (0, 0), "parts": (0, 39)}[beside]
+        page.modelspace().add_lwpolyline([*PLATE, gap][beside == "U" :], dxfattribs={"layer": "MARKS"})
+    found, told = ways(run, saved(page, tmp_path), "--layer", "CUT")
+    assert len(found) in (4, 8) and not says(told, CARE)
+
+
 def test_an_open_line_in_an_opening_goes_before_it(run: Run, tmp_path: Path) -> None:
     """A line within a contour that is an opening of what is left is cut before that falls out."""
     page = drawing()

@@ -891,6 +891,20 @@ def test_a_text_without_a_code_page(encoding: str, names: list[str], guess: str)
     assert not any("--encoding" in note for note in told.report.notes)
 
 
+def test_a_list_of_layers_says_what_was_guessed(run: Run, tmp_path: Path) -> None:
+    """The names of a file without a code page, and a file that may be cut off."""
+    part = tmp_path / "part.dxf"
+    data = raw(*square(0, 0, 30, "КОНТУР")).decode()
+    part.write_bytes(data.encode("cp1251"))
+    for words in ([], ["--quiet"]):
+        done = run("cut", part, "--list-layers", *words)
+        assert done.exit_code == 0 and each_says(done.stderr, ("part.dxf", "GBK", "--encoding"))
+    done = run("cut", part, "--list-layers", "--encoding", "cp1251")
+    assert (done.stdout, done.stderr) == ("КОНТУР: 4 LINE\n", "")
+    part.write_text(data.replace("0\nEOF\n", ""), encoding="utf-8")
+    assert each_says(run("cut", part, "--list-layers").stderr, ("part.dxf", "EOF"))
+
+
 def test_encoding_is_an_option(run: Run, tmp_path: Path) -> None:
     part = tmp_path / "part.dxf"
     for encoding, name in (("gbk", "轮廓线"), ("big5", "外框"), ("shift_jis", "外形線"), ("cp1251", "КОНТУР")):

@@ -317,3 +317,47 @@ def test_a_broken_run_leaves_its_tape_without_an_end(run_program: Program, tmp_p
     assert run_program("run", part, "-o", tape).returncode == 1
     lines = tape.read_bytes().split()
     assert len(lines) > 2 and lines[-1] == b"D" and b"DD" not in lines
+
+
+#: Commands that take a program file; skg term is in test_term.py.
+TAKE_PROGRAMS = (["run"], ["check"], ["ref"], ["sim"], ["dxf"], ["gcode"])
+
+
+@pytest.mark.parametrize(
+    ("bad", "facts"),
+    [
+        ("10 REM\r\n20 CUT O,\x03(1,0)\r\n", ("line 2", "ctrl-C")),
+        ("10 REM\r20 CUT O,\x13(1,0)\r", ("line 2", "ctrl-S")),
+        ("10 REM\n20 REM é\n30 CUT O,(1,0)\n", ("line 2", "é", "ASCII")),
+    ],
+    ids=["ctrl-C", "ctrl-S", "letter"],
+)
+def test_characters_that_no_program_has(run_program: Program, tmp_path: Path, bad: str, facts: tuple[str, ...]) -> None:
+    """The same one line everywhere; behind ctrl-Z nobody looks. (To skg80 the letter is characters with parity.)"""
+    part = tmp_path / "part.skg"
+    part.write_bytes(bad.encode())
+    lines = set()
+    for words in TAKE_PROGRAMS:
+        done = run_program(*words, part)
+        assert done.returncode == 2 and each_says(done.stderr, (part.name, *facts)), (words, done.stderr)
+        lines.add(done.stderr)
+    assert len(lines) == 1
+    if facts[-1] != "ASCII":
+        theirs = by_skg80(part)
+        assert (theirs.returncode, theirs.stderr) == (2, lines.pop().replace("skg: ", "skg80: ", 1))
+    part.write_bytes(b"10 CUT O,(1,0)\n\x1a" + bad.encode())
+    assert all(run_program(*words, part).returncode == 0 for words in TAKE_PROGRAMS)
+    assert by_skg80(part).returncode == 0
+
+
+def test_what_means_nothing_in_a_program(run_program: Program, tmp_path: Path) -> None:
+    """The mark of UTF-8, tabs, NULs and all other control characters."""
+    part = tmp_path / "part.skg"
+    nothing = bytes(byte for byte in range(32) if byte not in b"\n\r\x03\x13\x15\x1a") + b"\x7f"
+    part.write_bytes(b"\xef\xbb\xbf10 CUT O," + nothing + b"(1,0)\r\n20 END\r\n\0\0")
+    for words in TAKE_PROGRAMS:
+        assert run_program(*words, part).returncode == 0, words
+    for tape in (run_program("run", part).stdout, run_program("ref", part).stdout, by_skg80(part).stdout):
+        assert tape == "B1000B0B1000GXL1\nDD\n"
+    theirs = subprocess.run([SKG80, "--tape", part], input="LOAD\nRUN\n", capture_output=True, text=True)
+    assert theirs.returncode == 0

@@ -258,7 +258,7 @@ def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("10 REM A\n20 REM \u00c4\n", "part.skg: line 2: '20 REM \u00c4' is not plain ASCII"),
+        ("10 REM A\n20 REM \u00c4\n", "part.skg: line 2: '\u00c4' is not ASCII"),
         ("10 REM\n20 " + "X" * 124, "part.skg: line 2: 127 characters, the board takes 126"),
     ],
 )
@@ -349,6 +349,30 @@ def test_gives_up(machine: Machine) -> None:
     errors = process.communicate()[1].decode()
     assert process.returncode == 2
     assert says(errors.splitlines()[-1], "skg: ", f"{machine.link}: ", "no such file or directory")
+
+
+@pytest.mark.parametrize("is_punch", [False, True], ids=["teletype", "punch"])
+@pytest.mark.parametrize("comes_back", [False, True], ids=["away", "back"])
+def test_listening_to_a_port_that_goes_away(machine: Machine, tmp_path: Path, is_punch: bool, comes_back: bool) -> None:
+    """Nothing was sent that could be sent again: what came meanwhile is lost, and that is no success."""
+    punch = Machine(tmp_path / "punch")
+    lost = punch if is_punch else machine
+    process = subprocess.Popen(
+        [SKG, "term", machine.link, "--punch-port", punch.link, "--batch", "--quiet", "2"],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    machine.greet(process)
+    lost.unplug()
+    if comes_back:
+        time.sleep(0.3)
+        lost.plug()
+    errors = process.communicate()[1].decode()
+    punch.stop()
+    assert process.returncode == 1, errors
+    assert says(errors, lost.link, "went away") and says(errors.splitlines()[-1], "lost"), errors
+    assert says(errors, lost.link, "is not back") != comes_back
 
 
 def read_until(descriptor: int, wanted: bytes) -> bytes:

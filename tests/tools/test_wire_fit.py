@@ -18,9 +18,8 @@ from skg.geometry.plane import XY
 from skg.machine.feeding import feed
 
 NECK = "20 FROM O\n30 C=(3.6,0):.5\n40 CUT X:1,Y:2;X:.1;C;-X:.1;Y:2,-X:1,-Y:2\n70 BACK\n80 END\n"
-#: Examples whose wire spoils something, and why: one outline in two sizes at one place; both halves of a disc; the way
-#: from the start hole to the first element crosses the part's corner.
-TOLD = {"scale.skg", "skg07-line-circle.skg", "xy-die-set.xy"}
+#: Examples whose wire spoils something, and why: one outline in two sizes at one place; both halves of a disc.
+TOLD = {"scale.skg", "skg07-line-circle.skg"}
 
 
 def checked(run: Run, folder: Path, program: str, *words: object, name: str = "part.skg") -> tuple[int, str]:
@@ -184,5 +183,15 @@ def test_examples(run: Run) -> None:
         assert (done.exit_code == 1) == (path.name in TOLD), (path, done.stdout)
         beside += "beside" in done.stdout
     assert beside > len(paths) / 2
-    told = run("check", ROOT / "examples/xy-die-set.xy").stdout
-    assert says(told, "mm", "contour") and not says(told, re.compile(r"near .*line \d"))
+
+
+def test_a_program_that_is_translated_has_no_lines(run: Run, tmp_path: Path) -> None:
+    """The way from the start hole to the first element crosses the part's corner."""
+    text = (ROOT / "examples/xy-die-set.xy").read_text()
+    part = tmp_path / "part.xy"
+    part.write_text(text.replace("D(0,25)=>D7", "D(-4,9)=>D7"))
+    done = run("check", part)
+    assert done.exit_code == 1 and says(done.stdout, "0.1263 mm", "contour")
+    assert not says(done.stdout, re.compile(r"near .*line \d"))
+    done = run("check", ROOT / "examples/xy-die-set.xy")
+    assert done.exit_code == 0, done.stdout

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -14,6 +15,10 @@ from typing import BinaryIO, TextIO
 
 from skg.errors import UserError
 from skg.file_type import named
+
+#: Control characters that stop the board; with all others that a program cannot have. (a letter of UTF-8 is one)
+_STOPS = {b"\x03": "a ctrl-C breaks LOAD off: delete it", b"\x13": "a ctrl-S holds the board: delete it"}
+_ODD = re.compile(rb"[\x03\x13]|[\xc0-\xff][\x80-\xbf]+|[\x80-\xff]")
 
 
 def read_bytes(path: str) -> bytes:
@@ -39,13 +44,18 @@ def without_mark(data: bytes) -> bytes:
     return data.removeprefix(b"\xef\xbb\xbf")
 
 
-def read_ascii(path: str) -> str:
-    """Return a file's text; anything but ASCII is a `UserError`."""
-    data = without_mark(without_filling(read_bytes(path)))
-    try:
-        return data.decode("ascii")
-    except UnicodeDecodeError as error:
-        raise UserError(f"{path}: {named(data)}byte {error.start + 1} is not ASCII") from None
+def board_text(data: bytes, name: str) -> str:
+    """The text of a file for the board's reader or keyboard: up to ctrl-Z, without the mark of UTF-8.
+
+    A character that is not ASCII, and a ctrl-C or ctrl-S, which would stop the board, are a `UserError` with the line;
+    other control characters mean nothing (language.md, section 1).
+    """
+    text = without_mark(data).partition(b"\x1a")[0]
+    if odd := _ODD.search(text):
+        line = len(re.findall(rb"\r\n|[\r\n]", text[: odd.start()])) + 1
+        what = _STOPS.get(odd[0]) or f"{odd[0].decode('utf-8', 'replace')!r} is not ASCII"
+        raise UserError(f"{name}: {named(data)}line {line}: {what}")
+    return text.decode("ascii")
 
 
 def in_ascii(data: bytes) -> str:

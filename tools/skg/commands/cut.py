@@ -167,8 +167,11 @@ def command(
     else:
         job, path = _asked(file, **options), file
     if list_layers:
-        for line in layer_lines(read_bytes(path), path, Wishes(encoding=job.read.encoding)):
+        layers, notes = layer_lines(read_bytes(path), path, Wishes(encoding=job.read.encoding))
+        for line in layers:
             click.echo(line)
+        for note in notes:
+            click.echo(f"skg: {path}: {note}", err=True)
         return
     form = picture_format(sheet, None) if sheet else ""
     if save_job:

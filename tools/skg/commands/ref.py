@@ -7,18 +7,7 @@ import sys
 import click
 
 from skg.commands.options import answers_option, output_option
-from skg.errors import UserError
-from skg.file_type import named
-from skg.files import read_bytes, without_mark, write_bytes
-
-
-def _text(name: str) -> str:
-    data = without_mark(read_bytes(name))
-    try:
-        return data.decode("ascii")
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        raise UserError(f"{name}: {named(data)}line {line}: not plain ASCII") from None
+from skg.files import board_text, read_bytes, write_bytes
 
 
 @click.command("ref")
@@ -44,12 +33,11 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     from skg.machine.feeding import as_run, given_up
     from skg.ref import mill as milling
     from skg.ref import run
-    from skg.rivals.languages import is_rival
-    from skg.sources.load import checked_program, program_text
+    from skg.sources.load import program_text
     from skg.sources.milling import is_milling
 
-    program = program_text(part) if is_rival(part) else checked_program(_text(part), part)
-    inputs = _text(answers).splitlines() if answers else []
+    program = program_text(part)
+    inputs = board_text(read_bytes(answers), answers).splitlines() if answers else []
     text, runs = as_run(program)
     if not (mill or grbl):
         result = run(text, inputs, drift=drift, runs=runs)

@@ -10,12 +10,11 @@ import click
 
 from skg.commands.options import answers_option, output_option, unmarked
 from skg.errors import UserError
-from skg.files import read_ascii, read_bytes, without_mark, write_bytes
+from skg.files import board_text, read_bytes, write_bytes
 from skg.machine.board import Board, BoardStopped
 from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
 from skg.machine.roms import ROMS, known_rom
-from skg.rivals.languages import is_rival, translated
-from skg.sources.load import checked_program
+from skg.sources.load import program_text
 from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape.text import parse
 
@@ -24,7 +23,7 @@ ERR, STOPPED = 1, {"cycles": 3, "nobody": 2, "break": 2}
 
 
 def _answers(name: str | None) -> Iterator[str]:
-    yield from read_ascii(name).splitlines() if name else ()
+    yield from board_text(read_bytes(name), name).splitlines() if name else ()
     raise BoardStopped("input", "INPUT asks, and --input has no line left")
 
 
@@ -57,8 +56,7 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     """
     if part == answers == "-":
         raise UserError("the program and the answers cannot both come from the standard input")
-    program, line_begins = translated(part).encode() if is_rival(part) else without_mark(read_bytes(part)), True
-    text = checked_program(program.decode("latin-1"), part)
+    text, line_begins = program_text(part), True
 
     if rom is None:
         rom = MILL_ROM if is_milling(text) else "standard"
@@ -79,7 +77,7 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     try:
         board = Board(rom, ram, max_cycles=max_cycles, on_paper=show)
         try:
-            board.load(program)
+            board.load(text)
             if not board.error and (rest := rest_of(text)):
                 board.run(_answers(answers), rest)
         finally:

@@ -13,7 +13,7 @@ import click
 
 from skg.commands.options import FiniteRange
 from skg.errors import UserError
-from skg.files import read_bytes, without_mark
+from skg.files import read_bytes
 
 if TYPE_CHECKING:
     from skg.machine.teletype import Port, Teletype
@@ -111,7 +111,7 @@ def command(
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
     if patience is None:
         patience = 0.0 if is_attended else UNATTENDED_PATIENCE
-    lines = lines_to_type(without_mark(read_bytes(file)), file) if file else []
+    lines = lines_to_type(read_bytes(file), file) if file else []
     keyed = (
         [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), "standard input")
     )
@@ -139,11 +139,13 @@ def command(
                 if keyed:
                     send(typist, keyed, "standard input")
                 if not is_attended:
-                    is_known = typist.paced and bool(lines or keyed) and not (record and (run or punch_port))
-                    finish(typist, 0.0 if is_known else quiet, bool(record and run))
+                    is_followed = typist.paced and bool(lines or keyed)
+                    is_known = is_followed and not (record and (run or punch_port))
+                    ports = [port for port, _ in readers]
+                    finish(typist, ports, 0.0 if is_known else quiet, bool(record and run), is_followed)
             except Stopped as reason:
                 stopped = True
-                teletype.say(f"{reason}; nothing more was sent")
+                teletype.say(f"{reason}" + "; nothing more was sent" * bool(lines or keyed))
             if is_attended:
                 converse(machine, teletype)
         except BrokenOff:

@@ -16,13 +16,14 @@ from typing import NamedTuple
 from tqdm import tqdm
 
 from skg.errors import UserError
+from skg.files import board_text
 from skg.machine.board import ERRORS, ErrorLine, is_printed
 from skg.machine.feeding import MEMORY_FULL, given_up, is_end, is_numbered, least_ram, without_numbers
 from skg.machine.teletype import Port, Teletype
 
 #: Characters that the board takes in a line (language.md, section 3).
 LONGEST = 126
-_CTRL_C, _CTRL_U, _CTRL_Z, _CR = b"\x03", b"\x15", b"\x1a", b"\r"
+_CTRL_C, _CTRL_U, _CR = b"\x03", b"\x15", b"\r"
 #: Seconds of silence after which an echo does not come any more; how often a line is typed that comes back wrong.
 _ECHO, _TRIES = 1.5, 3
 #: The same of what tells whether the board is there at all: an emulator may have to wait for its computer.
@@ -53,11 +54,9 @@ class _Refused(Exception):
 def lines_to_type(data: bytes, name: str) -> list[TypedLine]:
     """The lines of a file up to ctrl-Z; one that the board could not take is a `UserError`."""
     lines = []
-    for number, raw in enumerate(re.split(rb"\r\n|[\r\n]", data.partition(_CTRL_Z)[0]), 1):
-        if not raw.isascii():
-            raise UserError(f"{name}: line {number}: {raw.decode('utf-8', 'replace').strip()!r} is not plain ASCII")
+    for number, raw in enumerate(re.split(r"\r\n|[\r\n]", board_text(data, name)), 1):
         # ctrl-U forgets what stands before it, other control characters mean nothing.
-        text = re.sub(r"[\x00-\x1f\x7f]", "", raw.rpartition(_CTRL_U)[2].decode())
+        text = re.sub(r"[\x00-\x1f\x7f]", "", raw.rpartition(_CTRL_U.decode())[2])
         if len(text) > LONGEST:
             raise UserError(f"{name}: line {number}: {len(text)} characters, the board takes {LONGEST}")
         if text.strip():
@@ -223,21 +222,28 @@ def _say_given_up(typist: Typist, lines: Sequence[TypedLine], name: str, is_run:
         typist.teletype.say(f"{name}: {lost}")
 
 
-def finish(typist: Typist, quiet: float, needs_tape: bool) -> None:
-    """Wait for what still comes, `quiet` seconds at most after the last character; `Stopped` if that is not all."""
+def finish(typist: Typist, ports: Sequence[Port], quiet: float, needs_tape: bool, is_followed: bool) -> None:
+    """Wait for what still comes, `quiet` seconds at most after the last character; `Stopped` if that is not all.
+
+    `ports`: all that are listened to; `is_followed`: the answer to each line was waited for, again where the port had
+    gone away.
+    """
     teletype = typist.teletype
     if teletype.asks:
         typist.port.write(_CTRL_C)
         raise Stopped("INPUT asks, and there is no answer: broken off with ctrl-C")
     teletype.wait(lambda: teletype.ended, quiet)
+    for port in ports:
+        if port.is_away:
+            raise Stopped(f"{port.name} is not back: what came meanwhile is lost")
     if teletype.error:
         raise Stopped(_meaning(teletype.error))
     if needs_tape and not teletype.punched:
         raise Stopped("nothing was punched on this port: has the punch one of its own, for --punch-port?")
     if needs_tape and not teletype.ended:
         raise Stopped("the tape's DD has not come")
-    if needs_tape and (teletype.gaps or teletype.losses and not typist.paced):
-        raise Stopped("a port went away in between: what was punched meanwhile is not on the tape")
+    if teletype.gaps or teletype.losses and not is_followed:
+        raise Stopped("a port went away in between: what came meanwhile is lost")
 
 
 def _store(typist: Typist, lines: list[TypedLine], name: str, program: str) -> bool:

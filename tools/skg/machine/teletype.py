@@ -70,8 +70,8 @@ class Splitter:
 class Port:
     """A serial port that is opened again when it went away.
 
-    `say` tells the operator, `on_back` is called when the port is there again. A port that stays away longer
-    than `patience` seconds (0: for ever) is a `UserError`.
+    `say` tells the operator, `on_back` is called when the port is there again; `is_away` until then. A port that stays
+    away longer than `patience` seconds (0: for ever) is a `UserError`.
     """
 
     def __init__(
@@ -83,6 +83,7 @@ class Port:
         self.patience = patience
         self.settings = {"baudrate": baud, "timeout": 0.1, "write_timeout": 1}
         self.closing = False
+        self.is_away = False
         self.lock = threading.Lock()
         try:
             self.serial = self._open()
@@ -97,6 +98,7 @@ class Port:
         with self.lock:
             if self.closing or self.serial is not broken:
                 return
+            self.is_away = True
             self.say(f"{self.name} went away ({_reason(error)}), trying again")
             with contextlib.suppress(*_TROUBLE):
                 broken.close()
@@ -110,6 +112,7 @@ class Port:
                     time.sleep(_RETRY)
                 else:
                     self.say(f"{self.name} is back")
+                    self.is_away = False
                     self.on_back()
                     return
 

@@ -85,7 +85,7 @@ def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
     """Read a job's drawing and find the contours that it has settings for. `name`: what messages call the drawing."""
     name = name or job.drawing
     reading = read(data, name, wishes_of(job))
-    nesting = Nesting.of(reading.contours, reading.others)
+    nesting = Nesting.of(reading.contours, reading.others, reading.opened)
     known = Known(reading.contours, [nesting.kind(number) for number in range(len(reading.contours))])
     return DrawnJob(name, data, reading, nesting, known, known.find(job.contours, job.box))
 

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from skg.geometry.areas import areas_of
 from skg.geometry.contour import Contour
 from skg.geometry.field import Field
 from skg.geometry.holding import Holding
-from skg.wording import counted
+from skg.planning.gaps import Gap, nearly_closed
+from skg.wording import counted, short, shown
 
 #: One that is no larger than this is the same contour, drawn on another layer.
 _SAME = 1.001
@@ -25,10 +27,12 @@ _PLACES = 5
 
 
 class Around(NamedTuple):
-    """An uncut contour around another: its layers, and whether it is taken for a frame."""
+    """An uncut contour around another: its layers, and whether it is taken for a frame; `gap`: the widest one of open
+    lines, which nothing is taken for."""
 
     layers: tuple[str, ...]
     is_frame: bool
+    gap: Gap | None = None
 
 
 @dataclass
@@ -43,12 +47,13 @@ class Nesting:
     _field: Field | None = None
 
     @classmethod
-    def of(cls, contours: Sequence[Contour], others: Sequence[Contour] = ()) -> Nesting:
-        """Find what lies in what; `others`: closed contours on layers that are not cut."""
+    def of(cls, contours: Sequence[Contour], others: Sequence[Contour] = (), opened: Sequence[Contour] = ()) -> Nesting:
+        """Find what lies in what; `others`: closed contours on layers that are not cut; `opened`: open lines of all
+        layers."""
         holding = Holding(contours)
         depths = holding.depths()
-        around = around_all(contours, depths, others)
-        if openings := [number for number, outer in around.items() if not outer.is_frame]:
+        around = around_all(contours, depths, others, opened)
+        if openings := [number for number, outer in around.items() if not (outer.is_frame or outer.gap)]:
             depths = deeper(contours, depths, openings)
         return cls(contours, depths, around, holding)
 
@@ -75,15 +80,40 @@ class Nesting:
         return "opening" if self.depths[number] % 2 else "outline"
 
 
-def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Sequence[Contour]) -> dict[int, Around]:
-    """The outermost of the contours (by their numbers) that lie in others, which are not cut: in the smallest of these.
+def around_all(
+    contours: Sequence[Contour], depths: Sequence[int], others: Sequence[Contour], opened: Sequence[Contour]
+) -> dict[int, Around]:
+    """The outermost of the contours (by their numbers) that lie in others, which are not cut: in the smallest of these;
+    and in open lines that are nearly closed, but for what these are a frame of.
 
     `depths`: how many of the contours lie around each. In a frame at least half of them have openings themselves.
     """
     outer = [number for number, contour in enumerate(contours) if contour.is_closed and not depths[number]]
-    if not outer or not others:
+    gaps = list(nearly_closed(opened)) if outer else []
+    if not outer or not (others or gaps):
         return {}
-    areas, wholes = areas_of([contours[number] for number in outer]), areas_of(list(others))
+    areas = areas_of([contours[number] for number in outer])
+    inner = [
+        *others,
+        *(contour for contour, depth in zip(contours, depths, strict=True) if depth and contour.is_closed),
+    ]
+    inner_indices, outer_indices = shapely.STRtree(areas).query(places_in(inner), predicate="within")
+    sizes = shapely.area(areas)
+    held = set(outer_indices[shapely.area(areas_of(inner))[inner_indices] < sizes[outer_indices]].tolist())
+    closed = _frames(_holders(areas, areas_of(list(others))), held)
+    nearly = _frames(_holders(areas, np.array([line.area for line in gaps], object)), held)
+    around = {
+        outer[inner]: Around(gaps[whole].layers, False, gaps[whole].gap)
+        for inner, (whole, is_frame) in nearly.items()
+        if not is_frame
+    }
+    return around | {
+        outer[inner]: Around(others[whole].layers, is_frame) for inner, (whole, is_frame) in closed.items()
+    }
+
+
+def _holders(areas: NDArray[Any], wholes: NDArray[Any]) -> dict[int, int]:
+    """Of each area that lies in some of the wholes, which are larger, the smallest of these; all by their numbers."""
     sizes, large = shapely.area(areas), shapely.area(wholes)
     firsts, seconds = shapely.STRtree(wholes).query(areas, predicate="intersects")
     is_in = large[seconds] > _SAME * sizes[firsts]
@@ -92,18 +122,14 @@ def around_all(contours: Sequence[Contour], depths: Sequence[int], others: Seque
     holder: dict[int, int] = {}
     for inner, whole in zip(firsts[is_in].tolist(), seconds[is_in].tolist(), strict=True):
         holder[inner] = min(whole, holder.get(inner, whole), key=large.__getitem__)
-    inner = [
-        *others,
-        *(contour for contour, depth in zip(contours, depths, strict=True) if depth and contour.is_closed),
-    ]
-    inner_indices, outer_indices = shapely.STRtree(areas).query(places_in(inner), predicate="within")
-    held = set(outer_indices[shapely.area(areas_of(inner))[inner_indices] < sizes[outer_indices]].tolist())
+    return holder
+
+
+def _frames(holder: Mapping[int, int], held: Container[int]) -> dict[int, tuple[int, bool]]:
+    """What holds each, and whether that is a frame: at least half of what it holds have openings, are `held`."""
     inside = Counter(holder.values())
     with_openings = Counter(whole for inner, whole in holder.items() if inner in held)
-    return {
-        outer[inner]: Around(others[whole].layers, 2 * with_openings[whole] >= inside[whole])
-        for inner, whole in holder.items()
-    }
+    return {inner: (whole, 2 * with_openings[whole] >= inside[whole]) for inner, whole in holder.items()}
 
 
 def deeper(contours: Sequence[Contour], depths: Sequence[int], openings: Sequence[int]) -> list[int]:
@@ -134,6 +160,13 @@ def said(around: Iterable[tuple[int, Around | None]]) -> Iterator[str]:
     for outer, numbers in groups.items():
         listed = f"{', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)}"
         layers = ", ".join(outer.layers)
+        if outer.gap:
+            yield (
+                f"take care: {counted(len(numbers), 'outline')} (contour {listed}) in an open line on layer {layers}, "
+                f"open by {short(outer.gap.width)} mm at {shown(outer.gap.place)}: for openings close it in the "
+                "drawing, or --side inside"
+            )
+            continue
         noun, then = (
             ("outline", "a frame: --side inside cuts openings")
             if outer.is_frame

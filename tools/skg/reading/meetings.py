@@ -152,7 +152,7 @@ def lying_on(runs: list[Contour], contours: list[Contour], tolerance: float) -> 
     count = Counter(starts + ends)
     held = [
         {run for run, _ in on} | {run for run, end in enumerate(side) if count[end] > 1}
-        for on, side in zip(near, (starts, ends), strict=False)
+        for on, side in zip(near[:2], (starts, ends), strict=True)
     ]
     return covered, held[0] & held[1] - covered.keys()
 

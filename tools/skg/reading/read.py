@@ -51,12 +51,14 @@ AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 @dataclass(frozen=True)
 class Reading:
     """A drawing that was read: contours in the order of the file (mm), start holes (mm); `others`: the closed contours
-    that are left because of their layers. `begun`: the report but for what becomes of the entities, `fates` has that;
-    `drawn`: the contours as the entities have their edges."""
+    that are left because of their layers; `opened`: the open lines, cut or not, on any layer. `begun`: the report but
+    for what becomes of the entities, `fates` has that; `drawn`: the contours as the entities have their edges.
+    """
 
     contours: list[Contour]
     starts: list[XY]
     others: list[Contour]
+    opened: list[Contour]
     begun: Account
     fates: Fates
     drawn: list[Contour]
@@ -108,7 +110,8 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     _measure(drawn, report)
     _check_size(report)
     contours = [replace(merged(contour), layers=fates.layers(contour)) for contour in drawn]
-    return _near_origin(Reading(contours, content.starts, selection.others(), report, fates, drawn))
+    others, opened = selection.others()
+    return _near_origin(Reading(contours, content.starts, others, opened, report, fates, drawn))
 
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
@@ -127,16 +130,20 @@ def _near_origin(reading: Reading) -> Reading:
     by = -floor(report.low[0]), -floor(report.low[1])
     report.notes.append(f"moved by {shown(by)} mm: the drawing lies too far from its origin for a tape")
     report.low, report.high = shifted(report.low, by), shifted(report.high, by)
-    contours, others = ([contour.shifted(by) for contour in group] for group in (reading.contours, reading.others))
-    return replace(reading, contours=contours, starts=[shifted(start, by) for start in reading.starts], others=others)
+    contours, others, opened = (
+        [contour.shifted(by) for contour in group] for group in (reading.contours, reading.others, reading.opened)
+    )
+    starts = [shifted(start, by) for start in reading.starts]
+    return replace(reading, contours=contours, starts=starts, others=others, opened=opened)
 
 
-def layer_lines(data: bytes, name: str, wishes: Wishes) -> list[str]:
-    """List the entities of each layer of a drawing file, a line each."""
+def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[str]]:
+    """List the entities of each layer of a drawing file, a line each; and what was guessed or mended to read it."""
+    content, report = _content(data, name, wishes)
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
-    for entity in _content(data, name, wishes)[0].entities:
+    for entity in content.entities:
         kinds[entity.layer][entity.kind] += 1
-    return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)]
+    return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)], report.notes
 
 
 def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:

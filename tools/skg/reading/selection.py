@@ -46,6 +46,7 @@ class Selection:
         self.report = report
         self.fates = Fates(content, wishes.tolerance)
         self.styles = [(entity.layer, entity.dashes) for entity in content.entities]
+        self.opened: list[Contour] = []
 
     def contours(self) -> list[Contour]:
         """The contours that are wanted, open ones among them."""
@@ -60,16 +61,20 @@ class Selection:
         gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance))
         self.report.notes += _around(rest, kept, bool(gaps))
         self.report.notes += gaps
+        self.opened = [contour for contour in kept if not contour.is_closed] + rest
         return kept
 
-    def others(self) -> list[Contour]:
-        """The closed contours of layers that are not cut, drawn through: what is cut may lie in them."""
-        contours = chain(self.content.others, self.wishes.tolerance, self.styles).contours
-        return [
+    def others(self) -> tuple[list[Contour], list[Contour]]:
+        """The closed contours of layers that are not cut, and the open lines of all layers, both drawn through: what is
+        cut may lie in them."""
+        tolerance = self.wishes.tolerance
+        chains, _ = without_overruns(chain(self.content.others, tolerance, self.styles), tolerance, self.styles)
+        lines = [
             replace(contour, layers=self.fates.layers(contour))
-            for contour in contours
-            if contour.is_closed and not self.fates.is_dashed(contour)
+            for contour in chains.contours + chains.rest + self.opened
+            if not self.fates.is_dashed(contour)
         ]
+        return [line for line in lines if line.is_closed], [line for line in lines if not line.is_closed]
 
     def without_open(self, contours: list[Contour]) -> list[Contour]:
         """The contours without the open ones where these are left; a `UserError` where there are any and they are
@@ -208,16 +213,16 @@ class Fates:
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
-            entity = replace(entity, left=entity.left or " and ".join(lost))
+            left = replace(entity, left=entity.left or " and ".join(lost))
             if cut[number]:
                 layer.part += 1
             else:
                 layer.left += 1
-            layer.why[entity.left][entity.kind] += 1
+            layer.why[left.left][left.kind] += 1
             if JUNCTION in gone:
-                rest.append(entity)
-            elif entity.is_odd:
-                odd.append(entity)
+                rest.append(left)
+            elif left.is_odd:
+                odd.append(left)
         report.rest, report.not_understood = rest, odd
         report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
         dashed = defaultdict(list)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from skg.errors import UserError
 from skg.file_type import GCODE, PROGRAM, refuse_others
-from skg.files import in_ascii, read_ascii, read_bytes, without_filling, without_mark
+from skg.files import board_text, in_ascii, read_bytes, without_filling, without_mark
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY
 from skg.machine.board import BoardStopped, find_error
@@ -128,13 +128,13 @@ def contour_of(name: str) -> tuple[Piece, ...]:
 
 
 def program_text(name: str) -> str:
-    """Return the SKG program that is in a file, or that a rival's is translated to."""
-    return translated(name) if is_rival(name) else checked_program(read_ascii(name), name)
-
-
-def checked_program(text: str, name: str) -> str:
-    """Return what is in a file if it may be a program; another kind of file, and an empty one, is a `UserError`."""
-    refuse_others(text.encode("latin-1", "replace"), name, PROGRAM)
+    """Return the SKG program that is in a file, or that a rival's is translated to; another kind of file, and an empty
+    one, is a `UserError`."""
+    if is_rival(name):
+        return translated(name)
+    data = read_bytes(name)
+    refuse_others(data, name, PROGRAM)
+    text = board_text(data, name)
     if not text.strip("\0\x1a \t\r\n"):
         raise UserError(f"{name}: empty, expected {PROGRAM}")
     return text
