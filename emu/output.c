@@ -171,8 +171,8 @@ void output_drive(const session *s)
         remark("the drive was given no step");
     }
     if (d->hasty) {
-        remark(
-            "%llu of the drive's steps: their direction was set with the pulse or changed during it, and a motor may miss them",
-            (unsigned long long)d->hasty);
+        remark("%llu of the drive's steps: the direction was set with the pulse or changed during it; a motor may miss "
+               "these steps",
+               (unsigned long long)d->hasty);
     }
 }
