@@ -105,7 +105,7 @@ static bool get_address(const debug *d, const char *word, uint16_t otherwise, ui
 {
     *address = otherwise;
     if (word && !symbols_address(d->names, word, address)) {
-        complain_of("no such place", word);
+        complain_of("no such place (a label, or a hexadecimal address)", word);
         return false;
     }
     return true;
@@ -121,7 +121,7 @@ static bool get_number(const char *word, uint64_t otherwise, uint64_t *number)
     }
     *number = strtoull(word, &end, 10);
     if (*word < '0' || *word > '9' || *end || !*number || *number > 1000000000000) {
-        complain_of("not a number from 1 on", word);
+        complain_of("expected a number, 1 or more", word);
         return false;
     }
     return true;
@@ -142,7 +142,7 @@ static void do_step(debug *d, const words *w)
 static bool knows_calculator(const debug *d)
 {
     if (!d->calculator) {
-        fputs("without symbols nothing is known of the calculator\n", stderr);
+        fputs("without symbols (--sym FILE) the calculator is not shown\n", stderr);
     }
     return d->calculator;
 }
@@ -222,7 +222,7 @@ static void do_code(debug *d, const words *w)
         return;
     }
     if (!w->first && !trace_at_operation(c, d->calculator)) {
-        fputs("the calculator is not at an operation: say where\n", stderr);
+        fputs("the calculator is not at an operation: code PLACE\n", stderr);
     } else if (get_address(d, w->first, c->bc, &address) && get_number(w->second, LONGEST, &count)) {
         calculator_print_code(d->calculator, c, address, count > LONGEST ? LONGEST : (unsigned)count, stderr);
     }

@@ -23,7 +23,7 @@ debug *debug_new(board *b, const symbols *names, FILE *trace, bool stopped)
     }
     const char *missing = names ? calculator_init(k, names) : NULL;
     if (missing) {
-        remark("no symbol %s: the calculator is not shown", missing);
+        remark("no symbol %s in the .sym file: the calculator is not shown", missing);
         free(k);
         k = NULL;
     }

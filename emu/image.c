@@ -122,7 +122,7 @@ int image_rom_of(const char *path, char *bytes, size_t length, uint8_t *rom, boo
         if (whole) {
             memcpy(rom, bytes, length);
         } else {
-            snprintf(error, size, "%s: %zu bytes, and the ROM has %zu", path, length, rom_size);
+            snprintf(error, size, "%s: %zu bytes, expected a ROM image of %zu", path, length, rom_size);
         }
         return whole ? 0 : -1;
     }

@@ -70,7 +70,7 @@ static int run_com(const options *o)
     } else if (end == COM_HALTED) {
         code = complain(EXIT_ERR, "the program halted at %04X", (c->pc - 1) & 0xffff);
     } else if (end == COM_UNKNOWN) {
-        code = complain(EXIT_ERR, "BDOS function %d is not there", c->bc & 0xff);
+        code = complain(EXIT_ERR, "the program calls BDOS function %d, which skg80 does not have", c->bc & 0xff);
     }
     if (o->stats) {
         output_counts(c->cycles, c->instructions);
@@ -230,11 +230,12 @@ static int set_debug(session *s)
     }
     for (unsigned i = 0; i < o->break_count; i++) {
         if (!debug_break(s->debug, o->breaks[i])) {
-            return complain(EXIT_USAGE, "--break %s: no such place%s", o->breaks[i], s->names ? "" : NAMELESS);
+            return complain(EXIT_USAGE, "--break %s: no such place (a label, or a hexadecimal address)%s", o->breaks[i],
+                            s->names ? "" : NAMELESS);
         }
     }
     if (!s->names) {
-        remark("the addresses have no names%s", NAMELESS);
+        remark("addresses are shown without names%s", NAMELESS);
     }
     if (talks && (o->part || o->pty)) {
         debug_catch_interrupt();
@@ -348,7 +349,8 @@ static int with_terminal(session *s)
     terminal_catch_reset();
     if (s->terminal.leaves) {
         s->terminal.stops = s->o.debug || s->o.break_count;
-        remark("ctrl-] leaves, ctrl-\\ resets%s", s->terminal.stops ? ", ctrl-^ asks what to do" : "");
+        remark("ctrl-] leaves, ctrl-\\ resets%s",
+               s->terminal.stops ? ", ctrl-^ stops the board and asks what to do" : "");
     } else if (s->o.pty && isatty(STDERR_FILENO)) {
         remark("ctrl-C ends this; kill -USR1 %ld resets", (long)getpid());
     }

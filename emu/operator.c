@@ -70,12 +70,13 @@ static int report(const session *s, board_reason reason)
     case BOARD_HALT:
         return complain(EXIT_ERR, "the machine halted at %04X", (c->pc - 1) & 0xffff);
     case BOARD_BREAK:
-        return complain(EXIT_USAGE, "the machine runs into %04X, where the ROM image has nothing", c->pc);
+        return complain(EXIT_USAGE,
+                        "the processor came to %04X, where the ROM image has no code: is the image complete?", c->pc);
     case BOARD_NOBODY:
         return report_nobody(s);
     default:
         if (c->cycles < s->o.max_cycles) {
-            return complain(EXIT_USAGE, "nothing is printed in %llu cycles: is this ROM for another --board?",
+            return complain(EXIT_USAGE, "the board printed nothing in %llu cycles: is this ROM for another --board?",
                             (unsigned long long)c->cycles);
         }
         return complain(EXIT_CYCLES, "not done after %llu cycles", (unsigned long long)s->o.max_cycles);
@@ -92,8 +93,8 @@ static int report_wait(const session *s)
 {
     const board *b = s->board;
     bool unread = b->tape.first != b->tape.end && !b->punch_tty;
-    return complain(EXIT_ERR, "the machine waits for a key at `%s`%s", b->line,
-                    unread ? ", its tape unread: is this ROM for --punch-tty?" : "");
+    return complain(EXIT_ERR, "the board waits for a key, and nobody is there to press it; on its paper: `%s`%s",
+                    b->line, unread ? "; it has not read its tape: is this ROM for --punch-tty?" : "");
 }
 
 /* Tells whether the board waits for the machine's answer: it has polled the empty reader for a while. */
@@ -285,7 +286,7 @@ int operator_terminal(session *s)
             break;
         case BOARD_INPUT:
             if (t->ended) {
-                return complain(EXIT_ERR, "INPUT asks, and the input has ended");
+                return complain(EXIT_ERR, "INPUT asks, and standard input has ended");
             }
             wait = -1;
             break;
@@ -307,7 +308,7 @@ int operator_terminal(session *s)
         if (reason != BOARD_WAIT || !t->ended) {
             since_end = c->cycles;
         } else if (c->cycles - since_end > PATIENCE) {
-            return complain(EXIT_ERR, "the input ended in the middle of `%s`", s->board->line);
+            return complain(EXIT_ERR, "standard input ended in the middle of a line: `%s`", s->board->line);
         }
         bool idle = told || asks_machine(s);
         if (!hear_operator(s, idle && !wait ? SLICE_MS : wait)) {

@@ -68,16 +68,16 @@ static const char *misfit(const options *o)
     if (o->com
         && (o->part || o->rom || o->input || o->punch || o->tty || o->tape || o->pty || o->punch_tty || o->punch_pty
             || o->debug || o->break_count || o->trace || o->sym || o->drives)) {
-        return "--com goes with --stats and --max-cycles alone";
+        return "--com: only --stats and --max-cycles go with it";
     }
     if (o->part && o->pty) {
-        return "--pty needs an operator: no part with it";
+        return "--pty: not with a part; somebody types at a pseudo-terminal";
     }
     if (o->part && o->tape) {
-        return "the part is the tape: no --tape with it";
+        return "--tape: not with a part, which is the tape in the reader";
     }
     if (o->punch_tty && o->punch_pty) {
-        return "--punch-pty is a port of its own: a teletype alone has none";
+        return "--punch-pty: not with a teletype alone (--punch-tty, --board rc2014), which has no port for a punch";
     }
     if (o->lag >= 0 && !(o->reader_cps > 0 || o->keyboard_cps > 0)) {
         return "--cts needs --reader-cps or --keyboard-cps: without them every sender waits";
@@ -304,7 +304,7 @@ static const option_rule RULES[] = {
     { "mhz",        VALUE, 0, read_mhz, "not 0.001 to 1000" },
     { "baud",       VALUE, 0, read_baud, "not 110, 150, 300, 600, 1200, 2400, 4800 or 9600" },
     { "board",      VALUE, 0, read_board, "not 6850, 8251, rc2014 or rc2014-sio" },
-    { "ports",      VALUE, 0, read_ports, "not two even ports, hexadecimal and none of the drive's: 20,22" },
+    { "ports",      VALUE, 0, read_ports, "expected two even hexadecimal ports, not the drive's 14, such as 20,22" },
     { "punch-tty",  FLAG,  SETS(punch_tty) },
     { "punch-pty",  FLAG,  SETS(punch_pty) },
     { "reader-cps", VALUE, 0, read_reader_cps, "not 0.1 to 100000" },
@@ -313,12 +313,12 @@ static const option_rule RULES[] = {
     { "drive",      VALUE, 0, read_drive, "what it draws is SVG: expected a name that ends in .svg" },
     { "steps",      TEXT,  SETS(steps) },
     { "feed",       VALUE, 0, read_feed, "not 0.01 to 1000000" },
-    { "stop-at",    VALUE, 0, read_stop, "not a step's number, 1 or more, or that and `,stay`" },
+    { "stop-at",    VALUE, 0, read_stop, "expected a step's number, 1 or more, or that and `,stay`" },
     { "stats",      FLAG,  SETS(stats) },
     { "max-cycles", VALUE, 0, read_max_cycles, "not a number of cycles" },
     { "com",        TEXT,  SETS(com) },
     { "debug",      FLAG,  SETS(debug) },
-    { "break",      VALUE, 0, read_break, "more than 16" },
+    { "break",      VALUE, 0, read_break, "more than 16 breakpoints" },
     { "trace",      TEXT,  SETS(trace) },
     { "sym",        TEXT,  SETS(sym) },
     { "help",       HELP,  0, NULL, NULL },
@@ -408,13 +408,13 @@ int options_read(int argc, char **argv, options *o)
         }
     }
     if (argc - optind > 1) {
-        return complain(EXIT_USAGE, "%s: one part at a time", argv[optind + 1]);
+        return complain(EXIT_USAGE, "%s: a second part; skg80 takes one", argv[optind + 1]);
     }
     o->part = argv[optind];
     o->drives = o->drive || o->steps || o->feed > 0 || o->stop_at;
     const char *wrong = misfit(o), *lost = wrong ? NULL : overwritten(o);
     if (lost) {
-        return complain(EXIT_USAGE, "%s: one file for two purposes", lost);
+        return complain(EXIT_USAGE, "%s: one file for two options", lost);
     }
     return wrong ? complain(EXIT_USAGE, "%s", wrong) : 0;
 }

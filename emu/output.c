@@ -168,10 +168,11 @@ void output_drive(const session *s)
 {
     const drive *d = &s->board->drive;
     if (!d->steps && s->o.drives) {
-        remark("the drive got no step");
+        remark("the drive was given no step");
     }
     if (d->hasty) {
-        remark("of the drive's steps %llu came together with their direction, or it changed under the pulse",
+        remark("%llu of the drive's steps: the direction was set with the pulse or changed during it; a motor may miss "
+               "these steps",
                (unsigned long long)d->hasty);
     }
 }

@@ -360,4 +360,4 @@ def test_a_part_is_followed_past_its_stops(skg80: Skg80, tmp_path: Path, part: C
 def test_hasty_steps_are_said(skg80: Skg80, rom_of: Rom) -> None:
     """Whatever else is asked for."""
     done = skg80("--rom", rom_of("MVI A,3\nOUT 14H\nHLT"))
-    assert b"skg80: of the drive's steps 1 came together with their direction" in done.stderr
+    assert says(done.stderr.decode(), "skg80: 1", "drive", "direction")

@@ -49,7 +49,7 @@ class BoardStopped(UserError):
     """The machine does not come back to its prompt.
 
     `reason`: "cycles" (max_cycles are used up), "input" (INPUT asks where no answer was to be given), "wait" (for a
-    key anywhere else, or for a tape), "halt", "nobody" (it reads a port that nobody serves, or prints nothing),
+    key anywhere else, or for a tape), "halt", "nobody" (it reads a port without a chip, or prints nothing),
     "break" (it runs into a part of the ROM that the image leaves out, or comes to a breakpoint of `machine`).
     """
 
@@ -185,7 +185,7 @@ class Board:
             self._report()
             if not machine.printed and machine.cycles > PATIENCE:
                 raise BoardStopped(
-                    "nobody", f"nothing is printed in {machine.cycles} cycles: is this ROM for another board?"
+                    "nobody", f"the board printed nothing in {machine.cycles} cycles: is this ROM for another board?"
                 )
             if machine.reader_silence > READER_PATIENCE:
                 return "wait"
@@ -217,7 +217,7 @@ class Board:
             case "wait" if self.machine.reader_silence > READER_PATIENCE:
                 return "LOAD waits for a tape, and the reader is empty"
             case "wait":
-                return f"the machine waits for a key at `{last}`"
+                return f"the board waits for a key, and nobody is there to press it; on its paper: `{last}`"
             case "halt":
                 return f"the machine halted at {(address - 1) & 0xFFFF:04X}"
             case "nobody":
@@ -225,7 +225,7 @@ class Board:
                 trouble = "before it sets up the chip there" if chip else "where this board has no chip"
                 return f"the ROM reads port {port:02X} {trouble}: is it for another board?"
             case _:
-                return f"the machine runs into {address:04X}, where the ROM image has nothing"
+                return f"the processor came to {address:04X}, where the ROM image has no code: is the image complete?"
 
 
 def find_error(lines: Iterable[str]) -> ErrorLine | None:

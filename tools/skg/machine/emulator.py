@@ -271,7 +271,7 @@ class Machine:
 
         Returns "prompt" (the paper's last line is `>`), "input" (it ends in `? `), "wait" (for a key anywhere
         else), "cycles" (max_cycles used up), "halt", "break" (at a breakpoint) or "nobody" (it has read a port
-        that nobody serves). A board that waits for a key only for some time goes on by itself: "wait" is then
+        without a chip). A board that waits for a key only for some time goes on by itself: "wait" is then
         returned after `patience` cycles of waiting.
         """
         end = self.cycles + max_cycles

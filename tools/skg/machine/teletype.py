@@ -112,8 +112,8 @@ class Port:
                     time.sleep(_RETRY)
                 else:
                     self.say(f"{self.name} is back")
-                    self.is_away = False
                     self.on_back()
+                    self.is_away = False
                     return
 
     def read(self) -> bytes:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from skg.geometry.areas import lines_of
 from skg.geometry.contour import Contour
@@ -51,11 +52,19 @@ def nearly_closed(lines: Sequence[Contour]) -> Iterator[NearlyClosed]:
     drawn, joints = lines_of(list(lines)), shapely.linestrings(joined)
     # (rings that cross themselves, where lines run past corners, come by themselves)
     cells, _, _, crossed = map(shapely.get_parts, shapely.polygonize_full([*drawn, *joints]))
-    for border in (*shapely.get_exterior_ring(cells), *crossed):
-        gaps = [joined[number] for number in np.flatnonzero(shapely.covered_by(joints, border)).tolist()]
-        if gaps:
-            place, other = max(gaps, key=lambda gap: distance(*gap))
-            around = np.flatnonzero(shapely.covered_by(drawn, border)).tolist()
-            layers = dict.fromkeys(layer for number in around for layer in lines[number].layers)
-            area = shapely.make_valid(shapely.Polygon(border))
-            yield NearlyClosed(area, tuple(layers), Gap(place, distance(place, other)))
+    borders = np.concatenate((shapely.get_exterior_ring(cells), crossed))
+    gaps, around = _covered(borders, joints), _covered(borders, drawn)
+    for border in gaps:
+        place, other = max((joined[number] for number in gaps[border]), key=lambda gap: distance(*gap))
+        layers = dict.fromkeys(layer for number in around[border] for layer in lines[number].layers)
+        area = shapely.make_valid(shapely.Polygon(borders[border]))
+        yield NearlyClosed(area, tuple(layers), Gap(place, distance(place, other)))
+
+
+def _covered(borders: NDArray[Any], lines: NDArray[Any]) -> dict[int, list[int]]:
+    """The lines that each border runs along, all by their numbers."""
+    covered: dict[int, list[int]] = defaultdict(list)
+    pairs = shapely.STRtree(lines).query(borders, predicate="covers")
+    for border, number in sorted(zip(*pairs.tolist(), strict=True)):
+        covered[border].append(number)
+    return covered
