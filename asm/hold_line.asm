@@ -15,5 +15,8 @@ LETGO:  MVI     A,SIO8N2
 LINGAP: LDA     TOKS            ; (both are commands: the first token)
         SUI     TSAVE
         RNZ
-        DB      PUTC,PUTC,PUTC,PUTC
+        DB      PUTC
+        DB      PUTC
+        DB      PUTC
+        DB      PUTC
         RET

@@ -87,7 +87,7 @@ static void on_paper(void *user, uint8_t c)
     fuzz *f = user;
     f->paper[f->printed++ % PAPER] = c;
     f->hash = (f->hash ^ c) * 1099511628211u;
-    if (c < ' ' ? !memchr("\a\b\r\n\x11\x12\x13\x14\x1a", c, 9) : c > '~') {
+    if (c < ' ' ? !memchr("\0\a\b\r\n\x11\x12\x13\x14\x1a", c, 10) : c > '~') {
         fail(f, "on the paper", c);
     }
 }
