@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from skg.geometry.arrays import Floats, Whole, numbers_up_to
 
@@ -35,14 +36,14 @@ class Index:
         low, high, self._first, self._last, _ = _joined(
             Boxes(self._low, self._high, np.arange(len(owner)), owner), _RUN
         )
-        self._tree = shapely.STRtree(shapely.box(*low.T, *high.T))
+        self._tree = shapely.STRtree(_diagonals(low, high))
 
     def within(self, low: Floats, high: Floats) -> Iterator[tuple[Whole, Whole]]:
         """Pairs of one of n boxes (its smallest and largest x and y: two arrays (n, 2)) and a piece that may come into
         it, some after the other: by the numbers of the boxes, then of the pieces. Each comes once."""
         for begin in range(0, len(low), _PLACES):
             some = slice(begin, begin + _PLACES)
-            of, runs = self._tree.query(shapely.box(*low[some].T, *high[some].T))
+            of, runs = self._tree.query(_diagonals(low[some], high[some]))
             of, runs = np.divmod(np.sort(of * len(self._first) + runs), len(self._first))
             of, stretches = _between(begin + of, self._first[runs], self._last[runs])
             comes_in = np.ones(len(of), bool)
@@ -55,6 +56,11 @@ class Index:
             first[1:] = np.where(of[1:] == of[:-1], np.maximum(first[1:], behind[:-1]), first[1:])
             for part in batches(behind - first, _PAIRS):
                 yield _between(of[part], first[part], behind[part])
+
+
+def _diagonals(low: Floats, high: Floats) -> NDArray[np.object_]:
+    """Lines across boxes, for shapely's tree: it looks at the boxes around what it holds, and a line takes less."""
+    return shapely.linestrings(np.stack((low, high), axis=1))
 
 
 def _joined(boxes: Boxes, count: int) -> tuple[Floats, Floats, Whole, Whole, Whole]:
