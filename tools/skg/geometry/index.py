@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from skg.geometry.arrays import Floats, Whole, numbers_up_to
 
-#: Boxes in a stretch, which is found or not as a whole; stretches in a run, whose box stands in the tree.
-_STRETCH, _RUN = 4, 8
+#: Stretches in a run, whose box stands in the tree.
+_RUN = 16
 #: So many places are asked for together, and so many pairs of a place and a piece returned.
 _PLACES, _PAIRS = 1000, 50_000
 
@@ -28,10 +28,10 @@ class Boxes(NamedTuple):
 
 
 class Index:
-    """The pieces whose boxes are given, some after the other."""
+    """The pieces whose boxes are given, some after the other. `stretch`: so many boxes are found or not as a whole."""
 
-    def __init__(self, parts: Iterable[Boxes]) -> None:
-        stretches = [_joined(boxes, _STRETCH) for boxes in parts if len(boxes.piece)]
+    def __init__(self, parts: Iterable[Boxes], stretch: int = 4) -> None:
+        stretches = [_joined(boxes, stretch) for boxes in parts if len(boxes.piece)]
         self._low, self._high, self._begin, self._end, owner = _columns(stretches)
         low, high, self._first, self._last, _ = _joined(
             Boxes(self._low, self._high, np.arange(len(owner)), owner), _RUN
@@ -81,10 +81,13 @@ def _joined(boxes: Boxes, count: int) -> tuple[Floats, Floats, Whole, Whole, Who
     )
 
 
-def _columns(parts: list[tuple[Floats, Floats, Whole, Whole, Whole]]) -> tuple[Floats, Floats, Whole, Whole, Whole]:
+def _columns(parts: list[tuple[Floats, Floats, Whole, Whole, Whole]]) -> Iterator[NDArray]:
+    """The columns of parts, which are given away: no more than one column is there twice."""
     none = np.empty(0, np.int64)
-    parts = parts or [(np.empty((0, 2)), np.empty((0, 2)), none, none, none)]
-    return tuple(map(np.concatenate, zip(*parts, strict=True)))
+    columns = list(zip(*parts or [(np.empty((0, 2)), np.empty((0, 2)), none, none, none)], strict=True))
+    parts.clear()
+    while columns:
+        yield np.concatenate(columns.pop(0))
 
 
 def _between(of: Whole, begin: Whole, end: Whole) -> tuple[Whole, Whole]:
