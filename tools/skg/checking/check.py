@@ -34,7 +34,7 @@ from skg.planning.route import PlannedContour, split_at_end
 from skg.tape.block import Tape
 
 #: So many pieces of contours are looked at together.
-_TOGETHER = 200_000
+_TOGETHER = 50_000
 
 
 @dataclass(frozen=True)
@@ -92,9 +92,8 @@ def _shares(path: WirePath, routes: list[PlannedContour], reach: float) -> Itera
     for some in shares:
         others = near[1, (some.start <= near[0]) & (near[0] < some.stop)]
         contours = _pieces(routes, np.union1d(np.arange(some.start, some.stop), others))
-        owners = (pieces.owner for pieces in (contours, path.pieces))
-        own = (np.flatnonzero((some.start <= owner) & (owner < some.stop)) for owner in owners)
-        yield Share(some, contours, *own)
+        ends = (np.searchsorted(pieces.owner, (some.start, some.stop)) for pieces in (contours, path.pieces))
+        yield Share(some, contours, *(np.arange(*pair) for pair in ends))
 
 
 def _pieces(routes: list[PlannedContour], numbers: Whole) -> Pieces:

@@ -30,7 +30,6 @@ def not_reached(
     contours, widest, passes = share.contours, beside.widest, beside.passes
     faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
-    wires = [path.of_pass(number) for number in range(beside.offsets.shape[1])]
     looked_at, along = _looked_at(share, min(beside.spacing, _ALONG), along)
     places = contours.batches(beside.spacing, 2, some=looked_at)
     for which, part in chain(places, [_by_inner_corners(path.pieces, share, widest)] if widest else []):
@@ -46,7 +45,7 @@ def not_reached(
             # (a tab is cut in the last pass alone)
             free &= np.where(in_tabs[which], number + 1 == passes[owners], number < passes[owners])
             places = places[free]
-            near = wires[number].nearest(places, owners[free], 2 * LIMIT)
+            near = beside.wires[number].nearest(places, owners[free], 2 * LIMIT)
             off = near.own.copy()
             is_near = near.own_at >= 0
             off[is_near] += path.aside[near.own_at[is_near]]

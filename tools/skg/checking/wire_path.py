@@ -41,9 +41,9 @@ class Beside:
     """How the wire of each route is to run beside its contour, and how near it may come to other ones, mm.
 
     `offsets`: R of its passes, in its own direction; one that has fewer `passes` has its last one again. `aside`: the
-    same without a sign. `least`: how far it must stay off what is not its own. `is_on`: it runs on its line, of no
-    side. Places that are looked at are `wire_spacing` apart on the wire, `spacing` on contours: nothing as large as the
-    wire is missed. What is further from the wire than `reach` does not matter.
+    same without a sign; `wires`: the wire's pieces of each pass. `least`: how far it must stay off what is not its own.
+    `is_on`: it runs on its line, of no side. Places that are looked at are `wire_spacing` apart on the wire, `spacing`
+    on contours: nothing as large as the wire is missed. What is further from the wire than `reach` does not matter.
     """
 
     def __init__(self, path: WirePath, routes: list[PlannedContour]) -> None:
@@ -53,6 +53,7 @@ class Beside:
         padded = [(*route.passes, *(most - len(route.passes)) * route.passes[-1:]) for route in routes]
         self.offsets = np.array(padded, float)
         self.aside = np.abs(self.offsets)
+        self.wires = [path.of_pass(number) for number in range(most)]
         self.widest = float(self.aside.max(initial=0.0))
         self.is_open = np.array([not route.contour.is_closed for route in routes])
         self.least = self.aside.min(1)

@@ -57,12 +57,12 @@ class Pieces:
     @classmethod
     def of_columns(cls, start: Floats, end: Floats, centre: Floats, sweep: Floats, owner: Whole) -> Pieces:
         """Pieces as columns; where nothing is swept, a line."""
-        result = cls.__new__(cls)
-        result._room(len(start))
-        result.start[:], result.end[:], result.owner[:] = start, end, owner
-        is_arc = sweep != 0
-        result.centre[is_arc], result.sweep[is_arc] = centre[is_arc], sweep[is_arc]
-        out = result.start[is_arc] - result.centre[is_arc]
+        result, is_arc = cls.__new__(cls), sweep != 0
+        result.start, result.end, result.sweep, result.owner = start, end, sweep, owner
+        result.centre = np.where(is_arc[:, None], centre, 0.0)
+        result.radius, result.first = np.zeros((2, len(start)))
+        result.is_chord = np.zeros(len(start), bool)
+        out = start[is_arc] - centre[is_arc]
         result.radius[is_arc], result.first[is_arc] = hypots(*out.T), directions(out)
         result._measure()
         return result
