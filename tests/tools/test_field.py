@@ -242,7 +242,8 @@ def test_nearest_of_its_own_among_many_others() -> None:
     assert quick < slow / 2
     # (where they are those of half of the path and more, all of it is looked at; far away there are none)
     most = np.arange(400) % 400
-    assert (path.nearest_own(places, most, 0.3) == path.nearest(places, most, 0.3).own_at).all()
+    near = path.nearest(places, most, 0.3)
+    assert (path.nearest_own(places, most, 0.3) == np.where(near.own <= 0.3, near.own_at, -1)).all()
     assert (path.nearest_own(places + 90, owners, 2.2) == -1).all()
 
 

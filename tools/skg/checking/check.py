@@ -14,21 +14,27 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from skg.checking.check_coverage import not_reached
-from skg.checking.check_distance import off_contours
+from skg.checking.check_distance import into_others, off_contours
 from skg.checking.follow import Followed, Threading, follow
 from skg.checking.gouges import Crossing
-from skg.checking.wire_path import Misfit, WirePath
-from skg.geometry.arrays import Floats
+from skg.checking.wire_path import Beside, Misfit, Share, WirePath
+from skg.geometry.arrays import Flags, Floats, Whole
 from skg.geometry.contour import Edge
+from skg.geometry.edge_arrays import boxes_of
+from skg.geometry.index import batches
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Pieces
 from skg.planning.route import PlannedContour, split_at_end
 from skg.tape.block import Tape
+
+#: So many pieces of contours are looked at together.
+_TOGETHER = 50_000
 
 
 @dataclass(frozen=True)
@@ -54,25 +60,46 @@ class Checked:
 def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
     """Follow a tape and compare it with the routes that it should cut."""
     followed = follow(tape, routes, is_without_drift)
-    contours = Pieces(
-        (path, number) for number, route in enumerate(routes) for part in _parts(route) for path in _paths(part)
-    )
     path = WirePath(followed, routes)
-    offsets = _offsets(routes)
-    passes = np.array([len(route.passes) for route in routes])
-    widest = float(np.abs(offsets).max(initial=0.0))
+    beside = Beside(path, routes)
+    faults: list[Misfit] = []
+    missed: dict[tuple[int, int], Misfit] = {}
+    near_others: list[tuple[Whole, Whole]] = []
+    worst = along = 0.0
     with ThreadPoolExecutor(1) as other:
-        # (numpy lets both halves run at the same time)
-        beside = other.submit(off_contours, path, contours, routes, offsets, widest)
-        more, far = not_reached(path, contours, _in_tabs(contours, routes), offsets, passes, widest)
-        faults, crossings, worst = beside.result()
-    return Checked(followed, max(worst, far), faults + more, crossings)
+        for share in _shares(path, routes, beside.reach):
+            # (numpy lets both halves run at the same time)
+            half = other.submit(off_contours, path, share, beside)
+            more, far, along = not_reached(path, share, beside, _in_tabs(share, routes), along)
+            some, near, off = half.result()
+            faults += some
+            near_others += near
+            missed |= more
+            worst = max(worst, off, far)
+    crossings = into_others(path, beside, near_others, partial(_pieces, routes))
+    return Checked(followed, worst, [*faults, *(missed[key] for key in sorted(missed))], crossings)
 
 
-def _offsets(routes: list[PlannedContour]) -> Floats:
-    """R of the passes of each route, in its own direction; one that has fewer has its last one again."""
-    most = max(len(route.passes) for route in routes)
-    return np.array([(*route.passes, *(most - len(route.passes)) * route.passes[-1:]) for route in routes], float)
+def _shares(path: WirePath, routes: list[PlannedContour], reach: float) -> Iterator[Share]:
+    """The routes in shares: the curves of all of them would take as much memory as all the rest. `reach`: how far from
+    the wire other contours matter, mm."""
+    counts = np.array([sum(len(edge.samples) or 1 for edge in route.contour.edges) for route in routes])
+    shares = list(batches(counts, _TOGETHER))
+    near = np.empty((2, 0), np.int64)
+    if len(shares) > 1:
+        boxes, _ = boxes_of([route.contour for route in routes])
+        near = path.near(boxes[:, :2] - reach, boxes[:, 2:] + reach)
+    for some in shares:
+        others = near[1, (some.start <= near[0]) & (near[0] < some.stop)]
+        contours = _pieces(routes, np.union1d(np.arange(some.start, some.stop), others))
+        ends = (np.searchsorted(pieces.owner, (some.start, some.stop)) for pieces in (contours, path.pieces))
+        yield Share(some, contours, *(np.arange(*pair) for pair in ends))
+
+
+def _pieces(routes: list[PlannedContour], numbers: Whole) -> Pieces:
+    """The contours of some routes."""
+    parts = ((part, number) for number in numbers.tolist() for part in _parts(routes[number]))
+    return Pieces((path, number) for part, number in parts for path in _paths(part))
 
 
 def drawn(route: PlannedContour) -> Iterator[Piece]:
@@ -94,11 +121,11 @@ def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
     return (edge.samples if edge.nodes else edge for edge in edges)
 
 
-def _in_tabs(contours: Pieces, routes: list[PlannedContour]) -> np.ndarray:
-    """Mark the pieces of contours that are cut in the last pass alone."""
-    is_in_tab = np.zeros(len(contours.owner), bool)
-    ends = np.searchsorted(contours.owner, np.arange(len(routes)), "right")
-    for end, route in zip(ends.tolist(), routes, strict=True):
+def _in_tabs(share: Share, routes: list[PlannedContour]) -> Flags:
+    """Mark the pieces of the share's own contours that are cut in the last pass alone."""
+    is_in_tab = np.zeros(len(share.contours.owner), bool)
+    ends = np.searchsorted(share.contours.owner, np.arange(share.routes.start, share.routes.stop), "right")
+    for end, route in zip(ends.tolist(), routes[share.routes], strict=True):
         if route.tab:
             tab = Pieces((path, 0) for path in _paths(_parts(route)[1]))
             is_in_tab[end - len(tab.owner) : end] = True

@@ -6,7 +6,7 @@ from itertools import chain
 
 import numpy as np
 
-from skg.checking.wire_path import LIMIT, Misfit, WirePath, first_of_each, place_of, spacing_of
+from skg.checking.wire_path import LIMIT, Beside, Misfit, Share, WirePath, first_of_each, place_of
 from skg.geometry.arrays import Flags, Floats, Whole
 from skg.geometry.pieces import Pieces
 from skg.geometry.plane import cross
@@ -22,30 +22,30 @@ _ALONG = 0.1
 
 
 def not_reached(
-    path: WirePath, contours: Pieces, in_tabs: np.ndarray, offsets: Floats, passes: Whole, widest: float
-) -> tuple[list[Misfit], float]:
-    """The first place of each route and pass beside its contour where the wire could be and was not, and how far it was
-    from such places at most, mm. `passes`: how many each route has."""
+    path: WirePath, share: Share, beside: Beside, in_tabs: Flags, along: float
+) -> tuple[dict[tuple[int, int], Misfit], float, float]:
+    """The first place beside its contour where the wire could be and was not, by the pass and the route, and how far it
+    was from such places at most, mm. `along`: the length of the curves before those of the share, and in the result of
+    these too, mm."""
+    contours, widest, passes = share.contours, beside.widest, beside.passes
     faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
-    wires = [path.of_pass(number) for number in range(offsets.shape[1])]
-    spacing = spacing_of(contours, widest)
-    looked_at = _looked_at(contours, min(spacing, _ALONG))
-    places = contours.batches(spacing, 2)
-    for which, part in chain(places, [_by_inner_corners(path.pieces, contours, widest)] if widest else []):
+    looked_at, along = _looked_at(share, min(beside.spacing, _ALONG), along)
+    places = contours.batches(beside.spacing, 2, some=looked_at)
+    for which, part in chain(places, [_by_inner_corners(path.pieces, share, widest)] if widest else []):
         # (a chord of a curve is square to it in its middle alone)
-        true = ~contours.is_chord[which] | looked_at[which] & (part > 0) & (part < 1)
+        true = ~contours.is_chord[which] | (part > 0) & (part < 1)
         which, part = which[true], part[true]
         owners = contours.owner[which]
         on, square = contours.at(which, part), contours.normal(which, part)
-        for number, r in enumerate(offsets.T):
+        for number, r in enumerate(beside.offsets.T):
             aside = r[owners]
             places = on + aside[:, None] * square
             free = has_room(contours, which, part, aside) if widest else np.ones(len(places), bool)
             # (a tab is cut in the last pass alone)
             free &= np.where(in_tabs[which], number + 1 == passes[owners], number < passes[owners])
             places = places[free]
-            near = wires[number].nearest(places, owners[free], 2 * LIMIT)
+            near = beside.wires[number].nearest(places, owners[free], 2 * LIMIT)
             off = near.own.copy()
             is_near = near.own_at >= 0
             off[is_near] += path.aside[near.own_at[is_near]]
@@ -55,13 +55,17 @@ def not_reached(
                 fault = Misfit(owner, place_of(places[row]), float(off[row]), is_missed=off[row] == np.inf)
                 faults.setdefault((number, owner), fault)
             worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
-    return [faults[key] for key in sorted(faults)], worst
+    return faults, worst, along
 
 
-def _looked_at(contours: Pieces, spacing: float) -> Flags:
-    """The chords of curves that are looked at: the first of each contour, and those after every `spacing`, mm."""
-    along = np.floor(np.cumsum(np.where(contours.is_chord, contours.length, 0.0)) / spacing)
-    return (np.diff(along, prepend=-1) > 0) | (np.diff(contours.owner, prepend=-1) != 0)
+def _looked_at(share: Share, spacing: float, along: float) -> tuple[Whole, float]:
+    """The pieces of a share's contours that are looked at, of the chords of curves the first of each contour, and those
+    after every `spacing`, mm; and how long the curves are up to their end."""
+    contours, some = share.contours, share.drawn
+    is_chord, owner = contours.is_chord[some], contours.owner[some]
+    ways = np.cumsum(np.append(along, np.where(is_chord, contours.length[some], 0.0)))
+    is_there = ~is_chord | (np.diff(np.floor(ways / spacing)) > 0) | (np.diff(owner, prepend=-1) != 0)
+    return some[is_there], float(ways[-1])
 
 
 def has_room(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.ndarray:
@@ -88,10 +92,11 @@ def has_room(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.
     return free
 
 
-def _by_inner_corners(wire: Pieces, contours: Pieces, widest: float) -> tuple[Whole, Floats]:
+def _by_inner_corners(wire: Pieces, share: Share, widest: float) -> tuple[Whole, Floats]:
     """Places of contours, by pieces and parts, a little to both sides of where the wire is beside them in its inner
     corners: it may turn off too early there, before a step that is lower than R."""
-    before = np.flatnonzero(wire.owner[1:] == wire.owner[:-1])
+    contours, owner = share.contours, wire.owner[share.wire]
+    before = share.wire[:-1][owner[1:] == owner[:-1]]
     # (a wire that turns by less leaves nothing)
     arriving = wire.normal(before, np.ones(len(before)))
     leaving = wire.normal(before + 1, np.zeros(len(before)))

@@ -6,15 +6,15 @@ contour. What comes near to other contours is gathered, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
-from math import cos, hypot, sin
+from math import cos, sin
 
 import numpy as np
 import shapely
 
 from skg.checking.gouges import Crossing, crossings
-from skg.checking.wire_path import LIMIT, Misfit, WirePath, first_of_each, place_of, spacing_of
+from skg.checking.wire_path import LIMIT, Beside, Misfit, Share, WirePath, first_of_each, place_of
 from skg.geometry.arrays import Floats, Whole, numbers_up_to
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Nearest, Pieces
@@ -29,63 +29,69 @@ _TIP = 2.0
 _FAR = 1000
 
 
-def off_contours(
-    path: WirePath, contours: Pieces, routes: list[PlannedContour], offsets: Floats, widest: float
-) -> tuple[list[Misfit], list[Crossing], float]:
-    """The first place of each route where its wire is not as far beside its contour as it should be, cuts into other
-    contours, and how far it is off at most, mm, but where it runs into its own contour."""
-    wire = path.pieces
-    wanted = _Wanted(contours, routes, offsets)
+def off_contours(path: WirePath, share: Share, beside: Beside) -> tuple[list[Misfit], list[tuple[Whole, Whole]], float]:
+    """The first place of each route where its wire is not as far beside its contour as it should be; which pieces of
+    the wire come near to other contours, and to which; how far it is off at most, mm, but where it runs into its own
+    contour."""
+    wire, contours = path.pieces, share.contours
+    wanted = _Wanted(share, beside)
     faults: dict[int, Misfit] = {}
     near_others: list[tuple[Whole, Whole]] = []
     worst = 0.0
-    is_open = wanted.is_open
-    least = wanted.aside.min(1)
-    # What is cut on its line takes as much away on each side as the wire beside the other contours.
-    is_on = is_open & (least == 0)
-    least[is_on] = least.max()
-    spacing = spacing_of(wire, widest)
-    # Between two places the wire may be as much nearer to a corner.
-    slack = hypot(widest, spacing / 2) - widest + LIMIT if widest else 0.0
-    for which, part in wire.batches(spacing, 2):
+    for which, part in wire.batches(beside.wire_spacing, 2, some=share.wire):
         places, owners = wire.at(which, part), wire.owner[which]
-        near = contours.nearest(places, owners, widest + slack + 2 * LIMIT)
+        near = contours.nearest(places, owners, beside.reach)
         passes = path.passes[which]
         off, into = wanted.off_by(places, owners, passes, near)
         total = off + path.aside[which]
         for at in np.unique(which[path.doubtful(off, total)]).tolist():
-            total[which == at] = wanted.off_steps(path.steps(at), wire.owner[at], path.passes[at], widest)
+            total[which == at] = wanted.off_steps(path.steps(at), wire.owner[at], path.passes[at])
         for owner, at in first_of_each(owners, (total > LIMIT) | into):
-            misses = abs(wanted.aside[owner].min() - near.own[at]) if into[at] else total[at]
+            misses = abs(beside.aside[owner].min() - near.own[at]) if into[at] else total[at]
             faults.setdefault(owner, Misfit(owner, place_of(places[at]), float(misses), bool(into[at])))
-        close = np.flatnonzero(near.other < least[owners] + slack)
+        close = np.flatnonzero(near.other < beside.least[owners] + beside.slack)
         near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
         worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
+    return list(faults.values()), near_others, worst
+
+
+def into_others(
+    path: WirePath,
+    beside: Beside,
+    near_others: Sequence[tuple[Whole, Whole]],
+    contours: Callable[[Whole], Pieces],
+) -> list[Crossing]:
+    """Cuts into other contours, of what `off_contours` has found to be near; `contours`: see `crossings`."""
+    wire, is_on, is_open = path.pieces, beside.is_on, beside.is_open
     empty = np.empty(0, np.int64)
     some, others = (np.concatenate(found) for found in zip((empty, empty), *near_others, strict=True))
     if is_on[wire.owner[some]].any():
         # (the nearest one may be an open one, too: there is no side that it could be spoiled on)
         others = np.concatenate((others, np.flatnonzero(~is_open)))
-    is_right = np.array([route.widest * route.contour.area for route in routes])
+    is_right = np.array([route.widest * route.contour.area for route in beside.routes])
     inner, outer = ~is_open & (is_right < 0), ~is_open & (is_right > 0)
-    found = crossings(wire, np.unique(some), contours, others, least, LIMIT, inner, outer)
-    return list(faults.values()), [one for one in found if not (is_on[one.route] and is_on[one.other])], worst
+    found = crossings(wire, np.unique(some), contours, others, beside.least, LIMIT, inner, outer)
+    return [one for one in found if not (is_on[one.route] and is_on[one.other])]
 
 
 class _Wanted:
     """The wire's intended path: beside its contour by one of its R, or on a way from or to a hole."""
 
-    def __init__(self, contours: Pieces, routes: list[PlannedContour], offsets: Floats) -> None:
-        self.contours = contours
-        self.routes = routes
-        #: How far beside its contour, in each of its passes.
-        self.aside = np.abs(offsets)
-        self.is_open = np.array([not route.contour.is_closed for route in routes])
+    def __init__(self, share: Share, beside: Beside) -> None:
+        self.share = share
+        self.contours = share.contours
+        self.routes, self.aside, self.is_open = beside.routes, beside.aside, beside.is_open
+        self.reach = beside.widest + 2 * LIMIT
 
     @cached_property
     def leads(self) -> Pieces:
         """The ways between start holes and contours."""
-        return Pieces((piece, number) for number, route in enumerate(self.routes) for piece in _lead_pieces(route))
+        some = self.share.routes
+        return Pieces(
+            (piece, number)
+            for number, route in enumerate(self.routes[some], some.start)
+            for piece in _lead_pieces(route)
+        )
 
     def off_leads(self, places: Floats, owners: Whole) -> Floats:
         """Distance of places from the leads of their routes."""
@@ -111,17 +117,17 @@ class _Wanted:
         doubtful = np.flatnonzero((off > _USUAL) & ~into)
         off[doubtful] = np.minimum(off[doubtful], self.off_leads(places[doubtful], owners[doubtful]))
         doubtful = doubtful[off[doubtful] > _USUAL]
-        corners = _off_corners(
-            places[doubtful], owners[doubtful], self.contours, aside[doubtful], near.own_at[doubtful]
-        )
+        # (of what is beyond the reach the nearest may not have been seen)
+        own_at = np.where(near.own[doubtful] <= self.reach, near.own_at[doubtful], -1)
+        corners = _off_corners(places[doubtful], owners[doubtful], self.contours, aside[doubtful], own_at)
         off[doubtful] = np.minimum(off[doubtful], corners)
         return off, into
 
-    def off_steps(self, steps: Floats, owner: int, number: int, widest: float) -> float:
+    def off_steps(self, steps: Floats, owner: int, number: int) -> float:
         """Distance of the controller's steps on a piece of a route's wire from the intended path in a pass, at
         most."""
         owners, passes = np.full(len(steps), owner), np.full(len(steps), number)
-        near = self.contours.nearest(steps, owners, widest + 2 * LIMIT)
+        near = self.contours.nearest(steps, owners, self.reach)
         return float(self.off_by(steps, owners, passes, near)[0].max())
 
 

@@ -53,7 +53,9 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     home = [micrometres(ordinate) for ordinate in routes[0].start]
     moves = walked.moves if is_without_drift else closed_moves(tape)
     places = np.cumsum([home, *moves], axis=0)
-    drift = float(hypots(*np.cumsum(walked.moves - moves, axis=0).T).max(initial=0.0)) / 1000
+    drift = 0.0
+    if not is_without_drift:
+        drift = float(hypots(*np.cumsum(walked.moves - moves, axis=0).T).max(initial=0.0)) / 1000
     laid = Laid.between(tape.blocks, columns, places)
     firsts, lasts = np.array(tape.bounds[::2]).T
     gaps = (places[lasts] - places[firsts]).tolist()

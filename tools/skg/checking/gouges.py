@@ -6,6 +6,7 @@ window, that edge is cut away, whatever the wire does there. A window is smaller
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,19 +38,27 @@ class Crossing:
 
 
 def crossings(
-    wire: Pieces, some: Whole, contours: Pieces, others: Whole, least: Floats, limit: float, inner: Flags, outer: Flags
+    wire: Pieces,
+    some: Whole,
+    contours: Callable[[Whole], Pieces],
+    others: Whole,
+    least: Floats,
+    limit: float,
+    inner: Flags,
+    outer: Flags,
 ) -> list[Crossing]:
     """Return who cuts by more than `limit` into whom, each pair of routes once.
 
-    `some`: the pieces of the wire that come near, `others`: the owners of the contours that they come near to.
-    `least`: how far the wire of each route must stay off what is not its own, mm. `inner`, `outer`: on which side of
-    each route's contour its wire runs; on neither of an open one.
+    `some`: the pieces of the wire that come near, `others`: the owners of the contours that they come near to;
+    `contours` gives the pieces of the contours with some owners. `least`: how far the wire of each route must stay off
+    what is not its own, mm. `inner`, `outer`: on which side of each route's contour its wire runs; on neither of an
+    open one.
     """
-    lines = _lines(wire, some)
+    lines = _lines(wire.some(some))
 
-    def deep(near: Whole, there: Shapes) -> list[Crossing]:
+    def deep(near: Pieces, there: Shapes) -> list[Crossing]:
         one, other = shapely.STRtree(there).query(lines, predicate="dwithin", distance=float(least.max(initial=0.0)))
-        routes, owners = wire.owner[some[one]], contours.owner[near[other]]
+        routes, owners = wire.owner[some[one]], near.owner[other]
         far = shapely.distance(lines[one], there[other])
         depth = least[routes] - far
         deep = np.flatnonzero((routes != owners) & (depth > limit))
@@ -62,15 +71,14 @@ def crossings(
             found.append(Crossing(int(routes[at]), int(owners[at]), (x, y), float(depth[at]), bool(far[at] == 0)))
         return found
 
-    near = np.flatnonzero(np.isin(contours.owner, others))
-    there = _lines(contours, near)
-    found = deep(near, there)
+    near = contours(np.unique(others))
+    found = deep(near, _lines(near))
     if not found:
         return found
     # (behind an edge that is cut away there may be one that is not)
-    near = np.arange(len(contours.owner))
-    there = _lines(contours, near)
-    return deep(near, there) if _cut_away(there, contours.owner, inner, outer) else found
+    near = contours(np.arange(len(least)))
+    there = _lines(near)
+    return deep(near, there) if _cut_away(there, near.owner, inner, outer) else found
 
 
 def _cut_away(lines: Shapes, owners: Whole, inner: Flags, outer: Flags) -> bool:
@@ -112,12 +120,10 @@ def _clipped(lines: Shapes, area: shapely.Geometry, is_inner: bool) -> Shapes:
     return clipped
 
 
-def _lines(pieces: Pieces, which: Whole) -> Shapes:
+def _lines(pieces: Pieces) -> Shapes:
     """Pieces as chords."""
-    spaces = np.ones(len(which), np.int64)
-    arcs = np.flatnonzero(pieces.is_arc[which])
-    for at in arcs.tolist():
-        piece = which[at]
-        spaces[at] = chords_of(pieces.radius[piece], pieces.sweep[piece], MEASURED)
-    of, part = spread(spaces, 0, len(spaces))
-    return shapely.linestrings(pieces.at(which[of], part), indices=of)
+    spaces = np.ones(len(pieces.owner), np.int64)
+    for at in np.flatnonzero(pieces.is_arc).tolist():
+        spaces[at] = chords_of(pieces.radius[at], pieces.sweep[at], MEASURED)
+    which, part = spread(spaces, 0, len(spaces))
+    return shapely.linestrings(pieces.at(which, part), indices=which)

@@ -17,7 +17,7 @@ import numpy as np
 from skg.checking.check_coverage import has_room
 from skg.checking.gouges import crossings
 from skg.checking.wire_path import LIMIT, place_of
-from skg.geometry.arrays import Floats
+from skg.geometry.arrays import Floats, Whole
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY, distance
@@ -246,6 +246,10 @@ def _into_others(runs: Sequence[_Run], contours: Pieces, lines: Sequence[int | N
         (x, y), (u, v) = places.T, np.roll(places, -1, 0).T
         is_right[number] = (x * v - y * u).sum() * runs[number].r(runs[number].drawn[0])
     every = np.arange(len(wire.owner))
-    for one in crossings(wire, every, contours, others, least, LIMIT, is_right < 0, is_right > 0):
+
+    def drawn(owners: Whole) -> Pieces:
+        return contours.some(np.flatnonzero(np.isin(contours.owner, owners)))
+
+    for one in crossings(wire, every, drawn, others, least, LIMIT, is_right < 0, is_right > 0):
         nearest = contours.nearest(np.array([one.place]), np.array([one.other]), 2 * LIMIT).own_at[0]
         yield Spoilt(one.place, one.depth, lines[nearest] if nearest >= 0 else None, is_other=True)

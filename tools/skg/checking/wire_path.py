@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass
+from math import hypot, inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,6 +37,50 @@ class Misfit:
     is_missed: bool = False
 
 
+class Beside:
+    """How the wire of each route is to run beside its contour, and how near it may come to other ones, mm.
+
+    `offsets`: R of its passes, in its own direction; one that has fewer `passes` has its last one again. `aside`: the
+    same without a sign; `wires`: the wire's pieces of each pass. `least`: how far it must stay off what is not its own.
+    `is_on`: it runs on its line, of no side. Places that are looked at are `wire_spacing` apart on the wire, `spacing`
+    on contours: nothing as large as the wire is missed. What is further from the wire than `reach` does not matter.
+    """
+
+    def __init__(self, path: WirePath, routes: list[PlannedContour]) -> None:
+        self.routes = routes
+        self.passes = np.array([len(route.passes) for route in routes])
+        most = self.passes.max()
+        padded = [(*route.passes, *(most - len(route.passes)) * route.passes[-1:]) for route in routes]
+        self.offsets = np.array(padded, float)
+        self.aside = np.abs(self.offsets)
+        self.wires = [path.of_pass(number) for number in range(most)]
+        self.widest = float(self.aside.max(initial=0.0))
+        self.is_open = np.array([not route.contour.is_closed for route in routes])
+        self.least = self.aside.min(1)
+        # What is cut on its line takes as much away on each side as the wire beside the other contours.
+        self.is_on = self.is_open & (self.least == 0)
+        self.least[self.is_on] = self.least.max()
+        self.wire_spacing = self.spacing = inf
+        self.slack = 0.0
+        if self.widest:
+            drawn = sum(edge.length for route in routes for edge in route.contour.edges)
+            self.wire_spacing = max(self.widest / 2, float(path.pieces.length.sum()) / _MOST_PLACES)
+            self.spacing = max(self.widest / 2, drawn / _MOST_PLACES)
+            # Between two places the wire may be as much nearer to a corner.
+            self.slack = hypot(self.widest, self.wire_spacing / 2) - self.widest + LIMIT
+        self.reach = self.widest + self.slack + 2 * LIMIT
+
+
+class Share(NamedTuple):
+    """Some of the routes, that follow each other: their numbers; the contours of these, and of all others that their
+    wire may come near to; which of these pieces, and of the wire's, are theirs."""
+
+    routes: slice
+    contours: Pieces
+    drawn: Whole
+    wire: Whole
+
+
 class WirePath:
     """The wire's path: the pieces of all cuts, and how far the controller's steps go aside of each.
 
@@ -62,9 +108,19 @@ class WirePath:
 
     def of_pass(self, number: int) -> Pieces:
         """The pieces; those that surely belong to other passes are nobody's."""
+        self.pieces.index()
+        # (which the copy has, too)
         pieces = copy(self.pieces)
         pieces.owner = np.where((self.passes == number) | (self.passes < 0), self.pieces.owner, -1)
         return pieces
+
+    def near(self, low: Floats, high: Floats) -> Whole:
+        """Return the pairs (2, m) of a route and of a box, of n (their smallest and largest x and y), that its wire may
+        come into."""
+        pairs = [np.empty((2, 0), np.int64)]
+        for box, piece in self.pieces.index().within(low, high):
+            pairs.append(np.unique((self.pieces.owner[piece], box), axis=1))
+        return np.concatenate(pairs, axis=1)
 
     def doubtful(self, off: Floats, total: Floats) -> Whole:
         """Return the places, with their distances without and with the steps, that are too far off by the steps
@@ -85,11 +141,6 @@ def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Who
     if is_last.sum() != len(passes):
         return np.full(len(ends), -1)
     return np.array(passes)[np.cumsum(is_last) - is_last]
-
-
-def spacing_of(pieces: Pieces, widest: float) -> float:
-    """Return the sampling distance of a path: nothing as large as the wire is missed."""
-    return max(widest / 2, float(pieces.length.sum()) / _MOST_PLACES) if widest else np.inf
 
 
 def first_of_each(owners: Whole, mask: np.ndarray) -> Iterator[tuple[int, int]]:

@@ -16,6 +16,8 @@ from skg.geometry.index import Boxes, Index
 _HAIR = 1e-9
 #: So many places are looked at by one thread after the other, and so many chords get boxes together.
 _PLACES, _CHORDS = 1000, 50_000
+#: Chords whose boxes are found or not as a whole.
+_STRETCH = 16
 
 Measure = Callable[[Whole, Whole], Floats]
 
@@ -26,7 +28,8 @@ class Field:
 
     def __init__(self, points: Floats, first: Whole) -> None:
         self._points = points
-        self._index = Index(_boxes(points, np.repeat(np.arange(len(first) - 1), np.diff(first))))
+        # (few places are looked at, beside as many chords as there may be)
+        self._index = Index(_boxes(points, np.repeat(np.arange(len(first) - 1), np.diff(first))), _STRETCH)
 
     def near(self, places: Floats, reach: Floats) -> Floats:
         """Distance of the nearest contour from each of n places (n, 2), mm: infinite where none is within its reach."""

@@ -7,11 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from skg.geometry.arrays import Floats, Whole, numbers_up_to
 
-#: Boxes in a stretch, which is found or not as a whole; stretches in a run, whose box stands in the tree.
-_STRETCH, _RUN = 4, 8
+#: Stretches in a run, whose box stands in the tree.
+_RUN = 16
 #: So many places are asked for together, and so many pairs of a place and a piece returned.
 _PLACES, _PAIRS = 1000, 50_000
 
@@ -27,22 +28,22 @@ class Boxes(NamedTuple):
 
 
 class Index:
-    """The pieces whose boxes are given, some after the other."""
+    """The pieces whose boxes are given, some after the other. `stretch`: so many boxes are found or not as a whole."""
 
-    def __init__(self, parts: Iterable[Boxes]) -> None:
-        stretches = [_joined(boxes, _STRETCH) for boxes in parts if len(boxes.piece)]
+    def __init__(self, parts: Iterable[Boxes], stretch: int = 4) -> None:
+        stretches = [_joined(boxes, stretch) for boxes in parts if len(boxes.piece)]
         self._low, self._high, self._begin, self._end, owner = _columns(stretches)
         low, high, self._first, self._last, _ = _joined(
             Boxes(self._low, self._high, np.arange(len(owner)), owner), _RUN
         )
-        self._tree = shapely.STRtree(shapely.box(*low.T, *high.T))
+        self._tree = shapely.STRtree(_diagonals(low, high))
 
     def within(self, low: Floats, high: Floats) -> Iterator[tuple[Whole, Whole]]:
         """Pairs of one of n boxes (its smallest and largest x and y: two arrays (n, 2)) and a piece that may come into
         it, some after the other: by the numbers of the boxes, then of the pieces. Each comes once."""
         for begin in range(0, len(low), _PLACES):
             some = slice(begin, begin + _PLACES)
-            of, runs = self._tree.query(shapely.box(*low[some].T, *high[some].T))
+            of, runs = self._tree.query(_diagonals(low[some], high[some]))
             of, runs = np.divmod(np.sort(of * len(self._first) + runs), len(self._first))
             of, stretches = _between(begin + of, self._first[runs], self._last[runs])
             comes_in = np.ones(len(of), bool)
@@ -55,6 +56,11 @@ class Index:
             first[1:] = np.where(of[1:] == of[:-1], np.maximum(first[1:], behind[:-1]), first[1:])
             for part in batches(behind - first, _PAIRS):
                 yield _between(of[part], first[part], behind[part])
+
+
+def _diagonals(low: Floats, high: Floats) -> NDArray[np.object_]:
+    """Lines across boxes, for shapely's tree: it looks at the boxes around what it holds, and a line takes less."""
+    return shapely.linestrings(np.stack((low, high), axis=1))
 
 
 def _joined(boxes: Boxes, count: int) -> tuple[Floats, Floats, Whole, Whole, Whole]:
@@ -75,10 +81,13 @@ def _joined(boxes: Boxes, count: int) -> tuple[Floats, Floats, Whole, Whole, Who
     )
 
 
-def _columns(parts: list[tuple[Floats, Floats, Whole, Whole, Whole]]) -> tuple[Floats, Floats, Whole, Whole, Whole]:
+def _columns(parts: list[tuple[Floats, Floats, Whole, Whole, Whole]]) -> Iterator[NDArray]:
+    """The columns of parts, which are given away: no more than one column is there twice."""
     none = np.empty(0, np.int64)
-    parts = parts or [(np.empty((0, 2)), np.empty((0, 2)), none, none, none)]
-    return tuple(map(np.concatenate, zip(*parts, strict=True)))
+    columns = list(zip(*parts or [(np.empty((0, 2)), np.empty((0, 2)), none, none, none)], strict=True))
+    parts.clear()
+    while columns:
+        yield np.concatenate(columns.pop(0))
 
 
 def _between(of: Whole, begin: Whole, end: Whole) -> tuple[Whole, Whole]:

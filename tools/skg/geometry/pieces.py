@@ -57,12 +57,12 @@ class Pieces:
     @classmethod
     def of_columns(cls, start: Floats, end: Floats, centre: Floats, sweep: Floats, owner: Whole) -> Pieces:
         """Pieces as columns; where nothing is swept, a line."""
-        result = cls.__new__(cls)
-        result._room(len(start))
-        result.start[:], result.end[:], result.owner[:] = start, end, owner
-        is_arc = sweep != 0
-        result.centre[is_arc], result.sweep[is_arc] = centre[is_arc], sweep[is_arc]
-        out = result.start[is_arc] - result.centre[is_arc]
+        result, is_arc = cls.__new__(cls), sweep != 0
+        result.start, result.end, result.sweep, result.owner = start, end, sweep, owner
+        result.centre = np.where(is_arc[:, None], centre, 0.0)
+        result.radius, result.first = np.zeros((2, len(start)))
+        result.is_chord = np.zeros(len(start), bool)
+        out = start[is_arc] - centre[is_arc]
         result.radius[is_arc], result.first[is_arc] = hypots(*out.T), directions(out)
         result._measure()
         return result
@@ -115,18 +115,23 @@ class Pieces:
         arc = np.mod(ahead, 2 * pi) / np.maximum(np.abs(self.sweep[which]), 1e-300)
         return np.where(self.is_arc[which], arc, line)
 
-    def batches(self, spacing: float, least: int, turn: float = pi / 12) -> Iterator[tuple[Whole, Floats]]:
-        """Pieces and parts of them: both ends, and places no further apart than `spacing`, at least `least` spaces; on
-        an arc no further than it takes to `turn` (radians). Some pieces after the other."""
-        for low in range(0, len(self.length), _PLACES):
-            spaces = self._spaces(slice(low, low + _PLACES), spacing, least, turn)
+    def batches(
+        self, spacing: float, least: int, turn: float = pi / 12, some: Whole | None = None
+    ) -> Iterator[tuple[Whole, Floats]]:
+        """Pieces, all or those with `some` numbers, and parts of them: both ends, and places no further apart than
+        `spacing`, at least `least` spaces; on an arc no further than it takes to `turn` (radians). Some pieces after
+        the other."""
+        numbers = np.arange(len(self.length)) if some is None else some
+        for low in range(0, len(numbers), _PLACES):
+            few = numbers[low : low + _PLACES]
+            spaces = self._spaces(few, spacing, least, turn)
             ends = np.cumsum(spaces + 1)
             cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1] + _PLACES, _PLACES), "right"))
             for begin, end in pairwise(cuts.tolist()):
                 which, part = spread(spaces, begin, end)
-                yield low + which, part
+                yield few[which], part
 
-    def _spaces(self, some: slice, spacing: float, least: int, turn: float) -> Whole:
+    def _spaces(self, some: Whole, spacing: float, least: int, turn: float) -> Whole:
         """In how many spaces places divide each of some pieces."""
         turns = np.ceil(np.abs(self.sweep[some]) / turn) * self.is_arc[some]
         return np.maximum(np.maximum(np.ceil(self.length[some] / spacing), turns), least).astype(np.int64)
@@ -176,7 +181,7 @@ class Pieces:
         result = Nearest(*(np.full(len(places), nothing) for nothing in (np.inf, -1, np.inf, -1)))
         if not len(self.length) or not len(places):
             return result
-        for of, which in self._index().within(places - reach, places + reach):
+        for of, which in self.index().within(places - reach, places + reach):
             far = self.from_place(places[of], which)
             own = self.owner[which] == owners[of]
             _keep_nearest(far[own], of[own], which[own], result.own, result.own_at)
@@ -184,18 +189,19 @@ class Pieces:
         return result
 
     def nearest_own(self, places: Floats, owners: Whole, reach: float) -> Whole:
-        """The `own_at` of `nearest`, of pieces that stand in the order of their owners: what others own is not looked
-        at, which takes long where a wide reach has much of it."""
+        """The `own_at` of `nearest`, but nothing beyond the reach, of pieces that stand in the order of their owners:
+        what others own is not looked at, which takes long where a wide reach has much of it."""
         whose = np.unique(owners)
         first = np.searchsorted(self.owner, whose)
         count = np.searchsorted(self.owner, whose, "right") - first
         numbers = np.repeat(first, count) + numbers_up_to(count)
         if 2 * len(numbers) > len(self.length):
-            return self.nearest(places, owners, reach).own_at
-        own_at = self._some(numbers).nearest(places, owners, reach).own_at
-        return np.where(own_at >= 0, np.append(numbers, -1)[own_at], -1)
+            near = self.nearest(places, owners, reach)
+            return np.where(near.own <= reach, near.own_at, -1)
+        near = self.some(numbers).nearest(places, owners, reach)
+        return np.where(near.own <= reach, np.append(numbers, -1)[near.own_at], -1)
 
-    def _some(self, numbers: Whole) -> Pieces:
+    def some(self, numbers: Whole) -> Pieces:
         """Some of the pieces."""
         result = Pieces.__new__(Pieces)
         for name in ("start", "end", "centre", "radius", "first", "sweep", "owner", "is_chord"):
@@ -203,7 +209,7 @@ class Pieces:
         result._measure()
         return result
 
-    def _index(self) -> Index:
+    def index(self) -> Index:
         """The pieces by place."""
         # (who comes while another thread is making it waits for it)
         with self._making:

@@ -61,7 +61,7 @@ def conic(centre: XY, u: XY, v: XY, first: float, sweep: float, tolerance: float
     return replace(edge, end=edge.start if is_full else edge.end, entity=entity)
 
 
-@lru_cache(maxsize=1000)
+@lru_cache(maxsize=100)
 def _ellipse(u: XY, v: XY, first: float, sweep: float, tolerance: float) -> Edge:
     """The same about the origin. (a drawing may have the same ellipse a thousand times)"""
     (p, q), (r, s) = u, v

@@ -6,7 +6,7 @@ the same places block by block and by columns.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from math import isqrt, pi
 from typing import TypeVar
@@ -21,6 +21,8 @@ from skg.tape.block_list import Blocks
 _Found = TypeVar("_Found")
 #: Squares of larger numbers are not sure to fit in 64 bits: they are reckoned with Python's own.
 _FITS = 10**9
+#: So many rows are looked at together.
+_SHARE = 50_000
 _SIGNS_X, _SIGNS_Y = np.array([0, 1, -1, -1, 1]), np.array([0, 1, 1, -1, -1])
 #: Senses and quadrants of `CODES`.
 _SENSES, _QUADRANTS = np.array(
@@ -79,9 +81,15 @@ class Columns:
         result.__dict__.update({name: column[rows] for name, column in self.__dict__.items()})
         return result
 
+    def shares(self) -> Iterator[tuple[slice, Columns]]:
+        """Some rows after the other: what is worked out of all of them would take more memory than these."""
+        for first in range(0, len(self), _SHARE):
+            rows = slice(first, first + _SHARE)
+            yield rows, self[rows]
+
     def alike(self) -> tuple[Whole, Whole]:
         """Rows of which no two have the same fields, in their order, and for each row which of these it is like."""
-        fields = [getattr(self, name).astype(np.int64) for name in FIELDS]
+        fields = [getattr(self, name).astype(np.int64, copy=False) for name in FIELDS]
         order = np.lexsort(fields)
         is_new = np.ones(len(order), bool)
         is_new[1:] = np.any([field[order[1:]] != field[order[:-1]] for field in fields], axis=0)

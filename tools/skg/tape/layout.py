@@ -124,10 +124,13 @@ class Laid(Sequence[Placed]):
     @classmethod
     def apart(cls, blocks: Sequence[Block], columns: Columns, starts: NDArray, ends: NDArray) -> Laid:
         """Blocks between starts and ends (n × 2 each); as `Placed.between` of each."""
-        centres = starts - columns.starts
-        sweeps, rows = columns.sweeps.copy(), np.flatnonzero(columns.is_arc)
-        first, last = (directions((side - centres)[rows]) for side in (starts, ends))
-        sweeps[rows] += (last - first - sweeps[rows] + pi) % (2 * pi) - pi
+        centres = np.empty(starts.shape, np.result_type(starts, columns.x))
+        sweeps = np.empty(len(columns))
+        for part, some in columns.shares():
+            centres[part], sweeps[part] = starts[part] - some.starts, some.sweeps
+            rows = part.start + np.flatnonzero(some.is_arc)
+            first, last = (directions(side[rows] - centres[rows]) for side in (starts, ends))
+            sweeps[rows] += (last - first - sweeps[rows] + pi) % (2 * pi) - pi
         return cls(blocks, starts, ends, centres, sweeps, columns.is_line)
 
     @classmethod

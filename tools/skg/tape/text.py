@@ -193,7 +193,8 @@ def _doubtful(tape: Tape, positions: str) -> Iterable[Block]:
 
     from skg.tape.columns import columns_of
 
-    return [tape.blocks[index] for index in np.flatnonzero(~columns_of(tape).is_plainly_sound)]
+    is_sound = np.concatenate([columns.is_plainly_sound for _, columns in columns_of(tape).shares()])
+    return [tape.blocks[index] for index in np.flatnonzero(~is_sound)]
 
 
 def parse(data: bytes, name: str = "-") -> Tape:
