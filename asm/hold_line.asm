@@ -12,7 +12,7 @@ LETGO:  MVI     A,SIO8N2
 
 ; LINGAP - behind a line of LIST and SAVE.  A tape of SAVE has NULs there: at 10 characters a second time enough for LOAD
 ; Clobbers A
-LINGAP: LDA     TOKS            ; (both are commands: the first token)
+LINGAP: LDA     TOKS            ; the command's token
         SUI     TSAVE
         RNZ
         DB      PUTC

@@ -61,8 +61,8 @@ PASSP:  CALL    ADVANC
 ; Clobbers all
 ; The wire's travel is that as drawn, and what its ends are moved by, when the moves are no more than half a turn
 ; together: then the sum of their cosines is not negative.  That of the travels may be wrapped around: when one is less
-; than half a turn, the other one more.  From D to K and from A to P it is as far, on the mean, as the two travels; that
-; mean lies beside half a turn when they are not wrapped around, else beside none: then the cosines add up to more than 0.
+; than half a turn, the other one more.  The angles from D to K and from A to P have the mean of the two travels.  It is
+; nearer to half a turn than to none when nothing is wrapped around: then the sum of their cosines is not positive.
 WRAP:   LDA     FITSM           ; (arcs of one curve touch each other: their corners stay)
         ORA     A
         RNZ

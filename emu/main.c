@@ -134,12 +134,12 @@ static const char *rest_of(const uint8_t *bytes, size_t length)
 static int refuse_stops(const char *path, const uint8_t *bytes, size_t length)
 {
     unsigned line = 1;
-    for (size_t at = 0; at < length && bytes[at] != CTRL_Z; at++) {
-        if (bytes[at] == CTRL_C || bytes[at] == CTRL_S) {
+    for (size_t i = 0; i < length && bytes[i] != CTRL_Z; i++) {
+        if (bytes[i] == CTRL_C || bytes[i] == CTRL_S) {
             return complain(EXIT_USAGE, "%s: line %u: a ctrl-%s: delete it", path, line,
-                            bytes[at] == CTRL_C ? "C breaks LOAD off" : "S holds the board");
+                            bytes[i] == CTRL_C ? "C breaks LOAD off" : "S holds the board");
         }
-        line += bytes[at] == '\n' || (bytes[at] == '\r' && bytes[at + 1] != '\n');
+        line += bytes[i] == '\n' || (bytes[i] == '\r' && bytes[i + 1] != '\n');
     }
     return 0;
 }

@@ -108,11 +108,11 @@ static bool disturb(side *s)
 /* Writes another byte over the one that comes next, and has both carry it out. It spoils the firmware: the last slice. */
 static bool spoil(side *s)
 {
-    uint16_t at = s[0].board->cpu.pc;
-    uint8_t byte = i8080_peek(&s[0].board->cpu, at) ^ (uint8_t)(random32() % 255 + 1);
+    uint16_t pc = s[0].board->cpu.pc;
+    uint8_t byte = i8080_peek(&s[0].board->cpu, pc) ^ (uint8_t)(random32() % 255 + 1);
     board_reason reason;
     for (int i = 0; i < 2; i++) {
-        i8080_poke(&s[i].board->cpu, at, byte);
+        i8080_poke(&s[i].board->cpu, pc, byte);
     }
     return run_both(s, LONG_SLICE, &reason);
 }

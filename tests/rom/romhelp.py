@@ -25,7 +25,7 @@ BOARDS: dict[str, dict[str, Any]] = {
     "skg-rc2014": {"board": "rc2014"},
     "skg-rc2014-sio": {"board": "rc2014-sio"},
 }
-#: Those whose speed a teletype's reader has: SAVE punches NULs behind each line, as board.md says.
+#: Those with a paper tape: SAVE punches NULs behind each line, as board.md says.
 PAPER_TAPES = ("skg", "skg-8251", "skg-tty")
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
 #: Those that foreign processors and machines run too: each so-many-th, all in `make hunt`.

@@ -16,8 +16,9 @@ from typing import BinaryIO, TextIO
 from skg.errors import UserError
 from skg.file_type import named
 
-#: Control characters that stop the board; these, letters of UTF-8 and other bytes that are not ASCII.
+#: Control characters that stop the board.
 _STOPS = {b"\x03": "a ctrl-C breaks LOAD off: delete it", b"\x13": "a ctrl-S holds the board: delete it"}
+#: These, letters of UTF-8 and other bytes that are not ASCII.
 _ODD = re.compile(rb"[\x03\x13]|[\xc0-\xff][\x80-\xbf]+|[\x80-\xff]")
 
 

@@ -70,11 +70,11 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
         for share in _shares(path, routes, beside.reach):
             # (numpy lets both halves run at the same time)
             half = other.submit(off_contours, path, share, beside)
-            more, far, along = not_reached(path, share, beside, _in_tabs(share, routes), along)
-            some, near, off = half.result()
-            faults += some
+            unreached, far, along = not_reached(path, share, beside, _in_tabs(share, routes), along)
+            misfits, near, off = half.result()
+            faults += misfits
             near_others += near
-            missed |= more
+            missed |= unreached
             worst = max(worst, off, far)
     crossings = into_others(path, beside, near_others, partial(_pieces, routes))
     return Checked(followed, worst, [*faults, *(missed[key] for key in sorted(missed))], crossings)

@@ -70,8 +70,8 @@ def into_others(
         others = np.concatenate((others, np.flatnonzero(~is_open)))
     is_right = np.array([route.widest * route.contour.area for route in beside.routes])
     inner, outer = ~is_open & (is_right < 0), ~is_open & (is_right > 0)
-    found = crossings(wire, np.unique(some), contours, others, beside.least, LIMIT, inner, outer)
-    return [one for one in found if not (is_on[one.route] and is_on[one.other])]
+    cuts = crossings(wire, np.unique(some), contours, others, beside.least, LIMIT, inner, outer)
+    return [cut for cut in cuts if not (is_on[cut.route] and is_on[cut.other])]
 
 
 class _Wanted:

@@ -123,7 +123,7 @@ def _clipped(lines: Shapes, area: shapely.Geometry, is_inner: bool) -> Shapes:
 def _lines(pieces: Pieces) -> Shapes:
     """Pieces as chords."""
     spaces = np.ones(len(pieces.owner), np.int64)
-    for at in np.flatnonzero(pieces.is_arc).tolist():
-        spaces[at] = chords_of(pieces.radius[at], pieces.sweep[at], MEASURED)
+    for arc in np.flatnonzero(pieces.is_arc).tolist():
+        spaces[arc] = chords_of(pieces.radius[arc], pieces.sweep[arc], MEASURED)
     which, part = spread(spaces, 0, len(spaces))
     return shapely.linestrings(pieces.at(which, part), indices=which)

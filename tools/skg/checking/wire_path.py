@@ -38,7 +38,7 @@ class Misfit:
 
 
 class Beside:
-    """How the wire of each route is to run beside its contour, and how near it may come to other ones, mm.
+    """The wire's intended distances from its own contours and from others, mm.
 
     `offsets`: R of its passes, in its own direction; one that has fewer `passes` has its last one again. `aside`: the
     same without a sign; `wires`: the wire's pieces of each pass. `least`: how far it must stay off what is not its own.
@@ -108,8 +108,7 @@ class WirePath:
 
     def of_pass(self, number: int) -> Pieces:
         """The pieces; those that surely belong to other passes are nobody's."""
-        self.pieces.index()
-        # (which the copy has, too)
+        self.pieces.index()  # (made once: each copy has it)
         pieces = copy(self.pieces)
         pieces.owner = np.where((self.passes == number) | (self.passes < 0), self.pieces.owner, -1)
         return pieces

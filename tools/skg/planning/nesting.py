@@ -126,7 +126,7 @@ def _holders(areas: NDArray[Any], wholes: NDArray[Any]) -> dict[int, int]:
 
 
 def _frames(holder: Mapping[int, int], held: Container[int]) -> dict[int, tuple[int, bool]]:
-    """What holds each, and whether that is a frame: at least half of what it holds have openings, are `held`."""
+    """The holder of each, and if it is a frame: at least half of its contours have openings, are `held`."""
     inside = Counter(holder.values())
     with_openings = Counter(whole for inner, whole in holder.items() if inner in held)
     return {inner: (whole, 2 * with_openings[whole] >= inside[whole]) for inner, whole in holder.items()}
