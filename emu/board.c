@@ -301,7 +301,8 @@ static bool has_received(board *b, board_uart *u)
         }
     } else if (b->reading.cps > 0 && !queue_empty(&b->tape)) {
         start(b, u, &b->reading, &b->tape);
-    } else if (!u->full && !u->holds && !queue_empty(&b->tape)) {
+    } else if (!u->full && (!u->holds || b->reading.late < b->reading.lag) && !queue_empty(&b->tape)) {
+        b->reading.late += u->holds;
         receive(b, u, queue_take(&b->tape));
     } else if (!u->full && queue_empty(&b->tape)) {
         if (b->cpu.cycles - b->reader_asked_at > POLL_GAP) {

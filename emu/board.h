@@ -83,7 +83,7 @@ typedef enum { BOARD_6850, BOARD_8251, BOARD_RC2014, BOARD_RC2014_SIO } board_ki
 /* The pace at which characters come into a receiver. */
 typedef struct {
     double cps; /* characters a second; 0: each one waits until the board wants it */
-    int lag; /* characters that still come after /RTS has risen; negative: the sender ignores /RTS */
+    int lag; /* characters that still come after /RTS has risen; negative: the sender ignores /RTS (with a pace) */
     bool running; /* the next one is under way, */
     double due; /* the cycle at which it arrives */
     int late; /* characters sent since /RTS has risen */

@@ -60,6 +60,19 @@ def pasted(board: Board, text: bytes, cps: float, cts: int | None) -> str:
     return machine.tty[start:]
 
 
+@pytest.mark.parametrize("kind", ["skg", "skg-8251"])
+def test_a_reader_that_waits_may_be_late_too(kind: str) -> None:
+    """By one character: less time passes behind each line, and what comes behind an error stands at the prompt."""
+    for part in EXAMPLES[::7]:
+        board, patient = Board(kind=kind), Board(kind=kind)
+        tape = tape_of(part, "\n") + bytes([CTRL_Z])
+        assert loaded(board, tape, 0, 1) == loaded(patient, tape, 0, None)
+        assert board.listing() == listed(part)
+        assert board.machine.lost == 0
+        assert board.machine.cycles < patient.machine.cycles
+    assert loaded(Board(kind=kind), b"PRINT .\n22\n", 0, 1).endswith("\r\n>2")
+
+
 @every_board
 @pytest.mark.parametrize("part", EXAMPLES, ids=lambda part: part.stem)
 def test_whoever_obeys_rts_loses_nothing(kind: str, part: Path) -> None:

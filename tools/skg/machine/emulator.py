@@ -232,9 +232,10 @@ class Machine:
         self._lib.board_reader(self._board, on)
 
     def reader_cps(self, cps: float, cts: int | None = None) -> None:
-        """Let the reader send `cps` characters a second whether the board is ready or not; 0: it waits.
+        """Let the reader send `cps` characters a second whether the board is ready or not; 0: each one waits until the
+        board looks for it.
 
-        It stops `cts` characters after /RTS has risen; None: it does not look at /RTS.
+        It stops `cts` characters after /RTS has risen; None: it does not look at /RTS, or at once when it waits.
         """
         self._lib.machine_sender(self._machine, False, cps, -1 if cts is None else cts)
 
