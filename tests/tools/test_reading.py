@@ -1123,6 +1123,22 @@ def test_svg_shapes() -> None:
     assert counts_say(left(reading), {("text", "path"): 1, "length": 1})
 
 
+@pytest.mark.parametrize(
+    ("program", "pixels"), [('inkscape:version="0.48.3.1"', 90), ('inkscape:version="0.91"', 90), ("", 96)]
+)
+def test_svg_page_in_mm_without_a_view_box(program: str, pixels: int) -> None:
+    """Its shapes are in pixels, which are those of the program that wrote it; an old Inkscape's page is so by default."""
+    side = 20 * pixels / 25.4
+    content = f'<rect x="{side}" y="0" width="{side}" height="{side / 2}"/><rect x="50%" width="{side}" height="9"/>'
+    reading = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes())
+    report = reading.report
+    assert report.size == pytest.approx((100, 10)) and report.low == pytest.approx((20, 90))
+    assert report.units == "mm" and says(report.units_from, "as", "file")
+    assert ("Inkscape" in report.units_from) == bool(program)
+    inches = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes(units="inch"))
+    assert inches.report.size == pytest.approx((2540, 254))
+
+
 def test_svg_path_without_any_data() -> None:
     """As matplotlib writes the glyph of a space."""
     content = '<defs><path id="a"/></defs><use href="#a"/><path/><rect x="1" y="1" width="20" height="10"/>'

@@ -116,7 +116,7 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
     """Tell whether a file says metres and cannot mean it: programs write so that were not told any units."""
-    if report.units != "m" or report.units_from != TOLD:
+    if report.units != "m" or not report.units_from.startswith(TOLD):
         return False
     _measure(contours, report)
     return max(report.size) > USUAL[1]
@@ -165,7 +165,8 @@ def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Accou
     """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
     page = svg_file.SvgFile(data)
     declared, px = page.units, svg_file.PX
-    units = (declared[0], declared[1], TOLD) if declared else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
+    told = f"{TOLD}; {page.guessed}" if page.is_guessed else TOLD
+    units = (*declared, told) if declared else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
     if wishes.units:
         # Without a page in mm or inches a pixel is one of the units asked for.
         units = wishes.units, UNITS[wishes.units], ASKED
@@ -223,7 +224,7 @@ def _check_size(report: Account) -> None:
             f"give --units, or --layer for a part{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
         )
     other = _in_other_units(report, LARGE) or _in_other_units(report) * (max(report.size) > USUAL[1])
-    is_odd = report.units_from == TOLD and other and not USUAL[0] <= max(report.size) <= LARGE
+    is_odd = report.units_from.startswith(TOLD) and other and not USUAL[0] <= max(report.size) <= LARGE
     if is_odd:
         # (programs write the units that they were last set to)
         report.notes.append(f"take care: {width} x {height} mm is an implausible size{other}: set --units to change it")

@@ -103,7 +103,8 @@ class Drawn:
 
 class SvgFile:
     """The content of an SVG file. `units`: the name of the page's units and mm in one, None when it does not tell; then
-    `guess` is mm in a pixel, and `guessed` says where that comes from. `animations`: how many there are."""
+    `guess` is mm in a pixel, and `guessed` says where that comes from; `is_guessed`: it tells, but not of its shapes, which
+    have that pixel. `animations`: how many there are."""
 
     def __init__(self, data: bytes) -> None:
         try:
@@ -140,7 +141,12 @@ class SvgFile:
         self.page = _Frame(svgelements.Matrix(), (0.0, 0.0), (width, height)) if width and height else None
         self.height = height or 0.0
         size = width or 0.0, self.height
-        self.view = View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size)
+        self.is_guessed = self.units is not None and box is None and self.guess != PX
+        if self.is_guessed:
+            scale = self.guess / PX
+            self.view = View(svgelements.Matrix.scale(scale), (size[0] / scale, size[1] / scale))
+        else:
+            self.view = View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size)
 
     def _side(self, name: str) -> str:
         """The page's width or height, as it is written."""
