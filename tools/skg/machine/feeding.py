@@ -206,8 +206,8 @@ def _feed_share(parts: Sequence[str], rom: str | bytes, ram_kib: int) -> tuple[b
 
 
 def _with_late_reader(rom: str | bytes, ram_kib: int) -> Board:
-    """A board whose reader sends a character late, behind each line's end. (the ROM looks 1,200 times for one, at the
-    ports until it has come: all takes three quarters of the time)"""
+    """A board whose reader sends a character late, behind each line's end: the ROM waits 1,200 turns for one that does
+    not come, a third of all cycles."""
     board = Board(rom, ram_kib, max_cycles=MOST_CYCLES)
     board.machine.reader_cps(0, cts=1)
     return board
