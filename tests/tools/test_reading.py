@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import re
+from dataclasses import replace
 from itertools import pairwise
 from math import cos, hypot, pi, radians, sin
 from pathlib import Path
@@ -1127,7 +1128,7 @@ def test_svg_shapes() -> None:
     ("program", "pixels"), [('inkscape:version="0.48.3.1"', 90), ('inkscape:version="0.91"', 90), ("", 96)]
 )
 def test_svg_page_in_mm_without_a_view_box(program: str, pixels: int) -> None:
-    """Its shapes are in pixels, which are those of the program that wrote it; an old Inkscape's page is so by default."""
+    """Its shapes are in pixels, which are those of the program that wrote it (an old Inkscape's page is so)."""
     side = 20 * pixels / 25.4
     content = f'<rect x="{side}" y="0" width="{side}" height="{side / 2}"/><rect x="50%" width="{side}" height="9"/>'
     reading = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes())
@@ -1137,6 +1138,19 @@ def test_svg_page_in_mm_without_a_view_box(program: str, pixels: int) -> None:
     assert ("Inkscape" in report.units_from) == bool(program)
     inches = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes(units="inch"))
     assert inches.report.size == pytest.approx((2540, 254))
+
+
+def test_parts_of_a_path_that_touch_themselves_and_each_other() -> None:
+    """Each is the contour that it is drawn as, in one path or in many."""
+    parts = "M0 0h30v20h-30z", "M5 5h20v10l-1 1 1 1v-2h-20z", "M5 5l-5 -5h2z"
+    apart, together = (
+        read_svg("".join(f'<path d="{part}"/>' for part in parts)),
+        read_svg(f'<path d="{" ".join(parts)}"/>'),
+    )
+    assert [contour.edges for contour in together.contours] == [
+        tuple(replace(edge, entity=0) for edge in contour.edges) for contour in apart.contours
+    ]
+    assert [len(contour.edges) for contour in together.contours] == [4, 7, 3]
 
 
 def test_svg_path_without_any_data() -> None:

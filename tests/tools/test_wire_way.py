@@ -543,3 +543,38 @@ def test_the_round_bottom_of_a_notch_is_a_corner(turned: float, is_refused: bool
             wire_way(contour, 1.0)
     else:
         assert wire_way(contour, 1.0)
+
+
+#: A plate with a window, SVG; what its corners are drawn with, each from the corner back to it: {0} to {3}.
+CORNERED = """<svg xmlns="http://www.w3.org/2000/svg" width="30mm" height="20mm" viewBox="0 0 30 20">
+<path d="M0 0h30v20h-30z M9 10 H5 {0} V5 {1} H25 {2} V10 {3} Z"/></svg>"""
+#: As boxes.py of laser cutters writes corners, outside of the window; and as lines.
+ROUND = ("C4.9 10 5 10.1 5 10", "C5 4.9 4.9 5 5 5", "C25.1 5 25 4.9 25 5", "C25 10.1 25.1 10 25 10")
+CHAINED = (
+    "l-.1 .05 .05 .05 .05 -.1",
+    "l-.05 -.1 -.05 .05 .1 .05",
+    "l.1 -.05 -.05 -.05 -.05 .1",
+    "l.05 .1 .05 -.05 -.1 -.05",
+)
+
+
+@pytest.mark.parametrize("corners", [ROUND, CHAINED], ids=["curves", "lines"])
+def test_loops_smaller_than_the_wire(run: Run, tmp_path: Path, corners: tuple[str, ...]) -> None:
+    """Are left out of the corners, and that is said; the tape is that of the drawing without them."""
+    path, tapes = tmp_path / "window.svg", []
+    for drawn in (corners, [""] * 4):
+        path.write_text(CORNERED.format(*drawn))
+        result = run("cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1, "--quiet")
+        assert ("take care" in result.stderr) == (drawn is corners)
+        tapes.append((tmp_path / "part.3b").read_bytes())
+        if drawn is corners:
+            assert says(result.stderr, CARE, "contour 1", "4 loops", "(5, 10)")
+            # Without an offset they are cut.
+            result = run("cut", path, "-o", tmp_path / "on.3b")
+            assert "loops" not in result.stderr
+    assert tapes[0] == tapes[1]
+    # A larger one is for the owner to mend.
+    path.write_text(CORNERED.format("l-1 0 0 1 1 -1", "", "", ""))
+    assert says(
+        run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1), "contour 1", "(5", "--small"
+    )

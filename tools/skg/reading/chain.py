@@ -1,8 +1,8 @@
 """Chaining: the contours that edges make, and what is left where more than two of them meet.
 
-An entity that closes by itself (a circle, a closed polyline) is a contour, whatever touches it. All other edges are the
-lines of a graph whose corners are places where ends meet. A corner of two edges is a corner of a contour; where more
-meet, the closed outlines are found so:
+What closes by itself (a circle, a closed polyline, a part of a path) is a contour, whatever touches it. All other edges
+are the lines of a graph whose corners are places where ends meet. A corner of two edges is a corner of a contour; where
+more meet, the closed outlines are found so:
 
 1. a ring of edges of one layer and type of line that meet no others of these is an outline, whatever else meets it
    (lines to measure to, lines to bend along);
@@ -155,10 +155,10 @@ def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chain
     groups: dict[int, list[Edge]] = defaultdict(list)
     for edge in edges:
         groups[edge.entity if edge.entity >= 0 else -1 - len(groups)].append(edge)
-    for group in groups.values():
-        kept, short = _without_short(group) if _is_ring(group, tolerance) else ([], [])
+    for part in (part for group in groups.values() for part in _parts(group, tolerance)):
+        kept, short = _without_short(part) if _is_ring(part, tolerance) else ([], [])
         if not kept:
-            loose += group
+            loose += part
             continue
         result.short += short
         result.contours.append(Contour(tuple(kept), True))
@@ -167,8 +167,22 @@ def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chain
     return result
 
 
+def _parts(group: list[Edge], tolerance: float) -> Iterator[list[Edge]]:
+    """The edges of one entity in parts, such as those of a path: each up to a break, or to where it began."""
+    if _is_ring(group, tolerance):
+        yield group
+        return
+    part: list[Edge] = []
+    for edge in group:
+        if part and (distance(part[-1].end, edge.start) > _EXACT or part[-1].end == part[0].start):
+            yield part
+            part = []
+        part.append(edge)
+    yield part
+
+
 def _is_ring(group: list[Edge], tolerance: float) -> bool:
-    """Tell whether the edges of one entity close by themselves, around some area."""
+    """Tell whether edges that follow each other close by themselves, around some area."""
     if len(group) == 1:
         edge = group[0]
         return edge.is_circle or (edge.start == edge.end and edge.length > 3 * tolerance)

@@ -103,8 +103,8 @@ class Drawn:
 
 class SvgFile:
     """The content of an SVG file. `units`: the name of the page's units and mm in one, None when it does not tell; then
-    `guess` is mm in a pixel, and `guessed` says where that comes from; `is_guessed`: it tells, but not of its shapes, which
-    have that pixel. `animations`: how many there are."""
+    `guess` is mm in a pixel, and `guessed` says where that comes from; `is_guessed`: it tells, but not of its shapes,
+    which have that pixel. `animations`: how many there are."""
 
     def __init__(self, data: bytes) -> None:
         try:
