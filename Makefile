@@ -81,6 +81,9 @@ run: rom-age
 	@echo
 	@echo "The tape is in build/run.3b."
 
+# (without it each process of the tests would compile all of them anew, and pytest's plugins: seconds)
+unexport PYTHONDONTWRITEBYTECODE
+
 test: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q -n 3 --dist loadgroup tests
 	@$(MAKE) -s lint

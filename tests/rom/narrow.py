@@ -264,17 +264,21 @@ def beside(edge: Edge, r: float) -> np.ndarray:
     return np.array(edge.centre) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
 
 
+def apart(joined: np.ndarray, lists: list[np.ndarray]) -> list[np.ndarray]:
+    """What was worked out of some lists in one, list by list."""
+    return np.split(joined, np.cumsum([len(some) for some in lists])[:-1])
+
+
 def free(part: Part) -> list[np.ndarray]:
     """For each edge the places beside it where the wire has room."""
     area = part.area
     shapely.prepare([area, wall := area.exterior])
-    found = []
-    for edge in part.contour:
-        places = beside(edge, part.r)
-        points = shapely.points(places)
-        is_right = shapely.contains(area, points) == (part.r < 0) if part.r else True
-        found.append(places[is_right & ~shapely.dwithin(wall, points, abs(part.r) - 2 * FLAT)])
-    return found
+    places = [beside(edge, part.r) for edge in part.contour]
+    points = shapely.points(np.concatenate(places))
+    is_free = ~shapely.dwithin(wall, points, abs(part.r) - 2 * FLAT)
+    if part.r:
+        is_free &= shapely.contains(area, points) == (part.r < 0)
+    return [some[where] for some, where in zip(places, apart(is_free, places), strict=True)]
 
 
 def judged(part: Part, tape: bytes) -> str:
@@ -283,9 +287,11 @@ def judged(part: Part, tape: bytes) -> str:
     cuts = path_of(tape, start_hole(part.contour, part.r))
     if wrong := fault(part, cuts):
         return wrong
-    places = np.concatenate([edge.points() for edge in cuts])
-    least = shapely.distance(part.area.exterior, shapely.points(places)).min()
-    return "walls" if least < abs(part.r) - NEAR else "right"
+    places = shapely.points(np.concatenate([edge.points() for edge in cuts]))
+    # (whether something is near takes less than how near it is)
+    shapely.prepare(wall := part.area.exterior)
+    is_near = abs(part.r) > NEAR and shapely.dwithin(wall, places, abs(part.r) - NEAR).any()
+    return "walls" if is_near else "right"
 
 
 def fault(part: Part, cuts: Contour) -> str:
@@ -297,13 +303,12 @@ def fault(part: Part, cuts: Contour) -> str:
             sweep = sum(cut.sweep for cut in cuts if cut.centre is not None and same_centre(edge, cut))
             if abs(sweep - edge.sweep) > pi + 0.01:
                 return f"{edge} is travelled by {sweep} rad"
-    for edge, places in zip(part.contour, free(part), strict=True):
-        if LineString(edge.points()).length < NEAR:
-            continue
-        points = shapely.points(places)
+    places = free(part)
+    is_off = ~shapely.dwithin(path, shapely.points(np.concatenate(places)), NEAR)
+    for edge, some, off in zip(part.contour, places, apart(is_off, places), strict=True):
         # (round a corner there is room that a mitre leaves out)
-        if (~shapely.dwithin(path, points, NEAR)).sum() > max(len(places) / 3, SAMPLES / 12):
-            far = shapely.distance(path, points).max()
+        if off.sum() > max(len(some) / 3, SAMPLES / 12) and LineString(edge.points()).length >= NEAR:
+            far = shapely.distance(path, shapely.points(some)).max()
             return f"the wire stays {far:.3f} mm off its place beside {edge}"
     return ""
 

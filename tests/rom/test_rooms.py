@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 import sys
 
@@ -14,30 +15,38 @@ import rooms
 
 import build
 
-IMAGES = rooms.every()
-ALL = rooms.merged(IMAGES)
+#: In the process that has read the sources, which takes a second.
+pytestmark = pytest.mark.xdist_group("rooms")
+
+every = functools.cache(rooms.every)
+
+
+@functools.cache
+def merged() -> dict[str, rooms.Room]:
+    """The rooms of all images in one."""
+    return rooms.merged(every())
 
 
 def test_offers_and_uses() -> None:
-    assert len(ALL) > 20
-    assert sum(len(room.uses) for room in ALL.values()) > len(ALL)
-    assert rooms.wrong_headers(ALL) == [], "asm/rooms.py --headers writes these lines anew"
+    assert len(merged()) > 20
+    assert sum(len(room.uses) for room in merged().values()) > len(merged())
+    assert rooms.wrong_headers(merged()) == [], "asm/rooms.py --headers writes these lines anew"
 
 
-@pytest.mark.parametrize("image", IMAGES)
+@pytest.mark.parametrize("image", build.IMAGES)
 def test_no_knot(image: str) -> None:
     """Each file uses only files below it."""
-    assert rooms.tangled(IMAGES[image]) == []
+    assert rooms.tangled(every()[image]) == []
 
 
 def test_no_idle_hook() -> None:
     """A label called a hook is a hook in some image."""
-    assert rooms.idle_hooks(ALL) == []
+    assert rooms.idle_hooks(merged()) == []
 
 
 def test_no_silent_entry() -> None:
     """A comment at an entry in the middle of a routine names its callers."""
-    assert rooms.silent_entries(ALL) == []
+    assert rooms.silent_entries(merged()) == []
 
 
 #: Routines with a number that counts: bytes that are copied, bits of a number.
@@ -46,8 +55,10 @@ COUNTED = {"COPY5", "COPY15", "FTOI16"}
 
 def test_no_place_within_a_routine_is_offered() -> None:
     """A digit behind a name is a place within a routine; what another file enters has a name that says what it does."""
-    labels = {found[1] for room in ALL.values() for line in room.lines if (found := rooms.LABEL.match(line))}
-    offered = {name for room in ALL.values() for names in rooms.offered(ALL, room).values() for name in names} & labels
+    labels = {found[1] for room in merged().values() for line in room.lines if (found := rooms.LABEL.match(line))}
+    offered = {
+        name for room in merged().values() for names in rooms.offered(merged(), room).values() for name in names
+    } & labels
     restarts = set(build.RESTARTS.values()) | {"CALC0"}
     assert offered > COUNTED
     assert {name for name in offered if name[-1].isdigit()} <= COUNTED | restarts
@@ -66,8 +77,8 @@ def silent_headers(lines: list[str]) -> list[str]:
 
 
 def test_routines_say_what_they_clobber() -> None:
-    assert sum(len(HEADER.findall("\n".join(room.lines))) for room in ALL.values()) > 300
-    assert {name: silent for name, room in ALL.items() if (silent := silent_headers(room.lines))} == {}
+    assert sum(len(HEADER.findall("\n".join(room.lines))) for room in merged().values()) > 300
+    assert {name: silent for name, room in merged().items() if (silent := silent_headers(room.lines))} == {}
 
 
 def test_a_silent_header_is_said() -> None:
@@ -78,12 +89,12 @@ def test_a_silent_header_is_said() -> None:
 
 def test_rooms_leave_what_is_kept() -> None:
     """The standard image's rooms together leave the bytes that are kept."""
-    assert sum(rooms.room_of(room) or 0 for room in IMAGES["skg"].values()) <= build.ROM_SIZE - build.KEPT
+    assert sum(rooms.room_of(room) or 0 for room in every()["skg"].values()) <= build.ROM_SIZE - build.KEPT
 
 
 def test_no_file_asks_which_image_it_is_in() -> None:
     """Differences between images are files of their own, not conditions in a file."""
-    lines = [f"{room.name}.asm: {line}" for room in ALL.values() for line in map(rooms.code, room.lines)]
+    lines = [f"{room.name}.asm: {line}" for room in merged().values() for line in map(rooms.code, room.lines)]
     assert len(lines) > 5000
     assert [line for line in lines if re.search(r"(?<!\w)(IF|ELSE|ENDIF|IFDEF|IFNDEF)\b", line, re.I)] == []
 
@@ -97,7 +108,7 @@ def test_a_board_of_ones_own_changes_no_header(monkeypatch: pytest.MonkeyPatch) 
     mine = rooms.read(texts)
     assert set(own.values()) < set(mine)
     assert "io_mine" in mine["start"].uses
-    wrong = rooms.wrong_headers(rooms.merged({**IMAGES, "skg-mine": mine}), rooms.SEAMS)
+    wrong = rooms.wrong_headers(rooms.merged({**every(), "skg-mine": mine}), rooms.SEAMS)
     assert [line for line in wrong if line.split(".")[0] not in own.values()] == []
 
 

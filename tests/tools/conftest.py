@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import io
 import subprocess
 import sys
 from collections.abc import Callable
@@ -11,7 +13,7 @@ import pytest
 from click.testing import CliRunner, Result
 from toolhelp import CAD_TAPE, Run
 
-from skg.cli import cli
+from skg.cli import cli, main
 from skg.job.file import dump, load
 from skg.job.job import Job
 from skg.pipeline import steps
@@ -54,13 +56,27 @@ def jobs_as_files(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(steps, "plan_drawing", planned)
 
 
-@pytest.fixture(scope="session")
-def run_program() -> Callable[..., subprocess.CompletedProcess[str]]:
-    """Run `skg` as a program of its own, as a shell does: for what stands on stderr and the exit code."""
+@pytest.fixture
+def run_program(monkeypatch: pytest.MonkeyPatch) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Run `skg` from its entry point to its exit, for what stands on stderr and the exit code: in this process, since
+    another one takes half a second to start. (test_cli.py and test_docs.py start one for every command)"""
 
     def call(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[str]:
-        program = Path(sys.executable).with_name("skg")
-        return subprocess.run([program, *map(str, arguments)], input=stdin, capture_output=True, text=True)
+        words = ["skg", *map(str, arguments)]
+        output, errors = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
+        with monkeypatch.context() as patch, pytest.raises(SystemExit) as ended:
+            patch.setattr(sys, "argv", words)
+            patch.setattr(sys.modules["__main__"], "__package__", None)  # (where click looks for the program's name)
+            patch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(stdin.encode()), "utf-8"))
+            patch.setattr(sys, "stdout", output)
+            patch.setattr(sys, "stderr", errors)
+            # (what a process does with its memory and its buffers, since it ends soon)
+            patch.setattr(gc, "freeze", lambda: None)
+            patch.setattr("skg.cli.collect_rarely", lambda: None)
+            patch.setattr("skg.cli._leave", sys.exit)
+            main()
+        texts = [stream.buffer.getvalue().decode().replace("\r\n", "\n") for stream in (output, errors)]
+        return subprocess.CompletedProcess(words, ended.value.code or 0, *texts)
 
     return call
 

@@ -135,22 +135,22 @@ def test_roms(run_program: Program, rom: str, options: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "message"),
+    ("words", "facts"),
     [
-        (["none.skg"], "none.skg: No such file or directory"),
-        (["examples/wrench.skg", "--rom", "none.bin"], "none.bin: No such file or directory"),
-        (["examples/wrench.skg", "--rom", "roms/skg.hex/"], "roms/skg.hex/: Not a directory"),
-        (
-            ["examples/wrench.skg", "--ram", "57"],
-            "Invalid value for '--ram': 57 is not in the range 2<=x<=56 (see skg run --help)",
-        ),
-        (["-", "--input", "-"], "the program and the answers cannot both come from the standard input"),
+        (["none.skg"], ("none.skg: No such file",)),
+        (["examples/wrench.skg", "--rom", "none.bin"], ("none.bin: No such file",)),
+        (["examples/wrench.skg", "--rom", "roms/skg.hex/"], ("roms/skg.hex/: Not a directory",)),
+        (["examples/wrench.skg", "--ram", "57"], ("--ram", 57, "2<=", "<=56", "skg run --help")),
+        (["-", "--input", "-"], ("program", "answers", "standard input")),
     ],
 )
-def test_wrong_usage(run_program: Program, words: list[str], message: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_wrong_usage(
+    run_program: Program, words: list[str], facts: tuple[object, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(ROOT)
     done = run_program("run", *words)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"skg: {message}\n")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("skg: ") and each_says(done.stderr, facts)
 
 
 def test_a_machine_that_halts(run_program: Program, tmp_path: Path) -> None:

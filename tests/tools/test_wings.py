@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator
@@ -10,6 +11,9 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+#: In the process that has read the sources.
+pytestmark = pytest.mark.xdist_group("wings")
 
 ROOT = Path(__file__).parents[2] / "tools"
 SOURCES = sorted((ROOT / "skg").rglob("*.py"))
@@ -45,26 +49,32 @@ def name_of(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-MODULES = {name_of(path): ast.parse(path.read_text()) for path in SOURCES}
+@functools.cache
+def modules() -> dict[str, ast.Module]:
+    """The package's modules, read. (not when tests are collected, which each process does)"""
+    return {name_of(path): ast.parse(path.read_text()) for path in SOURCES}
 
 
 def imports(module: str) -> set[str]:
     """The modules of the package that one imports, anywhere in its text."""
     found: set[str] = set()
-    for node in ast.walk(MODULES[module]):
+    for node in ast.walk(modules()[module]):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
             assert not node.level, f"{module}: a relative import"
             inner = [f"{node.module}.{alias.name}" for alias in node.names]
-            names = [name if name in MODULES else node.module for name in inner]
+            names = [name if name in modules() else node.module for name in inner]
         else:
             continue
         found |= {name for name in names if name.split(".")[0] == "skg"}
     return found
 
 
-GRAPH = {module: imports(module) for module in MODULES}
+@functools.cache
+def graph() -> dict[str, set[str]]:
+    """What each module imports."""
+    return {module: imports(module) for module in modules()}
 
 
 def wing(module: str) -> str:
@@ -74,8 +84,8 @@ def wing(module: str) -> str:
 
 
 def test_what_is_imported_is_there() -> None:
-    assert len(MODULES) > 40
-    assert {name for names in GRAPH.values() for name in names} <= set(MODULES)
+    assert len(modules()) > 40
+    assert {name for names in graph().values() for name in names} <= set(modules())
 
 
 def test_hacking_names_the_folders_of_the_tests() -> None:
@@ -104,7 +114,7 @@ def test_hacking_tells_the_wings() -> None:
 def test_wings_lean_on_those_below() -> None:
     wrong = [
         f"{module} imports {name}"
-        for module, names in GRAPH.items()
+        for module, names in graph().items()
         if module not in DOORS
         for name in names
         if name in DOORS or wing(name) not in ALLOWED[wing(module)] | {wing(module)}
@@ -119,14 +129,14 @@ def test_allowed_is_without_circles() -> None:
 def test_modules_are_without_circles() -> None:
     """Inside the wings too. (A package's own face is no module of its wing: it imports those below it.)"""
     try:
-        TopologicalSorter(GRAPH).prepare()
+        TopologicalSorter(graph()).prepare()
     except CycleError as error:
         pytest.fail(" -> ".join(error.args[1]))
 
 
 def test_commands_alone_know_the_command_line() -> None:
     """Click is imported by commands alone, and nothing imports a command."""
-    for module, tree in MODULES.items():
+    for module, tree in modules().items():
         roots = {
             alias.name.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names
         }
@@ -152,7 +162,7 @@ def type_names(tree: ast.Module) -> Iterator[str]:
 def test_one_name_one_meaning() -> None:
     """No two modules give the same name to a type."""
     found: dict[str, list[str]] = defaultdict(list)
-    for module, tree in MODULES.items():
+    for module, tree in modules().items():
         for name in type_names(tree):
             found[name].append(module)
     assert {"Piece", "Placed", "XY", "Tape", "Punch", "Curve"} <= set(found)

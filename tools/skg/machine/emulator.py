@@ -275,22 +275,23 @@ class Machine:
         without a chip). A board that waits for a key only for some time goes on by itself: "wait" is then
         returned after `patience` cycles of waiting.
         """
-        end = self.cycles + max_cycles
-        patient_until = min(end, self.cycles + patience)
+        # (a board that looks for a key now and then comes back each time: what it has done is asked once)
+        now, printed = self.cycles, self._output_length
+        end = now + max_cycles
+        patient_until = min(end, now + patience)
         while True:
-            printed = self._output_length
-            reason = REASONS[self._lib.board_run(self._board, max(0, end - self.cycles))]
-            if reason != "wait" or self.cycles >= patient_until:
+            reason = REASONS[self._lib.board_run(self._board, max(0, end - now))]
+            if reason != "wait" or (now := self.cycles) >= patient_until:
                 return reason
-            if self._output_length != printed:
-                patient_until = min(end, self.cycles + patience)
+            if (length := self._output_length) != printed:
+                printed, patient_until = length, min(end, now + patience)
 
     # Output
 
     @property
     def _output_length(self) -> int:
-        start = ctypes.byref(ctypes.c_void_p())
-        return sum(self._lib.machine_output(self._machine, punch, start) for punch in (False, True))
+        output, start = self._lib.machine_output, ctypes.byref(ctypes.c_void_p())
+        return output(self._machine, False, start) + output(self._machine, True, start)
 
     def _output(self, punch: bool, first: int = 0) -> bytes:
         start = ctypes.c_void_p()
