@@ -48,10 +48,10 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     for name in tapes_:
         text = iso_text(name)
         if text is not None:
-            findings, notes = gcode_reader.look(text)
+            program, findings = gcode_reader.scan(text)
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)
-            for note in notes:
+            for note in program.notes:
                 click.echo(f"skg: {name}: {note}", err=True)
         else:
             data = tape_bytes(name)
