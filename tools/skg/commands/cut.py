@@ -9,7 +9,7 @@ import click
 from click.core import ParameterSource
 
 from skg.commands.options import (
-    FiniteRange,
+    Millimetres,
     RomName,
     drawing_options,
     feed_option,
@@ -66,12 +66,12 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and cut nothing.")
 @click.option("--program", metavar="FILE", type=click.Path(allow_dash=True), help="Also write the SKG program.")
 @click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
-@click.option("--wire", metavar="MM", type=FiniteRange(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
+@click.option("--wire", type=Millimetres(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
 @click.option(
     "--gap",
-    metavar="MM",
     default=0.0,
-    type=FiniteRange(0, MOST_OFFSET),
+    show_default=False,
+    type=Millimetres(0, MOST_OFFSET),
     help="Spark gap on each side of the wire.",
 )
 @offset_option(
@@ -81,15 +81,12 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option(
     "--fit-tolerance",
     default=0.0002,
-    show_default=True,
-    metavar="MM",
-    type=FiniteRange(values.LEAST_FIT),
+    type=Millimetres(values.LEAST_FIT),
     help="Largest distance of FIT from splines and ellipses.",
 )
 @click.option(
     "--lead-shape",
     default="perpendicular",
-    show_default=True,
     type=click.Choice(LEAD_SHAPES),
     help="arc: a quarter of a circle about the start hole touches the contour.",
 )
@@ -103,14 +100,13 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option(
     "--tab",
     default=0.0,
-    metavar="MM",
-    type=FiniteRange(0),
+    show_default=False,
+    type=Millimetres(0),
     help="Length of the bridge that keeps a part cut from outside; the machine stops, the last cut takes it off.",
 )
 @click.option(
     "--small",
     default="refuse",
-    show_default=True,
     type=click.Choice(SMALL),
     help="Refuse or leave closed contours that are too small or narrow for the wire beside them, or too short for "
     "the tab.",
@@ -118,7 +114,6 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option(
     "--into",
     default="refuse",
-    show_default=True,
     type=click.Choice(INTO),
     help="Refuse or cut closed contours whose wire would gouge another one, since they cross or lie too near to "
     "each other.",
@@ -126,13 +121,10 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option(
     "--rom",
     default="no-drift",
-    show_default=True,
     type=RomName(ROMS),
     help="The ROM that makes the tape. On a standard tape the misses of the arcs add up.",
 )
-@click.option(
-    "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(*values.RAM), help="The board's RAM, KiB."
-)
+@click.option("--ram", default=8, metavar="KIB", type=click.IntRange(*values.RAM), help="The board's RAM, KiB.")
 @feed_option
 @click.option("--material", metavar="TEXT", type=Words(), help="Material of the stock, for the setup sheet.")
 @click.option("--thickness", metavar="TEXT", type=Words(), help="Thickness of the stock, for the setup sheet.")

@@ -23,7 +23,6 @@ positions_option = click.option(
     "--positions",
     type=click.Choice(POSITIONS),
     default="auto",
-    show_default=True,
     help="Start each block where the block before should have ended (programmed), or where the controller "
     "really stands then (machine: tapes without drift); auto: as a program or the tape's name says, else programmed.",
 )
@@ -110,28 +109,19 @@ def _refuse_onto(context: click.Context) -> None:
 def answers_option(function: Callable) -> Callable:
     """The option --input, as `answers`; None when it is not given."""
     return click.option(
-        "--input",
-        "answers",
-        metavar="FILE",
-        type=click.Path(allow_dash=True),
-        help="Answers to INPUT, one line each.",
+        "--input", "answers", metavar="FILE", type=click.Path(allow_dash=True), help="Answers to INPUT, one line each."
     )(function)
 
 
 def offset_option(text: str) -> Callable[[Callable], Callable]:
     """The option --offset, None when it is not given; `text` is its help."""
-    return click.option("--offset", metavar="MM", type=FiniteRange(0, MOST_OFFSET), help=text)
+    return click.option("--offset", type=Millimetres(0, MOST_OFFSET), help=text)
 
 
 def feed_option(function: Callable) -> Callable:
     """Give a command the option --feed, of a wire."""
     return click.option(
-        "--feed",
-        default=5.0,
-        show_default=True,
-        metavar="MM/MIN",
-        type=FiniteRange(LEAST_FEED),
-        help="Feed, to compute the time.",
+        "--feed", default=5.0, metavar="MM/MIN", type=FiniteRange(LEAST_FEED), help="Feed, to compute the time."
     )(function)
 
 
@@ -148,9 +138,7 @@ def drawing_options(function: Callable) -> Callable:
         click.option(
             "--tolerance",
             default=0.005,
-            show_default=True,
-            metavar="MM",
-            type=FiniteRange(0, min_open=True),
+            type=Millimetres(0, min_open=True),
             help="Join ends no further apart than this.",
         ),
         click.option(
@@ -168,7 +156,6 @@ def drawing_options(function: Callable) -> Callable:
         click.option(
             "--side",
             default="auto",
-            show_default=True,
             type=click.Choice(SIDES),
             help="Side of the wire. auto: outside of outlines, inside of openings.",
         ),
@@ -180,19 +167,11 @@ def drawing_options(function: Callable) -> Callable:
             type=Coordinates(),
             help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
         ),
-        click.option(
-            "--start-layer",
-            default=START,
-            show_default=True,
-            metavar="NAME",
-            help="Layer of the points for start holes.",
-        ),
+        click.option("--start-layer", default=START, metavar="NAME", help="Layer of the points for start holes."),
         click.option(
             "--lead",
             default=LEAD,
-            show_default=True,
-            metavar="MM",
-            type=FiniteRange(0, min_open=True),
+            type=Millimetres(0, min_open=True),
             help="Distance from a chosen start hole to the contour, room permitting.",
         ),
     )[::-1]:
@@ -237,6 +216,12 @@ class FiniteRange(click.FloatRange):
     """A number in a range: neither infinite nor NaN, which is in every range, and of no more digits than a tape has."""
 
     name = "number"
+    #: The number in the help of an option, where that does not say another.
+    unit: str | None = None
+
+    def get_metavar(self, *_param: object) -> str | None:
+        """Return the unit, as the help has it."""
+        return self.unit
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""
@@ -244,6 +229,24 @@ class FiniteRange(click.FloatRange):
         if not abs(number) < 10**MAX_DIGITS:
             self.fail(f"{value!r}: expected a number of at most {MAX_DIGITS} digits", param, ctx)
         return number
+
+
+class Millimetres(FiniteRange):
+    """A length."""
+
+    unit = "MM"
+
+
+class Degrees(FiniteRange):
+    """An angle."""
+
+    unit = "DEGREES"
+
+
+class Seconds(FiniteRange):
+    """A time."""
+
+    unit = "SECONDS"
 
 
 def numbers_in(value: object, number: type = float) -> tuple:

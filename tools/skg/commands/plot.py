@@ -11,6 +11,7 @@ from skg.commands.options import (
     FORMATS,
     Coordinates,
     FiniteRange,
+    Millimetres,
     decided,
     output_option,
     picture_format,
@@ -34,8 +35,8 @@ if TYPE_CHECKING:
 @click.option(
     "--wire",
     default=0.0,
-    metavar="MM",
-    type=FiniteRange(0),
+    show_default=False,
+    type=Millimetres(0),
     help="Draw the cut of a wire of this diameter, to scale.",
 )
 @click.option("--no-arrows", is_flag=True, help="No arrows in the direction of travel.")
@@ -49,7 +50,7 @@ if TYPE_CHECKING:
 @click.option(
     "--scale", metavar="N", type=FiniteRange(0, min_open=True), help="Drawing scale, 2 for 2:1. Default: fit the page."
 )
-@click.option("--title", default="", metavar="TEXT", help="A title above the drawing.")
+@click.option("--title", default="", show_default=False, metavar="TEXT", help="A title above the drawing.")
 @positions_option
 @skg80_option
 def command(

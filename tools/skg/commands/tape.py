@@ -18,7 +18,6 @@ from skg.tape.styles import STYLES, to_style
     "--style",
     type=click.Choice(list(STYLES)),
     default="punch",
-    show_default=True,
     help="Style of blocks. punch: as the board does; spaced: with blanks; numbered: N 1: and blanks; "
     "padded: with zeros to six digits; joined: all in one line.",
 )
