@@ -21,6 +21,7 @@ from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretche
 from ezdxf.document import Drawing
 from facthelp import CARE, each_says, pattern, says
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from oneblock import run_block
 from shapely.geometry import LineString, Point, Polygon
 from toolhelp import Run, least_time
 
@@ -31,7 +32,6 @@ from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.machine import feeding
 from skg.machine.feeding import feed, feed_routes, rest_of, without_numbers
-from skg.tape.controller import run_block
 
 #: A drawing.
 BRACKET = Path(__file__).parents[2] / "docs/pictures/bracket.dxf"

@@ -249,10 +249,10 @@ class Seconds(FiniteRange):
     unit = "SECONDS"
 
 
-def numbers_in(value: object, number: type = float) -> tuple:
+def numbers_in(value: object) -> tuple[float, ...]:
     """The numbers of a text with commas between them; none where something else stands there."""
     try:
-        return tuple(number(part) for part in str(value).split(","))
+        return tuple(float(part) for part in str(value).split(","))
     except ValueError:
         return ()
 
@@ -262,14 +262,11 @@ class Coordinates(click.ParamType):
 
     name = "X,Y"
 
-    def __init__(self, number: type = float) -> None:
-        self.number = number
-
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple:
         """Return the two numbers."""
         if isinstance(value, tuple):
             return value
-        result = numbers_in(value, self.number)
+        result = numbers_in(value)
         if len(result) != 2:
             self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
         if not all(abs(ordinate) < 10**MAX_DIGITS for ordinate in result):

@@ -13,7 +13,7 @@ from skg.files import write_bytes
 from skg.geometry.plane import XY
 from skg.sources.load import load
 from skg.tape.block import Tape
-from skg.tape.drive import drive_steps, stops_in_pairs
+from skg.tape.controller import drive_steps, stops_in_pairs
 from skg.tape.simulation import Report, closing, duration, simulate
 
 

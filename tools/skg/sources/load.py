@@ -110,13 +110,13 @@ def gcode_text(name: str) -> str:
     return in_ascii(without_mark(without_filling(data)))
 
 
-def tape_bytes(name: str, skg80: str | None = None) -> bytes:
+def tape_bytes(name: str) -> bytes:
     """Return a tape's bytes: those of a file (`-`: the standard input), or what its program punches."""
     if not is_program(name):
         return read_bytes(name)
     text = program_text(name)
     _say_given_up(name, text)
-    return _tape_of(name, text, skg80)
+    return _tape_of(name, text, None)
 
 
 def contour_of(name: str) -> tuple[Piece, ...]:
