@@ -177,7 +177,7 @@ def command(
 
         tape = Path(output).name if output != "-" else "-"
         drawing = Path(path).name if path != "-" else "-"
-        write_sheet(cut.result, Facts(drawing, tape, cut.account.units, job.machine), sheet, form)
+        write_sheet(cut.result, Facts(drawing, tape, cut.account.units), sheet, form)
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
