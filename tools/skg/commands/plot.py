@@ -20,8 +20,6 @@ from skg.commands.options import (
 )
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.tape.block import micrometres
-from skg.tape.layout import stop_places
 
 if TYPE_CHECKING:
     from skg.pictures.plot import Sheet
@@ -98,16 +96,13 @@ def command(
 def _laid(name: str, start: XY | None, positions: str, skg80: str | None, show_offset: bool) -> tuple[Sheet, list[XY]]:
     """The routes of a file and its stops, µm. (No more is kept of a tape: it may be long.)"""
     from skg.pictures.plot import Sheet
-    from skg.sources.load import contour_of, iso_program, load
-    from skg.tape.layout import place
+    from skg.sources.load import contour_of, iso_program, lay_out, load
 
+    contour = contour_of(name) if show_offset else ()
     if program := iso_program(name, skg80):
-        contour = contour_of(name) if show_offset else ()
         if heights := program.heights():
             click.echo(f"skg: {name}: {heights}", err=True)
         return Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)), program.stop_places
-    made = load(name, skg80, show_offset)
-    x, y = start or made.start
-    home = micrometres(x), micrometres(y)
-    routes = place(made.tape, home, decided(made.tape, positions))
-    return Sheet(Path(name).name, routes, made.contour), stop_places(made.tape, routes, home)
+    made = load(name, skg80)
+    routes, stops = lay_out(made, start or made.start, decided(made.tape, positions))
+    return Sheet(Path(name).name, routes, contour), stops
