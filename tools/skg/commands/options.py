@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 from collections.abc import Callable
 from functools import wraps
 from importlib.util import find_spec
@@ -123,73 +122,6 @@ def feed_option(function: Callable) -> Callable:
     return click.option(
         "--feed", default=5.0, metavar="MM/MIN", type=FiniteRange(LEAST_FEED), help="Feed, to compute the time."
     )(function)
-
-
-def drawing_options(function: Callable) -> Callable:
-    """Give a command the options for how a drawing is read, and how its contours are entered and run through."""
-    from skg.job.read_options import OPEN, START, UNITS
-    from skg.job.wanted import LEAD, SIDES
-
-    for option in (
-        click.option(
-            "--layer", "layers", multiple=True, metavar="NAME", help="Take only this layer; may be given again."
-        ),
-        click.option("--units", type=click.Choice(tuple(UNITS)), help="Units of the drawing, instead of the file's."),
-        click.option(
-            "--tolerance",
-            default=0.005,
-            type=Millimetres(0, min_open=True),
-            help="Join ends no further apart than this.",
-        ),
-        click.option(
-            "--open",
-            "opened",
-            type=click.Choice(OPEN),
-            help="Cut, leave or refuse open contours; all: cut every line as drawn. Default: cut without an offset, "
-            "refuse with one.",
-        ),
-        click.option(
-            "--encoding",
-            type=Encoding(),
-            help="Encoding of a DXF file's names, such as GBK. Default: what the file says, else guessed.",
-        ),
-        click.option(
-            "--side",
-            default="auto",
-            type=click.Choice(SIDES),
-            help="Side of the wire. auto: outside of outlines, inside of openings.",
-        ),
-        click.option("--reverse", is_flag=True, help="Cut in the other direction."),
-        click.option(
-            "--start",
-            "starts",
-            multiple=True,
-            type=Coordinates(),
-            help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
-        ),
-        click.option("--start-layer", default=START, metavar="NAME", help="Layer of the points for start holes."),
-        click.option(
-            "--lead",
-            default=LEAD,
-            type=Millimetres(0, min_open=True),
-            help="Distance from a chosen start hole to the contour, room permitting.",
-        ),
-    )[::-1]:
-        function = option(function)
-    return function
-
-
-class Encoding(click.ParamType):
-    """The name of an encoding of text."""
-
-    name = "NAME"
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the name as Python has it."""
-        try:
-            return codecs.lookup(str(value)).name
-        except LookupError:
-            self.fail(f"{value!r}: unknown, expected one such as GBK, Big5, Shift_JIS or Windows-1251", param, ctx)
 
 
 def skg80_option(function: Callable) -> Callable:
