@@ -401,16 +401,7 @@ class SetupSheet:
                 for taken in (self.taken, self.marked):
                     taken.along(line)
                     taken.take(middle - half, middle + half)
-                self._text(
-                    middle,
-                    str(self.job.routes[index].turn),
-                    size,
-                    _MARK,
-                    ha="center",
-                    va="center",
-                    gid="number",
-                    zorder=6,
-                )
+                self._text(middle, number, size, _MARK, ha="center", va="center", gid="number", zorder=6)
                 return True
         return False
 
