@@ -143,18 +143,18 @@ def path_edges(program: str) -> list[Edge]:
     return found
 
 
-def tape_edges(made: load.Made, positions: str, polylines: bool = False) -> list[Edge]:
+def tape_edges(made: tapes.Tape, positions: str, polylines: bool = False) -> list[Edge]:
     routes, stops = lay_out(made, made.start, positions)
     return collect(drawn(routes, stops, polylines), ("WIRE",)).edges
 
 
 @cache
-def by_reference(program: str, drift: bool) -> load.Made:
+def by_reference(program: str, drift: bool) -> tapes.Tape:
     """The tape that the reference makes of a program."""
     result = run_reference(program, drift=drift)
     assert result.error is None, (result.error, program)
     start = result.path[0].start
-    return load.Made(tapes.parse(result.tape), (float(start.x), float(start.y)))
+    return replace(tapes.parse(result.tape), start=(float(start.x), float(start.y)))
 
 
 @pytest.fixture(scope="module")
@@ -164,13 +164,13 @@ def emulator(build: Callable[..., None]) -> Path:
     return ROOT / "build" / "skg80"
 
 
-def by_rom(emulator: Path, image: str, program: str, directory: Path) -> load.Made:
+def by_rom(emulator: Path, image: str, program: str, directory: Path) -> tapes.Tape:
     """The tape that a ROM punches for a program."""
     part = directory / "part.skg"
     part.write_text(program)
     rom = ROOT / "roms" / f"{image}.bin"
     done = subprocess.run([emulator, "--rom", rom, "--max-cycles", str(10**12), part], capture_output=True, check=True)
-    return load.Made(tapes.parse(done.stdout), by_reference(program, True).start)
+    return replace(tapes.parse(done.stdout), start=by_reference(program, True).start)
 
 
 @pytest.mark.parametrize("make", drawings.ALL)
@@ -208,7 +208,7 @@ def row(make: Callable[[], Drawing]) -> str:
     assert figures[0] < LOST_ON_TAPE.get(make, LIMIT)
     assert figures[1] < LIMIT_WITHOUT_DRIFT
     name = make.__name__.replace("_", " ")
-    return f"| {name} | {len(made.tape.blocks)} | " + " | ".join(f"{figure:.2f}" for figure in figures) + " |\n"
+    return f"| {name} | {len(made.blocks)} | " + " | ".join(f"{figure:.2f}" for figure in figures) + " |\n"
 
 
 @pytest.mark.parametrize("make", drawings.ALL)
@@ -418,7 +418,7 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     result = run("cut", drawing, "--offset", "0.1", "-o", os.devnull, "--program", program)
     assert result.exit_code == 0
     assert says(result.stderr, "layer 0", "10 entities", "9 cut", "1 left", "1 TEXT")
-    tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").tape.items))
+    tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
     assert layers == {"WIRE", "LEAD", "MOVES", "START", "STOPS"}

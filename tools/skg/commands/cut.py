@@ -12,7 +12,7 @@ import click
 from click.core import ParameterSource
 
 from skg.commands.options import (
-    Coordinates,
+    COORDINATES,
     Millimetres,
     RomName,
     feed_option,
@@ -116,7 +116,7 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
     "--start",
     "starts",
     multiple=True,
-    type=Coordinates(),
+    type=COORDINATES,
     help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
 )
 @click.option("--start-layer", default=START, metavar="NAME", help="Layer of the points for start holes.")

@@ -189,18 +189,26 @@ def numbers_in(value: object) -> tuple[float, ...]:
         return ()
 
 
-class Coordinates(click.ParamType):
-    """Two numbers with a comma between them, such as 115000,-10000."""
+class Numbers(click.ParamType):
+    """Numbers with commas between them, as many as one of `counts`, such as 115,-10."""
 
-    name = "X,Y"
+    def __init__(self, name: str, expected: str, *counts: int) -> None:
+        self.name, self.expected, self.counts = name, expected, counts
 
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple:
-        """Return the two numbers."""
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """Return the numbers."""
         if isinstance(value, tuple):
             return value
         result = numbers_in(value)
-        if len(result) != 2:
-            self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
-        if not all(abs(ordinate) < 10**MAX_DIGITS for ordinate in result):
+        if len(result) not in self.counts:
+            self.fail(f"{value!r}: expected {self.expected} with a comma between them", param, ctx)
+        if not all(abs(number) < 10**MAX_DIGITS for number in result):
             self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
         return result
+
+
+#: A place.
+COORDINATES = Numbers("X,Y", "two numbers", 2)
+start_option = click.option(
+    "--start", type=COORDINATES, help="Place of the start hole, mm. Default: FROM of a program, else 0,0."
+)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from skg.commands.options import (
+    COORDINATES,
     FORMATS,
-    Coordinates,
     FiniteRange,
     Millimetres,
     decided,
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 @click.option(
     "--start",
     multiple=True,
-    type=Coordinates(),
+    type=COORDINATES,
     help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.",
 )
 @click.option(
@@ -103,6 +103,6 @@ def _laid(name: str, start: XY | None, positions: str, skg80: str | None, show_o
         if heights := program.heights():
             click.echo(f"skg: {name}: {heights}", err=True)
         return Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)), program.stop_places
-    made = load(name, skg80)
-    routes, stops = lay_out(made, start or made.start, decided(made.tape, positions))
+    tape = load(name, skg80)
+    routes, stops = lay_out(tape, start or tape.start, decided(tape, positions))
     return Sheet(Path(name).name, routes, contour), stops

@@ -105,7 +105,7 @@ def command(
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
     and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input.
     """
-    tapes = [load(name).tape for name in tapes_]
+    tapes = [load(name) for name in tapes_]
     reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
     if steps_file:
         _write_steps(steps_file, tapes)

@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,26 +36,16 @@ if TYPE_CHECKING:
     from skg.tape.layout import PlacedRoute
 
 
-@dataclass(frozen=True)
-class Made:
-    """A tape, and where its wire starts on the drawing, mm."""
-
-    tape: Tape
-    start: XY = (0.0, 0.0)
-
-
-def load(name: str, skg80: str | None = None) -> Made:
+def load(name: str, skg80: str | None = None) -> Tape:
     """Return what is in a file: a program when its name ends in .skg or as a rival's does, else a tape.
 
     `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator. One that ends
     in ERR is a `UserError`.
     """
     if program := iso_program(name, skg80):
-        tape = replace(program.tape(), notes=program.left_out())
-        return Made(tape, (program.home[0] / 1000, program.home[1] / 1000))
+        return replace(program.tape(), notes=program.left_out())
     if not is_program(name):
-        tape = tapes.read(name)
-        return Made(tape, tape.start or (0.0, 0.0))
+        return tapes.read(name)
     text = program_text(name)
     _say_given_up(name, text)
     # (it is needed in any case: only the reference knows where on the drawing the wire is)
@@ -65,7 +55,7 @@ def load(name: str, skg80: str | None = None) -> Made:
     if skg80 in (None, "reference"):
         # The standard ROM or the reference as it is.
         tape = replace(tape, drift=True)
-    return Made(tape, start)
+    return replace(tape, start=start)
 
 
 def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
@@ -248,11 +238,11 @@ def _reference(name: str, text: str, mills: bool = False) -> Result:
     return result
 
 
-def lay_out(made: Made, start: XY, positions: str) -> tuple[list[PlacedRoute], list[XY]]:
+def lay_out(tape: Tape, start: XY, positions: str) -> tuple[list[PlacedRoute], list[XY]]:
     """Return a tape's routes and stops in µm, its wire starting at `start` (mm); `positions` is one of
     `skg.tape.positions.POSITIONS`."""
     from skg.tape.layout import place, stop_places  # which loads numpy
 
     home = micrometres(start[0]), micrometres(start[1])
-    routes = place(made.tape, home, positions)
-    return routes, stop_places(made.tape, routes, home)
+    routes = place(tape, home, positions)
+    return routes, stop_places(tape, routes, home)

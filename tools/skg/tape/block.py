@@ -265,7 +265,7 @@ class Tape:
 
     `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so, in words (empty:
     it was made just now). `notes`: what there is to say of how it was read. `start`: where the wire starts on the
-    drawing, mm, where the tape says so. `kept`: what was worked out of the blocks (`skg.tape.columns.kept`).
+    drawing, mm. `kept`: what was worked out of the blocks (`skg.tape.columns.kept`).
     """
 
     name: str
@@ -274,7 +274,7 @@ class Tape:
     drift: bool | None = None
     drift_by: str = ""
     notes: tuple[str, ...] = ()
-    start: tuple[float, float] | None = None
+    start: tuple[float, float] = (0.0, 0.0)
     kept: dict[str, object] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod

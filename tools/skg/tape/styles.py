@@ -108,7 +108,7 @@ class _StyleReader:
             else:
                 raise self.error(index, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, index)}")
         self._trailer(bare, index, end)
-        place = (float(start[1]), float(start[2])) if start else None
+        place = (float(start[1]), float(start[2])) if start else (0.0, 0.0)
         return Tape.of(self.name, self.items, notes=self._notes(), start=place)
 
     def _note(self, is_so: bool, note: str) -> None:
