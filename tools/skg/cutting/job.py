@@ -52,7 +52,6 @@ class CutResult:
     routes: list[PlannedContour]
     program: str
     is_stored: bool
-    cycles: int
     data: bytes
     tape: Tape
     checked: Checked
@@ -296,7 +295,7 @@ def _tried(program: Program, machine: MachineSetup, progress: Progress) -> CutRe
     progress("check", 0, count)
     tape = tapes.parse(fed.tape, program.title)
     checked = check(tape, program.routes, machine.is_without_drift)
-    return CutResult(program.routes, text, is_stored, fed.cycles, fed.tape, tape, checked, machine)
+    return CutResult(program.routes, text, is_stored, fed.tape, tape, checked, machine)
 
 
 def _refused(program: Program, machine: MachineSetup) -> dict[int, ErrorLine]:
