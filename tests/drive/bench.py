@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from oneblock import run_block
 from test_rom import EXAMPLES, STEP_LIMIT, Driver
 
 from skg.tape.block import Block, Tape
-from skg.tape.controller import run_block
 from skg.tape.text import read
 
 #: Asked for in docs/spec/drive.md, cycles.

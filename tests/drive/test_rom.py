@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 from follower import CUTTING, follow, random_tape
+from oneblock import run_block
 
 import skg
-from skg.tape.controller import run_block
-from skg.tape.drive import drive_steps
+from skg.tape.controller import drive_steps
 from skg.tape.text import read
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -8,11 +8,11 @@ import pytest
 from click.testing import CliRunner, Result
 from facthelp import each_says
 from follower import CUTTING, X_MINUS, X_STEP, Y_MINUS, Y_STEP, follow, random_tape
+from oneblock import run_block
 
 from skg.cli import cli
 from skg.tape.block import Block, Stop, Tape
-from skg.tape.controller import run_block
-from skg.tape.drive import drive_steps
+from skg.tape.controller import drive_steps
 from skg.tape.text import read
 
 ROOT = Path(__file__).parents[2]

@@ -15,7 +15,7 @@ from emuhelp import ROM_SIZE, Skg80, complaint
 from facthelp import says
 
 from skg.machine import Machine
-from skg.tape.drive import drive_steps
+from skg.tape.controller import drive_steps
 from skg.tape.text import parse
 
 ROMS = Path(__file__).parents[2] / "roms"

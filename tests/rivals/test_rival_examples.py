@@ -10,9 +10,9 @@ from rivalhelp import ROOT
 from romhelp import Board, run
 
 from skg.ref import run as reference
-from skg.rivals.languages import MODULES, translated
+from skg.rivals.languages import RIVALS, translated
 
-PARTS = sorted(part for ending in MODULES for part in (ROOT / "examples").glob(f"*{ending}"))
+PARTS = sorted(part for ending in RIVALS for part in (ROOT / "examples").glob(f"*{ending}"))
 BOOK = {"fig1", "1-pointer", "2-hexagon", "star", "3-disc", "3-reversed"}
 TEXT = {"centres", "points", "planes", "lines"}
 OWN = {"xy-gear", "xy-die-set", "xy-pulley-plate", "tkh-fork", "tkh-cam", "tkh-bracket", "tkh-maltese"}

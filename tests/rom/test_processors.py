@@ -16,7 +16,7 @@ from romhelp import Board as OwnBoard
 from test_examples import stem
 
 from skg.ref import run as reference
-from skg.tape.drive import drive_steps
+from skg.tape.controller import drive_steps
 from skg.tape.text import read as read_tape
 
 RAM, RAM_END = 0x2000, 0x4000

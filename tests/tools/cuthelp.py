@@ -10,6 +10,7 @@ import ezdxf
 import pytest
 import shapely
 from ezdxf.document import Drawing
+from oneblock import run_block
 from shapely.geometry import Polygon
 from toolhelp import Run
 
@@ -17,7 +18,6 @@ from skg import tape as tapes
 from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.tape.block import Block
-from skg.tape.controller import run_block
 
 #: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
 LIMIT, CHORDS = 0.003, 0.0005

@@ -15,7 +15,7 @@ from skg.ref import run
 from skg.ref.cutter import Cutter
 from skg.ref.route import Segment
 from skg.ref.tape import Grid, Punch
-from skg.tape import parse_block
+from skg.tape import parse
 from skg.tape.controller import trace_array
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
@@ -89,7 +89,7 @@ def steps(part: Path, drift: bool) -> tuple[Step, ...]:
 
 def stepped(block: str, at: Grid) -> NDArray[np.int64]:
     """Every place of the controller (n × 2, µm) that follows one block from `at`, the first one included."""
-    parsed = parse_block(block)
+    parsed = parse(f"{block}\r\nDD\r\n".encode()).blocks[0]
     places = np.frombuffer(trace_array(parsed), np.int64).reshape(-1, 2)
     return np.vstack([[parsed.start], places]) - parsed.start + at
 

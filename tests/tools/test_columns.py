@@ -6,28 +6,49 @@ import sys
 import tracemalloc
 from dataclasses import replace
 from itertools import accumulate
+from math import atan2, pi, sqrt
 
 import numpy as np
 import pytest
 from facthelp import pattern
 from hypothesis import example, given
 from hypothesis import strategies as st
+from oneblock import run_block
 from test_tape import blocks
 from toolhelp import CAD_TAPE
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.geometry.plane import XY, minus
 from skg.tape import Block, Stop, Tape, arc_block, line_block
 from skg.tape.block import CODES
 from skg.tape.block_list import Blocks
 from skg.tape.columns import Columns, columns_of
-from skg.tape.controller import run_block
 from skg.tape.layout import Laid, Placed, place, stop_places
 from skg.tape.moves import machine_moves, walk
 from skg.tape.simulation import simulate
 
 #: Lines, arcs about an axis and a circle that come back to where they begin.
 TURN = "B343B706B706GYL1\r\nB0B343B343GYSR1\r\nB343B706B706GYL3\r\nB343B0B343GXL3\r\nB200B0B800GYNR1\r\n"
+
+
+def on_circle(block: Block) -> tuple[float, float]:
+    """A block's end, moved across its count axis onto the circle about the origin."""
+    along, beside = block.end[1 - block.across], block.end[block.across]
+    moved = sqrt(max(0, block.x**2 + block.y**2 - along**2)) * (1 if beside >= 0 else -1)
+    return (moved, along) if block.across == 0 else (along, moved)
+
+
+def placed_between(block: Block, start: XY, end: XY) -> Placed:
+    """A block from a start to an end, its sweep corrected by what these lie away from its own."""
+    if block.is_line:
+        return Placed(start, end, block=block)
+    centre = minus(start, block.start)
+    sweep = block.sweep
+    if not block.is_full_circle:
+        first, last = (atan2(y - centre[1], x - centre[0]) for x, y in (start, end))
+        sweep += (last - first - sweep + pi) % (2 * pi) - pi
+    return Placed(start, end, centre, sweep, block=block)
 
 
 @given(st.lists(blocks(), min_size=1, max_size=8))
@@ -49,7 +70,7 @@ def test_columns_say_what_blocks_say(several: list[Block]) -> None:
     assert columns.radii.tolist() == [block.radius for block in several]
     assert columns.turns.tolist() == [block.turn for block in several]
     assert columns.is_full_circle.tolist() == [block.is_full_circle for block in several]
-    assert columns.on_circles(columns.ends).tolist() == [list(block.on_circle(block.end)) for block in several]
+    assert columns.on_circles(columns.ends).tolist() == [list(on_circle(block)) for block in several]
     assert columns[1:].ends.tolist() == columns.ends[1:].tolist()
 
 
@@ -134,7 +155,7 @@ def test_laid_as_placed() -> None:
     (route,) = place(tape, (7, -3), "programmed")
     moves = [(one.end[0] - one.start[0], one.end[1] - one.start[1]) for one in route.blocks]
     ends = list(accumulate(moves, lambda at, move: (at[0] + move[0], at[1] + move[1]), initial=(7, -3)))
-    placed = [Placed.between(*one) for one in zip(tape.blocks, ends, ends[1:], strict=False)]
+    placed = [placed_between(*one) for one in zip(tape.blocks, ends, ends[1:], strict=False)]
     assert list(route.blocks) == placed and route.blocks[-2] == placed[-2] and list(route.blocks[4:6]) == placed[4:6]
     extremes = [place for one in placed for place in one.extremes()]
     (left, low), (right, high) = Laid.of(placed).extents()

@@ -21,6 +21,7 @@ from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretche
 from ezdxf.document import Drawing
 from facthelp import CARE, each_says, pattern, says
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from oneblock import run_block
 from shapely.geometry import LineString, Point, Polygon
 from toolhelp import Run, least_time
 
@@ -31,7 +32,6 @@ from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.machine import feeding
 from skg.machine.feeding import feed, feed_routes, rest_of, without_numbers
-from skg.tape.controller import run_block
 
 #: A drawing.
 BRACKET = Path(__file__).parents[2] / "docs/pictures/bracket.dxf"
@@ -263,7 +263,6 @@ def test_wrong_tapes_are_found() -> None:
     from skg.checking.check import check
     from skg.cutting.job import make
     from skg.cutting.refusal import refuse
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -271,7 +270,7 @@ def test_wrong_tapes_are_found() -> None:
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
     round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
     routes = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.1))
-    job = make(routes, "part", Settings())
+    job = make(routes, "part", MachineSetup())
     assert not job.checked.faults and job.checked.off < LIMIT
     wider = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.105))
     assert {fault.route for fault in check(job.tape, wider, True).faults} == {0, 1}
@@ -287,7 +286,7 @@ def test_wrong_tapes_are_found() -> None:
     checked = check(tapes.parse(open_one, "open"), routes, True)
     assert not checked.faults
     with pytest.raises(UserError, match=pattern("contour 2", "0, 1 µm", "controller", "arc")):
-        refuse(checked, routes, Settings())
+        refuse(checked, routes, MachineSetup())
 
 
 def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> None:
@@ -313,14 +312,13 @@ def test_the_controllers_steps_count() -> None:
     """The controller's own path is compared with 3 µm and reported: on a slant it steps aside."""
     from skg.checking.check import check
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
     for height, is_far in ((0.0, False), (3.7, True)):
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
         contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part", Settings())
+        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part", MachineSetup())
         found = check(job.tape, plan([contour], [(5.0, -3.0)], Wanted(offset=0.102)), True)
         assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
         if is_far:
@@ -345,14 +343,13 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
     """A pass that goes around a corner where the last one should is found, though no part is spoiled by it."""
     from skg.checking.check import check
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
     square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
     routes = plan([square], [(5.0, -3.0)], Wanted(offset=0.1, passes=(0.5, 0.3, 0.0)))
-    job = make(routes, "part", Settings())
+    job = make(routes, "part", MachineSetup())
     assert not job.checked.faults and len(job.checked.cuts) == 2
     corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
     assert job.data.count(corner) == 1
@@ -364,13 +361,12 @@ def test_a_circle_too_many_is_found() -> None:
     """At a corner the wire goes on along the line or circle there, but not all around that."""
     from skg.checking.check import check
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
     routes = plan([half], [], Wanted(offset=0.1))
-    job = make(routes, "part", Settings())
+    job = make(routes, "part", MachineSetup())
     assert not job.checked.faults
     (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
     around = job.data.replace(arc, b"B5099B100B20400GYNR4\r\n" + arc)
@@ -723,7 +719,6 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
     """The start hole of an opening with less room than the lead is long is not its centre, from where the ROM would go
     to the +X side, when something lies on that way."""
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -734,7 +729,7 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
     routes = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], Wanted(offset=offset))
     (opening,) = (route for route in routes if route.number == 1)
     assert opening.start != (0.0, 0.0)
-    assert not make(routes, "part", Settings()).checked.faults
+    assert not make(routes, "part", MachineSetup()).checked.faults
 
 
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
@@ -869,7 +864,6 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
     """Two squares, each with its own number of passes: all of these are checked, and none that is not there."""
     from skg.checking.check import check
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -879,7 +873,7 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
 
     wanted = [Wanted(offset=0.1, passes=one, tab=tab), Wanted(offset=0.1, passes=other)]
     routes = plan([square(0, 20), square(40, 10)], [], wanted)
-    made = make(routes, "squares", Settings())
+    made = make(routes, "squares", MachineSetup())
     assert not made.checked.faults and made.checked.off < LIMIT
     for at in (0, 1):
         # (a stop fewer or more would be found before: here a pass is wanted elsewhere)
@@ -1009,7 +1003,6 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     """Numbers do not touch each other, other texts, the part or another hole's mark; marks are smaller than what they
     mark."""
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan
@@ -1025,8 +1018,8 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
         contours.append(Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True))
-    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", Settings())
-    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm", MachineSetup(wire=0.18, gap=0.01)))
+    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", MachineSetup(wire=0.18, gap=0.01))
+    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
     sheet.save(str(tmp_path / "sheet.svg"), "svg")
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
@@ -1072,7 +1065,6 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
 def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
     """Whatever its form, it takes more than half of the page's free width or height; the stock stands on the page."""
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan
@@ -1080,9 +1072,9 @@ def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
     width, height = size
     corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
     contour = Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True)
-    job = make(plan([contour], [], Wanted(offset=0.1, lead=0.5)), "part", Settings())
     stock = MachineSetup(offset=0.1, material="1.2379", thickness="20 mm")
-    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm", stock))
+    job = make(plan([contour], [], Wanted(offset=0.1, lead=0.5)), "part", stock)
+    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
     texts = {text.get_text() for text in sheet.axes.texts}
     assert {"1.2379", "20 mm"} <= texts and any(says(text, "A: ", "outside", "0.1 mm") for text in texts)
@@ -1096,7 +1088,6 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     """Pairs of holes near each other, on paper or in the part: a number is nearest to its own hole, or has a line to
     it; none lies on the wire's path, and no letters are smaller than 5 points."""
     from skg.cutting.job import make
-    from skg.cutting.settings import Settings
     from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan
@@ -1105,9 +1096,9 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]
     rest = [(0.0, 4.0), (width, 4.0), (width, 9.0), (0.0, 9.0)]
     contours.append(Contour(tuple(Edge(p, q) for p, q in zip(rest, rest[1:] + rest[:1], strict=True)), True))
-    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part", Settings())
+    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part", MachineSetup())
     long = "a" * 40 + "b" * 40 + ".3b"
-    sheet = SetupSheet(job, Facts("part.dxf", long, "mm", MachineSetup()))
+    sheet = SetupSheet(job, Facts("part.dxf", long, "mm"))
     sheet.draw()
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
     to_page = sheet.axes.transData.inverted()

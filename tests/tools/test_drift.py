@@ -11,14 +11,14 @@ from drifthelp import EXAMPLES, OPEN, Curve, farthest, stepped, steps
 from facthelp import says
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from oneblock import run_block
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
 from skg.ref import run as reference
 from skg.ref.drift import arc
 from skg.ref.tape import Grid, quadrant_into
-from skg.tape import Block, parse_block
-from skg.tape.controller import run_block
+from skg.tape import Block, parse
 from skg.tape.simulation import simulate
 
 #: µm; docs/drift.md says why it cannot be 1.
@@ -143,7 +143,7 @@ def test_any_arc_ends_where_it_is_said_to(given_arc: tuple[Grid, Grid, bool, flo
         assert hypot(end[0] - start[0], end[1] - start[1]) ** 2 <= 2 * hypot(*start) + 1
         return
     text, move = made
-    assert run_block(parse_block(text)).move == move
+    assert run_block(parse(f"{text}\r\nDD\r\n".encode()).blocks[0]).move == move
     # Nearly round, or from the bisector: not farther from the end than start and roundings explain. 5 is reached
     # where both ends lie on a diagonal, 7 on circles of 8 µm (millions of such arcs were tried).
     off = hypot(start[0] + move[0] - end[0], start[1] + move[1] - end[1])

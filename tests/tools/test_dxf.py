@@ -9,7 +9,6 @@ import tracemalloc
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import cache
-from io import StringIO
 from itertools import pairwise, product
 from math import atan2, cos, hypot, pi, radians, sin, tan
 from pathlib import Path
@@ -24,18 +23,19 @@ from ezdxf.document import Drawing
 from facthelp import pattern, says
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from oneblock import run_block
+from tapedrawing import drawn
 from test_tape import blocks
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
-from skg.cutting.program import write
+from skg.cutting.program import Program
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, distance, minus, polar
 from skg.job.read_options import Wishes
 from skg.job.wanted import Wanted
-from skg.pictures.dxf import draw
-from skg.pictures.dxf import write as write_drawing
+from skg.pictures.dxf import _entities
 from skg.planning.plan import plan
 from skg.reading import dxf_entities, dxf_file
 from skg.reading.account import Content
@@ -44,7 +44,6 @@ from skg.ref import run as run_reference
 from skg.sources import load
 from skg.sources.load import lay_out
 from skg.tape import Block, Stop
-from skg.tape.controller import run_block
 from skg.tape.layout import place
 
 PARTS = Path(__file__).parent / "parts"
@@ -90,7 +89,8 @@ def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: objec
     contours = contours_of(edges_of(make))
     wanted = Wanted(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
     routes = plan(contours, content_of(make).starts, wanted)
-    return write([replace(route, has_fillets=bool(wishes.get("fillets", True))) for route in routes], make.__name__)
+    routes = [replace(route, has_fillets=bool(wishes.get("fillets", True))) for route in routes]
+    return Program(routes, make.__name__).numbered()
 
 
 def points_along(edges: list[Edge]) -> Iterator[XY]:
@@ -143,18 +143,18 @@ def path_edges(program: str) -> list[Edge]:
     return found
 
 
-def tape_edges(made: load.Made, positions: str, polylines: bool = False) -> list[Edge]:
+def tape_edges(made: tapes.Tape, positions: str, polylines: bool = False) -> list[Edge]:
     routes, stops = lay_out(made, made.start, positions)
-    return collect(draw(routes, stops, polylines), ("WIRE",)).edges
+    return collect(drawn(routes, stops, polylines), ("WIRE",)).edges
 
 
 @cache
-def by_reference(program: str, drift: bool) -> load.Made:
+def by_reference(program: str, drift: bool) -> tapes.Tape:
     """The tape that the reference makes of a program."""
     result = run_reference(program, drift=drift)
     assert result.error is None, (result.error, program)
     start = result.path[0].start
-    return load.Made(tapes.parse(result.tape), (float(start.x), float(start.y)))
+    return replace(tapes.parse(result.tape), start=(float(start.x), float(start.y)))
 
 
 @pytest.fixture(scope="module")
@@ -164,13 +164,13 @@ def emulator(build: Callable[..., None]) -> Path:
     return ROOT / "build" / "skg80"
 
 
-def by_rom(emulator: Path, image: str, program: str, directory: Path) -> load.Made:
+def by_rom(emulator: Path, image: str, program: str, directory: Path) -> tapes.Tape:
     """The tape that a ROM punches for a program."""
     part = directory / "part.skg"
     part.write_text(program)
     rom = ROOT / "roms" / f"{image}.bin"
     done = subprocess.run([emulator, "--rom", rom, "--max-cycles", str(10**12), part], capture_output=True, check=True)
-    return load.Made(tapes.parse(done.stdout), by_reference(program, True).start)
+    return replace(tapes.parse(done.stdout), start=by_reference(program, True).start)
 
 
 @pytest.mark.parametrize("make", drawings.ALL)
@@ -208,7 +208,7 @@ def row(make: Callable[[], Drawing]) -> str:
     assert figures[0] < LOST_ON_TAPE.get(make, LIMIT)
     assert figures[1] < LIMIT_WITHOUT_DRIFT
     name = make.__name__.replace("_", " ")
-    return f"| {name} | {len(made.tape.blocks)} | " + " | ".join(f"{figure:.2f}" for figure in figures) + " |\n"
+    return f"| {name} | {len(made.blocks)} | " + " | ".join(f"{figure:.2f}" for figure in figures) + " |\n"
 
 
 @pytest.mark.parametrize("make", drawings.ALL)
@@ -336,7 +336,7 @@ def test_any_tape_draws(items: list[Block]) -> None:
     if all(map(comes_back, items)):
         layouts.append(place(tape, positions="machine"))
     for routes, polylines in product(layouts, (False, True)):
-        found = collect(draw(routes, [], polylines)).edges
+        found = collect(drawn(routes, [], polylines)).edges
         for route in routes:
             for placed in route.blocks:
                 points = [(x / 1000, y / 1000) for x, y in (placed.start, placed.at(0.5), placed.end)]
@@ -351,9 +351,14 @@ def test_written_as_drawn(items: list[Block | Stop], polylines: bool) -> None:
         "-", (replace(item, number=at) if isinstance(item, Block) else item for at, item in enumerate(items, 1))
     )
     routes = place(tape, positions="programmed")
-    text = StringIO()
-    write_drawing(text, routes, [(0.0, 0.0), (1.5, -2.0)], polylines)
-    written, drawn = ezdxf.read(StringIO(text.getvalue())), draw(routes, [(0.0, 0.0), (1.5, -2.0)], polylines)
+    stops = [(0.0, 0.0), (1.5, -2.0)]
+    written, by_ezdxf = drawn(routes, stops, polylines), ezdxf.new("R2010")
+    for entity in _entities(routes, stops, polylines, ()):
+        attributes = {"layer": entity.layer, **entity.attributes}
+        if entity.kind == "LWPOLYLINE":
+            by_ezdxf.modelspace().add_lwpolyline(entity.vertices, "xyb", close=entity.is_closed, dxfattribs=attributes)
+        else:
+            by_ezdxf.modelspace().new_entity(entity.kind, attributes)
     assert not written.audit().errors
     ones, others = (
         [
@@ -365,7 +370,7 @@ def test_written_as_drawn(items: list[Block | Stop], polylines: bool) -> None:
             )
             for one in drawing.modelspace()
         ]
-        for drawing in (written, drawn)
+        for drawing in (written, by_ezdxf)
     )
     assert ones == others and len(ones) >= 2
 
@@ -413,7 +418,7 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     result = run("cut", drawing, "--offset", "0.1", "-o", os.devnull, "--program", program)
     assert result.exit_code == 0
     assert says(result.stderr, "layer 0", "10 entities", "9 cut", "1 left", "1 TEXT")
-    tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").tape.items))
+    tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
     assert layers == {"WIRE", "LEAD", "MOVES", "START", "STOPS"}
@@ -467,7 +472,9 @@ def test_large_curves_are_cut_as_arcs() -> None:
     space.add_ellipse((0, 0), (400, 0), 0.75)
     edge = collect(drawing).edges[0]
     assert len(edge.nodes) < 200
-    assert apart(path_edges(write(plan(contours_of([edge]), [], Wanted(side="on")), "ELLIPSE")), [edge]) < 0.3
+    assert (
+        apart(path_edges(Program(plan(contours_of([edge]), [], Wanted(side="on")), "ELLIPSE").numbered()), [edge]) < 0.3
+    )
 
 
 def star(count: int) -> list[XY]:

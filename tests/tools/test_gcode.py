@@ -246,7 +246,6 @@ IDLE = {
 def test_what_does_not_cut(text: str) -> None:
     tape, counted, why = IDLE[text]
     program = gcode_reader.read(f"G21 G90\n{text}")
-    assert gcode_reader.look(f"G21 G90\n{text}")[1] == program.notes
     assert tapes.to_bytes(program.tape().items).decode().split() == tape.split()
     said = f"{counted} moves with G1 to G3 do not cut: the "
     said += f"tool is {why}" if "up" in why else f"beam is off ({why})"
@@ -423,7 +422,7 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize("cycle", ["G81 R2 Z-1 X5", "G81 Z-1 R2 X5"])
 def test_the_first_number_without_a_unit_is_named(cycle: str) -> None:
     """Of R and Z of a drilling cycle it is the one that stands first, in every run."""
-    findings, _ = gcode_reader.look(f"G90\n{cycle}\nM2")
+    _, findings = gcode_reader.scan(f"G90\n{cycle}\nM2")
     assert says(findings[0], "line 2, column 5", "G20", "G21", "mm")
 
 
@@ -466,7 +465,6 @@ def test_a_line_takes_little_room() -> None:
 @given(st.text(alphabet="GXYZIJMNF0123 .-\n()%", max_size=60))
 def test_any_text(text: str) -> None:
     program, findings = gcode_reader.scan(text + "\nM02")
-    assert gcode_reader.look(text + "\nM02") == (findings, program.notes)
     assert all(hypot(*placed.end) < float("inf") for placed in program.path.laid())
     try:
         assert back(text + "\nM02").endswith(b"DD\r\n")

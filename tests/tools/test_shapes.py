@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from facthelp import says
+from oneblock import run_block
 from toolhelp import Run
 
 from skg import tape as tapes
@@ -19,7 +20,6 @@ from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed
 from skg.ref import run as reference
 from skg.tape.block import Block
-from skg.tape.controller import run_block
 
 #: What a fitted curve's tape may be off the exact one, mm: its blocks' ends, their centres, and FIT.
 LIMIT = 0.002

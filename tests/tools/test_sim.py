@@ -15,12 +15,12 @@ import pytest
 from facthelp import pattern, says
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from oneblock import run_block, trace_block
 from toolhelp import ROOT, Run, least_time
 
 from skg import tape as tapes
 from skg.errors import UserError
 from skg.tape import Block, arc_block, line_block, start_quadrant
-from skg.tape.controller import run_block, trace_block
 from skg.tape.simulation import simulate
 
 # Step towards the inside (F >= 0) and onwards (F < 0), written out for each sense and quadrant.

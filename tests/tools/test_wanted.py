@@ -10,9 +10,9 @@ import pytest
 from facthelp import pattern
 
 from skg.cutting.job import make
-from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
+from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.planning.plan import plan
 
@@ -32,7 +32,7 @@ def plate() -> list[Contour]:
 
 def cut(contours: list[Contour], wanted: list[Wanted]) -> list[int]:
     """The numbers of the contours in the order in which a checked tape cuts them."""
-    return [route.number for route in make(plan(contours, [], wanted), "plate", Settings()).routes]
+    return [route.number for route in make(plan(contours, [], wanted), "plate", MachineSetup()).routes]
 
 
 def test_what_is_left_stays_in_the_nesting() -> None:
@@ -65,7 +65,7 @@ def test_entry_and_start_hole(place: tuple[float, float]) -> None:
     hole = -5.0, -4.0
     (given,) = plan([plate()[0]], [], replace(wanted, start=hole))
     assert given.start == hole and dist(given.entry, place) < 0.5
-    assert len(make([chosen], "plate", Settings()).tape.blocks) >= 6
+    assert len(make([chosen], "plate", MachineSetup()).tape.blocks) >= 6
 
 
 def test_order() -> None:

@@ -14,8 +14,8 @@ from pathlib import Path
 import ezdxf
 import pytest
 from ezdxf.entities import DXFEntity
+from tapedrawing import drawn
 
-from skg.pictures.dxf import draw
 from skg.tape import gcode, text
 from skg.tape.layout import CUT, WAY_BACK, WAY_IN, PlacedRoute, place, stop_places
 from skg.tape.simulation import simulate
@@ -172,7 +172,7 @@ def test_units_in_node(tmp_path: Path) -> None:
         drawing = ezdxf.readfile(tmp_path / f"{name}.dxf")
         assert not drawing.audit().errors
         routes = place(tape, (0, 0), "programmed")
-        wanted = draw(routes, stop_places(tape, routes, (0, 0)))
+        wanted = drawn(routes, stop_places(tape, routes, (0, 0)))
         ours, theirs = (sorted(map(shape, one.modelspace()), key=str) for one in (drawing, wanted))
         assert len(ours) == len(theirs), name
         left = list(theirs)

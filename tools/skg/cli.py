@@ -94,7 +94,8 @@ def _print_version(ctx: click.Context, _option: click.Parameter, is_asked: bool)
     ctx.exit()
 
 
-@click.command(cls=LazyGroup)
+# (a default of nothing says show_default=False)
+@click.command(cls=LazyGroup, context_settings={"show_default": True})
 @click.option("--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version,
               help="Print the version, and the ROM's CRC-32.")  # fmt: skip
 def cli() -> None:

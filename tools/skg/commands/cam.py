@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import FiniteRange
+from skg.commands.options import Degrees, Millimetres
 from skg.commands.shape import shape_options, write_shape
 
 _LAWS = ("harmonic", "cycloidal", "polynomial")
@@ -14,52 +14,19 @@ MOST = 50_000.0
 
 
 @click.command(name="cam")
-@click.option("--base", required=True, metavar="MM", type=FiniteRange(0, MOST, min_open=True), help="Smallest radius.")
+@click.option("--base", required=True, type=Millimetres(0, MOST, min_open=True), help="Smallest radius.")
+@click.option("--lift", required=True, type=Millimetres(0, MOST, min_open=True), help="Lift of the follower.")
+@click.option("--rise", default=120.0, type=Degrees(1, 359), help="Angle of the rise.")
+@click.option("--dwell", default=30.0, type=Degrees(0, 358), help="Angle of the dwell at the top.")
+@click.option("--fall", default=120.0, type=Degrees(1, 359), help="Angle of the return.")
 @click.option(
-    "--lift",
-    required=True,
-    metavar="MM",
-    type=FiniteRange(0, MOST, min_open=True),
-    help="Lift of the follower.",
+    "--law", default="cycloidal", type=click.Choice(_LAWS), help="Motion of rise and return; polynomial: 3-4-5."
 )
 @click.option(
-    "--rise", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Angle of the rise."
-)
-@click.option(
-    "--dwell",
-    default=30.0,
-    show_default=True,
-    metavar="DEGREES",
-    type=FiniteRange(0, 358),
-    help="Angle of the dwell at the top.",
-)
-@click.option(
-    "--fall", default=120.0, show_default=True, metavar="DEGREES", type=FiniteRange(1, 359), help="Angle of the return."
-)
-@click.option(
-    "--law",
-    default="cycloidal",
-    show_default=True,
-    type=click.Choice(_LAWS),
-    help="Motion of rise and return; polynomial: 3-4-5.",
-)
-@click.option(
-    "--roller", default=0.0, metavar="MM", type=FiniteRange(0, MOST), help="Diameter of the follower's roller."
+    "--roller", default=0.0, show_default=False, type=Millimetres(0, MOST), help="Diameter of the follower's roller."
 )
 @shape_options
-def command(
-    base: float,
-    lift: float,
-    rise: float,
-    dwell: float,
-    fall: float,
-    law: str,
-    roller: float,
-    output: str,
-    offset: float | None,
-    tab: float,
-    tape: str | None,
-) -> None:
+def command(output: str, offset: float | None, tab: float, tape: str | None, **dimensions: float | str) -> None:
     """Write the SKG program that cuts a disc cam about the origin.
 
     Rise and return are nodes for FIT with their tangents. The program is run, and its tape compared with the exact
@@ -67,5 +34,5 @@ def command(
     """
     from skg.cutting.cam import Cam
 
-    cam = Cam(base, lift, rise, dwell, fall, law, roller)
-    write_shape(f"cam, {law}, lift {lift:g}", cam, output, offset, tab, tape)
+    cam = Cam(**dimensions)
+    write_shape(f"cam, {cam.law}, lift {cam.lift:g}", cam, output, offset, tab, tape)

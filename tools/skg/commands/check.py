@@ -14,7 +14,7 @@ from skg.errors import UserError
 from skg.file_type import TAPE, kind_of
 from skg.files import without_filling
 from skg.rivals.languages import is_program, is_rival
-from skg.sources.load import iso_text, program_text, tape_bytes
+from skg.sources.load import drawn_routes, iso_text, program_text, tape_bytes
 from skg.sources.milling import is_milling
 from skg.tape import gcode_reader
 from skg.tape.block import Tape
@@ -48,10 +48,10 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     for name in tapes_:
         text = iso_text(name)
         if text is not None:
-            findings, notes = gcode_reader.look(text)
+            program, findings = gcode_reader.scan(text)
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)
-            for note in notes:
+            for note in program.notes:
                 click.echo(f"skg: {name}: {note}", err=True)
         else:
             data = tape_bytes(name)
@@ -83,14 +83,7 @@ def _misfits(name: str) -> tuple[list[Spoilt], int]:
     wires, _ = routes_of(program, runs, mills)
     if not any(segment.offset for wire in wires for segment in wire):
         return [], 0
-    drawn, error = routes_of(program, runs, mills, is_drawn=True)
-    if error:
-        number, line = error
-        raise UserError(
-            f"{name}: ERR {number:02d}{f' LINE {line}' if line is not None else ''} with R 0: there is no contour that "
-            "the wire could be laid beside"
-        )
-    misfits, count = look(wires, drawn, "cutter" if mills else "wire")
+    misfits, count = look(wires, drawn_routes(name, program, runs, mills), "cutter" if mills else "wire")
     # (lines of a program that was translated are nobody's)
     return [replace(misfit, line=None) for misfit in misfits] if is_rival(name) else misfits, count
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import codecs
+from collections.abc import Callable
+from dataclasses import replace
 from os.path import realpath
 from pathlib import Path
 
@@ -9,9 +12,9 @@ import click
 from click.core import ParameterSource
 
 from skg.commands.options import (
-    FiniteRange,
+    COORDINATES,
+    Millimetres,
     RomName,
-    drawing_options,
     feed_option,
     numbers_in,
     offset_option,
@@ -25,35 +28,43 @@ from skg.geometry.plane import XY
 from skg.job import file as job_files
 from skg.job import values
 from skg.job.job import INTO, ROMS, SMALL, Job, MachineSetup
+from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
-from skg.job.wanted import LEAD_SHAPES, Partial, Wanted
+from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES, Partial, Wanted
 from skg.reading.read import Wishes, layer_lines
 
 
-class Passes(click.ParamType):
-    """Numbers with commas between them, none below 0, such as 0.06,0.02,0."""
+class JobValue(click.ParamType):
+    """A value that a function of `skg.job.values` takes."""
 
-    name = "MM,MM,..."
+    def __init__(self, name: str, check: Callable[[object], object]) -> None:
+        self.name, self.check = name, check
 
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
-        """Return the numbers."""
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> object:
+        """Return the value as the function has it."""
         try:
-            return values.passes(value if isinstance(value, tuple) else numbers_in(value))
+            return self.check(value)
         except values.Wrong as wrong:
             return self.fail(f"{value!r}: {wrong}", param, ctx)
 
 
-class Words(click.ParamType):
-    """A text of one line."""
+#: Numbers with commas between them, none below 0, such as 0.06,0.02,0.
+PASSES = JobValue("MM,MM,...", lambda value: values.passes(value if isinstance(value, tuple) else numbers_in(value)))
+#: A text of one line.
+WORDS = JobValue("text", values.text)
 
-    name = "text"
+
+class Encoding(click.ParamType):
+    """The name of an encoding of text."""
+
+    name = "NAME"
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the text."""
+        """Return the name as Python has it."""
         try:
-            return values.text(value)
-        except values.Wrong as wrong:
-            return self.fail(f"{value!r}: {wrong}", param, ctx)
+            return codecs.lookup(str(value)).name
+        except LookupError:
+            self.fail(f"{value!r}: unknown, expected one such as GBK, Big5, Shift_JIS or Windows-1251", param, ctx)
 
 
 #: Options allowed beside a job file: files to write, and how much to print.
@@ -66,51 +77,84 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and cut nothing.")
 @click.option("--program", metavar="FILE", type=click.Path(allow_dash=True), help="Also write the SKG program.")
 @click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
-@click.option("--wire", metavar="MM", type=FiniteRange(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
+@click.option("--wire", type=Millimetres(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
 @click.option(
     "--gap",
-    metavar="MM",
-    default=0.0,
-    type=FiniteRange(0, MOST_OFFSET),
+    type=Millimetres(0, MOST_OFFSET),
     help="Spark gap on each side of the wire.",
 )
 @offset_option(
     "The wire's distance from the contour, R, instead of --wire and --gap: half the wire plus the gap. Default: 0."
 )
-@drawing_options
+@click.option("--layer", "layers", multiple=True, metavar="NAME", help="Take only this layer; may be given again.")
+@click.option("--units", type=click.Choice(tuple(UNITS)), help="Units of the drawing, instead of the file's.")
+@click.option(
+    "--tolerance",
+    default=0.005,
+    type=Millimetres(0, min_open=True),
+    help="Join ends no further apart than this.",
+)
+@click.option(
+    "--open",
+    type=click.Choice(OPEN),
+    help="Cut, leave or refuse open contours; all: cut every line as drawn. Default: cut without an offset, "
+    "refuse with one.",
+)
+@click.option(
+    "--encoding",
+    type=Encoding(),
+    help="Encoding of a DXF file's names, such as GBK. Default: what the file says, else guessed.",
+)
+@click.option(
+    "--side",
+    default="auto",
+    type=click.Choice(SIDES),
+    help="Side of the wire. auto: outside of outlines, inside of openings.",
+)
+@click.option("--reverse", is_flag=True, help="Cut in the other direction.")
+@click.option(
+    "--start",
+    "starts",
+    multiple=True,
+    type=COORDINATES,
+    help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
+)
+@click.option("--start-layer", default=START, metavar="NAME", help="Layer of the points for start holes.")
+@click.option(
+    "--lead",
+    default=LEAD,
+    type=Millimetres(0, min_open=True),
+    help="Distance from a chosen start hole to the contour, room permitting.",
+)
 @click.option(
     "--fit-tolerance",
     default=0.0002,
-    show_default=True,
-    metavar="MM",
-    type=FiniteRange(values.LEAST_FIT),
+    type=Millimetres(values.LEAST_FIT),
     help="Largest distance of FIT from splines and ellipses.",
 )
 @click.option(
     "--lead-shape",
     default="perpendicular",
-    show_default=True,
     type=click.Choice(LEAD_SHAPES),
     help="arc: a quarter of a circle about the start hole touches the contour.",
 )
 @click.option(
     "--passes",
     metavar="MM,MM,...",
-    type=Passes(),
+    type=PASSES,
     help="Cut each contour so often, every second time backwards; what each pass leaves to the last offset, "
     "such as 0.06,0.02,0.",
 )
 @click.option(
     "--tab",
     default=0.0,
-    metavar="MM",
-    type=FiniteRange(0),
+    show_default=False,
+    type=Millimetres(0),
     help="Length of the bridge that keeps a part cut from outside; the machine stops, the last cut takes it off.",
 )
 @click.option(
     "--small",
     default="refuse",
-    show_default=True,
     type=click.Choice(SMALL),
     help="Refuse or leave closed contours that are too small or narrow for the wire beside them, or too short for "
     "the tab.",
@@ -118,7 +162,6 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option(
     "--into",
     default="refuse",
-    show_default=True,
     type=click.Choice(INTO),
     help="Refuse or cut closed contours whose wire would gouge another one, since they cross or lie too near to "
     "each other.",
@@ -126,16 +169,13 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option(
     "--rom",
     default="no-drift",
-    show_default=True,
     type=RomName(ROMS),
     help="The ROM that makes the tape. On a standard tape the misses of the arcs add up.",
 )
-@click.option(
-    "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(*values.RAM), help="The board's RAM, KiB."
-)
+@click.option("--ram", default=8, metavar="KIB", type=click.IntRange(*values.RAM), help="The board's RAM, KiB.")
 @feed_option
-@click.option("--material", metavar="TEXT", type=Words(), help="Material of the stock, for the setup sheet.")
-@click.option("--thickness", metavar="TEXT", type=Words(), help="Thickness of the stock, for the setup sheet.")
+@click.option("--material", metavar="TEXT", type=WORDS, help="Material of the stock, for the setup sheet.")
+@click.option("--thickness", metavar="TEXT", type=WORDS, help="Thickness of the stock, for the setup sheet.")
 @click.option(
     "--save-job", metavar="FILE", type=click.Path(), help="Also write what was asked for, as a job file: .job.toml."
 )
@@ -185,7 +225,7 @@ def command(
 
         tape = Path(output).name if output != "-" else "-"
         drawing = Path(path).name if path != "-" else "-"
-        write_sheet(cut.result, Facts(drawing, tape, cut.account.units, job.machine), sheet, form)
+        write_sheet(cut.result, Facts(drawing, tape, cut.account.units), sheet, form)
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
@@ -203,45 +243,23 @@ def is_job_file(name: str) -> bool:
     return name.lower().endswith(".toml")
 
 
-def _asked(
-    file: str,
-    wire: float | None,
-    gap: float,
-    offset: float | None,
-    side: str,
-    reverse: bool,
-    layers: tuple[str, ...],
-    units: str | None,
-    opened: str | None,
-    encoding: str | None,
-    starts: tuple[XY, ...],
-    start_layer: str,
-    lead: float,
-    lead_shape: str,
-    passes: tuple[float, ...] | None,
-    tab: float,
-    small: str,
-    into: str,
-    tolerance: float,
-    fit_tolerance: float,
-    rom: str,
-    ram: int,
-    feed: float,
-    material: str | None,
-    thickness: str | None,
-) -> Job:
-    """The job that the options ask for."""
-    read = Wishes(layers, start_layer, units, tolerance, fit_tolerance, opened, encoding)
+def _asked(file: str, starts: tuple[XY, ...], **options: object) -> Job:
+    """The job that the options ask for: they are named as the fields of its parts."""
+    job = Job("standard input" if file == "-" else Path(file).name, starts=starts)
     try:
-        machine = MachineSetup(wire, gap or None, offset, rom, ram, feed, small, into, material or "", thickness or "")
+        machine = replace(job.machine, **_said(options, job.machine))
     except UserError as error:
         raise UserError(f"--{error}") from None
-    asked = Wanted(side=side, reverse=reverse, passes=passes or (0.0,), tab=tab, lead=lead, lead_shape=lead_shape)
     usual = Wanted()
-    default = {key: value for key, value in vars(asked).items() if value != getattr(usual, key)}
-    return Job(
-        "standard input" if file == "-" else Path(file).name, "", None, read, machine, starts, Partial(**default)
-    )
+    wanted = {name: value for name, value in _said(options, usual).items() if value != getattr(usual, name)}
+    wanted.pop("offset", None)  # the machine's
+    read = replace(job.read, **_said(options, job.read))
+    return replace(job, read=read, machine=machine, default=Partial(**wanted))
+
+
+def _said(options: dict[str, object], part: Wishes | MachineSetup | Wanted) -> dict[str, object]:
+    """The options that are given, or have a default, for a part of the job."""
+    return {name: options[name] for name in vars(part) if options.get(name) is not None}
 
 
 def _loaded(file: str, context: click.Context) -> tuple[Job, str]:

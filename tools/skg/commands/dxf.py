@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import Coordinates, decided, output_option, positions_option, skg80_option
+from skg.commands.options import decided, output_option, positions_option, skg80_option, start_option
 from skg.errors import UserError
 from skg.files import text_output
 from skg.geometry.plane import XY
@@ -13,7 +13,7 @@ from skg.geometry.plane import XY
 @click.command(name="dxf")
 @click.argument("file", type=click.Path(allow_dash=True))
 @output_option("Drawing to write, - for the standard output.")
-@click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM of a program, else 0,0.")
+@start_option
 @click.option("--polylines", is_flag=True, help="One LWPOLYLINE with bulges for each contour.")
 @positions_option
 @skg80_option
@@ -37,7 +37,7 @@ def command(file: str, output: str, start: XY | None, polylines: bool, positions
         with text_output(output) as stream:
             write(stream, program.routes(), program.stop_places, polylines, program.holes)
         return
-    made = load(file, skg80)
-    routes, stops = lay_out(made, start or made.start, decided(made.tape, positions))
+    tape = load(file, skg80)
+    routes, stops = lay_out(tape, start or tape.start, decided(tape, positions))
     with text_output(output) as stream:
         write(stream, routes, stops, polylines)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import Coordinates, decided, numbers_in, output_option, positions_option
+from skg.commands.options import Numbers, decided, output_option, positions_option, start_option
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
@@ -15,21 +15,7 @@ from skg.tape.text import to_bytes
 
 #: mm/min, where nothing else is said.
 FEED = 100.0
-
-
-class OneOrTwo(click.ParamType):
-    """A number, or two with a comma between them."""
-
-    name = "D[,D1]"
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple:
-        """Return one or two numbers."""
-        if isinstance(value, tuple):
-            return value
-        numbers = numbers_in(value)
-        if len(numbers) not in (1, 2) or not all(abs(number) < 1e8 for number in numbers):
-            self.fail(f"{value!r}: expected a number, or two with a comma between them", param, ctx)
-        return numbers
+_ONE_OR_TWO = Numbers("D[,D1]", "a number, or two", 1, 2)
 
 
 def _feeds(feed: tuple[float, ...] | None) -> tuple[float, float]:
@@ -54,14 +40,14 @@ def _heights(heights: tuple[float, ...] | None) -> tuple[int, int] | None:
 @click.argument("source", metavar="[FILE]", default="-", type=click.Path(allow_dash=True))
 @output_option("File to write, - for the standard output.")
 @click.option("--back", is_flag=True, help="FILE is G-code, whatever its name: write a 3B tape.")
-@click.option("--start", type=Coordinates(), help="Place of the start hole, mm. Default: FROM of a program, else 0,0.")
+@start_option
 @click.option(
-    "--feed", type=OneOrTwo(), help="Feed in mm/min, and downwards if that is another one.  [default: 100, reported]"
+    "--feed", type=_ONE_OR_TWO, help="Feed in mm/min, and downwards if that is another one.  [default: 100, reported]"
 )
 @click.option(
     "--z",
     "heights",
-    type=OneOrTwo(),
+    type=_ONE_OR_TWO,
     help="Cutting height and travel height (left out: 5), mm: re-positionings go up and down instead of stopping.",
 )
 @positions_option
@@ -90,13 +76,8 @@ def command(
             raise UserError(f"{source}: a milling program says its own places, feeds and heights")
         write_bytes(output, iso.encode())
         return
-    made = load(source)
-    x, y = start or made.start
-    text = gcode.write(
-        made.tape,
-        (micrometres(x), micrometres(y)),
-        _feeds(feed),
-        _heights(heights),
-        decided(made.tape, positions),
-    )
+    tape = load(source)
+    x, y = start or tape.start
+    home, feeds = (micrometres(x), micrometres(y)), _feeds(feed)
+    text = gcode.write(tape, home, feeds, _heights(heights), decided(tape, positions))
     write_bytes(output, text.encode())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 from collections.abc import Callable
 from functools import wraps
 from importlib.util import find_spec
@@ -23,7 +22,6 @@ positions_option = click.option(
     "--positions",
     type=click.Choice(POSITIONS),
     default="auto",
-    show_default=True,
     help="Start each block where the block before should have ended (programmed), or where the controller "
     "really stands then (machine: tapes without drift); auto: as a program or the tape's name says, else programmed.",
 )
@@ -110,107 +108,20 @@ def _refuse_onto(context: click.Context) -> None:
 def answers_option(function: Callable) -> Callable:
     """The option --input, as `answers`; None when it is not given."""
     return click.option(
-        "--input",
-        "answers",
-        metavar="FILE",
-        type=click.Path(allow_dash=True),
-        help="Answers to INPUT, one line each.",
+        "--input", "answers", metavar="FILE", type=click.Path(allow_dash=True), help="Answers to INPUT, one line each."
     )(function)
 
 
 def offset_option(text: str) -> Callable[[Callable], Callable]:
     """The option --offset, None when it is not given; `text` is its help."""
-    return click.option("--offset", metavar="MM", type=FiniteRange(0, MOST_OFFSET), help=text)
+    return click.option("--offset", type=Millimetres(0, MOST_OFFSET), help=text)
 
 
 def feed_option(function: Callable) -> Callable:
     """Give a command the option --feed, of a wire."""
     return click.option(
-        "--feed",
-        default=5.0,
-        show_default=True,
-        metavar="MM/MIN",
-        type=FiniteRange(LEAST_FEED),
-        help="Feed, to compute the time.",
+        "--feed", default=5.0, metavar="MM/MIN", type=FiniteRange(LEAST_FEED), help="Feed, to compute the time."
     )(function)
-
-
-def drawing_options(function: Callable) -> Callable:
-    """Give a command the options for how a drawing is read, and how its contours are entered and run through."""
-    from skg.job.read_options import OPEN, START, UNITS
-    from skg.job.wanted import LEAD, SIDES
-
-    for option in (
-        click.option(
-            "--layer", "layers", multiple=True, metavar="NAME", help="Take only this layer; may be given again."
-        ),
-        click.option("--units", type=click.Choice(tuple(UNITS)), help="Units of the drawing, instead of the file's."),
-        click.option(
-            "--tolerance",
-            default=0.005,
-            show_default=True,
-            metavar="MM",
-            type=FiniteRange(0, min_open=True),
-            help="Join ends no further apart than this.",
-        ),
-        click.option(
-            "--open",
-            "opened",
-            type=click.Choice(OPEN),
-            help="Cut, leave or refuse open contours; all: cut every line as drawn. Default: cut without an offset, "
-            "refuse with one.",
-        ),
-        click.option(
-            "--encoding",
-            type=Encoding(),
-            help="Encoding of a DXF file's names, such as GBK. Default: what the file says, else guessed.",
-        ),
-        click.option(
-            "--side",
-            default="auto",
-            show_default=True,
-            type=click.Choice(SIDES),
-            help="Side of the wire. auto: outside of outlines, inside of openings.",
-        ),
-        click.option("--reverse", is_flag=True, help="Cut in the other direction."),
-        click.option(
-            "--start",
-            "starts",
-            multiple=True,
-            type=Coordinates(),
-            help="Start hole, mm; may be given again. Default: points on the layer START, else chosen.",
-        ),
-        click.option(
-            "--start-layer",
-            default=START,
-            show_default=True,
-            metavar="NAME",
-            help="Layer of the points for start holes.",
-        ),
-        click.option(
-            "--lead",
-            default=LEAD,
-            show_default=True,
-            metavar="MM",
-            type=FiniteRange(0, min_open=True),
-            help="Distance from a chosen start hole to the contour, room permitting.",
-        ),
-    )[::-1]:
-        function = option(function)
-    return function
-
-
-class Encoding(click.ParamType):
-    """The name of an encoding of text."""
-
-    name = "NAME"
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the name as Python has it."""
-        try:
-            return codecs.lookup(str(value)).name
-        except LookupError:
-            self.fail(f"{value!r}: unknown, expected one such as GBK, Big5, Shift_JIS or Windows-1251", param, ctx)
 
 
 def skg80_option(function: Callable) -> Callable:
@@ -237,6 +148,12 @@ class FiniteRange(click.FloatRange):
     """A number in a range: neither infinite nor NaN, which is in every range, and of no more digits than a tape has."""
 
     name = "number"
+    #: The number in the help of an option, where that does not say another.
+    unit: str | None = None
+
+    def get_metavar(self, *_param: object) -> str | None:
+        """Return the unit, as the help has it."""
+        return self.unit
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""
@@ -246,29 +163,52 @@ class FiniteRange(click.FloatRange):
         return number
 
 
-def numbers_in(value: object, number: type = float) -> tuple:
+class Millimetres(FiniteRange):
+    """A length."""
+
+    unit = "MM"
+
+
+class Degrees(FiniteRange):
+    """An angle."""
+
+    unit = "DEGREES"
+
+
+class Seconds(FiniteRange):
+    """A time."""
+
+    unit = "SECONDS"
+
+
+def numbers_in(value: object) -> tuple[float, ...]:
     """The numbers of a text with commas between them; none where something else stands there."""
     try:
-        return tuple(number(part) for part in str(value).split(","))
+        return tuple(float(part) for part in str(value).split(","))
     except ValueError:
         return ()
 
 
-class Coordinates(click.ParamType):
-    """Two numbers with a comma between them, such as 115000,-10000."""
+class Numbers(click.ParamType):
+    """Numbers with commas between them, as many as one of `counts`, such as 115,-10."""
 
-    name = "X,Y"
+    def __init__(self, name: str, expected: str, *counts: int) -> None:
+        self.name, self.expected, self.counts = name, expected, counts
 
-    def __init__(self, number: type = float) -> None:
-        self.number = number
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple:
-        """Return the two numbers."""
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """Return the numbers."""
         if isinstance(value, tuple):
             return value
-        result = numbers_in(value, self.number)
-        if len(result) != 2:
-            self.fail(f"{value!r}: expected two numbers with a comma between them", param, ctx)
-        if not all(abs(ordinate) < 10**MAX_DIGITS for ordinate in result):
+        result = numbers_in(value)
+        if len(result) not in self.counts:
+            self.fail(f"{value!r}: expected {self.expected} with a comma between them", param, ctx)
+        if not all(abs(number) < 10**MAX_DIGITS for number in result):
             self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
         return result
+
+
+#: A place.
+COORDINATES = Numbers("X,Y", "two numbers", 2)
+start_option = click.option(
+    "--start", type=COORDINATES, help="Place of the start hole, mm. Default: FROM of a program, else 0,0."
+)

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import click
 
 from skg.commands.options import (
+    COORDINATES,
     FORMATS,
-    Coordinates,
     FiniteRange,
+    Millimetres,
     decided,
     output_option,
     picture_format,
@@ -19,8 +20,6 @@ from skg.commands.options import (
 )
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.tape.block import micrometres
-from skg.tape.layout import stop_places
 
 if TYPE_CHECKING:
     from skg.pictures.plot import Sheet
@@ -34,8 +33,8 @@ if TYPE_CHECKING:
 @click.option(
     "--wire",
     default=0.0,
-    metavar="MM",
-    type=FiniteRange(0),
+    show_default=False,
+    type=Millimetres(0),
     help="Draw the cut of a wire of this diameter, to scale.",
 )
 @click.option("--no-arrows", is_flag=True, help="No arrows in the direction of travel.")
@@ -43,13 +42,13 @@ if TYPE_CHECKING:
 @click.option(
     "--start",
     multiple=True,
-    type=Coordinates(),
+    type=COORDINATES,
     help="Place of the start hole, mm; once for each FILE. Default: FROM of a program, else 0,0.",
 )
 @click.option(
     "--scale", metavar="N", type=FiniteRange(0, min_open=True), help="Drawing scale, 2 for 2:1. Default: fit the page."
 )
-@click.option("--title", default="", metavar="TEXT", help="A title above the drawing.")
+@click.option("--title", default="", show_default=False, metavar="TEXT", help="A title above the drawing.")
 @positions_option
 @skg80_option
 def command(
@@ -97,16 +96,13 @@ def command(
 def _laid(name: str, start: XY | None, positions: str, skg80: str | None, show_offset: bool) -> tuple[Sheet, list[XY]]:
     """The routes of a file and its stops, µm. (No more is kept of a tape: it may be long.)"""
     from skg.pictures.plot import Sheet
-    from skg.sources.load import contour_of, iso_program, load
-    from skg.tape.layout import place
+    from skg.sources.load import contour_of, iso_program, lay_out, load
 
+    contour = contour_of(name) if show_offset else ()
     if program := iso_program(name, skg80):
-        contour = contour_of(name) if show_offset else ()
         if heights := program.heights():
             click.echo(f"skg: {name}: {heights}", err=True)
         return Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)), program.stop_places
-    made = load(name, skg80, show_offset)
-    x, y = start or made.start
-    home = micrometres(x), micrometres(y)
-    routes = place(made.tape, home, decided(made.tape, positions))
-    return Sheet(Path(name).name, routes, made.contour), stop_places(made.tape, routes, home)
+    tape = load(name, skg80)
+    routes, stops = lay_out(tape, start or tape.start, decided(tape, positions))
+    return Sheet(Path(name).name, routes, contour), stops

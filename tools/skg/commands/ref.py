@@ -17,7 +17,6 @@ from skg.files import board_text, read_bytes, write_bytes
 @click.option(
     "--drift/--no-drift",
     default=True,
-    show_default=True,
     help="Let the controller's misses at the ends of arcs add up, or start each block where it really stands.",
 )
 @click.option("--mill", is_flag=True, help="The milling machine's language and its ISO tape, as roms/skg-mill.bin.")

@@ -1,19 +1,33 @@
-"""Common work of `skg xy` and `skg tekhtran`."""
+"""A command for each rival's language: `skg xy`, `skg tekhtran`."""
 
 from __future__ import annotations
 
 import click
 
+from skg.commands.options import output_option
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.rivals.languages import translated
 
 
-def write_program(part: str, ending: str, output: str) -> None:
-    """Write the SKG program for a rival's; what is wrong is said, with exit code 1."""
-    try:
-        program = translated(part, ending)
-    except UserError as error:
-        click.echo(str(error), err=True)
-        raise SystemExit(1) from None
-    write_bytes(output, program.encode("ascii"))
+def translator(name: str, ending: str, language: str) -> click.Command:
+    """The command that translates programs whose files' names have this ending."""
+
+    @click.command(
+        name=name,
+        help=f"""Write the SKG program that cuts what PART describes in {language}.
+
+        What is wrong with PART is said as FILE:LINE:COLUMN: TEXT, with exit code 1 and no program. PART - is the
+        standard input.""",
+    )
+    @click.argument("part", type=click.Path(allow_dash=True))
+    @output_option("Program to write, - for the standard output.")
+    def command(part: str, output: str) -> None:
+        try:
+            program = translated(part, ending)
+        except UserError as error:
+            click.echo(str(error), err=True)
+            raise SystemExit(1) from None
+        write_bytes(output, program.encode("ascii"))
+
+    return command

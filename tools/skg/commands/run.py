@@ -36,9 +36,7 @@ def _answers(name: str | None) -> Iterator[str]:
     help=f"The ROM: {', '.join(ROMS)}, or an image of your own, .bin or Intel .hex.  [default: "
     "standard; mill, reported, for a milling program]",
 )
-@click.option(
-    "--ram", default=8, show_default=True, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB."
-)
+@click.option("--ram", default=8, metavar="KIB", type=click.IntRange(2, 56), help="The board's RAM, KiB.")
 @answers_option
 @click.option(
     "--max-cycles",

@@ -13,7 +13,7 @@ from skg.files import write_bytes
 from skg.geometry.plane import XY
 from skg.sources.load import load
 from skg.tape.block import Tape
-from skg.tape.drive import drive_steps, stops_in_pairs
+from skg.tape.controller import drive_steps, stops_in_pairs
 from skg.tape.simulation import Report, closing, duration, simulate
 
 
@@ -105,7 +105,7 @@ def command(
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
     and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input.
     """
-    tapes = [load(name).tape for name in tapes_]
+    tapes = [load(name) for name in tapes_]
     reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
     if steps_file:
         _write_steps(steps_file, tapes)

@@ -18,7 +18,6 @@ from skg.tape.styles import STYLES, to_style
     "--style",
     type=click.Choice(list(STYLES)),
     default="punch",
-    show_default=True,
     help="Style of blocks. punch: as the board does; spaced: with blanks; numbered: N 1: and blanks; "
     "padded: with zeros to six digits; joined: all in one line.",
 )
@@ -28,7 +27,7 @@ def command(file: str, output: str, style: str) -> None:
     What was different from the punch's own style is said on standard error. A program (.skg, .xy, .tkh) is run first.
     FILE - (or none) is the standard input.
     """
-    tape = load(file).tape
+    tape = load(file)
     lost = tape.drift is False and output != "-" and not output.lower().endswith(WITHOUT_DRIFT)
     say(tape, f"its name says that it is without drift; end that of {output} in {WITHOUT_DRIFT} too" if lost else "")
     write_bytes(output, to_style(tape.items, style))

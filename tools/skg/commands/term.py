@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from skg.commands.options import FiniteRange
+from skg.commands.options import Seconds
 from skg.errors import UserError
 from skg.files import read_bytes
 
@@ -53,25 +53,26 @@ BOARD_BAUD = {"rc2014": 115200, "rc2014-sio": 115200}
     "--pace",
     type=click.Choice(("prompt", "none")),
     default="prompt",
-    show_default=True,
     help="prompt: look at the echo of each line and wait for the prompt behind it; none: wait for nothing but XOFF.",
 )
-@click.option(
-    "--delay", default=0.0, metavar="SECONDS", type=FiniteRange(0), help="Also wait this long after each line."
-)
+@click.option("--delay", default=0.0, show_default=False, type=Seconds(0), help="Also wait this long after each line.")
 @click.option(
     "--batch",
     is_flag=True,
     help="Leave when the board has answered the last line and the tape's DD was punched; nobody is at the keyboard.",
 )
-@click.option("--quiet", default=3.0, show_default=True, metavar="SECONDS", type=FiniteRange(0, min_open=True),
-              help="Time that --batch waits for more without a prompt.")  # fmt: skip
-@click.option("--silence", default=120.0, show_default=True, metavar="SECONDS", type=FiniteRange(0, min_open=True),
-              help="Give up a board that is silent this long and not back at its prompt.")  # fmt: skip
+@click.option(
+    "--quiet", default=3.0, type=Seconds(0, min_open=True), help="Time that --batch waits for more without a prompt."
+)
+@click.option(
+    "--silence",
+    default=120.0,
+    type=Seconds(0, min_open=True),
+    help="Give up a board that is silent this long and not back at its prompt.",
+)
 @click.option(
     "--patience",
-    metavar="SECONDS",
-    type=FiniteRange(0),
+    type=Seconds(0),
     help="Give up a port that stays away this long, 0: never. Default: 60 with --batch or without a terminal, else 0.",
 )
 def command(

@@ -14,7 +14,12 @@ from skg.errors import UserError
 @click.command(name="ui")
 @click.argument("file", required=False, type=click.Path(path_type=Path))
 @click.option(
-    "--port", default=0, metavar="NUMBER", type=click.IntRange(0, 65535), help="Port of the page. Default: a free one."
+    "--port",
+    default=0,
+    show_default=False,
+    metavar="NUMBER",
+    type=click.IntRange(0, 65535),
+    help="Port of the page. Default: a free one.",
 )
 @click.option("--no-browser", is_flag=True, help="Print the page's address and open no browser.")
 def command(file: Path | None, port: int, no_browser: bool) -> None:

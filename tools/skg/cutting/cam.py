@@ -8,11 +8,11 @@ from itertools import accumulate
 from math import atan2, cos, hypot, pi, radians, sin
 
 from skg.cutting.job import CutResult, make
-from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY
+from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.planning.plan import plan
 
@@ -110,7 +110,7 @@ class Cam:
 
     def cut(self, name: str, wanted: Wanted) -> CutResult:
         """Make a tape of the cam."""
-        return make(plan(self.contours(), [], wanted), name, Settings())
+        return make(plan(self.contours(), [], wanted), name, MachineSetup(small="", into=""))
 
     def _refuse_undercut(self) -> None:
         """Refuse a roller's path that bends more than the roller: it would cut into the profile."""

@@ -12,11 +12,11 @@ import numpy as np
 
 from skg.cutting.job import CutResult, make, run
 from skg.cutting.program import Program, RoutePart, parts_of
-from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY, polar
+from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.planning.plan import plan
 from skg.planning.route import PlannedContour
@@ -89,8 +89,8 @@ class Gear:
         if not wanted.tab:
             routes = [route if route.number else self._from_a_tip(route, wanted.lead) for route in routes]
             with suppress(UserError):
-                return run(Program(routes, name, self._parts), Settings())
-        return make(routes, name, Settings())
+                return run(Program(routes, name, self._parts), MachineSetup(small="", into=""))
+        return make(routes, name, MachineSetup(small="", into=""))
 
     def _from_a_tip(self, route: PlannedContour, lead: float) -> PlannedContour:
         """The outline, entered where a tooth begins: there the next one goes on."""

@@ -13,9 +13,10 @@ from skg.checking.check import Checked, check
 from skg.checking.wire_path import Misfit
 from skg.cutting import refusal
 from skg.cutting.program import Program, Step, writes_fillets
-from skg.cutting.settings import Progress, Settings, in_silence
+from skg.cutting.progress import Progress, in_silence
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom, has_spike
+from skg.job.job import MachineSetup
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
 from skg.planning.entries import longest_tab
@@ -51,11 +52,10 @@ class CutResult:
     routes: list[PlannedContour]
     program: str
     is_stored: bool
-    cycles: int
     data: bytes
     tape: Tape
     checked: Checked
-    settings: Settings
+    machine: MachineSetup
     left: tuple[Left, ...] = ()
 
     @property
@@ -66,34 +66,34 @@ class CutResult:
     @property
     def seconds(self) -> float:
         """Time of cutting, s."""
-        return self.cut_length / self.settings.feed * 60
+        return self.cut_length / self.machine.feed * 60
 
 
 #: Why a contour does not go through: an error of the ROM, or what the check finds wrong.
 _Trouble = ErrorLine | list[Misfit]
 
 
-def make(routes: list[PlannedContour], title: str, settings: Settings, progress: Progress = in_silence) -> CutResult:
+def make(routes: list[PlannedContour], title: str, machine: MachineSetup, progress: Progress = in_silence) -> CutResult:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
     Each contour is written as it is drawn, unless the ROM or the check refuses that; then the remedies of `_RUNGS`
     follow, for this contour alone. Nothing is returned that is wrong: a contour that cannot be cut, or that is not cut
     as it is drawn, is a `UserError`.
     """
-    ladder = _Ladder(routes, title, settings, progress)
+    ladder = _Ladder(routes, title, machine, progress)
     ladder.leave_short()
     ladder.tame()
     job = ladder.around_tips(ladder.through())
-    refusal.refuse(job.checked, job.routes, settings)
+    refusal.refuse(job.checked, job.routes, machine)
     return replace(job, left=tuple(ladder.left))
 
 
-def run(program: Program, settings: Settings) -> CutResult:
+def run(program: Program, machine: MachineSetup) -> CutResult:
     """Let the board run a program, check the tape; one that is refused, or wrong, is a `UserError`."""
-    job = _tried(program, settings, in_silence)
+    job = _tried(program, machine, in_silence)
     if isinstance(job, ErrorLine):
         raise UserError(refusal.meaning(job.number))
-    refusal.refuse(job.checked, job.routes, settings)
+    refusal.refuse(job.checked, job.routes, machine)
     return job
 
 
@@ -133,18 +133,18 @@ class _Ladder:
     """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `left`: those that
     are not cut."""
 
-    def __init__(self, routes: list[PlannedContour], title: str, settings: Settings, progress: Progress) -> None:
+    def __init__(self, routes: list[PlannedContour], title: str, machine: MachineSetup, progress: Progress) -> None:
         self.routes = dict(enumerate(routes))
         self.left: list[Left] = []
         self.title = title
-        self.settings = settings
+        self.machine = machine
         self.progress = progress
 
     def leave_short(self) -> None:
         """Leave outlines that are too short for their tab; a `UserError` where they are refused."""
         fits = {number: longest_tab(route.contour) for number, route in self.routes.items() if route.is_short}
-        if fits and self.settings.small != "leave":
-            raise refusal.without_tab(self.routes, fits, self.settings)
+        if fits and self.machine.small != "leave":
+            raise refusal.without_tab(self.routes, fits, self.machine)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
 
     def tame(self) -> None:
@@ -185,7 +185,7 @@ class _Ladder:
             cut_job, troubles = self._try(self.routes | around)
             if not troubles:
                 with suppress(UserError):
-                    refusal.refuse(cut_job.checked, cut_job.routes, self.settings)
+                    refusal.refuse(cut_job.checked, cut_job.routes, self.machine)
                     return cut_job
             around = {number: route for number, route in around.items() if number not in troubles} if troubles else {}
         return job
@@ -193,9 +193,9 @@ class _Ladder:
     def _try(self, routes: dict[int, PlannedContour]) -> tuple[CutResult | None, dict[int, _Trouble]]:
         """Cut some contours: what comes of it, and which do not go through."""
         numbers, program = list(routes), Program(list(routes.values()), self.title)
-        job = _tried(program, self.settings, self.progress)
+        job = _tried(program, self.machine, self.progress)
         if isinstance(job, ErrorLine):
-            refused = _refused(program, self.settings) or dict.fromkeys(range(len(numbers)), job)
+            refused = _refused(program, self.machine) or dict.fromkeys(range(len(numbers)), job)
             return None, {numbers[index]: error for index, error in refused.items()}
         troubles: dict[int, _Trouble] = defaultdict(list)
         for fault in job.checked.faults:
@@ -225,7 +225,7 @@ class _Ladder:
 
     def _reason(self, trouble: _Trouble) -> str:
         """Explain why a contour that nothing helps is left; empty where it may not be."""
-        if self.settings.small != "leave" or isinstance(trouble, ErrorLine):
+        if self.machine.small != "leave" or isinstance(trouble, ErrorLine):
             return ""
         return next(filter(None, (refusal.why_no_room(fault) for fault in trouble)), "")
 
@@ -233,9 +233,9 @@ class _Ladder:
         """Report a contour that nothing helps."""
         route = self.routes[number]
         if not isinstance(trouble, ErrorLine):
-            return refusal.off_drawing(trouble, route, self.settings)
+            return refusal.off_drawing(trouble, route, self.machine)
         _, steps, _ = Program([route], "").unnumbered()
-        fed, done = feed_lines([_text([step]) for step in steps], self.settings.rom, self.settings.ram_kib)
+        fed, done = feed_lines([_text([step]) for step in steps], self.machine.rom, self.machine.ram)
         if not fed.error:
             return UserError(refusal.meaning(trouble.number), route.number)
         place = [route.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
@@ -248,9 +248,9 @@ class _Ladder:
     def _leave_without_room(self, no_room: dict[int, NoRoom], among: Iterable[int]) -> None:
         """Leave contours that the wire does not get around; where they are refused, a `UserError` on all that there are
         among some."""
-        if no_room and self.settings.small != "leave":
+        if no_room and self.machine.small != "leave":
             no_room = {number: why for number in among if (why := _no_room(self.routes[number]))}
-            raise refusal.without_room(self.routes, no_room, self.settings)
+            raise refusal.without_room(self.routes, no_room, self.machine)
         self._leave({number: f"{why} {shown(why.place)}" for number, why in no_room.items()})
 
     def _leave(self, reasons: dict[int, str]) -> None:
@@ -285,37 +285,37 @@ def _no_room(route: PlannedContour) -> NoRoom | None:
     return None
 
 
-def _tried(program: Program, settings: Settings, progress: Progress) -> CutResult | ErrorLine:
+def _tried(program: Program, machine: MachineSetup, progress: Progress) -> CutResult | ErrorLine:
     """Let the board run a program, and check the tape; the error where the ROM refuses it."""
     count = len(program.routes)
     progress("board", 0, count)
-    text, is_stored, fed = _through(program, settings, lambda done: progress("board", done, count))
+    text, is_stored, fed = _through(program, machine, lambda done: progress("board", done, count))
     if fed.error:
         return fed.error
     progress("check", 0, count)
     tape = tapes.parse(fed.tape, program.title)
-    checked = check(tape, program.routes, settings.is_without_drift)
-    return CutResult(program.routes, text, is_stored, fed.cycles, fed.tape, tape, checked, settings)
+    checked = check(tape, program.routes, machine.is_without_drift)
+    return CutResult(program.routes, text, is_stored, fed.tape, tape, checked, machine)
 
 
-def _refused(program: Program, settings: Settings) -> dict[int, ErrorLine]:
+def _refused(program: Program, machine: MachineSetup) -> dict[int, ErrorLine]:
     """The routes that the ROM refuses."""
     _, *routes, _ = map(_text, program.unnumbered())
-    return refused_routes(routes, settings.rom, settings.ram_kib)
+    return refused_routes(routes, machine.rom, machine.ram)
 
 
-def _through(program: Program, settings: Settings, on_done: Callable[[int], None]) -> tuple[str, bool, Fed]:
+def _through(program: Program, machine: MachineSetup, on_done: Callable[[int], None]) -> tuple[str, bool, Fed]:
     """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
     text = ""
-    if _LEAST_STORED * len(program.routes) <= 1024 * settings.ram_kib:
+    if _LEAST_STORED * len(program.routes) <= 1024 * machine.ram:
         with suppress(UserError):
             text = program.numbered()
     if text:
-        fed = feed(text, settings.rom, settings.ram_kib)
+        fed = feed(text, machine.rom, machine.ram)
         if fed.error is None or fed.error.number != MEMORY_FULL:
             return text, True, fed
     parts, written = tee(map(_text, program.unnumbered()))
-    fed = feed_routes(parts, settings.rom, settings.ram_kib, on_done)
+    fed = feed_routes(parts, machine.rom, machine.ram, on_done)
     return "".join(written), False, fed
 
 

@@ -371,8 +371,3 @@ def writes_fillets(route: PlannedContour) -> bool:
     """Tell whether an arc between lines of a route is written as a fillet's radius."""
     runs = (run.edges for run in route.runs())
     return route.has_fillets and any(_fillet(edges, index) is not None for edges in runs for index in range(len(edges)))
-
-
-def write(routes: list[PlannedContour], title: str) -> str:
-    """Return the numbered program that cuts the routes; `title` goes into its first line."""
-    return Program(routes, title).numbered()

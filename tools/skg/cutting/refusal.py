@@ -9,10 +9,10 @@ from math import copysign, floor, inf
 from skg.checking.check import Checked
 from skg.checking.gouges import Crossing
 from skg.checking.wire_path import LIMIT, Misfit
-from skg.cutting.settings import Settings
 from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.offset import NoRoom, widest, wire_way
+from skg.job.job import MachineSetup
 from skg.planning.route import PlannedContour
 from skg.wording import counted, short, shown
 
@@ -43,17 +43,17 @@ def too_short(fit: float) -> str:
     return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
 
 
-def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], settings: Settings) -> UserError:
+def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], machine: MachineSetup) -> UserError:
     """Report outlines that their tab does not fit: the shortest one."""
     number = min(fits, key=fits.__getitem__)
     route = routes[number]
     message = f"{route.name}: {too_short(fits[number])}"
     if len(fits) > 1:
         message += f"; {counted(len(fits) - 1, 'more contour')} without room for the tab"
-    return UserError(f"{message}: take a shorter --tab{_or_leave(settings)}", route.number, route.entry)
+    return UserError(f"{message}: take a shorter --tab{_or_leave(machine)}", route.number, route.entry)
 
 
-def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], settings: Settings) -> UserError:
+def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], machine: MachineSetup) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
     number, fit = _tightest(routes, none)
     route = routes[number]
@@ -69,7 +69,7 @@ def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], 
         help_ = "take a smaller offset or a thinner wire"
     if len(none) > 1:
         message += f"; {counted(len(none) - 1, 'more contour')} without room for the wire"
-    return UserError(f"{message}: {help_}{_or_leave(settings)}", route.number, none[number].place)
+    return UserError(f"{message}: {help_}{_or_leave(machine)}", route.number, none[number].place)
 
 
 def _in_passes(route: PlannedContour, fit: float) -> str:
@@ -104,8 +104,8 @@ def _fits(contour: Contour, r: float) -> bool:
     return False
 
 
-def _or_leave(settings: Settings) -> str:
-    return ", or leave such contours out with --small leave" if settings.small else ""
+def _or_leave(machine: MachineSetup) -> str:
+    return ", or leave such contours out with --small leave" if machine.small else ""
 
 
 def why_no_room(fault: Misfit) -> str:
@@ -116,29 +116,29 @@ def why_no_room(fault: Misfit) -> str:
     return f"the wire does not come to {place}" if fault.is_missed else ""
 
 
-def off_drawing(faults: list[Misfit], route: PlannedContour, settings: Settings) -> UserError:
+def off_drawing(faults: list[Misfit], route: PlannedContour, machine: MachineSetup) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
     if why := why_no_room(fault):
         message = (
             f"{why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
-            f"take a smaller one or a thinner wire{_or_leave(settings)}"
+            f"take a smaller one or a thinner wire{_or_leave(machine)}"
         )
     else:
         place, off = shown(fault.place), f"{short(1000 * fault.off)} µm off the drawing"
         where = (
             f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
         )
-        message = f"the wire would be {where}: nothing was written; {_advice(fault, route, settings)}"
+        message = f"the wire would be {where}: nothing was written; {_advice(fault, route, machine)}"
     return UserError(f"{route.name}: {message}", route.number, fault.place)
 
 
-def refuse(checked: Checked, routes: list[PlannedContour], settings: Settings) -> None:
+def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup) -> None:
     """Raise what is wrong with a tape, if anything is, as a `UserError`."""
     if checked.faults:
         first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.route)).route
         faults = [fault for fault in checked.faults if fault.route == first]
-        raise off_drawing(faults, routes[first], settings)
+        raise off_drawing(faults, routes[first], machine)
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
@@ -153,11 +153,11 @@ def refuse(checked: Checked, routes: list[PlannedContour], settings: Settings) -
         for crossing in checked.crossings
         if all(routes[number].contour.is_closed for number in (crossing.route, crossing.other))
     ]
-    if spoilt and settings.into != "cut":
-        raise _spoilt(spoilt, routes, settings)
+    if spoilt and machine.into != "cut":
+        raise _spoilt(spoilt, routes, machine)
 
 
-def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], settings: Settings) -> UserError:
+def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], machine: MachineSetup) -> UserError:
     """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda crossing: (crossing.is_through, crossing.depth))
     message = (
@@ -168,7 +168,7 @@ def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], settings: Sett
         message += f"; {counted(len(spoilt) - 1, 'more cut')} into other contours"
     message += (
         ": these cross, or lie nearer to each other than the wire is wide; move them apart, take a thinner "
-        f"wire or some of the layers{', or cut them all the same with --into cut' * bool(settings.into)}"
+        f"wire or some of the layers{', or cut them all the same with --into cut' * bool(machine.into)}"
     )
     return UserError(message, routes[worst.route].number, worst.place)
 
@@ -178,9 +178,9 @@ def into(crossing: Crossing) -> str:
     return f"{short(crossing.depth)} mm{' or more' * crossing.is_through} into"
 
 
-def _advice(fault: Misfit, route: PlannedContour, settings: Settings) -> str:
+def _advice(fault: Misfit, route: PlannedContour, machine: MachineSetup) -> str:
     """Return remedies for a wire that is off the drawing."""
-    if not settings.is_without_drift:
+    if not machine.is_without_drift:
         return "--rom no-drift is nearer"
     edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
     ends = " to ".join(shown(end) for end in (edge.start, edge.end))

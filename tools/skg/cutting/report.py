@@ -44,7 +44,7 @@ def report(job: CutResult, offset: float = 0.0) -> list[ReportLine]:
 
 def _facts(job: CutResult, offset: float) -> Iterator[str]:
     """Order, manners, length, how the tape was made and what the check found."""
-    settings, routes = job.settings, job.routes
+    machine, routes = job.machine, job.routes
     kinds = Counter(route.kind for route in routes)
     holes = [shown(route.start) for route in routes]
     yield (
@@ -54,7 +54,7 @@ def _facts(job: CutResult, offset: float) -> Iterator[str]:
     )
     yield from _manners(routes, offset)
     yield (
-        f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {settings.feed:g} mm/min; "
+        f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {machine.feed:g} mm/min; "
         f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}"
     )
     if reasons := "; ".join(stops(routes)):
@@ -64,7 +64,7 @@ def _facts(job: CutResult, offset: float) -> Iterator[str]:
         if job.is_stored
         else "lines without numbers, carried out as they are loaded: stored it would not fit"
     )
-    yield f"made by the {settings.rom} ROM with {settings.ram_kib} KiB of RAM from {how}"
+    yield f"made by the {machine.rom} ROM with {machine.ram} KiB of RAM from {how}"
     checked = f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
     if drift := job.checked.drift:
         yield checked

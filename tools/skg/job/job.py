@@ -27,7 +27,7 @@ class MachineSetup:
 
     `wire`: its diameter, `gap`: the spark gap on each side, `offset`: the wire's distance from the contours instead of
     these, all mm, None: not told. `rom`: one of `ROMS`; `ram`: KiB; `feed`: mm/min. `small`, `into`: what becomes of
-    contours without room. `material`, `thickness`: texts for the setup sheet.
+    contours without room, empty where nobody is asked. `material`, `thickness`: texts for the setup sheet.
     """
 
     wire: float | None = None
@@ -50,6 +50,11 @@ class MachineSetup:
             raise UserError(
                 f"wire and gap put the wire {self.distance:g} mm beside the contour, at most {MOST_OFFSET:g}"
             )
+
+    @property
+    def is_without_drift(self) -> bool:
+        """Tell whether a tape's blocks start where the controller stands."""
+        return self.rom == "no-drift"
 
     @property
     def distance(self) -> float:

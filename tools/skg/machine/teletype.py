@@ -188,10 +188,7 @@ class Teletype:
 
     def say(self, message: str) -> None:
         """A line from `skg term` itself, on stderr."""
-        self._plain(f"skg term: {message}")
-
-    def _plain(self, message: str) -> None:
-        tqdm.write(message.replace("\n", "\r\n") + "\r", file=sys.stderr)
+        tqdm.write(f"skg term: {message}".replace("\n", "\r\n") + "\r", file=sys.stderr)
 
     def paper(self, data: bytes) -> None:
         """Print what the port typed."""
@@ -238,10 +235,11 @@ class Teletype:
             self.punching.update(data.count(b"\n"))
         self.news.set()
         self.tail = (self.tail + data)[-8:].replace(b"\r", b"")
-        self.ended = self.ended or b"DD\n" in self.tail[-8:]
-        if b"DD\n" in self.tail and self.punching is not None:
-            self.punching.close()
-            self.punching = None
+        if b"DD\n" in self.tail:
+            self.ended = True
+            if self.punching is not None:
+                self.punching.close()
+                self.punching = None
 
     @property
     def asks(self) -> bool:
@@ -274,15 +272,11 @@ class Teletype:
     def wait(self, until: Callable[[], bool], quiet: float) -> bool:
         """Wait until something is so, or until nothing has come in for `quiet` seconds; tells whether it is so."""
         since = time.monotonic()
-        while not (is_so := until()) and min(time.monotonic() - since, self.quiet_for()) <= quiet:
+        while not (is_so := until()) and time.monotonic() - max(since, self.last) <= quiet:
             self.check()
             self.news.wait(0.1)
             self.news.clear()
         return is_so
-
-    def quiet_for(self) -> float:
-        """Seconds since anything came in."""
-        return time.monotonic() - self.last
 
     def listen(self, port: Port, is_punch: bool) -> None:
         """Read a port until it is closed (a thread's body)."""

@@ -11,7 +11,6 @@ from math import degrees, pi, tan
 from typing import TextIO
 
 import ezdxf
-from ezdxf.document import Drawing
 from ezdxf.entities import LWPolyline, factory
 from ezdxf.lldxf.tagwriter import TagWriter
 
@@ -109,30 +108,6 @@ def _entities(
             yield _Entity("POINT", layer, {"location": _millimetres(place)})
 
 
-def _empty(has_holes: bool = False) -> Drawing:
-    """A drawing with the layers and nothing on them."""
-    drawing = ezdxf.new("R2010", units=ezdxf.units.MM)
-    for name, colour in LAYERS.items():
-        drawing.layers.add(name, color=colour)
-    if has_holes:
-        drawing.layers.add(HOLES, color=HOLES_COLOUR)
-    drawing.header["$PDMODE"], drawing.header["$PDSIZE"] = 34, 1.0
-    return drawing
-
-
-def draw(routes: list[PlacedRoute], stops: list[XY], polylines: bool = False) -> Drawing:
-    """Return the drawing of a tape that was laid out; `stops` are places in µm."""
-    drawing = _empty()
-    space = drawing.modelspace()
-    for entity in _entities(routes, stops, polylines, ()):
-        attributes = {"layer": entity.layer, **entity.attributes}
-        if entity.kind == "LWPOLYLINE":
-            space.add_lwpolyline(entity.vertices, format="xyb", close=entity.is_closed, dxfattribs=attributes)
-        else:
-            space.new_entity(entity.kind, attributes)
-    return drawing
-
-
 def write(
     stream: TextIO,
     routes: list[PlacedRoute],
@@ -140,12 +115,15 @@ def write(
     polylines: bool = False,
     holes: Sequence[XY] = (),
 ) -> None:
-    """Write the drawing of a tape that was laid out: what `draw` returns, but of any size, and with drilled holes (µm).
+    """Write the drawing of a tape of any length that was laid out; `stops` and `holes`, drilled ones, are places in µm.
 
     ezdxf takes a kilobyte and a tenth of a millisecond for each entity. So it writes the drawing without its entities,
     and one of every kind and layer as the pattern of all others.
     """
-    drawing, text = _empty(bool(holes)), StringIO()
+    drawing, text = ezdxf.new("R2010", units=ezdxf.units.MM), StringIO()
+    for name, colour in (LAYERS | {HOLES: HOLES_COLOUR} if holes else LAYERS).items():
+        drawing.layers.add(name, color=colour)
+    drawing.header["$PDMODE"], drawing.header["$PDSIZE"] = 34, 1.0
     owner, first = drawing.modelspace().layout_key, int(drawing.entitydb.next_handle(), 16)
     # Each block makes at most one entity besides the point where its route begins and the one where it stops.
     most = 2 * sum(len(route.blocks) for route in routes) + len(stops) + len(holes)

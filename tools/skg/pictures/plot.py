@@ -220,66 +220,45 @@ class Picture:
         for index, place in enumerate(sheet.holes, 1):
             self._hole(place, colour, f"{name}-hole-{index}")
         if sheet.contour:
-            curve = _path(sheet.contour)
-            patch = PathPatch(curve, fill=False, edgecolor="#555555", linewidth=0.5, zorder=1.5)
-            patch.set_gid(f"{name}-contour")
-            self.axes.add_artist(patch)
+            look = {"edgecolor": "#555555", "linewidth": 0.5, "zorder": 1.5}
+            self._curve(_path(sheet.contour), f"{name}-contour", **look)
+
+    def _curve(self, curve: Outline, gid: str, **look: object) -> None:
+        # (add_patch would look for the bounds of every curve)
+        self.axes.add_artist(PathPatch(curve, fill=False, gid=gid, **look))
 
     def _route(self, route: PlacedRoute, colour: str, gid: str, wire: float) -> None:
-        has_kerf = wire and not route.is_move
-        curve = _path(route.blocks, 0.001) if has_kerf or len(route.blocks) <= LONGEST else None
-        if has_kerf:
-            kerf = PathPatch(
-                curve,
-                fill=False,
-                edgecolor=colour,
-                alpha=0.25,
-                capstyle="round",
-                joinstyle="round",
-                linewidth=wire * self.description["mm_to_points"],
-                zorder=1,
-            )
-            kerf.set_gid(f"{gid}-kerf")
-            self.axes.add_artist(kerf)
+        look = {"edgecolor": colour, "joinstyle": "round"}
+        if wire and not route.is_move:
+            width = wire * self.description["mm_to_points"]
+            kerf = {"alpha": 0.25, "capstyle": "round", "linewidth": width, "zorder": 1}
+            self._curve(_path(route.blocks, 0.001), f"{gid}-kerf", **look, **kerf)
+        look |= {"linewidth": 0.8, "zorder": 2, "linestyle": (0, (4, 2)) if route.is_move else "solid"}
         # (matplotlib writes a curve as one string, and has several copies of it meanwhile)
         for first in range(0, len(route.blocks), LONGEST):
-            is_all = len(route.blocks) <= LONGEST
-            path = PathPatch(
-                curve if is_all else _path(route.blocks[first : first + LONGEST], 0.001),
-                fill=False,
-                edgecolor=colour,
-                linewidth=0.8,
-                zorder=2,
-                linestyle=(0, (4, 2)) if route.is_move else "solid",
-                joinstyle="round",
-            )
-            path.set_gid(gid if is_all else f"{gid}-from-{first + 1}")
-            self.axes.add_artist(path)
+            part = f"-from-{first + 1}" if len(route.blocks) > LONGEST else ""
+            self._curve(_path(route.blocks[first : first + LONGEST], 0.001), gid + part, **look)
         x, y = (ordinate / 1000 for ordinate in route.start)
         if not route.is_move:
-            hole = Circle((x, y), self.on_paper(1), fill=False, edgecolor=colour, linewidth=0.8, zorder=4)
-            hole.set_gid(f"{gid}-start")
-            self.axes.add_artist(hole)
+            look = {"edgecolor": colour, "linewidth": 0.8, "zorder": 4, "gid": f"{gid}-start"}
+            self.axes.add_artist(Circle((x, y), self.on_paper(1), fill=False, **look))
 
     def _many_routes(
         self, cuts: list[PlacedRoute], moves: list[PlacedRoute], colour: str, name: str, wire: float
     ) -> None:
         """Draw all routes as `_route` does, each kind as one collection."""
-        look = {"facecolor": "none", "edgecolor": colour, "joinstyle": "round"}
+        look = {"edgecolor": colour, "joinstyle": "round"}
         if wire and cuts:
             # (overlaps of cuts show: each is drawn by itself)
             width = wire * self.description["mm_to_points"]
             curves = [_path(route.blocks, 0.001) for route in cuts]
-            kerfs = PathCollection(curves, alpha=0.25, capstyle="round", linewidths=width, zorder=1, **look)
-            kerfs.set_gid(f"{name}-kerfs")
-            self.axes.add_artist(kerfs)
+            kerf = {"alpha": 0.25, "capstyle": "round", "linewidths": width, "zorder": 1, "gid": f"{name}-kerfs"}
+            self.axes.add_artist(PathCollection(curves, facecolor="none", **look, **kerf))
         for routes, gid, dashes in ((cuts, "cuts", "solid"), (moves, "moves", (0, (4, 2)))):
             if routes:
                 begins = np.cumsum([0, *(len(route.blocks) for route in routes[:-1])])
                 curve = _path(_joined(routes), 0.001, begins)
-                patch = PathPatch(curve, linewidth=0.8, zorder=2, linestyle=dashes, **look)
-                patch.set_gid(f"{name}-{gid}")
-                self.axes.add_artist(patch)
+                self._curve(curve, f"{name}-{gid}", linewidth=0.8, zorder=2, linestyle=dashes, **look)
         starts = np.array([route.start for route in cuts]).reshape(-1, 2) / 1000
         self._marks(Outline.circle((0, 0), self.on_paper(1)), starts, f"{name}-starts", colour, 0.8)
 
@@ -290,23 +269,15 @@ class Picture:
             part = min(1.0, _MARK * room / shape.vertices.max())
             vertices = (places[:, None] + part * shape.vertices).reshape(-1, 2)
             curve = Outline(vertices, np.tile(shape.codes, len(places)))
-            marks = PathPatch(curve, fill=False, zorder=4, edgecolor=colour, linewidth=part * width)
-            marks.set_gid(gid)
-            self.axes.add_artist(marks)
+            self._curve(curve, gid, zorder=4, edgecolor=colour, linewidth=part * width)
 
     def _hole(self, point: XY, colour: str, gid: str) -> None:
         """A drilled hole: a circle, and a cross in it."""
         x, y = point[0] / 1000, point[1] / 1000
         size, circle = self.on_paper(1.8), Outline.circle((x, y), self.on_paper(1.2))
-        cross = Outline(
-            [(x - size, y), (x + size, y), (x, y - size), (x, y + size)],
-            [Outline.MOVETO, Outline.LINETO] * 2,
-        )
-        mark = PathPatch(
-            Outline.make_compound_path(circle, cross), fill=False, edgecolor=colour, linewidth=0.8, zorder=4
-        )
-        mark.set_gid(gid)
-        self.axes.add_patch(mark)
+        ends = [(x - size, y), (x + size, y), (x, y - size), (x, y + size)]
+        cross = Outline(ends, [Outline.MOVETO, Outline.LINETO] * 2)
+        self._curve(Outline.make_compound_path(circle, cross), gid, edgecolor=colour, linewidth=0.8, zorder=4)
 
     def stops(self, points: Sequence[XY], name: str) -> None:
         """Mark the places (µm) where the controller stops."""
@@ -317,9 +288,8 @@ class Picture:
             self._marks(Outline([*corners, corners[0]], closed=True), places, f"{name}-stops", colour, width)
             return
         for index, place in enumerate(places, 1):
-            mark = Polygon(place + corners, fill=False, edgecolor=colour, linewidth=width, zorder=4)
-            mark.set_gid(f"{name}-stop-{index}")
-            self.axes.add_artist(mark)
+            look = {"edgecolor": colour, "linewidth": width, "zorder": 4, "gid": f"{name}-stop-{index}"}
+            self.axes.add_artist(Polygon(place + corners, fill=False, **look))
 
     def _arrows(self, route: PlacedRoute) -> Iterator[list[XY]]:
         """Arrow heads along the route, no nearer to each other than 25 mm on the paper."""

@@ -22,7 +22,6 @@ from skg.cutting.manner import manners, stops
 from skg.geometry.arrays import numbers_up_to
 from skg.geometry.contour import Places
 from skg.geometry.plane import XY, distance
-from skg.job.job import MachineSetup
 from skg.pictures.page import as_it_stands, save
 from skg.pictures.plot import FEW, outlines
 from skg.planning.route import PlannedContour
@@ -76,12 +75,11 @@ _INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
 
 @dataclass(frozen=True)
 class Facts:
-    """Facts for the sheet's foot: the drawing's name, the tape's, the units, the wire and the stock."""
+    """Facts for the sheet's foot: the drawing's name, the tape's, the units."""
 
     drawing: str
     tape: str
     units: str
-    machine: MachineSetup
 
 
 @dataclass(frozen=True)
@@ -403,16 +401,7 @@ class SetupSheet:
                 for taken in (self.taken, self.marked):
                     taken.along(line)
                     taken.take(middle - half, middle + half)
-                self._text(
-                    middle,
-                    str(self.job.routes[index].turn),
-                    size,
-                    _MARK,
-                    ha="center",
-                    va="center",
-                    gid="number",
-                    zorder=6,
-                )
+                self._text(middle, number, size, _MARK, ha="center", va="center", gid="number", zorder=6)
                 return True
         return False
 
@@ -478,7 +467,7 @@ class SetupSheet:
                 self._text(place, *_fitted(text, wide - 4), _INK, va="center")
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
-        setup = facts.machine
+        setup = job.machine
         wire = "not told" if setup.wire is None else f"{short(setup.wire)} mm, gap {short(setup.gap or 0.0)} mm"
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
         columns = (
@@ -493,13 +482,13 @@ class SetupSheet:
                 ("material", setup.material or "not told"),
                 ("thickness", setup.thickness or "not told"),
                 ("wire", wire),
-                ("ROM", job.settings.rom),
+                ("ROM", setup.rom),
             ),
             (
                 ("start", f"{shown(job.routes[0].start)} mm"),
                 ("stops", f"{len(job.tape.stops)}; {counted(len(job.tape.blocks), 'block')}"),
                 ("cut length", f"{job.cut_length:.1f} mm"),
-                ("time", f"{duration(job.seconds)} at {job.settings.feed:g} mm/min"),
+                ("time", f"{duration(job.seconds)} at {setup.feed:g} mm/min"),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)

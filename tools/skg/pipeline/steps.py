@@ -14,8 +14,8 @@ from functools import cached_property
 from hashlib import sha256
 
 from skg.cutting.job import CutResult, make
+from skg.cutting.progress import Progress, in_silence
 from skg.cutting.report import report
-from skg.cutting.settings import Progress, Settings, in_silence
 from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.plane import XY, shifted
@@ -145,15 +145,13 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     progress("plan", 0, len(drawn.contours))
     routes = plan_drawing(job, drawn)
     drawn.nesting.release()
-    machine, reading = job.machine, drawn.reading
-    settings = Settings(machine.rom, machine.ram, machine.feed, machine.small, machine.into)
     try:
-        result = make(routes, job.drawing, settings, progress)
+        result = make(routes, job.drawing, job.machine, progress)
     except UserError as error:
         raise _named(error, drawn) from None
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
-    account = reading.account(left) if left else reading.report
+    account = drawn.reading.account(left) if left else drawn.reading.report
     return CutDrawing(result, account, _lines(job, drawn, account, result))
 
 

@@ -359,16 +359,10 @@ def _part_at(edge: Edge, place: XY) -> float:
     return 0.0 if distance(place, edge.start) < 1e-9 else part
 
 
-def plan(
-    contours: Sequence[Contour],
-    starts: Sequence[XY],
-    wanted: Wanted | Sequence[Wanted],
-    others: Sequence[Contour] = (),
-) -> list[PlannedContour]:
-    """Plan contours that nobody has looked at; `others`: closed contours on layers that are not cut. See
-    `plan_nested`."""
+def plan(contours: Sequence[Contour], starts: Sequence[XY], wanted: Wanted | Sequence[Wanted]) -> list[PlannedContour]:
+    """Plan contours that nobody has looked at; see `plan_nested`."""
     each = [wanted] * len(contours) if isinstance(wanted, Wanted) else wanted
-    return plan_nested(Nesting.of(contours, others), starts, each)
+    return plan_nested(Nesting.of(contours), starts, each)
 
 
 def plan_nested(

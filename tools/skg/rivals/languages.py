@@ -9,10 +9,9 @@ from skg.errors import UserError
 from skg.file_type import refuse_others
 from skg.files import read_bytes, without_filling
 
-#: A rival's ending -> the module that makes SKG of it, loaded when it is needed: its `translate` takes the text and
-#: the file's name.
-MODULES = {".xy": "skg.rivals.xy", ".tkh": "skg.rivals.tekhtran"}
-_NAMES = {".xy": "a program in XY", ".tkh": "a program in TEKHTRAN"}
+#: A rival's ending -> its language, and the module that makes SKG of it, loaded when it is needed: its `translate`
+#: takes the text and the file's name.
+RIVALS = {".xy": ("XY", "skg.rivals.xy"), ".tkh": ("TEKHTRAN", "skg.rivals.tekhtran")}
 
 
 class RivalFault(Exception):
@@ -21,8 +20,7 @@ class RivalFault(Exception):
 
 def is_program(name: str) -> bool:
     """True if a file is a program, SKG's or a rival's, by its ending."""
-    ending = Path(name).suffix.lower()
-    return ending == ".skg" or ending in MODULES
+    return Path(name).suffix.lower() == ".skg" or is_rival(name)
 
 
 def translated(name: str, ending: str | None = None) -> str:
@@ -30,13 +28,14 @@ def translated(name: str, ending: str | None = None) -> str:
 
     `ending` says which rival's, where the name does not.
     """
-    rival = import_module(MODULES[ending or Path(name).suffix.lower()])
+    language, module = RIVALS[ending or Path(name).suffix.lower()]
+    expected = f"a program in {language}"
     data = without_filling(read_bytes(name))
-    refuse_others(data, name, _NAMES[ending or Path(name).suffix.lower()])
+    refuse_others(data, name, expected)
     if not data.strip():
-        raise UserError(f"{name}: empty, expected {_NAMES[ending or Path(name).suffix.lower()]}")
+        raise UserError(f"{name}: empty, expected {expected}")
     try:
-        return rival.translate(data.decode("utf-8-sig"), Path(name).name)
+        return import_module(module).translate(data.decode("utf-8-sig"), Path(name).name)
     except UnicodeDecodeError as error:
         good = data[: error.start].decode("utf-8-sig")
         column = len(good) - good.rfind("\n")
@@ -47,4 +46,4 @@ def translated(name: str, ending: str | None = None) -> str:
 
 def is_rival(name: str) -> bool:
     """True if a file is a rival's program."""
-    return Path(name).suffix.lower() in MODULES
+    return Path(name).suffix.lower() in RIVALS

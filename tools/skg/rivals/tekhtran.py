@@ -35,7 +35,7 @@ def translate(text: str, title: str = "") -> str:
     """
     machine = _TekhtranMachine(SkgProgram(headings=[latin(title)]))
     with placing(text):
-        for statement in statements(text, machine):
+        for statement in statements(text, machine.kind):
             machine.carry_out(statement)
         return machine.program.text()
 
@@ -77,13 +77,11 @@ class _TekhtranMachine:
     wire: _Wire | None = None
     contours: int = 0
 
-    def kind(self, name: str) -> str | None:
-        """The kind of what has been defined by this name."""
+    def kind(self, name: str, is_new: bool) -> str | None:
+        """The kind of what a name means, or, of a new name, the kind that it was declared as."""
+        if is_new:
+            return self.kinds.get(name)
         return self.named[name].kind if name in self.named else None
-
-    def declared(self, name: str) -> str | None:
-        """The kind that a name has, defined or not."""
-        return self.kinds.get(name)
 
     def carry_out(self, tree: Tree) -> None:
         """One statement."""

@@ -7,8 +7,7 @@ name's kind is known.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from typing import Protocol
+from collections.abc import Callable, Iterator
 
 from lark import Token, Tree
 
@@ -63,16 +62,6 @@ _TOKEN = re.compile(
 )
 
 
-class Names(Protocol):
-    """The meanings of names so far."""
-
-    def kind(self, name: str) -> str | None:
-        """The kind of what has been defined by this name."""
-
-    def declared(self, name: str) -> str | None:
-        """The kind that a name has, defined or not."""
-
-
 def tokens(text: str) -> Iterator[Token]:
     """The tokens of a text, names as NAME, END behind each line and each `;`; `TextFault` at the first that is none."""
     index = end = 0
@@ -103,7 +92,11 @@ def tokens(text: str) -> Iterator[Token]:
     yield Token("END", "", start_pos=end)
 
 
-def statements(text: str, names: Names) -> Iterator[Tree]:
+#: Tells the kind of what a name means, or, of a new name, the kind that it was declared as.
+KindOf = Callable[[str, bool], str | None]
+
+
+def statements(text: str, kind_of: KindOf) -> Iterator[Tree]:
     """The statements of a text up to КОНЕЦ, each asked for when the one before has been carried out.
 
     `TextFault` at what the grammar does not take and at a name that is used before it was defined.
@@ -117,14 +110,14 @@ def statements(text: str, names: Names) -> Iterator[Tree]:
         parser = begin("tekhtran.lark")
         # The word of a kind, and whether names that come are new.
         word, is_new = KINDS.get(token), True
-        first = _as_kind(token, names, word, is_new)
+        first = _as_kind(token, kind_of, word, is_new)
         if first.type not in parser.choices():
             raise TextFault(token.start_pos, f"expected a statement, found {token[:40]}")
         feed(parser, first, SHOWN)
         while token.type != "END":
             is_new = is_new and token.type != "EQUALS" and first.type in _MAKING
             token = next(stream)
-            feed(parser, _as_kind(token, names, word, is_new), SHOWN)
+            feed(parser, _as_kind(token, kind_of, word, is_new), SHOWN)
         yield parser.feed_eof(token)
 
 
@@ -132,14 +125,13 @@ def statements(text: str, names: Names) -> Iterator[Tree]:
 _MAKING = {f"NEW_{kind}" for kind in NAMES} | {WORDS[word] for word in KINDS}
 
 
-def _as_kind(token: Token, names: Names, word: str | None, is_new: bool) -> Token:
+def _as_kind(token: Token, kind_of: KindOf, word: str | None, is_new: bool) -> Token:
     """A name as its kind; other tokens as they are."""
     if token.type != "NAME":
         return token
+    kind = kind_of(token, is_new)
     if is_new:
-        kind = f"NEW_{names.declared(token) or BEGINNINGS.get(token[:2]) or word or 'NUMBER'}"
-    else:
-        kind = names.kind(token)
-        if kind is None:
-            raise TextFault(token.start_pos, f"{token} has not been defined")
+        kind = f"NEW_{kind or BEGINNINGS.get(token[:2]) or word or 'NUMBER'}"
+    elif kind is None:
+        raise TextFault(token.start_pos, f"{token} has not been defined")
     return Token(kind, token.value, start_pos=token.start_pos)

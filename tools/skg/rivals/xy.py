@@ -8,27 +8,9 @@ from lark import Token, Tree
 
 from skg.rivals.formula import SkgText, decimal, join, minus
 from skg.rivals.making import FORMS, LETTERS, Argument, NewElement, XYFrame, image, shift, spin
-from skg.rivals.plane import (
-    TINY,
-    ExactElement,
-    ExactLine,
-    ExactPoint,
-    PlaneError,
-    Real,
-    mirrored,
-    moved,
-    mp,
-    rotated,
-)
+from skg.rivals.plane import TINY, ExactElement, ExactLine, ExactPoint, PlaneError, Real, mirrored, moved, mp, rotated
 from skg.rivals.program import LAST_LINE, LAST_SUBSCRIPT, SkgProgram, packed, plain, too_long
-from skg.rivals.route import (
-    Arc,
-    Hung,
-    area,
-    contour,
-    mirrored_items,
-    without_doubles,
-)
+from skg.rivals.route import Arc, Hung, area, contour, mirrored_items, without_doubles
 from skg.rivals.start import entry, repeated, written
 from skg.rivals.statement import Figure, TextFault, figure, first_token, placing
 from skg.rivals.xy_text import statements
@@ -131,15 +113,16 @@ class _Machine:
             raise TextFault(tree.children[0].start_pos, str(error)) from None
 
     def _make(self, children: list) -> None:
-        arguments = [self.argument(child) for child in children[3].children if isinstance(child, Tree)]
+        letter, (given, target) = children[1], _trees(children)
+        arguments = [self.argument(tree) for tree in _trees(given.children)]
         kinds = "".join(argument.kind for argument in arguments)
-        if (str(children[1]), kinds) not in FORMS:
-            raise TextFault(children[1].start_pos, "of these nothing is made")
-        allowed, form = FORMS[str(children[1]), kinds]
+        if (str(letter), kinds) not in FORMS:
+            raise TextFault(letter.start_pos, "of these nothing is made")
+        allowed, form = FORMS[str(letter), kinds]
         for argument, may in zip(arguments, allowed, strict=True):
             if argument.sign and not may:
                 raise TextFault(argument.sign.start_pos, "no sign may stand here")
-        self._store(children[-2], form(self.frame, *arguments))
+        self._store(target, form(self.frame, *arguments))
 
     def _store(self, target: Tree, made: NewElement) -> None:
         token = target.children[0]
@@ -150,25 +133,27 @@ class _Machine:
         self.program.assign(name, made.text, made.value)
 
     def _image(self, children: list) -> None:
-        mirror = self.argument(children[5])
+        element, line, target = _trees(children)
+        mirror = self.argument(line)
         if mirror.kind != "X":
             raise TextFault(children[1].start_pos, "a mirror is a line")
-        e = self.element(children[3])
-        self._store(children[-2], NewElement(mirrored(e.value, mirror.value), image(e.value, e.text, mirror.text)))
+        e = self.element(element)
+        self._store(target, NewElement(mirrored(e.value, mirror.value), image(e.value, e.text, mirror.text)))
 
     def _move(self, children: list) -> None:
-        e, x, y = self.element(children[3]), *(self._number_argument(children[i]) for i in (5, 7))
-        by = self.frame.vector(x, y)
-        self._store(children[-2], NewElement(moved(e.value, by.value), shift(e, by)))
+        element, x, y, target = _trees(children)
+        e, by = self.element(element), self.frame.vector(self._number_argument(x), self._number_argument(y))
+        self._store(target, NewElement(moved(e.value, by.value), shift(e, by)))
 
     def _number_argument(self, tree: Tree) -> Argument:
         value, text = self.number(tree)
         return Argument("N", value, text, first_token(tree))
 
     def _rotate(self, children: list) -> None:
-        e, about = self.element(children[3]), self.element(children[6])
-        angle, text = self._rotation(children[5], children[8])
-        self._store(children[-2], NewElement(rotated(e.value, angle, about.value), spin(e.text, about.text, text)))
+        element, centre, tree, target = _trees(children)
+        e, about = self.element(element), self.element(centre)
+        angle, text = self._rotation(children[5], tree)
+        self._store(target, NewElement(rotated(e.value, angle, about.value), spin(e.text, about.text, text)))
 
     def _rotation(self, sign: Token | None, tree: Tree) -> tuple[Real, SkgText]:
         """An angle counter-clockwise: with a sign as it is, else clockwise."""
@@ -176,13 +161,15 @@ class _Machine:
         return (angle, text) if sign is not None else (-angle, minus(text))
 
     def _frame_at(self, children: list) -> None:
-        element = self.element(children[3])
-        self._take_frame(element.value, self.name_own(element.text, element.value), children[5])
+        origin, angle = _trees(children)
+        element = self.element(origin)
+        self._take_frame(element.value, self.name_own(element.text, element.value), angle)
 
     def _frame(self, children: list) -> None:
-        (x, _), (y, _) = self.number(children[3]), self.number(children[5])
+        *place, angle = _trees(children)
+        (x, _), (y, _) = map(self.number, place)
         origin = ExactPoint(x, y)
-        self._take_frame(origin, None if x == y == 0 else self.name_own(None, origin), children[7])
+        self._take_frame(origin, None if x == y == 0 else self.name_own(None, origin), angle)
 
     def _take_frame(self, origin: ExactPoint, text: SkgText | None, tree: Tree) -> None:
         angle, written_angle = self.number(tree)
@@ -205,19 +192,9 @@ class _Machine:
 
     def cut(self, children: list) -> None:
         """φ: the heading, the wire's offset, the items of the CUT, BACK."""
-        closing = next(child for child in children if isinstance(child, Token) and child.type == "CLOSE")
-        gap, hole, near = (
-            children[children.index(closing) + 1],
-            *(
-                self.element(child)
-                for child in children[children.index(closing) + 3 :: 2]
-                if isinstance(child, Tree) and child.data == "d"
-            ),
-        )
-        closes = closing.start_pos
-        items, copies = self.items(
-            [child for child in children[1 : children.index(closing)] if isinstance(child, Tree)]
-        )
+        *route, gap, hole, near = _trees(children)
+        closes = next(child.start_pos for child in children if isinstance(child, Token) and child.type == "CLOSE")
+        items, copies = self.items(route)
         hung = without_doubles(items)
         parts, begins = contour(hung, closes)
         distance, text = self.number(gap)
@@ -229,14 +206,19 @@ class _Machine:
         self.routes += 1
         sense = "COUNTER-CLOCKWISE" if enclosed > 0 else "CLOCKWISE"
         self.program.body.append(f"REM ROUTE {self.routes}, {sense}")
-        start = entry(parts, near.value, distance)
+        start = entry(parts, self.element(near).value, distance)
         cuts = None
         if copies and len(hung) == len(items):
             is_open = copies.goes_round or hung[0].is_pin and hung[copies.items - 1].is_pin
             cuts = repeated(parts, begins[copies.items], start, self.name_own) if is_open else None
         last = [copies.statement, "BACK"] if cuts else ["BACK"]
         cuts = cuts or written(parts, start, self.name_own)
-        self.program.body += [f"FROM {hole.text}", f"R={'0' if distance == 0 else text}", *packed("CUT", cuts), *last]
+        self.program.body += [
+            f"FROM {self.element(hole).text}",
+            f"R={'0' if distance == 0 else text}",
+            *packed("CUT", cuts),
+            *last,
+        ]
 
     def items(self, trees: list[Tree]) -> tuple[list[Hung], _Copies | None]:
         """The items on the belt, with all copies and images, and the × that ends it, if one does."""
@@ -293,6 +275,11 @@ class _Machine:
         rest = mp.fmod(angle * times, 360)
         goes_round = min(abs(rest), 360 - abs(rest)) <= TINY
         return copies, _Copies(len(items), f"REP {times},{join(text, ':', about.text)}", goes_round)
+
+
+def _trees(children: list) -> list[Tree]:
+    """What stands between the words and symbols of a statement."""
+    return [child for child in children if isinstance(child, Tree)]
 
 
 def _with_arc(item: Hung, arc: Arc) -> Hung:

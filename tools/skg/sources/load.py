@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,40 +31,31 @@ from skg.tape.gcode_reader import read as read_gcode
 
 if TYPE_CHECKING:
     from skg.ref import Result
+    from skg.ref.drawn import Routes
+    from skg.ref.route import Segment
     from skg.tape.layout import PlacedRoute
 
 
-@dataclass(frozen=True)
-class Made:
-    """A tape, where its wire starts on the drawing (mm), and its nominal contour, if it was asked for."""
-
-    tape: Tape
-    start: XY = (0.0, 0.0)
-    contour: tuple[Piece, ...] = ()
-
-
-def load(name: str, skg80: str | None = None, with_contour: bool = False) -> Made:
+def load(name: str, skg80: str | None = None) -> Tape:
     """Return what is in a file: a program when its name ends in .skg or as a rival's does, else a tape.
 
-    `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator.
-    `with_contour` on a tape, and a program that ends in ERR, are a `UserError`.
+    `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator. One that ends
+    in ERR is a `UserError`.
     """
     if program := iso_program(name, skg80):
-        contour = contour_of(name) if with_contour else ()
-        tape = replace(program.tape(), notes=program.left_out())
-        return Made(tape, (program.home[0] / 1000, program.home[1] / 1000), contour)
+        return replace(program.tape(), notes=program.left_out())
     if not is_program(name):
-        if with_contour:
-            raise _no_contour(name)
-        tape = tapes.read(name)
-        return Made(tape, tape.start or (0.0, 0.0))
-    # The reference is needed in any case: only it knows where on the drawing the wire is.
-    data, start, contour = _run(name, skg80, with_contour)
-    tape = tapes.parse(data, name)
+        return tapes.read(name)
+    text = program_text(name)
+    _say_given_up(name, text)
+    # (it is needed in any case: only the reference knows where on the drawing the wire is)
+    result = _reference(name, text)
+    start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
+    tape = tapes.parse(result.tape if skg80 == "reference" else _tape_of(name, text, skg80), name)
     if skg80 in (None, "reference"):
         # The standard ROM or the reference as it is.
         tape = replace(tape, drift=True)
-    return Made(tape, start, contour)
+    return replace(tape, start=start)
 
 
 def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
@@ -99,10 +90,6 @@ def iso_text(name: str, skg80: str | None = None) -> str | None:
     return _tape_of(name, text, skg80, mills=True).decode("ascii")
 
 
-def _no_contour(name: str) -> UserError:
-    return UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
-
-
 def gcode_text(name: str) -> str:
     """Return the text of a file that should be G-code; another kind of file is a `UserError`."""
     data = read_bytes(name)
@@ -110,21 +97,44 @@ def gcode_text(name: str) -> str:
     return in_ascii(without_mark(without_filling(data)))
 
 
-def tape_bytes(name: str, skg80: str | None = None) -> bytes:
+def tape_bytes(name: str) -> bytes:
     """Return a tape's bytes: those of a file (`-`: the standard input), or what its program punches."""
     if not is_program(name):
         return read_bytes(name)
     text = program_text(name)
     _say_given_up(name, text)
-    return _tape_of(name, text, skg80)
+    return _tape_of(name, text, None)
 
 
 def contour_of(name: str) -> tuple[Piece, ...]:
-    """The nominal contour of a milling program; a tape has none, which is a `UserError`."""
+    """The nominal contour of a program, mm; a tape has none, which is a `UserError`."""
     if not is_program(name):
-        raise _no_contour(name)
+        raise UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
     text = program_text(name)
-    return _nominal(_reference(name, text, mills=True))
+    drawn = drawn_routes(name, *as_run(text), is_milling(text))
+    return tuple(_piece(segment) for route in drawn for segment in route if segment.nominal is not None)
+
+
+def drawn_routes(name: str, program: str, runs: bool, mills: bool) -> Routes:
+    """The routes of a program as it draws them, with R 0; one that ends in ERR then is a `UserError`."""
+    # (slow to import, and not needed for tapes)
+    from skg.ref.drawn import routes_of
+
+    drawn, error = routes_of(program, runs, mills, is_drawn=True)
+    if error:
+        number, line = error
+        where = f" LINE {line}" if line is not None else ""
+        raise UserError(f"{name}: ERR {number:02d}{where} with R 0: the program draws no contour")
+    return drawn
+
+
+def _piece(segment: Segment) -> Piece:
+    """A segment of the reference as a line or arc."""
+    start, end = ((float(point.x), float(point.y)) for point in (segment.start, segment.end))
+    if not segment.is_arc:
+        return Piece(start, end)
+    sweep = float(segment.sweep) * (1 if segment.radius > 0 else -1)
+    return Piece(start, end, (float(segment.centre.x), float(segment.centre.y)), sweep)
 
 
 def program_text(name: str) -> str:
@@ -138,16 +148,6 @@ def program_text(name: str) -> str:
     if not text.strip("\0\x1a \t\r\n"):
         raise UserError(f"{name}: empty, expected {PROGRAM}")
     return text
-
-
-def _run(name: str, skg80: str | None, with_contour: bool) -> tuple[bytes, XY, tuple[Piece, ...]]:
-    """Run a program for wire: the tape's bytes, where the wire starts (mm), the nominal contour."""
-    text = program_text(name)
-    _say_given_up(name, text)
-    result = _reference(name, text)
-    start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
-    data = result.tape if skg80 == "reference" else _tape_of(name, text, skg80)
-    return data, start, _nominal(result) if with_contour else ()
 
 
 def _say_given_up(name: str, text: str) -> None:
@@ -238,17 +238,11 @@ def _reference(name: str, text: str, mills: bool = False) -> Result:
     return result
 
 
-def _nominal(result: Result) -> tuple[Piece, ...]:
-    from skg.sources.nominal import nominal
-
-    return nominal(result.path)
-
-
-def lay_out(made: Made, start: XY, positions: str) -> tuple[list[PlacedRoute], list[XY]]:
+def lay_out(tape: Tape, start: XY, positions: str) -> tuple[list[PlacedRoute], list[XY]]:
     """Return a tape's routes and stops in µm, its wire starting at `start` (mm); `positions` is one of
     `skg.tape.positions.POSITIONS`."""
     from skg.tape.layout import place, stop_places  # which loads numpy
 
     home = micrometres(start[0]), micrometres(start[1])
-    routes = place(made.tape, home, positions)
-    return routes, stop_places(made.tape, routes, home)
+    routes = place(tape, home, positions)
+    return routes, stop_places(tape, routes, home)

@@ -1,7 +1,7 @@
 """3B tapes: blocks, their text, where they lie, and what the controller makes of them."""
 
 from skg.tape.block import Block, Stop, Tape, arc_block, line_block, micrometres, round_sqrt, start_quadrant
-from skg.tape.text import Finding, parse, parse_block, read, scan, to_bytes
+from skg.tape.text import Finding, parse, read, scan, to_bytes
 
 __all__ = [
     "Block",
@@ -12,7 +12,6 @@ __all__ = [
     "line_block",
     "micrometres",
     "parse",
-    "parse_block",
     "read",
     "round_sqrt",
     "scan",

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import zip_longest
-from math import atan2, copysign, floor, hypot, isqrt, pi, sqrt
+from math import atan2, copysign, floor, hypot, isqrt, pi
 
 #: No x, y or J has more digits.
 MAX_DIGITS = 8
@@ -101,12 +101,6 @@ class Block:
     def across(self) -> int:
         """The axis that the block does not count: 0 for x, 1 for y."""
         return 0 if self.axis == "Y" else 1
-
-    def on_circle(self, place: tuple[int, int]) -> tuple[float, float]:
-        """A place about an arc's centre, moved across the count axis onto the circle, on its own side of the centre."""
-        along, beside = place[1 - self.across], place[self.across]
-        moved = sqrt(max(0, self.x**2 + self.y**2 - along**2)) * (1 if beside >= 0 else -1)
-        return (moved, along) if self.across == 0 else (along, moved)
 
     @property
     def turn(self) -> int:
@@ -271,7 +265,7 @@ class Tape:
 
     `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so, in words (empty:
     it was made just now). `notes`: what there is to say of how it was read. `start`: where the wire starts on the
-    drawing, mm, where the tape says so. `kept`: what was worked out of the blocks (`skg.tape.columns.kept`).
+    drawing, mm. `kept`: what was worked out of the blocks (`skg.tape.columns.kept`).
     """
 
     name: str
@@ -280,7 +274,7 @@ class Tape:
     drift: bool | None = None
     drift_by: str = ""
     notes: tuple[str, ...] = ()
-    start: tuple[float, float] | None = None
+    start: tuple[float, float] = (0.0, 0.0)
     kept: dict[str, object] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod

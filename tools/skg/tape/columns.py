@@ -217,7 +217,10 @@ class Columns:
         return hypots(self.x, self.y) * np.where(self.is_line, 1.0, abs(self.sweeps))
 
     def on_circles(self, places: NDArray) -> Floats:
-        """As `Block.on_circle`, of a place for each block (n × 2)."""
+        """Places about the arcs' centres, one for each (n × 2), moved across the count axis onto the circles.
+
+        Each stays on its own side of the centre.
+        """
         rows, across = np.arange(len(self)), self.across
         along, beside = places[rows, 1 - across], places[rows, across]
         moved = np.sqrt(np.maximum(0, self.squares - along * along).astype(float)) * np.where(beside >= 0, 1, -1)

@@ -16,20 +16,20 @@ How the controller moves (`docs/tools.md` has the same in pictures):
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 from functools import cache
-from math import hypot, sqrt
 
 from skg.errors import UserError
 from skg.native import load
-from skg.tape.block import Block
+from skg.tape.block import Block, Stop, Tape
 
-#: Steps between two reports of progress.
+#: Steps that are taken at once.
 CHUNK = 20_000_000
-#: Steps in one piece of `port_steps`.
+#: Steps in one piece of `drive_steps`.
 _PIECE = 1_000_000
 _STALLED = 2
+#: Bit 7 of a drive's port is on while the wire cuts.
+_CUT = bytes(value | 0x80 for value in range(256))
 
 
 class State(ctypes.Structure):
@@ -52,86 +52,34 @@ def library() -> ctypes.CDLL:
     return result
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """The controller's outcome of one block; lengths in µm.
-
-    `move` is where it went (dx, dy), `steps` in how many steps; `off_curve` the largest distance from the
-    line or arc as it starts where the controller stands, `off_path` from where that line or arc should lie.
-    Both are distances from the whole line and the whole circle: `Block.move` − `move` tells the end's miss.
-    """
-
-    move: tuple[int, int]
-    steps: int
-    off_curve: float
-    off_path: float
-
-
-def _state(block: Block, drift: tuple[int, int]) -> State:
+def _state(block: Block) -> State:
     return State(sense=block.sense, quadrant=block.quadrant, x=block.x, y=block.y, j=block.j,
-                  axis=int(block.axis == "Y"), drift_x=drift[0], drift_y=drift[1])  # fmt: skip
+                  axis=int(block.axis == "Y"))  # fmt: skip
 
 
 def stalled(block: Block) -> UserError:
     return UserError(f"block {block.number}: {block} never ends, the controller does not reach J = {block.j}")
 
 
-def _distance(block: Block, highest: int, lowest: int) -> float:
-    """Turn extremes of F into the largest distance from the curve, µm."""
-    radius = hypot(block.x, block.y)
-    if block.is_line:
-        return max(highest, -lowest) / radius
-    square = block.x**2 + block.y**2
-    return max(sqrt(square + highest) - radius, radius - sqrt(max(0, square + lowest)))
-
-
-def run_block(
-    block: Block, drift: tuple[int, int] = (0, 0), progress: Callable[[int], object] = lambda steps: None
-) -> Outcome:
-    """Follow one block; `drift` is where the controller stands minus where the block should start, µm.
-
-    `progress` is called with the number of steps taken since its last call. A block whose J is never reached
-    (possible on circles of a few µm) is a `UserError`.
-    """
-    run, state, before = library().skgsim_run, _state(block, drift), 0
-    while (result := run(ctypes.byref(state), CHUNK, None, None)) == 1:
-        progress(state.steps - before)
-        before = state.steps
-    if result == _STALLED:
-        raise stalled(block)
-    progress(state.steps - before)
-    start = block.start
-    return Outcome(
-        (state.px - start[0], state.py - start[1]),
-        state.steps,
-        _distance(block, state.f_max, state.f_min),
-        _distance(block, state.d_max, state.d_min),
-    )
-
-
 def trace_array(block: Block) -> ctypes.Array:
     """Return the controller's places as one array x, y, x, y, … of 64-bit numbers.
 
-    A place for each step, µm, relative to `block.start`'s origin.
+    A place for each step, µm, relative to `block.start`'s origin. A block whose J is never reached (possible on circles
+    of a few µm) is a `UserError`.
     """
-    count = run_block(block).steps
-    buffer = (ctypes.c_int64 * (2 * count))()
-    library().skgsim_run(ctypes.byref(_state(block, (0, 0))), count, buffer, None)
+    run, state = library().skgsim_run, _state(block)
+    while (result := run(ctypes.byref(state), CHUNK, None, None)) == 1:
+        pass
+    if result == _STALLED:
+        raise stalled(block)
+    buffer = (ctypes.c_int64 * (2 * state.steps))()
+    run(ctypes.byref(_state(block)), state.steps, buffer, None)
     return buffer
 
 
-def trace_block(block: Block) -> list[tuple[int, int]]:
-    """Return the controller's position after each step, µm, relative to `block.start`'s origin."""
-    places = trace_array(block)
-    return list(zip(places[::2], places[1::2], strict=True))
-
-
-def port_steps(block: Block) -> Iterator[bytes]:
-    """The steps of one block as a drive's port shows them (docs/spec/drive.md), a byte each, bit 7 off; in pieces.
-
-    A block whose J is never reached is a `UserError`.
-    """
-    state, result = _state(block, (0, 0)), 1
+def _port_steps(block: Block) -> Iterator[bytes]:
+    """The steps of one block as a drive's port shows them (docs/spec/drive.md), a byte each, bit 7 off; in pieces."""
+    state, result = _state(block), 1
     # (few blocks take more than two steps for each that counts)
     size = min(2 * block.j + 16, _PIECE)
     buffer = ctypes.create_string_buffer(size)
@@ -141,3 +89,27 @@ def port_steps(block: Block) -> Iterator[bytes]:
         yield ctypes.string_at(buffer, state.steps - before)
     if result == _STALLED:
         raise stalled(block)
+
+
+def drive_steps(tape: Tape) -> Iterator[bytes]:
+    """The port's value at each step of a tape, a byte each, in pieces.
+
+    Bit 7 is on from the start, and each stop turns it over. A block whose J is never reached is a `UserError`.
+    """
+    cuts = True
+    for item in tape.items:
+        if isinstance(item, Stop):
+            cuts = not cuts
+        else:
+            for piece in _port_steps(item):
+                yield piece.translate(_CUT) if cuts else piece
+
+
+def stops_in_pairs(tape: Tape) -> bool:
+    """Tell whether what lies between the 1st stop and the 2nd, the 3rd and the 4th, … is positioning, and nothing else
+    is.
+
+    Bit 7 is then on where the tape cuts, and nowhere else. A single stop at the tape's end is none.
+    """
+    stretches, moves = tape.stretches(), tape.positioning()
+    return all(is_move == (index % 2 == 1) for index, is_move in enumerate(moves) if stretches[index])

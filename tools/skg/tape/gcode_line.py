@@ -1,4 +1,4 @@
-"""A line of G-code: what its words say, and what of that stays in force behind it.
+"""A line of G-code: its words, what they say, and what of that stays in force behind it.
 
 Numbers are in millimetres or inches as G21 and G20 say; without them they are millimetres where some have a decimal
 point, and micrometres where none has, as a CAD package has it beside its 3B tapes.
@@ -6,16 +6,123 @@ point, and micrometres where none has, as a CAD package has it beside its 3B tap
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
+from typing import NamedTuple
 
-from skg.tape import gcode_known as known
 from skg.tape.block import MAX_DIGITS
 from skg.tape.gcode_tool import OUTPUTS, TURNS
-from skg.tape.gcode_words import Findings, Misread, Word, words
 
+#: Text between words, or behind a line: blanks, comments in parentheses and after `;`.
+SPACE = re.compile(r"(?:\s|\([^()]*\)|;.*)*")
+_WORD = re.compile(r"([A-Z])\s*([+-]?(?:\d+\.?\d*|\.\d+))" + SPACE.pattern)
+#: M words behind which the rest of the line is a text, on boards for printers.
+_TEXTS = {117, 118}
+#: Letters that say nothing of the path.
+SILENT = "FSTPHDL"
+#: Other axes, which may stand at 0.
+OTHERS = "ABCUVW"
+#: G words that say nothing of it: a dwell, lengths of tools, path modes.
+MODES = {Decimal(n) for n in ("4", "8", "9", "40", "43", "49", "50", "61", "64", "69", "80", "91.1", "94", "97")}
+#: Work offsets: a program may have one of them.
+OFFSETS = {Decimal(n) for n in range(54, 60)}
+#: M words of sub-programs, which are no part of a path.
+CALLS = {96, 97, 98, 99}
+#: Cycles that drill, or bore: at each place down and up again. Their Q is the depth of a peck.
+CYCLES = {73, 81, 82, 83, 85, 89}
+#: G words that say what a place does; the first ones are the motions.
+MOTIONS = set(map(Decimal, range(4)))
+WAYS = {*MOTIONS, *map(Decimal, CYCLES)}
+#: Of the G words of one of these groups a line has one at most: which of two would count differs among controls.
+GROUPS = [
+    WAYS,
+    *(set(map(Decimal, group.split())) for group in ("17 18 19", "20 21", "90 91", "43 49", "61 64", "98 99")),
+    OFFSETS,
+]
+#: Words that are places, and what G4 has besides P on some controls.
+PLACES = "XYZIJKR"
+VALUES = PLACES + "F"
+DWELL, NO_MOTION = Decimal(4), Decimal(80)
+#: Path blending of G64: P, the tolerance at corners, and Q, that for lines that are nearly one.
+BLEND = Decimal(64)
+#: G words that go to a place of the machine's own: home, or what the line says in its coordinates.
+HOMES, MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
+AWAY = {*HOMES, MACHINE}
+#: M words of boards for printers: from the first on, and these. The words behind one are its own (`M92 X80`: steps).
+BOARDS, BOARD = 100, {17, 18, 84, 92}
+#: G words that a message names as expected.
+EXPECTED = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 #: µm in a number of each unit.
 INCH, MILLIMETRE = Decimal(25400), Decimal(1000)
+
+
+class Misread(Exception):
+    """A text that cannot be read, at a column, from 1."""
+
+    def __init__(self, column: int, message: str) -> None:
+        super().__init__(message)
+        self.column = column
+
+
+@dataclass(frozen=True)
+class GcodeFinding:
+    """Something wrong in G-code: line and column, from 1, and what.
+
+    `is_fatal`: it cannot be read further. `is_guess`: it is read as the message says, and might mean something else.
+    """
+
+    line: int
+    column: int
+    message: str
+    is_fatal: bool = field(default=True, repr=False)
+    is_guess: bool = field(default=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"line {self.line}, column {self.column}: {self.message}"
+
+
+class Findings:
+    """Findings in a program that is being read; `line`, from 1, is the current one."""
+
+    def __init__(self) -> None:
+        self.line = 0
+        self.all: list[GcodeFinding] = []
+
+    def misread(self, error: Misread) -> None:
+        """Add an error: a text that cannot be read."""
+        self.all.append(GcodeFinding(self.line, error.column, str(error)))
+
+    def warn(self, column: int, message: str, is_guess: bool = False) -> None:
+        """Add a warning: a text that stops some controls, or might be meant otherwise."""
+        self.all.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
+
+
+class Word(NamedTuple):
+    """A letter and its number; `is_decimal`: it has a point; `column`, from 1."""
+
+    letter: str
+    number: Decimal
+    is_decimal: bool
+    column: int
+
+
+def words(text: str) -> Iterator[Word]:
+    """Split a line into words; comments in parentheses and after `;` are nothing, and N words say nothing."""
+    text = text.upper()
+    index, end = SPACE.match(text).end(), len(text)
+    while index < end:
+        match = _WORD.match(text, index)
+        if not match:
+            raise Misread(index + 1, f"expected a word such as G01 or X-9900, found {text[index]!r}")
+        letter, number = match.groups()
+        if letter != "N":
+            word = Word(letter, Decimal(number), "." in number, index + 1)
+            yield word
+            if letter == "M" and word.number in _TEXTS:
+                return
+        index = match.end()
 
 
 @dataclass
@@ -61,11 +168,11 @@ class Modes:
         is_board = False
         for word in words(text):
             letter = word.letter
-            if self.ended and (letter in known.PLACES or letter == "G"):
+            if self.ended and (letter in PLACES or letter == "G"):
                 raise Misread(word.column, "expected nothing after M02")
             if is_board and letter not in "GMS":
                 continue
-            if letter in known.VALUES:
+            if letter in VALUES:
                 if letter in line.values:
                     raise Misread(word.column, f"{letter} stands here twice")
                 line.values[letter] = word
@@ -74,29 +181,29 @@ class Modes:
                 is_board = False
             elif letter == "M":
                 self._miscellaneous(word, line)
-                is_board |= known.is_of_board(word.number) and not (line.codes or line.values)
+                is_board |= (word.number >= BOARDS or word.number in BOARD) and not (line.codes or line.values)
             elif letter == "S":
                 line.power = word.number
             elif letter == "P":
                 line.output = word.number
-            elif letter == "Q" and (known.BLEND in line.codes or self.motion in known.CYCLES):
+            elif letter == "Q" and (BLEND in line.codes or self.motion in CYCLES):
                 pass
-            elif letter not in known.SILENT and not (letter in known.OTHERS and not word.number):
+            elif letter not in SILENT and not (letter in OTHERS and not word.number):
                 raise Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
         if line.output is None:  # another control's words
             line.turns = [code for code in line.turns if code not in OUTPUTS]
-        if known.NO_MOTION in line.codes and not known.MOTIONS.intersection(line.codes):
+        if NO_MOTION in line.codes and not MOTIONS.intersection(line.codes):
             self.motion = None
         return line
 
     def _preparatory(self, word: Word, line: GcodeLine) -> None:
         """Carry out a G word."""
         for code in line.codes:
-            if any({code, word.number} <= group for group in known.GROUPS):
+            if any({code, word.number} <= group for group in GROUPS):
                 raise Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
         line.codes.append(word.number)
         match word.number:
-            case n if n in known.WAYS:
+            case n if n in WAYS:
                 self.motion = int(word.number)
             case 98 | 99:
                 self.is_low = word.number == 99
@@ -108,14 +215,14 @@ class Modes:
                 self.plane = int(word.number)
             case 20 | 21:
                 self.unit = INCH if word.number == 20 else MILLIMETRE
-            case n if n in known.OFFSETS:
+            case n if n in OFFSETS:
                 if self.offset not in (None, n):
                     raise Misread(word.column, f"G{n:f} after G{self.offset:f}: how far apart the two are is not known")
                 self.offset = n
-            case n if n in known.MODES or n in known.HOMES or n == known.MACHINE:
+            case n if n in MODES or n in HOMES or n == MACHINE:
                 pass
             case n:
-                raise Misread(word.column, f"G{n:f} is not known, expected {known.EXPECTED}")
+                raise Misread(word.column, f"G{n:f} is not known, expected {EXPECTED}")
 
     def _miscellaneous(self, word: Word, line: GcodeLine) -> None:
         """Carry out an M word."""
@@ -124,7 +231,7 @@ class Modes:
         line.turns.append(word.number)
         if word.number in (2, 30):
             self.ended = True
-        elif word.number in known.CALLS:
+        elif word.number in CALLS:
             raise Misread(word.column, f"M{word.number:f}: a sub-program is not known here")
         line.is_stop |= word.number in (0, 1)
 

@@ -191,7 +191,8 @@ class GcodeProgram:
                 stops.append(Stop(len(blocks)))
         if moved_from is not None:
             blocks.extend(_between(moved_from, spot))
-        return Tape(self.name, blocks.numbered(), tuple(stops), drift=True)
+        start = self.home[0] / 1000, self.home[1] / 1000
+        return Tape(self.name, blocks.numbered(), tuple(stops), drift=True, start=start)
 
     def _look_at_ends(self) -> None:
         """Refuse the first arc that is cut and whose end is too far off its circle."""

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 import re
 from decimal import Decimal
+from math import hypot
 
 from skg.errors import UserError
-from skg.tape import gcode_arc as arcs
-from skg.tape import gcode_known as known
+from skg.tape import gcode_line as known
 from skg.tape.block import Block, Stop, arc_block, line_block
 from skg.tape.gcode import Spot, minus
-from skg.tape.gcode_line import MILLIMETRE, Modes
+from skg.tape.gcode_line import MILLIMETRE, SPACE, Findings, GcodeFinding, Misread, Modes, Word
 from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
 from skg.tape.gcode_tool import OUTPUTS, Idle, Tool
-from skg.tape.gcode_words import SPACE, Findings, GcodeFinding, Misread, Word
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
@@ -26,15 +25,20 @@ _SYSTEM = re.compile(r"(\$(?:\d+\s*=\s*[\d.]+|[GHICNX#$]|RST\s*=.*|SLP)?|\?)" + 
 _MARK = re.compile(r"([%:O])\d*" + SPACE.pattern, re.I)
 #: First characters of lines that may be no block of words.
 _APART = "%:Oo$?"
+#: Controls let an arc's end lie so far off the circle through its start: the first, and a thousandth of the radius up
+#: to the second, µm.
+_OFF_CONTROL, _OFF_MOST = 5, 500
+#: Controls take an arc of less than so many radians for a full circle.
+_LEAST_SWEEP = 1e-6
 #: The message for a program with rapids alone.
 _GOES_ONLY = "nothing is cut: it goes everywhere with G0"
 
 
 class _Reader:
-    """State of a program that is being read; places and heights in µm. What it does goes to `path`, if there is one."""
+    """State of a program that is being read; places and heights in µm. What it does goes to `path`."""
 
-    def __init__(self, idle: Idle, path: GcodePath | None, untold: Decimal | None) -> None:
-        self.tool, self.path = Tool(idle), path
+    def __init__(self, idle: Idle, untold: Decimal | None) -> None:
+        self.tool, self.path = Tool(idle), GcodePath()
         self.findings = Findings()
         self.modes = Modes(self.findings, untold)
         # The tool's position in the plane, and the same in whole µm.
@@ -106,8 +110,7 @@ class _Reader:
     def mark(self, mark: Drilled | Stop) -> None:
         """A hole or a stop."""
         self.begun = True
-        if self.path is not None:
-            self.path.mark(mark)
+        self.path.mark(mark)
 
     def name_place(self, values: dict[str, Word]) -> None:
         """G92: the tool's place has these coordinates; what is not named keeps its own."""
@@ -148,7 +151,7 @@ class _Reader:
             if modes.plane != 17:
                 raise Misread(column, f"an arc of G{modes.plane} stands upright: expected arcs of the plane XY, G17")
             if not self.is_no_way(values, goal, end):
-                self.arc(start, end, arcs.to_centre(modes, values, chord, column), column, cuts)
+                self.arc(start, end, _to_centre(modes, values, chord, column), column, cuts)
         elif not values.keys().isdisjoint("IJKR"):
             raise Misread(column, "I, J, K and R belong to G02 and G03")
         else:
@@ -167,7 +170,13 @@ class _Reader:
     def is_no_way(self, values: dict[str, Word], goal: tuple[Decimal, Decimal], end: Spot) -> bool:
         """Tell whether an arc ends less than 1 µm ahead of where it begins: rounded it would be a full circle."""
         x, y = (float(to - here) for to, here in zip(goal, self.position, strict=True))
-        return (x, y) != (0, 0) and end == self.spot and arcs.is_no_way(self.modes, values, x, y)
+        if (x, y) == (0, 0) or end != self.spot:
+            return False
+        if "R" in values:
+            return self.modes.value(values, "R") > 0
+        i, j = (float(self.modes.value(values, letter)) for letter in "IJ")
+        ahead = y * i - x * j
+        return (ahead < 0) == (self.modes.sense > 0) and abs(ahead) > _LEAST_SWEEP * (i**2 + j**2)
 
     def look_for_feed(self, column: int) -> None:
         """Say, once, that there has been no F."""
@@ -256,7 +265,7 @@ class _Reader:
         """An arc in its place."""
         first = -to_centre[0], -to_centre[1]
         last = first[0] + end[0] - start[0], first[1] + end[1] - start[1]
-        if arcs.is_flat(first, last, self.modes.sense):
+        if _is_flat(first, last, self.modes.sense):
             self.findings.warn(column, "an arc so flat that LinuxCNC and GRBL take it for a full circle")
         self.lay(arc_block(first, last, self.modes.sense), start, end, cuts)
 
@@ -266,8 +275,7 @@ class _Reader:
         self.dipped = None
         if cuts:
             self.blocks += 1
-        if self.path is not None:
-            self.path.lay(block, self.blocks, start, end, not cuts)
+        self.path.lay(block, self.blocks, start, end, not cuts)
 
     def notes(self) -> tuple[str, ...]:
         """Describe what does not cut."""
@@ -283,9 +291,45 @@ def _rounded(place: tuple[Decimal, ...]) -> Spot:
     return rounded_one(place[0]), rounded_one(place[1])
 
 
-def _read_through(text: str, idle: Idle, keeps: bool, untold: Decimal | None) -> _Reader:
-    """Read a program; what cannot be read is left out. Unless `keeps`, nothing of what it does is kept."""
-    reader = _Reader(idle, GcodePath() if keeps else None, untold)
+def _to_centre(modes: Modes, values: dict[str, Word], to_end: Spot, column: int) -> Spot:
+    """From an arc's start to its centre; `to_end` is the way to its end."""
+    if "K" in values:
+        raise Misread(values["K"].column, "K belongs to arcs of another plane")
+    if "R" in values:
+        if not values.keys().isdisjoint("IJ"):
+            raise Misread(column, "an arc has its centre, I and J, or its radius, R, not both")
+        return _by_radius(to_end, float(modes.value(values, "R")), modes.sense, column)
+    x, y = (rounded_one(modes.value(values, letter)) for letter in "IJ")
+    if (x, y) == (0, 0):
+        raise Misread(column, "an arc needs its centre, I and J")
+    off = abs(hypot(to_end[0] - x, to_end[1] - y) - hypot(x, y))
+    if off > min(max(_OFF_CONTROL, hypot(x, y) / 1000), _OFF_MOST):
+        raise Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
+    return x, y
+
+
+def _by_radius(vector: Spot, radius: float, sense: int, column: int) -> Spot:
+    """The vector from an arc's start to its centre, by that to its end and the radius; below 0: over half a turn."""
+    chord = hypot(*vector)
+    if not chord:
+        raise Misread(column, "an arc by its radius that ends where it begins")
+    if chord / 2 - abs(radius) > _OFF_CONTROL:
+        raise Misread(column, f"the arc's ends are {chord / 1000:g} mm apart, more than twice its radius")
+    aside = max(radius * radius - chord * chord / 4, 0) ** 0.5 / chord
+    if (radius > 0) != (sense > 0):
+        aside = -aside
+    return round(vector[0] / 2 - vector[1] * aside), round(vector[1] / 2 + vector[0] * aside)
+
+
+def _is_flat(start: Spot, end: Spot, sense: int) -> bool:
+    """Tell whether controls take an arc for a full circle, though its ends, told from its centre, differ."""
+    cross, dot = sense * (start[0] * end[1] - start[1] * end[0]), start[0] * end[0] + start[1] * end[1]
+    return start != end and 0 <= cross < _LEAST_SWEEP * dot
+
+
+def _read_through(text: str, idle: Idle, untold: Decimal | None) -> _Reader:
+    """Read a program; what cannot be read is left out."""
+    reader = _Reader(idle, untold)
     for line in text.splitlines():
         try:
             reader.take(line)
@@ -294,15 +338,15 @@ def _read_through(text: str, idle: Idle, keeps: bool, untold: Decimal | None) ->
     return reader
 
 
-def _read_all(text: str, keeps: bool) -> _Reader:
+def _read_all(text: str) -> _Reader:
     """The same, where it is known what does not cut; and what is wrong with the program as a whole."""
-    reader = _read_through(text, Idle(), keeps, None)
+    reader = _read_through(text, Idle(), None)
     if reader.modes.is_mixed:
-        reader = _read_through(text, Idle(), keeps, MILLIMETRE)
+        reader = _read_through(text, Idle(), MILLIMETRE)
     # (moves that do not cut are known when all has been read; mostly there are none)
     idle = reader.tool.idle_in_all()
     if idle != Idle():
-        again = _read_through(text, idle, keeps, reader.modes.untold)
+        again = _read_through(text, idle, reader.modes.untold)
         if again.tool.idled < again.tool.feeds:
             reader = again
     for beam, line in reader.tool.always_off.items():
@@ -321,15 +365,9 @@ def _read_all(text: str, keeps: bool) -> _Reader:
     return reader
 
 
-def look(text: str) -> tuple[list[GcodeFinding], tuple[str, ...]]:
-    """Everything that is wrong with a program, and its notes, as `GcodeProgram` has them."""
-    reader = _read_all(text, keeps=False)
-    return reader.findings.all, reader.notes()
-
-
 def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
     """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
-    reader = _read_all(text, keeps=True)
+    reader = _read_all(text)
     guesses = tuple(str(finding) for finding in reader.findings.all if finding.is_guess)
     program = GcodeProgram(
         name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.notes()

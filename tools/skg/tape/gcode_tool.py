@@ -78,9 +78,8 @@ class Tool:
     def is_idle(self, height: Decimal | None) -> bool:
         """Tell whether a move with G1 to G3, no lower than `height`, does not cut; counts it."""
         self.feeds += 1
-        for name, is_on in self.is_on.items():
-            if not is_on or (name == _BEAM and self.power == 0):
-                self.dark[name] += 1
+        for name in filter(self.is_dark, self.is_on):
+            self.dark[name] += 1
         lift = self.servo or (_TURN, self.power)
         if lift != self.lift:
             self.lift_changes += self.lift is not None

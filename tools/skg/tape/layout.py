@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
-from math import atan2, pi
+from math import pi
 from typing import overload
 
 import numpy as np
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from skg.geometry.arrays import Flags, Floats, directions, hypots
 from skg.geometry.piece import Piece
-from skg.geometry.plane import XY, minus
+from skg.geometry.plane import XY
 from skg.tape.block import Block, Tape
 from skg.tape.block_list import Blocks
 from skg.tape.columns import Columns, columns_of
@@ -33,22 +33,6 @@ class Placed(Piece):
     """A block in its place: the line or arc that it is, absolute, in µm."""
 
     block: Block = field(kw_only=True)
-
-    @classmethod
-    def between(cls, block: Block, start: XY, end: XY, centre: XY | None = None) -> Placed:
-        """A block from `start` to `end`; `centre` is that of an arc when it is not the block's own.
-
-        The sweep is the block's, corrected by what the ends lie away from where the block alone has them.
-        """
-        if block.is_line:
-            return cls(start, end, block=block)
-        if centre is None:
-            centre = minus(start, block.start)
-        sweep = block.sweep
-        if not block.is_full_circle:
-            first, last = (atan2(y - centre[1], x - centre[0]) for x, y in (start, end))
-            sweep += (last - first - sweep + pi) % (2 * pi) - pi
-        return cls(start, end, centre, sweep, block=block)
 
 
 @dataclass(frozen=True)
@@ -118,12 +102,15 @@ class Laid(Sequence[Placed]):
 
     @classmethod
     def between(cls, blocks: Sequence[Block], columns: Columns, places: NDArray) -> Laid:
-        """Blocks that end where the next one begins, at n + 1 places; as `Placed.between` of each."""
+        """Blocks that end where the next one begins, at n + 1 places; as `apart` has them."""
         return cls.apart(blocks, columns, places[:-1], places[1:])
 
     @classmethod
     def apart(cls, blocks: Sequence[Block], columns: Columns, starts: NDArray, ends: NDArray) -> Laid:
-        """Blocks between starts and ends (n × 2 each); as `Placed.between` of each."""
+        """Blocks between starts and ends (n × 2 each).
+
+        A sweep is the block's, corrected by what the ends lie away from where the block alone has them.
+        """
         centres = np.empty(starts.shape, np.result_type(starts, columns.x))
         sweeps = np.empty(len(columns))
         for part, some in columns.shares():

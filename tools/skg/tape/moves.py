@@ -21,7 +21,12 @@ _FIELDS = [name for name, _ in State._fields_]
 
 @dataclass(frozen=True)
 class Walk:
-    """The controller's outcome of blocks, a row for each: as `Outcome` of one."""
+    """The controller's outcome of blocks, a row for each; lengths in µm.
+
+    `moves` is where it went (dx, dy), `steps` in how many steps; `off_curve` the largest distance from the line or arc
+    as it starts where the controller stands, `off_path` from where that line or arc should lie. Both are distances from
+    the whole line and the whole circle: `Block.move` − `moves` tells the end's miss.
+    """
 
     moves: Whole
     steps: Whole

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from skg.errors import UserError
@@ -108,7 +108,7 @@ class _StyleReader:
             else:
                 raise self.error(index, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, index)}")
         self._trailer(bare, index, end)
-        place = (float(start[1]), float(start[2])) if start else None
+        place = (float(start[1]), float(start[2])) if start else (0.0, 0.0)
         return Tape.of(self.name, self.items, notes=self._notes(), start=place)
 
     def _note(self, is_so: bool, note: str) -> None:
@@ -234,46 +234,28 @@ def _found(text: str, index: int) -> str:
 # Writing --------------------------------------------------------------------------------------------------
 
 
-def _punch(number: int, item: Block | str) -> str:
-    return f"{item}\r\n"
-
-
-def _spaced(number: int, item: Block | str) -> str:
-    if isinstance(item, str):
-        return f"{item}\r\n"
-    return f"B {item.x} B {item.y} B {item.j} G{item.axis} {item.code}\r\n"
-
-
-def _numbered(number: int, item: Block | str) -> str:
-    return f"N{number:4}: {_spaced(number, item)}"
-
-
-def _padded(number: int, item: Block | str) -> str:
-    if isinstance(item, str):
-        return f"{item}\r\n"
-    return f"B{item.x:06}B{item.y:06}B{item.j:06}G{item.axis}{item.code}\r\n"
-
-
-def _joined(number: int, item: Block | str) -> str:
-    if isinstance(item, str):
-        return f"{item} "
-    return f"B {item.x}B {item.y}B {item.j} G{item.axis} {item.code} "
-
-
-#: Name -> how an item is written, its number on the tape (from 1) and a block or a word given.
-STYLES: dict[str, Callable[[int, Block | str], str]] = {
-    "punch": _punch,
-    "spaced": _spaced,
-    "numbered": _numbered,
-    "padded": _padded,
-    "joined": _joined,
+_SPACED = "B {x} B {y} B {j} G{axis} {code}\r\n"
+#: Name -> how a block is written, and a word; `number` counts both, from 1.
+STYLES = {
+    "punch": ("B{x}B{y}B{j}G{axis}{code}\r\n", "{word}\r\n"),
+    "spaced": (_SPACED, "{word}\r\n"),
+    "numbered": (f"N{{number:4}}: {_SPACED}", "N{number:4}: {word}\r\n"),
+    "padded": ("B{x:06}B{y:06}B{j:06}G{axis}{code}\r\n", "{word}\r\n"),
+    "joined": ("B {x}B {y}B {j} G{axis} {code} ", "{word} "),
 }
 
 
 def to_style(items: Iterable[Block | Stop], style: str) -> bytes:
     """Return a tape in one of `STYLES`, its end included. A number of more than 8 digits does not fit: `UserError`."""
-    words: list[Block | str] = ["D" if isinstance(item, Stop) else item for item in items]
-    for number, item in enumerate(words, 1):
-        if isinstance(item, Block) and max(item.x, item.y, item.j) >= 10**MAX_DIGITS:
+    block_form, word_form = STYLES[style]
+    texts: list[str] = []
+    for number, item in enumerate(items, 1):
+        if isinstance(item, Stop):
+            texts.append(word_form.format(number=number, word="D"))
+            continue
+        x, y, j = item.x, item.y, item.j
+        if max(x, y, j) >= 10**MAX_DIGITS:
             raise UserError(f"line {number}: {item} has a number of more than {MAX_DIGITS} digits")
-    return "".join(STYLES[style](number, item) for number, item in enumerate([*words, "DD"], 1)).encode("ascii")
+        texts.append(block_form.format(number=number, x=x, y=y, j=j, axis=item.axis, code=item.code))
+    texts.append(word_form.format(number=len(texts) + 1, word="DD"))
+    return "".join(texts).encode("ascii")

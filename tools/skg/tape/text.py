@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from io import BytesIO
 
-from skg.errors import UserError
 from skg.files import read_bytes, without_filling
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
 from skg.tape.block_list import Blocks
@@ -20,6 +19,13 @@ _DIGITS = rf"(0|[1-9]\d{{0,{MAX_DIGITS - 1}}})"
 _BLOCK = re.compile(rf"B{_DIGITS}B{_DIGITS}B{_DIGITS}G([XY])({'|'.join(CODES)})", re.ASCII)
 #: The same with its line's end, as the punch makes all of them.
 _LINE = re.compile(rf"{_BLOCK.pattern}\r\n", re.ASCII)
+#: The parts of a block: what is read, what a message expects, and the name of a number.
+_PARTS = (
+    *(part for name in ("x", "y", "J") for part in (("B", "B", ""), ("[0-9]+", f"digits of {name}", name))),
+    ("G", "G", ""),
+    ("[XY]", "X or Y", ""),
+    ("|".join(CODES), "L1…L4, NR1…NR4 or SR1…SR4", ""),
+)
 
 
 @dataclass(frozen=True)
@@ -34,79 +40,32 @@ class Finding:
         return f"block {self.block}, column {self.column}: {self.message}"
 
 
-class _Scanner:
-    """Reads one block's text from left to right; the first thing that does not fit raises `_Unexpected`."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.index = 0
-
-    def take(self, *words: str, expected: str = "") -> str:
-        """Take whichever of `words` stands here."""
-        for word in words:
-            if self.text.startswith(word, self.index):
-                self.index += len(word)
-                return word
-        raise _Unexpected(self.index, f"expected {expected or words[0]}, found {self.found()}")
-
-    def found(self) -> str:
-        """Quote the text here, for a message."""
-        if self.index >= len(self.text):
-            return "the end of the line"
-        character = self.text[self.index]
-        return repr(character) if character.isprintable() else f"byte {ord(character):02X}H"
-
-    def number(self, name: str) -> int:
-        """Take a whole number of 1 to 8 digits without leading zeros."""
-        first = self.index
-        while self.text[self.index : self.index + 1] in tuple("0123456789"):
-            self.index += 1
-        digits = self.text[first : self.index]
-        if not digits:
-            raise _Unexpected(first, f"expected digits of {name}, found {self.found()}")
-        if len(digits) > MAX_DIGITS:
-            raise _Unexpected(first, f"{name} has {len(digits)} digits, at most {MAX_DIGITS} fit")
-        if digits[0] == "0" and len(digits) > 1:
-            raise _Unexpected(first, f"{name} has leading zeros")
-        return int(digits)
-
-
-class _Unexpected(Exception):
-    def __init__(self, index: int, message: str) -> None:
-        super().__init__(message)
-        self.index = index
-
-
-def parse_block(text: str, number: int = 0) -> Block:
-    """Read one block without its line end; raises `UserError` with the column of what does not fit."""
-    try:
-        return Block(*_parse(text), number)
-    except _Unexpected as error:
-        raise UserError(str(Finding(number, error.index + 1, str(error)))) from None
-
-
 def _values(block: re.Match[str]) -> tuple[int, int, int, str, str]:
     """x, y, J, count direction and code of a block that was matched."""
     x, y, j, axis, code = block.groups()
     return int(x), int(y), int(j), axis, code
 
 
-def _parse(text: str) -> tuple[int, int, int, str, str]:
-    """x, y, J, count direction and code of a block."""
-    if block := _BLOCK.fullmatch(text):
-        return _values(block)
-    # Something is wrong: where, and what was expected?
-    scanner = _Scanner(text)
-    values = []
-    for name in ("x", "y", "J"):
-        scanner.take("B")
-        values.append(scanner.number(name))
-    scanner.take("G")
-    axis = scanner.take("X", "Y", expected="X or Y")
-    code = scanner.take(*CODES, expected="L1…L4, NR1…NR4 or SR1…SR4")
-    if scanner.index < len(text):
-        raise _Unexpected(scanner.index, f"expected the end of the block, found {scanner.found()}")
-    return *values, axis, code
+def _first_fault(text: str) -> tuple[int, str]:
+    """The first thing that does not fit in a text that is no block: its index, and what was expected."""
+    index = 0
+    for pattern, expected, name in _PARTS:
+        part = re.compile(pattern).match(text, index)
+        if not part:
+            return index, f"expected {expected}, found {_quoted(text, index)}"
+        if name and len(part[0]) > MAX_DIGITS:
+            return index, f"{name} has {len(part[0])} digits, at most {MAX_DIGITS} fit"
+        if name and part[0][0] == "0" and len(part[0]) > 1:
+            return index, f"{name} has leading zeros"
+        index = part.end()
+    return index, f"expected the end of the block, found {_quoted(text, index)}"
+
+
+def _quoted(text: str, index: int) -> str:
+    """Quote the text at a place, for a message."""
+    if index >= len(text):
+        return "the end of the line"
+    return repr(text[index]) if text[index].isprintable() else f"byte {ord(text[index]):02X}H"
 
 
 class _Reading:
@@ -145,15 +104,15 @@ class _Reading:
     def _block(self, line: str) -> None:
         """A block that is not as the punch makes it."""
         self.number += 1
-        try:
-            self.blocks.add(*_parse(line), self.number)
-        except _Unexpected as error:
-            self._find(self.number, error.index, str(error))
+        if block := _BLOCK.fullmatch(line):
+            self.blocks.add(*_values(block), self.number)
+        else:
+            self._find(self.number, *_first_fault(line))
 
     def _behind(self, rest: str) -> None:
         """Report text behind DD."""
         if rest:
-            self._find(self.number, 0, f"expected nothing after DD, found {_Scanner(rest).found()}")
+            self._find(self.number, 0, f"expected nothing after DD, found {_quoted(rest, 0)}")
 
     def end(self) -> None:
         """No more lines."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from skg.cutting.settings import Progress
+from skg.cutting.progress import Progress
 from skg.errors import UserError
 from skg.job import file as job_files
 from skg.job.job import Chosen, Job
@@ -114,7 +114,7 @@ class Desk:
         _, job, cut = self._cut
         with TemporaryDirectory(prefix="skg-") as folder:
             path = str(Path(folder) / f"sheet.{form}")
-            write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units, job.machine), path, form)
+            write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units), path, form)
             return Path(path).read_bytes()
 
     def _present(self) -> DrawnJob:

@@ -13,7 +13,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from traceback import extract_tb
 
-from skg.cutting.settings import Progress
+from skg.cutting.progress import Progress
 from skg.errors import UserError
 from skg.garbage import collect_rarely
 
