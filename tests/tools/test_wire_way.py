@@ -578,3 +578,35 @@ def test_loops_smaller_than_the_wire(run: Run, tmp_path: Path, corners: tuple[st
     assert says(
         run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1), "contour 1", "(5", "--small"
     )
+
+
+@pytest.mark.parametrize(
+    ("drawn", "clean", "tips"),
+    [
+        ("M0 0h31h-1v20h-30z", "M0 0h30v20h-30z", "1 line that"),
+        ("M-2 0h32v21v-1h-30v-20z", "M0 0h30v20h-30z", "2 lines"),
+        ("M0 0h10v-3h-1h1v3h20v20h-30z", "M0 0h10v-3h0v3h20v20h-30z", "2 lines"),
+        ("M0 0h30v20h-30z M5 5h20v10h-19h2h-3z", "M0 0h30v20h-30z M5 5h20v10h-20z", "1 line that"),
+    ],
+)
+def test_lines_that_run_along_and_back(run: Run, tmp_path: Path, drawn: str, clean: str, tips: str) -> None:
+    """Are not cut where they lie on the wire's side, and that is said; the tape is that of the drawing without them."""
+    path, tapes = tmp_path / "part.svg", []
+    for way in (drawn, clean.replace("v-3h0v3", "")):
+        path.write_text(
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="50mm" viewBox="-9 -9 50 40"><path d="{way}"/></svg>'
+        )
+        result = run("cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1, "--quiet", "--start", "-5,-5")
+        assert (tips in result.stderr) == (way is drawn) == ("take care" in result.stderr)
+        tapes.append((tmp_path / "part.3b").read_bytes())
+    assert tapes[0] == tapes[1]
+
+
+def test_a_slit_is_not_lost(run: Run, tmp_path: Path) -> None:
+    """A line that runs into the part and back is one; beside it the wire has no room."""
+    path = tmp_path / "part.svg"
+    path.write_text(CORNERED.format("", "", "", "").replace("h30v20h-30z", "h15v4v-4h15v20h-30z"))
+    assert says(
+        run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1), "outline", "(15, ", "--small"
+    )
+    assert not (tmp_path / "part.3b").exists()

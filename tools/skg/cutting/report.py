@@ -145,12 +145,17 @@ def _contours(numbers: list[int]) -> str:
 
 def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
-    straight, around, chords, loops, off = [], [], [], [], _in_sharp_ones(routes)
+    straight, around, chords, loops, whiskers = [], [], [], [], []
+    off = _in_sharp_ones(routes)
     for route in routes:
-        if route.loops:
-            many, place = counted(len(route.loops), "loop"), route.loops[0]
-            text = f"take care: contour {route.turn} has {many} smaller than the wire, as at {shown(place)}: not cut"
-            loops.append(ReportLine(text, route.number, place))
+        for lines, places, noun, what in (
+            (loops, route.loops, "loop", "smaller than the wire"),
+            (whiskers, route.whiskers, "line", "that it runs along and back"),
+        ):
+            if places:
+                many, place = counted(len(places), noun), places[0]
+                text = f"take care: contour {route.turn} has {many} {what}, as at {shown(place)}: not cut"
+                lines.append(ReportLine(text, route.number, place))
         if route.is_cramped:
             why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"
             straight.append(_about(route, f"{why} for a lead along an arc: it is straight"))
@@ -174,7 +179,7 @@ def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
         )
         for far, place, route in sorted(off, key=lambda corner: -corner[0])
     ]
-    return [line for lines in (straight, around, chords, loops, narrow) for line in _first(lines)]
+    return [line for lines in (straight, around, chords, loops, whiskers, narrow) for line in _first(lines)]
 
 
 def _about(route: PlannedContour, text: str) -> ReportLine:

@@ -17,7 +17,7 @@ from skg.geometry.holding import Holding
 from skg.geometry.plane import XY, distance
 from skg.job.wanted import Wanted
 from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
-from skg.planning.loops import without_loops
+from skg.planning.loops import without_loops, without_whiskers
 from skg.planning.nesting import Nesting
 from skg.planning.order import nearest_order
 from skg.planning.route import PlannedContour, chain_from, split_at_end
@@ -127,6 +127,7 @@ class _Planner:
             contour, loops = without_loops(contour, max(map(abs, passes)))
             is_ccw = contour.area > 0
             is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
+            contour, whiskers = without_whiskers(contour, is_outside) if any(passes) else (contour, ())
             tab = want.tab if is_outside else 0.0
             is_short = tab > 0 and tab >= longest_tab(contour)
             made = PlannedContour(
@@ -141,6 +142,7 @@ class _Planner:
                 number=number,
                 is_short=is_short,
                 loops=loops,
+                whiskers=whiskers,
             )
             if start is not None:
                 if any(passes):

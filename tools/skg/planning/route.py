@@ -89,7 +89,7 @@ class PlannedContour:
     `has_fillets`: arcs between lines are written as radii of fillets, where these make them.
     `around`: what lies around it and is not cut.
     `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
-    `loops`: where the drawing has some that are smaller than the wire, and that are not in the contour.
+    `loops`, `whiskers`: where the drawing has some that are not in the contour; see `without_loops`.
     """
 
     contour: Contour
@@ -110,6 +110,7 @@ class PlannedContour:
     is_around: bool = False
     is_short: bool = False
     loops: tuple[XY, ...] = ()
+    whiskers: tuple[XY, ...] = ()
     has_fillets: bool = True
     around: Around | None = None
 
