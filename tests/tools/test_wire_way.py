@@ -602,6 +602,23 @@ def test_lines_that_run_along_and_back(run: Run, tmp_path: Path, drawn: str, cle
     assert tapes[0] == tapes[1]
 
 
+@pytest.mark.parametrize("drawn", ["M0 0H30.1C30.2 0 30-.1 30-.1V20H0z", "M30.1 0C30.2 0 30-.1 30-.1V20H0V0z"])
+def test_corners_that_are_overshot(run: Run, tmp_path: Path, drawn: str) -> None:
+    """Lines that cross near their ends: what lies behind the crossing is a loop, in the middle or where it begins."""
+    path, tapes = tmp_path / "part.svg", []
+    for way in (drawn, "M0 0H30V20H0z"):
+        path.write_text(
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="50mm" viewBox="-9 -9 50 40"><path d="{way}"/></svg>'
+        )
+        result = run("cut", path, "-o", tmp_path / "part.3b", "--offset", 0.1, "--quiet", "--start", "-5,-5")
+        assert says(result.stderr, CARE, "1 loop", "(39, 31)") == (way is drawn)
+        tapes.append((tmp_path / "part.3b").read_bytes())
+    assert tapes[0] == tapes[1]
+    # Beside a thinner wire it is no loop.
+    path.write_text(path.read_text().replace("M0 0H30V20H0z", drawn))
+    assert "part.svg" in run_failing(run, "cut", path, "-o", tmp_path / "part.3b", "--offset", 0.04)
+
+
 def test_a_slit_is_not_lost(run: Run, tmp_path: Path) -> None:
     """A line that runs into the part and back is one; beside it the wire has no room."""
     path = tmp_path / "part.svg"

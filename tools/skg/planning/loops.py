@@ -4,6 +4,7 @@ runs along and back on the wire's side. (laser cutters' programs round inner cor
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from math import hypot, pi
 
 import shapely
@@ -17,34 +18,76 @@ _SAME = 1e-6
 _PARALLEL = 1e-6
 
 
-def without_loops(contour: Contour, r: float) -> tuple[Contour, tuple[XY, ...]]:
-    """Return a closed contour without what leaves a place of it and comes back there within the circumference of a
-    wire, R (mm) beside it; and these places."""
+def tidied(contour: Contour, r: float, is_outside: bool) -> tuple[Contour, tuple[XY, ...], tuple[XY, ...]]:
+    """Return a closed contour that touches or crosses itself without its loops smaller than a wire that runs R (mm)
+    beside it, or outside of it, and without its whiskers; the places of both. Any other is as it was."""
+    if len(contour.edges) < 3 or _is_simple(contour):
+        return contour, (), ()
+    most = 2 * pi * abs(r)
+    whole, loops = _without_loops(contour, most)
+    if not _is_simple(whole):
+        # (it may begin within one)
+        half = len(whole.edges) // 2
+        other, more = _without_loops(replace(whole, edges=whole.edges[half:] + whole.edges[:half]), most)
+        whole, loops = (other, loops + more) if more else (whole, loops)
+    whole, whiskers = _without_whiskers(whole, is_outside)
+    return whole, loops, whiskers
+
+
+def _is_simple(contour: Contour) -> bool:
+    places = contour.points()
+    return len(places) > 3 and shapely.Polygon(places).is_valid
+
+
+def _without_loops(contour: Contour, most: float) -> tuple[Contour, tuple[XY, ...]]:
+    """A contour without what leaves a place of it and comes back there within a length, mm; and these places."""
     kept: list[Edge] = []
     places: list[XY] = []
     for edge in contour.edges:
         kept.append(edge)
-        if (first := _loop(kept, 2 * pi * abs(r))) is not None:
-            places.append(edge.end)
-            del kept[first:]
-    return (replace(contour, edges=tuple(kept)), tuple(places)) if places and kept else (contour, ())
+        if loop := _loop(kept, most):
+            first, place = loop
+            before, behind = replace(kept[first], end=place), replace(edge, start=place)
+            kept[first:] = [part for part in (before, behind) if distance(part.start, part.end) > _SAME]
+            places.append(place)
+    if not places or not kept:
+        return contour, ()
+    # (the ends of a loop may differ by rounding)
+    edges = (replace(edge, start=one.end) if edge.is_line else edge for one, edge in pairwise([kept[-1], *kept]))
+    return replace(contour, edges=tuple(edges)), tuple(places)
 
 
-def _loop(edges: list[Edge], most: float) -> int | None:
-    """The first of the last edges that come back to where they leave within a length, mm."""
-    length = 0.0
-    for first in range(len(edges) - 1, -1, -1):
-        length += edges[first].length
+def _loop(edges: list[Edge], most: float) -> tuple[int, XY] | None:
+    """The first of the last edges that come back to where they leave, and this place: a corner, or where two lines
+    cross."""
+    last, length = edges[-1], 0.0
+    for number in range(len(edges) - 1, -1, -1):
+        one = edges[number]
+        if length + last.length + one.length * (one is not last) <= most and distance(one.start, last.end) < _SAME:
+            return number, one.start
+        place = _crossing(one, last) if number < len(edges) - 2 else None
+        if place and distance(place, one.end) + length + distance(last.start, place) <= most:
+            return number, place
+        length += one.length * (one is not last)
         if length > most:
             return None
-        if distance(edges[first].start, edges[-1].end) < _SAME:
-            return first
     return None
 
 
-def without_whiskers(contour: Contour, is_outside: bool) -> tuple[Contour, tuple[XY, ...]]:
-    """Return a closed contour without its whiskers, and their tips; `is_outside`: the wire runs outside of it. One that
-    is a slit, on the other side, stays, and all others with it."""
+def _crossing(one: Edge, other: Edge) -> XY | None:
+    """The place where two lines cross."""
+    way, to, gap = minus(one.end, one.start), minus(other.end, other.start), minus(other.start, one.start)
+    area = cross(way, to)
+    if not (one.is_line and other.is_line) or abs(area) <= _PARALLEL * hypot(*way) * hypot(*to):
+        return None
+    part = cross(gap, to) / area
+    is_there = 0 <= part <= 1 and 0 <= cross(gap, way) / area <= 1
+    return one.at(part) if is_there else None
+
+
+def _without_whiskers(contour: Contour, is_outside: bool) -> tuple[Contour, tuple[XY, ...]]:
+    """A contour without its whiskers, and their tips. One that is a slit, on the other side than the wire, stays, and
+    all others with it."""
     edges = list(contour.edges)
     tips: list[XY] = []
     number = 0

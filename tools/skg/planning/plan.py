@@ -17,7 +17,7 @@ from skg.geometry.holding import Holding
 from skg.geometry.plane import XY, distance
 from skg.job.wanted import Wanted
 from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
-from skg.planning.loops import without_loops, without_whiskers
+from skg.planning.loops import tidied
 from skg.planning.nesting import Nesting
 from skg.planning.order import nearest_order
 from skg.planning.route import PlannedContour, chain_from, split_at_end
@@ -124,10 +124,11 @@ class _Planner:
                 start = start or contour.edges[0].start
                 done[number] = PlannedContour(contour, start, 0.0, offset, depth, passes[-1:], number=number)
                 continue
-            contour, loops = without_loops(contour, max(map(abs, passes)))
             is_ccw = contour.area > 0
             is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
-            contour, whiskers = without_whiskers(contour, is_outside) if any(passes) else (contour, ())
+            loops, whiskers = (), ()
+            if any(passes):
+                contour, loops, whiskers = tidied(contour, max(map(abs, passes)), is_outside)
             tab = want.tab if is_outside else 0.0
             is_short = tab > 0 and tab >= longest_tab(contour)
             made = PlannedContour(

@@ -89,7 +89,7 @@ class PlannedContour:
     `has_fillets`: arcs between lines are written as radii of fillets, where these make them.
     `around`: what lies around it and is not cut.
     `is_cramped`: a lead that is an arc was asked for, and has no room. `is_short`: a tab was asked for, and has none.
-    `loops`, `whiskers`: where the drawing has some that are not in the contour; see `without_loops`.
+    `loops`, `whiskers`: where the drawing has some that are not in the contour; see `tidied`.
     """
 
     contour: Contour
