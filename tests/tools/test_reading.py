@@ -906,6 +906,21 @@ def test_a_list_of_layers_says_what_was_guessed(run: Run, tmp_path: Path) -> Non
     assert each_says(run("cut", part, "--list-layers").stderr, ("part.dxf", "EOF"))
 
 
+@pytest.mark.parametrize("told", [True, False])
+@pytest.mark.parametrize("name", ["part.svg", "part.dxf"])
+def test_guessed_units_are_said_quietly_too(run: Run, tmp_path: Path, name: str, told: bool) -> None:
+    part = tmp_path / name
+    page = svg(
+        '<rect width="90" height="60"/>', 'width="200mm" viewBox="0 0 200 100"' if told else 'width="200" height="100"'
+    )
+    sheet = raw(*square(0, 0, 90), header="9\n$INSUNITS\n70\n4\n" if told else "")
+    part.write_bytes(page if name == "part.svg" else sheet)
+    words = ("cut", part, "-o", tmp_path / "part.3b", "--offset", 0.1, "--quiet")
+    lines = run(*words).stderr.splitlines()
+    assert lines == [] if told else says(lines[0], "mm", "read in", "px" if name == "part.svg" else "mm")
+    assert run(*words, "--units", "mm").stderr == ""
+
+
 def test_encoding_is_an_option(run: Run, tmp_path: Path) -> None:
     part = tmp_path / "part.dxf"
     for encoding, name in (("gbk", "轮廓线"), ("big5", "外框"), ("shift_jis", "外形線"), ("cp1251", "КОНТУР")):

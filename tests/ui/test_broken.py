@@ -66,6 +66,8 @@ def test_killed_in_a_call(server: Server, tmp_path: Path) -> None:
 def test_killed_in_a_cut(server: Server, tmp_path: Path) -> None:
     page = Page(server)
     state = page.open(circles(tmp_path, 2000))
+    # (halted, it cannot be done before it is killed)
+    os.kill(process_of(server), signal.SIGSTOP)
     number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
     os.kill(process_of(server), signal.SIGKILL)
     run = page.wait(number)
@@ -102,7 +104,7 @@ def test_progress(server: Server, tmp_path: Path) -> None:
 def test_cancel(server: Server, tmp_path: Path) -> None:
     """Back within a second, whatever the process does; the next cut is another one."""
     page = Page(server)
-    state = page.open(circles(tmp_path, 1500))
+    state = page.open(circles(tmp_path, 4000))
     number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
     assert page.call("POST", "/api/cut", {"rev": state["rev"]}).status == 409
     until(lambda: page.done("GET", f"/api/run/{number}")["stage"] != "plan")
@@ -118,7 +120,7 @@ def test_cancel(server: Server, tmp_path: Path) -> None:
 
 def test_another_drawing_takes_the_place_of_a_cut(server: Server, tmp_path: Path) -> None:
     page = Page(server)
-    state = page.open(circles(tmp_path, 1500))
+    state = page.open(circles(tmp_path, 4000))
     number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
     new = page.open(plate(tmp_path))
     assert len(new["contours"]) == 3

@@ -24,13 +24,19 @@ def counted(count: int, noun: str, nouns: str = "") -> str:
 @dataclass(frozen=True)
 class ReportLine:
     """A line of a report. `contour`: the number (from 0) of the contour, among those that were read, that it is about;
-    `place`: where, mm."""
+    `place`: where, mm. `is_guess`: it says what nobody told."""
 
     text: str
     contour: int | None = None
     place: tuple[float, float] | None = None
+    is_guess: bool = False
 
     @property
     def is_care(self) -> bool:
         """Tell whether somebody should take care."""
         return self.text.startswith("take care")
+
+    @property
+    def is_kept(self) -> bool:
+        """Tell whether --quiet keeps it."""
+        return self.is_care or self.is_guess or self.text.startswith("not cut")

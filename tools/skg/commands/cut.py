@@ -229,10 +229,8 @@ def command(
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
-    lines = [line.text for line in cut.lines]
-    if quiet:
-        lines = [line for line in lines if line.startswith(("take care", "not cut"))]
-    else:
+    lines = [line.text for line in cut.lines if line.is_kept or not quiet]
+    if not quiet:
         lines += unmarked(output, cut.result.tape, job.machine.rom)
     for line in lines:
         click.echo(line, err=True)

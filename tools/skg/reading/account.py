@@ -12,6 +12,8 @@ from skg.wording import ReportLine, counted, short, shown
 
 #: Why what only writes on a drawing, or fills what is drawn, is left.
 NOTE = "nothing to cut"
+#: Sources of a drawing's units.
+TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
 #: No gap that is wider than the wires are was meant to be closed, mm.
 WIRE = 0.3
 #: Places that a line of the report names before it says how many more there are.
@@ -134,7 +136,8 @@ class Account:
         """The report, line by line, without the file's name."""
         width, height = self.size
         told_in = "" if self.factor == 1 else f"; places are told in mm, {self.factor:.6g} to one of these"
-        lines = [ReportLine(f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from}){told_in}")]
+        size = f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from}){told_in}"
+        lines = [ReportLine(size, is_guess=self.units_from not in (TOLD, ASKED))]
         lines += [ReportLine(_of_layer(layer)) for layer in self.layers]
         kinds = [f"{self.closed} closed"] * bool(self.closed) + [f"{self.open} open"] * bool(self.open)
         count = counted(self.closed + self.open, "contour")

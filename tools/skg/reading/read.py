@@ -23,7 +23,7 @@ from skg.job.read_options import OPEN, START, UNITS, Wishes
 
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
 from skg.reading import dxf_entities, dxf_file, svg_file, svg_shapes
-from skg.reading.account import NOTE, Account, Content, listed
+from skg.reading.account import ASKED, NOT_TOLD, NOTE, TOLD, Account, Content, listed
 from skg.reading.chain import merged
 from skg.reading.selection import Fates, Selection
 from skg.wording import counted, short, shown
@@ -42,8 +42,6 @@ HUGE = 2000.0
 FARTHEST = 50_000.0
 #: The units that a drawing may be in. (In mil write programs for boards that do not tell it)
 GUESSED = ("mm", "inch", "cm", "mil")
-#: Sources of a drawing's units.
-TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
 #: Entities that fill an area, without lines around it.
 AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 
