@@ -34,16 +34,17 @@ def command(file: Path | None, port: int, no_browser: bool) -> None:
 
     session = Session()
     try:
-        session.begin(file)
+        # (a session that has begun has a process, which would end in a traceback where this one ends at once)
         try:
             server = Server(port, session)
         except OSError as error:
             raise UserError(f"port {port}: {error.strerror}") from None
-        click.echo(server.url)
-        if not no_browser:
-            # (a browser in this terminal keeps whoever calls it)
-            Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
         with server:
+            session.begin(file)
+            click.echo(server.url)
+            if not no_browser:
+                # (a browser in this terminal keeps whoever calls it)
+                Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
             server.serve_forever()
     except KeyboardInterrupt:
         click.echo()
