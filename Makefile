@@ -120,7 +120,7 @@ bench: bench-emu bench-floats bench-rom
 
 bench-rom: venv emu
 	@$(PY) tests/rom/bench.py
-	@$(PY) tests/drive/bench.py
+	@PYTHONPATH=tests $(PY) tests/drive/bench.py
 
 clean:
 	rm -rf build
