@@ -1145,7 +1145,7 @@ def test_svg_shapes() -> None:
 def test_svg_page_in_mm_without_a_view_box(program: str, pixels: int) -> None:
     """Its shapes are in pixels, which are those of the program that wrote it (an old Inkscape's page is so)."""
     side = 20 * pixels / 25.4
-    content = f'<rect x="{side}" y="0" width="{side}" height="{side / 2}"/><rect x="50%" width="{side}" height="9"/>'
+    content = f'<rect x="{side}" y="0" width="20mm" height="{side / 2}"/><rect x="50%" width="{side}" height="9"/>'
     reading = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes())
     report = reading.report
     assert report.size == pytest.approx((100, 10)) and report.low == pytest.approx((20, 90))

@@ -162,15 +162,13 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
 def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
     page = svg_file.SvgFile(data)
-    declared, px = page.units, svg_file.PX
-    told = f"{TOLD}; {page.guessed}" if page.is_guessed else TOLD
-    units = (*declared, told) if declared else ("px", page.guess, f"{NOT_TOLD}; {page.guessed}")
+    declared, px = page.units, page.px
+    told = TOLD if px == svg_file.PX else f"{TOLD}; {page.guessed}"
+    units = (*declared, told) if declared else ("px", px, f"{NOT_TOLD}; {page.guessed}")
     if wishes.units:
         # Without a page in mm or inches a pixel is one of the units asked for.
         units = wishes.units, UNITS[wishes.units], ASKED
-        px = UNITS[wishes.units] * (svg_file.PX / declared[1] if declared else 1.0)
-    elif not declared:
-        px = page.guess
+        px = UNITS[wishes.units] * (px / declared[1] if declared else 1.0)
     content = svg_shapes.collect(page, px, wishes)
     return content, Account(name, units[0], units[2], units[1], notes=list(content.notes))
 

@@ -80,11 +80,12 @@ class _Frame:
 @dataclass(frozen=True)
 class View:
     """The surroundings of an element. `matrix`: from its coordinates to pixels; `size`: that of the view box, for
-    percentages; `hidden`: why nothing of it is seen; `is_clipped`: whether only a part of it may be seen; `frames`: of
-    the nested drawings around it."""
+    percentages; `px`: mm in a pixel; `hidden`: why nothing of it is seen; `is_clipped`: whether only a part of it may
+    be seen; `frames`: of the nested drawings around it."""
 
     matrix: svgelements.Matrix
     size: XY
+    px: float
     layer: str = "0"
     style: Style = Style()
     hidden: str = ""
@@ -102,9 +103,8 @@ class Drawn:
 
 
 class SvgFile:
-    """The content of an SVG file. `units`: the name of the page's units and mm in one, None when it does not tell; then
-    `guess` is mm in a pixel, and `guessed` says where that comes from; `is_guessed`: it tells, but not of its shapes,
-    which have that pixel. `animations`: how many there are."""
+    """The content of an SVG file. `units`: the name of the page's units and mm in one, None when it does not tell;
+    `px`: mm in a pixel; `guessed`: how many of its program's are an inch. `animations`: how many there are."""
 
     def __init__(self, data: bytes) -> None:
         try:
@@ -114,11 +114,11 @@ class SvgFile:
             raise UserError(f"not an SVG drawing that can be read ({error})") from None
         if tag_of(self.root) != "svg":
             raise UserError(f"not an SVG drawing, its root is {tag_of(self.root)}")
-        self.guess, self.guessed = PX, "96 px are an inch"
+        self.px, self.guessed = PX, "96 px are an inch"
         if b"Adobe Illustrator" in data[:2000]:
-            self.guess, self.guessed = 25.4 / 72, "Illustrator has 72 px in an inch"
+            self.px, self.guessed = 25.4 / 72, "Illustrator has 72 px in an inch"
         elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
-            self.guess, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
+            self.px, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
         self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
         self.sheet = StyleSheet(
             self.root,
@@ -132,7 +132,10 @@ class SvgFile:
         box = _view_box(self.root)
         self.style = self.sheet.style(self.root, self.root, Style())
         self.units = self._units()
-        width, height = (_page_side(self._side(side)) for side in ("width", "height"))
+        if box and self.units:
+            # (the view box tells how large its shapes are)
+            self.px = PX
+        width, height = (_page_side(self._side(side), self.px) for side in ("width", "height"))
         # (a page that tells one side or none has that of its view box)
         if box and width is None:
             width = box[2] * (height / box[3] if height else 1.0)
@@ -141,12 +144,7 @@ class SvgFile:
         self.page = _Frame(svgelements.Matrix(), (0.0, 0.0), (width, height)) if width and height else None
         self.height = height or 0.0
         size = width or 0.0, self.height
-        self.is_guessed = self.units is not None and box is None and self.guess != PX
-        if self.is_guessed:
-            scale = self.guess / PX
-            self.view = View(svgelements.Matrix.scale(scale), (size[0] / scale, size[1] / scale))
-        else:
-            self.view = View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size)
+        self.view = View(_fitted(self.root, (0.0, 0.0), size), (box[2], box[3]) if box else size, self.px)
 
     def _side(self, name: str) -> str:
         """The page's width or height, as it is written."""
@@ -209,7 +207,7 @@ class SvgFile:
         view = replace(view, layer=layer, style=style, hidden=hidden, is_clipped=view.is_clipped or style.is_clipped)
         try:
             if style.transform:
-                view = replace(view, matrix=_transform(style, view.size) * view.matrix)
+                view = replace(view, matrix=_transform(style, view) * view.matrix)
             if name == "use":
                 shown = self._shown(element, view, around, used)
             elif name == "svg":
@@ -245,7 +243,7 @@ class SvgFile:
         around, used = (*around, element), (*used, target)
         if name in ("symbol", "svg"):
             style = self.sheet.style(target, target, view.style)
-            matrix = _transform(style, view.size) * moved.matrix if style.transform else moved.matrix
+            matrix = _transform(style, view) * moved.matrix if style.transform else moved.matrix
             inner = replace(moved, style=style, matrix=matrix)
             place = _corner(target, inner) if name == "svg" else (0.0, 0.0)
             return self._children(target, _framed(target, element, inner, place), (*around, target), used)
@@ -280,9 +278,9 @@ def _switched(group: ElementTree.Element) -> ElementTree.Element | None:
     return group
 
 
-def length_of(text: str, whole: float | None) -> float | None:
-    """A length in pixels; `whole` is that of 100 %. None where there is none, or nothing that it is a part of; one in
-    units of a font or of a window, or a sum, is a `ValueError`."""
+def length_of(text: str, whole: float | None, px: float) -> float | None:
+    """A length in pixels of `px` mm; `whole` is that of 100 %. None where there is none, or nothing that it is a part
+    of; one in units of a font or of a window, or a sum, is a `ValueError`."""
     text = text.strip()
     if text in ("", "auto"):
         return None
@@ -294,13 +292,13 @@ def length_of(text: str, whole: float | None) -> float | None:
         if whole == 0:
             raise ValueError(f"its length {text}, of a frame without a size")
         return None if whole is None else float(match[1]) / 100 * whole
-    return float(match[1]) * (UNITS[unit] / PX if unit in UNITS else 1.0)
+    return float(match[1]) * (UNITS[unit] / px if unit in UNITS else 1.0)
 
 
-def _page_side(text: str) -> float | None:
+def _page_side(text: str, px: float) -> float | None:
     """The page's width or height, pixels; None where it is that of a window."""
     try:
-        return length_of(text, None)
+        return length_of(text, None, px)
     except ValueError:
         return None
 
@@ -312,17 +310,19 @@ def property_of(element: ElementTree.Element, view: View, name: str) -> str:
 
 def _corner(element: ElementTree.Element, view: View) -> XY:
     """x and y of an element, in pixels."""
-    x, y = (length_of(property_of(element, view, side), whole) for side, whole in zip("xy", view.size, strict=True))
+    x, y = (
+        length_of(property_of(element, view, side), whole, view.px) for side, whole in zip("xy", view.size, strict=True)
+    )
     return x or 0.0, y or 0.0
 
 
-def _transform(style: Style, size: XY) -> svgelements.Matrix:
-    """An element's transform, which turns about its origin; `size`: that of the view box."""
+def _transform(style: Style, view: View) -> svgelements.Matrix:
+    """An element's transform, which turns about its origin."""
     words = style.origin.split()[:2] or ["0", "0"]
     words = [*words, "center"][:2]
     if words[0] in ("top", "bottom") or words[1] in ("left", "right"):
         words.reverse()
-    whole = [length_of(_SIDES.get(word, word), side) for word, side in zip(words, size, strict=True)]
+    whole = [length_of(_SIDES.get(word, word), side, view.px) for word, side in zip(words, view.size, strict=True)]
     if None in whole or style.box not in ("", "view-box"):
         raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
     x, y = whole
@@ -366,7 +366,7 @@ def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: View, 
     sides = []
     for side, whole in zip(("width", "height"), view.size, strict=True):
         # (attributes of a `use` go before the drawing's own; a style sheet before both)
-        length = length_of(view.style.geometry.get(side) or outer.get(side) or inner.get(side, ""), whole)
+        length = length_of(view.style.geometry.get(side) or outer.get(side) or inner.get(side, ""), whole, view.px)
         sides.append(whole if length is None else length)
     box = _view_box(inner)
     if box and not all(sides):

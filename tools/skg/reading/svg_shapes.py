@@ -41,7 +41,7 @@ def _outline(element: ElementTree.Element, view: View) -> Sequence[svgelements.P
     wholes = {**dict.fromkeys(("x", "cx", "rx", "x1", "x2", "width"), width), "r": hypot(*view.size) / sqrt(2)}
 
     def given(name: str) -> float | None:
-        return length_of(property_of(element, view, name), wholes.get(name, height))
+        return length_of(property_of(element, view, name), wholes.get(name, height), view.px)
 
     def radii() -> tuple[float | None, float | None]:
         """rx and ry; one that is not told, or below 0, is the other."""
