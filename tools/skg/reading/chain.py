@@ -155,23 +155,22 @@ def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chain
     groups: dict[int, list[Edge]] = defaultdict(list)
     for edge in edges:
         groups[edge.entity if edge.entity >= 0 else -1 - len(groups)].append(edge)
-    for part in (part for group in groups.values() for part in _parts(group, tolerance)):
-        kept, short = _without_short(part) if _is_ring(part, tolerance) else ([], [])
-        if not kept:
-            loose += part
-            continue
-        result.short += short
-        result.contours.append(Contour(tuple(kept), True))
+    for group in groups.values():
+        is_whole = _is_ring(group, tolerance)
+        for part in [group] if is_whole else _parts(group):
+            kept, short = _without_short(part) if is_whole or _is_ring(part, tolerance) else ([], [])
+            if not kept:
+                loose += part
+                continue
+            result.short += short
+            result.contours.append(Contour(tuple(kept), True))
     _Graph(loose, tolerance, result).chain(styles)
     result.contours.sort(key=lambda contour: min(edge.entity for edge in contour.edges))
     return result
 
 
-def _parts(group: list[Edge], tolerance: float) -> Iterator[list[Edge]]:
+def _parts(group: list[Edge]) -> Iterator[list[Edge]]:
     """The edges of one entity in parts, such as those of a path: each up to a break, or to where it began."""
-    if _is_ring(group, tolerance):
-        yield group
-        return
     part: list[Edge] = []
     for edge in group:
         if part and (distance(part[-1].end, edge.start) > _EXACT or part[-1].end == part[0].start):
