@@ -1,5 +1,5 @@
-"""What of a contour means nothing to the wire: loops that are smaller than it, and whiskers, lines that the contour
-runs along and back on the wire's side. (laser cutters' programs round inner corners so, and overshoot some)"""
+"""Contours without loops, which are smaller than the wire, and without whiskers: lines that a contour runs along and
+back, on the wire's side. (laser cutters' programs round inner corners so, and overshoot some)"""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import shapely
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, cross, distance, dot, minus
 
-#: What is no further apart is one place, mm.
+#: Places so near to each other (mm) are one.
 _SAME = 1e-6
 #: Directions that differ by no more (radians), or by half a turn, are parallel.
 _PARALLEL = 1e-6
@@ -40,7 +40,7 @@ def _is_simple(contour: Contour) -> bool:
 
 
 def _without_loops(contour: Contour, most: float) -> tuple[Contour, tuple[XY, ...]]:
-    """A contour without what leaves a place of it and comes back there within a length, mm; and these places."""
+    """A contour without loops of a length (mm), from a place back to it; and these places."""
     kept: list[Edge] = []
     places: list[XY] = []
     for edge in contour.edges:

@@ -165,10 +165,9 @@ class _Spline:
 
     def parameters(self, ways: list[float]) -> list[float]:
         """The parameters at some ways along the curve."""
-        parameters, behind = [], len(self.spans)
+        parameters = []
         for way in ways:
-            # (as `span_at`, of which a curve asks a thousand times)
-            begin, length, first, more = self._table[bisect_right(self.ways, way, 1, behind) - 1]
+            begin, length, first, more = self._table[self.span_at(way)]
             parameters.append(first + (way - begin) / length * more)
         return parameters
 
