@@ -1041,11 +1041,12 @@ def test_characters_that_are_told_by_numbers() -> None:
 
 
 def test_old_files() -> None:
-    """No HEADER and no TABLES, blank lines before it, coordinates in the order x, x, y, y, an end that is missing."""
+    """No HEADER and no TABLES, blank lines before it, coordinates in the order x, x, y, y, no EOF."""
     data = b"\n\n0\nSECTION\n2\nENTITIES\n" + b"".join(
         b"0\nLINE\n8\nA\n10\n%d\n11\n%d\n20\n%d\n21\n%d\n" % (p[0], q[0], p[1], q[1])
         for p, q in pairwise([(0, 0), (9, 0), (5, 7), (0, 0)])
     )
+    data += b"0\nENDSEC\n"
     reading = checked(data)
     assert reading.contours[0].is_closed
     assert any(says(line, "EOF") for line in reading.report.lines())

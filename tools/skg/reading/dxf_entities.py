@@ -191,8 +191,14 @@ class _Collector:
             reason = f"its block {name} is not in the file"
         elif block.is_external:
             reason = f"its block {name} is in another file"
-        elif name.lower() in blocks or len(blocks) > _DEPTH:
+        elif name.lower() in blocks:
             reason = f"its block {name} is part of itself"
+        elif len(blocks) > _DEPTH:
+            reason = f"its block {name} lies more than {_DEPTH} blocks deep"
+        elif lack := record.lack():
+            reason = lack
+        elif block.base is None:
+            reason = f"the base point of its block {name} is missing"
         hidden = hidden or ("invisible" if record.whole(60) else "")
         if self.file.states.get(layer.lower()) == "frozen":
             hidden = hidden or self.unwanted(layer)
@@ -219,12 +225,16 @@ class _Collector:
 
     def start(self, record: Record) -> XY:
         """A start hole: a POINT, or a CIRCLE around it."""
+        if lack := record.lack():
+            raise NotFlat(lack)
         (place,) = self.placing.points([_slow_dxf().start(self.entity(record))])
         return place
 
     def edges_of(self, record: Record) -> Iterable[Edge]:
         """One record's edges."""
         placing = self.placing
+        if lack := record.lack():
+            raise NotFlat(lack)
         if record.kind in fast_dxf.POLYLINES and (line := fast_dxf.polyline(record)):
             points = [(x, y, line.height) for x, y, _ in line.vertices]
             return placing.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 from skg.errors import UserError
 from skg.file_type import kind_of
+from skg.reading.curves import is_number
 from skg.reading.dxf_record import Group, Record, unescaped
 
 #: $INSUNITS -> the name of the units, and mm in one.
@@ -35,9 +36,9 @@ _EXTERNAL = 4 | 8 | 16
 
 @dataclass
 class Definition:
-    """A block as it is defined: what each reference to it shows."""
+    """A block as it is defined: what each reference to it shows. `base`: None where the file does not tell it."""
 
-    base: tuple[float, float, float]
+    base: tuple[float, float, float] | None
     is_external: bool
     records: list[Record] = field(default_factory=list)
 
@@ -66,7 +67,7 @@ def load(data: bytes, encoding: str | None = None) -> DxfFile:
     """Read a DXF file's bytes, text or binary; what is none is a `UserError`. `encoding`: of a text, None: as the file
     says, else guessed."""
     file = DxfFile()
-    section = ""
+    section = kind = ""
     block: Definition | None = None
     for record in _records(_groups(data, encoding, file.notes)):
         kind = record.kind
@@ -83,11 +84,21 @@ def load(data: bytes, encoding: str | None = None) -> DxfFile:
             _add(file.paper if record.whole(67) else file.model, record)
         else:
             _of_tables(file, section, record)
+    _refuse_cut_off(kind, file.notes)
     file.dashed_layers = {name: kind for name, kind in file.dashed_layers.items() if kind in file.dashed}
     for name, block in file.blocks.items():
         if name.startswith(("*paper_space", "$paper_space")):
             file.paper += block.records
     return file
+
+
+def _refuse_cut_off(last: str, notes: list[str]) -> None:
+    """Refuse a file that ends within a section, by its last record; one that ends behind a section is said."""
+    if last == "EOF":
+        return
+    if last != "ENDSEC":
+        raise UserError("the file ends within a section, it has been cut off: save or transfer it once more")
+    notes.append("take care: the file has no EOF at its end, it may have been cut off behind a section")
 
 
 def _groups(data: bytes, encoding: str | None, notes: list[str]) -> Iterator[Group]:
@@ -181,7 +192,6 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
         yield code, value
         if code == 0 and value.strip() == "EOF":
             return
-    notes.append("the file has no EOF at its end, it may have been cut off")
 
 
 def _is_real(code: int) -> bool:
@@ -222,7 +232,10 @@ def _decoded(data: bytes, encoding: str | None, notes: list[str]) -> str:
             return data.decode(guess, "replace")
         from skg.reading import slow_dxf  # (as above)
 
-        encoding = slow_dxf.encoding(page[1].decode("ascii", "replace"))
+        told = page[1].decode("ascii", "replace")
+        encoding = slow_dxf.encoding(told)
+        if encoding != "gbk" and _is_chinese(data):
+            notes.append(f"take care: names are read in {told}, as the file says, and look Chinese: --encoding gbk")
         return data.decode("cp1252" if encoding == "utf8" else encoding, "replace")
 
 
@@ -262,8 +275,7 @@ def _layer(file: DxfFile, record: Record) -> None:
 
 
 def _block(record: Record) -> Definition:
-    try:
-        base = tuple(float(record.value(code, "0")) for code in (10, 20, 30))
-    except ValueError:
-        base = 0.0, 0.0, 0.0
-    return Definition(base, bool(record.whole(70) & _EXTERNAL))
+    x, y, z = record.real(10), record.real(20), record.real(30) if 30 in record.first else 0.0
+    return Definition(
+        (x, y, z) if is_number(x) and is_number(y) and is_number(z) else None, bool(record.whole(70) & _EXTERNAL)
+    )

@@ -3,12 +3,45 @@
 from __future__ import annotations
 
 import re
+from itertools import takewhile
+from math import nan
 
 from skg.geometry.plane import XY
 
 #: A group: its code and its value as text.
 Group = tuple[int, str]
 
+
+#: The codes that an entity of a kind must have, and what each tells: nothing of it is invented. (The DXF reference has
+#: defaults for what is not here.)
+NEEDED: dict[str, dict[int, str]] = {
+    "LINE": {10: "x of its start", 20: "y of its start", 11: "x of its end", 21: "y of its end"},
+    "CIRCLE": {10: "x of its centre", 20: "y of its centre", 40: "its radius"},
+    "ARC": {
+        10: "x of its centre", 20: "y of its centre", 40: "its radius", 50: "its first angle", 51: "its last angle",
+    },
+    "ELLIPSE": {
+        10: "x of its centre", 20: "y of its centre", 11: "x of its axis", 21: "y of its axis",
+        40: "the ratio of its axes", 41: "its first parameter", 42: "its last parameter",
+    },
+    "SPLINE": {71: "its degree"},
+    "HELIX": {71: "its degree"},
+    "LWPOLYLINE": {10: "a vertex", 20: "y of a vertex"},
+    "VERTEX": {10: "x of a vertex", 20: "y of a vertex"},
+    "MLINE": {11: "a vertex", 21: "y of a vertex"},
+    "POINT": {10: "its x", 20: "its y"},
+    "INSERT": {2: "the name of its block", 10: "x of its place", 20: "y of its place"},
+}  # fmt: skip
+NEEDED["3DLINE"] = NEEDED["LINE"]
+#: Codes of counts, of the values that they count, and what these are. (A count may be left out)
+_COUNTED = {
+    "LWPOLYLINE": ((90, 10, "vertices"),),
+    "MLINE": ((72, 11, "vertices"),),
+    "SPLINE": ((72, 40, "knots"), (73, 10, "control points"), (74, 11, "fit points")),
+    "HELIX": ((72, 40, "knots"), (73, 10, "control points"), (74, 11, "fit points")),
+}
+#: The third subclass of a helix: its codes mean other things than those of the second.
+_THIRD = "AcDbHelix"
 
 #: A character by its number, as files write it whose code page does not have it. (Half of a pair of UTF-16 is none)
 _NUMBERED = re.compile(r"\\U\+((?![Dd][89A-Fa-f])[0-9A-Fa-f]{4})")
@@ -40,6 +73,51 @@ class Record:
             return int(float(self.value(code, "0")))
         except (ValueError, OverflowError):
             return 0
+
+    def count(self, code: int) -> int:
+        """Number of its values with a code; of a helix those of its spline."""
+        own = takewhile(lambda group: group[0] != 100 or group[1].strip() != _THIRD, self.groups)
+        return sum(known == code for known, _ in own)
+
+    def lack(self) -> str:
+        """Return what its kind must have and it has not, in words; empty when it is whole."""
+        for code, noun in NEEDED.get(self.kind, {}).items():
+            if code not in self.first:
+                return f"{noun} is missing (code {code})"
+        for code, counted, nouns in _COUNTED.get(self.kind, ()):
+            if code in self.first and self.whole(code) != (has := self.count(counted)):
+                return f"{has} of its {self.whole(code)} {nouns} are there"
+        if self.kind == "LWPOLYLINE" and self.count(10) != self.count(20):
+            return f"its vertices have {self.count(10)} x and {self.count(20)} y"
+        if self.kind in ("SPLINE", "HELIX"):
+            return self._lack_of_spline()
+        if self.kind in ("CIRCLE", "ARC") and self.value(40).strip().startswith("-") and self.real(40) < 0:
+            return f"its radius is {self.real(40):g}"
+        if self.kind == "POLYLINE":
+            if not self.parts or self.parts[-1].kind != "SEQEND":
+                return "its end is missing (SEQEND)"
+            return next(filter(None, (part.lack() for part in self.parts)), "")
+        return ""
+
+    def _lack_of_spline(self) -> str:
+        """The same of a spline's knots: they are not made up."""
+        controls, knots, degree = self.count(10), self.count(40), self.whole(71)
+        if not controls and not self.count(11):
+            return "its points are missing"
+        if degree < 1:
+            return f"its degree is {degree}"
+        if controls and knots != controls + degree + 1:
+            return f"it has {knots} knots, {controls} control points of degree {degree} take {controls + degree + 1}"
+        if self.count(41) not in (0, controls):
+            return f"it has {self.count(41)} weights, and {controls} control points"
+        return ""
+
+    def real(self, code: int) -> float:
+        """The first value with a code as a number, NaN when it is none."""
+        try:
+            return float(self.value(code, "nan"))
+        except ValueError:
+            return nan
 
     @property
     def layer(self) -> str:

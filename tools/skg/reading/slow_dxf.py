@@ -6,6 +6,7 @@ ezdxf takes longer to load than 20,000 plain circles to read: who needs this mod
 from __future__ import annotations
 
 import logging
+import struct
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -67,10 +68,13 @@ def _told() -> Iterator[None]:
 
 def binary_groups(data: bytes) -> Iterator[Group]:
     """The groups of a binary file, as text; `ValueError` and `IndexError`."""
-    with _told():
-        for tag in binary_tags_loader(data):
-            value = tag.value
-            yield tag.code, value.hex() if isinstance(value, bytes) else str(value)
+    try:
+        with _told():
+            for tag in binary_tags_loader(data):
+                value = tag.value
+                yield tag.code, value.hex() if isinstance(value, bytes) else str(value)
+    except struct.error:
+        raise ValueError("it ends within a number, it has been cut off") from None
 
 
 def encoding(page: str) -> str:
