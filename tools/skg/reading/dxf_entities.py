@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
-from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
 from skg.job.read_options import Wishes
 from skg.reading import fast_dxf
 from skg.reading.account import NOTE, Content, Entity, said
+from skg.reading.budget import check_entities, check_vertices
 from skg.reading.curves import is_number
 from skg.reading.dxf_file import Definition, DxfFile
 from skg.reading.dxf_placing import LEAVES, NotFlat, Placing, is_full, swept
@@ -47,8 +47,6 @@ _NO_LINES = {
 _DEPTH = 32
 #: The planes beside x and y that a whole drawing may stand in, with what is seen there to the right and upwards.
 _STANDING = ("xz", "yz")
-#: More entities than this in all are no drawing, but blocks that hold copies of copies.
-_MOST = 1_000_000
 #: The codes of the angles that an arc begins and ends at, and a full turn.
 _ANGLES = {"ARC": (50, 51, 360.0), "ELLIPSE": (41, 42, 2 * pi)}
 #: Exceptions of an entity that cannot be read.
@@ -117,8 +115,6 @@ class _Collector:
         result = Entity(record.kind, layer, self.place(record))
         self.placing.entity = len(self.content.entities)
         self.content.entities.append(result)
-        if len(self.content.entities) > _MOST:
-            raise UserError(f"more than {_MOST:,} entities, expected a drawing")
         return result
 
     def one(self, record: Record, layer: str, hidden: str) -> None:
@@ -233,6 +229,7 @@ class _Collector:
     def edges_of(self, record: Record) -> Iterable[Edge]:
         """One record's edges."""
         placing = self.placing
+        check_vertices(record.vertices, record.kind)
         if lack := record.lack():
             raise NotFlat(lack)
         if record.kind in fast_dxf.POLYLINES and (line := fast_dxf.polyline(record)):
@@ -277,7 +274,27 @@ def _is_note(kind: str, is_start: bool) -> bool:
 
 def _unread(error: Exception) -> str:
     """Return the reason why an entity cannot be read."""
+    if isinstance(error, OverflowError):
+        return "a number of it is too large"
     return f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
+
+
+def _shown(file: DxfFile) -> int:
+    """Count the entities that a drawing shows, those of blocks as often as they are, and the references themselves."""
+    known: dict[str, int] = {}
+
+    def of(records: list[Record], around: tuple[str, ...]) -> int:
+        return len(records) + sum(of_block(record, around) for record in records if record.kind == "INSERT")
+
+    def of_block(record: Record, around: tuple[str, ...]) -> int:
+        name = record.value(2).strip().lower()
+        if name not in file.blocks or name in around or len(around) > _DEPTH:
+            return 0
+        if name not in known:
+            known[name] = of(file.blocks[name].records, (*around, name))
+        return max(1, record.whole(70)) * max(1, record.whole(71)) * known[name]
+
+    return of(file.model, ()) + len(file.paper)
 
 
 def _is_whole(record: Record) -> bool:
@@ -337,6 +354,7 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     `factor`: mm per drawing unit. A layer that the drawing does not have is a `UserError`.
     """
     wishes.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
+    check_entities(_shown(file))
     collector = _Collector(file, wishes, factor)
     collector.collect(file.model, "", "", ())
     collector = _standing(collector) or collector

@@ -40,6 +40,10 @@ _COUNTED = {
     "SPLINE": ((72, 40, "knots"), (73, 10, "control points"), (74, 11, "fit points")),
     "HELIX": ((72, 40, "knots"), (73, 10, "control points"), (74, 11, "fit points")),
 }
+#: Codes of angles; one larger than this has no direction left in a float.
+_ANGLES, _MOST_ANGLE = {"ARC": (50, 51), "ELLIPSE": (41, 42), "INSERT": (50,)}, 1e6
+#: An entity of fewer groups has few vertices.
+_LONG = 1000
 #: The third subclass of a helix: its codes mean other things than those of the second.
 _THIRD = "AcDbHelix"
 
@@ -79,6 +83,11 @@ class Record:
         own = takewhile(lambda group: group[0] != 100 or group[1].strip() != _THIRD, self.groups)
         return sum(known == code for known, _ in own)
 
+    @property
+    def vertices(self) -> int:
+        """Number of its places, those of its parts included."""
+        return len(self.parts) + (self.count(10) if len(self.groups) > _LONG else 1)
+
     def lack(self) -> str:
         """Return what its kind must have and it has not, in words; empty when it is whole."""
         for code, noun in NEEDED.get(self.kind, {}).items():
@@ -93,6 +102,9 @@ class Record:
             return self._lack_of_spline()
         if self.kind in ("CIRCLE", "ARC") and self.value(40).strip().startswith("-") and self.real(40) < 0:
             return f"its radius is {self.real(40):g}"
+        for code in _ANGLES.get(self.kind, ()):
+            if abs(self.real(code)) > _MOST_ANGLE:
+                return f"its angle {self.value(code).strip()} is too large"
         if self.kind == "POLYLINE":
             if not self.parts or self.parts[-1].kind != "SEQEND":
                 return "its end is missing (SEQEND)"

@@ -17,6 +17,7 @@ from skg.geometry.chords import SEEN
 from skg.geometry.contour import Contour
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY
+from skg.reading.budget import check_pairs
 
 #: Contours that run along each other for more than this part of the shorter one overlap, else they touch.
 _ALONG = 0.03
@@ -24,6 +25,8 @@ _ALONG = 0.03
 _MOST = 300
 #: Rounding of a reach: a line within it may seem to lie this much farther away, mm.
 _HAIR = 1e-9
+#: So many boxes are looked for together.
+_TOGETHER = 1000
 #: So many contours become lines together.
 _LINES = 100
 
@@ -43,9 +46,11 @@ class Relations:
 def relations(contours: list[Contour], tolerance: float) -> Relations:
     """Find the contours that meet: somewhere no further apart than `tolerance`, mm."""
     relations = Relations()
+    relations.repeated = _copies(contours)
     is_closed = np.array([contour.is_closed for contour in contours], bool)
     # (the chords of 20,000 circles would take 100 MB: most drawings have few contours that come near to others)
-    near = _near_others(contours, tolerance + 2 * SEEN)
+    single = np.array([number for number in range(len(contours)) if number not in relations.repeated], np.int64)
+    near = single[_near_others([contours[number] for number in single.tolist()], tolerance + 2 * SEEN)]
     lines = np.full(len(contours), None)
     lines[near] = lines_of([contours[number] for number in near.tolist()])
     firsts, seconds = near[
@@ -55,6 +60,7 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
     repeats = _repeats(lines[firsts], lines[seconds], tolerance) & (is_closed[firsts] == is_closed[seconds])
     for second, first in sorted(zip(seconds[repeats].tolist(), firsts[repeats].tolist(), strict=True)):
         relations.repeated.setdefault(second, relations.repeated.get(first, first))
+    relations.repeated = dict(sorted(relations.repeated.items()))
     gone = set(relations.repeated)
     for first, second in sorted(zip(firsts.tolist(), seconds.tolist(), strict=True)):
         if first in gone or second in gone:
@@ -69,6 +75,21 @@ def relations(contours: list[Contour], tolerance: float) -> Relations:
         if number not in gone:
             relations.meetings.append(("cross", number, number, place))
     return relations
+
+
+def _copies(contours: list[Contour]) -> dict[int, int]:
+    """The contours that are exactly an earlier one, and which."""
+    first: dict[tuple, int] = {}
+    return {
+        number: known
+        for number, contour in enumerate(contours)
+        if (known := first.setdefault(_form(contour), number)) != number
+    }
+
+
+def _form(contour: Contour) -> tuple:
+    """All that a contour is, but for the entities that it was made of."""
+    return contour.is_closed, *((edge.start, edge.end, edge.centre, edge.sweep, edge.nodes) for edge in contour.edges)
 
 
 def _near_others(contours: list[Contour], reach: float) -> Whole:
@@ -86,7 +107,7 @@ def _near_others(contours: list[Contour], reach: float) -> Whole:
 def _near_boxes(boxes: Floats, owners: Whole, is_circle: Flags, reach: float) -> Whole:
     """The owners of boxes that lie within reach of another owner's; of two around circles: where these do."""
     grown = boxes + (reach + _HAIR) * np.array((-1, -1, 1, 1))
-    firsts, seconds = shapely.STRtree(shapely.box(*boxes.T)).query(shapely.box(*grown.T))
+    firsts, seconds = _pairs(boxes, grown)
     is_other = owners[firsts] != owners[seconds]
     firsts, seconds = firsts[is_other], seconds[is_other]
     middle, radius = (boxes[:, 0:2] + boxes[:, 2:4]) / 2, (boxes[:, 2] - boxes[:, 0]) / 2
@@ -95,6 +116,19 @@ def _near_boxes(boxes: Floats, owners: Whole, is_circle: Flags, reach: float) ->
     # (chords of circles may be nearer to each other than the circles)
     is_near = ~(is_circle[firsts] & is_circle[seconds]) | (gap <= reach + 2 * SEEN)
     return np.unique(owners[firsts[is_near]])
+
+
+def _pairs(boxes: Floats, grown: Floats) -> tuple[Whole, Whole]:
+    """The grown boxes and the boxes that these meet; a `UserError` where they are too many."""
+    tree = shapely.STRtree(shapely.box(*boxes.T))
+    pairs, count = [np.empty((2, 0), np.int64)], 0
+    for begin in range(0, len(grown), _TOGETHER):
+        firsts, seconds = tree.query(shapely.box(*grown[begin : begin + _TOGETHER].T))
+        pairs.append(np.stack((firsts + begin, seconds)))
+        count += len(firsts)
+        check_pairs(count)
+    firsts, seconds = np.concatenate(pairs, 1)
+    return firsts, seconds
 
 
 def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:

@@ -216,7 +216,7 @@ def _check_size(report: Account) -> None:
         )
     if max(report.size) >= FARTHEST:
         raise UserError(
-            f"{width} x {height} mm, read in {report.units}: a tape has room for 100 m; "
+            f"{width} x {height} mm, read in {report.units}: a drawing has a side of at most {FARTHEST / 1000:g} m; "
             f"give --units, or --layer for a part{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
         )
     other = _in_other_units(report, LARGE) or _in_other_units(report) * (max(report.size) > USUAL[1])

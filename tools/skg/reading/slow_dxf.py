@@ -25,6 +25,7 @@ from ezdxf.math import OCS, BSpline, Matrix44, Vec3
 from ezdxf.tools.codepage import toencoding
 
 from skg.geometry.contour import Edge
+from skg.reading.budget import check_entities
 from skg.reading.curves import spline_edges
 from skg.reading.dxf_placing import LEVEL, NotFlat, Placing, swept
 from skg.reading.dxf_record import Group, Record
@@ -35,8 +36,6 @@ __all__ = ["binary_groups", "edges", "encoding", "entity", "is_through_places", 
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())
 logging.getLogger("ezdxf").propagate = False
 
-#: More references than this in one are no drawing.
-_MOST = 1_000_000
 #: A vertex of a polyline that is not on it, but pulls at it.
 _FRAME = 16
 #: The subclasses by whose place ezdxf reads a kind: files have none of them, one or another.
@@ -106,8 +105,7 @@ def placed(record: Record, base: tuple[float, float, float], outer: Matrix44 | N
 
 def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:
     """The references that one with rows and columns stands for."""
-    if insert.mcount > _MOST:
-        raise ValueError(f"{insert.mcount:,} times the block")
+    check_entities(insert.mcount)
     return insert.multi_insert() if insert.mcount > 1 else (insert,)
 
 

@@ -7,15 +7,19 @@ from __future__ import annotations
 
 import gzip
 import re
+import zlib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from io import BytesIO
 from xml.etree import ElementTree
 
 import svgelements
 
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.reading import budget
+from skg.reading.curves import is_number
 from skg.reading.svg_style import Style, StyleSheet
 
 #: mm in one of the units that a page's width is given in.
@@ -27,6 +31,8 @@ SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
 NOTES = {"text": "text, convert it to paths", "image": "a picture", "foreignObject": "not SVG", "flowRoot": "text"}
 #: Elements that hold others; the children of any other are drawn where they are used, or not at all.
 _GROUPS = ("g", "a", "svg", "switch")
+#: Elements that are gone through.
+_COUNTED = (*_GROUPS, *SHAPES, *NOTES, "use", "symbol")
 #: Paint servers, and elements that move or change others.
 _PAINTS = ("linearGradient", "radialGradient", "meshgradient", "pattern", "hatch", "solidcolor")
 _ANIMATIONS = ("animate", "animateTransform", "animateMotion", "animateColor", "set")
@@ -38,8 +44,19 @@ _LINK = "{http://www.w3.org/1999/xlink}href"
 _SIDES = {"left": "0", "top": "0", "center": "50%", "right": "100%", "bottom": "100%"}
 #: Groups within groups within groups are no deeper than this.
 _DEPTH = 300
+#: No page is larger, pixels.
+_MOST_PAGE = 1e12
 #: A number.
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+#: A number in a transform, and transforms of one number.
+_VALUE, _AXES = rf"{NUMBER}[a-z%]*", "translate[xy]|scale[xy]|skew[xy]"
+#: Transforms one after the other, each with as many numbers as it takes. (svgelements leaves out what it does not know)
+_TRANSFORMS = re.compile(
+    "|".join(
+        rf"(?:{names})\s*\(\s*{_VALUE}(?:(?:\s*,\s*|\s+|(?=[+-])){_VALUE}){{{count}}}\s*\)"
+        for names, count in (("matrix", 5), ("translate|scale|skew", "0,1"), ("rotate", 0), ("rotate", 2), (_AXES, 0))
+    ).join((r"(?i:\s*(?:", r")\s*,?)*\s*"))
+)
 #: A point outside a frame by no more than this part of its larger side is within.
 _NEAR_FRAME = 1e-3
 #: Beginning of a DXF text file, remarks before it.
@@ -108,9 +125,9 @@ class SvgFile:
 
     def __init__(self, data: bytes) -> None:
         try:
-            data = gzip.decompress(data) if data[:2] == b"\x1f\x8b" else data
+            data = _unpacked(data) if data[:2] == b"\x1f\x8b" else data
             self.root = ElementTree.fromstring(data)
-        except (ElementTree.ParseError, OSError, EOFError, ValueError, LookupError) as error:
+        except (ElementTree.ParseError, OSError, EOFError, ValueError, LookupError, zlib.error) as error:
             raise UserError(f"not an SVG drawing that can be read ({error})") from None
         if tag_of(self.root) != "svg":
             raise UserError(f"not an SVG drawing, its root is {tag_of(self.root)}")
@@ -129,13 +146,18 @@ class SvgFile:
         self._name_spaces = (_SVG, _name_space(self.root))
         self.animations = sum(tag_of(element) in _ANIMATIONS for element in self.root.iter())
         self.elsewhere = _elsewhere(data, self.sheet)
-        box = _view_box(self.root)
+        try:
+            box = _view_box(self.root)
+        except ValueError as error:
+            raise UserError(f"a page that cannot be read ({error})") from None
         self.style = self.sheet.style(self.root, self.root, Style())
         self.units = self._units()
         if box and self.units:
             # (the view box tells how large its shapes are)
             self.px = PX
         width, height = (_page_side(self._side(side), self.px) for side in ("width", "height"))
+        if any(side is not None and not 0 < side < _MOST_PAGE for side in (width, height)):
+            raise UserError(f"a page of {self._side('width') or 'no'} by {self._side('height') or 'no'} size")
         # (a page that tells one side or none has that of its view box)
         if box and width is None:
             width = box[2] * (height / box[3] if height else 1.0)
@@ -160,6 +182,7 @@ class SvgFile:
     def drawn(self) -> Iterator[Drawn]:
         """All that is drawn, and what is left of it, in the order of the file; all that is in the file, if nothing is
         drawn."""
+        budget.check_entities(self._count(self.root, {}))
         hidden = "not displayed" if self.style.display == "none" else ""
         view = replace(self.view, style=self.style, hidden=hidden)
         is_empty = True
@@ -169,6 +192,21 @@ class SvgFile:
         if is_empty:
             unshown = (element for element in self.root.iter() if tag_of(element) in (*SHAPES, "glyph"))
             yield from (Drawn(element, view, "shown nowhere") for element in unshown)
+
+    def _count(self, element: ElementTree.Element, known: dict[ElementTree.Element, int], depth: int = 0) -> int:
+        """Count the elements that one shows, those that are used as often as they are; an element in itself once."""
+        if element not in known:
+            known[element] = 1
+            inner = [child for child in element if tag_of(child) in _COUNTED] if depth < _DEPTH else []
+            target = self._target(element) if tag_of(element) == "use" and depth < _DEPTH else None
+            inner += [target] if target is not None else []
+            known[element] = 1 + sum(self._count(child, known, depth + 1) for child in inner)
+        return known[element]
+
+    def _target(self, use: ElementTree.Element) -> ElementTree.Element | None:
+        """The element that a `use` shows; None if it is not in the file."""
+        link = _link(use)
+        return self.ids.get(link[1:]) if link.startswith("#") else None
 
     def _children(
         self,
@@ -233,11 +271,10 @@ class SvgFile:
         used: tuple[ElementTree.Element, ...],
     ) -> Iterable[Drawn]:
         """Yield the shapes that a `use` shows."""
-        link = (element.get("href") or element.get(_LINK) or "").strip()
-        target = self.ids.get(link.removeprefix("#")) if link.startswith("#") else None
+        target = self._target(element)
         if target is None or target in used:
             why = "is part of itself" if target is not None else "is not in the file"
-            return [Drawn(element, view, view.hidden or f"what it shows, {link or 'nothing'}, {why}")]
+            return [Drawn(element, view, view.hidden or f"what it shows, {_link(element) or 'nothing'}, {why}")]
         name = tag_of(target)
         moved = replace(view, matrix=svgelements.Matrix.translate(*_corner(element, view)) * view.matrix)
         around, used = (*around, element), (*used, target)
@@ -252,9 +289,22 @@ class SvgFile:
         return []
 
 
+def _unpacked(data: bytes) -> bytes:
+    """The bytes of a packed file; one that is cut off is an `EOFError`, one that unpacks to too much a `UserError`."""
+    with gzip.open(BytesIO(data)) as stream:
+        unpacked = stream.read(budget.MOST_BYTES + 1)
+    budget.check_bytes(len(unpacked))
+    return unpacked
+
+
 def tag_of(element: ElementTree.Element) -> str:
     """An element's name without its name space; nothing for a comment."""
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""
+
+
+def _link(use: ElementTree.Element) -> str:
+    """The address of what a `use` shows."""
+    return (use.get("href") or use.get(_LINK) or "").strip()
 
 
 def _name_space(element: ElementTree.Element) -> str:
@@ -327,19 +377,25 @@ def _transform(style: Style, view: View) -> svgelements.Matrix:
         raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
     x, y = whole
     translate = svgelements.Matrix.translate
+    if not _TRANSFORMS.fullmatch(style.transform):
+        raise ValueError(f"its transform, {style.transform}")
     try:
         matrix = svgelements.Matrix(style.transform)
-    except LookupError:
+    except (LookupError, ValueError):
         raise ValueError(f"its transform, {style.transform}") from None
     return translate(-x, -y) * matrix * translate(x, y)
 
 
 def _view_box(element: ElementTree.Element) -> tuple[float, float, float, float] | None:
-    """The view box of an element that has one: its corner, its width and height."""
-    try:
-        x, y, width, height = (float(number) for number in element.get("viewBox", "").replace(",", " ").split())
-    except ValueError:
+    """The view box of an element that has one: its corner, its width and height; one that is not four numbers is a
+    `ValueError`."""
+    text = element.get("viewBox", "").replace(",", " ").strip()
+    if not text:
         return None
+    numbers = [float(number) for number in text.split()] if re.fullmatch(rf"{NUMBER}(?:\s+{NUMBER}){{3}}", text) else ()
+    if not numbers or not all(map(is_number, numbers)):
+        raise ValueError(f"its viewBox, {text}")
+    x, y, width, height = numbers
     return (x, y, width, height) if width > 0 and height > 0 else None
 
 

@@ -14,17 +14,15 @@ from xml.etree import ElementTree
 
 import svgelements
 
-from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, cross, distance, minus
 from skg.job.read_options import Wishes
 from skg.reading.account import NOTE, Content, Entity, said
+from skg.reading.budget import check_vertices
 from skg.reading.curves import conic, is_number, spline_edges
 from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Drawn, SvgFile, View, length_of, property_of, tag_of
 from skg.wording import counted
 
-#: More shapes than this are no drawing.
-_MOST = 1_000_000
 #: Shapes that may have markers at their ends and corners.
 _MARKED = ("path", "line", "polyline", "polygon")
 #: Characters that path data cannot have, and all behind them.
@@ -129,11 +127,7 @@ def _around(centre: XY, rx: float, ry: float) -> list[svgelements.Arc]:
 def collect(file: SvgFile, px: float, wishes: Wishes) -> Content:
     """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
     edge. `px`: mm in one pixel."""
-    drawn: list[Drawn] = []
-    for item in file.drawn():
-        drawn.append(item)
-        if len(drawn) > _MOST:
-            raise UserError(f"more than {_MOST:,} shapes, expected a drawing")
+    drawn = list(file.drawn())
     wishes.check_layers(item.view.layer for item in drawn)
     collector = _SvgCollector(file, px, wishes)
     for item in drawn:
@@ -168,6 +162,7 @@ class _SvgCollector:
         try:
             outline = _outline(item.element, item.view)
             self.shapes.matrix, self.shapes.entity = item.view.matrix, len(self.result.entities) - 1
+            check_vertices(len(outline), kind)
             edges = list(self.shapes.edges(outline))
         except UNREADABLE as error:
             account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"

@@ -16,6 +16,7 @@ import tinycss2
 from tinycss2 import ast
 
 from skg.errors import UserError
+from skg.reading.budget import check_tries
 
 #: Properties of markers at the ends and corners of lines, such as heads of arrows.
 _MARKERS = ("marker", "marker-start", "marker-mid", "marker-end")
@@ -39,6 +40,9 @@ _NOTHING = re.compile(r"-.*|\+?0*\.?0*%?")
 _VARIABLE = re.compile(r"var\(\s*(--[\w-]+)\s*(?:,((?:[^()]|\([^()]*\))*))?\)")
 #: Variables told by variables.
 _DEPTH = 32
+#: A rule that asks an element's ancestors in more ways than this is not understood: `g g g g path` at 100 levels takes
+#: half a minute an element.
+_MOST_WAYS = 100_000
 #: Rules that hold under a condition.
 _CONDITIONAL = ("media", "supports", "container", "layer", "scope")
 #: A remark.
@@ -106,6 +110,9 @@ class StyleSheet:
         #: Style sheets in other files.
         self.imported: list[str] = []
         self._page = page
+        self._depth = _depth(page)
+        #: Tries of rules at elements.
+        self._tries = 0
         self._rules = cssselect2.Matcher()
         #: The rules' declarations for a tree's elements, those with precedence last.
         self._trees: dict[Element, dict[Element, list[_Declared]]] = {}
@@ -121,6 +128,8 @@ class StyleSheet:
         if not self._rules.order:
             return {}
         if tree not in self._trees:
+            self._tries += self._rules.order * sum(1 for _ in tree.iter())
+            check_tries(self._tries)
             outermost = tree
             if tree is not self._page:
                 # (:root is the page, not a used tree: that stands in an element without a name)
@@ -162,7 +171,8 @@ class StyleSheet:
         has_rules = any(token.type == "{} block" for token in rule.content)
         if not (has_rules or names & (_PRESENTED | _GEOMETRY) or any(name.startswith("--") for name in names)):
             return
-        selectors = None if has_rules else _selectors(rule.prelude, namespaces)
+        is_slow = self._depth ** _descents(tinycss2.serialize(rule.prelude)) > _MOST_WAYS
+        selectors = None if has_rules or is_slow else _selectors(rule.prelude, namespaces)
         if selectors is None:
             self.missed.append(tinycss2.serialize(rule.prelude).strip())
         for selector in selectors or ():
@@ -247,6 +257,19 @@ def _selectors(
     except Exception:
         # (not its own error alone: it makes a Python expression, which fails for hundreds of parts and for some slips)
         return None
+
+
+def _depth(page: Element) -> int:
+    """Levels of elements in elements."""
+    level, depth = [page], 0
+    while level:
+        level, depth = [child for element in level for child in element], depth + 1
+    return depth
+
+
+def _descents(selectors: str) -> int:
+    """Number of steps from an element to any in it, in the selector of some that has most."""
+    return max(len(re.sub(r"\s*[>+]\s*", ">", selector).split()) - 1 for selector in selectors.split(","))
 
 
 def _strings(tokens: list[ast.Node]) -> list[str]:
