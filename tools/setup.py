@@ -1,4 +1,4 @@
-"""Builds the package's C libraries and takes in the ROM images; all else stands in pyproject.toml.
+"""Builds the package's C libraries, compiles its messages, takes in the ROM images; all else stands in pyproject.toml.
 
 The emulator's sources (emu/), the images (roms/) and the examples are the project's, beside this folder. The source
 distribution has copies of them, so that a wheel can be built from it too. An editable install builds the libraries
@@ -15,6 +15,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from polib import pofile
 from setuptools import Distribution, setup
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build import build
@@ -111,6 +112,8 @@ class BuildPackage(build_py):
             return
         package = Path(self.build_lib) / "skg"
         compile_into(package / "native")
+        for messages in sorted((HERE / "skg" / "messages").glob("*.po")):
+            pofile(str(messages)).save_as_mofile(str(package / "messages" / f"{messages.stem}.mo"))
         roms = package / "machine" / "roms"
         roms.mkdir(parents=True, exist_ok=True)
         for image in sorted((ABOVE / "roms").glob("*.bin")):

@@ -1,13 +1,38 @@
 """The one exception that a user of the tools ever meets."""
 
+from __future__ import annotations
+
+from skg.messages.finding import Finding, Phrase
+
 
 class UserError(Exception):
-    """An error in the user's input, in one line with its place; the command line prints it and exits with 2.
+    """An error in the user's input: a finding with its place. The command line prints it in one line and exits with 2.
 
-    `contour`: the number (from 0) of the contour, among those that were read, that it is about; `place`: where, mm.
+    (A text instead of a finding is for what the catalogues do not have yet.)
     """
 
-    def __init__(self, message: str, contour: int | None = None, place: tuple[float, float] | None = None) -> None:
-        super().__init__(message)
-        self.contour = contour
-        self.place = place
+    def __init__(self, finding: Finding | str, contour: int | None = None, place: tuple | None = None) -> None:
+        if isinstance(finding, str):
+            finding = Finding("plain", text=finding, contour=contour, place=place)
+        super().__init__(finding)
+        self.finding = finding
+
+    def __str__(self) -> str:
+        from skg.messages.render import line
+
+        return line(self.finding)
+
+    @property
+    def contour(self) -> int | None:
+        """The number (from 0) of the contour, among those that were read, that it is about."""
+        return self.finding.contour
+
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """The place that it is about, mm."""
+        return self.finding.place
+
+    def within(self, *source: str | Phrase) -> UserError:
+        """The same error, in a file or a part of one."""
+        self.finding = self.finding.within(*source)
+        return self

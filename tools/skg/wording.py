@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from skg.messages.finding import Finding
 
 
 def short(value: float) -> str:
@@ -21,22 +21,10 @@ def counted(count: int, noun: str, nouns: str = "") -> str:
     return f"{count} {noun if count == 1 else nouns or noun + 's'}"
 
 
-@dataclass(frozen=True)
-class ReportLine:
-    """A line of a report. `contour`: the number (from 0) of the contour, among those that were read, that it is about;
-    `place`: where, mm. `is_guess`: it says what nobody told."""
-
-    text: str
-    contour: int | None = None
-    place: tuple[float, float] | None = None
-    is_guess: bool = False
-
-    @property
-    def is_care(self) -> bool:
-        """Tell whether somebody should take care."""
-        return self.text.startswith("take care")
-
-    @property
-    def is_kept(self) -> bool:
-        """Tell whether --quiet keeps it."""
-        return self.is_care or self.is_guess or self.text.startswith("not cut")
+def report_line(
+    text: str, contour: int | None = None, place: tuple[float, float] | None = None, is_guess: bool = False
+) -> Finding:
+    """Make a finding of an English sentence that has no code yet."""
+    plain = text.removeprefix("take care: ")
+    code = "plain-guess" if is_guess else "plain-lost" if text.startswith("not cut") else "plain"
+    return Finding("plain-care" if plain != text else code, contour=contour, place=place, text=plain)

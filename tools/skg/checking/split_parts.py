@@ -9,8 +9,9 @@ import shapely
 
 from skg.geometry.areas import areas_of
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 from skg.planning.route import PlannedContour
-from skg.wording import ReportLine, counted, shown
+from skg.wording import counted, report_line, shown
 
 #: What is narrower than twice this holds nothing together, mm; a piece of less than this square is none.
 _HAIR = 0.005
@@ -38,10 +39,10 @@ def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
             yield int(closed[number]), len(pieces), (inside.x, inside.y)
 
 
-def said(routes: Sequence[PlannedContour]) -> list[ReportLine]:
+def said(routes: Sequence[PlannedContour]) -> list[Finding]:
     """Report split parts."""
     lines = [
-        ReportLine(
+        report_line(
             f"take care: the part of contour {routes[number].turn} falls into {count} pieces, what is cut out reaches "
             f"its edge: the smallest is at {shown(place)}",
             routes[number].number,
@@ -50,7 +51,7 @@ def said(routes: Sequence[PlannedContour]) -> list[ReportLine]:
         for number, count, place in fallen(routes)
     ]
     more = len(lines) - _PLACES
-    return lines[:_PLACES] + [ReportLine(f"and {counted(more, 'more such part')}")] * (more > 0)
+    return lines[:_PLACES] + [report_line(f"and {counted(more, 'more such part')}")] * (more > 0)
 
 
 def _pieces(area: shapely.Geometry) -> int:

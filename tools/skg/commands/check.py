@@ -19,13 +19,13 @@ from skg.sources.milling import is_milling
 from skg.tape import gcode_reader
 from skg.tape.block import Tape
 from skg.tape.styles import read_any
-from skg.tape.text import Finding, scan
+from skg.tape.text import TapeFault, scan
 from skg.wording import counted
 
 if TYPE_CHECKING:
     from skg.checking.wire_fit import Spoilt
 
-Found = "Finding | gcode_reader.GcodeFinding | Spoilt"
+Found = "TapeFault | gcode_reader.GcodeTapeFault | Spoilt"
 
 #: So many findings of a tape are listed; one wrong in its style alone has some in every line.
 MOST = 20
@@ -89,7 +89,7 @@ def _misfits(name: str) -> tuple[list[Spoilt], int]:
 
 
 def _list(
-    name: str, findings: Sequence[Finding | gcode_reader.GcodeFinding | Spoilt], size: str, list_all: bool
+    name: str, findings: Sequence[TapeFault | gcode_reader.GcodeTapeFault | Spoilt], size: str, list_all: bool
 ) -> None:
     """Write the findings of a tape, or that there is none."""
     if not findings:
@@ -101,7 +101,7 @@ def _list(
         click.echo(f"{name}: {len(findings) - len(listed)} more (--all lists them)")
 
 
-def _list_3b(name: str, data: bytes, tape: Tape, findings: list[Finding], list_all: bool) -> None:
+def _list_3b(name: str, data: bytes, tape: Tape, findings: list[TapeFault], list_all: bool) -> None:
     """The same of a 3B tape, and how it is read when it is written in another style."""
     notes: Sequence[str] = ()
     if findings:

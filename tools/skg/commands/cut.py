@@ -31,6 +31,7 @@ from skg.job.job import INTO, ROMS, SMALL, Job, MachineSetup
 from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES, Partial, Wanted
+from skg.messages.render import line
 from skg.reading.read import Wishes, layer_lines
 
 
@@ -208,8 +209,8 @@ def command(
         job, path = _asked(file, **options), file
     if list_layers:
         layers, notes = layer_lines(read_bytes(path), path, Wishes(encoding=job.read.encoding))
-        for line in layers:
-            click.echo(line)
+        for layer in layers:
+            click.echo(layer)
         for note in notes:
             click.echo(f"skg: {path}: {note}", err=True)
         return
@@ -229,11 +230,11 @@ def command(
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
-    lines = [line.text for line in cut.lines if line.is_kept or not quiet]
+    lines = [line(finding) for finding in cut.lines if finding.severity.is_kept or not quiet]
     if not quiet:
         lines += unmarked(output, cut.result.tape, job.machine.rom)
-    for line in lines:
-        click.echo(line, err=True)
+    for text in lines:
+        click.echo(text, err=True)
 
 
 def is_job_file(name: str) -> bool:

@@ -34,6 +34,7 @@ def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None,
     """Write the program that cuts a shape; it is run and its tape compared with the exact curves before."""
     from skg.cutting.report import report
     from skg.job.wanted import Wanted
+    from skg.messages.render import line
 
     try:
         job = shape.cut(name, Wanted(offset=offset or 0.0, tab=tab))
@@ -44,5 +45,5 @@ def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None,
     write_bytes(output, job.program.encode("ascii"))
     if tape:
         write_bytes(tape, job.data)
-    for line in report(job):
-        click.echo(line.text, err=True)
+    for finding in report(job):
+        click.echo(line(finding), err=True)

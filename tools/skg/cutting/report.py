@@ -13,10 +13,11 @@ from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import into
 from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 from skg.planning.nesting import said
 from skg.planning.route import PlannedContour
 from skg.tape.simulation import duration
-from skg.wording import ReportLine, counted, short, shown
+from skg.wording import counted, report_line, short, shown
 
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
@@ -26,17 +27,14 @@ _MANNERS = 20
 _PAIRS = 100
 
 
-def report(job: CutResult, offset: float = 0.0) -> list[ReportLine]:
+def report(job: CutResult, offset: float = 0.0) -> list[Finding]:
     """Return the report on a tape, line by line. `offset`: as asked for, mm."""
     routes = job.routes
     return [
-        *map(ReportLine, _facts(job, offset)),
-        *(
-            ReportLine(f"take care, left out: {contour.name}: {contour.why}", contour.number)
-            for contour in job.left[:_PLACES]
-        ),
+        *map(report_line, _facts(job, offset)),
+        *(report_line(f"not cut: {contour.name}: {contour.why}", contour.number) for contour in job.left[:_PLACES]),
         *_more(job.left, "more contour left out", "more contours left out"),
-        *map(ReportLine, said((route.turn, route.around) for route in routes)),
+        *map(report_line, said((route.turn, route.around) for route in routes)),
         *_corners(routes),
         *_crossings(job),
     ]
@@ -76,16 +74,16 @@ def _facts(job: CutResult, offset: float) -> Iterator[str]:
         yield checked + _closing(job.checked.cuts, routes)
 
 
-def _crossings(job: CutResult) -> Iterator[ReportLine]:
+def _crossings(job: CutResult) -> Iterator[Finding]:
     """Cuts that come into other contours."""
     routes, crossings = job.routes, job.checked.crossings
     for gouge in crossings[:_PLACES]:
         route = routes[gouge.route]
         text = f"contour {route.turn} comes {into(gouge)} contour {routes[gouge.other].turn} at {shown(gouge.place)}"
-        yield ReportLine(f"take care: the cut of {text}", route.number, gouge.place)
+        yield report_line(f"take care: the cut of {text}", route.number, gouge.place)
     if more := crossings[_PLACES:]:
         pairs = (f"{routes[gouge.route].turn} into {routes[gouge.other].turn}" for gouge in more[:_PAIRS])
-        yield ReportLine(
+        yield report_line(
             f"take care: {counted(len(more), 'more cut')} into other contours: {', '.join(pairs)}"
             + " …" * (len(more) > _PAIRS)
         )
@@ -143,7 +141,7 @@ def _contours(numbers: list[int]) -> str:
     return f"(contour {', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)})"
 
 
-def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
+def _corners(routes: list[PlannedContour]) -> list[Finding]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
     straight, around, chords, loops, whiskers = [], [], [], [], []
     off = _in_sharp_ones(routes)
@@ -155,7 +153,7 @@ def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
             if places:
                 many, place = counted(len(places), noun), places[0]
                 text = f"take care: contour {route.turn} has {many} {what}, as at {shown(place)}: not cut"
-                lines.append(ReportLine(text, route.number, place))
+                lines.append(report_line(text, route.number, place))
         if route.is_cramped:
             why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"
             straight.append(_about(route, f"{why} for a lead along an arc: it is straight"))
@@ -171,7 +169,7 @@ def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
         if far > LIMIT:
             off.append((far, place, route))
     narrow = [
-        ReportLine(
+        report_line(
             f"take care: contour {route.turn} has corners that are too narrow for the wire, as at {shown(place)}: "
             f"it stays {short(far)} mm off",
             route.number,
@@ -182,8 +180,8 @@ def _corners(routes: list[PlannedContour]) -> list[ReportLine]:
     return [line for lines in (straight, around, chords, loops, whiskers, narrow) for line in _first(lines)]
 
 
-def _about(route: PlannedContour, text: str) -> ReportLine:
-    return ReportLine(f"contour {route.turn} {text}", route.number, route.entry)
+def _about(route: PlannedContour, text: str) -> report_line:
+    return report_line(f"contour {route.turn} {text}", route.number, route.entry)
 
 
 def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, PlannedContour]]:
@@ -206,15 +204,15 @@ def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, Planne
     return corners
 
 
-def _first(lines: list[ReportLine]) -> list[ReportLine]:
+def _first(lines: list[Finding]) -> list[Finding]:
     """The first lines of a kind, one for each contour, and how many more there are."""
     return [*lines[:_PLACES], *_more(lines, "more such contour")]
 
 
-def _more(every: Sequence, noun: str, nouns: str = "") -> list[ReportLine]:
+def _more(every: Sequence, noun: str, nouns: str = "") -> list[Finding]:
     """Number of entries left out of a list with a line each."""
     more = len(every) - _PLACES
-    return [ReportLine(f"and {counted(more, noun, nouns)}")] * (more > 0)
+    return [report_line(f"and {counted(more, noun, nouns)}")] * (more > 0)
 
 
 def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> str:

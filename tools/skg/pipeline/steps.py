@@ -23,13 +23,14 @@ from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
 from skg.job.read_options import Wishes
 from skg.job.wanted import Partial, Wanted
+from skg.messages.finding import Finding
 from skg.planning.nesting import Nesting
 from skg.planning.plan import plan_nested
 from skg.planning.route import PlannedContour
 from skg.reading.account import Account
 from skg.reading.read import Reading, read
 from skg.reading.selection import SMALL, UNWANTED, WITHIN
-from skg.wording import ReportLine, counted, short
+from skg.wording import counted, report_line, short
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ class CutDrawing:
 
     result: CutResult
     account: Account
-    lines: list[ReportLine]
+    lines: list[Finding]
 
 
 def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
@@ -155,17 +156,17 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     return CutDrawing(result, account, _lines(job, drawn, account, result))
 
 
-def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[ReportLine]:
+def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[Finding]:
     """The report, line by line."""
     lines = [*account.told(), *_matched(job, drawn)]
     lines += report(result, job.machine.distance)
     wanted = wanted_of(job, drawn)
     if left := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
         lines.append(
-            ReportLine(f"take care: the last pass leaves {short(left)} mm more than the offset, as --passes says")
+            report_line(f"take care: the last pass leaves {short(left)} mm more than the offset, as --passes says")
         )
     if any(want.tab and want.cut for want in wanted) and not any(route.tab for route in result.routes):
-        lines.append(ReportLine("take care: no contour has a tab: none is a part that is cut from outside"))
+        lines.append(report_line("take care: no contour has a tab: none is a part that is cut from outside"))
     if any(overlap.kind != "drawn twice" for overlap in account.overlaps):
         from skg.checking.split_parts import said
 
@@ -173,18 +174,18 @@ def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> li
     return lines
 
 
-def _matched(job: Job, drawn: DrawnJob) -> list[ReportLine]:
+def _matched(job: Job, drawn: DrawnJob) -> list[Finding]:
     """Tell how contours were found in a drawing that has changed."""
     if not job.sha256 or job.sha256 == drawn.sha256:
         return []
     x, y = drawn.matches.shift
     moved = f", moved by ({short(x)}, {short(y)}) mm" if (x, y) != (0.0, 0.0) else ""
-    lines = [ReportLine(f"take care: {job.drawing} has changed since the job was written{moved}")]
+    lines = [report_line(f"take care: {job.drawing} has changed since the job was written{moved}")]
     for chosen, match in zip(job.contours, drawn.matches.found, strict=True):
         if match.is_doubtful:
             place = drawn.contours[match.number].edges[0].start
             lines.append(
-                ReportLine(
+                report_line(
                     f"take care: {chosen.name} is taken for one {short(match.moved)} mm from there", match.number, place
                 )
             )

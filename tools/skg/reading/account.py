@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
-from skg.wording import ReportLine, counted, short, shown
+from skg.messages.finding import Finding
+from skg.messages.render import line
+from skg.wording import counted, report_line, short, shown
 
 #: Why what only writes on a drawing, or fills what is drawn, is left.
 NOTE = "nothing to cut"
@@ -130,32 +132,32 @@ class Account:
 
     def lines(self) -> list[str]:
         """The report as lines of text, without the file's name."""
-        return [line.text for line in self.told()]
+        return [line(finding) for finding in self.told()]
 
-    def told(self) -> list[ReportLine]:
+    def told(self) -> list[Finding]:
         """The report, line by line, without the file's name."""
         width, height = self.size
         told_in = "" if self.factor == 1 else f"; places are told in mm, {self.factor:.6g} to one of these"
         size = f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from}){told_in}"
-        lines = [ReportLine(size, is_guess=self.units_from not in (TOLD, ASKED))]
-        lines += [ReportLine(_of_layer(layer)) for layer in self.layers]
+        lines = [report_line(size, is_guess=self.units_from not in (TOLD, ASKED))]
+        lines += [report_line(_of_layer(layer)) for layer in self.layers]
         kinds = [f"{self.closed} closed"] * bool(self.closed) + [f"{self.open} open"] * bool(self.open)
         count = counted(self.closed + self.open, "contour")
-        lines.append(ReportLine(f"{count}: {', '.join(kinds)}; {short(self.length)} mm"))
+        lines.append(report_line(f"{count}: {', '.join(kinds)}; {short(self.length)} mm"))
         for end in self.open_ends[:_PLACES]:
             line = f"open end at {shown(end.place)}"
             if end.other is not None:
                 line += f", {short(end.gap)} mm from {shown(end.other)}; {end.advice}"
-            lines.append(ReportLine(line, place=end.place))
+            lines.append(report_line(line, place=end.place))
         lines += _more(self.open_ends, "open end")
         for entity in self.not_understood[:_PLACES]:
             line = f"not cut: {entity.kind} on layer {entity.layer} at {shown(entity.place)}: {entity.left}"
-            lines.append(ReportLine(line, place=entity.place))
+            lines.append(report_line(line, place=entity.place))
         lines += _more(self.not_understood, "entity not understood", "entities not understood")
         lines += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
         for kind in ("drawn twice", "overlap", "cross", "touch"):
             lines += _overlaps(kind, [overlap for overlap in self.overlaps if overlap.kind == kind])
-        return [*lines, *map(ReportLine, self.notes)]
+        return [*lines, *map(report_line, self.notes)]
 
 
 def said(entities: Iterable[Entity], nouns: tuple[str, str], description: str, then: str) -> Iterator[str]:
@@ -177,9 +179,9 @@ def above(gap: float) -> str:
     return f"{gap * 1.01 + 1e-4:.4g}"
 
 
-def _more(all_of_them: list, noun: str, nouns: str = "") -> list[ReportLine]:
+def _more(all_of_them: list, noun: str, nouns: str = "") -> list[Finding]:
     more = len(all_of_them) - _PLACES
-    return [ReportLine(f"and {counted(more, f'more {noun}', f'more {nouns}' * bool(nouns))}")] * (more > 0)
+    return [report_line(f"and {counted(more, f'more {noun}', f'more {nouns}' * bool(nouns))}")] * (more > 0)
 
 
 def _of_layer(layer: LayerSum) -> str:
@@ -190,7 +192,7 @@ def _of_layer(layer: LayerSum) -> str:
     return line + (f": {', '.join(reasons)}" if reasons else "")
 
 
-def _places(head: str, entities: Iterable[Entity]) -> list[ReportLine]:
+def _places(head: str, entities: Iterable[Entity]) -> list[Finding]:
     """Entities by layer and kind, with their places."""
     groups: dict[tuple[str, str], list[XY]] = defaultdict(list)
     for entity in entities:
@@ -199,11 +201,11 @@ def _places(head: str, entities: Iterable[Entity]) -> list[ReportLine]:
     for (layer, kind), places in groups.items():
         more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
         line = f"{head} {len(places)} {kind} on layer {layer} at {', '.join(map(shown, places[:_PLACES]))}{more}"
-        lines.append(ReportLine(line, place=places[0]))
+        lines.append(report_line(line, place=places[0]))
     return lines
 
 
-def _overlaps(kind: str, overlaps: list[Overlap]) -> list[ReportLine]:
+def _overlaps(kind: str, overlaps: list[Overlap]) -> list[Finding]:
     groups: dict[str, list[XY]] = defaultdict(list)
     for overlap in overlaps:
         groups[overlap.layer].append(overlap.place)
@@ -215,5 +217,5 @@ def _overlaps(kind: str, overlaps: list[Overlap]) -> list[ReportLine]:
             if kind != "drawn twice"
             else f"{counted(len(places), 'edge')} on layer {layer} drawn twice, cut once: "
         )
-        lines.append(ReportLine(f"{line}{', '.join(map(shown, places[:_PLACES]))}{more}", place=places[0]))
+        lines.append(report_line(f"{line}{', '.join(map(shown, places[:_PLACES]))}{more}", place=places[0]))
     return lines

@@ -29,7 +29,7 @@ _PARTS = (
 
 
 @dataclass(frozen=True)
-class Finding:
+class TapeFault:
     """Something wrong on a tape: block number (from 1), column (from 1) and what was expected."""
 
     block: int
@@ -73,7 +73,7 @@ class _Reading:
 
     def __init__(self) -> None:
         self.blocks, self.stops = Blocks(), list[Stop]()
-        self.findings: list[Finding] = []
+        self.findings: list[TapeFault] = []
         # Of the last block; whether DD was there; at which block a line ends with LF alone (0: none does).
         self.number, self.ended, self.bare = 0, False, 0
 
@@ -122,10 +122,10 @@ class _Reading:
             self._find(self.number + 1, 0, "expected DD, found the end of the tape")
 
     def _find(self, block: int, index: int, message: str) -> None:
-        self.findings.append(Finding(block, index + 1, message))
+        self.findings.append(TapeFault(block, index + 1, message))
 
 
-def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, list[Finding]]:
+def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, list[TapeFault]]:
     """Read a whole tape and everything that is wrong with it.
 
     Blocks whose text cannot be read are left out of the tape; blocks that can be read but cannot be right
@@ -139,7 +139,7 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     tape = Tape(name, reading.blocks, tuple(reading.stops))
     # (of a block there is either this or what could not be read)
     wrong = [
-        Finding(block.number, 1, text) for block in _doubtful(tape, positions) for text in block.problems(positions)
+        TapeFault(block.number, 1, text) for block in _doubtful(tape, positions) for text in block.problems(positions)
     ]
     return tape, sorted(wrong + reading.findings, key=lambda finding: (finding.block, finding.column))
 

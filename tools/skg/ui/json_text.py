@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from skg.errors import UserError
-from skg.wording import ReportLine
+from skg.messages.finding import Finding
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
@@ -31,6 +31,6 @@ def told(error: UserError) -> dict[str, Any]:
     return {"message": str(error)} | about(error)
 
 
-def about(subject: UserError | ReportLine) -> dict[str, Any]:
+def about(subject: UserError | Finding) -> dict[str, Any]:
     """The contour and the place that something is about, where these are known."""
     return {name: value for name in ("contour", "place") if (value := getattr(subject, name)) is not None}

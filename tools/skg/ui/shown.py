@@ -18,11 +18,14 @@ from skg.geometry.offset import NoRoom
 from skg.geometry.plane import XY
 from skg.job.job import Chosen
 from skg.job.wanted import Wanted
+from skg.messages.finding import Finding
+from skg.messages.render import text
+from skg.messages.severity import Severity
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import said
 from skg.planning.route import Lead, PlannedContour, Way, split_at_end
 from skg.ui.json_text import about, encoded, in_json, told
-from skg.wording import ReportLine
+from skg.wording import report_line
 
 #: Decimals of a length, mm; of a direction, radians.
 _LENGTH, _ANGLE = 4, 6
@@ -54,9 +57,9 @@ def _edge(edge: Edge) -> list[Any]:
     return ordinates if edge.centre is None else [*ordinates, *place(edge.centre), round(edge.sweep, _ANGLE)]
 
 
-def line(entry: ReportLine) -> dict[str, Any]:
+def line(entry: Finding) -> dict[str, Any]:
     """A line of a report."""
-    return {"text": entry.text, "care": entry.is_care} | about(entry)
+    return {"text": text(entry), "care": entry.severity is Severity.CARE} | about(entry)
 
 
 def drawing(drawn: DrawnJob) -> dict[str, Any]:
@@ -120,7 +123,7 @@ class Plans:
         self._told = contours
         data = {
             "order": [route.number for route in routes],
-            "said": [line(ReportLine(text)) for text in said((route.turn, route.around) for route in routes)],
+            "said": [line(report_line(entry)) for entry in said((route.turn, route.around) for route in routes)],
             "error": told(errors[0]) if errors else None,
         }
         whole, part = (

@@ -135,7 +135,7 @@ def _answer(function: Callable, arguments: tuple) -> tuple:
     try:
         return "done", function(*arguments)
     except UserError as error:
-        return "failed", str(error), error.contour, error.place
+        return "failed", error.finding
     except MemoryError:
         return "failed", f"no room in {MEMORY >> 30} GiB of memory: the drawing is too large, or made to be"
     except RecursionError:

@@ -60,9 +60,8 @@ export class Report {
 
   #line({ text, care, wrong, contour, place }: Told): HTMLElement {
     const row = make("li", wrong ? "wrong" : care ? "care" : "");
-    const plain = care ? text.replace(/^take care: /, "") : text;
     if (care) row.append(make("b", "mark", w("care")));
-    row.append(make("span", "", plain));
+    row.append(make("span", "", text));
     const id = contour ?? undefined;
     const spot = place ?? (id === undefined ? undefined : this.#desk.contours.get(id)?.at);
     if (!spot) return row;

@@ -1,0 +1,150 @@
+"""Messages: both catalogues complete, their values those that the code gives, advice that can be followed."""
+
+from __future__ import annotations
+
+import ast
+import re
+import string
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import polib
+import pytest
+
+from skg.commands.cut import command
+from skg.job.file import _MACHINE, _READ, _TOP
+from skg.job.wanted import Partial
+from skg.messages.catalogue import LANGUAGES
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import Medium, Speech, advice, line, text
+from skg.messages.settings import KEYS, SETTINGS
+from skg.messages.severity import _CARE, _GUESS, _LOST, Severity, severity_of
+
+SKG = Path(__file__).parents[2] / "tools" / "skg"
+CATALOGUES = {
+    language: {entry.msgid: entry for entry in polib.pofile(str(SKG / "messages" / f"{language}.po"))}
+    for language in LANGUAGES
+}
+#: Codes that are put together: a page's labels, words for settings' values.
+MADE = re.compile(r"(label|value)-|(care|plain.*|.*-separator|setting-in-job|setting-on-page|field-on-page)$")
+
+
+def texts(entry: polib.POEntry) -> list[str]:
+    """An entry's sentences: one, or singular and plural."""
+    return list(entry.msgstr_plural.values()) or [entry.msgstr]
+
+
+def fields(template: str) -> Iterator[str]:
+    """The fields of a template."""
+    return (field for _, field, _, _ in string.Formatter().parse(template) if field)
+
+
+def values(template: str) -> set[str]:
+    """The values that a template has: those of its settings, too."""
+    found = (field.split("=$")[-1] if field.startswith("--") else field for field in fields(template))
+    return {field for field in found if not field.startswith("--")}
+
+
+def settings(template: str) -> set[str]:
+    """The settings that a template advises."""
+    return {field for field in fields(template) if field.startswith("--")}
+
+
+def uses() -> Iterator[tuple[str, set[str], str]]:
+    """The codes that the sources use, with the names of the values, and where."""
+    for path in sorted(SKG.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
+                continue
+            if node.func.id not in ("Finding", "Phrase") or not node.args:
+                continue
+            place = f"{path.relative_to(SKG)}:{node.lineno}"
+            names = {keyword.arg or "**" for keyword in node.keywords}
+            codes = list(literals(node.args[0]))
+            for code in codes:
+                yield code, names - ({"contour"} if node.func.id == "Finding" else set()), place
+
+
+def literals(node: ast.expr) -> Iterator[str]:
+    """The codes that an expression may have."""
+    if isinstance(node, ast.Constant):
+        yield node.value
+    elif isinstance(node, ast.IfExp):
+        yield from (*literals(node.body), *literals(node.orelse))
+
+
+def test_catalogues_have_the_same_codes_and_values() -> None:
+    english, chinese = CATALOGUES["en"], CATALOGUES["zh"]
+    assert len(english) > 30 and english.keys() == chinese.keys()
+    for code, entry in english.items():
+        for sentence in texts(entry) + texts(chinese[code]):
+            known = values(texts(entry)[-1])
+            # (a singular may have the number as a word, a Chinese sentence no plural)
+            assert values(sentence) | {"count"} == known | {"count"}, code
+            assert settings(sentence) == settings(texts(entry)[-1]), code
+
+
+def test_chinese_is_chinese() -> None:
+    """Each sentence has Han characters, unless the English one has no words either; full-width marks beside them."""
+    for code, entry in CATALOGUES["zh"].items():
+        words = re.sub(r"\{.*?\}", "", texts(CATALOGUES["en"][code])[0])
+        (sentence,) = texts(entry)
+        if re.search(r"[a-z]{3}", words) and not code.startswith("label-") and words != sentence:
+            assert re.search(r"[\u4e00-\u9fff]", sentence), code
+        assert not re.search(r"[\u4e00-\u9fff][,;:?!]|[,;:?!][\u4e00-\u9fff]", sentence), code
+
+
+def test_codes_that_are_used_are_known_and_all_are_used() -> None:
+    used = defaultdict(set)
+    for code, names, place in uses():
+        assert code in CATALOGUES["en"], f"{place}: {code}"
+        used[code] |= names
+        wanted = values(texts(CATALOGUES["en"][code])[-1])
+        if "**" not in names:
+            assert wanted - names <= {"place"}, f"{place}: {code}: {wanted - names}"
+            assert names - wanted <= {"place", "count"}, f"{place}: {code}: {names - wanted}"
+    assert used
+    mentioned = "".join(path.read_text() for path in SKG.rglob("*.py"))
+    unused = [code for code in CATALOGUES["en"] if not MADE.match(code) and f'"{code}"' not in mentioned]
+    assert not unused
+
+
+def test_severities_are_of_known_codes() -> None:
+    assert not _CARE & _LOST and not (_CARE | _LOST) & _GUESS
+    assert set(CATALOGUES["en"]) >= _CARE | _LOST | _GUESS
+    assert severity_of("plain-care") is Severity.CARE and not severity_of("plain").is_kept
+
+
+def test_settings_are_options_and_keys_of_job_files() -> None:
+    options = {name for parameter in command.params for name in parameter.opts}
+    tables = {"read": _READ, "machine": _MACHINE, "default": vars(Partial())}
+    for name, (table, label) in SETTINGS.items():
+        key = KEYS.get(name, name.replace("-", "_"))
+        assert f"--{name}" in options
+        assert key in tables[table] or key in _TOP
+        assert label in CATALOGUES["en"]
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_medium_has_its_words(language: str) -> None:
+    finding = Finding("plain", text="").within("part.dxf")
+    assert line(finding, Speech(language)).startswith("part.dxf")
+    assert "注意" in line(Finding("plain-care", text="x"), Speech("zh"))
+    assert text(Phrase("plain", text=("a", "b", 0.25)), Speech("en")) == "a, b, 0.25"
+
+
+def test_advice_is_in_the_words_of_the_medium(monkeypatch: pytest.MonkeyPatch) -> None:
+    from skg.messages import render
+
+    sentence = "{--small=leave} {--tolerance=$gap} {--tab} {--layer=$name}"
+    monkeypatch.setattr(render, "template", lambda code, *rest: sentence if code == "x" else template(code, *rest))
+    from skg.messages.catalogue import template
+
+    finding = Finding("x", gap=0.35, name="A")
+    assert text(finding) == "--small leave --tolerance 0.35 --tab --layer A"
+    job = text(finding, Speech("en", Medium.JOB))
+    assert job == 'small = "leave" under [machine] tolerance = 0.35 under [read] tab layers = ["A"] under [read]'
+    page = text(finding, Speech("zh", Medium.PAGE))
+    assert page == "“过小轮廓：不切割” “连接间隙：0.35” “暂留量” “图层与轮廓：A”"
+    assert list(advice(finding)) == [("small", "leave"), ("tolerance", "0.35"), ("tab", None), ("layer", "A")]

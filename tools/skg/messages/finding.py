@@ -1,0 +1,71 @@
+"""Findings: a code, its values, and the contour and place that it is about."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from skg.messages.severity import Severity, severity_of
+
+
+@dataclass(frozen=True, init=False)
+class Phrase:
+    """A part of a sentence that has its own entry in the catalogues, such as a reason or a noun with its number.
+
+    `values`: numbers, texts, places, other phrases, or tuples of these; None is nothing.
+    """
+
+    code: str
+    values: tuple[tuple[str, Any], ...]
+
+    def __init__(self, code: str, /, **values: object) -> None:
+        object.__setattr__(self, "code", code)
+        object.__setattr__(self, "values", tuple(values.items()))
+
+    def __getitem__(self, name: str) -> Any:  # noqa: ANN401
+        """A value by its name."""
+        return dict(self.values)[name]
+
+
+@dataclass(frozen=True, init=False)
+class Finding(Phrase):
+    """A message. `contour`: the number (from 0) of the contour, among those that were read, that it is about; `place`:
+    where, mm. `source`: file, section and line that it stands in, as far as these are known."""
+
+    contour: int | None = None
+    place: tuple[float, float] | None = None
+    source: tuple[str | Phrase, ...] = ()
+
+    def __init__(
+        self,
+        code: str,
+        /,
+        *,
+        contour: int | None = None,
+        place: tuple[float, float] | None = None,
+        **values: object,
+    ) -> None:
+        super().__init__(code, **values)
+        object.__setattr__(self, "contour", contour)
+        object.__setattr__(self, "place", place)
+        object.__setattr__(self, "source", ())
+
+    @property
+    def severity(self) -> Severity:
+        """The severity of its code."""
+        return severity_of(self.code)
+
+    def within(self, *source: str | Phrase) -> Finding:
+        """The same, in a file or a part of one: these come before the sources that it has."""
+        return _replaced(self, source=(*source, *self.source))
+
+    def about(self, contour: int | None, place: tuple[float, float] | None = None) -> Finding:
+        """The same, about a contour."""
+        return _replaced(self, contour=contour, place=place)
+
+
+def _replaced(finding: Finding, **fields: object) -> Finding:
+    made = object.__new__(Finding)
+    for name, value in (vars(finding) | fields).items():
+        object.__setattr__(made, name, value)
+    return made

@@ -1,0 +1,165 @@
+"""Findings as text, in the language and the words of where it is read."""
+
+from __future__ import annotations
+
+import os
+import re
+import string
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from skg.messages.catalogue import template
+from skg.messages.finding import Finding, Phrase
+from skg.messages.settings import KEYS, LISTS, SETTINGS, TOP
+from skg.messages.severity import Severity
+from skg.wording import short, shown
+
+#: An option in a template, with the value that it is advised to have.
+_SETTING = re.compile(r"--(?P<name>[a-z-]+)(?:=(?P<value>.+))?")
+
+
+class Medium(Enum):
+    """Where a text is read, and so what its advice is about: options, keys of a job file, fields of the page."""
+
+    COMMAND = "command line"
+    JOB = "job file"
+    PAGE = "page"
+
+
+@dataclass
+class Speech:
+    """The language and the medium of texts."""
+
+    language: str = "en"
+    medium: Medium = Medium.COMMAND
+
+
+#: Those of this process: the command line sets them.
+speech = Speech()
+
+
+def text(phrase: Phrase, way: Speech | None = None) -> str:
+    """The sentence of a finding or phrase. `way`: its language and medium, else this process's."""
+    way = way or speech
+    values = dict(phrase.values)
+    if isinstance(phrase, Finding):
+        values |= {"place": phrase.place} if "place" not in values else {}
+    count = values.get("count")
+    return _Wording(way).vformat(template(phrase.code, way.language, count), (), values)
+
+
+def line(finding: Finding, way: Speech | None = None) -> str:
+    """A finding as a line: its source, a mark of its severity, its sentence."""
+    way = way or speech
+    sentence = text(finding, way)
+    if finding.severity is Severity.CARE:
+        sentence = text(Phrase("care", text=sentence), way)
+    separator = template("source-separator", way.language)
+    sources = [source if isinstance(source, str) else text(source, way) for source in finding.source]
+    return separator.join([*sources, sentence])
+
+
+def advice(phrase: Phrase) -> Iterator[tuple[str, str | None]]:
+    """The settings that a finding advises, with their values."""
+    values = dict(phrase.values)
+    writer = _Wording(Speech("en", Medium.COMMAND))
+    for _, field, spec, _ in string.Formatter().parse(template(phrase.code, "en", values.get("count"))):
+        if field and (match := _SETTING.fullmatch(field)):
+            yield match["name"], writer.setting_value(match["value"], spec or "", values)
+    for value in values.values():
+        if isinstance(value, Phrase):
+            yield from advice(value)
+
+
+class _Wording(string.Formatter):
+    """Puts values into a template."""
+
+    def __init__(self, way: Speech) -> None:
+        self._way = way
+        self._values: Mapping[str, Any] = {}
+
+    def vformat(self, format_string: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> str:
+        """Return the template with the values in it."""
+        self._values = kwargs
+        return "".join(
+            before + ("" if field is None else self._field(field, spec or ""))
+            for before, field, spec, _ in self.parse(format_string)
+        )
+
+    def _field(self, field: str, spec: str) -> str:
+        if match := _SETTING.fullmatch(field):
+            return self._setting(match["name"], self.setting_value(match["value"], spec, self._values))
+        return self.format_field(self._values[field], spec)
+
+    def setting_value(self, value: str | None, spec: str, values: Mapping[str, Any]) -> str | None:
+        """The advised value of a setting: as it stands, or one of the finding's."""
+        return self.format_field(values[value[1:]], spec) if value and value[0] == "$" else value
+
+    def _setting(self, name: str, value: str | None) -> str:
+        medium, language = self._way.medium, self._way.language
+        if medium is Medium.COMMAND or name not in SETTINGS:
+            return f"--{name}" + (f" {value}" if value else "")
+        table, label = SETTINGS[name]
+        if medium is Medium.PAGE:
+            label = template(label, language)
+            known = f"value-{value}"
+            shown_value = template(known, language) if value else None
+            code = "setting-on-page" if value else "field-on-page"
+            return template(code, language).format(label=label, value=value if shown_value == known else shown_value)
+        key = KEYS.get(name, name.replace("-", "_"))
+        if not value:
+            return key
+        written = value if re.fullmatch(r"[\d.]+", value) else f'"{value}"'
+        written = f"[{written}]" if key in LISTS else written
+        if key in TOP:
+            return f"{key} = {written}"
+        return template("setting-in-job", language).format(key=key, value=written, table=table)
+
+    def format_field(self, value: Any, format_spec: str) -> str:  # noqa: ANN401
+        """Write a value: by its type, or as the template says."""
+        if value is None:
+            return ""
+        if isinstance(value, Phrase):
+            return text(value, self._way)
+        if format_spec == "xy":
+            return shown(value)
+        if isinstance(value, tuple | list):
+            separator = template("list-separator", self._way.language)
+            return separator.join(self.format_field(item, format_spec) for item in value)
+        if isinstance(value, float) and not format_spec:
+            return short(value)
+        return format(value, format_spec)
+
+
+def data(finding: Phrase) -> dict[str, Any]:
+    """A finding as plain data, for other programs."""
+    plain: dict[str, Any] = {"code": finding.code, "values": {name: _plain(value) for name, value in finding.values}}
+    if isinstance(finding, Finding):
+        plain["severity"] = finding.severity.value
+        plain |= {name: value for name in ("contour", "place") if (value := getattr(finding, name)) is not None}
+        plain["source"] = [_plain(source) for source in finding.source]
+        plain["advice"] = [{"setting": name, "value": value} for name, value in advice(finding)]
+        plain["text"] = line(finding)
+    return plain
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, Phrase):
+        return data(value)
+    return [_plain(item) for item in value] if isinstance(value, tuple | list) else value
+
+
+def language_of_system() -> str:
+    """The language that the user's environment asks for, one of `LANGUAGES`."""
+    for name in ("LC_ALL", "LC_MESSAGES", "LANG"):
+        if value := os.environ.get(name):
+            return "zh" if value.lower().startswith("zh") else "en"
+    if sys.platform == "win32":
+        import ctypes
+
+        # (a language's own number is in the lower ten bits: 4 is Chinese)
+        return "zh" if ctypes.windll.kernel32.GetUserDefaultUILanguage() & 0x3FF == 4 else "en"
+    return "en"

@@ -1,0 +1,49 @@
+"""The severity of what a report says, by its code."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Severity(Enum):
+    """The severity of a finding in a report. What is raised as a `UserError` is an error, whatever its code."""
+
+    #: Somebody should decide.
+    CARE = "care"
+    #: Something of the drawing is not cut.
+    LOST = "lost"
+    #: Nobody told it: it was guessed.
+    GUESS = "guess"
+    #: All else.
+    NOTE = "note"
+
+    @property
+    def is_kept(self) -> bool:
+        """Tell whether --quiet keeps it."""
+        return self is not Severity.NOTE
+
+
+_CARE = frozenset(
+    {
+        "plain-care",
+    }
+)
+_LOST = frozenset(
+    {
+        "plain-lost",
+    }
+)
+_GUESS = frozenset(
+    {
+        "plain-guess",
+    }
+)
+
+
+def severity_of(code: str) -> Severity:
+    """Return a code's severity."""
+    if code in _CARE:
+        return Severity.CARE
+    if code in _LOST:
+        return Severity.LOST
+    return Severity.GUESS if code in _GUESS else Severity.NOTE
