@@ -151,8 +151,10 @@ def _corners(routes: list[PlannedContour]) -> list[Finding]:
             (whiskers, route.whiskers, "line", "that it runs along and back"),
         ):
             if places:
-                many, place = counted(len(places), noun), places[0]
-                text = f"take care: contour {route.turn} has {many} {what}, as at {shown(place)}: not cut"
+                many, place = counted(len(places), noun), places[0].place
+                longest = short(max(trim.length for trim in places))
+                text = f"take care: contour {route.turn} has {many} {what}, as at {shown(place)}"
+                text += f", up to {longest} mm long: not cut"
                 lines.append(report_line(text, route.number, place))
         if route.is_cramped:
             why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"

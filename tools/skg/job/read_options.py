@@ -10,6 +10,8 @@ from skg.errors import UserError
 
 #: mm in one unit of a file.
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
+#: Ends no further apart meet, and go to their middle, mm; no end is moved by more.
+MEET = 0.005
 #: Settings for open contours; "all" cuts lines at junctions as well.
 OPEN = ("cut", "leave", "refuse", "all")
 #: Reasons for leaving a layer: not among those asked for, or not seen.
@@ -31,7 +33,7 @@ class Wishes:
     layers: tuple[str, ...] = ()
     start_layer: str = START
     units: str | None = None
-    tolerance: float = 0.005
+    tolerance: float = MEET
     fit_tolerance: float = 0.0002
     open: str | None = "cut"
     encoding: str | None = None

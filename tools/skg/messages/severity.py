@@ -30,11 +30,14 @@ _CARE = frozenset(
 )
 _LOST = frozenset(
     {
+        "edge-too-short",
         "plain-lost",
     }
 )
 _GUESS = frozenset(
     {
+        "ends-joined",
+        "more-joined",
         "plain-guess",
     }
 )

@@ -12,7 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
+from math import inf
 
+from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.cutting.job import CutResult, make
 from skg.cutting.progress import Progress, in_silence
 from skg.cutting.report import report
@@ -153,7 +155,20 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
     account = drawn.reading.account(left) if left else drawn.reading.report
+    result = _beside_file(result, drawn, account)
     return CutDrawing(result, account, _lines(job, drawn, account, result))
+
+
+def _beside_file(result: CutResult, drawn: DrawnJob, account: Account) -> CutResult:
+    """The tape compared with the lines of the file, too: it is as far off as its contours are at most, and these. Where
+    these differ and no line of the report names the place, a `UserError`."""
+    named = [Named(mend.place, mend.size) for mend in account.mends]
+    for route in result.routes:
+        named += [Named(trim.place, trim.length) for trim in (*route.loops, *route.whiskers)]
+    off, place = off_drawn([route.contour for route in result.routes], drawn.reading.nominal, account.whole, named)
+    if off > NEAR:
+        raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(drawn.name))
+    return replace(result, checked=replace(result.checked, off=result.checked.off + off))
 
 
 def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[Finding]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 from math import hypot, pi
+from typing import NamedTuple
 
 import shapely
 
@@ -18,9 +19,16 @@ _SAME = 1e-6
 _PARALLEL = 1e-6
 
 
-def tidied(contour: Contour, r: float, is_outside: bool) -> tuple[Contour, tuple[XY, ...], tuple[XY, ...]]:
+class Trim(NamedTuple):
+    """A loop, or a whisker: where it begins, or its tip, and its length, mm."""
+
+    place: XY
+    length: float
+
+
+def tidied(contour: Contour, r: float, is_outside: bool) -> tuple[Contour, tuple[Trim, ...], tuple[Trim, ...]]:
     """Return a closed contour that touches or crosses itself without its loops smaller than a wire that runs R (mm)
-    beside it, or outside of it, and without its whiskers; the places of both. Any other is as it was."""
+    beside it, or outside of it, and without its whiskers; and both. Any other is as it was."""
     if len(contour.edges) < 3 or _is_simple(contour):
         return contour, (), ()
     most = 2 * pi * abs(r)
@@ -39,17 +47,19 @@ def _is_simple(contour: Contour) -> bool:
     return len(places) > 3 and shapely.Polygon(places).is_valid
 
 
-def _without_loops(contour: Contour, most: float) -> tuple[Contour, tuple[XY, ...]]:
-    """A contour without loops of a length (mm), from a place back to it; and these places."""
+def _without_loops(contour: Contour, most: float) -> tuple[Contour, tuple[Trim, ...]]:
+    """A contour without loops of a length (mm), from a place back to it; and these."""
     kept: list[Edge] = []
-    places: list[XY] = []
+    places: list[Trim] = []
     for edge in contour.edges:
         kept.append(edge)
         if loop := _loop(kept, most):
             first, place = loop
             before, behind = replace(kept[first], end=place), replace(edge, start=place)
+            parts = distance(place, kept[first].end), *(one.length for one in kept[first + 1 : -1])
+            length = kept[first].length if len(kept) == first + 1 else sum(parts) + distance(edge.start, place)
             kept[first:] = [part for part in (before, behind) if distance(part.start, part.end) > _SAME]
-            places.append(place)
+            places.append(Trim(place, length))
     if not places or not kept:
         return contour, ()
     # (the ends of a loop may differ by rounding)
@@ -85,11 +95,11 @@ def _crossing(one: Edge, other: Edge) -> XY | None:
     return one.at(part) if is_there else None
 
 
-def _without_whiskers(contour: Contour, is_outside: bool) -> tuple[Contour, tuple[XY, ...]]:
-    """A contour without its whiskers, and their tips. One that is a slit, on the other side than the wire, stays, and
+def _without_whiskers(contour: Contour, is_outside: bool) -> tuple[Contour, tuple[Trim, ...]]:
+    """A contour without its whiskers, and these. One that is a slit, on the other side than the wire, stays, and
     all others with it."""
     edges = list(contour.edges)
-    tips: list[XY] = []
+    tips: list[Trim] = []
     number = 0
     while number < len(edges) > 2:
         one, other = edges[number - 1], edges[number]
@@ -101,7 +111,7 @@ def _without_whiskers(contour: Contour, is_outside: bool) -> tuple[Contour, tupl
             number += 1
             continue
         if is_back:
-            tips.append(one.end)
+            tips.append(Trim(one.end, min(one.length, other.length)))
         edges[number] = replace(one, end=other.end)
         if distance(one.start, other.end) < _SAME:
             del edges[number]
@@ -111,6 +121,6 @@ def _without_whiskers(contour: Contour, is_outside: bool) -> tuple[Contour, tupl
     area = shapely.Polygon(whole.points()) if tips and len(edges) > 1 else None
     if area is None or not area.is_valid:
         return contour, ()
-    places = shapely.points(tips)
+    places = shapely.points([tip.place for tip in tips])
     is_slit = shapely.contains(area, places) if is_outside else ~shapely.covers(area, places)
     return (contour, ()) if is_slit.any() else (whole, tuple(tips))

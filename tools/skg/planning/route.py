@@ -15,6 +15,7 @@ from skg.geometry.chords import CUT, chords_of
 from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.offset import part_between, roomy_place, wire_way
 from skg.geometry.plane import XY, distance, minus, polar, turn
+from skg.planning.loops import Trim
 from skg.planning.nesting import Around
 from skg.wording import shown
 
@@ -109,8 +110,8 @@ class PlannedContour:
     is_cramped: bool = False
     is_around: bool = False
     is_short: bool = False
-    loops: tuple[XY, ...] = ()
-    whiskers: tuple[XY, ...] = ()
+    loops: tuple[Trim, ...] = ()
+    whiskers: tuple[Trim, ...] = ()
     has_fillets: bool = True
     around: Around | None = None
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
+from skg.job.read_options import MEET
 from skg.messages.finding import Finding
 from skg.messages.render import line
 from skg.wording import counted, report_line, short, shown
@@ -18,6 +19,8 @@ NOTE = "nothing to cut"
 TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
 #: No gap that is wider than the wires are was meant to be closed, mm.
 WIRE = 0.3
+#: Joins with a line each.
+_JOINS = 20
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
 
@@ -84,6 +87,17 @@ class OpenEnd:
 
 
 @dataclass(frozen=True)
+class Mend:
+    """A place where what is cut is not what is drawn, mm: within `size` of `place`. `kind`: "joined" (ends that do not
+    meet), "short" (an edge too short for two corners), "past" (an end that runs past a corner), "twice" (an edge that
+    lies beside the one that is cut)."""
+
+    kind: str
+    place: XY
+    size: float
+
+
+@dataclass(frozen=True)
 class Overlap:
     """Two edges on each other. `kind`: "drawn twice", "overlap", "touch" or "cross"; `place` in mm."""
 
@@ -98,7 +112,8 @@ class Account:
 
     `units`: those it was read in; `units_from`: who said so. `factor`: mm in one unit of the file. `low`, `high`: the
     box around the contours, mm. `layers`: the sums of all layers. `rest`: entities at junctions, of which (some of) the
-    edges belong to no closed outline.
+    edges belong to no closed outline. `mends`: where what is cut is not what is drawn; `whole`: the numbers of the
+    entities that are cut, all of each, if not by themselves by what they are drawn on.
     """
 
     name: str
@@ -116,6 +131,8 @@ class Account:
     rest: list[Entity] = field(default_factory=list)
     overlaps: list[Overlap] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    mends: list[Mend] = field(default_factory=list)
+    whole: set[int] = field(default_factory=set)
 
     @property
     def size(self) -> XY:
@@ -157,7 +174,7 @@ class Account:
         lines += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
         for kind in ("drawn twice", "overlap", "cross", "touch"):
             lines += _overlaps(kind, [overlap for overlap in self.overlaps if overlap.kind == kind])
-        return [*lines, *map(report_line, self.notes)]
+        return [*lines, *_mended(self.mends), *map(report_line, self.notes)]
 
 
 def said(entities: Iterable[Entity], nouns: tuple[str, str], description: str, then: str) -> Iterator[str]:
@@ -177,6 +194,16 @@ def listed(kinds: dict[str, int]) -> str:
 def above(gap: float) -> str:
     """A tolerance that a gap is surely within."""
     return f"{gap * 1.01 + 1e-4:.4g}"
+
+
+def _mended(mends: Iterable[Mend]) -> list[Finding]:
+    """Ends that were joined, a line each, and edges that are lost; what else is mended is told by notes."""
+    joins = [mend for mend in mends if mend.kind == "joined"]
+    lines = [Finding("ends-joined", place=join.place, gap=join.size) for join in joins[:_JOINS]]
+    if more := joins[_JOINS:]:
+        lines.append(Finding("more-joined", count=len(more), gap=max(join.size for join in more)))
+    lost = (mend for mend in mends if mend.kind == "short" and mend.size > MEET)
+    return lines + [Finding("edge-too-short", place=mend.place, length=mend.size) for mend in lost]
 
 
 def _more(all_of_them: list, noun: str, nouns: str = "") -> list[Finding]:

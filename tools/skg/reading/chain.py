@@ -27,8 +27,11 @@ import shapely
 
 from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.contour import Contour, CurveNode, Edge
-from skg.geometry.plane import XY, distance, dot, minus, turn
+from skg.geometry.plane import XY, cross, distance, dot, minus, turn
+from skg.job.read_options import MEET
 
+#: Lines at a smaller angle (its sine) do not go on to where they cross, nor for more than so often the gap.
+_ACROSS, _AHEAD = 0.1, 1.5
 #: Shorter edges of one polyline (mm) go into their neighbour: the ROM takes such places for one.
 _LEAST = 1e-3
 #: Ends of neighbours in one entity lie within this of each other, mm.
@@ -37,6 +40,16 @@ _EXACT = 1e-6
 _STRAIGHT_ON = 0.02
 #: An arc whose ends were moved may leave the drawn one by this, mm; else it is bent at its ends alone.
 _BENT = 1e-3
+
+
+@dataclass(frozen=True)
+class Join:
+    """Ends that were joined: a place between them and the gap, mm; `bridge`: the line that was put in, None where the
+    ends were moved, or lines went on to where they cross."""
+
+    place: XY
+    width: float
+    bridge: Edge | None = None
 
 
 #: Of each entity how it is drawn: its layer, its type of line.
@@ -48,14 +61,15 @@ class Chains:
     """Chains of edges; each edge is in one of them, once.
 
     `contours`: in the order of the edges, their ends moved to common corners; `rest`: runs of edges at junctions that
-    belong to no closed outline; `doubles`: drawn twice, with the edge that each was drawn on; `short`: shorter than the
-    tolerance.
+    belong to no closed outline; `doubles`: drawn twice, with the edge that each was drawn on; `short`: too short for
+    two corners; `joins`: ends that do not meet, but were joined.
     """
 
     contours: list[Contour] = field(default_factory=list)
     rest: list[Contour] = field(default_factory=list)
     doubles: list[tuple[Edge, Edge]] = field(default_factory=list)
     short: list[Edge] = field(default_factory=list)
+    joins: list[Join] = field(default_factory=list)
 
 
 class _Corners:
@@ -146,25 +160,29 @@ def _off(edge: Edge, other: Edge) -> float:
 
 
 def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chains:
-    """Return what edges make whose ends within `tolerance` (mm) of each other join.
+    """Return what edges make whose ends meet; ends that nothing meets are joined to the next one within `tolerance`
+    (mm), and nothing that is drawn is moved for that.
 
     `styles`: of each entity how it is drawn; empty where all are drawn alike.
     """
-    result = Chains()
+    result, near = Chains(), min(tolerance, MEET)
     loose: list[Edge] = []
     groups: dict[int, list[Edge]] = defaultdict(list)
     for edge in edges:
         groups[edge.entity if edge.entity >= 0 else -1 - len(groups)].append(edge)
     for group in groups.values():
-        is_whole = _is_ring(group, tolerance)
+        is_whole = _is_ring(group, near)
         for part in [group] if is_whole else _parts(group):
-            kept, short = _without_short(part) if is_whole or _is_ring(part, tolerance) else ([], [])
+            kept, short = _without_short(part) if is_whole or _is_ring(part, near) else ([], [])
             if not kept:
                 loose += part
                 continue
             result.short += short
             result.contours.append(Contour(tuple(kept), True))
-    _Graph(loose, tolerance, result).chain(styles)
+    graph = _Graph(loose, near, result)
+    if tolerance > near:
+        graph.join(tolerance)
+    graph.chain(styles)
     result.contours.sort(key=lambda contour: min(edge.entity for edge in contour.edges))
     return result
 
@@ -197,7 +215,9 @@ def _without_short(group: list[Edge]) -> tuple[list[Edge], list[Edge]]:
     kept: list[Edge] = []
     short: list[Edge] = []
     for edge in group:
-        if distance(edge.start, edge.end) < _LEAST and edge.length < 2 * _LEAST:
+        # (many short ones that follow each other are not short together)
+        start = kept[-1].end if kept else edge.start
+        if distance(start, edge.end) < _LEAST and edge.length < 2 * _LEAST:
             short.append(edge)
         elif kept:
             kept.append(moved(edge, kept[-1].end, edge.end))
@@ -210,6 +230,38 @@ def _without_short(group: list[Edge]) -> tuple[list[Edge], list[Edge]]:
 
 #: An edge of the graph by its number, and whether it is run through from its first end to its last.
 _Step = tuple[int, bool]
+
+
+def _middle(one: XY, other: XY) -> XY:
+    """The place halfway between two."""
+    return (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+
+
+def _joined(steps: list[Edge], index: int, following: int) -> Edge | None:
+    """Let one of some edges end where another begins: at their middle if that is near, where they cross if they are
+    lines; else return a line between the two."""
+    one, other = steps[index], steps[following]
+    if one.end == other.start:
+        return None
+    place = _middle(one.end, other.start) if distance(one.end, other.start) <= MEET else _crossing(one, other)
+    if place is None:
+        return Edge(one.end, other.start, entity=one.entity)
+    steps[index] = moved(one, one.start, place)
+    steps[following] = moved(steps[following], place, steps[following].end)
+    return None
+
+
+def _crossing(one: Edge, other: Edge) -> XY | None:
+    """The place near the end of a line and the start of another where the two cross, or would if they went on."""
+    if not (one.is_line and other.is_line):
+        return None
+    way, to = minus(one.end, one.start), minus(other.end, other.start)
+    area = cross(way, to)
+    if abs(area) < _ACROSS * hypot(*way) * hypot(*to):
+        return None
+    place = one.at(cross(minus(other.start, one.start), to) / area)
+    most = _AHEAD * distance(one.end, other.start)
+    return place if max(distance(place, one.end), distance(place, other.start)) <= most else None
 
 
 class _Graph:
@@ -238,7 +290,51 @@ class _Graph:
                     self.edges_at[corner].append(len(self.edges))
                 self.edges.append(edge)
                 self.ends.append((first, last))
-        self.corners = corners.points()
+        corner_places = corners.points()
+        #: The places of each edge's ends: their corners, if that does not move them far.
+        self.places = [
+            tuple(
+                corner_places[corner] if distance(corner_places[corner], end) <= MEET else end
+                for corner, end in zip(corners_of, (edge.start, edge.end), strict=True)
+            )
+            for edge, corners_of in zip(self.edges, self.ends, strict=True)
+        ]
+
+    def join(self, tolerance: float) -> None:
+        """Make one corner of each end that nothing meets and the nearest corner within a tolerance, mm."""
+        places: dict[int, XY] = {}
+        for ends, ends_places in zip(self.ends, self.places, strict=True):
+            places.update(zip(ends, ends_places, strict=True))
+        free = {corner: numbers[0] for corner, numbers in self.edges_at.items() if len(numbers) == 1}
+        if not free:
+            return
+        corners, loose = np.array(list(places)), np.array(list(free))
+        points = shapely.points(list(places.values()))
+        ones, others = shapely.STRtree(points).query(
+            shapely.points([places[corner] for corner in free]), predicate="dwithin", distance=tolerance
+        )
+        pairs = zip(loose[ones].tolist(), corners[others].tolist(), strict=True)
+        root = {corner: corner for corner in places}
+
+        def of(corner: int) -> int:
+            while root[corner] != corner:
+                corner = root[corner]
+            return corner
+
+        for corner, other in sorted(pairs, key=lambda pair: (distance(places[pair[0]], places[pair[1]]), pair)):
+            number = free.get(corner, -1)
+            if number < 0 or of(corner) == of(other):
+                continue
+            # (a short edge is no ring with itself)
+            if of(self.other(number, corner)) == of(other) and self.edges[number].length <= 3 * tolerance:
+                continue
+            root[of(corner)] = of(other)
+            free.pop(corner), free.pop(other, None)
+        self.ends = [(of(first), of(last)) for first, last in self.ends]
+        self.edges_at = defaultdict(list)
+        for number, ends in enumerate(self.ends):
+            for corner in ends:
+                self.edges_at[corner].append(number)
 
     def other(self, number: int, corner: int) -> int:
         """The corner at an edge's other end."""
@@ -247,7 +343,9 @@ class _Graph:
 
     def chain(self, styles: Styles) -> None:
         """Find all contours; `styles`: see `chain`."""
-        for part in self.parts(range(len(self.edges))):
+        loops = {number for number, (first, last) in enumerate(self.ends) if first == last}
+        self.chains.contours += [self.contour([(number, True)], True) for number in sorted(loops)]
+        for part in self.parts([number for number in range(len(self.edges)) if number not in loops]):
             degrees = self.degrees(part)
             if max(degrees.values()) <= 2:
                 (run,) = self.runs(part)
@@ -265,13 +363,24 @@ class _Graph:
         return self.ends[first][not ahead] == self.ends[last][goes]
 
     def contour(self, run: list[_Step], is_closed: bool) -> Contour:
-        """A run of edges, their ends moved to the corners."""
-        steps = []
-        for number, ahead in run:
-            start, end = (self.corners[corner] for corner in self.ends[number])
-            edge = moved(self.edges[number], start, end)
-            steps.append(edge if ahead else edge.reversed())
-        return Contour(tuple(steps), is_closed)
+        """A run of edges, their ends moved to the corners, or joined."""
+        drawn = [self.edges[number] if ahead else self.edges[number].reversed() for number, ahead in run]
+        steps = [
+            moved(edge, *self.places[number][:: 1 if ahead else -1])
+            for edge, (number, ahead) in zip(drawn, run, strict=True)
+        ]
+        bridges: dict[int, Edge] = {}
+        for index in range(len(steps) if is_closed else len(steps) - 1):
+            following = (index + 1) % len(steps)
+            join = _joined(steps, index, following)
+            ends = drawn[index].end, drawn[following].start
+            off = max(distance(ends[0], steps[index].end), distance(ends[1], steps[following].start))
+            if join or off > MEET / 2 + _EXACT:
+                self.chains.joins.append(Join(_middle(*ends), distance(*ends), join))
+            if join:
+                bridges[index] = join
+        edges = [part for index, step in enumerate(steps) for part in (step, bridges.get(index)) if part is not None]
+        return Contour(tuple(edges), is_closed)
 
     def degrees(self, part: Iterable[int]) -> Counter[int]:
         """Count of these edges at each corner."""

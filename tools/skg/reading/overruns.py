@@ -14,6 +14,7 @@ import shapely
 
 from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.plane import XY
+from skg.job.read_options import MEET
 from skg.reading.chain import Chains, Styles, chain
 
 #: An overrun past a corner is no longer than this, mm, and no more than this part of its line or arc.
@@ -42,7 +43,7 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
     """
     freed, rest, cuts = _without_stubs(chains.rest)
     opened = dict(enumerate([contour for contour in chains.contours if not contour.is_closed] + freed))
-    for pair in _pairs(opened, tolerance):
+    for pair in _pairs(opened, min(tolerance, MEET)):
         shorter = [_without(opened[number], is_last, corner) for (number, is_last), corner in pair]
         for ((number, is_last), corner), (edge, piece) in zip(pair, shorter, strict=True):
             edges = opened[number].edges
@@ -59,6 +60,7 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
         rest + again.rest,
         chains.doubles + again.doubles,
         chains.short + again.short,
+        chains.joins + again.joins,
     )
     return merged, cuts
 

@@ -16,7 +16,7 @@ from functools import cached_property
 from math import floor
 
 from skg.errors import UserError
-from skg.geometry.contour import Contour
+from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
 from skg.job.read_options import OPEN, START, UNITS, Wishes
@@ -50,7 +50,8 @@ AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 class Reading:
     """A drawing that was read: contours in the order of the file (mm), start holes (mm); `others`: the closed contours
     that are left because of their layers; `opened`: the open lines, cut or not, on any layer. `begun`: the report but
-    for what becomes of the entities, `fates` has that; `drawn`: the contours as the entities have their edges.
+    for what becomes of the entities, `fates` has that; `drawn`: the contours as the entities have their edges;
+    `nominal`: the edges of the file, before anything was mended.
     """
 
     contours: list[Contour]
@@ -60,6 +61,7 @@ class Reading:
     begun: Account
     fates: Fates
     drawn: list[Contour]
+    nominal: list[Edge]
 
     @cached_property
     def report(self) -> Account:
@@ -109,7 +111,7 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     _check_size(report)
     contours = [replace(merged(contour), layers=fates.layers(contour)) for contour in drawn]
     others, opened = selection.others()
-    return _near_origin(Reading(contours, content.starts, others, opened, report, fates, drawn))
+    return _near_origin(Reading(contours, content.starts, others, opened, report, fates, drawn, content.edges))
 
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
@@ -132,7 +134,9 @@ def _near_origin(reading: Reading) -> Reading:
         [contour.shifted(by) for contour in group] for group in (reading.contours, reading.others, reading.opened)
     )
     starts = [shifted(start, by) for start in reading.starts]
-    return replace(reading, contours=contours, starts=starts, others=others, opened=opened)
+    nominal = [edge.shifted(by) for edge in reading.nominal]
+    report.mends = [replace(mend, place=shifted(mend.place, by)) for mend in report.mends]
+    return replace(reading, contours=contours, starts=starts, others=others, opened=opened, nominal=nominal)
 
 
 def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[str]]:

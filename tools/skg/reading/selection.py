@@ -13,8 +13,8 @@ from skg.geometry.arrays import Floats
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, distance
-from skg.job.read_options import Wishes
-from skg.reading.account import Account, Content, Entity, LayerSum, OpenEnd, Overlap, above, said
+from skg.job.read_options import MEET, Wishes
+from skg.reading.account import Account, Content, Entity, LayerSum, Mend, OpenEnd, Overlap, above, said
 from skg.reading.chain import Chains, chain
 from skg.reading.meetings import Relations, lying_on, nearest, relations
 from skg.reading.overruns import Overrun, without_overruns
@@ -44,7 +44,9 @@ class Selection:
         self.content = content
         self.wishes = wishes
         self.report = report
-        self.fates = Fates(content, wishes.tolerance)
+        #: Ends and lines no further apart are one, mm; what is joined is wider apart.
+        self.near = min(wishes.tolerance, MEET)
+        self.fates = Fates(content, self.near)
         self.styles = [(entity.layer, entity.dashes) for entity in content.entities]
         self.opened: list[Contour] = []
 
@@ -52,7 +54,7 @@ class Selection:
         """The contours that are wanted, open ones among them."""
         kept, rest = self._apart(self._chains())
         kept, rest = self._wanted(kept, rest)
-        on, between = lying_on(rest, kept, self.wishes.tolerance)
+        on, between = lying_on(rest, kept, self.near)
         self.report.notes += _between([rest[run] for run in sorted(between)])
         self.fates.doubles += [(rest[run].edges, kept[number].edges[0]) for run, number in on.items()]
         rest = [contour for run, contour in enumerate(rest) if run not in on]
@@ -99,14 +101,18 @@ class Selection:
             fates.of_pieces([cut.piece for cut in cuts if not cut.is_whole], PAST)
             fates.of_edges([cut.piece for cut in cuts if cut.is_whole], PAST)
             report.notes += _past(cuts, self.content)
+            report.mends += [Mend("past", cut.corner, cut.piece.length) for cut in cuts]
         fates.of_edges(chains.short, SHORT)
+        fates.parts.update(join.bridge.entity for join in chains.joins if join.bridge)
+        report.mends += [Mend("joined", join.place, join.width) for join in chains.joins]
+        report.mends += [Mend("short", edge.start, edge.length) for edge in chains.short]
         fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
         return chains
 
     def _apart(self, chains: Chains) -> tuple[list[Contour], list[Contour]]:
         """The outlines, and what hangs together with others at junctions; what is repeated or is an axis is neither."""
         contours, every = chains.contours, chains.contours + chains.rest
-        related = relations(every, self.wishes.tolerance)
+        related = relations(every, self.near)
         axes = _axes(contours, related, self.fates) if self.wishes.open != "all" and not self.wishes.layers else set()
         for number, first in related.repeated.items():
             self.fates.doubles.append((every[number].edges, every[first].edges[0]))
@@ -184,7 +190,7 @@ class Fates:
     def account(self, contours: list[Contour], left: Mapping[int, str], begun: Account) -> Account:
         """The report with the sums of the layers, where some contours (by their numbers) are left, and why; a sum that
         does not agree is a `UserError`. `begun`: what else it has."""
-        fates, report = copy(self), replace(begun, notes=[*begun.notes], overlaps=[*begun.overlaps])
+        fates, report = copy(self), replace(begun, notes=[*begun.notes], overlaps=[*begun.overlaps], whole=set())
         fates.gone = defaultdict(Counter, {number: Counter(gone) for number, gone in self.gone.items()})
         fates.lost = self.lost.copy()
         for number, why in left.items():
@@ -209,6 +215,8 @@ class Fates:
                     f"of its {self.parts[number]} parts {cut[number] + gone.total()} "
                     "are accounted for; a bug in skg, please report it"
                 )
+            if not entity.left and all(why in _WITH_OTHERS for why in gone):
+                report.whole.add(number)
             lost = [why for why in gone if not cut[number] or why not in _WITH_OTHERS]
             if not lost and not entity.left:
                 layer.cut += 1
