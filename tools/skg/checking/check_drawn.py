@@ -6,7 +6,7 @@ from the other than `NEAR` lies within a place that the report names.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +18,8 @@ from skg.geometry.plane import XY
 
 #: Ends that meet are moved by no more, mm: a contour is no further from what is drawn.
 NEAR = 0.0026
+#: What is drawn twice is no further from what is cut instead, mm.
+_TWICE = 0.0062
 #: What is no nearer than this is far off, mm.
 _FAR = 0.05
 #: Places that are looked at are so far apart, mm, or as far as they are if they are so many.
@@ -38,19 +40,23 @@ class OffDrawn(NamedTuple):
     place: XY
 
 
-def off_drawn(contours: Sequence[Contour], drawn: Iterable[Edge], whole: set[int], named: Sequence[Named]) -> OffDrawn:
+def off_drawn(
+    contours: Sequence[Contour], drawn: Iterable[Edge], whole: Mapping[int, bool], named: Sequence[Named]
+) -> OffDrawn:
     """Compare contours with the edges of the file. `drawn`: all of these; `whole`: the numbers of the entities that are
-    cut, all of each; `named`: where the two may differ."""
+    cut, all of each, and whether something of them is drawn twice; `named`: where the two may differ."""
     edges = list(drawn)
     cut = [edge for contour in contours for edge in contour.edges]
     known, kept = {_form(edge) for edge in edges}, {_form(edge) for edge in cut}
+    there = [edge for edge in edges if edge.entity in whole and _form(edge) not in kept]
     parts = [
-        *_far_off([edge for edge in cut if _form(edge) not in known], edges),
-        *_far_off([edge for edge in edges if edge.entity in whole and _form(edge) not in kept], cut),
+        *_far_off([edge for edge in cut if _form(edge) not in known], edges, NEAR),
+        *_far_off([edge for edge in there if not whole[edge.entity]], cut, NEAR),
+        *_far_off([edge for edge in there if whole[edge.entity]], cut, _TWICE),
     ]
     off, place = 0.0, (0.0, 0.0)
-    for places, far in parts:
-        far = np.where((far > NEAR) & _are_named(places, named), 0.0, far)
+    for places, far, near in parts:
+        far = np.where((far > near) & _are_named(places, named) | (near == _TWICE) & (far <= near), 0.0, far)
         worst = int(far.argmax())
         if far[worst] > off:
             off, place = float(far[worst]), (float(places[worst, 0]), float(places[worst, 1]))
@@ -67,8 +73,8 @@ def _form(edge: Edge) -> tuple:
     return (*sorted((edge.start, edge.end)), edge.centre, edge.sweep if ahead else -edge.sweep)
 
 
-def _far_off(some: list[Edge], others: list[Edge]) -> Iterator[tuple[Floats, Floats]]:
-    """Places on some edges, and how far they are from the nearest of others, mm."""
+def _far_off(some: list[Edge], others: list[Edge], near: float) -> Iterator[tuple[Floats, Floats, float]]:
+    """Places on some edges, how far they are from the nearest of others, mm, and what of that is near."""
     if not some:
         return
     pieces, beside = _pieces(some), _pieces(others)
@@ -76,7 +82,7 @@ def _far_off(some: list[Edge], others: list[Edge]) -> Iterator[tuple[Floats, Flo
     for which, part in pieces.batches(spacing, 2):
         places = pieces.at(which, part)
         far = beside.nearest(places, np.zeros(len(places), np.int64), _FAR).own
-        yield places, far
+        yield places, far, near
 
 
 def _pieces(edges: list[Edge]) -> Pieces:

@@ -113,7 +113,7 @@ class Account:
     `units`: those it was read in; `units_from`: who said so. `factor`: mm in one unit of the file. `low`, `high`: the
     box around the contours, mm. `layers`: the sums of all layers. `rest`: entities at junctions, of which (some of) the
     edges belong to no closed outline. `mends`: where what is cut is not what is drawn; `whole`: the numbers of the
-    entities that are cut, all of each, if not by themselves by what they are drawn on.
+    entities that are cut, all of each, and whether by what they are drawn on.
     """
 
     name: str
@@ -132,7 +132,7 @@ class Account:
     overlaps: list[Overlap] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     mends: list[Mend] = field(default_factory=list)
-    whole: set[int] = field(default_factory=set)
+    whole: dict[int, bool] = field(default_factory=dict)
 
     @property
     def size(self) -> XY:

@@ -216,13 +216,11 @@ def _without_short(group: list[Edge]) -> tuple[list[Edge], list[Edge]]:
     short: list[Edge] = []
     for edge in group:
         # (many short ones that follow each other are not short together)
-        start = kept[-1].end if kept else edge.start
+        start = kept[-1].end if kept else group[0].start
         if distance(start, edge.end) < _LEAST and edge.length < 2 * _LEAST:
             short.append(edge)
-        elif kept:
-            kept.append(moved(edge, kept[-1].end, edge.end))
         else:
-            kept.append(edge)
+            kept.append(moved(edge, start, edge.end))
     if kept and kept[-1].end != kept[0].start:
         kept[-1] = moved(kept[-1], kept[-1].start, kept[0].start)
     return kept, short
@@ -235,20 +233,6 @@ _Step = tuple[int, bool]
 def _middle(one: XY, other: XY) -> XY:
     """The place halfway between two."""
     return (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
-
-
-def _joined(steps: list[Edge], index: int, following: int) -> Edge | None:
-    """Let one of some edges end where another begins: at their middle if that is near, where they cross if they are
-    lines; else return a line between the two."""
-    one, other = steps[index], steps[following]
-    if one.end == other.start:
-        return None
-    place = _middle(one.end, other.start) if distance(one.end, other.start) <= MEET else _crossing(one, other)
-    if place is None:
-        return Edge(one.end, other.start, entity=one.entity)
-    steps[index] = moved(one, one.start, place)
-    steps[following] = moved(steps[following], place, steps[following].end)
-    return None
 
 
 def _crossing(one: Edge, other: Edge) -> XY | None:
@@ -291,10 +275,10 @@ class _Graph:
                 self.edges.append(edge)
                 self.ends.append((first, last))
         corner_places = corners.points()
-        #: The places of each edge's ends: their corners, if that does not move them far.
+        #: The places of each edge's ends: their corners, if these are no further than that of two ends.
         self.places = [
             tuple(
-                corner_places[corner] if distance(corner_places[corner], end) <= MEET else end
+                corner_places[corner] if distance(corner_places[corner], end) <= MEET / 2 else end
                 for corner, end in zip(corners_of, (edge.start, edge.end), strict=True)
             )
             for edge, corners_of in zip(self.edges, self.ends, strict=True)
@@ -363,22 +347,29 @@ class _Graph:
         return self.ends[first][not ahead] == self.ends[last][goes]
 
     def contour(self, run: list[_Step], is_closed: bool) -> Contour:
-        """A run of edges, their ends moved to the corners, or joined."""
-        drawn = [self.edges[number] if ahead else self.edges[number].reversed() for number, ahead in run]
-        steps = [
-            moved(edge, *self.places[number][:: 1 if ahead else -1])
-            for edge, (number, ahead) in zip(drawn, run, strict=True)
-        ]
+        """A run of edges, their ends moved to where they meet, or joined."""
+        steps = [self.edges[number] if ahead else self.edges[number].reversed() for number, ahead in run]
+        ends = {}
+        if not is_closed:
+            # (others that end at a junction end there, too)
+            (first, begins), (last, ahead) = run[0], run[-1]
+            ends = {0: self.places[first][not begins], len(steps): self.places[last][ahead]}
         bridges: dict[int, Edge] = {}
         for index in range(len(steps) if is_closed else len(steps) - 1):
             following = (index + 1) % len(steps)
-            join = _joined(steps, index, following)
-            ends = drawn[index].end, drawn[following].start
-            off = max(distance(ends[0], steps[index].end), distance(ends[1], steps[following].start))
-            if join or off > MEET / 2 + _EXACT:
-                self.chains.joins.append(Join(_middle(*ends), distance(*ends), join))
-            if join:
-                bridges[index] = join
+            end, start = steps[index].end, steps[following].start
+            place = _middle(end, start)
+            if distance(end, start) > MEET:
+                place = _crossing(steps[index], steps[following])
+                if place is None:
+                    bridges[index] = Edge(end, start, entity=steps[index].entity)
+                self.chains.joins.append(Join(_middle(end, start), distance(end, start), bridges.get(index)))
+            if place is not None:
+                steps[index] = moved(steps[index], steps[index].start, place)
+                steps[following] = moved(steps[following], place, steps[following].end)
+        if ends:
+            steps[0] = moved(steps[0], ends[0], steps[0].end)
+            steps[-1] = moved(steps[-1], steps[-1].start, ends[len(steps)])
         edges = [part for index, step in enumerate(steps) for part in (step, bridges.get(index)) if part is not None]
         return Contour(tuple(edges), is_closed)
 

@@ -147,9 +147,9 @@ def _crossing_themselves(contours: list[Contour]) -> Iterator[tuple[int, XY]]:
 
 def _repeats(ones: NDArray[Any], others: NDArray[Any], tolerance: float) -> NDArray[np.bool_]:
     """Mark the pairs of lines that are the same."""
-    repeats = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= 2 * tolerance
+    repeats = np.abs(shapely.bounds(ones) - shapely.bounds(others)).max(1, initial=0) <= tolerance + 2 * SEEN
     repeats &= np.abs(shapely.length(ones) - shapely.length(others)) <= 1e-3 * shapely.length(ones) + tolerance
-    repeats[repeats] = shapely.hausdorff_distance(ones[repeats], others[repeats], 0.5) <= 2 * tolerance + 2 * SEEN
+    repeats[repeats] = shapely.hausdorff_distance(ones[repeats], others[repeats], 0.5) <= tolerance + 2 * SEEN
     return repeats
 
 

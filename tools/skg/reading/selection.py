@@ -32,6 +32,8 @@ OPENED = "of an open contour"
 _WITH_OTHERS = (SHORT, DOUBLE, PAST)
 #: Reasons why edges are left unasked; reported if these are longer than this part of the cut edges.
 _UNASKED, _MUCH = (JUNCTION, DASHED, AXIS), 0.1
+#: Ends past a corner whose places a line of the report names.
+_PLACES = 20
 #: Ends of what is left that are no further apart may be meant to meet, mm.
 _GAP = 0.1
 
@@ -190,7 +192,7 @@ class Fates:
     def account(self, contours: list[Contour], left: Mapping[int, str], begun: Account) -> Account:
         """The report with the sums of the layers, where some contours (by their numbers) are left, and why; a sum that
         does not agree is a `UserError`. `begun`: what else it has."""
-        fates, report = copy(self), replace(begun, notes=[*begun.notes], overlaps=[*begun.overlaps], whole=set())
+        fates, report = copy(self), replace(begun, notes=[*begun.notes], overlaps=[*begun.overlaps], whole={})
         fates.gone = defaultdict(Counter, {number: Counter(gone) for number, gone in self.gone.items()})
         fates.lost = self.lost.copy()
         for number, why in left.items():
@@ -216,7 +218,7 @@ class Fates:
                     "are accounted for; a bug in skg, please report it"
                 )
             if not entity.left and all(why in _WITH_OTHERS for why in gone):
-                report.whole.add(number)
+                report.whole[number] = DOUBLE in gone
             lost = [why for why in gone if not cut[number] or why not in _WITH_OTHERS]
             if not lost and not entity.left:
                 layer.cut += 1
@@ -278,9 +280,10 @@ def _past(cuts: list[Overrun], content: Content) -> Iterator[str]:
         layers[content.entities[cut.piece.entity].layer].append(cut)
     for layer, ends in sorted(layers.items()):
         longest = max(cut.piece.length for cut in ends)
+        more = f" and {len(ends) - _PLACES} more" if len(ends) > _PLACES else ""
         yield (
-            f"{counted(len(ends), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, as at "
-            f"{shown(ends[0].corner)}: overrun trimmed; --open all keeps it"
+            f"{counted(len(ends), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, at "
+            f"{', '.join(shown(end.corner) for end in ends[:_PLACES])}{more}: overrun trimmed; --open all keeps it"
         )
 
 

@@ -1,0 +1,238 @@
+"""Drawings that are mended before they are cut: where the tape is further than 5 um from the file, the report says so.
+
+The judge has nothing of skg's reading: the entities as ezdxf draws them, the tape as the controller goes, shapely.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from itertools import pairwise
+from math import cos, hypot, pi, sin
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+import shapely
+from cuthelp import drawing, run_failing, saved, stretches
+from ezdxf.document import Drawing
+from facthelp import says
+from toolhelp import Run
+
+from skg.checking.check_drawn import NEAR, Named, off_drawn
+from skg.geometry.contour import Contour, Edge
+from skg.geometry.plane import XY
+from skg.reading.chain import chain
+
+#: The tape may be so far from the file where nothing is said, mm; what is measured here is so exact.
+LIMIT, EXACT = 0.005, 0.0006
+_PLACE = re.compile(r"\((-?[\d.]+), (-?[\d.]+)\)")
+_SIZE = re.compile(r"(?<![\d.])([\d.]+) mm")
+
+
+def nominal(page: Drawing) -> shapely.MultiLineString:
+    """All that is drawn, by ezdxf. (its paths are Bézier curves, a few micrometres beside an arc)"""
+    entities = [
+        part
+        for entity in page.modelspace()
+        for part in (entity.virtual_entities() if entity.dxftype() == "LWPOLYLINE" else [entity])
+    ]
+    return shapely.MultiLineString(
+        [
+            [(point[0], point[1]) for point in places]
+            for places in (
+                (part.dxf.start, part.dxf.end) if part.dxftype() == "LINE" else part.flattening(EXACT / 3)
+                for part in entities
+            )
+        ]
+    )
+
+
+def wire(tape: bytes, report: str) -> shapely.MultiLineString:
+    """The tape's path between the ways from and to its start holes."""
+    holes = re.search(r"start holes?: (\(.*\))", report)[1]
+    start = tuple(map(float, _PLACE.search(holes).groups()))
+    return shapely.MultiLineString([places[1:-1] for places in stretches(tape, start) if len(places) > 3])
+
+
+def named(report: str) -> list[tuple[XY, float]]:
+    """The places that a report names where a drawing was mended, each with its size, mm."""
+    result = []
+    for line in report.splitlines():
+        if not says(line, re.compile("joined|not cut|trimmed|loop|twice|overlap")):
+            continue
+        size = max(map(float, _SIZE.findall(line)), default=LIMIT)
+        result += [((float(x), float(y)), size) for x, y in _PLACE.findall(line)]
+    return result
+
+
+def unsaid(page: Drawing, tape: bytes, report: str) -> float:
+    """How far the tape is from the file at most, both ways, where the report says nothing, mm."""
+    drawn, cut = nominal(page), wire(tape, report)
+    excused = shapely.union_all([shapely.Point(place).buffer(size + 2 * LIMIT) for place, size in named(report)])
+    worst = 0.0
+    for one, other in ((drawn, cut), (cut, drawn)):
+        places = shapely.points(shapely.get_coordinates(one.segmentize(0.05)))
+        far = shapely.distance(places, other)
+        worst = max(worst, float(far[~shapely.contains(excused, places)].max(initial=0.0)))
+    return worst
+
+
+def plate(rng: Random, corners: list[XY], gap: Callable[[], float], page: Drawing) -> None:
+    """An outline of lines and arcs; at each corner the two ends are moved, along and aside."""
+    space = page.modelspace()
+    for (x, y), (u, v) in pairwise([*corners, corners[0]]):
+        length = hypot(u - x, v - y)
+        along, across = ((u - x) / length, (v - y) / length), (-(v - y) / length, (u - x) / length)
+        ends = [
+            (p + ahead * along[0] + aside * across[0], q + ahead * along[1] + aside * across[1])
+            for p, q in ((x, y), (u, v))
+            for ahead, aside in ((gap(), gap()),)
+        ]
+        if rng.random() < 0.3:
+            # (an arc that bulges a little)
+            bulge = rng.uniform(0.1, 0.4)
+            space.add_lwpolyline([(*ends[0], bulge), (*ends[1], 0)], format="xyb")
+        else:
+            space.add_line(*ends)
+
+
+def polygon_of(rng: Random) -> list[XY]:
+    count = rng.randrange(3, 7)
+    return [
+        (30 * cos(2 * pi * k / count) * rng.uniform(0.7, 1), 30 * sin(2 * pi * k / count) * rng.uniform(0.7, 1))
+        for k in range(count)
+    ]
+
+
+def gaps(rng: Random, page: Drawing) -> list[str]:
+    plate(rng, polygon_of(rng), lambda: rng.choice((0, rng.uniform(-0.1, 0.1))), page)
+    return ["--tolerance", "0.3"]
+
+
+def small_gaps(rng: Random, page: Drawing) -> list[str]:
+    plate(rng, polygon_of(rng), lambda: rng.uniform(-0.002, 0.002), page)
+    return []
+
+
+def whole_gaps(rng: Random, page: Drawing) -> list[str]:
+    """Small whole numbers, where gaps lie on lines and corners coincide."""
+    corners = [(0, 0), (20, 0), (20, 10), (10, 10), (10, 20), (0, 20)]
+    plate(rng, corners, lambda: rng.choice((0, 0, 0.1, -0.1)), page)
+    return ["--tolerance", "0.3"]
+
+
+def overruns(rng: Random, page: Drawing) -> list[str]:
+    space, corners = page.modelspace(), polygon_of(rng)
+    for (x, y), (u, v) in pairwise([*corners, corners[0]]):
+        length = hypot(u - x, v - y)
+        before, behind = (rng.choice((0, rng.uniform(0.01, 0.15))) / length for _ in range(2))
+        space.add_line((x - before * (u - x), y - before * (v - y)), (u + behind * (u - x), v + behind * (v - y)))
+    return []
+
+
+def doubles(rng: Random, page: Drawing) -> list[str]:
+    """Lines drawn a second time, a little beside."""
+    space, corners = page.modelspace(), polygon_of(rng)
+    for (x, y), (u, v) in pairwise([*corners, corners[0]]):
+        space.add_line((x, y), (u, v))
+        if rng.random() < 0.6:
+            by = rng.uniform(-0.0025, 0.0025)
+            space.add_line((u, v + by), (x, y + by))
+    space.add_circle((0, 0), 5)
+    space.add_circle((rng.uniform(-0.0025, 0.0025), 0), 5)
+    return []
+
+
+def short_edges(rng: Random, page: Drawing) -> list[str]:
+    """Polylines with edges from 0.1 um to 0.1 mm long, several of them after each other."""
+    places, x = [(0.0, 0.0)], 0.0
+    for _ in range(rng.randrange(50, 200)):
+        x += rng.choice((1e-4, 5e-4, 9e-4, 2e-3, 0.1))
+        places.append((x, 5 * x * rng.uniform(0, 0.02)))
+    page.modelspace().add_lwpolyline([*places, (x + 10, 10), (-5, 10)], close=True)
+    return ["--tolerance", rng.choice(("0.005", "0.1"))]
+
+
+MENDS = [gaps, small_gaps, whole_gaps, overruns, doubles, short_edges]
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("mend", MENDS)
+def test_each_mend_is_said(mend: Callable[[Random, Drawing], list[str]], seed: int, run: Run, tmp_path: Path) -> None:
+    """Whatever is further than 5 um from the file is named with its place and size, or refused."""
+    page = drawing()
+    options = mend(Random(f"{mend.__name__} {seed}"), page)
+    part, tape = saved(page, tmp_path), tmp_path / "part.3b"
+    report = run("cut", part, "-o", tape, *options).stderr
+    assert unsaid(page, tape.read_bytes(), report) < LIMIT + EXACT, report
+
+
+def test_the_judge_sees_what_is_not_said(run: Run, tmp_path: Path) -> None:
+    """A join whose line is taken out of the report, and a tape of another drawing."""
+    page = drawing()
+    options = whole_gaps(Random(1), page)
+    part, tape = saved(page, tmp_path), tmp_path / "part.3b"
+    report = run("cut", part, "-o", tape, *options).stderr
+    assert says(report, "joined")
+    kept = "\n".join(line for line in report.splitlines() if not says(line, "joined"))
+    assert unsaid(page, tape.read_bytes(), report) < LIMIT + EXACT < unsaid(page, tape.read_bytes(), kept)
+
+
+#: The plate of the fault: its left edge ends 0.2 mm above the corner.
+OPEN = [((0, 0), (30, 0)), ((30, 0), (30, 20)), ((30, 20), (0, 20)), ((0, 20), (0, 0.2))]
+
+
+def test_a_joined_gap_tilts_nothing(run: Run, tmp_path: Path) -> None:
+    """The bottom edge stays where it is, the left one goes on to it; --quiet says it, too."""
+    page = drawing()
+    for ends in OPEN:
+        page.modelspace().add_line(*ends)
+    part, tape, program = saved(page, tmp_path), tmp_path / "part.3b", tmp_path / "part.skg"
+    words = ("cut", part, "-o", tape, "--program", program, "--offset", "0.1")
+    assert says(run_failing(run, *words), "0.2 mm", "--tolerance")
+    for quiet in ([], ["--quiet"]):
+        report = run(*words, "--tolerance", "0.21", *quiet).stderr
+        assert says(report, "joined", "0.2 mm", "(0, 0.1)")
+    assert "(0,0)" in program.read_text() and "(30,0)" in program.read_text()
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "corners"),
+    [
+        # Lines that go on, one that runs past, lines on one line, lines beside each other.
+        (((0, 0), (9.9, 0)), ((10, 0.1), (10, 5)), [(10, 0)]),
+        (((0, 0), (10.1, 0)), ((10, 0.1), (10, 5)), [(10, 0)]),
+        (((0, 0), (9, 0)), ((9.2, 0), (20, 0)), [(9, 0), (9.2, 0)]),
+        (((0, 0), (9, 0)), ((9, 0.2), (20, 0.2)), [(9, 0), (9, 0.2)]),
+    ],
+)
+def test_joins(one: tuple[XY, XY], other: tuple[XY, XY], corners: list[XY]) -> None:
+    """Two lines become a run with these corners."""
+    chains = chain([Edge(*one, entity=0), Edge(*other, entity=1)], 0.25)
+    (contour,) = chains.contours
+    inner = [edge.end for edge in contour.edges[:-1]]
+    assert [pytest.approx(corner) for corner in corners] == inner
+    assert len(chains.joins) == 1 and chains.joins[0].width == pytest.approx(hypot(*np.subtract(one[1], other[0])))
+
+
+def contour(*places: XY) -> Contour:
+    return Contour(tuple(Edge(p, q, entity=0) for p, q in pairwise([*places, places[0]])), True)
+
+
+def test_what_is_compared_with_the_file() -> None:
+    """A contour that is off its entities, one that lacks a part of them; both are excused where that is named."""
+    square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
+    drawn = list(contour(*square).edges)
+    for places, off, place, size in (
+        (square, 0.0, (5, 5), 1),
+        ([(0.0, 0.02), *square[1:]], 0.02, (0, 0), 10),
+        ([(0.0, 0.02), *square[1:]], 0.02, (0, 0), 0.02),
+        ([(0.0, 0.5), *square[1:]], np.inf, (0, 0), 10),
+        ([*square[:2], (5.0, 10.0), (0.0, 10.0)], np.inf, (10, 10), 15),
+    ):
+        cut = [contour(*places)]
+        assert off_drawn(cut, drawn, {0: False}, []).off == pytest.approx(off, rel=1e-3)
+        excused = off_drawn(cut, drawn, {0: False}, [Named(place, size)]).off
+        assert excused <= NEAR if size != 0.02 else excused > NEAR
