@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
-from math import inf
 
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.cutting.job import CutResult, make
