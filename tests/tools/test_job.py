@@ -389,7 +389,7 @@ def test_numbers_stay_when_some_are_left_out(run: Run, tmp_path: Path) -> None:
     program = tmp_path / "a.skg"
     words = ["--offset", 0.1, "--small", "leave", "--program", program, "--sheet", tmp_path / "a.svg"]
     told = run("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b", *words).stderr
-    left = re.search(r"not cut: contour (\d) \(opening", told)[1]
+    left = re.search(r"take care: contour (\d) \(opening", told)[1]
     numbers = re.findall(r"REM (\d)\. O", program.read_text())
     assert sorted([*numbers, left]) == list("12345") and numbers[-1] == "5"
     assert re.search(r"^contour 5, outline: ", told, re.M), told
@@ -416,7 +416,7 @@ def test_progress_and_wanted(tmp_path: Path) -> None:
     steps: list[str] = []
     done = cut_drawing(job, drawn, lambda stage, done, of: steps.append(stage))
     assert len(done.result.routes) == 1 and steps[0] == "plan"
-    assert any(line.severity.value == "care" for line in done.lines) is False
-    told = [text(finding) for finding in done.lines]
+    assert any(line.severity.value == "care" for line in done.findings) is False
+    told = [text(finding) for finding in done.findings]
     assert "layer HOLES: 3 entities, 3 left: 3 LWPOLYLINE (cut = false in the job)" in told
     assert "layer PLATE: 1 entity, 1 cut" in told and told[3].startswith("1 contour: 1 closed; ")

@@ -27,7 +27,9 @@ CATALOGUES = {
     for language in LANGUAGES
 }
 #: Codes that are put together: a page's labels, words for settings' values.
-MADE = re.compile(r"(label|value)-|(care|plain.*|.*-separator|setting-in-job|setting-on-page|field-on-page)$")
+MADE = re.compile(
+    r"(label|value|kind|count|side|error)-|(care|plain.*|.*-separator|setting-in-job|setting-on-page|field-on-page)$"
+)
 
 
 def texts(entry: polib.POEntry) -> list[str]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretches
 from ezdxf.layouts import Modelspace
-from facthelp import CARE, each_says, pattern, says
+from facthelp import CARE, each_says, says
 from shapely import hausdorff_distance, union_all
 from shapely.geometry import LinearRing, LineString, Point, Polygon
 from toolhelp import Run, least_time
@@ -99,7 +99,7 @@ def parallel(shape: Polygon, offset: float, side: str, style: str = "round") -> 
 
 
 #: NoRoom of a slot.
-NOT_THERE = pattern("not", "come")
+NOT_THERE = "room-slot"
 
 
 def cut(run: Run, page: object, folder: Path, *words: object) -> tuple[list[list[XY]], str]:

@@ -81,7 +81,9 @@ def compare(page: Page, path: Path, options: str, folder: Path) -> None:
     assert page.get(f"/api/run/{number}/program").body == program.read_bytes()
     assert page.get(f"/api/run/{number}/job").body == job.read_bytes()
     said = done.stderr.splitlines()
-    assert [line["text"] for line in run["result"]["lines"]] == said[: len(run["result"]["lines"])]
+    assert ["take care: " * line["care"] + line["text"] for line in run["result"]["lines"]] == said[
+        : len(run["result"]["lines"])
+    ]
 
 
 def test_there_are_some() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from skg.errors import UserError
 from skg.geometry.arrays import Floats, hypots
+from skg.messages.finding import Finding
 from skg.planning.route import PlannedContour
 from skg.tape.block import Tape, micrometres
 from skg.tape.columns import columns_of
@@ -47,7 +48,7 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     """
     owners = [(number, passes) for number, route in enumerate(routes) for passes in _between_stops(route)]
     if len(tape.bounds) != 2 * len(owners) - 1:
-        raise UserError(f"the tape has {len(tape.bounds) - 1} stops, expected {2 * len(owners) - 2}")
+        raise UserError(Finding("wrong-stops", stops=len(tape.bounds) - 1, expected=2 * len(owners) - 2))
     columns = columns_of(tape)
     walked = walk(tape, np.arange(len(columns)))
     home = [micrometres(ordinate) for ordinate in routes[0].start]

@@ -11,7 +11,6 @@ from skg.geometry.areas import areas_of
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding
 from skg.planning.route import PlannedContour
-from skg.wording import counted, report_line, shown
 
 #: What is narrower than twice this holds nothing together, mm; a piece of less than this square is none.
 _HAIR = 0.005
@@ -39,19 +38,14 @@ def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
             yield int(closed[number]), len(pieces), (inside.x, inside.y)
 
 
-def said(routes: Sequence[PlannedContour]) -> list[Finding]:
+def findings(routes: Sequence[PlannedContour]) -> list[Finding]:
     """Report split parts."""
-    lines = [
-        report_line(
-            f"take care: the part of contour {routes[number].turn} falls into {count} pieces, what is cut out reaches "
-            f"its edge: the smallest is at {shown(place)}",
-            routes[number].number,
-            place,
-        )
+    split = [
+        Finding("part-in-pieces", turn=routes[number].turn, count=count, contour=routes[number].number, place=place)
         for number, count, place in fallen(routes)
     ]
-    more = len(lines) - _PLACES
-    return lines[:_PLACES] + [report_line(f"and {counted(more, 'more such part')}")] * (more > 0)
+    more = len(split) - _PLACES
+    return split[:_PLACES] + [Finding("more-such-parts", count=more)] * (more > 0)
 
 
 def _pieces(area: shapely.Geometry) -> int:

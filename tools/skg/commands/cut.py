@@ -230,7 +230,7 @@ def command(
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
-    lines = [line(finding) for finding in cut.lines if finding.severity.is_kept or not quiet]
+    lines = [line(finding) for finding in cut.findings if finding.severity.is_kept or not quiet]
     if not quiet:
         lines += unmarked(output, cut.result.tape, job.machine.rom)
     for text in lines:

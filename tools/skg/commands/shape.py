@@ -32,18 +32,19 @@ def shape_options(function: Callable) -> Callable:
 
 def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None, tab: float, tape: str | None) -> None:
     """Write the program that cuts a shape; it is run and its tape compared with the exact curves before."""
-    from skg.cutting.report import report
+    from skg.cutting.report import findings
     from skg.job.wanted import Wanted
+    from skg.messages.finding import Finding
     from skg.messages.render import line
 
     try:
         job = shape.cut(name, Wanted(offset=offset or 0.0, tab=tab))
     except UserError as error:
-        raise UserError(f"{name}: {error}") from None
+        raise error.within(name) from None
     if any(route.traced and any(route.passes) for route in job.routes):
-        raise UserError(f"{name}: it has bends that are too narrow for an offset of {offset:g} mm: a smaller --offset")
+        raise UserError(Finding("shape-too-narrow", offset=offset).within(name))
     write_bytes(output, job.program.encode("ascii"))
     if tape:
         write_bytes(tape, job.data)
-    for finding in report(job):
+    for finding in findings(job):
         click.echo(line(finding), err=True)

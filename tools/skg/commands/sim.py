@@ -11,6 +11,7 @@ import click
 from skg.commands.options import decided, feed_option, positions_option
 from skg.files import write_bytes
 from skg.geometry.plane import XY
+from skg.messages.render import text
 from skg.sources.load import load
 from skg.tape.block import Tape
 from skg.tape.controller import drive_steps, stops_in_pairs
@@ -33,7 +34,7 @@ def _text(report: Report, blocks: bool) -> str:
     lines += [
         f"{report.name}: {report.blocks} blocks{stops}",
         f"travel      {report.travel / 1000:.3f} mm in {report.steps} steps, "
-        f"{duration(report.time)} at {report.feed:g} mm/min",
+        f"{text(duration(report.time))} at {report.feed:g} mm/min",
         f"path        {closing(report.gap)}" + as_programmed * (report.gap != report.programmed_gap),
         f"block ends  {report.misses} miss, by at most {report.largest_miss} µm; "
         f"drift at most {report.largest_drift} µm",

@@ -19,12 +19,12 @@ from skg.geometry.offset import NoRoom, has_spike
 from skg.job.job import MachineSetup
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
+from skg.messages.finding import Finding, Phrase
 from skg.planning.entries import longest_tab
 from skg.planning.islands import islands
 from skg.planning.route import PlannedContour
 from skg.tape import text as tapes
 from skg.tape.block import Tape
-from skg.wording import shown
 
 #: No contour takes fewer bytes of the board's memory: the lines of its REM, FROM and CUT.
 _LEAST_STORED = 24
@@ -40,8 +40,8 @@ class Left:
     """
 
     number: int
-    name: str
-    why: str
+    name: Phrase
+    why: Phrase
     is_within: bool = False
 
 
@@ -205,7 +205,8 @@ class _Ladder:
     def _climb(self, troubles: dict[int, _Trouble]) -> None:
         """Put each contour on the next rung that helps; one that has none is left or a `UserError`."""
         no_room: dict[int, NoRoom] = {}
-        stuck: dict[int, str] = {}
+        stuck: dict[int, Phrase] = {}
+        lost: list[int] = []
         for number in sorted(troubles):
             route, trouble = self.routes[number], troubles[number]
             try:
@@ -215,19 +216,21 @@ class _Ladder:
                 continue
             if helped:
                 self.routes[number] = helped
+            elif reason := self._reason(trouble):
+                stuck[number] = reason
             else:
-                stuck[number] = self._reason(trouble)
+                lost.append(number)
         self._leave_without_room(no_room, troubles)
-        if lost := [number for number, reason in stuck.items() if not reason]:
+        if lost:
             number = min(lost, key=lambda number: not _is_into(troubles[number]))
             raise self._lost(number, troubles[number])
         self._leave(stuck)
 
-    def _reason(self, trouble: _Trouble) -> str:
-        """Explain why a contour that nothing helps is left; empty where it may not be."""
+    def _reason(self, trouble: _Trouble) -> Phrase | None:
+        """The reason why a contour that nothing helps is left; None where it may not be."""
         if self.machine.small != "leave" or isinstance(trouble, ErrorLine):
-            return ""
-        return next(filter(None, (refusal.why_no_room(fault) for fault in trouble)), "")
+            return None
+        return next(filter(None, (refusal.why_no_room(fault) for fault in trouble)), None)
 
     def _lost(self, number: int, trouble: _Trouble) -> UserError:
         """Report a contour that nothing helps."""
@@ -237,13 +240,10 @@ class _Ladder:
         _, steps, _ = Program([route], "").unnumbered()
         fed, done = feed_lines([_text([step]) for step in steps], self.machine.rom, self.machine.ram)
         if not fed.error:
-            return UserError(refusal.meaning(trouble.number), route.number)
+            return UserError(refusal.meaning(trouble.number).about(route.number))
         place = [route.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
-        return UserError(
-            f"{route.name}, near {shown(place)}: {refusal.meaning(fed.error.number)}",
-            route.number,
-            place,
-        )
+        error = refusal.meaning(fed.error.number)
+        return UserError(Finding("refused-near", name=route.name, error=error, contour=route.number, place=place))
 
     def _leave_without_room(self, no_room: dict[int, NoRoom], among: Iterable[int]) -> None:
         """Leave contours that the wire does not get around; where they are refused, a `UserError` on all that there are
@@ -251,9 +251,9 @@ class _Ladder:
         if no_room and self.machine.small != "leave":
             no_room = {number: why for number in among if (why := _no_room(self.routes[number]))}
             raise refusal.without_room(self.routes, no_room, self.machine)
-        self._leave({number: f"{why} {shown(why.place)}" for number, why in no_room.items()})
+        self._leave({number: no_room[number].why for number in no_room})
 
-    def _leave(self, reasons: dict[int, str]) -> None:
+    def _leave(self, reasons: dict[int, Phrase]) -> None:
         """Leave contours, and what lies in those that are openings."""
         names = {number: self.routes[number].name for number in reasons}
         within = islands(self.routes, reasons)
@@ -261,10 +261,10 @@ class _Ladder:
             self.left.append(Left(self.routes.pop(number).number, names[number], reason))
         for number, opening in within.items():
             route = self.routes.pop(number)
-            reason = f"it lies in {names[opening]}, which is left out"
+            reason = Phrase("lies-in-not-cut", name=names[opening])
             self.left.append(Left(route.number, route.name, reason, is_within=True))
         if not self.routes:
-            raise UserError(f"no contour is left to cut: {self.left[0].name}: {self.left[0].why}")
+            raise UserError(Finding("nothing-left", name=self.left[0].name, why=self.left[0].why))
 
 
 def _may_be_traced(route: PlannedContour) -> bool:

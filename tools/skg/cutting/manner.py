@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from skg.messages.finding import Phrase
 from skg.planning.route import PlannedContour
-from skg.wording import short
 
 #: Runs of numbers that a line names.
 _RUNS = 8
@@ -14,8 +14,8 @@ _RUNS = 8
 
 @dataclass(frozen=True)
 class Manner:
-    """The way a contour is cut. `kind`: closed or open; `side`: the wire's; `passes`: distance beside it, mm, in each
-    pass; `tab`: length of the bridge that the last cut takes off, mm."""
+    """The way a contour is cut. `kind`: closed or open; `side`: the wire's, as its phrase's code ends; `passes`:
+    distance beside it in each pass, mm; `tab`: length of the bridge that the last cut takes off, mm."""
 
     kind: str
     side: str
@@ -29,20 +29,24 @@ class Manner:
         return cls(route.kind, _side(route), tuple(round(abs(r), 9) for r in passes), route.tab)
 
     @property
-    def told(self) -> str:
+    def phrase(self) -> Phrase:
         """The manner in words."""
         count = len(self.passes)
-        beside = f", {', '.join(map(short, self.passes))} mm beside" if any(self.passes) else ""
-        often = f" in {count} passes, every second one backwards" if count > 1 else ""
-        return f"wire {self.side}{beside}{often}" + f"; tab {short(self.tab)} mm" * bool(self.tab)
+        return Phrase(
+            "manner",
+            side=Phrase(f"side-{self.side}"),
+            beside=Phrase("beside", offsets=self.passes) if any(self.passes) else None,
+            passes=Phrase("in-passes", count=count) if count > 1 else None,
+            tab=Phrase("with-tab", tab=self.tab) if self.tab else None,
+        )
 
 
 def _side(route: PlannedContour) -> str:
     if not any(route.passes or (route.offset,)):
-        return "on the line"
+        return "on"
     if route.contour.is_closed:
         return "outside" if route.is_outside else "inside"
-    return "right of the cut" if route.offset > 0 else "left of the cut"
+    return "right" if route.offset > 0 else "left"
 
 
 def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
@@ -53,20 +57,20 @@ def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
     return alike
 
 
-def stops(routes: Sequence[PlannedContour]) -> Iterator[str]:
+def stops(routes: Sequence[PlannedContour]) -> Iterator[Phrase]:
     """Reasons for stops of the machine, each with the contours; each takes two stops, wire off and wire threaded."""
     twice = [route for route in routes if route.contour.is_closed and len(route.passes) > 1 and not route.tab]
-    for group, template in (
-        (routes[1:], "before {}"),
-        ([route for route in twice if route.is_opening], "to take the slug out of {}"),
-        ([route for route in twice if not route.is_opening], "with the part of {} free"),
-        ([route for route in routes if route.tab], "to hold the part before the tab of {} is cut"),
+    for group, code in (
+        (routes[1:], "stop-before"),
+        ([route for route in twice if route.is_opening], "stop-slug"),
+        ([route for route in twice if not route.is_opening], "stop-free"),
+        ([route for route in routes if route.tab], "stop-tab"),
     ):
         if group:
-            yield template.format(numbered(route.turn for route in group))
+            yield Phrase(code, contours=numbered(route.turn for route in group))
 
 
-def numbered(numbers: Iterable[int]) -> str:
+def numbered(numbers: Iterable[int]) -> Phrase:
     """Contours by their numbers, which rise."""
     runs: list[list[int]] = []
     for number in numbers:
@@ -74,6 +78,8 @@ def numbered(numbers: Iterable[int]) -> str:
             runs[-1][1:] = [number]
         else:
             runs.append([number])
-    noun = "contour" if len(runs) == 1 and len(runs[0]) == 1 else "contours"
-    spans = [" to ".join(map(str, run)) if run[-1] - run[0] > 1 else ", ".join(map(str, run)) for run in runs[:_RUNS]]
-    return f"{noun} {', '.join(spans)}" + " …" * (len(runs) > _RUNS)
+    spans: list[int | Phrase] = []
+    for run in runs[:_RUNS]:
+        spans += [Phrase("number-span", first=run[0], last=run[1])] if run[-1] - run[0] > 1 else run
+    count = 1 if len(runs) == 1 and len(runs[0]) == 1 else 2
+    return Phrase("contour-numbers", count=count, numbers=tuple(spans), rest=" …" * (len(runs) > _RUNS))

@@ -16,6 +16,7 @@ from typing import NamedTuple
 from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, distance, polar, turn
+from skg.messages.finding import Finding
 from skg.planning.route import Lead, PlannedContour, Way
 
 #: No line of the program is longer, its number included.
@@ -316,10 +317,7 @@ class Program:
             lines += _data(writer.data)
         step = 10 if len(lines) * 10 <= _LAST_LINE else 1
         if len(lines) * step > _LAST_LINE:
-            raise UserError(
-                f"the program would have {len(lines)} lines, at most {_LAST_LINE} fit; "
-                "a larger --fit-tolerance makes fewer nodes"
-            )
+            raise UserError(Finding("too-many-lines", lines=len(lines), most=_LAST_LINE))
         target = str((subroutine + 2) * step)
         return "".join(f"{number * step} {_pointed(line, target)}\n" for number, line in enumerate(lines, 1))
 

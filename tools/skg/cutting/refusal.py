@@ -13,73 +13,54 @@ from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.offset import NoRoom, widest, wire_way
 from skg.job.job import MachineSetup
+from skg.messages.finding import Finding, Phrase
 from skg.planning.route import PlannedContour
-from skg.wording import counted, short, shown
 
-#: Meanings of the errors of a route (language.md, section 6), and advice.
-_MEANING = {
-    5: ("a number is out of range", "is a radius or a place in the drawing absurdly small or large?"),
-    6: (
-        "the contour cannot be cut as it is drawn",
-        "with an offset a short edge or corner has vanished: try a smaller --offset, another --side or --start; "
-        "without one look for edges that nearly touch there",
-    ),
-    7: ("the offset leaves nothing of an arc's radius", "a thinner wire or a smaller --offset"),
-    9: ("the board's memory is full", "a larger --ram"),
-    10: ("a move is too long for a tape", "is the drawing in the right --units? a tape ends at 100 m"),
-}
+#: Errors of a route (language.md, section 6) that have a sentence of their own.
+_ERRORS = (5, 6, 7, 9, 10)
 #: Of a contour with more edges than this the largest offset that fits is not looked for.
 _MANY = 2000
 
 
-def meaning(error: int) -> str:
+def meaning(error: int) -> Finding:
     """An error of the ROM in a route, and what to do."""
-    cause, then = _MEANING.get(error, ("the board refuses it", "see language.md, section 6"))
-    return f"ERR {error:02d}, {cause}: {then}"
+    return Finding(f"error-{error}") if error in _ERRORS else Finding("error-other", number=error)
 
 
-def too_short(fit: float) -> str:
-    """Explain why a tab does not fit an outline; `fit`: the longest that does, mm."""
-    return f"it is too short for the tab, at most {short(floor(fit * 1000 - 1e-6) / 1000)} mm fits"
+def too_short(fit: float) -> Phrase:
+    """The reason why a tab does not fit an outline; `fit`: the longest that does, mm."""
+    return Phrase("too-short-for-tab", fit=floor(fit * 1000 - 1e-6) / 1000)
 
 
 def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], machine: MachineSetup) -> UserError:
     """Report outlines that their tab does not fit: the shortest one."""
     number = min(fits, key=fits.__getitem__)
     route = routes[number]
-    message = f"{route.name}: {too_short(fits[number])}"
-    if len(fits) > 1:
-        message += f"; {counted(len(fits) - 1, 'more contour')} without room for the tab"
-    return UserError(f"{message}: take a shorter --tab{_or_leave(machine)}", route.number, route.entry)
+    more = Phrase("more-without-tab", count=len(fits) - 1) if len(fits) > 1 else None
+    sentence = {"name": route.name, "why": too_short(fits[number]), "more": more, "leave": _or_leave(machine)}
+    return UserError(Finding("tab-too-long", contour=route.number, place=route.entry, **sentence))
 
 
 def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], machine: MachineSetup) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
     number, fit = _tightest(routes, none)
-    route = routes[number]
-    message = f"{route.name}: {none[number]} {shown(none[number].place)}"
-    if none[number].is_crossing:
-        message += ", the wire does not fit beside it"
-        help_ = "redraw it"
-    else:
-        message += f", {short(abs(route.widest))} mm beside it"
-        if fit is not None:
-            message += f"; at most {short(fit)} mm fits" if fit else "; no offset fits"
-            message += _in_passes(route, fit) if fit else ""
-        help_ = "take a smaller offset or a thinner wire"
-    if len(none) > 1:
-        message += f"; {counted(len(none) - 1, 'more contour')} without room for the wire"
-    return UserError(f"{message}: {help_}{_or_leave(machine)}", route.number, none[number].place)
+    route, no_room = routes[number], none[number]
+    more = Phrase("more-without-room", count=len(none) - 1) if len(none) > 1 else None
+    sentence = {"name": route.name, "why": no_room.why, "more": more, "leave": _or_leave(machine)}
+    about = {"contour": route.number, "place": no_room.place}
+    if no_room.is_crossing:
+        return UserError(Finding("no-room-crossing", **about, **sentence))
+    return UserError(Finding("no-room", r=abs(route.widest), fit=_fit(route, fit), **about, **sentence))
 
 
-def _in_passes(route: PlannedContour, fit: float) -> str:
-    """Return the last pass's offset where the largest that fits belongs to another pass."""
+def _fit(route: PlannedContour, fit: float | None) -> Phrase | None:
+    """The largest offset that fits, with the last pass's where it belongs to another one; None: not looked for."""
+    if not fit:
+        return None if fit is None else Phrase("fits-nothing")
     more = abs(route.widest) - abs(route.passes[-1])
     if not more:
-        return ""
-    return (
-        f" in the widest pass, {short(fit - more)} in the last" if fit > more else ", less than these passes take off"
-    )
+        return Phrase("fits-at-most", fit=fit)
+    return Phrase("fits-in-passes", fit=fit, last=fit - more) if fit > more else Phrase("fits-no-pass", fit=fit)
 
 
 def _tightest(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom]) -> tuple[int, float | None]:
@@ -104,33 +85,27 @@ def _fits(contour: Contour, r: float) -> bool:
     return False
 
 
-def _or_leave(machine: MachineSetup) -> str:
-    return ", or leave such contours out with --small leave" if machine.small else ""
+def _or_leave(machine: MachineSetup) -> Phrase | None:
+    return Phrase("or-leave") if machine.small else None
 
 
-def why_no_room(fault: Misfit) -> str:
-    """Explain why the wire does not fit; empty when something else is wrong."""
-    place = shown(fault.place)
+def why_no_room(fault: Misfit) -> Phrase | None:
+    """The reason why the wire does not fit; None when something else is wrong."""
     if fault.is_into:
-        return f"the wire would cut {short(fault.off)} mm into it at {place}"
-    return f"the wire does not come to {place}" if fault.is_missed else ""
+        return Phrase("would-cut-into", depth=fault.off, place=fault.place)
+    return Phrase("room-slot", place=fault.place) if fault.is_missed else None
 
 
 def off_drawing(faults: list[Misfit], route: PlannedContour, machine: MachineSetup) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
+    about = {"name": route.name, "contour": route.number, "place": fault.place}
     if why := why_no_room(fault):
-        message = (
-            f"{why}, {short(abs(route.widest))} mm beside it: there is no room for this offset, "
-            f"take a smaller one or a thinner wire{_or_leave(machine)}"
-        )
-    else:
-        place, off = shown(fault.place), f"{short(1000 * fault.off)} µm off the drawing"
-        where = (
-            f"{off} at {place}, more than {1000 * LIMIT:g}" if fault.off < inf else f"far off the drawing at {place}"
-        )
-        message = f"the wire would be {where}: nothing was written; {_advice(fault, route, machine)}"
-    return UserError(f"{route.name}: {message}", route.number, fault.place)
+        return UserError(Finding("into-itself", why=why, r=abs(route.widest), leave=_or_leave(machine), **about))
+    advice = _advice(fault, route, machine)
+    if fault.off < inf:
+        return UserError(Finding("off-drawing", off=1000 * fault.off, limit=1000 * LIMIT, advice=advice, **about))
+    return UserError(Finding("far-off-drawing", advice=advice, **about))
 
 
 def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup) -> None:
@@ -142,12 +117,8 @@ def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
-            raise UserError(
-                f"{route.name}: does not close, open by {cut.gap[0]}, {cut.gap[1]} µm on the "
-                "controller: draw its longest arc as two",
-                route.number,
-                route.entry,
-            )
+            (dx, dy), about = cut.gap, {"contour": route.number, "place": route.entry}
+            raise UserError(Finding("not-closed", name=route.name, dx=dx, dy=dy, **about))
     spoilt = [
         crossing
         for crossing in checked.crossings
@@ -160,30 +131,30 @@ def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup
 def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], machine: MachineSetup) -> UserError:
     """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda crossing: (crossing.is_through, crossing.depth))
-    message = (
-        f"{routes[worst.route].name}: its wire would gouge {into(worst)} "
-        f"{routes[worst.other].name} at {shown(worst.place)}"
+    return UserError(
+        Finding(
+            "would-gouge",
+            name=routes[worst.route].name,
+            other=routes[worst.other].name,
+            depth=depth(worst),
+            more=Phrase("more-would-gouge", count=len(spoilt) - 1) if len(spoilt) > 1 else None,
+            cut=Phrase("or-cut-anyway") if machine.into else None,
+            contour=routes[worst.route].number,
+            place=worst.place,
+        )
     )
-    if len(spoilt) > 1:
-        message += f"; {counted(len(spoilt) - 1, 'more cut')} into other contours"
-    message += (
-        ": these cross, or lie nearer to each other than the wire is wide; move them apart, take a thinner "
-        f"wire or some of the layers{', or cut them all the same with --into cut' * bool(machine.into)}"
-    )
-    return UserError(message, routes[worst.route].number, worst.place)
 
 
-def into(crossing: Crossing) -> str:
-    """Return a gouge's depth in words."""
-    return f"{short(crossing.depth)} mm{' or more' * crossing.is_through} into"
+def depth(crossing: Crossing) -> Phrase:
+    """A gouge's depth in words."""
+    return Phrase("depth-or-more" if crossing.is_through else "depth", depth=crossing.depth)
 
 
-def _advice(fault: Misfit, route: PlannedContour, machine: MachineSetup) -> str:
-    """Return remedies for a wire that is off the drawing."""
+def _advice(fault: Misfit, route: PlannedContour, machine: MachineSetup) -> Phrase:
+    """Remedies for a wire that is off the drawing."""
     if not machine.is_without_drift:
-        return "--rom no-drift is nearer"
+        return Phrase("advice-no-drift")
     edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
-    ends = " to ".join(shown(end) for end in (edge.start, edge.end))
-    noun = "curve" if edge.nodes else "arc" if edge.centre else "line"
-    others = "another --offset, --start or --side may do, or " if any(route.passes) else ""
-    return f"{others}redraw the {noun} from {ends}, {short(edge.length)} long, or its neighbour"
+    noun = Phrase("edge-curve" if edge.nodes else "edge-arc" if edge.centre else "edge-line")
+    code = "advice-redraw-or" if any(route.passes) else "advice-redraw"
+    return Phrase(code, edge=noun, start=edge.start, end=edge.end, length=edge.length)

@@ -10,14 +10,14 @@ from skg.checking.follow import Threading
 from skg.checking.wire_path import LIMIT
 from skg.cutting.job import CutResult
 from skg.cutting.manner import manners, numbered, stops
-from skg.cutting.refusal import into
+from skg.cutting.refusal import depth
 from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
 from skg.geometry.plane import XY
-from skg.messages.finding import Finding
-from skg.planning.nesting import said
-from skg.planning.route import PlannedContour
+from skg.messages.finding import Finding, Phrase
+from skg.planning import nesting
+from skg.planning.nesting import in_brackets
+from skg.planning.route import PlannedContour, kind_of
 from skg.tape.simulation import duration
-from skg.wording import counted, report_line, short, shown
 
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
@@ -27,82 +27,79 @@ _MANNERS = 20
 _PAIRS = 100
 
 
-def report(job: CutResult, offset: float = 0.0) -> list[Finding]:
-    """Return the report on a tape, line by line. `offset`: as asked for, mm."""
-    routes = job.routes
+def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
+    """Return the report on a tape. `offset`: as asked for, mm."""
+    routes = result.routes
     return [
-        *map(report_line, _facts(job, offset)),
-        *(report_line(f"not cut: {contour.name}: {contour.why}", contour.number) for contour in job.left[:_PLACES]),
-        *_more(job.left, "more contour left out", "more contours left out"),
-        *map(report_line, said((route.turn, route.around) for route in routes)),
+        *_facts(result, offset),
+        *(
+            Finding("contour-not-cut", name=skipped.name, why=skipped.why, contour=skipped.number)
+            for skipped in result.left[:_PLACES]
+        ),
+        *_more(result.left, "more-not-cut"),
+        *nesting.findings((route.turn, route.around) for route in routes),
         *_corners(routes),
-        *_crossings(job),
+        *_crossings(result),
     ]
 
 
-def _facts(job: CutResult, offset: float) -> Iterator[str]:
+def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
     """Order, manners, length, how the tape was made and what the check found."""
-    machine, routes = job.machine, job.routes
+    machine, routes = result.machine, result.routes
     kinds = Counter(route.kind for route in routes)
-    holes = [shown(route.start) for route in routes]
-    yield (
-        f"cut in this order: {', '.join(counted(count, kind) for kind, count in kinds.items())}; "
-        f"{counted(len(holes), 'start hole')}: {', '.join(holes[:_PLACES])}"
-        + (f" and {len(holes) - _PLACES} more" if len(holes) > _PLACES else "")
+    more = len(routes) - _PLACES
+    yield Finding(
+        "order-of-cutting",
+        kinds=tuple(Phrase(f"count-{kind.replace(' ', '-')}", count=count) for kind, count in kinds.items()),
+        holes=Phrase("count-holes", count=len(routes)),
+        places=tuple(route.start for route in routes[:_PLACES]),
+        more=Phrase("and-more", count=more) if more > 0 else None,
     )
     yield from _manners(routes, offset)
-    yield (
-        f"cut length {job.cut_length:.1f} mm, {duration(job.seconds)} at {machine.feed:g} mm/min; "
-        f"{counted(len(job.tape.blocks), 'block')}, {counted(len(job.tape.stops), 'stop')}"
+    yield Finding(
+        "cut-length",
+        length=result.cut_length,
+        time=duration(result.seconds),
+        feed=machine.feed,
+        blocks=Phrase("count-blocks", count=len(result.tape.blocks)),
+        stops=Phrase("count-stops", count=len(result.tape.stops)),
     )
-    if reasons := "; ".join(stops(routes)):
-        yield f"two stops each time, wire off and wire threaded: {reasons}"
-    how = (
-        "a stored program"
-        if job.is_stored
-        else "lines without numbers, carried out as they are loaded: stored it would not fit"
-    )
-    yield f"made by the {machine.rom} ROM with {machine.ram} KiB of RAM from {how}"
-    checked = f"checked with the controller's simulation: at most {1000 * job.checked.off:.2f} µm off the drawing"
-    if drift := job.checked.drift:
-        yield checked
-        yield (
-            f"take care: the misses of arcs add up on the machine, to {1000 * drift:.2f} µm beside that: "
-            "--rom no-drift makes a tape without"
-        )
-    else:
-        yield checked + _closing(job.checked.cuts, routes)
+    if reasons := tuple(stops(routes)):
+        yield Finding("two-stops", reasons=reasons)
+    yield Finding("made-stored" if result.is_stored else "made-loading", rom=machine.rom, ram=machine.ram)
+    drift = result.checked.drift
+    closing = None if drift else _closing(result.checked.cuts, routes)
+    yield Finding("checked", off=1000 * result.checked.off, closing=closing)
+    if drift:
+        yield Finding("drift", drift=1000 * drift)
 
 
-def _crossings(job: CutResult) -> Iterator[Finding]:
+def _crossings(result: CutResult) -> Iterator[Finding]:
     """Cuts that come into other contours."""
-    routes, crossings = job.routes, job.checked.crossings
+    routes, crossings = result.routes, result.checked.crossings
     for gouge in crossings[:_PLACES]:
         route = routes[gouge.route]
-        text = f"contour {route.turn} comes {into(gouge)} contour {routes[gouge.other].turn} at {shown(gouge.place)}"
-        yield report_line(f"take care: the cut of {text}", route.number, gouge.place)
+        turns = {"turn": route.turn, "other": routes[gouge.other].turn}
+        yield Finding("gouge", depth=depth(gouge), contour=route.number, place=gouge.place, **turns)
     if more := crossings[_PLACES:]:
-        pairs = (f"{routes[gouge.route].turn} into {routes[gouge.other].turn}" for gouge in more[:_PAIRS])
-        yield report_line(
-            f"take care: {counted(len(more), 'more cut')} into other contours: {', '.join(pairs)}"
-            + " …" * (len(more) > _PAIRS)
+        pairs = (
+            Phrase("pair-into", turn=routes[gouge.route].turn, other=routes[gouge.other].turn)
+            for gouge in more[:_PAIRS]
         )
+        yield Finding("more-gouges", count=len(more), pairs=tuple(pairs), rest=" …" * (len(more) > _PAIRS))
 
 
-def _manners(routes: list[PlannedContour], offset: float) -> Iterator[str]:
+def _manners(routes: list[PlannedContour], offset: float) -> Iterator[Finding]:
     """The way contours are cut, those alike in one line."""
     alike = manners(routes)
     for manner, numbers in list(alike.items())[:_MANNERS]:
-        nouns = manner.kind + "s" * (len(numbers) > 1)
-        yield f"{numbered(numbers)}, {nouns}: {manner.told}"
-    if more := [number for numbers in list(alike.values())[_MANNERS:] for number in numbers]:
-        yield f"and {counted(len(more), 'contour')} more, each in its own manner: the sheet and the program have them"
+        kind = kind_of(manner.kind, len(numbers))
+        yield Finding("manner-of", contours=numbered(numbers), kind=kind, manner=manner.phrase)
+    if more := sum(len(numbers) for numbers in list(alike.values())[_MANNERS:]):
+        yield Finding("more-manners", count=more)
     if not any(any(manner.passes) for manner in alike):
         if not offset and any(route.contour.is_closed for route in routes):
-            yield (
-                "take care: the wire's middle runs on the contours: no --wire and no --offset, outlines come out "
-                "smaller by half a kerf all around"
-            )
+            yield Finding("on-the-line")
         return
     free = [
         route.turn
@@ -110,35 +107,27 @@ def _manners(routes: list[PlannedContour], offset: float) -> Iterator[str]:
         if route.contour.is_closed and len(route.passes) > 1 and not route.tab and not route.is_opening
     ]
     if free:
-        yield (
-            f"take care: {counted(len(free), 'part')} free after the first pass {_contours(free)}: --tab keeps a bridge"
-        )
+        yield Finding("parts-free", count=len(free), contours=in_brackets(free))
     yield from _sides(routes)
     if on := sum(not route.contour.is_closed and not any(route.passes) for route in routes):
-        yield f"take care: the wire's middle runs on {counted(on, 'open contour')}: offset not applied"
+        yield Finding("open-on-line", count=on)
 
 
-def _sides(routes: list[PlannedContour]) -> Iterator[str]:
+def _sides(routes: list[PlannedContour]) -> Iterator[Finding]:
     """Contours that the wire runs beside on the side that --side says, not on that of a part with openings."""
     closed = [route for route in routes if route.contour.is_closed and route.passes[-1]]
     if not any(route.depth for route in closed):
         return
-    for is_opening, side, noun, than in (
-        (True, "outside", "opening", "wider"),
-        (False, "inside", "outline", "smaller"),
-    ):
+    for is_opening in (True, False):
         affected = [route for route in closed if route.is_opening is is_opening is route.is_outside]
         if affected:
-            wide = " or ".join(dict.fromkeys(short(2 * abs(route.passes[-1])) for route in affected))
-            yield (
-                f"take care: the wire runs {side} of {counted(len(affected), noun)} "
-                f"{_contours([route.turn for route in affected])}: {wide} mm {than} than drawn, because of --side"
-            )
-
-
-def _contours(numbers: list[int]) -> str:
-    """Some contours, the first ones by their numbers."""
-    return f"(contour {', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)})"
+            first, *others = dict.fromkeys(2 * abs(route.passes[-1]) for route in affected)
+            wide: float | Phrase = first
+            for other in others:
+                wide = Phrase("one-or-other", first=wide, other=other)
+            contours = in_brackets([route.turn for route in affected])
+            code = "side-of-openings" if is_opening else "side-of-outlines"
+            yield Finding(code, count=len(affected), contours=contours, wide=wide)
 
 
 def _corners(routes: list[PlannedContour]) -> list[Finding]:
@@ -146,44 +135,29 @@ def _corners(routes: list[PlannedContour]) -> list[Finding]:
     straight, around, chords, loops, whiskers = [], [], [], [], []
     off = _in_sharp_ones(routes)
     for route in routes:
-        for lines, places, noun, what in (
-            (loops, route.loops, "loop", "smaller than the wire"),
-            (whiskers, route.whiskers, "line", "that it runs along and back"),
-        ):
-            if places:
-                many, place = counted(len(places), noun), places[0].place
-                longest = short(max(trim.length for trim in places))
-                text = f"take care: contour {route.turn} has {many} {what}, as at {shown(place)}"
-                text += f", up to {longest} mm long: not cut"
-                lines.append(report_line(text, route.number, place))
+        about = {"turn": route.turn, "contour": route.number}
+        for code, kind, trims in (("loops", loops, route.loops), ("whiskers", whiskers, route.whiskers)):
+            if trims:
+                longest = max(trim.length for trim in trims)
+                kind.append(Finding(code, count=len(trims), length=longest, place=trims[0].place, **about))
         if route.is_cramped:
-            why = "has no room" if route.is_square else "has a start hole that is not square to its edge, no place"
-            straight.append(_about(route, f"{why} for a lead along an arc: it is straight"))
+            code = "straight-lead" if route.is_square else "straight-lead-aslant"
+            straight.append(Finding(code, place=route.entry, **about))
         if route.is_around:
-            around.append(_about(route, "has sharp tips: the wire goes along an arc around them"))
+            around.append(Finding("around-tips", place=route.entry, **about))
         if not route.traced or route.is_around:
             continue
         if not any(route.passes):
-            text = "is cut along chords: a controller would leave one of its arcs or curves too far"
-            chords.append(_about(route, text))
+            chords.append(Finding("in-chords", place=route.entry, **about))
             continue
         far, place = uncut(route.contour, route.traced[-1], route.passes[-1])
         if far > LIMIT:
             off.append((far, place, route))
     narrow = [
-        report_line(
-            f"take care: contour {route.turn} has corners that are too narrow for the wire, as at {shown(place)}: "
-            f"it stays {short(far)} mm off",
-            route.number,
-            place,
-        )
+        Finding("narrow-corners", turn=route.turn, far=far, contour=route.number, place=place)
         for far, place, route in sorted(off, key=lambda corner: -corner[0])
     ]
-    return [line for lines in (straight, around, chords, loops, whiskers, narrow) for line in _first(lines)]
-
-
-def _about(route: PlannedContour, text: str) -> report_line:
-    return report_line(f"contour {route.turn} {text}", route.number, route.entry)
+    return [finding for kind in (straight, around, chords, loops, whiskers, narrow) for finding in _first(kind)]
 
 
 def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, PlannedContour]]:
@@ -206,20 +180,17 @@ def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, Planne
     return corners
 
 
-def _first(lines: list[Finding]) -> list[Finding]:
-    """The first lines of a kind, one for each contour, and how many more there are."""
-    return [*lines[:_PLACES], *_more(lines, "more such contour")]
+def _first(kind: list[Finding]) -> list[Finding]:
+    """The first findings of a kind, one for each contour, and how many more there are."""
+    return [*kind[:_PLACES], *_more(kind, "more-such-contours")]
 
 
-def _more(every: Sequence, noun: str, nouns: str = "") -> list[Finding]:
+def _more(every: Sequence, code: str) -> list[Finding]:
     """Number of entries left out of a list with a line each."""
     more = len(every) - _PLACES
-    return [report_line(f"and {counted(more, noun, nouns)}")] * (more > 0)
+    return [Finding(code, count=more)] * (more > 0)
 
 
-def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> str:
+def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> Phrase | None:
     closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tab}
-    if not closed:
-        return ""
-    end = "ends where it begins" if len(closed) == 1 else "end where they begin"
-    return f"; {counted(len(closed), 'closed contour')} {end}"
+    return Phrase("closing", count=len(closed)) if closed else None

@@ -21,6 +21,7 @@ from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.fitting import biarc_joint
 from skg.geometry.plane import XY, cross, distance, dot, minus, polar, turn
+from skg.messages.finding import Phrase
 
 #: The wire follows nothing that is shorter, mm: the ROM would take its ends for one place.
 _LEAST = 2e-3
@@ -45,13 +46,14 @@ _HALVINGS, _STEP = 12, 0.001
 
 
 class NoRoom(Exception):
-    """The wire does not get around a contour; the message says why, `place` (mm) where.
+    """The wire does not get around a contour; `why` is the reason, `place` (mm) where.
 
     `is_crossing`: it would not with any offset.
     """
 
-    def __init__(self, place: XY, why: str, is_crossing: bool = False) -> None:
-        super().__init__(why)
+    def __init__(self, place: XY, code: str, is_crossing: bool = False) -> None:
+        super().__init__(code)
+        self.why = Phrase(code, place=place)
         self.place = place
         self.is_crossing = is_crossing
 
@@ -63,13 +65,8 @@ _SLOT, _BEND, _OFF = 2.0, 4.0, 0.003
 _STRAIGHT, _WALL = 0.3, pi / 4
 #: Where the wire turns by more in an inner corner it stays off by more than R (radians).
 _SHARP = 2 * pi / 3 + _SMOOTH
-#: Why it does not.
-_NONE, _NECK, _SLOTTED, _CROSSES = (
-    "the wire has no room at",
-    "the wire does not get through at",
-    "the wire does not come to",
-    "it crosses or touches itself at",
-)
+#: Reasons of `NoRoom`.
+_NONE, _NECK, _SLOTTED, _CROSSES = "room-none", "room-neck", "room-slot", "crosses-itself"
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from skg.geometry.plane import XY
 from skg.job.read_options import Wishes
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import Partial, Wanted
+from skg.messages.finding import Phrase
 
 #: A box: its smallest x and y, its largest x and y, mm.
 Box = tuple[float, float, float, float]
@@ -74,10 +75,11 @@ class Chosen:
     partial: Partial = Partial()
 
     @property
-    def name(self) -> str:
+    def name(self) -> Phrase:
         """Its name in a message."""
         (x, y), (width, height) = self.place, self.size
-        return f"{self.kind} of {width:.10g} x {height:.10g} mm at ({x:.10g}, {y:.10g}) on layer {self.layer}"
+        kind = Phrase(f"kind-{self.kind}")
+        return Phrase("chosen-name", kind=kind, width=width, height=height, x=x, y=y, layer=self.layer)
 
 
 @dataclass(frozen=True)

@@ -124,12 +124,14 @@ class _Wording(string.Formatter):
             return ""
         if isinstance(value, Phrase):
             return text(value, self._way)
-        if format_spec == "xy":
+        if format_spec == "xy" and not isinstance(value[0], tuple | list):
             return shown(value)
         if isinstance(value, tuple | list):
-            separator = template("list-separator", self._way.language)
+            separator = template("sentence-separator" if format_spec == ";" else "list-separator", self._way.language)
             return separator.join(self.format_field(item, format_spec) for item in value)
-        if isinstance(value, float) and not format_spec:
+        if isinstance(value, str) or not format_spec and not isinstance(value, float):
+            return str(value)
+        if not format_spec:
             return short(value)
         return format(value, format_spec)
 

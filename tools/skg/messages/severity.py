@@ -26,12 +26,34 @@ class Severity(Enum):
 _CARE = frozenset(
     {
         "plain-care",
+        "contour-not-cut",
+        "drawing-changed",
+        "drawing-moved",
+        "drift",
+        "gouge",
+        "last-pass-leaves",
+        "loops",
+        "matched-far",
+        "more-gouges",
+        "narrow-corners",
+        "no-tab-anywhere",
+        "on-the-line",
+        "open-on-line",
+        "openings-in-part",
+        "outlines-in-frame",
+        "outlines-in-open-line",
+        "part-in-pieces",
+        "parts-free",
+        "side-of-openings",
+        "side-of-outlines",
+        "whiskers",
     }
 )
 _LOST = frozenset(
     {
         "edge-too-short",
         "plain-lost",
+        "more-not-cut",
     }
 )
 _GUESS = frozenset(

@@ -22,6 +22,8 @@ from skg.cutting.manner import manners, stops
 from skg.geometry.arrays import numbers_up_to
 from skg.geometry.contour import Places
 from skg.geometry.plane import XY, distance
+from skg.messages.finding import Phrase
+from skg.messages.render import text
 from skg.pictures.page import as_it_stands, save
 from skg.pictures.plot import FEW, outlines
 from skg.planning.route import PlannedContour
@@ -196,12 +198,12 @@ class SetupSheet:
 
     def _notes(self) -> list[list[str]]:
         """Text under the drawing: stops of the machine, and the manners in words, two in a line."""
-        texts = [f"{_letters(index)}: {manner.told}" for index, manner in enumerate(self.manners)]
+        texts = [f"{_letters(index)}: {text(manner.phrase)}" for index, manner in enumerate(self.manners)]
         if len(texts) > _MANNERS:
             texts[_MANNERS:] = [f"and {counted(len(texts) - _MANNERS, 'manner')} more: the program has them"]
         lines = [texts[index : index + 2] for index in range(0, len(texts), 2)]
-        if reasons := "; ".join(stops(self.job.routes)):
-            lines.insert(0, [f"two stops each time, wire off and wire threaded: {reasons}"])
+        if reasons := tuple(stops(self.job.routes)):
+            lines.insert(0, [text(Phrase("two-stops", reasons=reasons))])
         return lines
 
     def _measure(self) -> None:
@@ -462,9 +464,9 @@ class SetupSheet:
         job, facts, page = self.job, self.facts, self.page
         for row, texts in enumerate(self.notes):
             wide = (page[0] - 2 * _MARGIN) / len(texts)
-            for column, text in enumerate(texts):
+            for column, note in enumerate(texts):
                 place = _MARGIN + column * wide + 1, self.foot - (row + 0.5) * _NOTE
-                self._text(place, *_fitted(text, wide - 4), _INK, va="center")
+                self._text(place, *_fitted(note, wide - 4), _INK, va="center")
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
         setup = job.machine
@@ -488,7 +490,7 @@ class SetupSheet:
                 ("start", f"{shown(job.routes[0].start)} mm"),
                 ("stops", f"{len(job.tape.stops)}; {counted(len(job.tape.blocks), 'block')}"),
                 ("cut length", f"{job.cut_length:.1f} mm"),
-                ("time", f"{duration(job.seconds)} at {setup.feed:g} mm/min"),
+                ("time", f"{text(duration(job.seconds))} at {setup.feed:g} mm/min"),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)

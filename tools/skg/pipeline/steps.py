@@ -16,7 +16,7 @@ from hashlib import sha256
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.cutting.job import CutResult, make
 from skg.cutting.progress import Progress, in_silence
-from skg.cutting.report import report
+from skg.cutting.report import findings
 from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.plane import XY, shifted
@@ -24,14 +24,13 @@ from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
 from skg.job.read_options import Wishes
 from skg.job.wanted import Partial, Wanted
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.planning.nesting import Nesting
 from skg.planning.plan import plan_nested
 from skg.planning.route import PlannedContour
 from skg.reading.account import Account
 from skg.reading.read import Reading, read
 from skg.reading.selection import SMALL, UNWANTED, WITHIN
-from skg.wording import counted, report_line, short
 
 
 @dataclass(frozen=True)
@@ -80,7 +79,7 @@ class CutDrawing:
 
     result: CutResult
     account: Account
-    lines: list[Finding]
+    findings: list[Finding]
 
 
 def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
@@ -113,7 +112,7 @@ def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
     try:
         return plan_nested(drawn.nesting, starts_of(job, drawn), wanted_of(job, drawn))
     except UserError as error:
-        raise _named(error, drawn) from None
+        raise error.within(drawn.name) from None
 
 
 def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
@@ -123,23 +122,11 @@ def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
 
 def refuse_lost(job: Job, drawn: DrawnJob) -> None:
     """Refuse a job with settings for a contour that is not there."""
-    for index in drawn.matches.lost:
-        raise UserError(_lost(job, index, drawn))
-
-
-def _lost(job: Job, index: int, drawn: DrawnJob) -> str:
-    """Tell that a contour is not there."""
-    more = len(drawn.matches.lost) - 1
-    return (
-        f"{drawn.name}: contour {index + 1} of the job, {job.contours[index].name}, is not there any more"
-        + f", nor {'is' if more == 1 else 'are'} {counted(more, 'other')}" * (more > 0)
-        + ": choose it anew, or delete it from the job"
-    )
-
-
-def _named(error: UserError, drawn: DrawnJob) -> UserError:
-    """The error with the name of the drawing."""
-    return UserError(f"{drawn.name}: {error}", error.contour, error.place)
+    lost = drawn.matches.lost
+    for index in lost:
+        more = Phrase("nor-others", count=len(lost) - 1) if len(lost) > 1 else None
+        finding = Finding("contour-lost", index=index + 1, name=job.contours[index].name, more=more)
+        raise UserError(finding.within(drawn.name))
 
 
 def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> CutDrawing:
@@ -150,12 +137,12 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     try:
         result = make(routes, job.drawing, job.machine, progress)
     except UserError as error:
-        raise _named(error, drawn) from None
+        raise error.within(drawn.name) from None
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
     account = drawn.reading.account(left) if left else drawn.reading.report
     result = _beside_file(result, drawn, account)
-    return CutDrawing(result, account, _lines(job, drawn, account, result))
+    return CutDrawing(result, account, _findings(job, drawn, account, result))
 
 
 def _beside_file(result: CutResult, drawn: DrawnJob, account: Account) -> CutResult:
@@ -170,40 +157,36 @@ def _beside_file(result: CutResult, drawn: DrawnJob, account: Account) -> CutRes
     return replace(result, checked=replace(result.checked, off=result.checked.off + off))
 
 
-def _lines(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[Finding]:
-    """The report, line by line."""
-    lines = [*account.told(), *_matched(job, drawn)]
-    lines += report(result, job.machine.distance)
+def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[Finding]:
+    """The report."""
+    report = [*account.told(), *_matched(job, drawn)]
+    report += findings(result, job.machine.distance)
     wanted = wanted_of(job, drawn)
-    if left := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
-        lines.append(
-            report_line(f"take care: the last pass leaves {short(left)} mm more than the offset, as --passes says")
-        )
+    if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
+        report.append(Finding("last-pass-leaves", stock=stock))
     if any(want.tab and want.cut for want in wanted) and not any(route.tab for route in result.routes):
-        lines.append(report_line("take care: no contour has a tab: none is a part that is cut from outside"))
+        report.append(Finding("no-tab-anywhere"))
     if any(overlap.kind != "drawn twice" for overlap in account.overlaps):
-        from skg.checking.split_parts import said
+        from skg.checking import split_parts
 
-        lines += said(result.routes)
-    return lines
+        report += split_parts.findings(result.routes)
+    return report
 
 
 def _matched(job: Job, drawn: DrawnJob) -> list[Finding]:
     """Tell how contours were found in a drawing that has changed."""
     if not job.sha256 or job.sha256 == drawn.sha256:
         return []
-    x, y = drawn.matches.shift
-    moved = f", moved by ({short(x)}, {short(y)}) mm" if (x, y) != (0.0, 0.0) else ""
-    lines = [report_line(f"take care: {job.drawing} has changed since the job was written{moved}")]
+    by = drawn.matches.shift
+    is_moved = by != (0.0, 0.0)
+    changed = Finding("drawing-moved", drawing=job.drawing, by=by) if is_moved else None
+    report = [changed or Finding("drawing-changed", drawing=job.drawing)]
     for chosen, match in zip(job.contours, drawn.matches.found, strict=True):
         if match.is_doubtful:
             place = drawn.contours[match.number].edges[0].start
-            lines.append(
-                report_line(
-                    f"take care: {chosen.name} is taken for one {short(match.moved)} mm from there", match.number, place
-                )
-            )
-    return lines
+            about = {"contour": match.number, "place": place}
+            report.append(Finding("matched-far", name=chosen.name, moved=match.moved, **about))
+    return report
 
 
 def written(job: Job, drawn: DrawnJob) -> Job:

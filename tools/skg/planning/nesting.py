@@ -15,8 +15,8 @@ from skg.geometry.areas import areas_of
 from skg.geometry.contour import Contour
 from skg.geometry.field import Field
 from skg.geometry.holding import Holding
+from skg.messages.finding import Finding, Phrase
 from skg.planning.gaps import Gap, nearly_closed
-from skg.wording import counted, short, shown
 
 #: One that is no larger than this is the same contour, drawn on another layer.
 _SAME = 1.001
@@ -151,28 +151,21 @@ def places_in(contours: Sequence[Contour]) -> np.ndarray:
     return places
 
 
-def said(around: Iterable[tuple[int, Around | None]]) -> Iterator[str]:
+def findings(around: Iterable[tuple[int, Around | None]]) -> Iterator[Finding]:
     """Report contours, by their numbers in the order of cutting, that lie in an uncut contour."""
     groups: dict[Around, list[int]] = defaultdict(list)
     for number, outer in around:
         if outer:
             groups[outer].append(number)
     for outer, numbers in groups.items():
-        listed = f"{', '.join(map(str, numbers[:_PLACES]))}{' …' * (len(numbers) > _PLACES)}"
-        layers = ", ".join(outer.layers)
+        about = {"count": len(numbers), "contours": in_brackets(numbers), "layers": tuple(outer.layers)}
         if outer.gap:
-            yield (
-                f"take care: {counted(len(numbers), 'outline')} (contour {listed}) in an open line on layer {layers}, "
-                f"open by {short(outer.gap.width)} mm at {shown(outer.gap.place)}: for openings close it in the "
-                "drawing, or --side inside"
-            )
-            continue
-        noun, then = (
-            ("outline", "a frame: --side inside cuts openings")
-            if outer.is_frame
-            else ("opening", "the outline of their part: --side outside cuts outlines")
-        )
-        yield (
-            f"take care: {counted(len(numbers), noun)} (contour {listed}) in a contour on layer {layers}, which is not "
-            f"cut and taken for {then}"
-        )
+            yield Finding("outlines-in-open-line", gap=outer.gap.width, place=outer.gap.place, **about)
+        else:
+            yield Finding("outlines-in-frame" if outer.is_frame else "openings-in-part", **about)
+
+
+def in_brackets(numbers: Sequence[int]) -> Phrase:
+    """Some contours, the first ones by their numbers."""
+    rest = " …" * (len(numbers) > _PLACES)
+    return Phrase("contours-in-brackets", numbers=tuple(numbers[:_PLACES]), rest=rest)

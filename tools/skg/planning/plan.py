@@ -16,6 +16,7 @@ from skg.geometry.edge_arrays import rows_of
 from skg.geometry.holding import Holding
 from skg.geometry.plane import XY, distance
 from skg.job.wanted import Wanted
+from skg.messages.finding import Finding
 from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
 from skg.planning.loops import tidied
 from skg.planning.nesting import Nesting
@@ -171,18 +172,13 @@ class _Planner:
         is_in = made.number in self.nesting.holding.around([made.start])[0]
         least = min(map(abs, made.passes))
         if is_in == is_outside:
-            trouble = f"lies {'inside' if is_in else 'outside'}"
+            code = "hole-inside" if is_in else "hole-outside"
         elif min(edge.far(made.start) for edge in contour.edges) < least - _NEAR:
-            trouble = f"is less than {least:g} mm beside"
+            code = "hole-near-outside" if is_outside else "hole-near-inside"
         else:
             return
         u, v = contour.edges[0].start
-        raise UserError(
-            f"the start hole ({x:g}, {y:g}) {trouble} the contour from ({u:.3f}, {v:.3f}), which is cut from "
-            f"{'outside' if is_outside else 'inside'} (mm): give another one, or another --side",
-            made.number,
-            made.start,
-        )
+        raise UserError(Finding(code, x=x, y=y, u=u, v=v, least=least, contour=made.number, place=made.start))
 
     def _entered(self, made: PlannedContour, place: XY | None, is_right: bool) -> PlannedContour:
         """Enter a contour from its start hole at a place, or where it is nearest to the hole."""
@@ -278,12 +274,7 @@ class _Planner:
             return contour, part
         if aside > 0.8:
             x, y = edge.start
-            raise UserError(
-                f"the edge from ({x:.3f}, {y:.3f}), which the start hole is at, has no room for a tab of "
-                f"{tab:g} mm: a shorter --tab, or another start hole",
-                made.number,
-                made.start,
-            )
+            raise UserError(Finding("no-room-for-tab", x=x, y=y, tab=tab, contour=made.number, place=made.start))
         return contour, min(0.95, max(part, aside + 0.05))
 
     def _holes(
@@ -452,11 +443,8 @@ def _refuse_outer_first(routes: list[PlannedContour], holding: Holding) -> None:
     for route, holders in zip(routes, around, strict=True):
         for outer in (numbered[number] for number in holders if number in numbered):
             if outer.depth < route.depth and outer.turn < route.turn:
-                raise UserError(
-                    f"{outer.name} would be cut before {route.name}, which lies in it: change their order",
-                    outer.number,
-                    outer.entry,
-                )
+                about = {"contour": outer.number, "place": outer.entry}
+                raise UserError(Finding("outer-first", outer=outer.name, inner=route.name, **about))
 
 
 def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
@@ -465,7 +453,7 @@ def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) 
     given = {number: want.start for number, want in enumerate(wanted) if want.cut and want.start is not None}
     taken = {number for number, want in enumerate(wanted) if not want.cut} | set(given)
     if len(starts) > len(depths) - len(taken):
-        raise UserError(f"{len(starts)} start holes for {len(depths) - len(taken)} contours")
+        raise UserError(Finding("too-many-holes", count=len(starts), contours=len(depths) - len(taken)))
     for start, holders in zip(starts, holding.around(starts), strict=True):
         around = [number for number in holders if number not in taken and depths[number] % 2]
         chosen = max(around, key=depths.__getitem__) if around else holding.nearest(start, taken)

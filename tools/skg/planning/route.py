@@ -15,15 +15,20 @@ from skg.geometry.chords import CUT, chords_of
 from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.offset import part_between, roomy_place, wire_way
 from skg.geometry.plane import XY, distance, minus, polar, turn
+from skg.messages.finding import Phrase
 from skg.planning.loops import Trim
 from skg.planning.nesting import Around
-from skg.wording import shown
 
 #: A tab that goes around corners ends no nearer to one than this part of the edge there.
 _INSIDE = 0.2
 #: Directions (radians) that differ by less go the same way; how far a start hole may stand beside the square to its
 #: entry for a lead that is an arc.
 _SQUARE = 1e-6
+
+
+def kind_of(kind: str, count: int = 1) -> Phrase:
+    """The noun for some contours of a kind."""
+    return Phrase(f"kind-{kind.replace(' ', '-')}", count=count)
 
 
 @dataclass(frozen=True)
@@ -145,10 +150,11 @@ class PlannedContour:
         return "opening" if self.is_opening else "outline"
 
     @property
-    def name(self) -> str:
+    def name(self) -> Phrase:
         """Its name in a message: number in the order of cutting, kind, beginning, layers."""
-        layers = f", layer {', '.join(self.contour.layers)}" if self.contour.layers else ""
-        return f"contour {self.turn} ({self.kind} from {shown(self.contour.edges[0].start)}{layers})"
+        layers = Phrase("on-layers", layers=tuple(self.contour.layers)) if self.contour.layers else None
+        start = self.contour.edges[0].start
+        return Phrase("contour-name", turn=self.turn, kind=kind_of(self.kind), start=start, layers=layers)
 
     @property
     def is_outside(self) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from tqdm import tqdm
 
+from skg.messages.finding import Phrase
 from skg.tape.block import Block, Tape
 from skg.tape.positions import decide
 
@@ -146,8 +147,10 @@ def closing(gap: tuple[int, int]) -> str:
     return "closes to 0 µm" if gap == (0, 0) else f"open by {gap[0]}, {gap[1]} µm"
 
 
-def duration(seconds: float) -> str:
-    """Write a time as hours, minutes and seconds."""
+def duration(seconds: float) -> Phrase:
+    """A time as hours and minutes, or minutes and seconds."""
     whole = round(seconds)
     hours, minutes = whole // 3600, whole // 60 % 60
-    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {whole % 60:02d} s"
+    if hours:
+        return Phrase("hours", hours=hours, minutes=minutes)
+    return Phrase("minutes", minutes=minutes, seconds=whole % 60)

@@ -22,10 +22,9 @@ from skg.messages.finding import Finding
 from skg.messages.render import text
 from skg.messages.severity import Severity
 from skg.pipeline.steps import CutDrawing, DrawnJob
-from skg.planning.nesting import said
+from skg.planning.nesting import findings
 from skg.planning.route import Lead, PlannedContour, Way, split_at_end
 from skg.ui.json_text import about, encoded, in_json, told
-from skg.wording import report_line
 
 #: Decimals of a length, mm; of a direction, radians.
 _LENGTH, _ANGLE = 4, 6
@@ -123,7 +122,7 @@ class Plans:
         self._told = contours
         data = {
             "order": [route.number for route in routes],
-            "said": [line(report_line(entry)) for entry in said((route.turn, route.around) for route in routes)],
+            "said": [line(entry) for entry in findings((route.turn, route.around) for route in routes)],
             "error": told(errors[0]) if errors else None,
         }
         whole, part = (
@@ -211,7 +210,7 @@ def result(cut: CutDrawing) -> dict[str, Any]:
     """The result of a cut."""
     made = cut.result
     return {
-        "lines": [line(entry) for entry in cut.lines],
+        "lines": [line(entry) for entry in cut.findings],
         "blocks": len(made.tape.blocks),
         "stops": len(made.tape.stops),
         "length": round(made.cut_length, _LENGTH),
