@@ -155,7 +155,22 @@ def short_edges(rng: Random, page: Drawing) -> list[str]:
     return ["--tolerance", rng.choice(("0.005", "0.1"))]
 
 
-MENDS = [gaps, small_gaps, whole_gaps, overruns, doubles, short_edges]
+def overlaps(rng: Random, page: Drawing) -> list[str]:
+    """A side of lines that share stretches, and a circle of arcs that do; whole numbers."""
+    space, corners = page.modelspace(), [(0, 0), (40, 0), (40, 30), (0, 30)]
+    for (x, y), (u, v) in pairwise([*corners, corners[0]]):
+        length = round(hypot(u - x, v - y))
+        ends = sorted(rng.sample(range(2, length - 8), rng.randrange(3)))
+        for begin, end in zip([0, *ends], [*(end + rng.randrange(1, 6) for end in ends), length], strict=True):
+            places = [(x + way * (u - x) / length, y + way * (v - y) / length) for way in (begin, end)]
+            space.add_line(*rng.sample(places, 2))
+    turn = rng.randrange(360)
+    space.add_arc((20, 15), 8, turn, turn + 190 + rng.randrange(9))
+    space.add_arc((20, 15), 8, turn + 170, turn + rng.randrange(361, 375))
+    return []
+
+
+MENDS = [gaps, small_gaps, whole_gaps, overruns, doubles, short_edges, overlaps]
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -178,6 +193,54 @@ def test_the_judge_sees_what_is_not_said(run: Run, tmp_path: Path) -> None:
     assert says(report, "joined")
     kept = "\n".join(line for line in report.splitlines() if not says(line, "joined"))
     assert unsaid(page, tape.read_bytes(), report) < LIMIT + EXACT < unsaid(page, tape.read_bytes(), kept)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_what_overlaps_is_cut_once(seed: int, run: Run, tmp_path: Path) -> None:
+    """An outline of 140 mm and a circle, closed, with an offset, however the lines and arcs share stretches."""
+    page = drawing()
+    overlaps(Random(seed), page)
+    report = run("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b", "--offset", "0.1").stderr
+    assert says(report, "2 contours", "2 closed", re.compile("190.26(54|55) mm")) and says(report, "drawn twice")
+
+
+def lines(*ends: tuple[float, float, float, float]) -> Drawing:
+    page = drawing()
+    for x, y, u, v in ends:
+        page.modelspace().add_line((x, y), (u, v))
+    return page
+
+
+def test_parts_that_share_an_edge_are_no_overlap(run: Run, tmp_path: Path) -> None:
+    """A small square on the middle of a side of a large one, whose edge there is drawn with both."""
+    large = [(0, 0, 40, 0), (40, 0, 40, 20), (40, 20, 0, 20), (0, 20, 0, 0)]
+    small = [(10, 0, 20, 0), (20, 0, 20, -9), (20, -9, 10, -9), (10, -9, 10, 0)]
+    report = run("cut", saved(lines(*large, *small), tmp_path), "-o", tmp_path / "a.3b").stderr
+    assert says(report, "2 contours", "2 closed", "158 mm")
+
+
+def test_a_line_on_another(run: Run, tmp_path: Path) -> None:
+    """An open line within an open line is cut with it."""
+    part = saved(lines((0, 0, 40, 0), (30, 0, 10, 0), (40, 0, 40, 9)), tmp_path)
+    report = run("cut", part, "-o", tmp_path / "a.3b").stderr
+    assert says(report, "1 contour", "1 open", "49 mm") and says(report, "1 edge", "drawn twice")
+
+
+#: An outline that has a spur and is open at a corner, around two holes; around one.
+LOST = [(0, 0, 40, 0), (40, 0, 40, 20), (40, 20, 0, 20), (0, 20, 0, 3), (40, 20, 45, 25)]
+
+
+@pytest.mark.parametrize("holes", [1, 2])
+def test_an_outline_that_is_lost_is_refused(holes: int, run: Run, tmp_path: Path) -> None:
+    """With an offset, unless it was said what becomes of open lines: its holes would be cut as outlines."""
+    page = lines(*LOST)
+    for hole in range(holes):
+        page.modelspace().add_circle((10 + 15 * hole, 10), 3)
+    words = ("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b")
+    assert says(run_failing(run, *words, "--offset", "0.1"), "encloses", "--open cut")
+    assert not (tmp_path / "a.3b").exists()
+    for more in (["--offset", "0.1", "--open", "cut"], ["--offset", "0.1", "--open", "leave"], []):
+        assert f"{holes} closed" in run(*words, *more).stderr
 
 
 #: The plate of the fault: its left edge ends 0.2 mm above the corner.

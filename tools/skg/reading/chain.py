@@ -187,6 +187,23 @@ def chain(edges: Iterable[Edge], tolerance: float, styles: Styles = ()) -> Chain
     return result
 
 
+def chained_again(
+    chains: Chains, opened: Iterable[Contour], rest: list[Contour], tolerance: float, styles: Styles
+) -> tuple[Chains, bool]:
+    """Return the chains in which what was open, or hung together, is what some runs and a rest are now, and whether any
+    of that closes."""
+    again = chain((edge for contour in opened for edge in contour.edges), tolerance, styles)
+    closed = [contour for contour in chains.contours if contour.is_closed]
+    merged = Chains(
+        sorted(closed + again.contours, key=lambda contour: min(edge.entity for edge in contour.edges)),
+        rest + again.rest,
+        chains.doubles + again.doubles,
+        chains.short + again.short,
+        chains.joins + again.joins,
+    )
+    return merged, any(contour.is_closed for contour in again.contours)
+
+
 def _parts(group: list[Edge]) -> Iterator[list[Edge]]:
     """The edges of one entity in parts, such as those of a path: each up to a break, or to where it began."""
     part: list[Edge] = []

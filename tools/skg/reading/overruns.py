@@ -15,7 +15,7 @@ import shapely
 from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.plane import XY
 from skg.job.read_options import MEET
-from skg.reading.chain import Chains, Styles, chain
+from skg.reading.chain import Chains, Styles, chained_again
 
 #: An overrun past a corner is no longer than this, mm, and no more than this part of its line or arc.
 REACH, _PART = 0.2, 0.25
@@ -44,25 +44,15 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
     freed, rest, cuts = _without_stubs(chains.rest)
     opened = dict(enumerate([contour for contour in chains.contours if not contour.is_closed] + freed))
     for pair in _pairs(opened, min(tolerance, MEET)):
-        shorter = [_without(opened[number], is_last, corner) for (number, is_last), corner in pair]
+        shorter = [without_end(opened[number], is_last, corner) for (number, is_last), corner in pair]
         for ((number, is_last), corner), (edge, piece) in zip(pair, shorter, strict=True):
             edges = opened[number].edges
             opened[number] = replace(opened[number], edges=(*edges[:-1], edge) if is_last else (edge, *edges[1:]))
             cuts += [Overrun(piece, corner)] * (piece is not None)
     if not cuts:
         return chains, []
-    again = chain((edge for contour in opened.values() for edge in contour.edges), tolerance, styles)
-    if not any(contour.is_closed for contour in again.contours):
-        return chains, []
-    closed = [contour for contour in chains.contours if contour.is_closed]
-    merged = Chains(
-        sorted(closed + again.contours, key=lambda contour: min(edge.entity for edge in contour.edges)),
-        rest + again.rest,
-        chains.doubles + again.doubles,
-        chains.short + again.short,
-        chains.joins + again.joins,
-    )
-    return merged, cuts
+    again, closes = chained_again(chains, list(opened.values()), rest, tolerance, styles)
+    return (again, cuts) if closes else (chains, [])
 
 
 def _without_stubs(rest: list[Contour]) -> tuple[list[Contour], list[Contour], list[Overrun]]:
@@ -171,7 +161,7 @@ def _corner(first: shapely.LineString, second: shapely.LineString) -> tuple[XY, 
     return (nearest[0][0], nearest[0][1]), (nearest[1][0], nearest[1][1])
 
 
-def _without(contour: Contour, is_last: bool, corner: XY) -> tuple[Edge, Edge | None]:
+def without_end(contour: Contour, is_last: bool, corner: XY) -> tuple[Edge, Edge | None]:
     """A contour's edge at an end up to the corner, and the piece behind that, if there is any."""
     edge = contour.edges[-1] if is_last else contour.edges[0].reversed()
     part = edge.nearest(corner)

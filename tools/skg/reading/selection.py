@@ -14,9 +14,11 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, distance
 from skg.job.read_options import MEET, Wishes
+from skg.messages.finding import Finding
 from skg.reading.account import Account, Content, Entity, LayerSum, Mend, OpenEnd, Overlap, above, said
 from skg.reading.chain import Chains, chain
 from skg.reading.meetings import Relations, lying_on, nearest, relations
+from skg.reading.overlaps import without_overlaps
 from skg.reading.overruns import Overrun, without_overruns
 from skg.wording import counted, short, shown
 
@@ -63,10 +65,26 @@ class Selection:
         for run in rest:
             self.fates.of_edges(run.edges, JUNCTION)
         gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance))
-        self.report.notes += _around(rest, kept, bool(gaps))
+        self._say_around(rest, kept, bool(gaps))
         self.report.notes += gaps
         self.opened = [contour for contour in kept if not contour.is_closed] + rest
         return kept
+
+    def _say_around(self, rest: list[Contour], kept: list[Contour], has_gaps: bool) -> None:
+        """Report a line that is not cut around all that is; where the wire runs beside contours, refuse it, unless it
+        was said what becomes of open lines: the outline is lost, and its openings would be cut as outlines."""
+        around = _around(rest, kept, has_gaps)
+        if not around:
+            return
+        first, last = around[0].edges[0].start, around[-1].edges[-1].end
+        if self.wishes.open == "refuse":
+            raise UserError(Finding("outline-lost", place=first, last=last))
+        if len(kept) > 1:
+            what = f" from {shown(first)} to {shown(last)}" * (len(around) == 1)
+            gaps = "open there" if len(around) == 1 else "with gaps"
+            self.report.notes.append(
+                f"take care: an uncut line{what} encloses every cut contour: is it the outline, {gaps}?"
+            )
 
     def others(self) -> tuple[list[Contour], list[Contour]]:
         """The closed contours of layers that are not cut, and the open lines of all layers, both drawn through: what is
@@ -99,6 +117,9 @@ class Selection:
         fates, report, tolerance = self.fates, self.report, self.wishes.tolerance
         chains = chain(self.content.edges, tolerance, self.styles)
         if self.wishes.open != "all":
+            chains, overlaps = without_overlaps(chains, tolerance, self.near, self.styles)
+            fates.parts.update(piece.entity for piece, _ in overlaps.pieces)
+            fates.doubles += [((edge,), on) for edge, on in (*overlaps.pieces, *overlaps.whole)]
             chains, cuts = without_overruns(chains, tolerance, self.styles)
             fates.of_pieces([cut.piece for cut in cuts if not cut.is_whole], PAST)
             fates.of_edges([cut.piece for cut in cuts if cut.is_whole], PAST)
@@ -296,22 +317,16 @@ def _between(runs: list[Contour]) -> Iterator[str]:
         )
 
 
-def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool) -> Iterator[str]:
-    """Report an uncut line that encloses all cut contours and is larger than each: one
-    run, or all of them where they have gaps."""
-    if not rest or len(kept) < 2:
-        return
+def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool) -> list[Contour]:
+    """The uncut line that encloses all cut contours and is larger than each: one run, or all of them where they have
+    gaps; else nothing."""
+    if not rest or not kept:
+        return []
     boxes, outer = boxes_of(kept)[0], boxes_of(rest)[0]
-    for number, run in enumerate(rest):
-        if _reach_around(outer[number : number + 1], boxes):
-            ends = (shown(end) for end in (run.edges[0].start, run.edges[-1].end))
-            yield (
-                f"take care: an uncut line from {' to '.join(ends)} encloses every cut contour: "
-                "is it the outline, open there?"
-            )
-            return
-    if has_gaps and _reach_around(outer, boxes):
-        yield "take care: an uncut line encloses every cut contour: is it the outline, with gaps?"
+    single = next((number for number in range(len(rest)) if _reach_around(outer[number : number + 1], boxes)), None)
+    if single is not None:
+        return [rest[single]]
+    return rest if has_gaps and _reach_around(outer, boxes) else []
 
 
 def _reach_around(outer: Floats, boxes: Floats) -> bool:
