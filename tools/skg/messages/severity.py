@@ -25,6 +25,7 @@ class Severity(Enum):
 
 _CARE = frozenset(
     {
+        "page-in-dots",
         "plain-care",
         "contour-not-cut",
         "drawing-changed",
@@ -47,6 +48,8 @@ _CARE = frozenset(
         "side-of-openings",
         "side-of-outlines",
         "whiskers",
+        "size-in-dots",
+        "size-in-other-units",
     }
 )
 _LOST = frozenset(

@@ -110,10 +110,11 @@ class Overlap:
 class Account:
     """The account of a drawing that was read.
 
-    `units`: those it was read in; `units_from`: who said so. `factor`: mm in one unit of the file. `low`, `high`: the
-    box around the contours, mm. `layers`: the sums of all layers. `rest`: entities at junctions, of which (some of) the
-    edges belong to no closed outline. `mends`: where what is cut is not what is drawn; `whole`: the numbers of the
-    entities that are cut, all of each, and whether by what they are drawn on.
+    `units`: those it was read in; `units_from`: who said so. `factor`: mm in one unit of the file. `page`: the sides of
+    an SVG's page in dots, if it does not tell its units. `low`, `high`: the box around the contours, mm. `layers`: the
+    sums of all layers. `rest`: entities at junctions, of which (some of) the edges belong to no closed outline.
+    `notes`, `findings`: what else there is to say. `mends`: where what is cut is not what is drawn; `whole`: numbers
+    of the entities that are cut, all of each, and whether by what they are drawn on.
     """
 
     name: str
@@ -131,6 +132,8 @@ class Account:
     rest: list[Entity] = field(default_factory=list)
     overlaps: list[Overlap] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
+    page: XY | None = None
     mends: list[Mend] = field(default_factory=list)
     whole: dict[int, bool] = field(default_factory=dict)
 
@@ -174,7 +177,7 @@ class Account:
         lines += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
         for kind in ("drawn twice", "overlap", "cross", "touch"):
             lines += _overlaps(kind, [overlap for overlap in self.overlaps if overlap.kind == kind])
-        return [*lines, *_mended(self.mends), *map(report_line, self.notes)]
+        return [*lines, *_mended(self.mends), *map(report_line, self.notes), *self.findings]
 
 
 def said(entities: Iterable[Entity], nouns: tuple[str, str], description: str, then: str) -> Iterator[str]:

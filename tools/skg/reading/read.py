@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import floor
@@ -20,6 +20,7 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
 from skg.job.read_options import OPEN, START, UNITS, Wishes
+from skg.messages.finding import Finding
 
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
 from skg.reading import dxf_entities, dxf_file, svg_file, svg_shapes
@@ -42,6 +43,11 @@ HUGE = 2000.0
 FARTHEST = 50_000.0
 #: The units that a drawing may be in. (In mil write programs for boards that do not tell it)
 GUESSED = ("mm", "inch", "cm", "mil")
+#: A size this near to whole millimetres is one, mm. (A file in inches has four decimals)
+_WHOLE = 0.003
+#: Sheets of paper, mm, and the dots in an inch that drawings are in.
+_PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}
+_DOTS = (300, 150, 96, 72)
 #: Entities that fill an area, without lines around it.
 AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 
@@ -174,7 +180,8 @@ def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Accou
         units = wishes.units, UNITS[wishes.units], ASKED
         px = UNITS[wishes.units] * (px / declared[1] if declared else 1.0)
     content = svg_shapes.collect(page, px, wishes)
-    return content, Account(name, units[0], units[2], units[1], notes=list(content.notes))
+    dots = page.page.size if page.page and not declared and not wishes.units else None
+    return content, Account(name, units[0], units[2], units[1], notes=list(content.notes), page=dots)
 
 
 def _nothing(content: Content, wishes: Wishes) -> str:
@@ -210,7 +217,9 @@ def _measure(contours: list[Contour], report: Account) -> None:
 
 
 def _check_size(report: Account) -> None:
-    """Refuse an implausible size with unconfirmed units, and a drawing too large for a tape."""
+    """Refuse an implausible size with unconfirmed units, and a drawing too large for a tape; say what units it may be
+    in."""
+    before = len(report.notes)
     width, height = map(short, report.size)
     is_told = not report.units_from.startswith(NOT_TOLD)
     if not is_told and not USUAL[0] <= max(report.size) <= USUAL[1]:
@@ -239,6 +248,52 @@ def _check_size(report: Account) -> None:
         )
     elif max(report.size) > HUGE and not is_odd and report.units_from != ASKED:
         report.notes.append(f"take care: {width} x {height} mm is more than {HUGE / 1000:g} m: --units sets others")
+    if len(report.notes) == before and report.units_from != ASKED:
+        report.findings += _likely(report)
+
+
+def _likely(report: Account) -> Iterator[Finding]:
+    """Report units in which the size is whole millimetres, where it is not as it was read; of a page in dots also how
+    many of them are an inch if it is a sheet of paper."""
+    read = report.size
+    dots = UNITS["inch"] / report.factor
+    if report.page and not _paper(report.page, dots):
+        for inch in _DOTS:
+            if name := _paper(report.page, inch):
+                size = tuple(side * dots / inch for side in read)
+                yield _sized("page-in-dots", read, size, paper=name, dots=inch, were=round(dots))
+                return
+    if _is_whole(read):
+        return
+    if report.page or report.units == "px":
+        others = {} if report.page and _paper(report.page, dots) else {str(inch): dots / inch for inch in _DOTS}
+    else:
+        others = {"mm": {"inch": 25.4}, "inch": {"mm": 1 / 25.4}}.get(report.units, {})
+    for name, times in others.items():
+        size = tuple(side * times for side in read)
+        if _is_whole(size) and max(size) >= USUAL[0]:
+            code = "size-in-dots" if name.isdigit() else "size-in-other-units"
+            yield _sized(code, read, size, units=name)
+            return
+
+
+def _sized(code: str, read: XY, other: XY, **values: object) -> Finding:
+    """A finding with the size as it was read, and as it may be, mm."""
+    return Finding(code, width=read[0], height=read[1], wide=other[0], high=other[1], **values)
+
+
+def _is_whole(size: XY) -> bool:
+    """Tell whether width and height are whole millimetres, as inches with four decimals are."""
+    return all(round(side) >= 1 and abs(side - round(side)) <= _WHOLE for side in size)
+
+
+def _paper(page: XY, inch: int | float) -> str:
+    """The sheet of paper that a page is, in dots of which so many are an inch; empty if it is none."""
+    sides = sorted(side / inch * UNITS["inch"] for side in page)
+    for name, paper in _PAPERS.items():
+        if all(abs(side - whole) <= UNITS["inch"] / inch for side, whole in zip(sides, paper, strict=True)):
+            return name
+    return ""
 
 
 def _in_other_units(report: Account, most: float = USUAL[1], units: tuple[str, ...] = GUESSED[:3]) -> str:
