@@ -78,7 +78,7 @@ class Selection:
             return
         first, last = around[0].edges[0].start, around[-1].edges[-1].end
         if self.wishes.open == "refuse":
-            raise UserError(Finding("outline-lost", place=first, last=last))
+            raise UserError(Finding("outline-lost", place=first))
         if len(kept) > 1:
             what = f" from {shown(first)} to {shown(last)}" * (len(around) == 1)
             gaps = "open there" if len(around) == 1 else "with gaps"
