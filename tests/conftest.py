@@ -24,6 +24,9 @@ ROOT = Path(__file__).resolve().parents[1]
 # (see skg.cli)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+# The messages are those of the English catalogue, whatever this machine speaks.
+os.environ["LC_ALL"] = "C.UTF-8"
+
 # Node, where it came out of a Python package (make).
 os.environ["PATH"] += os.pathsep + str(Path(sys.executable).parent)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shlex
 import sys
 import tomllib
@@ -69,6 +70,7 @@ def compare(page: Page, path: Path, options: str, folder: Path) -> None:
         str(tape),
         "--program",
         str(program),
+        "--json",
     ]
     done = CliRunner(mix_stderr=False).invoke(cli, words, catch_exceptions=False)
     assert done.exit_code == 0, done.stderr
@@ -80,10 +82,9 @@ def compare(page: Page, path: Path, options: str, folder: Path) -> None:
     assert page.get(f"/api/run/{number}/tape").body == tape.read_bytes()
     assert page.get(f"/api/run/{number}/program").body == program.read_bytes()
     assert page.get(f"/api/run/{number}/job").body == job.read_bytes()
-    said = done.stderr.splitlines()
-    assert ["take care: " * line["care"] + line["text"] for line in run["result"]["lines"]] == said[
-        : len(run["result"]["lines"])
-    ]
+    report = json.loads(done.stderr)
+    codes = [finding["code"] for finding in report["findings"]]
+    assert [line["code"] for line in run["result"]["lines"]] == codes[: len(run["result"]["lines"])]
 
 
 def test_there_are_some() -> None:

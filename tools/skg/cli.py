@@ -94,8 +94,22 @@ def _print_version(ctx: click.Context, _option: click.Parameter, is_asked: bool)
     ctx.exit()
 
 
+def _speak(_ctx: click.Context, _option: click.Parameter, language: str | None) -> None:
+    """Choose the language: as asked for, else the system's where the terminal has its characters."""
+    from skg.messages.render import language_of_system, speech
+
+    speech.language = language or language_of_system()
+    if not language and speech.language == "zh" and sys.stderr is not None:
+        try:
+            "中文".encode(sys.stderr.encoding or "utf-8")
+        except UnicodeError:
+            speech.language = "en"
+
+
 # (a default of nothing says show_default=False)
 @click.command(cls=LazyGroup, context_settings={"show_default": True})
+@click.option("--lang", type=click.Choice(["en", "zh"]), expose_value=False, is_eager=True, callback=_speak,
+              show_default=False, help="Language of messages. Default: as the system's ($LANG).")  # fmt: skip
 @click.option("--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version,
               help="Print the version, and the ROM's CRC-32.")  # fmt: skip
 def cli() -> None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import codecs
+import json
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from os.path import realpath
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from click.core import ParameterSource
@@ -31,8 +34,12 @@ from skg.job.job import INTO, ROMS, SMALL, Job, MachineSetup
 from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES, Partial, Wanted
-from skg.messages.render import line
+from skg.messages.finding import Finding
+from skg.messages.render import Medium, data, line, speech
 from skg.reading.read import Wishes, layer_lines
+
+if TYPE_CHECKING:
+    from skg.pipeline.steps import CutDrawing
 
 
 class JobValue(click.ParamType):
@@ -69,7 +76,7 @@ class Encoding(click.ParamType):
 
 
 #: Options allowed beside a job file: files to write, and how much to print.
-_BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job", "quiet")
+_BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job", "quiet", "in_json")
 
 
 @click.command(name="cut")
@@ -181,6 +188,7 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
     "--save-job", metavar="FILE", type=click.Path(), help="Also write what was asked for, as a job file: .job.toml."
 )
 @click.option("--quiet", is_flag=True, help="Print warnings alone.")
+@click.option("--json", "in_json", is_flag=True, help="Print the report, or the refusal, as JSON for other programs.")
 @click.pass_context
 def command(
     context: click.Context,
@@ -191,6 +199,7 @@ def command(
     sheet: str | None,
     save_job: str | None,
     quiet: bool,
+    in_json: bool,
     **options: object,
 ) -> None:
     """Cut a drawing: FILE (.dxf, .svg, or a job: .job.toml) becomes a 3B tape.
@@ -200,6 +209,51 @@ def command(
     followed with the controller's simulation and compared with the drawing before it is written. The report goes to
     standard error. FILE - is the standard input.
     """
+    speech.medium = Medium.JOB if is_job_file(file) else Medium.COMMAND
+    try:
+        report = _cut(context, file, output, list_layers, program, sheet, save_job, **options)
+    except UserError as error:
+        if not in_json:
+            raise
+        click.echo(json.dumps({"error": data(error.finding)}), err=True)
+        sys.exit(2)
+    if report is None:
+        return
+    cut, more = report
+    if in_json:
+        click.echo(json.dumps(_in_json(cut, more)), err=True)
+        return
+    for finding in (*cut.findings, *more):
+        if finding.severity.is_kept or not quiet:
+            click.echo(line(finding), err=True)
+
+
+def _in_json(cut: CutDrawing, more: list[Finding]) -> dict[str, object]:
+    """The report as plain data; lengths in mm."""
+    result = cut.result
+    return {
+        "findings": [data(finding) for finding in (*cut.findings, *more)],
+        "blocks": len(result.tape.blocks),
+        "stops": len(result.tape.stops),
+        "length": round(result.cut_length, 4),
+        "seconds": round(result.seconds, 1),
+        "off_um": round(1000 * result.checked.off, 3),
+        "starts": [list(route.start) for route in result.routes],
+    }
+
+
+def _cut(
+    context: click.Context,
+    file: str,
+    output: str,
+    list_layers: bool,
+    program: str | None,
+    sheet: str | None,
+    save_job: str | None,
+    **options: object,
+) -> tuple[CutDrawing, list[Finding]] | None:
+    """Cut the drawing and write the files: the result, and what there is to say of the tape's name; None: its layers
+    were listed."""
     from skg.pipeline.steps import cut_drawing, open_drawing, written
 
     if is_job_file(file):
@@ -213,7 +267,7 @@ def command(
             click.echo(layer)
         for note in notes:
             click.echo(f"skg: {path}: {note}", err=True)
-        return
+        return None
     form = picture_format(sheet, None) if sheet else ""
     if save_job:
         _refuse_elsewhere(save_job, path)
@@ -230,11 +284,7 @@ def command(
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
-    lines = [line(finding) for finding in cut.findings if finding.severity.is_kept or not quiet]
-    if not quiet:
-        lines += unmarked(output, cut.result.tape, job.machine.rom)
-    for text in lines:
-        click.echo(text, err=True)
+    return cut, unmarked(output, cut.result.tape, job.machine.rom)
 
 
 def is_job_file(name: str) -> bool:

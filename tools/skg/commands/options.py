@@ -12,6 +12,7 @@ import click
 
 from skg.errors import UserError
 from skg.job.values import LEAST_FEED, MOST_OFFSET
+from skg.messages.finding import Finding
 from skg.tape.block import MAX_DIGITS, Tape
 from skg.tape.positions import POSITIONS, WITHOUT_DRIFT, decide, depends
 
@@ -58,14 +59,14 @@ def say(tape: Tape, more: str = "") -> None:
         click.echo(f"skg: {tape.name}: {note}", err=True)
 
 
-def unmarked(output: str, tape: Tape, rom: str) -> list[str]:
+def unmarked(output: str, tape: Tape, rom: str) -> list[Finding]:
     """Report a tape's name that does not tell the other commands that it is without drift, or wrongly does."""
     named = output.lower().endswith(WITHOUT_DRIFT)
     if rom != "no-drift":
-        return ["take care: the name says that the tape is without drift, and it is with"] if named else []
+        return [Finding("named-without-drift")] if named else []
     if named or not depends(tape):
         return []
-    return [f"for sim, plot and dxf: end the tape's name in {WITHOUT_DRIFT}, or give them --positions machine"]
+    return [Finding("name-it-without-drift", ending=WITHOUT_DRIFT)]
 
 
 def output_option(text: str, required: bool = False, in_place: bool = False) -> Callable[[Callable], Callable]:

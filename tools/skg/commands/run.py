@@ -14,6 +14,7 @@ from skg.files import board_text, read_bytes, write_bytes
 from skg.machine.board import Board, BoardStopped
 from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
 from skg.machine.roms import ROMS, known_rom
+from skg.messages.render import line
 from skg.sources.load import program_text
 from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape.text import parse
@@ -93,6 +94,6 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     if output != "-" and code == 0 and known not in (None, MILL_ROM):
         # (a tape of several runs is none to the other commands)
         with suppress(UserError):
-            for line in unmarked(output, parse(tape, part), known):
-                remark(f"{output}: {line}")
+            for finding in unmarked(output, parse(tape, part), known):
+                remark(line(finding.within(output)))
     sys.exit(code)

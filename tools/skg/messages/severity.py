@@ -36,6 +36,7 @@ _CARE = frozenset(
         "loops",
         "matched-far",
         "more-gouges",
+        "named-without-drift",
         "narrow-corners",
         "no-tab-anywhere",
         "on-the-line",

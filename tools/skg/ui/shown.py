@@ -58,7 +58,7 @@ def _edge(edge: Edge) -> list[Any]:
 
 def line(entry: Finding) -> dict[str, Any]:
     """A line of a report."""
-    return {"text": text(entry), "care": entry.severity is Severity.CARE} | about(entry)
+    return {"code": entry.code, "text": text(entry), "care": entry.severity is Severity.CARE} | about(entry)
 
 
 def drawing(drawn: DrawnJob) -> dict[str, Any]:

@@ -121,8 +121,10 @@ def work(connection: Connection) -> None:
     os.environ["TQDM_DISABLE"] = "1"
     _bound_memory()
     collect_rarely()
+    from skg.messages.render import Medium, speech
     from skg.ui.desk import Desk
 
+    speech.medium = Medium.PAGE
     desk = Desk(_teller(connection))
     with suppress(EOFError, OSError):
         while True:
