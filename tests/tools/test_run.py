@@ -271,8 +271,8 @@ def test_meaning_of_errors() -> None:
 def test_one_wording_of_error_7() -> None:
     """The manual, the page and `skg cut` say it as the specification does: of any arc, and of a cutter too."""
     from skg.cutting.refusal import meaning
-    from skg.messages.render import text
     from skg.machine.board import ERRORS
+    from skg.messages.render import text
 
     assert ERRORS[7] in text(meaning(7))
     for page in ("docs/manual.md", "web/src/language.ts"):
