@@ -65,7 +65,7 @@ $(VENV)/.stamp: tools/pyproject.toml tools/constraints.txt tools/setup.py | emu 
 
 # The images are committed: who changes a source of theirs is told until they are built.
 rom-age:
-	@newer=$$(find asm -maxdepth 1 \( -name '*.asm' -o -name words.txt -o -name images.py \) -newer roms/skg.bin | sort | head -n 3); \
+	@newer=$$(find asm -path asm/node_modules -prune -o \( -name '*.asm' -o -name words.txt -o -name images.py \) -newer roms/skg.bin -print | sort | head -n 3); \
 		[ -z "$$newer" ] || echo "Newer than roms/skg.bin (make rom builds the images):" $$newer
 
 # The program, then the teletype's paper with the blocks as they are punched, then what it took.

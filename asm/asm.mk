@@ -13,7 +13,7 @@ rom: assembler
 	@for image in $$($(PYTHON) asm/images.py); do $(PYTHON) asm/build.py --image $$image roms/$$image || exit 1; done
 
 # The standard ROM's listing alone, for who reads it and for the fuzzer.
-build/skg.lst: $(wildcard asm/*.asm asm/*.py asm/words.txt) | assembler
+build/skg.lst: $(wildcard asm/*.asm asm/*/*.asm asm/*.py asm/words.txt) | assembler
 	@$(PYTHON) asm/build.py --listing $@ build/listed/skg >build/listed.txt
 
 .PHONY: asm80 assembler rom

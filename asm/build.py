@@ -5,8 +5,8 @@
     asm/build.py --has-z88dk
 
 writes OUT.bin (padded to 8,192 bytes) and OUT.hex; the symbols go to one FILE (lines of value, name and, of a label,
-its source file), the assembler's listing to the other. asm/images.py says which files an image is made of. Of the
-standard image the bytes are printed file by file; of a variant in one line.
+its source file below asm/), the assembler's listing to the other. asm/images.py says which files an image is made of.
+Of the standard image the bytes are printed file by file; of a variant in one line.
 The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from asm/node_modules. With
 --has-z88dk the exit code says whether it is the first.
 """
@@ -27,7 +27,7 @@ sys.path.insert(0, str(ASM))  # for tests, which load this file from elsewhere
 
 import facts  # noqa: E402
 import words  # noqa: E402
-from images import IMAGES, STANDARD, Image  # noqa: E402
+from images import IMAGES, STANDARD, Image, place  # noqa: E402
 
 ROM_SIZE = 8192
 #: Bytes of the standard ROM that this project leaves to those who add something to theirs.
@@ -136,10 +136,12 @@ def number(text: str) -> int:
 def sources(image: Image) -> dict[str, str]:
     """The text of every source file of an image, by name, in their order; words.asm is made here."""
     try:
-        made = words.source(image.words)
+        texts = {
+            file: words.source(image.words) if file == "words" else (ASM / f"{place(file)}.asm").read_text()
+            for file in image.files()
+        }
     except ValueError as fault:
         fail(str(fault))
-    texts = {file: made if file == "words" else (ASM / f"{file}.asm").read_text() for file in image.files()}
     return texts if image.restarts else {file: with_calls(file, text) for file, text in texts.items()}
 
 
@@ -246,8 +248,12 @@ def check_facts(texts: dict[str, str], symbols: dict[str, int]) -> None:
 
 
 def label_files(texts: dict[str, str]) -> dict[str, str]:
-    """The source file of every label; what else has a name is an equate."""
-    return {label.upper(): file for file, text in texts.items() for label in re.findall(r"^(\w+):", text, re.M)}
+    """The source file of every label, below asm/; what else has a name is an equate."""
+    return {
+        label.upper(): file if file == "words" else place(file)
+        for file, text in texts.items()
+        for label in re.findall(r"^(\w+):", text, re.M)
+    }
 
 
 def intel_hex(image: bytes, origin: int) -> str:

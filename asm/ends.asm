@@ -1,6 +1,6 @@
 ; ends.asm - how a route begins and ends: closed, open, dropped; FROM and BACK
 ; Offers: RUNINI RTNEW WIPE ENDRT SFROM ROUTER SBACK GOBACK
-; Uses:   [post] calc consts corner fit geom items parser round route start
+; Uses:   [post] calc consts corner cut fit geom parser round route start
 ; Room:   224 bytes
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route

@@ -1,6 +1,6 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5) (curves.md)
 ; Offers: NODSIZ SFIT SPOUT NODNXT FITEND XCHRD XMIRR XBIAR ARCW
-; Uses:   [spans] calc consts corner float geom items parser route start value
+; Uses:   [spans] calc consts corner cut float geom parser route start value
 ; Room:   365 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both

@@ -23,7 +23,7 @@ BINOP:  MOV     A,C
         DCR     A
         CNZ     CHKRET
         CALL    CHECK
-        MVI     A,KPNT          ; in check mode what a comma makes is taken for a point (ITCHK, items.asm)
+        MVI     A,KPNT          ; in check mode what a comma makes is taken for a point (ITCHK, cut.asm)
         JNZ     SETK
         MOV     A,C
         ADD     A

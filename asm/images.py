@@ -6,6 +6,10 @@ reset and the prompt. CP/M fills these with files of its own. **post**: what bec
 **spans**: whether those of a curve are held back. **more**: what some images have besides. Words that not every image
 has are a set in words.txt.
 
+A file stands in asm/ itself when every machine has it; in asm/boards/ what there is of a machine (memory, ports, chips,
+teletype, punch, reader, handshake, reset, CP/M); in asm/variants/ what takes the place of a part of the language or of
+the tape. An image names files alone: no two have the same name.
+
     asm/images.py     prints the names of the variants of the standard image
 """
 
@@ -13,6 +17,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
+
+#: The folders of the sources, below asm/.
+FOLDERS = (".", "boards", "variants")
 
 
 @dataclass(frozen=True)
@@ -38,7 +46,7 @@ class Image:
         """All source files in the order in which they stand in the ROM; the first ones only name things."""
         return [
             self.map, "equ", "start", "ops", "consts", *self.ports, "io", *self.punch, "calc", "float",
-            "decimal", "value", "geom", "parser", *self.post, "route", "corner", "items", "ends", "repeat", "fit",
+            "decimal", "value", "geom", "parser", *self.post, "route", "corner", "cut", "ends", "repeat", "fit",
             *self.spans, "lexer", "program", "data", "run", *self.more, "monitor", *self.start, "words",
         ]  # fmt: skip
 
@@ -93,6 +101,15 @@ IMAGES = {
     "skg.com": Image().for_cpm("type_3b"),
     "skgmill.com": MILL.for_cpm("type_nc"),
 }
+
+
+def place(file: str) -> str:
+    """A source's path below asm/, without .asm: io_held is boards/io_held. ValueError when there is not just one."""
+    paths = [Path(folder, file) for folder in FOLDERS]
+    found = [path for path in paths if Path(__file__).parent.joinpath(path).with_suffix(".asm").exists()]
+    if len(found) != 1:
+        raise ValueError(f"{file}.asm: {len(found)} of them in asm/ and its folders {', '.join(FOLDERS[1:])}")
+    return found[0].as_posix()
 
 
 #: The seams whose files others call; those of `map` define names for all.

@@ -1,6 +1,6 @@
 ; ops.asm - the operations of the calculator: their numbers, and their routines
 ; Offers: names for all
-; Uses:   calc fit float geom items parser round route value
+; Uses:   calc cut fit float geom parser round route value
 ; Room:   126 bytes
 ;
 ; Behind each number: what is on the float stack before and after, the top last; other effects.

@@ -1,6 +1,6 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: SREP SSYM SRECUT SSCALE
-; Uses:   calc consts ends fit float geom io items parser route start value
+; Uses:   calc consts cut ends fit float geom io parser route start value
 ; Room:   333 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:

@@ -26,7 +26,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from images import seams
+from images import place, seams
 
 ASM = Path(__file__).resolve().parent
 #: Belong to everybody: names, the operations of the calculator and the words with their routines (words.py).
@@ -285,9 +285,9 @@ def main() -> None:
     rooms = merged(images)
     if sys.argv[1:] == ["--headers"]:
         for room in rooms.values():
-            path = ASM / f"{room.name}.asm"
-            if not path.exists():
+            if room.name == "words":
                 continue
+            path = ASM / f"{place(room.name)}.asm"
             text = path.read_text()
             for shape, line in zip((OFFERS, USES), header(rooms, room, SEAMS), strict=True):
                 text = shape.sub(lambda _, line=line: line, text, count=1)

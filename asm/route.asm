@@ -4,16 +4,7 @@
 ; Uses:   [post] calc consts float geom parser start value
 ; Room:   241 bytes
 ;
-; A route is a chain of oriented elements (lines, circles).  The wire travels the
-; current element C, which it entered at A.  An item that arrives becomes the next
-; element N; the corner K between C and N, each offset by its own R, ends C, whose
-; segment goes out at once, and N becomes C.  Of points the last one, P, is kept:
-; between two points comes a line, beside an element a point names the corner.  So
-; two elements and a point are all the state of a route of any length; for closing
-; it keeps the first element F, the place G where that was entered, and the first
-; item Q when it was a point.  D is where the contour, as drawn, enters C, and P the corner as drawn.
-;
-; Distances up to 1 um (QMU) are taken as none.
+; cut.asm says what a route is, and how it is cut.  Distances up to 1 um (QMU) are taken as none.
 
 CKIND   EQU MCUR        ; kinds of the elements
 NKIND   EQU MNEXT

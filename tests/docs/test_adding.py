@@ -75,13 +75,14 @@ def test_a_statement(asm: Path) -> None:
     replaced(images, "*self.spans, ", "*self.spans, *self.turn, ")
     replaced(images, '"spans", "more")', '"spans", "turn", "more")')
     replaced(images, "IMAGES = {\n", f"IMAGES = {{\n    {row}")
-    replaced(asm / "items.asm", "        CALL    SCALED\n; ITEMT", "        CALL    PLACED\n; ITEMT")
+    replaced(asm / "cut.asm", "        CALL    SCALED\n; ITEMT", "        CALL    PLACED\n; ITEMT")
     replaced(asm / "ends.asm", "CALL    SCALED", "CALL    PLACED")
     replaced(asm / "run.asm", "CALL    RUNINI", "CALL    RUNBEG")
-    (asm / "rot.asm").write_text(source("rot", statement + "\n" + placed, 60))
-    (asm / "norot.asm").write_text(source("norot", none, 0))
+    variants = asm / "variants"
+    (variants / "rot.asm").write_text(source("rot", statement + "\n" + placed, 60))
+    (variants / "norot.asm").write_text(source("norot", none, 0))
     tool(asm, "rooms.py", "--headers")
-    assert "; Offers: SROT PLACED RUNBEG\n" in (asm / "rot.asm").read_text()
+    assert "; Offers: SROT PLACED RUNBEG\n" in (variants / "rot.asm").read_text()
     rom = image(asm, "skg-rot")
     assert image(asm, "skg") == (ROOT / "roms" / "skg.bin").read_bytes()
 
@@ -98,12 +99,12 @@ def test_a_board(asm: Path) -> None:
     """6850s at other ports: no other header changes, and the image runs where the page says."""
     ports, rows, command = blocks("For a board of your own", "4. To give it to others")
     row, known, option = rows.split("\n\n")
-    before = {path.name: path.read_text() for path in asm.glob("*.asm")}
-    (asm / "ports_mine.asm").write_text(ports)
+    before = {path: path.read_text() for path in asm.rglob("*.asm")}
+    (asm / "boards" / "ports_mine.asm").write_text(ports)
     replaced(asm / "images.py", "IMAGES = {\n", f"IMAGES = {{\n    {row}")
     tool(asm, "rooms.py", "--headers")
     rom = image(asm, "skg-mine")
-    assert {name: text for name, text in before.items() if (asm / name).read_text() != text} == {}
+    assert [path for path, text in before.items() if path.read_text() != text] == []
     program, *arguments = command.split()
     option = ast.literal_eval(f"{{{option}}}")["skg-mine"]
     assert arguments[:3] == [*option, "--rom"]

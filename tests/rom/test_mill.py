@@ -1,4 +1,4 @@
-"""The images that mill (asm/iso.asm, asm/mill.asm, asm/io_ok.asm) and the milling reference: ISO tape, paper, error
+"""The images that mill (asm/variants: iso.asm, mill.asm, io_ok.asm) and the milling reference: ISO tape, paper, error
 and its line. Whatever one image does, the one that waits for the machine does, too.
 
 Parts of the random tests and small-integer soup with the statements of milling.md thrown in, right ones and wrong ones;

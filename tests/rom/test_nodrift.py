@@ -1,4 +1,4 @@
-"""The image whose blocks start where the controller stands (asm/arc_nodrift.asm), and `drift=False` of the reference.
+"""The image whose blocks start where the controller stands (arc_nodrift.asm), and `drift=False` of the reference.
 
 Examples and random programs, byte for byte; what is set aside as a close call is the rule of compare.py.
 """

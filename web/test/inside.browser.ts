@@ -95,7 +95,7 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
     await page.waitForSelector("#inside [data-move=hold]");
     assert.ok(served.sent.has("debugger.js"));
     const place = (text: RegExp) => says(page, "#inside .place", text);
-    await place(/passes · \w+(\+\d+)? · asm\/\w+\.asm/);
+    await place(/passes · \w+(\+\d+)? · asm\/[\w/]+\.asm/);
     const stop = page.locator("#inside form").nth(1).locator("input");
     await stop.fill("NOWHERE");
     await stop.press("Enter");
@@ -104,7 +104,7 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
     await stop.press("Enter");
     await says(page, "#inside .stops", /0F6A SCUT|SCUT/);
     await page.click("#run");
-    await place(/^held · SCUT · asm\/\w+\.asm/);
+    await place(/^held · SCUT · asm\/[\w/]+\.asm/);
     await says(page, "#state", "held by the debugger");
     await says(page, "#inside .code .present", /SCUT.*CALL FITEND/);
     // a stop by the keyboard, set and taken away

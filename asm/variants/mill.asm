@@ -1,6 +1,6 @@
 ; mill.asm - the statements of milling: F, Z, M, G, HOLE (milling.md)
 ; Offers: SFREES SFEED SHGHT SPREP SMISC SHOLE
-; Uses:   [post] calc consts corner float items monitor parser round route start value
+; Uses:   [post] calc consts corner cut float monitor parser round route start value
 ; Room:   282 bytes
 
 LASTW   EQU 99          ; greatest number of M, G and T

@@ -1,7 +1,29 @@
-; items.asm - CUT: items that arrive become elements of the route
+; cut.asm - how a CUT is cut: items that arrive become elements of the route
 ; Offers: SCUT ITEMT ITEMR ADDEL CORDON POSIT ITPNT PNTDON GETR SCALED XSCL
 ; Uses:   calc consts corner fit float geom parser round route start value
 ; Room:   362 bytes
+;
+; A route is a chain of oriented elements (lines, circles).  The wire travels the
+; current element C, which it entered at A.  An item that arrives becomes the next
+; element N; the corner K between C and N, each offset by its own R, ends C, whose
+; segment goes out at once, and N becomes C.  Of points the last one, P, is kept:
+; between two points comes a line, beside an element a point names the corner.  So
+; two elements and a point are all the state of a route of any length; for closing
+; it keeps the first element F, the place G where that was entered, and the first
+; item Q when it was a point.  D is where the contour, as drawn, enters C, and P the corner as drawn.
+;
+; From the statement to the block:
+;
+;       SCUT            the values of the items, one by one                     here (parser, geom)
+;       ITEM            scaled, with its offset; noted for SYM, REP and RECUT   here
+;       ITPNT ITFIL     a point, a fillet's radius: wait for the element        here
+;       ADDEL           the element N                                           here
+;       FIRST           the first one: the wire goes from the start hole to it  corner
+;       CORND           the corner P as drawn, when no point names it           corner
+;       FILLET JOINED   the corner K as offset, with an arc between or without  corner
+;       ADVANC          the wire travels C from A to K                          route
+;       MOVE ARC        the block of a line, of an arc                          tape, arc_3b
+;       ENDRT CLOSE     no item follows: an open end, or F once more            ends
 
 RITCHK  EQU VKIND+2     ; kinds of the items of a CUT that is checked
 
