@@ -13,7 +13,7 @@ MOST_BYTES = 64 * 2**20
 #: Tries of a style sheet's rules at elements.
 MOST_TRIES = 20_000_000
 #: Pairs of edges that come near to each other.
-MOST_PAIRS = 10_000_000
+MOST_PAIRS = 25_000_000
 
 
 def check_entities(count: int) -> None:

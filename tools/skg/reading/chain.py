@@ -30,8 +30,8 @@ from skg.geometry.contour import Contour, CurveNode, Edge
 from skg.geometry.plane import XY, cross, distance, dot, minus, turn
 from skg.job.read_options import MEET
 
-#: Lines at a smaller angle (its sine) do not go on to where they cross, nor for more than so often the gap.
-_ACROSS, _AHEAD = 0.1, 1.5
+#: Lines at a smaller angle (its sine) do not go on to where they cross.
+_ACROSS = 0.1
 #: Shorter edges of one polyline (mm) go into their neighbour: the ROM takes such places for one.
 _LEAST = 1e-3
 #: Ends of neighbours in one entity lie within this of each other, mm.
@@ -260,9 +260,11 @@ def _crossing(one: Edge, other: Edge) -> XY | None:
     area = cross(way, to)
     if abs(area) < _ACROSS * hypot(*way) * hypot(*to):
         return None
-    place = one.at(cross(minus(other.start, one.start), to) / area)
-    most = _AHEAD * distance(one.end, other.start)
-    return place if max(distance(place, one.end), distance(place, other.start)) <= most else None
+    away = minus(other.start, one.start)
+    part, other_part = cross(away, to) / area, cross(away, way) / area
+    place = one.at(part)
+    far = max(distance(place, one.end), distance(place, other.start))
+    return place if part > 0 and other_part < 1 and far <= distance(one.end, other.start) else None
 
 
 class _Graph:
@@ -346,7 +348,7 @@ class _Graph:
         """Find all contours; `styles`: see `chain`."""
         loops = {number for number, (first, last) in enumerate(self.ends) if first == last}
         self.chains.contours += [self.contour([(number, True)], True) for number in sorted(loops)]
-        for part in self.parts([number for number in range(len(self.edges)) if number not in loops]):
+        for part in self.parts(dict.fromkeys(number for number in range(len(self.edges)) if number not in loops)):
             degrees = self.degrees(part)
             if max(degrees.values()) <= 2:
                 (run,) = self.runs(part)

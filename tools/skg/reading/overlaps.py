@@ -10,11 +10,11 @@ from collections import Counter, defaultdict
 from dataclasses import dataclass, field, replace
 from itertools import chain as chained
 
-import numpy as np
 import shapely
 
+from skg.geometry.areas import lines_of
+from skg.geometry.chords import SEEN
 from skg.geometry.contour import Contour, Edge
-from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY
 from skg.reading.chain import Chains, Styles, chained_again
 from skg.reading.overruns import without_end
@@ -42,7 +42,8 @@ def without_overlaps(chains: Chains, tolerance: float, near: float, styles: Styl
     overlaps.whole, kept = _peeled(runs, free, near)
     ends = [(number, is_last) for number in kept for is_last in (False, True) if _ends(runs[number])[is_last] in free]
     towards = [_towards(kept[number], is_last) for number, is_last in ends]
-    neighbours, used = _neighbours(towards, near) if towards else {}, set()
+    on = _on([edge.end for edge in towards], towards, near) if towards else set()
+    neighbours, used = _neighbours({(first, second) for first, second in on if (second, first) in on}), set()
     for first, edge in enumerate(towards):
         for second in neighbours.get(first, ()):
             other = towards[second]
@@ -69,7 +70,8 @@ def _peeled(runs: list[Contour], free: set[XY], near: float) -> tuple[list[tuple
     """Take from the free ends of runs the edges that lie on others: these, each with the one that it lies on, and what
     is left of the runs, by their numbers."""
     every = [edge for run in runs for edge in run.edges]
-    neighbours = _neighbours(every, near)
+    starts, ends = (_on([getattr(edge, side) for edge in every], every, near) for side in ("start", "end"))
+    neighbours = _neighbours(starts & ends)
     gone: list[tuple[Edge, Edge]] = []
     lost: set[int] = set()
     kept: dict[int, Contour] = {}
@@ -91,16 +93,19 @@ def _peeled(runs: list[Contour], free: set[XY], near: float) -> tuple[list[tuple
     return gone, kept
 
 
-def _neighbours(edges: list[Edge], near: float) -> dict[int, list[int]]:
-    """Of lines and arcs by their numbers those of their kind whose boxes come near to theirs."""
-    _, boxes = boxes_of([Contour(tuple(edges), False)])
-    grown = boxes + near * np.array((-1, -1, 1, 1))
-    kinds = np.array([0 if edge.nodes else 1 if edge.is_line else 2 for edge in edges])
-    firsts, seconds = shapely.STRtree(shapely.box(*boxes.T)).query(shapely.box(*grown.T))
-    alike = (firsts != seconds) & (kinds[firsts] == kinds[seconds]) & (kinds[firsts] > 0)
+def _on(places: list[XY], edges: list[Edge], near: float) -> set[tuple[int, int]]:
+    """Pairs of a place and an edge that it lies on, by their numbers."""
+    lines = lines_of([Contour((edge,), False) for edge in edges])
+    pairs = shapely.STRtree(lines).query(shapely.points(places), predicate="dwithin", distance=near + 2 * SEEN)
+    return set(zip(*pairs.tolist(), strict=True))
+
+
+def _neighbours(pairs: set[tuple[int, int]]) -> dict[int, list[int]]:
+    """The second ones of pairs that are not one with itself, by the first ones."""
     result: dict[int, list[int]] = defaultdict(list)
-    for first, second in sorted(zip(firsts[alike].tolist(), seconds[alike].tolist(), strict=True)):
-        result[first].append(second)
+    for first, second in sorted(pairs):
+        if first != second:
+            result[first].append(second)
     return result
 
 
