@@ -15,7 +15,9 @@ from toolhelp import ROOT, Run
 
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.machine import symbols
 from skg.machine.feeding import feed
+from skg.sources import load
 
 NECK = "20 FROM O\n30 C=(3.6,0):.5\n40 CUT X:1,Y:2;X:.1;C;-X:.1;Y:2,-X:1,-Y:2\n70 BACK\n80 END\n"
 #: Examples whose wire spoils something, and why: one outline in two sizes at one place; both halves of a disc.
@@ -195,3 +197,22 @@ def test_a_program_that_is_translated_has_no_lines(run: Run, tmp_path: Path) -> 
     assert not says(done.stdout, re.compile(r"near .*line \d"))
     done = run("check", ROOT / "examples/xy-die-set.xy")
     assert done.exit_code == 0, done.stdout
+
+
+#: FIT behind a sharp inner corner: an arc of 2° that a ROM without the rule of language.md, 4.2, runs round the other
+#: way, through a wall far from it and through its own first side.
+NOSES = {
+    "corner": "R=-2\nCUT (0,0)\nFIT (10,0),88\nFIT (10,1),92\nFIT (9,10)\n",
+    "nose": "R=-.1\nFROM (.5,1)\nCUT -Y\nA=-90\nFIT 1.5#A\nA=A+6\nIF A<1 GOTO 50\nCUT (1.5,3),(0,3)\nBACK\n",
+}
+
+
+@pytest.mark.parametrize("name", NOSES)
+def test_a_wire_that_goes_through_a_wall(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """The ROM, with the look at half a turn taken out, cuts what the reference refuses."""
+    image = bytearray((ROOT / "roms/skg.bin").read_bytes())
+    image[symbols((ROOT / "roms/skg.sym").read_text())["WRAP"]] = 0xC9
+    monkeypatch.setattr(load, "feed", lambda text, rom: feed(text, bytes(image)))
+    code, told = checked(run, tmp_path, numbered(NOSES[name]))
+    assert code == 1 and says(told, "ERR 06 LINE"), told
+    assert says(told, "1.9995 mm" if name == "corner" else "0.0991 mm", "contour")

@@ -1,8 +1,8 @@
 """The wire beside the contours that a program draws: where it cuts into them, where it does not come to.
 
-The reference draws each contour with R 0 and says where the wire goes with the program's R. Neither corners nor
-crossings are looked at: the wire is too near to a contour, or beside a place of it that has room for the wire it never
-was.
+The reference draws each contour with R 0 and says where the wire goes with the program's R; the tape has the way that
+the wire goes in fact. Neither corners nor crossings are looked at: the wire is too near to a contour, or beside a place
+of it that has room for the wire it never was.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY, distance
 from skg.ref.route import Segment
 from skg.ref.values import Curve, Point
+from skg.tape.layout import Laid, PlacedRoute
 from skg.wording import short, shown
 
 #: Ends that are no further apart are one corner, mm.
@@ -53,6 +54,19 @@ class Spoilt:
         return f"{where}: the {self.tool} does not come to the contour there"
 
 
+@dataclass(frozen=True)
+class Refused:
+    """The reference refuses a program that the firmware has cut: its error and line. Behind that line the wire is not
+    laid beside what it draws, but for its way on the tape."""
+
+    error: int
+    line: int | None
+
+    def __str__(self) -> str:
+        where = "" if self.line is None else f" LINE {self.line}"
+        return f"the reference refuses it with ERR {self.error:02d}{where}: behind that the check is not whole"
+
+
 @dataclass
 class _Run:
     """A contour that the wire runs beside at a stretch: what is drawn, where the wire goes, its R of each element.
@@ -73,13 +87,21 @@ class _Run:
 
 
 def look(
-    wires: Sequence[Sequence[Segment]], drawn: Sequence[Sequence[Segment]], tool: str = "wire"
+    wires: Sequence[Sequence[Segment]],
+    drawn: Sequence[Sequence[Segment]],
+    tool: str = "wire",
+    cut: Sequence[PlacedRoute] = (),
+    wanted: Sequence[PlacedRoute] = (),
+    is_whole: bool = True,
 ) -> tuple[list[Spoilt], int]:
     """Lay the wire of each route beside what it draws; return what it spoils, and the number of contours.
 
     `wires`: the segments of the routes with the program's R; `drawn`: with R 0. `tool`: "wire" or "cutter".
+    `cut` and `wanted`: the routes on the tape, and on the reference's where that is another one. Not `is_whole`: the
+    last of the wires breaks off in its route.
     """
-    runs = [run for wire, contour in zip(wires, drawn, strict=True) for run in _runs(wire, contour)]
+    pairs = list(zip(wires, drawn, strict=is_whole))
+    runs = [run for number, pair in enumerate(pairs, 1) for run in _runs(*pair, is_whole or number < len(pairs))]
     if not runs:
         return [], 0
     contours = Pieces((_piece(one), number) for number, run in enumerate(runs) for one in run.drawn)
@@ -88,16 +110,19 @@ def look(
     found = [*_turned(runs)]
     found += _cut_into(runs, contours, offsets, lines)
     found += _into_others(runs, contours, lines)
+    if cut:
+        found += _astray(_cut_pieces(cut), _cut_pieces(wanted), contours, offsets, lines)
     found.sort(key=lambda one: -one.depth)
-    found += _not_reached(runs, contours, offsets, lines)
+    if is_whole:
+        found += _not_reached(runs, contours, offsets, lines)
     return [replace(one, tool=tool) for one in found], len(runs)
 
 
-def _runs(wire: Sequence[Segment], drawn: Sequence[Segment]) -> Iterator[_Run]:
-    """The contours of a route with R, in order."""
+def _runs(wire: Sequence[Segment], drawn: Sequence[Segment], is_whole: bool) -> Iterator[_Run]:
+    """The contours of a route with R, in order; all of it is one where its wire is not whole."""
     groups = [list(group) for group in _beside(wire, lambda segment: segment.offset != 0)]
     offsets = {segment.nominal: float(segment.offset) for group in groups for segment in group}
-    contours = [list(group) for group in _beside(drawn, lambda segment: segment.nominal in offsets)]
+    contours = [list(group) for group in _beside(drawn, lambda segment: not is_whole or segment.nominal in offsets)]
     if len(groups) != len(contours):
         # (an element so short that the wire passes it over has divided one of the two)
         groups, contours = ([[segment for group in some for segment in group]] for some in (groups, contours))
@@ -167,6 +192,14 @@ def _xy(point: Point) -> XY:
     return float(point.x), float(point.y)
 
 
+def _cut_pieces(routes: Sequence[PlacedRoute]) -> Pieces:
+    """What routes on a tape cut, mm; all of it has one owner, 0."""
+    laid = Laid.joined([Laid.of(route.blocks) for route in routes if not route.is_move] or [Laid.of(())])
+    sweeps = np.where(laid.is_line, 0.0, laid.sweeps)
+    places = (side / 1000 for side in (laid.starts, laid.ends, laid.centres))
+    return Pieces.of_columns(*places, sweeps, np.zeros(len(laid), np.int64))
+
+
 def _piece(segment: Segment) -> Piece:
     if not segment.is_arc:
         return Piece(_xy(segment.start), _xy(segment.end))
@@ -187,6 +220,26 @@ def _turned(runs: Sequence[_Run]) -> Iterator[Spoilt]:
                 yield Spoilt(_xy(segment.start), abs(run.r(segment)), segment.line)
 
 
+class _Deepest:
+    """The deepest place of each piece of the contours that the wire comes into."""
+
+    def __init__(self, contours: Pieces, lines: Sequence[int | None]) -> None:
+        self.contours, self.lines = contours, lines
+        self.depths: dict[int, tuple[float, XY]] = {}
+
+    def take(self, piece: Whole, depth: Floats, places: Floats) -> None:
+        """The wire at places, so deep in the pieces nearest to them, mm."""
+        for number in np.flatnonzero(depth > LIMIT).tolist():
+            own = int(piece[number])
+            if depth[number] > self.depths.get(own, (0.0,))[0]:
+                self.depths[own] = float(depth[number]), place_of(places[number])
+
+    def found(self) -> Iterator[Spoilt]:
+        for own, (depth, wire) in sorted(self.depths.items()):
+            place = self.contours.at(np.array([own]), self.contours.part(np.array([wire]), np.array([own])))[0]
+            yield Spoilt(place_of(place), depth, self.lines[own])
+
+
 def _cut_into(runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Sequence[int | None]) -> Iterator[Spoilt]:
     """The deepest place of each piece of a contour that its own wire comes into."""
     least = [min(map(abs, run.offsets.values())) for run in runs]
@@ -197,20 +250,31 @@ def _cut_into(runs: Sequence[_Run], contours: Pieces, offsets: Floats, lines: Se
     ]
     wire, wanted = Pieces((piece, number) for piece, number, _ in parts), np.array([r for _, _, r in parts])
     widest = float(np.abs(offsets).max())
-    deepest: dict[int, tuple[float, XY]] = {}
+    deepest = _Deepest(contours, lines)
     for which, part in wire.batches(_SPACING * float(np.abs(offsets).min()), 2):
         places = wire.at(which, part)
         near = contours.nearest(places, wire.owner[which], widest)
         some = np.flatnonzero(near.own_at >= 0)
         piece = near.own_at[some]
         depth = np.minimum(wanted[which[some]], np.abs(offsets[piece])) - near.own[some]
-        for number in np.flatnonzero(depth > LIMIT).tolist():
-            own = int(piece[number])
-            if depth[number] > deepest.get(own, (0.0,))[0]:
-                deepest[own] = float(depth[number]), place_of(places[some[number]])
-    for own, (depth, _) in sorted(deepest.items()):
-        place = contours.at(np.array([own]), contours.part(np.array([deepest[own][1]]), np.array([own])))[0]
-        yield Spoilt(place_of(place), depth, lines[own])
+        deepest.take(piece, depth, places[some])
+    yield from deepest.found()
+
+
+def _astray(
+    tape: Pieces, wanted: Pieces, contours: Pieces, offsets: Floats, lines: Sequence[int | None]
+) -> Iterator[Spoilt]:
+    """The deepest place of each piece of a contour that the tape's wire comes into off the way on which it is
+    `wanted`."""
+    aside = np.abs(offsets)
+    deepest = _Deepest(contours, lines)
+    for which, part in tape.batches(_SPACING * float(aside.min()), 2):
+        places = tape.at(which, part)
+        places = places[wanted.nearest(places, np.zeros(len(places), int), 2 * LIMIT).own > LIMIT]
+        piece = contours.nearest(places, np.full(len(places), -1), float(aside.max())).other_at
+        places, piece = places[piece >= 0], piece[piece >= 0]
+        deepest.take(piece, aside[piece] - contours.from_place(places, piece), places)
+    yield from deepest.found()
 
 
 def _not_reached(

@@ -23,9 +23,11 @@ from skg.tape.text import TapeFault, scan
 from skg.wording import counted
 
 if TYPE_CHECKING:
-    from skg.checking.wire_fit import Spoilt
+    from skg.checking.wire_fit import Refused, Spoilt
+    from skg.geometry.plane import XY
+    from skg.tape.layout import PlacedRoute
 
-Found = "TapeFault | gcode_reader.GcodeTapeFault | Spoilt"
+Found = "TapeFault | gcode_reader.GcodeTapeFault | Refused | Spoilt"
 
 #: So many findings of a tape are listed; one wrong in its style alone has some in every line.
 MOST = 20
@@ -47,6 +49,7 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     all_findings: list[tuple[str, Found]] = []
     for name in tapes_:
         text = iso_text(name)
+        data = tape_bytes(name) if text is None else text.encode()
         if text is not None:
             program, findings = gcode_reader.scan(text)
             if not as_json:
@@ -54,14 +57,13 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
             for note in program.notes:
                 click.echo(f"skg: {name}: {note}", err=True)
         else:
-            data = tape_bytes(name)
             tape, findings = scan(data, name, positions)
             if not as_json:
                 _list_3b(name, data, tape, findings, list_all)
         all_findings += [(name, finding) for finding in findings]
         if is_program(name):
-            misfits, count = _misfits(name)
-            if count and not as_json:
+            misfits, count = _misfits(name, data)
+            if (count or misfits) and not as_json:
                 _list(name, misfits, f"the path beside {counted(count, 'contour')}", list_all)
             all_findings += [(name, misfit) for misfit in misfits]
     if as_json:
@@ -70,26 +72,47 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
         raise SystemExit(1)
 
 
-def _misfits(name: str) -> tuple[list[Spoilt], int]:
-    """Lay the wire of a program that runs beside what it draws: what it spoils, and how many contours it has."""
+def _misfits(name: str, tape: bytes) -> tuple[list[Spoilt | Refused], int]:
+    """Lay the wire of a program that runs beside what it draws: what it spoils, and how many contours it has.
+
+    `tape`: what it punches.
+    """
     # (slow to import, and not needed for tapes)
-    from skg.checking.wire_fit import look
+    from skg.checking.wire_fit import Refused, look
     from skg.machine.feeding import as_run
     from skg.ref.drawn import routes_of
+    from skg.sources.load import start_of
 
     text = program_text(name)
     program, runs = as_run(text)
     mills = is_milling(text)
-    wires, _ = routes_of(program, runs, mills)
+    wires, result = routes_of(program, runs, mills)
+    refused = [Refused(*result.error)] if result.error else []
     if not any(segment.offset for wire in wires for segment in wire):
-        return [], 0
-    misfits, count = look(wires, drawn_routes(name, program, runs, mills), "cutter" if mills else "wire")
+        return refused, 0
+    drawn = drawn_routes(name, program, runs, mills)
+    # (nearly always they are equal)
+    tapes = () if tape == result.tape else (tape, result.tape)
+    cut = [_placed(tape, start_of(result), mills) for tape in tapes]
+    misfits, count = look(wires, drawn, "cutter" if mills else "wire", *cut, is_whole=not refused)
     # (lines of a program that was translated are nobody's)
-    return [replace(misfit, line=None) for misfit in misfits] if is_rival(name) else misfits, count
+    return [*refused, *(replace(misfit, line=None) if is_rival(name) else misfit for misfit in misfits)], count
+
+
+def _placed(tape: bytes, start: XY, mills: bool) -> list[PlacedRoute]:
+    """The routes on a tape, or in a milling program, that may break off."""
+    from skg.sources.load import lay_out
+
+    if mills:
+        return gcode_reader.scan(tape.decode("ascii"))[0].routes()
+    return lay_out(replace(scan(tape)[0], drift=True), start, "programmed")[0]
 
 
 def _list(
-    name: str, findings: Sequence[TapeFault | gcode_reader.GcodeTapeFault | Spoilt], size: str, list_all: bool
+    name: str,
+    findings: Sequence[TapeFault | gcode_reader.GcodeTapeFault | Refused | Spoilt],
+    size: str,
+    list_all: bool,
 ) -> None:
     """Write the findings of a tape, or that there is none."""
     if not findings:

@@ -9,6 +9,7 @@ from itertools import chain
 import click
 
 from skg.commands.options import decided, feed_option, positions_option
+from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
 from skg.messages.render import text
@@ -16,6 +17,7 @@ from skg.sources.load import load
 from skg.tape.block import Tape
 from skg.tape.controller import drive_steps, stops_in_pairs
 from skg.tape.simulation import Report, closing, duration, simulate
+from skg.tape.text import odd_stops
 
 
 def _text(report: Report, blocks: bool) -> str:
@@ -104,9 +106,14 @@ def command(
     """Follow TAPE step by step as a 3B controller does.
 
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
-    and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input.
+    and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input. Exit code 1
+    with an odd number of stops: a drive's wire would be off where the tape cuts.
     """
     tapes = [load(name) for name in tapes_]
+    odd = {tape.name: why for tape in tapes if (why := odd_stops(tape))}
+    if steps_file and odd:
+        name, why = next(iter(odd.items()))
+        raise UserError(f"{name}: {why}")
     reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
     if steps_file:
         _write_steps(steps_file, tapes)
@@ -117,5 +124,7 @@ def command(
         click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))
     else:
         click.echo("\n".join(_text(report, blocks) for report in reports))
-    if strict_close and not all(report.closed for report in reports):
+    for name, why in odd.items():
+        click.echo(f"skg: {name}: {why}", err=True)
+    if odd or strict_close and not all(report.closed for report in reports):
         raise SystemExit(1)

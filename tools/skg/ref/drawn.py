@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from skg.ref.cutter import Cutter
-from skg.ref.interpreter import Interpreter, carry_out
+from skg.ref.interpreter import Interpreter, Result, carry_out
 from skg.ref.mill.cutter import MillCutter
 from skg.ref.mill.interpreter import MillInterpreter
 from skg.ref.mill.iso import IsoPunch
@@ -57,10 +57,8 @@ class _RecordedMill(_Recorded, MillCutter):
     """The same of a milling machine's tool."""
 
 
-def routes_of(
-    program: str, runs: bool, mills: bool = False, is_drawn: bool = False
-) -> tuple[Routes, tuple[int, int | None] | None]:
-    """Return the routes of a program, without R when they are to be as drawn, and the error and line that ended it.
+def routes_of(program: str, runs: bool, mills: bool = False, is_drawn: bool = False) -> tuple[Routes, Result]:
+    """Return the routes of a program, without R when they are to be as drawn, and its result.
 
     `runs`: the program is RUN once it is loaded. `mills`: it is one of the milling language.
     """
@@ -80,4 +78,4 @@ def routes_of(
         return Recording((), watch, punch)
 
     result = carry_out(machine, program, None, runs)
-    return routes, result.error
+    return routes, result

@@ -50,12 +50,16 @@ def load(name: str, skg80: str | None = None) -> Tape:
     _say_given_up(name, text)
     # (it is needed in any case: only the reference knows where on the drawing the wire is)
     result = _reference(name, text)
-    start = (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
     tape = tapes.parse(result.tape if skg80 == "reference" else _tape_of(name, text, skg80), name)
     if skg80 in (None, "reference"):
         # The standard ROM or the reference as it is.
         tape = replace(tape, drift=True)
-    return replace(tape, start=start)
+    return replace(tape, start=start_of(result))
+
+
+def start_of(result: Result) -> XY:
+    """The place on the drawing where a program's wire starts, mm."""
+    return (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
 
 
 def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
@@ -120,9 +124,9 @@ def drawn_routes(name: str, program: str, runs: bool, mills: bool) -> Routes:
     # (slow to import, and not needed for tapes)
     from skg.ref.drawn import routes_of
 
-    drawn, error = routes_of(program, runs, mills, is_drawn=True)
-    if error:
-        number, line = error
+    drawn, result = routes_of(program, runs, mills, is_drawn=True)
+    if result.error:
+        number, line = result.error
         where = f" LINE {line}" if line is not None else ""
         raise UserError(f"{name}: ERR {number:02d}{where} with R 0: the program draws no contour")
     return drawn
