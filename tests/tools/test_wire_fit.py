@@ -199,7 +199,7 @@ def test_a_program_that_is_translated_has_no_lines(run: Run, tmp_path: Path) -> 
     assert done.exit_code == 0, done.stdout
 
 
-#: FIT behind a sharp inner corner: an arc of 2° that a ROM without the rule of language.md, 4.2, runs round the other
+#: FIT behind a sharp inner corner: an arc of 2° that a ROM without the rule of language.md, section 4.2, runs round the other
 #: way, through a wall far from it and through its own first side.
 NOSES = {
     "corner": "R=-2\nCUT (0,0)\nFIT (10,0),88\nFIT (10,1),92\nFIT (9,10)\n",
