@@ -199,8 +199,8 @@ def test_a_program_that_is_translated_has_no_lines(run: Run, tmp_path: Path) -> 
     assert done.exit_code == 0, done.stdout
 
 
-#: FIT behind a sharp inner corner: an arc of 2° that a ROM without the rule of language.md, section 4.2, runs round the other
-#: way, through a wall far from it and through its own first side.
+#: FIT behind a sharp inner corner: an arc of 2° that a ROM without the rule "The wire may not turn over" (language.md,
+#: section 4.2) runs round the other way, through a wall far from it and through its own first side.
 NOSES = {
     "corner": "R=-2\nCUT (0,0)\nFIT (10,0),88\nFIT (10,1),92\nFIT (9,10)\n",
     "nose": "R=-.1\nFROM (.5,1)\nCUT -Y\nA=-90\nFIT 1.5#A\nA=A+6\nIF A<1 GOTO 50\nCUT (1.5,3),(0,3)\nBACK\n",

@@ -11,7 +11,7 @@ from skg.ref.fit import FittedCurve, Node
 from skg.ref.geometry import enlarged
 from skg.ref.real import NEARLY, ONE, ZERO, Real
 from skg.ref.route import Item, Route, Segment
-from skg.ref.tape import Punch
+from skg.ref.tape import Punch, grid
 from skg.ref.values import ORIGIN, Circle, Line, Point
 
 #: More items than the route buffer of any board has room for (56 KiB, 16 bytes an item).
@@ -71,6 +71,7 @@ class Cutter:
     def position(self, p: Point) -> None:
         """FROM: silent before anything else, then a re-positioning between two stops."""
         p = enlarged(p, self.scale)
+        grid(p)  # (error 10 before anything is done)
         if self.moved:
             self._end_route()
             self.tape.stop()
