@@ -117,6 +117,18 @@ def test_cut_starts_without_the_reference() -> None:
     assert done.stdout == "[]\n"
 
 
+def test_a_plain_dxf_drawing_needs_no_other_reader() -> None:
+    """One of lines, arcs and polylines is read without ezdxf, and without what reads SVG: 75 ms."""
+    text = (
+        "import sys; from skg.reading.read import read; "
+        "data = '0 SECTION 2 ENTITIES 0 CIRCLE 8 0 10 0 20 0 40 9 0 ENDSEC 0 EOF '.replace(' ', chr(10)).encode(); "
+        "assert read(data, 'a.dxf').contours; "
+        "print([name for name in ('ezdxf', 'svgelements', 'tinycss2', 'cssselect2') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
 def test_small_commands_start_fast() -> None:
     """They load no library that takes a tenth of a second and more."""
     text = (

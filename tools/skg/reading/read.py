@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -22,8 +23,9 @@ from skg.geometry.plane import XY, shifted
 from skg.job.read_options import OPEN, START, UNITS, Wishes
 from skg.messages.finding import Finding
 
-# (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it)
-from skg.reading import dxf_entities, dxf_file, svg_file, svg_shapes
+# (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it; what
+# reads SVG is loaded for that alone)
+from skg.reading import dxf_entities, dxf_file
 from skg.reading.account import ASKED, NOT_TOLD, NOTE, TOLD, Account, Content, listed
 from skg.reading.chain import merged
 from skg.reading.selection import Fates, Selection
@@ -48,6 +50,8 @@ _WHOLE = 0.003
 #: Sheets of paper, mm, and the dots in an inch that drawings are in.
 _PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}
 _DOTS = (300, 150, 96, 72)
+#: Beginning of a DXF text file, remarks before it.
+_DXF = re.compile(rb"\s*(?:999\s*\n[^\n]*\n\s*)*0\s+SECTION\s")
 #: Entities that fill an area, without lines around it.
 AREAS = ("HATCH", "MPOLYGON", "SOLID", "TRACE", "3DFACE", "MESH")
 
@@ -154,9 +158,15 @@ def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list
     return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)], report.notes
 
 
+def _is_svg(data: bytes, name: str) -> bool:
+    """Tell whether a file is SVG: by its ending, unless its first lines are those of DXF; else by its first lines."""
+    begin = data[:4096]
+    return b"<svg" in begin or name.lower().endswith((".svg", ".svgz")) and _DXF.match(begin) is None
+
+
 def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """Return a file's content, and an account that has its units."""
-    if svg_file.is_svg(data, name):
+    if _is_svg(data, name):
         if wishes.encoding:
             raise UserError("--encoding is for DXF: an SVG file tells its own")
         return _svg_content(data, name, wishes)
@@ -171,6 +181,8 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
 
 def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
+    from skg.reading import svg_file, svg_shapes  # (slow to import, and no DXF drawing needs them)
+
     page = svg_file.SvgFile(data)
     declared, px = page.units, page.px
     told = TOLD if px == svg_file.PX else f"{TOLD}; {page.guessed}"

@@ -59,16 +59,8 @@ _TRANSFORMS = re.compile(
 )
 #: A point outside a frame by no more than this part of its larger side is within.
 _NEAR_FRAME = 1e-3
-#: Beginning of a DXF text file, remarks before it.
-_DXF = re.compile(rb"\s*(?:999\s*\n[^\n]*\n\s*)*0\s+SECTION\s")
 #: Exceptions of a shape that cannot be read.
 UNREADABLE = (ValueError, TypeError, ArithmeticError, IndexError, KeyError, AttributeError)
-
-
-def is_svg(data: bytes, name: str) -> bool:
-    """Tell whether a file is SVG: by its ending, unless its first lines are those of DXF; else by its first lines."""
-    begin = data[:4096]
-    return b"<svg" in begin or name.lower().endswith((".svg", ".svgz")) and _DXF.match(begin) is None
 
 
 @dataclass(frozen=True)
