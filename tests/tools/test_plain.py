@@ -26,6 +26,22 @@ RECORDS: list[list[list[Group]]] = [
     [[(0, "CIRCLE"), *ENTITY, *LAYER, (100, "AcDbCircle"), *PLACE, (40, "-2")]],
     [[(0, "ARC"), *LAYER, *PLACE, (40, "2"), (50, "350"), (51, "80.5")]],
     [[(0, "ARC"), *ENTITY, *LAYER, (100, "AcDbCircle"), *PLACE, (40, "2"), (100, "AcDbArc"), (50, "9"), (51, "9")]],
+    [[(0, "ELLIPSE"), *LAYER, *PLACE, *OTHER, (40, "0.3"), (41, "0"), (42, "6.283185307179586")]],
+    [
+        [
+            (0, "ELLIPSE"),
+            *ENTITY,
+            *LAYER,
+            (100, "AcDbEllipse"),
+            *PLACE,
+            (30, "0"),
+            *OTHER,
+            (31, "0"),
+            (40, ".7"),
+            (41, "1"),
+            (42, "4"),
+        ]
+    ],
     [[(0, "LWPOLYLINE"), *ENTITY, *LAYER, (100, "AcDbPolyline"), (90, "3"), (70, "1"), (43, "0.0"), *sum(CORNERS, [])]],
     [[(0, "LWPOLYLINE"), *LAYER, (90, "3"), (70, "1"), *sum(CORNERS, [])]],
     [POLYLINE, *([(0, "VERTEX"), *LAYER, *corner] for corner in CORNERS), [(0, "SEQEND"), *LAYER]],

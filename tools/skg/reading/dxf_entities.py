@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
-from math import pi, radians
+from math import pi, radians, sqrt
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -238,6 +238,8 @@ class _Collector:
         if record.kind in fast_dxf.KINDS and (given := fast_dxf.numbers(record)):
             if record.kind == "LINE":
                 return [placing.line(given[:3], given[3:])]
+            if record.kind == "ELLIPSE":
+                return _ellipse(placing, given)
             first, last = map(radians, given[4:] or (0.0, 360.0))
             sweep = swept(first, last) if record.kind == "ARC" else 2 * pi
             return placing.arc(given[:3], given[3], first, sweep)
@@ -265,6 +267,15 @@ def _slow_dxf() -> ModuleType:
     from skg.reading import slow_dxf
 
     return slow_dxf
+
+
+def _ellipse(placing: Placing, given: list[float]) -> list[Edge]:
+    """An ellipse of its centre, axis, ratio and parameters."""
+    x, y, _ = given[3:6]
+    length = sqrt(x * x + y * y)
+    # (the other axis as ezdxf has it, to the last digit)
+    stretch = length * given[6] / length
+    return placing.conic(given[:3], given[3:6], (-y * stretch, x * stretch, 0.0), given[7], swept(*given[7:]))
 
 
 def _is_note(kind: str, is_start: bool) -> bool:

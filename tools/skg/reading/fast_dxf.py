@@ -8,6 +8,7 @@ number) is ezdxf's to understand.
 from __future__ import annotations
 
 from itertools import pairwise
+from math import hypot
 from typing import NamedTuple
 
 from skg.reading.dxf_record import Record
@@ -31,6 +32,11 @@ _FORMS = {
         for classes, more in (((), ()), ((_ENTITY, "AcDbCircle"), ("AcDbArc",)))
         for centre in (_PLACE, _HIGH)
     },
+    "ELLIPSE": {
+        (*classes, *centre, *axis, 40, 41, 42)
+        for classes in ((), (_ENTITY, "AcDbEllipse"))
+        for centre, axis in ((_PLACE, _OTHER_PLACE), (_HIGH, _OTHER_HIGH))
+    },
 }
 #: Of polylines what stands before the vertices, and of each vertex of the older kind; the flags are code 70.
 _HEADS = {
@@ -53,8 +59,10 @@ _VERTICES = {
     for place in (_PLACE, _HIGH)
     for more in ((), (42,), (70,), (70, 42), (42, 70))
 }
-_KNOWN = {10, 20, 30, 11, 21, 31, 38, 40, 42, 43, 50, 51, 66, 70, 90}
+_KNOWN = {10, 20, 30, 11, 21, 31, 38, 40, 41, 42, 43, 50, 51, 66, 70, 90}
 _COUNTS = {66, 70, 90}
+#: No axis is longer.
+_MOST = 1e12
 
 
 class Polyline(NamedTuple):
@@ -66,15 +74,18 @@ class Polyline(NamedTuple):
 
 
 def numbers(record: Record) -> list[float] | None:
-    """A LINE's two places, a CIRCLE's or ARC's centre, radius and angles (degrees): places with x, y and z. None if the
-    record is not plain."""
+    """A LINE's two places, a CIRCLE's or ARC's centre, radius and angles (degrees), an ELLIPSE's centre, axis, ratio
+    and parameters: places with x, y and z. None if the record is not plain, an axis not one in the plane."""
     numbers = _told(record)
     if numbers is None or tuple(numbers[0]) not in _FORMS[record.kind]:
         return None
     values = numbers[1]
-    if 30 in numbers[0]:
-        return values
-    return [*values[:2], 0.0, *values[2:], 0.0] if record.kind == "LINE" else [*values[:2], 0.0, *values[2:]]
+    if 30 not in numbers[0]:
+        second = [*values[2:4], 0.0, *values[4:]] if record.kind in ("LINE", "ELLIPSE") else values[2:]
+        values = [*values[:2], 0.0, *second]
+    if record.kind == "ELLIPSE" and (values[5] != 0 or not 0 < hypot(*values[3:5]) < _MOST):
+        return None
+    return values
 
 
 def polyline(record: Record) -> Polyline | None:
