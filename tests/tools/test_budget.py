@@ -13,6 +13,7 @@ from test_reading import checked, raw, square
 from toolhelp import Run
 
 from skg.errors import UserError
+from skg.messages.render import text
 from skg.reading import budget
 from skg.reading.read import Reading, Wishes, read
 
@@ -189,5 +190,5 @@ def test_numbers_that_are_too_large() -> None:
     odd = ["ARC 8 0 10 5 20 5 40 3 50 0 51 1e300", "ELLIPSE 8 0 10 5 20 5 11 1 21 1 40 .5 41 0 42 1e400",
            "LWPOLYLINE 8 0 90 2 70 1e400 10 0 20 0 10 9 20 0", "LINE 8 0 62 1e400 10 0 20 0 11 9 21 1"]  # fmt: skip
     reading = checked(raw(*square(0, 0, 9), *odd))
-    reasons = [entity.left for entity in reading.report.not_understood]
+    reasons = [text(entity.left) for entity in reading.report.not_understood]
     assert len(reasons) == len(odd) and all(says(reason, "too large") for reason in reasons)

@@ -15,6 +15,7 @@ from toolhelp import least_time
 
 from skg.errors import UserError
 from skg.geometry.plane import distance
+from skg.messages.render import text
 from skg.reading.dxf_placing import LEAVES
 from skg.reading.read import Reading, read
 
@@ -92,7 +93,7 @@ def types(*entities: str) -> bytes:
 def test_solids_are_named() -> None:
     """Solids are listed with advice to the user, a region with the advice to explode it."""
     solids = [f"{kind} 8 0 100 AcDbModelerGeometry 70 1" for kind in ("3DSOLID", "EXTRUDEDSURFACE", "REGION")]
-    reasons = [f"{one.kind}: {one.left}" for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
+    reasons = [f"{one.kind}: {text(one.left)}" for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
     solid = "solid", "outline"
     assert each_says(reasons, ("3DSOLID: ", *solid), ("EXTRUDEDSURFACE: ", *solid), ("REGION: ", "ACIS", "lines"))
 
@@ -102,7 +103,7 @@ def test_a_polyline_that_is_not_read_is_placed_at_its_first_corner() -> None:
     corners = "".join(f"\n0\nVERTEX\n8\n0\n10\n{x}\n20\n7\n30\n{z}\n70\n32" for x, z in ((40, 0), (60, 5), (60, 9)))
     tilted = "POLYLINE 8 0 66 1 70 9 10 0 20 0" + corners + "\n0\nSEQEND"
     (left,) = checked(raw(*square(0, 0, 9), tilted)).report.not_understood
-    assert left.place == (40, 7) and says(left.left, "plane", "flat")
+    assert left.place == (40, 7) and says(text(left.left), "plane", "flat")
 
 
 @pytest.mark.parametrize(("plane", "upwards"), [("xz", "y"), ("yz", "x")])
@@ -324,4 +325,4 @@ def test_half_a_place(half: str) -> None:
         raw(line(0, 0, 9, 0), half).replace(b"0\nSECTION\n2\nENT", CORNER.encode() + b"0\nSECTION\n2\nENT")
     )
     assert [entity.kind for entity in reading.report.not_understood] == [half.split()[0]]
-    assert "missing" in reading.report.not_understood[0].left
+    assert "missing" in text(reading.report.not_understood[0].left)

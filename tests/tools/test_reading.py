@@ -23,6 +23,7 @@ from toolhelp import Run, least_time
 from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.plane import XY, distance
+from skg.messages.render import text
 from skg.reading import dxf_file
 from skg.reading.read import Reading, Wishes, read
 from skg.wording import short
@@ -99,7 +100,7 @@ def left(reading: Reading) -> dict[str, int]:
     found: dict[str, int] = {}
     for layer in reading.report.layers:
         for why, kinds in layer.why.items():
-            found[why] = found.get(why, 0) + kinds.total()
+            found[text(why)] = found.get(text(why), 0) + kinds.total()
     return found
 
 
@@ -656,7 +657,7 @@ def test_units() -> None:
     inches = raw(*square(0, 0, 2), header="9\n$INSUNITS\n70\n1\n")
     assert read(inches, "a.dxf").report.size == (50.8, 50.8)
     assert says(read(inches, "a.dxf").report.lines()[0], "50.8 x 50.8 mm", "inch", "file")
-    assert says(read(raw(*square(0, 0, 20)), "a.dxf").report.units_from, "file", "not")
+    assert says(text(read(raw(*square(0, 0, 20)), "a.dxf").report.told), "file", "not")
     assert read(raw(*square(0, 0, 2)), "a.dxf", Wishes(units="foot")).report.size == pytest.approx((609.6, 609.6))
     with pytest.raises(UserError, match=pattern("--units", "50.8 x 50.8 mm in inch", "20 x 20 mm in cm")):
         read(raw(*square(0, 0, 2)), "a.dxf")
@@ -1029,7 +1030,7 @@ def test_every_unit_that_a_file_tells(code: int) -> None:
         corners = [(0, 0), (side, 0), (side, side), (0, side), (0, 0)]
         square = (line(*(f"{value:.17g}" for value in (*p, *q))) for p, q in pairwise(corners))
         report = read(raw(*square, header=f"9\n$INSUNITS\n70\n{code}\n"), "part.dxf").report
-        assert report.size == pytest.approx((100, 100), rel=1e-6) and says(report.units_from, "as", "file")
+        assert report.size == pytest.approx((100, 100), rel=1e-6) and says(text(report.told), "as", "file")
 
 
 def test_characters_that_are_told_by_numbers() -> None:
@@ -1124,7 +1125,7 @@ def test_svg_shapes() -> None:
         '<line x1="5" y1="95" x2="9" y2="95"/><text x="1" y="1">A</text><path d="M0 0"/>'
     )
     report = reading.report
-    assert report.units == "mm" and says(report.units_from, "as", "file")
+    assert report.units == "mm" and says(text(report.told), "as", "file")
     assert [contour.is_closed for contour in reading.contours] == [True] * 9 + [False]
     assert sorted(reading.contours[0].points())[0] == pytest.approx((10, 40))
     assert len(reading.contours[1].edges) == 8
@@ -1150,8 +1151,8 @@ def test_svg_page_in_mm_without_a_view_box(program: str, pixels: int) -> None:
     reading = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes())
     report = reading.report
     assert report.size == pytest.approx((100, 10)) and report.low == pytest.approx((20, 90))
-    assert report.units == "mm" and says(report.units_from, "as", "file")
-    assert ("Inkscape" in report.units_from) == bool(program)
+    assert report.units == "mm" and says(text(report.told), "as", "file")
+    assert ("Inkscape" in text(report.told)) == bool(program)
     inches = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes(units="inch"))
     assert inches.report.size == pytest.approx((2540, 254))
 

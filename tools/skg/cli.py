@@ -16,6 +16,7 @@ import click
 
 from skg.errors import UserError
 from skg.garbage import collect_rarely
+from skg.messages.finding import Finding
 
 # numpy's linear algebra, which skg does without, would start a thread for each processor: a quarter of a short run.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -44,7 +45,7 @@ class _Closed(io.TextIOBase):
     """A standard output that was closed before the program began: what is written there is not lost in silence."""
 
     def write(self, _text: str) -> NoReturn:
-        raise UserError("standard output: closed")
+        raise UserError(Finding("stdout-closed"))
 
     @property
     def buffer(self) -> NoReturn:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from skg.messages.finding import Finding, Phrase
+
+if TYPE_CHECKING:
+    from skg.messages.render import Speech
 
 
 class UserError(Exception):
@@ -16,11 +21,13 @@ class UserError(Exception):
             finding = Finding("plain", text=finding, contour=contour, place=place)
         super().__init__(finding)
         self.finding = finding
+        #: The language and the medium of its text, where they are not the process's.
+        self.way: Speech | None = None
 
     def __str__(self) -> str:
         from skg.messages.render import line
 
-        return line(self.finding)
+        return line(self.finding, self.way)
 
     @property
     def contour(self) -> int | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 
 TAPE, PROGRAM, GCODE, DRAWING = "a 3B tape", "an SKG program", "G-code", "a DXF drawing"
 #: Beginnings of files, in the order in which they are tried. (possessive: a file of comments alone takes no time)
@@ -41,4 +42,4 @@ def refuse_others(data: bytes, name: str, expected: str) -> None:
     """Raise a `UserError` when a file shows that it is not what is expected, such as `TAPE`, but of another kind."""
     kind = kind_of(data)
     if kind not in ("", expected):
-        raise UserError(f"{name}: {kind}, expected {expected}")
+        raise UserError(Finding("other-kind", kind=kind, expected=expected).within(name))

@@ -15,9 +15,10 @@ from typing import BinaryIO, TextIO
 
 from skg.errors import UserError
 from skg.file_type import named
+from skg.messages.finding import Finding
 
 #: Control characters that stop the board.
-_STOPS = {b"\x03": "a ctrl-C breaks LOAD off: delete it", b"\x13": "a ctrl-S holds the board: delete it"}
+_STOPS = {b"\x03": "ctrl-c", b"\x13": "ctrl-s"}
 #: These, letters of UTF-8 and other bytes that are not ASCII.
 _ODD = re.compile(rb"[\x03\x13]|[\xc0-\xff][\x80-\xbf]+|[\x80-\xff]")
 
@@ -31,7 +32,7 @@ def read_bytes(path: str) -> bytes:
             # (a read that fails names no file)
             raise OSError(error.errno, error.strerror, path) from None
     if sys.stdin is None:
-        raise UserError("standard input: closed")
+        raise UserError(Finding("stdin-closed"))
     return sys.stdin.buffer.read()
 
 
@@ -54,8 +55,11 @@ def board_text(data: bytes, name: str) -> str:
     text = without_mark(data).partition(b"\x1a")[0]
     if odd := _ODD.search(text):
         line = len(re.findall(rb"\r\n|[\r\n]", text[: odd.start()])) + 1
-        what = _STOPS.get(odd[0]) or f"{odd[0].decode('utf-8', 'replace')!r} is not ASCII"
-        raise UserError(f"{name}: {named(data)}line {line}: {what}")
+        about = {"kind": named(data), "line": line}
+        character = odd[0].decode("utf-8", "replace")
+        code = _STOPS.get(odd[0])
+        finding = Finding(code, **about) if code else Finding("not-ascii", character=character, **about)
+        raise UserError(finding.within(name))
     return text.decode("ascii")
 
 
@@ -117,7 +121,7 @@ def binary_output(path: str) -> Iterator[BinaryIO]:
             yield stream
         return
     if sys.stdout is None:
-        raise UserError("standard output: closed")
+        raise UserError(Finding("stdout-closed"))
     yield sys.stdout.buffer
     sys.stdout.buffer.flush()
 
@@ -134,7 +138,7 @@ def text_output(path: str) -> Iterator[TextIO]:
                 stream.detach()
         return
     if sys.stdout is None:
-        raise UserError("standard output: closed")
+        raise UserError(Finding("stdout-closed"))
     yield sys.stdout
     sys.stdout.flush()
 

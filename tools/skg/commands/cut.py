@@ -35,7 +35,7 @@ from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES, Partial, Wanted
 from skg.messages.finding import Finding
-from skg.messages.render import Medium, data, line, speech
+from skg.messages.render import Medium, Speech, data, line, speech, text
 from skg.reading.read import Wishes, layer_lines
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class JobValue(click.ParamType):
         try:
             return self.check(value)
         except values.Wrong as wrong:
-            return self.fail(f"{value!r}: {wrong}", param, ctx)
+            return self.fail(f"{value!r}: {text(wrong.why)}", param, ctx)
 
 
 #: Numbers with commas between them, none below 0, such as 0.06,0.02,0.
@@ -209,30 +209,31 @@ def command(
     followed with the controller's simulation and compared with the drawing before it is written. The report goes to
     standard error. FILE - is the standard input.
     """
-    speech.medium = Medium.JOB if is_job_file(file) else Medium.COMMAND
+    way = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
     try:
         report = _cut(context, file, output, list_layers, program, sheet, save_job, **options)
     except UserError as error:
         if not in_json:
+            error.way = way
             raise
-        click.echo(json.dumps({"error": data(error.finding)}), err=True)
+        click.echo(json.dumps({"error": data(error.finding, way)}), err=True)
         sys.exit(2)
     if report is None:
         return
     cut, more = report
     if in_json:
-        click.echo(json.dumps(_in_json(cut, more)), err=True)
+        click.echo(json.dumps(_in_json(cut, more, way)), err=True)
         return
     for finding in (*cut.findings, *more):
         if finding.severity.is_kept or not quiet:
-            click.echo(line(finding), err=True)
+            click.echo(line(finding, way), err=True)
 
 
-def _in_json(cut: CutDrawing, more: list[Finding]) -> dict[str, object]:
+def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, object]:
     """The report as plain data; lengths in mm."""
     result = cut.result
     return {
-        "findings": [data(finding) for finding in (*cut.findings, *more)],
+        "findings": [data(finding, way) for finding in (*cut.findings, *more)],
         "blocks": len(result.tape.blocks),
         "stops": len(result.tape.stops),
         "length": round(result.cut_length, 4),
@@ -295,10 +296,7 @@ def is_job_file(name: str) -> bool:
 def _asked(file: str, starts: tuple[XY, ...], **options: object) -> Job:
     """The job that the options ask for: they are named as the fields of its parts."""
     job = Job("standard input" if file == "-" else Path(file).name, starts=starts)
-    try:
-        machine = replace(job.machine, **_said(options, job.machine))
-    except UserError as error:
-        raise UserError(f"--{error}") from None
+    machine = replace(job.machine, **_said(options, job.machine))
     usual = Wanted()
     wanted = {name: value for name, value in _said(options, usual).items() if value != getattr(usual, name)}
     wanted.pop("offset", None)  # the machine's
@@ -316,23 +314,23 @@ def _loaded(file: str, context: click.Context) -> tuple[Job, str]:
     for parameter in context.command.params:
         is_given = context.get_parameter_source(parameter.name) is ParameterSource.COMMANDLINE
         if is_given and parameter.name not in _BESIDE_A_JOB:
-            raise UserError(f"{file}: {parameter.opts[0]} stands in the job file: change it there")
+            raise UserError(Finding("option-in-job", option=parameter.opts[0]).within(file))
     job = job_files.decoded(read_bytes(file), file)
     path = Path(file).parent / job.drawing
     if not path.is_file():
-        raise UserError(f"{file}: its drawing {job.drawing} is not beside it: put it there, or change drawing")
+        raise UserError(Finding("drawing-not-there", drawing=job.drawing).within(file))
     return job, str(path)
 
 
 def _refuse_onto_drawing(path: str, written: tuple[str | None, ...]) -> None:
     for name in filter(None, written):
         if name != "-" and realpath(name) == realpath(path):
-            raise UserError(f"{name}: to be written, and read by the same command")
+            raise UserError(Finding("read-and-written").within(name))
 
 
 def _refuse_elsewhere(save_job: str, path: str) -> None:
     """A job names its drawing, which lies beside it."""
     if not is_job_file(save_job):
-        raise UserError(f"{save_job}: expected a name that ends in .job.toml")
+        raise UserError(Finding("not-job-name").within(save_job))
     if path == "-" or Path(realpath(save_job)).parent != Path(realpath(path)).parent:
-        raise UserError(f"{save_job}: a job file lies beside its drawing: {path}")
+        raise UserError(Finding("job-elsewhere", drawing=path).within(save_job))

@@ -8,6 +8,7 @@ from skg.commands.options import decided, output_option, positions_option, skg80
 from skg.errors import UserError
 from skg.files import text_output
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 
 
 @click.command(name="dxf")
@@ -31,7 +32,7 @@ def command(file: str, output: str, start: XY | None, polylines: bool, positions
 
     if program := iso_program(file, skg80):
         if start:
-            raise UserError(f"{file}: an ISO tape has its own places: --start is for 3B")
+            raise UserError(Finding("iso-has-places").within(file))
         if heights := program.heights():
             click.echo(f"skg: {file}: all in one plane: {heights}", err=True)
         with text_output(output) as stream:

@@ -8,6 +8,7 @@ from skg.commands.options import Numbers, decided, output_option, positions_opti
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 from skg.sources.load import gcode_text, iso_of, iso_text, load
 from skg.tape import gcode
 from skg.tape.block import micrometres
@@ -23,7 +24,7 @@ def _feeds(feed: tuple[float, ...] | None) -> tuple[float, float]:
         click.echo(f"skg: F{FEED:g} mm/min, no --feed was given", err=True)
         return FEED, FEED
     if min(feed) < 0.001:
-        raise UserError(f"--feed {min(feed):g}: expected 0.001 mm/min or more")
+        raise UserError(Finding("feed-too-small", feed=min(feed)))
     return feed[0], feed[-1]
 
 
@@ -32,7 +33,7 @@ def _heights(heights: tuple[float, ...] | None) -> tuple[int, int] | None:
         return None
     low, high = micrometres(heights[0]), micrometres(heights[1] if len(heights) == 2 else 5.0)
     if high < low:
-        raise UserError(f"--z: the travel height {high / 1000:g} lies below the cutting height {low / 1000:g}")
+        raise UserError(Finding("z-too-low", high=high / 1000, low=low / 1000))
     return low, high
 
 
@@ -73,7 +74,7 @@ def command(
         return
     if not gcode.is_gcode(source) and (iso := iso_text(source)) is not None:
         if start or feed or heights:
-            raise UserError(f"{source}: a milling program says its own places, feeds and heights")
+            raise UserError(Finding("mill-has-all").within(source))
         write_bytes(output, iso.encode())
         return
     tape = load(source)

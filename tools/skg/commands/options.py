@@ -35,9 +35,9 @@ def picture_format(output: str, form: str | None, also: str = "") -> str:
     """
     result = form or ("svg" if output == "-" else Path(output).suffix.lstrip(".").lower())
     if result not in FORMATS:
-        raise UserError(f"{output}: expected a name that ends in .svg, .png or .pdf{also}")
+        raise UserError(Finding("picture-name", also=also).within(output))
     if find_spec("matplotlib") is None:
-        raise UserError(f"{output}: pictures need matplotlib, install it beside skg (pipx inject skg-nc matplotlib)")
+        raise UserError(Finding("needs-matplotlib").within(output))
     return result
 
 
@@ -95,15 +95,15 @@ def _refuse_onto(context: click.Context) -> None:
     for parameter in context.command.params:
         if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name]) is not None:
             if value == "":
-                raise UserError(f"{parameter.human_readable_name}: empty file name")
+                raise UserError(Finding("empty-file-name").within(parameter.human_readable_name))
             is_read = isinstance(parameter, click.Argument) or parameter.name == "answers"
             (read if is_read else written).extend(map(str, value if isinstance(value, tuple) else [value]))
     if written.count("-") > 1:
-        raise UserError("-: two files for the standard output")
+        raise UserError(Finding("two-on-stdout").within("-"))
     real = [name for name in written if name != "-" and (not Path(name).exists() or Path(name).is_file())]
     for index, name in enumerate(real):
         if any(realpath(name) == realpath(other) for other in [*read, *real[:index]] if other != "-"):
-            raise UserError(f"{name}: to be written, and read or written by the same command")
+            raise UserError(Finding("written-twice").within(name))
 
 
 def answers_option(function: Callable) -> Callable:

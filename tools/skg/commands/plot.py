@@ -20,6 +20,7 @@ from skg.commands.options import (
 )
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 
 if TYPE_CHECKING:
     from skg.pictures.plot import Sheet
@@ -81,7 +82,7 @@ def command(
     ]
     sheets, stops = [sheet for sheet, _ in laid], [places for _, places in laid]
     if not any(sheet.routes for sheet in sheets):
-        raise UserError(f"{files[0]}: nothing to draw, the tape has no blocks")
+        raise UserError(Finding("nothing-to-draw").within(files[0]))
     picture = Picture(sheets, scale, title)
     for index, sheet in enumerate(sheets):
         picture.draw(sheet, COLOURS[index % len(COLOURS)], f"tape-{index + 1}", wire, not no_arrows, blocks)

@@ -14,6 +14,7 @@ from skg.files import board_text, read_bytes, write_bytes
 from skg.machine.board import Board, BoardStopped
 from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
 from skg.machine.roms import ROMS, known_rom
+from skg.messages.finding import Finding
 from skg.messages.render import line
 from skg.sources.load import program_text
 from skg.sources.milling import MILL_ROM, is_milling
@@ -54,7 +55,7 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     found no answer or the machine halted, 2 for wrong usage, files and ROMs, 3 when --max-cycles were not enough.
     """
     if part == answers == "-":
-        raise UserError("the program and the answers cannot both come from the standard input")
+        raise UserError(Finding("program-and-answers"))
     text, line_begins = program_text(part), True
 
     if rom is None:

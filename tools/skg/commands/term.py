@@ -14,6 +14,7 @@ import click
 from skg.commands.options import Seconds
 from skg.errors import UserError
 from skg.files import read_bytes
+from skg.messages.finding import Finding
 
 if TYPE_CHECKING:
     from skg.machine.teletype import Port, Teletype
@@ -108,7 +109,7 @@ def command(
         raise click.UsageError("--unnumbered goes with --send and --run")
     baud = baud or BOARD_BAUD.get(board, DEFAULT_BAUD)
     if punch_port and os.path.realpath(punch_port) == os.path.realpath(port):
-        raise UserError(f"{punch_port}: the teletype's port too: --punch-port is for a punch on one of its own")
+        raise UserError(Finding("punch-on-port").within(punch_port))
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
     if patience is None:
         patience = 0.0 if is_attended else UNATTENDED_PATIENCE

@@ -9,6 +9,7 @@ from threading import Thread
 import click
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 
 
 @click.command(name="ui")
@@ -38,7 +39,7 @@ def command(file: Path | None, port: int, no_browser: bool) -> None:
         try:
             server = Server(port, session)
         except OSError as error:
-            raise UserError(f"port {port}: {error.strerror}") from None
+            raise UserError(Finding("port-failed", port=port, detail=error.strerror)) from None
         with server:
             session.begin(file)
             click.echo(server.url)

@@ -14,6 +14,7 @@ from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY
 from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
+from skg.messages.finding import Finding
 from skg.planning.plan import plan
 
 #: Largest deviation of FIT from the cam between its nodes, mm.
@@ -93,9 +94,7 @@ class Cam:
         """The profile, counter-clockwise. A cam that cannot be is a `UserError`."""
         stations = [0.0, *(radians(turn) for turn in accumulate((self.rise, self.dwell, self.fall)))]
         if stations[-1] > 2 * pi + 1e-9:
-            raise UserError(
-                f"rise, dwell and fall make {self.rise + self.dwell + self.fall:g} degrees, more than a turn"
-            )
+            raise UserError(Finding("cam-over-a-turn", degrees=self.rise + self.dwell + self.fall))
         self._refuse_undercut()
         edges: list[Edge] = []
         for low, high, is_dwell in zip(stations, [*stations[1:], 2 * pi], (False, True, False, True), strict=True):
@@ -120,8 +119,4 @@ class Cam:
             r = self.base + self.roller / 2 + height
             bend = (r**2 + 2 * slope**2 - r * more) / hypot(r, slope) ** 3
             if bend * self.roller / 2 >= 1:
-                raise UserError(
-                    f"at {step / 10:g} degrees the roller's path bends more tightly ({1 / bend:.3f} mm) than the "
-                    "roller: "
-                    "a larger --base, a smaller --roller or --lift, or a longer rise"
-                )
+                raise UserError(Finding("cam-undercut", degrees=step / 10, bend=1 / bend))

@@ -18,6 +18,7 @@ from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY, polar
 from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
+from skg.messages.finding import Finding
 from skg.planning.plan import plan
 from skg.planning.route import PlannedContour
 from skg.tape.block import MAX_DIGITS
@@ -109,18 +110,18 @@ class Gear:
     def _refuse(self) -> None:
         if self.tip_radius >= _TOO_LARGE:
             # (blocks of the tip circle would have its radius in them)
-            raise UserError(f"the tip circle has a radius of {self.tip_radius / 1000:g} m, a tape ends at 100 m")
+            raise UserError(Finding("gear-too-large", radius=self.tip_radius / 1000))
         if self.root_radius <= 0:
-            raise UserError(f"{self.teeth} teeth leave no room inside the root circle: more teeth, or a larger --shift")
+            raise UserError(Finding("gear-no-root", teeth=self.teeth))
         if self.half_angle(self.tip_radius) <= 0:
-            raise UserError("the teeth come to a point below their tips: a smaller --shift or --pressure-angle")
+            raise UserError(Finding("gear-pointed"))
         if self.half_angle(max(self.root_radius, self.base_radius)) >= pi / self.teeth:
-            raise UserError("there is no gap left between the teeth at their roots: another --shift")
+            raise UserError(Finding("gear-no-gap"))
         reach = max(self.bore / 2, self.key_depth - self.bore / 2)
         if self.bore and reach >= self.root_radius:
-            raise UserError(f"the bore reaches {reach:g} mm from the centre, the root circle has {self.root_radius:g}")
+            raise UserError(Finding("gear-bore", reach=reach, root=self.root_radius))
         if self.key_width and not (self.key_width < self.bore < self.key_depth):
-            raise UserError("a keyway is narrower than the bore, and its depth from the far side is more than the bore")
+            raise UserError(Finding("gear-keyway"))
 
     def _root(self) -> tuple[float, float, XY]:
         """Return the root fillet's contacts: its angle beside the tooth's middle on the root circle, its radius on the
@@ -137,7 +138,7 @@ class Gear:
         else:
             angle, touch = low + asin(f / centre), sqrt(centre**2 - f**2)
         if angle >= pi / self.teeth or touch > self.tip_radius or (roll <= 0 and touch > max(rb, rf)):
-            raise UserError(f"a root fillet of {f:g} mm does not fit between the teeth: a smaller --fillet")
+            raise UserError(Finding("gear-fillet", fillet=f))
         return angle, touch, (centre, angle)
 
     def _outline(self) -> Contour:

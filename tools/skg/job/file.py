@@ -18,6 +18,7 @@ from skg.job import values
 from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import LEAD_SHAPES, SIDES, Partial
+from skg.messages.finding import Finding
 
 #: The version of the file's form.
 SCHEMA = 1
@@ -84,7 +85,8 @@ def load(text: str, name: str) -> Job:
         data = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
         # (an int of more than 4,300 digits is a plain ValueError)
-        raise UserError(f"{name}: no TOML: {error or 'nested too deeply'}") from None
+        detail = str(error) or "nested too deeply"
+        raise UserError(Finding("not-toml", detail=detail).within(name)) from None
     return from_data(data, name)
 
 
@@ -93,7 +95,7 @@ def decoded(data: bytes, name: str) -> Job:
     try:
         text = data.decode("utf-8-sig", _ODD)
     except UnicodeDecodeError as error:
-        raise UserError(f"{name}: byte {error.start + 1} is no UTF-8") from None
+        raise UserError(Finding("not-utf-8", number=error.start + 1).within(name)) from None
     return load(text, name)
 
 
@@ -109,7 +111,8 @@ def from_data(data: object, name: str) -> Job:
     settings = _checked({key: value for key, value in top.items() if key in _TOP}, _TOP, name)
     for key in ("schema", "drawing"):
         if key not in settings:
-            raise UserError(f"{name}: {key} is missing" + f": schema = {SCHEMA}" * (key == "schema"))
+            missing = Finding("schema-missing", schema=SCHEMA) if key == "schema" else Finding("key-missing", key=key)
+            raise UserError(missing.within(name))
     del settings["schema"]
     tables = {
         key: _checked(_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
@@ -121,7 +124,7 @@ def from_data(data: object, name: str) -> Job:
     try:
         machine = MachineSetup(**tables["machine"])
     except UserError as error:
-        raise UserError(f"{name}: [machine]: {error}") from None
+        raise error.within(name, "[machine]") from None
     read = Wishes(**{"open": None, **tables["read"]})
     return Job(
         read=read, machine=machine, default=Partial(**tables["default"]), layers=layers, contours=contours, **settings
@@ -133,7 +136,7 @@ def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, P
     for entry, where in entries:
         layer = _required(entry, ("name",), where)[0]
         if layer.lower() in map(str.lower, layers):
-            raise UserError(f"{where}: layer {layer} is there twice")
+            raise UserError(Finding("layer-twice", layer=layer).within(where))
         layers[layer] = Partial(**entry)
     return layers
 
@@ -147,7 +150,7 @@ def _required(table: dict[str, Any], keys: tuple[str, ...], where: str) -> list[
     """Take values out that must be there."""
     for key in keys:
         if key not in table:
-            raise UserError(f"{where}: {key} is missing")
+            raise UserError(Finding("key-missing", key=key).within(where))
     return [table.pop(key) for key in keys]
 
 
@@ -156,14 +159,14 @@ def _refuse_twins(contours: tuple[Chosen, ...], name: str) -> None:
     for number, chosen in enumerate(contours, 1):
         first = seen.setdefault(replace(chosen, partial=Partial()), number)
         if first != number:
-            raise UserError(f"{name}: [[contour]] {number}: it is the same one as [[contour]] {first}")
+            raise UserError(Finding("contour-twice", first=first).within(name, f"[[contour]] {number}"))
 
 
 def _list(top: Mapping[str, Any], key: str, name: str) -> list[tuple[dict[str, Any], str]]:
     """The entries of a list of tables, checked, each with its place."""
     entries = top.get(key, [])
     if not isinstance(entries, list):
-        raise UserError(f"{name}: {key}: expected [[{key}]], a list of tables")
+        raise UserError(Finding("expected-tables", key=key).within(name))
     tables = []
     for number, entry in enumerate(entries, 1):
         where = f"{name}: [[{key}]] {number}"
@@ -173,7 +176,7 @@ def _list(top: Mapping[str, Any], key: str, name: str) -> list[tuple[dict[str, A
 
 def _table(data: object, where: str) -> dict[str, Any]:
     if not isinstance(data, dict):
-        raise UserError(f"{where}: expected a table of keys")
+        raise UserError(Finding("expected-table").within(where))
     return data
 
 
@@ -181,8 +184,10 @@ def _refuse_unknown(data: Mapping[str, Any], keys: Mapping[str, object], where: 
     for key in data:
         if key not in keys:
             near = get_close_matches(str(key), keys, 1, 0.5)
-            hint = f"did you mean {near[0]}?" if near else f"expected {', '.join(keys)}"
-            raise UserError(f"{where}: unknown key {str(key)[:40]!r}, {hint}")
+            short_key = str(key)[:40]
+            unknown = Finding("unknown-key", key=short_key, keys=tuple(keys))
+            close = Finding("unknown-key-near", key=short_key, near=near[0]) if near else unknown
+            raise UserError(close.within(where))
 
 
 def _checked(data: Mapping[str, Any], keys: Mapping[str, values.Check], where: str) -> dict[str, Any]:
@@ -193,7 +198,8 @@ def _checked(data: Mapping[str, Any], keys: Mapping[str, values.Check], where: s
         try:
             checked[key] = keys[key](value)
         except values.Wrong as wrong:
-            raise UserError(f"{where}: {key} = {_told(value)}: {wrong}") from None
+            finding = Finding("wrong-value", key=key, value=_told(value), wrong=wrong.why)
+            raise UserError(finding.within(where)) from None
     return checked
 
 

@@ -10,7 +10,7 @@ from skg.geometry.plane import XY
 from skg.job.read_options import Wishes
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import Partial, Wanted
-from skg.messages.finding import Phrase
+from skg.messages.finding import Finding, Phrase
 
 #: A box: its smallest x and y, its largest x and y, mm.
 Box = tuple[float, float, float, float]
@@ -44,13 +44,11 @@ class MachineSetup:
 
     def __post_init__(self) -> None:
         if self.offset is not None and (self.wire is not None or self.gap):
-            raise UserError("offset and wire with gap say the same thing: give one of them")
+            raise UserError(Finding("offset-and-wire"))
         if self.gap and self.wire is None:
-            raise UserError("gap goes with wire")
+            raise UserError(Finding("gap-without-wire"))
         if self.distance > MOST_OFFSET:
-            raise UserError(
-                f"wire and gap put the wire {self.distance:g} mm beside the contour, at most {MOST_OFFSET:g}"
-            )
+            raise UserError(Finding("offset-too-large", distance=self.distance, most=MOST_OFFSET))
 
     @property
     def is_without_drift(self) -> bool:

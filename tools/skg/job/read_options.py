@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from skg.errors import UserError
+from skg.messages.finding import Finding, Phrase
 
 #: mm in one unit of a file.
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8, "mil": 0.0254, "um": 0.001}
@@ -15,7 +16,8 @@ MEET = 0.005
 #: Settings for open contours; "all" cuts lines at junctions as well.
 OPEN = ("cut", "leave", "refuse", "all")
 #: Reasons for leaving a layer: not among those asked for, or not seen.
-_NOT_ASKED, _HIDDEN = "not asked for", "the layer is "
+_NOT_ASKED = Phrase("reason-not-asked")
+_HIDDEN = {"off": Phrase("reason-layer-off"), "frozen": Phrase("reason-layer-frozen")}
 #: The layer whose points are start holes, where no other one is asked for.
 START = "START"
 
@@ -43,26 +45,32 @@ class Wishes:
         names = {name.lower(): name for name in known}
         for layer in self.layers:
             if layer.lower() not in names:
-                near = "".join(f", did you mean {names[name]}?" for name in get_close_matches(layer.lower(), names, 1))
-                has = ", ".join(sorted(names.values())) or "none"
-                raise UserError(f"no layer {layer!r}{near or ','}{' It' if near else ' the drawing'} has {has}")
+                known_layers = tuple(sorted(names.values())) or Phrase("layers-none")
+                for name in get_close_matches(layer.lower(), names, 1):
+                    raise UserError(Finding("layer-unknown-near", layer=layer, near=names[name], layers=known_layers))
+                raise UserError(Finding("layer-unknown", layer=layer, layers=known_layers))
 
     def is_start(self, layer: str) -> bool:
         """Tell whether a layer is that of the start holes."""
         return layer.lower() == self.start_layer.lower()
 
-    def unwanted(self, layer: str, state: str = "") -> str:
-        """Return the reason why a layer is not cut; empty when it is. `state`: "off" or "frozen" for one that is not
+    def unwanted(self, layer: str, state: str = "") -> Phrase | None:
+        """Return the reason why a layer is not cut; None when it is. `state`: "off" or "frozen" for one that is not
         seen."""
         if self.layers:
             is_asked = self.is_start(layer) or layer.lower() in map(str.lower, self.layers)
-            return "" if is_asked else _NOT_ASKED
+            return None if is_asked else _NOT_ASKED
         if layer.lower() == "defpoints":
-            return "a layer that is never plotted"
-        return _HIDDEN + state if state else ""
+            return Phrase("reason-never-plotted")
+        return _HIDDEN.get(state)
 
     @staticmethod
-    def is_by_layer(reason: str) -> bool:
+    def is_hidden(reason: Phrase | None) -> bool:
+        """Tell whether a reason is that its layer is off or frozen."""
+        return reason in _HIDDEN.values()
+
+    @staticmethod
+    def is_by_layer(reason: Phrase | None) -> bool:
         """Tell whether a reason of `unwanted` is that its layer is not asked for, or not seen: what it shows is
         there."""
-        return reason == _NOT_ASKED or reason.startswith(_HIDDEN)
+        return reason == _NOT_ASKED or reason in _HIDDEN.values()

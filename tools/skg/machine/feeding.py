@@ -10,6 +10,7 @@ from itertools import tee
 
 from skg.errors import UserError
 from skg.machine.board import Board, BoardStopped, ErrorLine, find_error
+from skg.messages.finding import Finding
 
 #: Cycles after which a program hangs: 140 hours of the 2 MHz board.
 MOST_CYCLES = 10**12
@@ -242,5 +243,5 @@ def least_ram(program: str, rom: str | bytes = "standard") -> int | None:
 def too_large(name: str, program: str, ram_kib: int, rom: str | bytes = "standard") -> UserError:
     """The error of a program that does not fit in the memory of a board."""
     least = least_ram(program, rom)
-    more = f"it takes {least} KiB" if least else f"{MOST_RAM} KiB, the most there can be, are too little as well"
-    return UserError(f"{name}: ERR 09, memory full with {ram_kib} KiB of RAM: {more}")
+    always = Finding("memory-full-always", ram=ram_kib, most=MOST_RAM)
+    return UserError((Finding("memory-full", ram=ram_kib, least=least) if least else always).within(name))

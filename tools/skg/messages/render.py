@@ -85,14 +85,14 @@ class _Wording(string.Formatter):
         """Return the template with the values in it."""
         self._values = kwargs
         return "".join(
-            before + ("" if field is None else self._field(field, spec or ""))
-            for before, field, spec, _ in self.parse(format_string)
+            before + ("" if field is None else self._field(field, spec or "", conversion))
+            for before, field, spec, conversion in self.parse(format_string)
         )
 
-    def _field(self, field: str, spec: str) -> str:
+    def _field(self, field: str, spec: str, conversion: str | None) -> str:
         if match := _SETTING.fullmatch(field):
             return self._setting(match["name"], self.setting_value(match["value"], spec, self._values))
-        return self.format_field(self._values[field], spec)
+        return self.format_field(self.convert_field(self._values[field], conversion), spec)
 
     def setting_value(self, value: str | None, spec: str, values: Mapping[str, Any]) -> str | None:
         """The advised value of a setting: as it stands, or one of the finding's."""
@@ -136,7 +136,7 @@ class _Wording(string.Formatter):
         return format(value, format_spec)
 
 
-def data(finding: Phrase) -> dict[str, Any]:
+def data(finding: Phrase, way: Speech | None = None) -> dict[str, Any]:
     """A finding as plain data, for other programs."""
     plain: dict[str, Any] = {"code": finding.code, "values": {name: _plain(value) for name, value in finding.values}}
     if isinstance(finding, Finding):
@@ -144,7 +144,7 @@ def data(finding: Phrase) -> dict[str, Any]:
         plain |= {name: value for name in ("contour", "place") if (value := getattr(finding, name)) is not None}
         plain["source"] = [_plain(source) for source in finding.source]
         plain["advice"] = [{"setting": name, "value": value} for name, value in advice(finding)]
-        plain["text"] = line(finding)
+        plain["text"] = line(finding, way)
     return plain
 
 

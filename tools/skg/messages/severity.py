@@ -37,7 +37,18 @@ _CARE = frozenset(
         "matched-far",
         "more-gouges",
         "named-without-drift",
+        "encoding-doubtful",
+        "line-around",
+        "lines-around",
+        "lines-between",
+        "much-left",
         "narrow-corners",
+        "no-eof",
+        "no-start-points",
+        "size-huge",
+        "size-large",
+        "size-odd",
+        "size-small",
         "no-tab-anywhere",
         "on-the-line",
         "open-on-line",
@@ -58,6 +69,8 @@ _LOST = frozenset(
         "edge-too-short",
         "plain-lost",
         "more-not-cut",
+        "entity-not-cut",
+        "of-no-outline",
     }
 )
 _GUESS = frozenset(
@@ -65,6 +78,7 @@ _GUESS = frozenset(
         "ends-joined",
         "more-joined",
         "plain-guess",
+        "size-guessed",
     }
 )
 

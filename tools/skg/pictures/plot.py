@@ -22,6 +22,7 @@ from skg.errors import UserError
 from skg.geometry.arrays import numbers_up_to
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY, minus
+from skg.messages.finding import Finding
 from skg.pictures.page import as_it_stands, save
 from skg.tape.layout import Laid, PlacedRoute
 
@@ -154,7 +155,7 @@ class Picture:
         self.head = MARGIN if title or len(sheets) > 1 else MARGIN / 2
         paper = width * self.scale + 2 * MARGIN, height * self.scale + MARGIN + self.head
         if max(paper) > 5000:
-            raise UserError(f"the picture would be {max(paper):.0f} mm large, choose a smaller --scale")
+            raise UserError(Finding("picture-too-large", size=max(paper)))
         paper = max(paper[0], 70), max(paper[1], 40)
         self.figure = Figure(figsize=(paper[0] / _INCH, paper[1] / _INCH))
         self.axes: Axes = self.figure.add_axes((0, 0, 1, 1))

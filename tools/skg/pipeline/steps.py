@@ -159,7 +159,7 @@ def _beside_file(result: CutResult, drawn: DrawnJob, account: Account) -> CutRes
 
 def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[Finding]:
     """The report."""
-    report = [*account.told(), *_matched(job, drawn)]
+    report = [*account.report(), *_matched(job, drawn)]
     report += findings(result, job.machine.distance)
     wanted = wanted_of(job, drawn)
     if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):

@@ -5,22 +5,25 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
 from skg.job.read_options import MEET
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.messages.render import line
-from skg.wording import counted, report_line, short, shown
 
 #: Why what only writes on a drawing, or fills what is drawn, is left.
-NOTE = "nothing to cut"
+NOTE = Phrase("reason-nothing-to-cut")
 #: Sources of a drawing's units.
-TOLD, ASKED, NOT_TOLD = "as the file says", "as asked for", "the file does not say"
+TOLD, ASKED, NOT_TOLD, ODD_METRES = "units-told", "units-asked", "units-not-told", "units-odd-metres"
 #: No gap that is wider than the wires are was meant to be closed, mm.
 WIRE = 0.3
 #: Joins with a line each.
 _JOINS = 20
+#: Kinds of overlaps -> their findings, in the order of the report.
+TWICE = "drawn twice"
+_OVERLAPS = {TWICE: "lines-twice", "overlap": "lines-overlap", "cross": "lines-cross", "touch": "lines-touch"}
 #: Places that a line of the report names before it says how many more there are.
 _PLACES = 5
 
@@ -30,14 +33,14 @@ class Entity:
     """One entity of a file (those of a block as often as the block is inserted).
 
     `kind`: its name in the file, such as LWPOLYLINE or path; `place`: a place on it, mm.
-    `left`: why it is not cut, or not all of it; empty while it is. `is_odd`: it is left because it was not understood,
+    `left`: why it is not cut, or not all of it; None while it is. `is_odd`: it is left because it was not understood,
     not because it is nothing to cut. `dashes`: the name of its line type where that is not drawn through.
     """
 
     kind: str
     layer: str
     place: XY
-    left: str = ""
+    left: Phrase | None = None
     is_odd: bool = False
     dashes: str = ""
 
@@ -51,7 +54,7 @@ class Content:
     edges: list[Edge] = field(default_factory=list)
     others: list[Edge] = field(default_factory=list)
     starts: list[XY] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    notes: list[Finding] = field(default_factory=list)
 
 
 @dataclass
@@ -63,7 +66,7 @@ class LayerSum:
     cut: int = 0
     part: int = 0
     left: int = 0
-    why: dict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
+    why: dict[Phrase, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
 
 
 @dataclass(frozen=True)
@@ -78,12 +81,11 @@ class OpenEnd:
     can_join: bool = False
 
     @property
-    def advice(self) -> str:
+    def advice(self) -> Phrase:
         """Advice for closing the gap."""
         if self.can_join and self.gap <= WIRE:
-            return f"--tolerance {above(self.gap)} joins them"
-        why = "a wire" if self.gap > WIRE else "the shortest edge"
-        return f"wider than {why}, so --tolerance is no help: close it in the drawing"
+            return Phrase("tolerance-joins", gap=above(self.gap))
+        return Phrase("gap-wider-than-wire" if self.gap > WIRE else "gap-wider-than-edge")
 
 
 @dataclass(frozen=True)
@@ -110,10 +112,11 @@ class Overlap:
 class Account:
     """The account of a drawing that was read.
 
-    `units`: those it was read in; `units_from`: who said so. `factor`: mm in one unit of the file. `page`: the sides of
-    an SVG's page in dots, if it does not tell its units. `low`, `high`: the box around the contours, mm. `layers`: the
-    sums of all layers. `rest`: entities at junctions, of which (some of) the edges belong to no closed outline.
-    `notes`, `findings`: what else there is to say. `mends`: where what is cut is not what is drawn; `whole`: numbers
+    `units`: those it was read in; `units_from`: the code of who said so, with `units_values`; `units_more`: what was
+    guessed beside that. `factor`: mm in one unit of the file. `page`: the sides of an SVG's page in dots, if it does
+    not tell its units. `low`, `high`: the box around the contours, mm. `layers`: the sums of all layers. `rest`:
+    entities at junctions, of which (some of) the edges belong to no closed outline. `findings`: what else there is to
+    say. `mends`: where what is cut is not what is drawn; `whole`: numbers
     of the entities that are cut, all of each, and whether by what they are drawn on.
     """
 
@@ -121,6 +124,8 @@ class Account:
     units: str
     units_from: str
     factor: float
+    units_more: Phrase | None = None
+    units_values: dict[str, float] = field(default_factory=dict)
     low: XY = (0.0, 0.0)
     high: XY = (0.0, 0.0)
     closed: int = 0
@@ -131,7 +136,6 @@ class Account:
     not_understood: list[Entity] = field(default_factory=list)
     rest: list[Entity] = field(default_factory=list)
     overlaps: list[Overlap] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     page: XY | None = None
     mends: list[Mend] = field(default_factory=list)
@@ -142,56 +146,63 @@ class Account:
         """Width and height of all contours, mm."""
         return self.high[0] - self.low[0], self.high[1] - self.low[1]
 
-    def first_gap(self) -> str:
+    @property
+    def told(self) -> Phrase:
+        """Who said what units these are."""
+        return Phrase(self.units_from, more=self.units_more, **self.units_values)
+
+    def first_gap(self) -> Phrase:
         """The narrowest gap between open ends."""
         nearest = min(self.open_ends, key=lambda end: end.gap)
-        message = f"the first end at {shown(nearest.place)}"
         if nearest.other is None:
-            return message
-        return f"{message}, {short(nearest.gap)} mm from that at {shown(nearest.other)}; {nearest.advice}"
+            return Phrase("first-gap-alone", place=nearest.place)
+        about = {"place": nearest.place, "other": nearest.other}
+        return Phrase("first-gap", gap=nearest.gap, advice=nearest.advice, **about)
+
+    @property
+    def notes(self) -> list[str]:
+        """The findings as lines of text."""
+        return [line(finding) for finding in self.findings]
 
     def lines(self) -> list[str]:
         """The report as lines of text, without the file's name."""
-        return [line(finding) for finding in self.told()]
+        return [line(finding) for finding in self.report()]
 
-    def told(self) -> list[Finding]:
-        """The report, line by line, without the file's name."""
-        width, height = self.size
-        told_in = "" if self.factor == 1 else f"; places are told in mm, {self.factor:.6g} to one of these"
-        size = f"{short(width)} x {short(height)} mm, read in {self.units} ({self.units_from}){told_in}"
-        lines = [report_line(size, is_guess=self.units_from not in (TOLD, ASKED))]
-        lines += [report_line(_of_layer(layer)) for layer in self.layers]
-        kinds = [f"{self.closed} closed"] * bool(self.closed) + [f"{self.open} open"] * bool(self.open)
-        count = counted(self.closed + self.open, "contour")
-        lines.append(report_line(f"{count}: {', '.join(kinds)}; {short(self.length)} mm"))
+    def report(self) -> list[Finding]:
+        """The report, without the file's name."""
+        report = [_size(self), *map(_of_layer, self.layers)]
+        kinds = [Phrase("count-closed", count=self.closed)] * bool(self.closed)
+        kinds += [Phrase("count-open", count=self.open)] * bool(self.open)
+        report.append(Finding("contours-read", count=self.closed + self.open, kinds=tuple(kinds), length=self.length))
         for end in self.open_ends[:_PLACES]:
-            line = f"open end at {shown(end.place)}"
-            if end.other is not None:
-                line += f", {short(end.gap)} mm from {shown(end.other)}; {end.advice}"
-            lines.append(report_line(line, place=end.place))
-        lines += _more(self.open_ends, "open end")
+            if end.other is None:
+                report.append(Finding("open-end-alone", place=end.place))
+            else:
+                about = {"gap": end.gap, "other": end.other, "advice": end.advice}
+                report.append(Finding("open-end", place=end.place, **about))
+        report += _more(self.open_ends, "more-open-ends")
         for entity in self.not_understood[:_PLACES]:
-            line = f"not cut: {entity.kind} on layer {entity.layer} at {shown(entity.place)}: {entity.left}"
-            lines.append(report_line(line, place=entity.place))
-        lines += _more(self.not_understood, "entity not understood", "entities not understood")
-        lines += _places("not cut, it belongs to no closed outline (--open all cuts it):", self.rest)
-        for kind in ("drawn twice", "overlap", "cross", "touch"):
-            lines += _overlaps(kind, [overlap for overlap in self.overlaps if overlap.kind == kind])
-        return [*lines, *_mended(self.mends), *map(report_line, self.notes), *self.findings]
+            about = {"kind": entity.kind, "layer": entity.layer, "why": entity.left}
+            report.append(Finding("entity-not-cut", place=entity.place, **about))
+        report += _more(self.not_understood, "more-not-understood")
+        report += _of_no_outline(self.rest)
+        for kind in _OVERLAPS:
+            report += _overlaps(kind, [overlap for overlap in self.overlaps if overlap.kind == kind])
+        return [*report, *_mended(self.mends), *self.findings]
 
 
-def said(entities: Iterable[Entity], nouns: tuple[str, str], description: str, then: str) -> Iterator[str]:
-    """Describe odd entities and how they are cut, a line for each layer; `nouns`: singular and plural."""
+def by_layer(code: str, entities: Iterable[Entity], **values: object) -> Iterator[Finding]:
+    """Report odd entities and how they are cut, those of each layer together."""
     layers: dict[str, list[Entity]] = defaultdict(list)
     for entity in entities:
         layers[entity.layer].append(entity)
     for layer, group in sorted(layers.items()):
-        yield f"{counted(len(group), *nouns)} on layer {layer} {description}, as at {shown(group[0].place)}: {then}"
+        yield Finding(code, count=len(group), layer=layer, place=group[0].place, **values)
 
 
-def listed(kinds: dict[str, int]) -> str:
+def listed(kinds: dict[str, int]) -> tuple[Phrase, ...]:
     """Kinds of entities with their numbers."""
-    return ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
+    return tuple(Phrase("count-kind", count=count, kind=kind) for kind, count in sorted(kinds.items()))
 
 
 def above(gap: float) -> str:
@@ -209,43 +220,61 @@ def _mended(mends: Iterable[Mend]) -> list[Finding]:
     return lines + [Finding("edge-too-short", place=mend.place, length=mend.size) for mend in lost]
 
 
-def _more(all_of_them: list, noun: str, nouns: str = "") -> list[Finding]:
+def _more(all_of_them: list, code: str) -> list[Finding]:
     more = len(all_of_them) - _PLACES
-    return [report_line(f"and {counted(more, f'more {noun}', f'more {nouns}' * bool(nouns))}")] * (more > 0)
+    return [Finding(code, count=more)] * (more > 0)
 
 
-def _of_layer(layer: LayerSum) -> str:
-    parts = [f"{layer.cut} cut"] * bool(layer.cut) + [f"{layer.part} cut in part"] * bool(layer.part)
-    parts += [f"{layer.left} left"] * bool(layer.left)
-    line = f"layer {layer.layer}: {counted(layer.read, 'entity', 'entities')}, {', '.join(parts) or 'none cut'}"
-    reasons = [f"{listed(kinds)} ({reason})" for reason, kinds in layer.why.items()]
-    return line + (f": {', '.join(reasons)}" if reasons else "")
+def _size(account: Account) -> Finding:
+    """Size and units."""
+    width, height = account.size
+    scale = None if account.factor == 1 else Phrase("places-in-mm", factor=account.factor)
+    is_told = account.units_from in (TOLD, ASKED) and not account.units_more
+    return Finding(
+        "size-read" if is_told else "size-guessed",
+        width=width,
+        height=height,
+        units=account.units,
+        told=account.told,
+        scale=scale,
+    )
 
 
-def _places(head: str, entities: Iterable[Entity]) -> list[Finding]:
-    """Entities by layer and kind, with their places."""
+def _of_layer(layer: LayerSum) -> Finding:
+    counts = (("layer-cut", layer.cut), ("layer-part", layer.part), ("layer-left", layer.left))
+    parts = tuple(Phrase(code, count=count) for code, count in counts if count)
+    reasons = tuple(Phrase("kinds-for-reason", kinds=listed(kinds), reason=why) for why, kinds in layer.why.items())
+    return Finding(
+        "layer-sum",
+        layer=layer.layer,
+        entities=Phrase("count-entities", count=layer.read),
+        parts=parts or Phrase("layer-none"),
+        reasons=Phrase("layer-reasons", reasons=reasons) if reasons else None,
+    )
+
+
+def _of_no_outline(entities: Iterable[Entity]) -> list[Finding]:
+    """Entities of no outline by layer and kind, with their places."""
     groups: dict[tuple[str, str], list[XY]] = defaultdict(list)
     for entity in entities:
         groups[entity.layer, entity.kind].append(entity.place)
-    lines = []
-    for (layer, kind), places in groups.items():
-        more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
-        line = f"{head} {len(places)} {kind} on layer {layer} at {', '.join(map(shown, places[:_PLACES]))}{more}"
-        lines.append(report_line(line, place=places[0]))
-    return lines
+    return [
+        Finding("of-no-outline", layer=layer, kind=kind, count=len(places), **first_places(places))
+        for (layer, kind), places in groups.items()
+    ]
+
+
+def first_places(places: list[XY], most: int = _PLACES) -> dict[str, Any]:
+    """The values of a finding for some places: the first ones, and how many more there are."""
+    more = Phrase("and-more", count=len(places) - most) if len(places) > most else None
+    return {"places": tuple(places[:most]), "more": more, "place": places[0]}
 
 
 def _overlaps(kind: str, overlaps: list[Overlap]) -> list[Finding]:
     groups: dict[str, list[XY]] = defaultdict(list)
     for overlap in overlaps:
         groups[overlap.layer].append(overlap.place)
-    lines = []
-    for layer, places in groups.items():
-        more = f" and {len(places) - _PLACES} more" if len(places) > _PLACES else ""
-        line = (
-            f"{counted(len(places), 'place')} on layer {layer} where lines {kind}: "
-            if kind != "drawn twice"
-            else f"{counted(len(places), 'edge')} on layer {layer} drawn twice, cut once: "
-        )
-        lines.append(report_line(f"{line}{', '.join(map(shown, places[:_PLACES]))}{more}", place=places[0]))
-    return lines
+    return [
+        Finding(_OVERLAPS[kind], layer=layer, count=len(places), **first_places(places))
+        for layer, places in groups.items()
+    ]

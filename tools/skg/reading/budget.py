@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from skg.errors import UserError
+from skg.messages.finding import Finding, Phrase
 
 #: Entities of a drawing, those of a block as often as it is shown; so many take some 20 seconds.
 MOST_ENTITIES = 250_000
@@ -18,29 +19,29 @@ MOST_PAIRS = 25_000_000
 
 def check_entities(count: int) -> None:
     """Refuse a drawing of too many entities."""
-    _check(count, MOST_ENTITIES, "entities, those of blocks counted as often as they are shown")
+    _check(count, MOST_ENTITIES, Phrase("things-entities"))
 
 
 def check_vertices(count: int, kind: str) -> None:
     """Refuse an entity of too many vertices."""
-    _check(count, MOST_VERTICES, f"vertices in one {kind}")
+    _check(count, MOST_VERTICES, Phrase("things-vertices", kind=kind))
 
 
 def check_bytes(count: int) -> None:
     """Refuse a packed drawing that unpacks to too much."""
-    _check(count, MOST_BYTES, "bytes when unpacked")
+    _check(count, MOST_BYTES, Phrase("things-bytes"))
 
 
 def check_tries(count: int) -> None:
     """Refuse a style sheet of too many rules for its elements."""
-    _check(count, MOST_TRIES, "tries of a style sheet's rules at the drawing's elements")
+    _check(count, MOST_TRIES, Phrase("things-tries"))
 
 
 def check_pairs(count: int) -> None:
     """Refuse a drawing in which too many edges come near to each other."""
-    _check(count, MOST_PAIRS, "pairs of lines near each other")
+    _check(count, MOST_PAIRS, Phrase("things-pairs"))
 
 
-def _check(count: int, most: int, nouns: str) -> None:
+def _check(count: int, most: int, things: Phrase) -> None:
     if count > most:
-        raise UserError(f"more than {most:,} {nouns}: too much for a drawing that is cut")
+        raise UserError(Finding("over-budget", most=most, things=things))

@@ -15,8 +15,9 @@ import shapely
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
 from skg.job.read_options import Wishes
+from skg.messages.finding import Finding, Phrase
 from skg.reading import fast_dxf
-from skg.reading.account import NOTE, Content, Entity, said
+from skg.reading.account import NOTE, Content, Entity, by_layer
 from skg.reading.budget import check_entities, check_vertices
 from skg.reading.curves import is_number
 from skg.reading.dxf_file import Definition, DxfFile
@@ -35,13 +36,13 @@ NOTES = frozenset(
 )
 #: Kinds that have no lines to cut, or none that are understood, and what a person can do.
 _NO_LINES = {
-    **dict.fromkeys(("3DFACE", "MESH"), "a face, not lines: draw its outline in the CAD program"),
+    **dict.fromkeys(("3DFACE", "MESH"), Phrase("reason-face")),
     **dict.fromkeys(
         ("3DSOLID", "BODY", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE"),
-        "a solid, not lines: draw its outline in the CAD program",
+        Phrase("reason-solid"),
     ),
-    "REGION": "an ACIS body, which is not read: explode it into lines in the CAD program",
-    **dict.fromkeys(("ACAD_PROXY_ENTITY", "PROXY"), "not understood, explode it in the CAD program"),
+    "REGION": Phrase("reason-acis"),
+    **dict.fromkeys(("ACAD_PROXY_ENTITY", "PROXY"), Phrase("reason-proxy")),
 }
 #: Blocks within blocks within blocks.
 _DEPTH = 32
@@ -70,7 +71,9 @@ class _Collector:
         self.through: list[Entity] = []
         self.dashes_around = ""
 
-    def collect(self, records: Iterable[Record], inherited: str, hidden: str, blocks: tuple[str, ...]) -> None:
+    def collect(
+        self, records: Iterable[Record], inherited: str, hidden: Phrase | None, blocks: tuple[str, ...]
+    ) -> None:
         """Add records; those of a block on layer 0 lie on its reference's layer.
 
         `hidden`: why nothing of them is seen; `blocks`: the names of those around.
@@ -82,7 +85,7 @@ class _Collector:
             else:
                 self.one(record, layer, hidden)
 
-    def unwanted(self, layer: str) -> str:
+    def unwanted(self, layer: str) -> Phrase | None:
         """Return the reason why a layer's content is not cut."""
         return self.wishes.unwanted(layer, self.file.states.get(layer.lower(), ""))
 
@@ -117,11 +120,11 @@ class _Collector:
         self.content.entities.append(result)
         return result
 
-    def one(self, record: Record, layer: str, hidden: str) -> None:
+    def one(self, record: Record, layer: str, hidden: Phrase | None) -> None:
         """Add what is no block reference."""
         account = self.account(record, layer)
         is_start = self.wishes.is_start(layer)
-        account.left = hidden or self.unwanted(layer) or ("invisible" if record.whole(60) else "")
+        account.left = hidden or self.unwanted(layer) or (Phrase("reason-invisible") if record.whole(60) else None)
         if not account.left and _is_note(record.kind, is_start):
             account.left = NOTE
         if self.wishes.is_by_layer(account.left) and not is_start and not _is_note(record.kind, is_start):
@@ -132,17 +135,17 @@ class _Collector:
         try:
             if is_start:
                 self.content.starts.append(self.start(record))
-                account.left = "a start hole"
+                account.left = Phrase("reason-start-hole")
                 return
             for edge in self.edges_of(record):
                 self.add(edge)
             if len(self.content.edges) > known:
                 self.describe(record, account, self.content.edges[known].start)
             else:
-                account.left = "it has no length"
+                account.left = Phrase("reason-no-length")
             return
         except NotFlat as error:
-            account.left = str(error)
+            account.left = error.reason
         except UNREADABLE as error:
             account.left = _unread(error)
         account.is_odd = True
@@ -178,24 +181,24 @@ class _Collector:
             self.known[id(record)] = slow_dxf.entity(record)
         return self.known[id(record)]
 
-    def insert(self, record: Record, layer: str, hidden: str, blocks: tuple[str, ...]) -> None:
+    def insert(self, record: Record, layer: str, hidden: Phrase | None, blocks: tuple[str, ...]) -> None:
         """Add what a block reference shows, once for each place of its array."""
         name = record.value(2).strip()
         block = self.file.blocks.get(name.lower())
-        reason = ""
+        reason: Phrase | None = None
         if block is None:
-            reason = f"its block {name} is not in the file"
+            reason = Phrase("reason-no-block", name=name)
         elif block.is_external:
-            reason = f"its block {name} is in another file"
+            reason = Phrase("reason-block-elsewhere", name=name)
         elif name.lower() in blocks:
-            reason = f"its block {name} is part of itself"
+            reason = Phrase("reason-block-itself", name=name)
         elif len(blocks) > _DEPTH:
-            reason = f"its block {name} lies more than {_DEPTH} blocks deep"
+            reason = Phrase("reason-block-deep", name=name, most=_DEPTH)
         elif lack := record.lack():
-            reason = lack
+            reason = Phrase("reason-other", detail=lack)
         elif block.base is None:
-            reason = f"the base point of its block {name} is missing"
-        hidden = hidden or ("invisible" if record.whole(60) else "")
+            reason = Phrase("reason-no-base", name=name)
+        hidden = hidden or (Phrase("reason-invisible") if record.whole(60) else None)
         if self.file.states.get(layer.lower()) == "frozen":
             hidden = hidden or self.unwanted(layer)
         outer = self.placing.matrix, self.dashes_around
@@ -222,7 +225,7 @@ class _Collector:
     def start(self, record: Record) -> XY:
         """A start hole: a POINT, or a CIRCLE around it."""
         if lack := record.lack():
-            raise NotFlat(lack)
+            raise NotFlat(Phrase("reason-other", detail=lack))
         (place,) = self.placing.points([_slow_dxf().start(self.entity(record))])
         return place
 
@@ -231,7 +234,7 @@ class _Collector:
         placing = self.placing
         check_vertices(record.vertices, record.kind)
         if lack := record.lack():
-            raise NotFlat(lack)
+            raise NotFlat(Phrase("reason-other", detail=lack))
         if record.kind in fast_dxf.POLYLINES and (line := fast_dxf.polyline(record)):
             points = [(x, y, line.height) for x, y, _ in line.vertices]
             return placing.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)
@@ -283,11 +286,11 @@ def _is_note(kind: str, is_start: bool) -> bool:
     return kind not in ("POINT", "CIRCLE") if is_start else kind in NOTES
 
 
-def _unread(error: Exception) -> str:
+def _unread(error: Exception) -> Phrase:
     """Return the reason why an entity cannot be read."""
     if isinstance(error, OverflowError):
-        return "a number of it is too large"
-    return f"cannot be read ({' '.join(str(error).split()) or type(error).__name__})"
+        return Phrase("reason-too-large")
+    return Phrase("reason-unread", detail=" ".join(str(error).split()) or type(error).__name__)
 
 
 def _shown(file: DxfFile) -> int:
@@ -331,7 +334,7 @@ def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
     near = tree.query(starts, predicate="dwithin", distance=tolerance)[0]
     gone = set(arcs[np.bincount(near, minlength=len(arcs)) >= 2].tolist())
     for number in gone:
-        content.entities[number].left = "it ends where it begins, between two other lines"
+        content.entities[number].left = Phrase("reason-between-lines")
     content.edges = [edge for edge in content.edges if edge.entity not in gone]
     return [number for number in whole if number not in gone]
 
@@ -350,11 +353,9 @@ def _standing(flat: _Collector) -> _Collector | None:
         return None
     for plane in _STANDING:
         seen = _Collector(flat.file, flat.wishes, flat.placing.factor, _slow_dxf().view(plane))
-        seen.collect(flat.file.model, "", "", ())
+        seen.collect(flat.file.model, "", None, ())
         if seen.content.edges and not seen.leaves():
-            flat.file.notes.append(
-                f"the drawing stands in the plane of {' and '.join(plane)}: read as it is seen there"
-            )
+            flat.file.notes.append(Finding("standing", first=plane[0], second=plane[1]))
             return seen
     return None
 
@@ -367,24 +368,22 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
     wishes.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
     check_entities(_shown(file))
     collector = _Collector(file, wishes, factor)
-    collector.collect(file.model, "", "", ())
+    collector.collect(file.model, "", None, ())
     collector = _standing(collector) or collector
     collector.placing.matrix = None
     if not collector.content.edges and file.paper:
         # (some programs write all that they have there)
-        collector.collect(file.paper, "", "", ())
+        collector.collect(file.paper, "", None, ())
         if collector.content.edges:
-            file.notes.append("there is nothing to cut in the model space: the paper space was read")
+            file.notes.append(Finding("paper-space"))
     else:
         for record in file.paper:
-            collector.account(record, record.layer).left = "in paper space"
-    file.notes += said(collector.wide, ("polyline", "polylines"), "drawn with a width", "its centre line is cut")
+            collector.account(record, record.layer).left = Phrase("reason-paper-space")
+    file.notes += by_layer("seen-with-width", collector.wide)
     whole = [
         collector.content.entities[number] for number in _circles(collector.content, collector.whole, wishes.tolerance)
     ]
-    file.notes += said(whole, ("arc", "arcs"), "from an angle to the same angle", "a full turn is cut")
-    file.notes += said(
-        collector.through, ("spline", "splines"), "through points alone", "between them the curve is guessed"
-    )
-    file.notes += said(collector.thick, ("entity", "entities"), "with a thickness", "its base is cut")
+    file.notes += by_layer("seen-full-turn", whole)
+    file.notes += by_layer("seen-through-points", collector.through)
+    file.notes += by_layer("seen-thick", collector.thick)
     return collector.content

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 from skg.errors import UserError
 from skg.file_type import kind_of
+from skg.messages.finding import Finding, Phrase
 from skg.reading.curves import is_number
 from skg.reading.dxf_record import Group, Record, unescaped
 
@@ -60,7 +61,7 @@ class DxfFile:
     blocks: dict[str, Definition] = field(default_factory=dict)
     model: list[Record] = field(default_factory=list)
     paper: list[Record] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    notes: list[Finding] = field(default_factory=list)
 
 
 def load(data: bytes, encoding: str | None = None) -> DxfFile:
@@ -92,26 +93,26 @@ def load(data: bytes, encoding: str | None = None) -> DxfFile:
     return file
 
 
-def _refuse_cut_off(last: str, notes: list[str]) -> None:
+def _refuse_cut_off(last: str, notes: list[Finding]) -> None:
     """Refuse a file that ends within a section, by its last record; one that ends behind a section is said."""
     if last == "EOF":
         return
     if last != "ENDSEC":
-        raise UserError("the file ends within a section, it has been cut off: save or transfer it once more")
-    notes.append("take care: the file has no EOF at its end, it may have been cut off behind a section")
+        raise UserError(Finding("cut-off"))
+    notes.append(Finding("no-eof"))
 
 
-def _groups(data: bytes, encoding: str | None, notes: list[str]) -> Iterator[Group]:
+def _groups(data: bytes, encoding: str | None, notes: list[Finding]) -> Iterator[Group]:
     """A file's groups, told by its first bytes what kind it is; what is odd about it goes to `notes`."""
     if data[:4] == b"AC10" and data[4:6].isdigit():
-        raise UserError("a DWG file, expected DXF: save it as DXF")
+        raise UserError(Finding("dwg"))
     if data.startswith(_BINARY):
         return _of_binary(data)
     if data.startswith(_IS_BINARY):
-        raise UserError("a binary DXF drawing that was changed on its way, as by a transfer as text")
+        raise UserError(Finding("binary-changed"))
     if b"SECTION" not in data and b"S\0E\0C\0T\0I" not in data:
         kind = kind_of(data)
-        raise UserError(f"{kind}, expected a drawing" if kind else "not a DXF drawing, it has no SECTION")
+        raise UserError(Finding("not-a-drawing", kind=kind) if kind else Finding("no-section"))
     return _of_text(_decoded(data, encoding, notes), notes)
 
 
@@ -160,7 +161,7 @@ def _records(groups: Iterable[Group]) -> Iterator[Record]:
         yield Record(record)
 
 
-def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
+def _of_text(text: str, notes: list[Finding]) -> Iterator[Group]:
     """The groups of a text file."""
     text = text.replace("\r\n", "\n")
     lines = re.split("\r*\n|\r", text) if "\r" in text else text.split("\n")
@@ -174,11 +175,10 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
             code = int(lines[index])
         except ValueError:
             if lines[index].strip():
-                raise UserError(
-                    f"line {index + 1}: expected a group code, found {lines[index].strip()[:20]!r}"
-                ) from None
+                finding = Finding("no-group-code", text=lines[index].strip()[:20])
+                raise UserError(finding.within(Phrase("line-number", line=index + 1))) from None
             if not has_blanks:
-                notes.append("there are empty lines between the file's groups: ignored")
+                notes.append(Finding("empty-lines"))
             has_blanks = True
             index += 1
             continue
@@ -187,7 +187,7 @@ def _of_text(text: str, notes: list[str]) -> Iterator[Group]:
         if may_have_commas and "," in value and _is_real(code) and _COMMA.fullmatch(value):
             value = value.replace(",", ".")
             if not has_commas:
-                notes.append("numbers are written with commas: read as decimal points")
+                notes.append(Finding("decimal-commas"))
             has_commas = True
         yield code, value
         if code == 0 and value.strip() == "EOF":
@@ -206,10 +206,10 @@ def _of_binary(data: bytes) -> Iterator[Group]:
     try:
         yield from slow_dxf.binary_groups(data)
     except (IndexError, ValueError) as error:
-        raise UserError(f"not a binary DXF drawing that can be read ({error or type(error).__name__})") from None
+        raise UserError(Finding("not-binary-dxf", detail=str(error) or type(error).__name__)) from None
 
 
-def _decoded(data: bytes, encoding: str | None, notes: list[str]) -> str:
+def _decoded(data: bytes, encoding: str | None, notes: list[Finding]) -> str:
     """The text of a file: in an encoding, else UTF-8 where it is that, else in the code page that it tells or that is
     guessed."""
     if encoding:
@@ -217,7 +217,8 @@ def _decoded(data: bytes, encoding: str | None, notes: list[str]) -> str:
             return data.decode(encoding)
         except UnicodeDecodeError as error:
             line = data.count(b"\n", 0, error.start) + 1
-            raise UserError(f"line {line}: not in the encoding {encoding}") from None
+            finding = Finding("not-in-encoding", encoding=encoding)
+            raise UserError(finding.within(Phrase("line-number", line=line))) from None
     for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"\xef\xbb\xbf", "utf-8-sig")):
         if data.startswith(mark):
             return data.decode(encoding, "replace")
@@ -228,14 +229,14 @@ def _decoded(data: bytes, encoding: str | None, notes: list[str]) -> str:
         if not page:
             guess = "gbk" if _is_chinese(data) else "cp1252"
             name = {"gbk": "GBK", "cp1252": "Windows-1252"}[guess]
-            notes.append(f"the file does not tell its encoding: names read in {name}, --encoding sets another")
+            notes.append(Finding("encoding-guessed", name=name))
             return data.decode(guess, "replace")
         from skg.reading import slow_dxf  # (as above)
 
         told = page[1].decode("ascii", "replace")
         encoding = slow_dxf.encoding(told)
         if encoding != "gbk" and _is_chinese(data):
-            notes.append(f"take care: names are read in {told}, as the file says, and look Chinese: --encoding gbk")
+            notes.append(Finding("encoding-doubtful", name=told))
         return data.decode("cp1252" if encoding == "utf8" else encoding, "replace")
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, distance, minus, polar
+from skg.messages.finding import Phrase
 from skg.reading.curves import conic, is_number
 
 if TYPE_CHECKING:
@@ -20,14 +21,18 @@ XYZ = Sequence[float]
 #: Ends whose heights differ by more than this (mm) do not lie in one flat drawing.
 LEVEL = 1e-3
 #: Why an entity is left that does not lie in one.
-LEAVES = "leaves the drawing's plane, expected a flat drawing"
+LEAVES = Phrase("reason-leaves-plane")
 #: Angles are whole turns apart when they miss it by no more than this part of one; those that are the same angle but
 #: for a float's rounding by no more than that: what is longer than nothing is drawn so (where two fillets meet).
 _WHOLE, _NONE = 1e-8, 1e-13
 
 
 class NotFlat(Exception):
-    """An entity that is not understood, or leaves the drawing's plane; the message is the reason."""
+    """An entity that is not understood, or leaves the drawing's plane, for a reason."""
+
+    def __init__(self, reason: Phrase) -> None:
+        super().__init__(reason)
+        self.reason = reason
 
 
 class Placing:
@@ -55,7 +60,7 @@ class Placing:
         """Places of the present block in mm."""
         result = [(point[0] * self.factor, point[1] * self.factor) for point in self._on_drawing(points)]
         if not all(is_number(x) and is_number(y) for x, y in result):
-            raise NotFlat("a place of it is no number")
+            raise NotFlat(Phrase("reason-no-number"))
         return result
 
     def line(self, start: XYZ, end: XYZ) -> Edge:

@@ -21,15 +21,15 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
 from skg.job.read_options import OPEN, START, UNITS, Wishes
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import text
 
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it; what
 # reads SVG is loaded for that alone)
 from skg.reading import dxf_entities, dxf_file
-from skg.reading.account import ASKED, NOT_TOLD, NOTE, TOLD, Account, Content, listed
+from skg.reading.account import ASKED, NOT_TOLD, NOTE, ODD_METRES, TOLD, Account, Content, listed
 from skg.reading.chain import merged
 from skg.reading.selection import Fates, Selection
-from skg.wording import counted, short, shown
 
 __all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
 
@@ -78,7 +78,7 @@ class Reading:
         """The report on all contours."""
         return self.account({})
 
-    def account(self, left: Mapping[int, str]) -> Account:
+    def account(self, left: Mapping[int, Phrase]) -> Account:
         """The report where some contours (by their numbers) are left, and why."""
         report = self.fates.account(self.drawn, left, self.begun)
         cut = [contour for number, contour in enumerate(self.contours) if number not in left]
@@ -97,7 +97,7 @@ def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
     try:
         return _read(data, name, wishes)
     except UserError as error:
-        raise UserError(f"{name}: {error}") from None
+        raise error.within(name) from None
 
 
 def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
@@ -105,14 +105,15 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     if not content.edges:
         raise UserError(_nothing(content, wishes))
     if wishes.start_layer != START and not content.starts:
-        report.notes.append(f"take care: there are no points on the layer {wishes.start_layer} for start holes")
+        report.findings.append(Finding("no-start-points", layer=wishes.start_layer))
     selection = Selection(content, wishes, report)
     contours = selection.contours()
     if contours and _is_in_odd_metres(contours, report):
         # (in mm more ends meet, and the small ones are counted so)
-        width, height = (short(side / UNITS["m"]) for side in report.size)
+        width, height = (side / UNITS["m"] for side in report.size)
         reading = _read(data, name, replace(wishes, units="mm"))
-        reading.begun.units_from = f"the file says m, but {width} x {height} m is no part; set --units to change it"
+        reading.begun.units_from = ODD_METRES
+        reading.begun.units_values = {"width": width, "height": height}
         return reading
     drawn, fates = selection.without_open(contours), selection.fates
     if not drawn:
@@ -126,7 +127,7 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
     """Tell whether a file says metres and cannot mean it: programs write so that were not told any units."""
-    if report.units != "m" or not report.units_from.startswith(TOLD):
+    if report.units != "m" or report.units_from != TOLD:
         return False
     _measure(contours, report)
     return max(report.size) > USUAL[1]
@@ -138,7 +139,7 @@ def _near_origin(reading: Reading) -> Reading:
     if max(map(abs, (*report.low, *report.high))) < FARTHEST:
         return reading
     by = -floor(report.low[0]), -floor(report.low[1])
-    report.notes.append(f"moved by {shown(by)} mm: the drawing lies too far from its origin for a tape")
+    report.findings.append(Finding("moved-near", by=by))
     report.low, report.high = shifted(report.low, by), shifted(report.high, by)
     contours, others, opened = (
         [contour.shifted(by) for contour in group] for group in (reading.contours, reading.others, reading.opened)
@@ -155,7 +156,9 @@ def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
     for entity in content.entities:
         kinds[entity.layer][entity.kind] += 1
-    return [f"{layer}: {listed(kinds[layer])}" for layer in sorted(kinds)], report.notes
+    return [
+        text(Phrase("layer-list", layer=layer, kinds=listed(kinds[layer]))) for layer in sorted(kinds)
+    ], report.notes
 
 
 def _is_svg(data: bytes, name: str) -> bool:
@@ -168,14 +171,14 @@ def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
     """Return a file's content, and an account that has its units."""
     if _is_svg(data, name):
         if wishes.encoding:
-            raise UserError("--encoding is for DXF: an SVG file tells its own")
+            raise UserError(Finding("encoding-for-dxf"))
         return _svg_content(data, name, wishes)
     file = dxf_file.load(data, wishes.encoding)
-    unknown = f"{NOT_TOLD}; its $MEASUREMENT is that of inches" if file.is_imperial else NOT_TOLD
-    units = (*file.units, TOLD) if file.units else ("mm", 1.0, unknown)
+    units = (*file.units, TOLD) if file.units else ("mm", 1.0, NOT_TOLD)
+    more = Phrase("units-inches") if file.is_imperial and not file.units else None
     if wishes.units:
-        units = wishes.units, UNITS[wishes.units], ASKED
-    report = Account(name, units[0], units[2], units[1], notes=file.notes)
+        units, more = (wishes.units, UNITS[wishes.units], ASKED), None
+    report = Account(name, units[0], units[2], units[1], more, findings=file.notes)
     return dxf_entities.collect(file, wishes, units[1]), report
 
 
@@ -185,41 +188,46 @@ def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Accou
 
     page = svg_file.SvgFile(data)
     declared, px = page.units, page.px
-    told = TOLD if px == svg_file.PX else f"{TOLD}; {page.guessed}"
-    units = (*declared, told) if declared else ("px", px, f"{NOT_TOLD}; {page.guessed}")
+    more = None if declared and px == svg_file.PX else Phrase(page.guessed)
+    units = (*declared, TOLD) if declared else ("px", px, NOT_TOLD)
     if wishes.units:
+        more = None
         # Without a page in mm or inches a pixel is one of the units asked for.
         units = wishes.units, UNITS[wishes.units], ASKED
         px = UNITS[wishes.units] * (px / declared[1] if declared else 1.0)
     content = svg_shapes.collect(page, px, wishes)
     dots = page.page.size if page.page and not declared and not wishes.units else None
-    return content, Account(name, units[0], units[2], units[1], notes=list(content.notes), page=dots)
+    return content, Account(name, units[0], units[2], units[1], more, findings=list(content.notes), page=dots)
 
 
-def _nothing(content: Content, wishes: Wishes) -> str:
+def _nothing(content: Content, wishes: Wishes) -> Finding:
     """Explain why there is nothing to cut."""
-    where = f" on {', '.join(wishes.layers)}" if wishes.layers else ""
-    reasons = Counter(f"{entity.kind}: {entity.left}" for entity in content.entities)
-    summary = "; ".join(f"{count} {reason}" for reason, count in reasons.most_common(5))
-    unseen = sorted({entity.layer for entity in content.entities if entity.left.startswith("the layer is")})
-    help_ = f": --layer {unseen[0]} takes what is on that layer" if unseen and not wishes.layers else ""
-    if not help_ and any(entity.kind in AREAS for entity in content.entities):
-        help_ = ": draw outlines around the areas in the CAD program"
-    return f"no lines, arcs or curves to cut{where}" + (f" ({summary})" if summary else "") + help_
+    reasons = Counter((entity.kind, entity.left) for entity in content.entities)
+    summary = tuple(
+        Phrase("kind-and-reason", count=count, kind=kind, reason=reason)
+        for (kind, reason), count in reasons.most_common(5)
+    )
+    advice = None
+    unseen = sorted({entity.layer for entity in content.entities if wishes.is_hidden(entity.left)})
+    if unseen and not wishes.layers:
+        advice = Phrase("take-that-layer", layer=unseen[0])
+    elif any(entity.kind in AREAS for entity in content.entities):
+        advice = Phrase("draw-outlines")
+    where = Phrase("on-some-layers", layers=wishes.layers) if wishes.layers else None
+    return Finding(
+        "nothing-to-cut", where=where, summary=Phrase("in-sum", reasons=summary) if summary else None, advice=advice
+    )
 
 
-def _no_outline(report: Account) -> str:
+def _no_outline(report: Account) -> Finding:
     """Explain why no contour remains."""
     if not report.rest and not report.open_ends:
         reasons = dict.fromkeys(reason for layer in report.layers for reason in layer.why if reason != NOTE)
-        return f"nothing to cut, read in {report.units}: {', '.join(reasons)}; --units and --tolerance may help"
+        return Finding("nothing-in-units", units=report.units, reasons=tuple(reasons))
     if not report.rest:
-        return f"no closed outline, {report.first_gap()}"
-    places = ", ".join(shown(entity.place) for entity in report.rest[:3])
-    return (
-        f"no closed outline: {counted(len(report.rest), 'entity', 'entities')} meet at junctions or cross, "
-        f"as at {places}: --open all cuts them as they are"
-    )
+        return Finding("no-outline-gap", gap=report.first_gap())
+    places = tuple(entity.place for entity in report.rest[:3])
+    return Finding("no-outline-junctions", count=len(report.rest), places=places, place=places[0])
 
 
 def _measure(contours: list[Contour], report: Account) -> None:
@@ -231,36 +239,29 @@ def _measure(contours: list[Contour], report: Account) -> None:
 def _check_size(report: Account) -> None:
     """Refuse an implausible size with unconfirmed units, and a drawing too large for a tape; say what units it may be
     in."""
-    before = len(report.notes)
-    width, height = map(short, report.size)
-    is_told = not report.units_from.startswith(NOT_TOLD)
-    if not is_told and not USUAL[0] <= max(report.size) <= USUAL[1]:
-        raise UserError(
-            f"the file does not say its units, and {width} x {height} mm is an implausible size: "
-            f"give --units ({', '.join(UNITS)}){_in_other_units(report, units=GUESSED)}"
-        )
-    if max(report.size) >= FARTHEST:
-        raise UserError(
-            f"{width} x {height} mm, read in {report.units}: a drawing has a side of at most {FARTHEST / 1000:g} m; "
-            f"give --units, or --layer for a part{_in_other_units(report) or _in_other_units(report, FARTHEST)}"
-        )
-    other = _in_other_units(report, LARGE) or _in_other_units(report) * (max(report.size) > USUAL[1])
-    is_odd = report.units_from.startswith(TOLD) and other and not USUAL[0] <= max(report.size) <= LARGE
+    before = len(report.findings)
+    (width, height), largest = report.size, max(report.size)
+    size = {"width": width, "height": height}
+    is_told = report.units_from != NOT_TOLD
+    if not is_told and not USUAL[0] <= largest <= USUAL[1]:
+        other = _in_other_units(report, units=GUESSED)
+        raise UserError(Finding("size-implausible", units=tuple(UNITS), other=other, **size))
+    if largest >= FARTHEST:
+        other = _in_other_units(report) or _in_other_units(report, FARTHEST)
+        raise UserError(Finding("size-too-far", units=report.units, most=FARTHEST / 1000, other=other, **size))
+    other = _in_other_units(report, LARGE) or (_in_other_units(report) if largest > USUAL[1] else None)
+    is_odd = report.units_from == TOLD and other and not USUAL[0] <= largest <= LARGE
     if is_odd:
         # (programs write the units that they were last set to)
-        report.notes.append(f"take care: {width} x {height} mm is an implausible size{other}: set --units to change it")
-    if not is_told and other and max(report.size) < DOUBTED:
-        report.notes.append(
-            f"take care: {width} x {height} mm is small, units unconfirmed{other}: set --units to change it"
-        )
+        report.findings.append(Finding("size-odd", other=other, **size))
+    if not is_told and other and largest < DOUBTED:
+        report.findings.append(Finding("size-small", other=other, **size))
     other = _in_other_units(report, LARGE, GUESSED)
-    if not is_told and other and max(report.size) > LARGE:
-        report.notes.append(
-            f"take care: {width} x {height} mm is large, units unconfirmed{other}: set --units to change it"
-        )
-    elif max(report.size) > HUGE and not is_odd and report.units_from != ASKED:
-        report.notes.append(f"take care: {width} x {height} mm is more than {HUGE / 1000:g} m: --units sets others")
-    if len(report.notes) == before and report.units_from != ASKED:
+    if not is_told and other and largest > LARGE:
+        report.findings.append(Finding("size-large", other=other, **size))
+    elif largest > HUGE and not is_odd and report.units_from != ASKED:
+        report.findings.append(Finding("size-huge", limit=HUGE / 1000, **size))
+    if len(report.findings) == before and report.units_from != ASKED:
         report.findings += _likely(report)
 
 
@@ -308,11 +309,11 @@ def _paper(page: XY, inch: int | float) -> str:
     return ""
 
 
-def _in_other_units(report: Account, most: float = USUAL[1], units: tuple[str, ...] = GUESSED[:3]) -> str:
+def _in_other_units(report: Account, most: float = USUAL[1], units: tuple[str, ...] = GUESSED[:3]) -> Phrase | None:
     """The size that a drawing has in units that make it a usual one, of `most` mm."""
     sizes = []
     for name in units:
         width, height = (side / report.factor * UNITS[name] for side in report.size)
         if name != report.units and USUAL[0] <= max(width, height) <= most:
-            sizes.append(f"{short(width)} x {short(height)} mm in {name}")
-    return f"; it would be {', '.join(sizes)}" if sizes else ""
+            sizes.append(Phrase("size-in-units", width=width, height=height, units=name))
+    return Phrase("would-be", sizes=tuple(sizes)) if sizes else None

@@ -14,22 +14,31 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, distance
 from skg.job.read_options import MEET, Wishes
-from skg.messages.finding import Finding
-from skg.reading.account import Account, Content, Entity, LayerSum, Mend, OpenEnd, Overlap, above, said
+from skg.messages.finding import Finding, Phrase
+from skg.reading.account import (
+    TWICE,
+    Account,
+    Content,
+    Entity,
+    LayerSum,
+    Mend,
+    OpenEnd,
+    Overlap,
+    above,
+    by_layer,
+    first_places,
+)
 from skg.reading.chain import Chains, chain
 from skg.reading.meetings import Relations, lying_on, nearest, relations
 from skg.reading.overlaps import without_overlaps
 from skg.reading.overruns import Overrun, without_overruns
-from skg.wording import counted, short, shown
 
 #: Why an edge is not cut.
-SHORT, DOUBLE, JUNCTION = "shorter than the tolerance", "drawn twice", "at a junction, of no closed outline"
-DASHED = "drawn with dashes, of no closed outline: --open all cuts it"
-AXIS = "drawn with dashes, across outlines: --open all cuts it"
-SMALL, WITHIN = "no room for the wire or the tab", "in an opening that is left out"
-UNWANTED = "cut = false in the job"
-PAST = "runs past a corner"
-OPENED = "of an open contour"
+SHORT, DOUBLE, JUNCTION = Phrase("reason-short"), Phrase("reason-twice"), Phrase("reason-junction")
+DASHED, AXIS = Phrase("reason-dashed"), Phrase("reason-axis")
+SMALL, WITHIN = Phrase("reason-no-room"), Phrase("reason-within")
+UNWANTED = Phrase("reason-unwanted")
+PAST, OPENED = Phrase("reason-past"), Phrase("reason-of-open")
 #: Reasons that are no loss: short or doubled edges are cut with their neighbours, overruns are reported by themselves.
 _WITH_OTHERS = (SHORT, DOUBLE, PAST)
 #: Reasons why edges are left unasked; reported if these are longer than this part of the cut edges.
@@ -59,14 +68,14 @@ class Selection:
         kept, rest = self._apart(self._chains())
         kept, rest = self._wanted(kept, rest)
         on, between = lying_on(rest, kept, self.near)
-        self.report.notes += _between([rest[run] for run in sorted(between)])
+        self.report.findings += _between([rest[run] for run in sorted(between)])
         self.fates.doubles += [(rest[run].edges, kept[number].edges[0]) for run, number in on.items()]
         rest = [contour for run, contour in enumerate(rest) if run not in on]
         for run in rest:
             self.fates.of_edges(run.edges, JUNCTION)
         gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance))
         self._say_around(rest, kept, bool(gaps))
-        self.report.notes += gaps
+        self.report.findings += gaps
         self.opened = [contour for contour in kept if not contour.is_closed] + rest
         return kept
 
@@ -80,11 +89,8 @@ class Selection:
         if self.wishes.open == "refuse":
             raise UserError(Finding("outline-lost", place=first))
         if len(kept) > 1:
-            what = f" from {shown(first)} to {shown(last)}" * (len(around) == 1)
-            gaps = "open there" if len(around) == 1 else "with gaps"
-            self.report.notes.append(
-                f"take care: an uncut line{what} encloses every cut contour: is it the outline, {gaps}?"
-            )
+            one = Finding("line-around", start=first, end=last) if len(around) == 1 else None
+            self.report.findings.append(one or Finding("lines-around"))
 
     def others(self) -> tuple[list[Contour], list[Contour]]:
         """The closed contours of layers that are not cut, and the open lines of all layers, both drawn through: what is
@@ -104,8 +110,7 @@ class Selection:
         opened = [contour for contour in contours if not contour.is_closed]
         self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance)
         if opened and self.wishes.open == "refuse":
-            count = counted(len(opened), "open contour")
-            raise UserError(f"{count}, {self.report.first_gap()}; choose --open cut or --open leave")
+            raise UserError(Finding("open-refused", count=len(opened), gap=self.report.first_gap()))
         if self.wishes.open != "leave":
             return contours
         for contour in opened:
@@ -123,7 +128,7 @@ class Selection:
             chains, cuts = without_overruns(chains, tolerance, self.styles)
             fates.of_pieces([cut.piece for cut in cuts if not cut.is_whole], PAST)
             fates.of_edges([cut.piece for cut in cuts if cut.is_whole], PAST)
-            report.notes += _past(cuts, self.content)
+            report.findings += _past(cuts, self.content)
             report.mends += [Mend("past", cut.corner, cut.piece.length) for cut in cuts]
         fates.of_edges(chains.short, SHORT)
         fates.parts.update(join.bridge.entity for join in chains.joins if join.bridge)
@@ -154,14 +159,14 @@ class Selection:
             if second < len(contours) and not {first, second} & axes:
                 self.report.overlaps.append(self.fates.overlap(kind, contours[second].edges[0], place))
         if related.unseen:
-            self.report.notes.append(f"{counted(related.unseen, 'more pair')} of contours meet")
+            self.report.findings.append(Finding("more-meetings", count=related.unseen))
 
     def _wanted(self, kept: list[Contour], rest: list[Contour]) -> tuple[list[Contour], list[Contour]]:
         """Select outlines and the rest by --open and --layer; open dashes are left."""
         if self.wishes.open == "all":
             return kept + rest, []
         if self.wishes.open == "cut" and rest and not any(contour.is_closed for contour in kept):
-            self.report.notes.append("no closed outline: lines that meet at junctions or cross are cut as drawn")
+            self.report.findings.append(Finding("no-closed-as-drawn"))
             kept, rest = kept + rest, []
         dashed = {number for number, contour in enumerate(kept) if self.fates.is_dashed(contour)}
         if self.wishes.layers or not any(
@@ -183,17 +188,17 @@ class Fates:
         self.tolerance = tolerance
         self.doubles: list[tuple[tuple[Edge, ...], Edge]] = []
         self.parts = Counter(edge.entity for edge in content.edges)
-        self.gone: dict[int, Counter[str]] = defaultdict(Counter)
+        self.gone: dict[int, Counter[Phrase]] = defaultdict(Counter)
         self.lost: dict[str, float] = defaultdict(float)
 
-    def of_edges(self, edges: Iterable[Edge], why: str) -> None:
+    def of_edges(self, edges: Iterable[Edge], why: Phrase) -> None:
         """Say why edges are not cut."""
         for edge in edges:
             self.gone[edge.entity][why] += 1
             if why in _UNASKED:
                 self.lost[self.entities[edge.entity].layer] += edge.length
 
-    def of_pieces(self, pieces: list[Edge], why: str) -> None:
+    def of_pieces(self, pieces: list[Edge], why: Phrase) -> None:
         """Say why pieces are not cut that edges were divided into."""
         self.parts.update(piece.entity for piece in pieces)
         self.of_edges(pieces, why)
@@ -210,10 +215,10 @@ class Fates:
         """Tell whether a contour is drawn with dashes, all of it: an axis, or what lies behind."""
         return all(self.entities[edge.entity].dashes for edge in contour.edges)
 
-    def account(self, contours: list[Contour], left: Mapping[int, str], begun: Account) -> Account:
+    def account(self, contours: list[Contour], left: Mapping[int, Phrase], begun: Account) -> Account:
         """The report with the sums of the layers, where some contours (by their numbers) are left, and why; a sum that
         does not agree is a `UserError`. `begun`: what else it has."""
-        fates, report = copy(self), replace(begun, notes=[*begun.notes], overlaps=[*begun.overlaps], whole={})
+        fates, report = copy(self), replace(begun, findings=[*begun.findings], overlaps=[*begun.overlaps], whole={})
         fates.gone = defaultdict(Counter, {number: Counter(gone) for number, gone in self.gone.items()})
         fates.lost = self.lost.copy()
         for number, why in left.items():
@@ -224,7 +229,7 @@ class Fates:
     def _sum_up(self, contours: list[Contour], report: Account) -> None:
         cut = Counter(edge.entity for contour in contours for edge in contour.edges)
         self._account_doubles(contours, cut, report)
-        report.notes += self._much_left(contours)
+        report.findings += self._much_left(contours)
         sums: dict[str, LayerSum] = {}
         rest: list[Entity] = []
         odd: list[Entity] = []
@@ -233,18 +238,16 @@ class Fates:
             layer.read += 1
             gone = self.gone.get(number) or Counter()
             if cut[number] + gone.total() != self.parts[number] or not (self.parts[number] or entity.left):
-                raise UserError(
-                    f"{entity.kind} on layer {entity.layer} at {shown(entity.place)}: "
-                    f"of its {self.parts[number]} parts {cut[number] + gone.total()} "
-                    "are accounted for; a bug in skg, please report it"
-                )
+                about = {"kind": entity.kind, "layer": entity.layer, "place": entity.place}
+                known = {"parts": self.parts[number], "counted": cut[number] + gone.total()}
+                raise UserError(Finding("miscounted", **about, **known))
             if not entity.left and all(why in _WITH_OTHERS for why in gone):
                 report.whole[number] = DOUBLE in gone
             lost = [why for why in gone if not cut[number] or why not in _WITH_OTHERS]
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
-            left = replace(entity, left=entity.left or " and ".join(lost))
+            left = replace(entity, left=entity.left or _all_of(lost))
             if cut[number]:
                 layer.part += 1
             else:
@@ -261,19 +264,16 @@ class Fates:
             if cut[number] and entity.dashes:
                 dashed[entity.dashes].append(entity)
         for name, entities in dashed.items():
-            report.notes += said(entities, ("entity", "entities"), f"drawn with dashes ({name})", "cut as it is")
+            report.findings += by_layer("seen-dashed", entities, dashes=name)
 
-    def _much_left(self, contours: list[Contour]) -> Iterator[str]:
+    def _much_left(self, contours: list[Contour]) -> Iterator[Finding]:
         """Report that much of the layers that are cut is left, which nobody asked for."""
         edges = [edge for contour in contours for edge in contour.edges]
         layers = {self.entities[edge.entity].layer for edge in edges}
         cut = sum(edge.length for edge in edges)
         left = sum(length for layer, length in self.lost.items() if layer in layers)
         if left > _MUCH * cut:
-            yield (
-                f"take care: {short(left)} mm on the layers that are cut are left, {short(cut)} mm are cut: --open all "
-                "cuts all of it"
-            )
+            yield Finding("much-left", left=left, cut=cut)
 
     def _account_doubles(self, contours: list[Contour], cut: Counter[int], report: Account) -> None:
         """Say of what is drawn twice whether the other one is cut, and if not why."""
@@ -288,33 +288,35 @@ class Fates:
             near = (distance(middle, place) <= 2 * self.tolerance for place in middles[number])
             if any(near) if number in partly else cut[number]:
                 self.of_edges(run, DOUBLE)
-                overlaps.append(self.overlap(DOUBLE, run[0], run[0].start))
+                overlaps.append(self.overlap(TWICE, run[0], run[0].start))
             else:
                 self.of_edges(run, next((why for why in self.gone[number] if why not in _WITH_OTHERS), DOUBLE))
         report.overlaps[:0] = overlaps
 
 
-def _past(cuts: list[Overrun], content: Content) -> Iterator[str]:
+def _all_of(reasons: list[Phrase]) -> Phrase:
+    """Some reasons as one."""
+    first, *others = reasons
+    for other in others:
+        first = Phrase("reason-and", first=first, other=other)
+    return first
+
+
+def _past(cuts: list[Overrun], content: Content) -> Iterator[Finding]:
     """Report ends that run past corners, a line for each layer."""
     layers: dict[str, list[Overrun]] = defaultdict(list)
     for cut in cuts:
         layers[content.entities[cut.piece.entity].layer].append(cut)
     for layer, ends in sorted(layers.items()):
         longest = max(cut.piece.length for cut in ends)
-        more = f" and {len(ends) - _PLACES} more" if len(ends) > _PLACES else ""
-        yield (
-            f"{counted(len(ends), 'end')} on layer {layer} past a corner by up to {short(longest)} mm, at "
-            f"{', '.join(shown(end.corner) for end in ends[:_PLACES])}{more}: overrun trimmed; --open all keeps it"
-        )
+        places = first_places([end.corner for end in ends], _PLACES)
+        yield Finding("overruns", count=len(ends), layer=layer, longest=longest, **places)
 
 
-def _between(runs: list[Contour]) -> Iterator[str]:
+def _between(runs: list[Contour]) -> Iterator[Finding]:
     """Report uncut lines that divide a cut contour."""
     if runs:
-        yield (
-            f"take care: {counted(len(runs), 'line')} from edge to edge of a cut contour, as at "
-            f"{shown(runs[0].edges[0].start)}: if parts share such edges, --open all cuts them"
-        )
+        yield Finding("lines-between", count=len(runs), place=runs[0].edges[0].start)
 
 
 def _around(rest: list[Contour], kept: list[Contour], has_gaps: bool) -> list[Contour]:
@@ -337,7 +339,7 @@ def _reach_around(outer: Floats, boxes: Floats) -> bool:
     return bool(((low <= middles) & (middles <= high) & (sizes < high - low)).all())
 
 
-def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float) -> Iterator[str]:
+def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float) -> Iterator[Finding]:
     """Report free ends of uncut lines so near to a corner that an outline may be open."""
     count = Counter(end for run in rest for edge in run.edges for end in (edge.start, edge.end))
     corners = list(count)
@@ -350,10 +352,7 @@ def _gaps(rest: list[Contour], edges: list[Edge], tolerance: float) -> Iterator[
     gaps = sorted((gap, place) for gap, place in near if gap <= _GAP and float(above(gap)) < shortest)
     if gaps:
         widest, place = gaps[-1]
-        yield (
-            f"{counted(len(gaps), 'end')} of uncut lines up to {short(widest)} mm from the next one, as at "
-            f"{shown(place)}: --tolerance {above(widest)} joins them"
-        )
+        yield Finding("ends-near", count=len(gaps), widest=widest, gap=above(widest), place=place)
 
 
 def _axes(contours: list[Contour], related: Relations, fates: Fates) -> set[int]:

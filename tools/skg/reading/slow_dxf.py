@@ -25,6 +25,7 @@ from ezdxf.math import OCS, BSpline, Matrix44, Vec3
 from ezdxf.tools.codepage import toencoding
 
 from skg.geometry.contour import Edge
+from skg.messages.finding import Phrase
 from skg.reading.budget import check_entities
 from skg.reading.curves import spline_edges
 from skg.reading.dxf_placing import LEVEL, NotFlat, Placing, swept
@@ -173,9 +174,9 @@ def _edges(entity: DXFGraphic, placing: Placing, styles: dict[str, Record]) -> I
         case "MLINE":
             return _multiline(entity, placing, styles)
         case "POLYLINE":
-            raise NotFlat("a mesh, expected a flat drawing")
+            raise NotFlat(Phrase("reason-mesh"))
         case _:
-            raise NotFlat("not understood")
+            raise NotFlat(Phrase("reason-not-understood"))
 
 
 def _spline(entity: DXFGraphic, placing: Placing) -> Iterator[Edge]:
@@ -195,7 +196,7 @@ def _multiline(entity: DXFGraphic, placing: Placing, styles: dict[str, Record]) 
     name = entity.dxf.style_name
     style = styles.get(name.upper())
     if style is None:
-        raise NotFlat(f"its style {name} is not in the file")
+        raise NotFlat(Phrase("reason-no-style", name=name))
     # (ezdxf draws one that is in a document)
     entity.doc = _document()
     entity.dxf.style_handle = None

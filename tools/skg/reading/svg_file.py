@@ -18,6 +18,7 @@ import svgelements
 
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding, Phrase
 from skg.reading import budget
 from skg.reading.curves import is_number
 from skg.reading.svg_style import Style, StyleSheet
@@ -28,7 +29,12 @@ UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q"
 PX = 25.4 / 96
 #: Elements that are cut; elements that are drawn, but are nothing to cut.
 SHAPES = ("path", "rect", "circle", "ellipse", "line", "polyline", "polygon")
-NOTES = {"text": "text, convert it to paths", "image": "a picture", "foreignObject": "not SVG", "flowRoot": "text"}
+NOTES = {
+    "text": Phrase("reason-text-to-paths"),
+    "image": Phrase("reason-picture"),
+    "foreignObject": Phrase("reason-not-svg"),
+    "flowRoot": Phrase("reason-text"),
+}
 #: Elements that hold others; the children of any other are drawn where they are used, or not at all.
 _GROUPS = ("g", "a", "svg", "switch")
 #: Elements that are gone through.
@@ -97,7 +103,7 @@ class View:
     px: float
     layer: str = "0"
     style: Style = Style()
-    hidden: str = ""
+    hidden: Phrase | None = None
     is_clipped: bool = False
     frames: tuple[_Frame, ...] = ()
 
@@ -108,7 +114,7 @@ class Drawn:
 
     element: ElementTree.Element
     view: View
-    left: str = ""
+    left: Phrase | None = None
 
 
 class SvgFile:
@@ -120,14 +126,14 @@ class SvgFile:
             data = _unpacked(data) if data[:2] == b"\x1f\x8b" else data
             self.root = ElementTree.fromstring(data)
         except (ElementTree.ParseError, OSError, EOFError, ValueError, LookupError, zlib.error) as error:
-            raise UserError(f"not an SVG drawing that can be read ({error})") from None
+            raise UserError(Finding("not-svg", detail=str(error))) from None
         if tag_of(self.root) != "svg":
-            raise UserError(f"not an SVG drawing, its root is {tag_of(self.root)}")
-        self.px, self.guessed = PX, "96 px are an inch"
+            raise UserError(Finding("svg-root", root=tag_of(self.root)))
+        self.px, self.guessed = PX, "px-96"
         if b"Adobe Illustrator" in data[:2000]:
-            self.px, self.guessed = 25.4 / 72, "Illustrator has 72 px in an inch"
+            self.px, self.guessed = 25.4 / 72, "px-illustrator"
         elif re.search(rb'inkscape:version="0\.([0-8]|91)', data[:20000]):
-            self.px, self.guessed = 25.4 / 90, "old Inkscape has 90 px in an inch"
+            self.px, self.guessed = 25.4 / 90, "px-inkscape"
         self.ids = {element.get("id", ""): element for element in self.root.iter() if element.get("id")}
         self.sheet = StyleSheet(
             self.root,
@@ -141,7 +147,7 @@ class SvgFile:
         try:
             box = _view_box(self.root)
         except ValueError as error:
-            raise UserError(f"a page that cannot be read ({error})") from None
+            raise UserError(Finding("svg-page", detail=str(error))) from None
         self.style = self.sheet.style(self.root, self.root, Style())
         self.units = self._units()
         if box and self.units:
@@ -149,7 +155,8 @@ class SvgFile:
             self.px = PX
         width, height = (_page_side(self._side(side), self.px) for side in ("width", "height"))
         if any(side is not None and not 0 < side < _MOST_PAGE for side in (width, height)):
-            raise UserError(f"a page of {self._side('width') or 'no'} by {self._side('height') or 'no'} size")
+            sides = {name: self._side(name) or "?" for name in ("width", "height")}
+            raise UserError(Finding("svg-page-size", **sides))
         # (a page that tells one side or none has that of its view box)
         if box and width is None:
             width = box[2] * (height / box[3] if height else 1.0)
@@ -175,7 +182,7 @@ class SvgFile:
         """All that is drawn, and what is left of it, in the order of the file; all that is in the file, if nothing is
         drawn."""
         budget.check_entities(self._count(self.root, {}))
-        hidden = "not displayed" if self.style.display == "none" else ""
+        hidden = Phrase("reason-not-displayed") if self.style.display == "none" else None
         view = replace(self.view, style=self.style, hidden=hidden)
         is_empty = True
         for shape in self._children(self.root, view, (self.root,), ()):
@@ -183,7 +190,7 @@ class SvgFile:
             yield shape
         if is_empty:
             unshown = (element for element in self.root.iter() if tag_of(element) in (*SHAPES, "glyph"))
-            yield from (Drawn(element, view, "shown nowhere") for element in unshown)
+            yield from (Drawn(element, view, Phrase("reason-shown-nowhere")) for element in unshown)
 
     def _count(self, element: ElementTree.Element, known: dict[ElementTree.Element, int], depth: int = 0) -> int:
         """Count the elements that one shows, those that are used as often as they are; an element in itself once."""
@@ -208,14 +215,14 @@ class SvgFile:
         used: tuple[ElementTree.Element, ...],
     ) -> Iterator[Drawn]:
         if len(around) > _DEPTH:
-            raise UserError(f"groups within groups, more than {_DEPTH} deep")
+            raise UserError(Finding("svg-too-deep", most=_DEPTH))
         shown = _switched(group) if tag_of(group) == "switch" else None
         for child in group:
             name = tag_of(child)
             if name in (*_GROUPS, *SHAPES, *NOTES, "use"):
-                why = "" if shown in (None, child) else "not displayed"
+                why = None if shown in (None, child) else Phrase("reason-not-displayed")
                 if _name_space(child) not in self._name_spaces:
-                    why = "not in SVG's name space"
+                    why = Phrase("reason-name-space")
                 inner = replace(view, hidden=view.hidden or why) if why else view
                 yield from self._one(child, name, inner, around, used)
 
@@ -233,7 +240,8 @@ class SvgFile:
         layer = view.layer
         if name == "g" and (element.get(_MODE) == "layer" or len(around) == 1):
             layer = element.get(_LABEL) or element.get("id") or layer
-        hidden = view.hidden or ("not displayed" if style.display == "none" else "invisible" * style.is_clear)
+        hidden = view.hidden or (Phrase("reason-not-displayed") if style.display == "none" else None)
+        hidden = hidden or (Phrase("reason-invisible") if style.is_clear else None)
         view = replace(view, layer=layer, style=style, hidden=hidden, is_clipped=view.is_clipped or style.is_clipped)
         try:
             if style.transform:
@@ -246,7 +254,7 @@ class SvgFile:
             else:
                 shown = self._children(element, view, (*around, element), used)
         except UNREADABLE as error:
-            yield Drawn(element, view, f"cannot be read ({str(error) or type(error).__name__})")
+            yield Drawn(element, view, Phrase("reason-unread", detail=str(error) or type(error).__name__))
             return
         if name in NOTES:
             yield Drawn(element, view, hidden or NOTES[name])
@@ -265,8 +273,9 @@ class SvgFile:
         """Yield the shapes that a `use` shows."""
         target = self._target(element)
         if target is None or target in used:
-            why = "is part of itself" if target is not None else "is not in the file"
-            return [Drawn(element, view, view.hidden or f"what it shows, {_link(element) or 'nothing'}, {why}")]
+            link = _link(element) or "#"
+            why = Phrase("reason-link-lost" if target is None else "reason-link-itself", link=link)
+            return [Drawn(element, view, view.hidden or why)]
         name = tag_of(target)
         moved = replace(view, matrix=svgelements.Matrix.translate(*_corner(element, view)) * view.matrix)
         around, used = (*around, element), (*used, target)

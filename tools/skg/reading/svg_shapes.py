@@ -17,11 +17,11 @@ import svgelements
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, cross, distance, minus
 from skg.job.read_options import Wishes
-from skg.reading.account import NOTE, Content, Entity, said
+from skg.messages.finding import Finding, Phrase
+from skg.reading.account import NOTE, Content, Entity, by_layer
 from skg.reading.budget import check_vertices
 from skg.reading.curves import conic, is_number, spline_edges
 from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Drawn, SvgFile, View, length_of, property_of, tag_of
-from skg.wording import counted
 
 #: Shapes that may have markers at their ends and corners.
 _MARKED = ("path", "line", "polyline", "polygon")
@@ -30,7 +30,7 @@ _NO_PATH = re.compile(r"(?:[^\s,\d.eE+MmZzLlHhVvCcSsQqTtAa-]|[eE](?![+-]?\d)).*"
 #: A line that is wider than this is said, mm.
 _WIDE = 1.0
 #: Why a shape is left that has neither a stroke nor a fill.
-_UNPAINTED = "drawn with neither line nor area"
+_UNPAINTED = Phrase("reason-unpainted")
 
 
 def _outline(element: ElementTree.Element, view: View) -> Sequence[svgelements.PathSegment]:
@@ -156,7 +156,7 @@ class _SvgCollector:
         kind, layer = tag_of(item.element), item.view.layer
         account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or item.left)
         self.result.entities.append(account)
-        if kind not in SHAPES or item.left.startswith("cannot"):
+        if kind not in SHAPES or item.left and item.left.code == "reason-unread":
             account.is_odd = not item.view.hidden and kind not in NOTES
             return
         try:
@@ -165,7 +165,7 @@ class _SvgCollector:
             check_vertices(len(outline), kind)
             edges = list(self.shapes.edges(outline))
         except UNREADABLE as error:
-            account.left = account.left or f"cannot be read ({str(error) or type(error).__name__})"
+            account.left = account.left or Phrase("reason-unread", detail=str(error) or type(error).__name__)
             account.is_odd = not item.view.hidden
             return
         if edges:
@@ -174,15 +174,15 @@ class _SvgCollector:
         if self.wishes.is_by_layer(account.left) and is_seen and not self.wishes.is_start(layer):
             self.result.others += edges
             account.dashes = "stroke-dasharray" if item.view.style.is_dashed else ""
-        account.left = account.left or ("invisible" if item.view.style.is_hidden else "")
+        account.left = account.left or (Phrase("reason-invisible") if item.view.style.is_hidden else None)
         if account.left:
             return
         if self.wishes.is_start(layer):
             self._start(account, outline if edges else [])
         elif not item.view.matrix.determinant:
-            account.left = "its transform leaves no area, so that nothing is shown"
+            account.left = Phrase("reason-no-area")
         elif not edges:
-            account.left = "it has no length"
+            account.left = Phrase("reason-no-length")
         elif not item.view.style.is_painted:
             account.left = _UNPAINTED
             self.unpainted.append((account, edges))
@@ -191,7 +191,7 @@ class _SvgCollector:
 
     def _start(self, account: Entity, outline: Sequence[svgelements.PathSegment]) -> None:
         """A shape on the layer of start holes: a circle is one, about its middle."""
-        account.left = "a start hole" if account.kind == "circle" else NOTE
+        account.left = Phrase("reason-start-hole") if account.kind == "circle" else NOTE
         if account.kind == "circle" and outline:
             self.result.starts.append(self.shapes.point(outline[0].center))
 
@@ -212,32 +212,29 @@ class _SvgCollector:
 
     def content(self) -> Content:
         """All that was found, with what is to be said of it."""
-        result, nouns = self.result, ("shape", "shapes")
+        result = self.result
         result.notes += self._of_page()
         if not result.edges:
             for account, edges in self.unpainted:
-                account.left = ""
+                account.left = None
                 result.edges += edges
-            result.notes += said(
-                (account for account, _ in self.unpainted), nouns, _UNPAINTED, "cut, there is nothing else"
-            )
-        result.notes += said(self.clipped, nouns, "clipped or masked", "cut whole")
-        result.notes += said(self.outside, nouns, "outside the page, or partly", "cut whole")
-        result.notes += said(self.wide, nouns, f"drawn with a line wider than {_WIDE:g} mm", "its centre line is cut")
-        result.notes += said(self.marked, nouns, "drawn with markers, such as heads of arrows", "these are not cut")
+            result.notes += by_layer("seen-unpainted", (account for account, _ in self.unpainted))
+        result.notes += by_layer("seen-clipped", self.clipped)
+        result.notes += by_layer("seen-outside", self.outside)
+        result.notes += by_layer("seen-wide", self.wide, wide=_WIDE)
+        result.notes += by_layer("seen-markers", self.marked)
         return result
 
-    def _of_page(self) -> Iterator[str]:
+    def _of_page(self) -> Iterator[Finding]:
         """Report parts of the page that are not read."""
         if self.file.style.transform:
-            yield f"the page itself is transformed ({self.file.style.transform}): ignored"
+            yield Finding("page-transformed", transform=self.file.style.transform)
         if self.file.animations:
-            yield f"{counted(self.file.animations, 'animation')}: ignored, all is cut as it stands without"
+            yield Finding("animations", count=self.file.animations)
         for name in self.file.elsewhere:
-            yield f"the style sheet {name} is in another file: ignored"
+            yield Finding("sheet-elsewhere", name=name)
         if missed := self.file.sheet.missed:
-            count = counted(len(missed), "rule", "rules")
-            yield f"{count} of the style sheet not understood, as {missed[0]}: ignored"
+            yield Finding("rules-missed", count=len(missed), first=missed[0])
 
 
 class _Shapes:

@@ -16,6 +16,7 @@ import tinycss2
 from tinycss2 import ast
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 from skg.reading.budget import check_tries
 
 #: Properties of markers at the ends and corners of lines, such as heads of arrows.
@@ -121,7 +122,7 @@ class StyleSheet:
                 try:
                     self._read(tinycss2.parse_stylesheet(style.text or "", True, True), {})
                 except RecursionError:
-                    raise UserError("a style sheet nested too deep to read") from None
+                    raise UserError(Finding("sheet-too-deep")) from None
 
     def _in(self, tree: Element) -> dict[Element, list[_Declared]]:
         """Apply the rules to a tree's elements."""

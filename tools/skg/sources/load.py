@@ -21,6 +21,7 @@ from skg.geometry.plane import XY
 from skg.machine.board import BoardStopped, find_error
 from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, given_up, least_ram, too_large
 from skg.machine.roms import rom_path
+from skg.messages.finding import Finding
 from skg.rivals.languages import is_program, is_rival, translated
 from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape import text as tapes
@@ -113,7 +114,7 @@ def tape_bytes(name: str) -> bytes:
 def contour_of(name: str) -> tuple[Piece, ...]:
     """The nominal contour of a program, mm; a tape has none, which is a `UserError`."""
     if not is_program(name):
-        raise UserError(f"{name}: a tape has no nominal contour, expected a .skg program")
+        raise UserError(Finding("no-nominal-contour").within(name))
     text = program_text(name)
     drawn = drawn_routes(name, *as_run(text), is_milling(text))
     return tuple(_piece(segment) for route in drawn for segment in route if segment.nominal is not None)
@@ -128,7 +129,7 @@ def drawn_routes(name: str, program: str, runs: bool, mills: bool) -> Routes:
     if result.error:
         number, line = result.error
         where = f" LINE {line}" if line is not None else ""
-        raise UserError(f"{name}: ERR {number:02d}{where} with R 0: the program draws no contour")
+        raise UserError(Finding("draws-no-contour", number=number, where=where).within(name))
     return drawn
 
 
@@ -150,7 +151,7 @@ def program_text(name: str) -> str:
     refuse_others(data, name, PROGRAM)
     text = board_text(data, name)
     if not text.strip("\0\x1a \t\r\n"):
-        raise UserError(f"{name}: empty, expected {PROGRAM}")
+        raise UserError(Finding("empty-program", expected=PROGRAM).within(name))
     return text
 
 
@@ -192,7 +193,7 @@ def _run_rom(name: str, text: str, rom: str) -> bytes:
 def _run_emulator(name: str, text: str, skg80: str, mills: bool) -> bytes:
     """Run a program on an emulator of one's own."""
     if not Path(skg80).exists():
-        raise UserError(f"{skg80}: no such file")
+        raise UserError(Finding("no-such-file").within(skg80))
     rom = ["--rom", rom_path(MILL_ROM)] if mills else []
     try:
         with tempfile.TemporaryDirectory() as folder:
@@ -201,7 +202,7 @@ def _run_emulator(name: str, text: str, skg80: str, mills: bool) -> bytes:
             words = [skg80, *rom, "--max-cycles", str(MOST_CYCLES), part]
             done = subprocess.run(words, capture_output=True, check=False)
     except PermissionError:
-        raise UserError(f"{skg80}: not a program that can be run") from None
+        raise UserError(Finding("not-runnable").within(skg80)) from None
     if done.returncode:
         lines = done.stderr.decode("ascii", "replace").strip().splitlines()
         error, last = find_error(lines), lines[-1:]

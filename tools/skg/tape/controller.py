@@ -20,6 +20,7 @@ from collections.abc import Iterator
 from functools import cache
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 from skg.native import load
 from skg.tape.block import Block, Stop, Tape
 
@@ -58,7 +59,7 @@ def _state(block: Block) -> State:
 
 
 def stalled(block: Block) -> UserError:
-    return UserError(f"block {block.number}: {block} never ends, the controller does not reach J = {block.j}")
+    return UserError(Finding("never-ends", number=block.number, block=str(block), j=block.j))
 
 
 def trace_array(block: Block) -> ctypes.Array:

@@ -9,6 +9,7 @@ from decimal import ROUND_HALF_UP, Decimal
 from typing import TYPE_CHECKING
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 from skg.tape.block import Block, Stop, Tape, line_block
 from skg.tape.block_list import Blocks
 from skg.tape.gcode import Spot, millimetres, minus
@@ -204,7 +205,7 @@ class GcodeProgram:
         off = abs(hypots(*(laid.ends - laid.centres).T) - hypots(*(laid.starts - laid.centres).T))
         for index in np.flatnonzero(~laid.is_line & (off > OFF_BLOCK) & (np.array(self.path.moves) == 0)).tolist():
             number = self.path.blocks[index].number
-            raise UserError(f"{self.name}: block {number}: the arc's end is {off[index]:.0f} µm off its circle")
+            raise UserError(Finding("arc-off-circle", number=number, off=float(off[index])).within(self.name))
 
 
 def _counted_holes(number: int) -> str:

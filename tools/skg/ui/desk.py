@@ -14,6 +14,7 @@ from skg.errors import UserError
 from skg.job import file as job_files
 from skg.job.job import Chosen, Job
 from skg.job.wanted import Partial
+from skg.messages.finding import Finding
 from skg.pipeline.steps import (
     CutDrawing,
     DrawnJob,
@@ -52,7 +53,7 @@ class Desk:
         #: Contours that were found again too far from where they were, without their settings, and how far, mm.
         self._doubts: dict[Chosen, float] = {}
         #: The error while no drawing is open.
-        self._why = UserError("no drawing is open")
+        self._why = UserError(Finding("page-no-drawing"))
         self._cut: tuple[int, Job, CutDrawing] | None = None
 
     def drawing_of(self, text: bytes, name: str) -> str:
@@ -72,7 +73,7 @@ class Desk:
         """Plan a job; read the drawing anew where it asks for that."""
         job = job_files.from_data(data, _PAGE)
         if self._job is None or job.drawing != self._job.drawing:
-            raise UserError(f"{job.drawing[:100]} is not open")
+            raise UserError(Finding("page-not-open", drawing=job.drawing[:100]))
         if self._drawn is None or wishes_of(job) != wishes_of(self._job):
             return self._read(job)
         self._job = job
@@ -84,7 +85,7 @@ class Desk:
         drawn = self._present()
         for number in numbers:
             if not 0 <= number < len(drawn.contours):
-                raise UserError(f"there is no contour {number}")
+                raise UserError(Finding("page-no-contour", number=number))
         paths = {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
         return encoded(paths)
 
@@ -104,13 +105,11 @@ class Desk:
     def sheet(self, number: int, tape: str, form: str) -> bytes:
         """The setup sheet of a run."""
         if self._cut is None or self._cut[0] != number:
-            raise UserError("the sheet is gone with the process that made the tape: cut again")
+            raise UserError(Finding("page-sheet-gone"))
         try:
             from skg.pictures.sheet import Facts, write_sheet
         except ModuleNotFoundError:
-            raise UserError(
-                "the sheet needs matplotlib: install it beside skg (pipx inject skg-nc matplotlib)"
-            ) from None
+            raise UserError(Finding("needs-matplotlib")) from None
         _, job, cut = self._cut
         with TemporaryDirectory(prefix="skg-") as folder:
             path = str(Path(folder) / f"sheet.{form}")

@@ -7,6 +7,7 @@ from typing import Any
 
 from skg.errors import UserError
 from skg.messages.finding import Finding
+from skg.messages.render import Medium, Speech, line, speech
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
@@ -28,7 +29,7 @@ def in_json(value: object) -> bytes:
 
 def told(error: UserError) -> dict[str, Any]:
     """An error, with the contour and the place that it is about."""
-    return {"message": str(error)} | about(error)
+    return {"message": line(error.finding, Speech(speech.language, Medium.PAGE))} | about(error)
 
 
 def about(subject: UserError | Finding) -> dict[str, Any]:

@@ -69,7 +69,7 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         for layer in dict.fromkeys(contour.layers):
             on[layer].append(number)
     layers = [
-        {"name": layer.layer, "contours": on[layer.layer], "left": layer.left, "why": ", ".join(layer.why)}
+        {"name": layer.layer, "contours": on[layer.layer], "left": layer.left, "why": ", ".join(map(text, layer.why))}
         for layer in report.layers
     ]
     return {
@@ -77,11 +77,11 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "size": place(report.size),
         "low": place(report.low),
         "units": report.units,
-        "units_from": report.units_from,
+        "units_from": text(report.told),
         "layers": layers,
         "contours": in_json([_contour(drawn, *numbered) for numbered in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],
-        "report": [line(entry) for entry in report.told()],
+        "report": [line(entry) for entry in report.report()],
     }
 
 

@@ -16,6 +16,8 @@ from traceback import extract_tb
 from skg.cutting.progress import Progress
 from skg.errors import UserError
 from skg.garbage import collect_rarely
+from skg.messages.finding import Finding
+from skg.messages.render import Medium, speech
 
 #: No call takes longer but a cut, s.
 SECONDS = 120.0
@@ -69,7 +71,7 @@ class Worker:
         # (fork would take the server's threads and sockets along)
         context = multiprocessing.get_context("spawn")
         self._connection, far = context.Pipe()
-        process = context.Process(target=work, args=(far,), name="skg ui worker", daemon=True)
+        process = context.Process(target=work, args=(far, speech.language), name="skg ui worker", daemon=True)
         process.start()
         # (another thread may end it from here on)
         self._process, self._is_ended = process, False
@@ -89,7 +91,7 @@ class Worker:
             while True:
                 if not self._connection.poll(None if progress else max(0.0, last - time.monotonic())):
                     self.end()
-                    raise UserError(f"given up after {SECONDS:g} s: the drawing is too large, or made to be")
+                    raise UserError(Finding("page-too-long", seconds=SECONDS))
                 kind, *values = self._connection.recv()
                 if kind == "done":
                     return values[0]
@@ -113,7 +115,7 @@ def _ended_by(code: int) -> str:
     return f"exit code {code}"
 
 
-def work(connection: Connection) -> None:
+def work(connection: Connection, language: str) -> None:
     """Answer calls until nobody asks any more: the process's whole life."""
     # (ctrl-C goes to all processes of a terminal, and the server ends this one)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -121,10 +123,9 @@ def work(connection: Connection) -> None:
     os.environ["TQDM_DISABLE"] = "1"
     _bound_memory()
     collect_rarely()
-    from skg.messages.render import Medium, speech
     from skg.ui.desk import Desk
 
-    speech.medium = Medium.PAGE
+    speech.language, speech.medium = language, Medium.PAGE
     desk = Desk(_teller(connection))
     with suppress(EOFError, OSError):
         while True:
