@@ -28,7 +28,7 @@ CATALOGUES = {
 }
 #: Codes that are put together: a page's labels, words for settings' values.
 MADE = re.compile(
-    r"(label|value|kind|count|side|error)-|(care|plain.*|.*-separator|setting-in-job|setting-on-page|field-on-page)$"
+    r"(label|value|kind|count|side|error)-|(care|plain|.*-separator|setting-in-job|setting-on-page|field-on-page)$"
 )
 
 
@@ -115,7 +115,7 @@ def test_codes_that_are_used_are_known_and_all_are_used() -> None:
 def test_severities_are_of_known_codes() -> None:
     assert not _CARE & _LOST and not (_CARE | _LOST) & _GUESS
     assert set(CATALOGUES["en"]) >= _CARE | _LOST | _GUESS
-    assert severity_of("plain-care") is Severity.CARE and not severity_of("plain").is_kept
+    assert severity_of("drift") is Severity.CARE and not severity_of("plain").is_kept
 
 
 def test_settings_are_options_and_keys_of_job_files() -> None:
@@ -132,7 +132,7 @@ def test_settings_are_options_and_keys_of_job_files() -> None:
 def test_every_medium_has_its_words(language: str) -> None:
     finding = Finding("plain", text="").within("part.dxf")
     assert line(finding, Speech(language)).startswith("part.dxf")
-    assert "注意" in line(Finding("plain-care", text="x"), Speech("zh"))
+    assert "注意" in line(Finding("drift", drift=1.0), Speech("zh"))
     assert text(Phrase("plain", text=("a", "b", 0.25)), Speech("en")) == "a, b, 0.25"
 
 
@@ -150,3 +150,26 @@ def test_advice_is_in_the_words_of_the_medium(monkeypatch: pytest.MonkeyPatch) -
     page = text(finding, Speech("zh", Medium.PAGE))
     assert page == "“过小轮廓：不切割” “连接间隙：0.35” “暂留量” “图层与轮廓：A”"
     assert list(advice(finding)) == [("small", "leave"), ("tolerance", "0.35"), ("tab", None), ("layer", "A")]
+
+
+def test_pages_fields_have_the_labels_of_the_page() -> None:
+    """Advice on the page names a field as the page does."""
+    words = (SKG.parents[1] / "web" / "src" / "ui" / "words.ts").read_text()
+    labels = [label for _, label in SETTINGS.values() if label not in ("label-fit-tolerance", "label-encoding")]
+    for label in labels:
+        pair = [text(Phrase(label), Speech(language)) for language in LANGUAGES]
+        assert f'["{pair[0]}", "{pair[1]}"]' in words, label
+
+
+def test_inner_packages_know_no_options() -> None:
+    """The command line is known to the commands alone: advice stands in the catalogues."""
+    looked = 0
+    for package in ("reading", "planning", "checking", "cutting", "pipeline", "job"):
+        for path in sorted((SKG / package).rglob("*.py")):
+            tree = ast.parse(path.read_text())
+            docstrings = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+            for node in ast.walk(tree):
+                if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
+                    looked += 1
+                    assert not re.search(r"(?<![\w(*])--[a-z]{3}", node.value), f"{path}:{node.lineno}: {node.value}"
+    assert looked > 500

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from skg.messages.finding import Finding
-
 
 def short(value: float) -> str:
     """A length as a person writes it: at most four decimals."""
@@ -19,12 +17,3 @@ def shown(place: tuple[float, float]) -> str:
 def counted(count: int, noun: str, nouns: str = "") -> str:
     """A number with its noun."""
     return f"{count} {noun if count == 1 else nouns or noun + 's'}"
-
-
-def report_line(
-    text: str, contour: int | None = None, place: tuple[float, float] | None = None, is_guess: bool = False
-) -> Finding:
-    """Make a finding of an English sentence that has no code yet."""
-    plain = text.removeprefix("take care: ")
-    code = "plain-guess" if is_guess else "plain-lost" if text.startswith("not cut") else "plain"
-    return Finding("plain-care" if plain != text else code, contour=contour, place=place, text=plain)

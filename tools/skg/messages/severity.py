@@ -26,7 +26,6 @@ class Severity(Enum):
 _CARE = frozenset(
     {
         "page-in-dots",
-        "plain-care",
         "contour-not-cut",
         "drawing-changed",
         "drawing-moved",
@@ -67,7 +66,6 @@ _CARE = frozenset(
 _LOST = frozenset(
     {
         "edge-too-short",
-        "plain-lost",
         "more-not-cut",
         "entity-not-cut",
         "of-no-outline",
@@ -77,7 +75,6 @@ _GUESS = frozenset(
     {
         "ends-joined",
         "more-joined",
-        "plain-guess",
         "size-guessed",
     }
 )
