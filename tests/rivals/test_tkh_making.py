@@ -169,6 +169,12 @@ def touching(e: Elements, new: Line, n: list) -> None:
     is_on_side(e["C0"], new, looking, n[0])
 
 
+def touching_first(e: Elements, new: Line, n: list) -> None:
+    near(new.distance(e["P0"]), 0, 0.0011)
+    is_on_side(e["C0"], new, e["P0"] - e["C0"].centre, n[0])
+    assert new.direction.dot(e["P0"] - e["C0"].centre) > 0
+
+
 def touching_chosen(e: Elements, new: Line, n: list) -> None:
     near(new.distance(e["P0"]), 0, 0.0011)
     touch = touching_point(e["C0"], new)
@@ -270,6 +276,7 @@ CHECKS: list[tuple[str, str, str, str, Check]] = [
     ("line_of_numbers", "", "ПР", "{n}, {n}, {n}, {n}", of_numbers),
     ("line_through", "", "ПР", "ТЧ0, ТЧ1", through_both),
     ("line_touching", "", "ПР", "ТЧ0, {s}, КР0", touching),
+    ("line_touching_first", "", "ПР", "{s}, КР0, ТЧ0", touching_first),
     ("line_touching_chosen", "", "ПР", "ТЧ0, КР0, {m}", touching_chosen),
     ("line_touching_both", "", "ПР", "{s}, КР0, {s}, КР1", touching_both),
     ("line_at_angle", "", "ПР", "ТЧ0, {a}", at_bearing),
@@ -289,7 +296,7 @@ CHECKS: list[tuple[str, str, str, str, Check]] = [
     ("number_of", "", "Ч", "2*({n} - {n})/{r} + -", sums),
 ]
 #: These make nothing that SKG has; `transformed` and `test_height` look at what they do.
-NOT_HERE = {"matrix_of_numbers", "plane_at"}
+NOT_HERE = {"matrix_of_numbers", "plane_at", "plane_of_numbers"}
 
 
 def start(rng: random.Random) -> str:
@@ -411,6 +418,18 @@ def test_height() -> None:
     """
     e = made(text + "".join(f"Ы{i} = КООРД(3, {name})\n" for i, name in enumerate(names.split())))
     assert [float(e[f"D{i}"]) for i in range(1, 12)] == [0, 150, -30, 7, 9, -30, 14, 7, -14, 6, 0]
+
+
+def test_planes_by_their_numbers() -> None:
+    """A tilted plane gives each point its own z; an upright one none; cosines make 1."""
+    text = """
+        ПЛ9 = 0, 0, 1, 10; ПЛЗ ПЛ9; ТЧ1 = 5, 1
+        ПЛ8 = 0.6, 0, 0.8, 10; ПЛЗ ПЛ8; ТЧ2 = 5, 1; ТЧ3 = -5, 7
+    """
+    e = made(text + "".join(f"Ы{i} = КООРД(3, ТЧ{i})\n" for i in (1, 2, 3)))
+    assert [float(e[f"D{i}"]) for i in (1, 2, 3)] == [10, 8.75, 16.25]
+    assert fault("ПЛ9 = 1, 0, 0, 10\nПЛЗ ПЛ9\n")
+    assert fault("ПЛ9 = 1, 1, 0, 10\n")
 
 
 def test_defined_again() -> None:

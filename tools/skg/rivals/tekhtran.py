@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from lark import Token, Tree
 
 from skg.rivals.formula import SkgText, call, decimal, literal, minus
-from skg.rivals.plane import ZERO, ExactCircle, ExactLine, ExactPoint, PlaneError, Real, nearest, same_point
+from skg.rivals.plane import TINY, ZERO, ExactCircle, ExactLine, ExactPoint, PlaneError, Real, nearest, same_point
 from skg.rivals.program import LAST_SUBSCRIPT, STATEMENT, SkgProgram, packed, too_long
 from skg.rivals.statement import Figure, TextFault, figure, first_token, placing
 from skg.rivals.tekhtran_contour import ContourItem, cut_items
@@ -24,6 +24,8 @@ OWN = 900
 NEW, KIND_WORDS = "NEW_", {*LETTERS, "MATRIX", "PLANE"}
 #: Words that only hold others apart.
 FILLERS = {"COMMA", "PERESECH", "CENTR"}
+#: The canonical numbers of the plane of points without ПЛЗ.
+HORIZONTAL = (ZERO, ZERO, Real(1), ZERO)
 #: A name's letters that REM and PRINT show.
 SHOWN_LETTERS = 30
 
@@ -72,7 +74,7 @@ class _TekhtranMachine:
     named: dict[str, _Named] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     last: dict[str, int] = field(default_factory=dict)
-    height: Real = ZERO
+    plane: tuple[Real, ...] = HORIZONTAL
     is_traced: bool = False
     wire: _Wire | None = None
     contours: int = 0
@@ -124,8 +126,6 @@ class _TekhtranMachine:
                 return list(zip(values, parts if runs_so else map(minus, parts), strict=True))
             case tuple(numbers):
                 return [(number, decimal(number)) for number in numbers]
-        if named.kind == "PLANE":
-            return [(number, decimal(number)) for number in (ZERO, ZERO, Real(1), named.value)]
         return [(named.value, SkgText(named.skg))]
 
     def operand(self, child: Tree | Token) -> Operand | Token:
@@ -157,7 +157,7 @@ class _TekhtranMachine:
         if skg:
             self.program.assign(skg, made.text, made.value)
         self.kinds[str(target)] = kind
-        self.named[str(target)] = _Named(kind, made.value, self.height if made.z is None else made.z, skg)
+        self.named[str(target)] = _Named(kind, made.value, self._z(made.value) if made.z is None else made.z, skg)
         if self.wire and self.wire.name == skg:
             # The wire stays where that point was.
             self.wire.name = ""
@@ -178,10 +178,21 @@ class _TekhtranMachine:
         return f"{letter}{number}"
 
     def _height(self, children: list) -> None:
+        """ПЛЗ: a height, a plane, or none."""
         if isinstance(children[1], Tree):
-            self.height, _ = self.number(children[1])
+            self.plane = (*HORIZONTAL[:3], self.number(children[1])[0])
+        elif children[1].type == "OTMEN":
+            self.plane = HORIZONTAL
         else:
-            self.height = ZERO if children[1].type == "OTMEN" else self.named[children[1]].value
+            plane = self.named[children[1]].value
+            if abs(plane[2]) <= TINY:
+                raise PlaneError("an upright plane gives points no z")
+            self.plane = plane
+
+    def _z(self, value: object) -> Real:
+        """The z of a point whose definition gives none; that of other kinds means nothing."""
+        a, b, c, p = self.plane
+        return (p - a * value.x - b * value.y) / c if isinstance(value, ExactPoint) else ZERO
 
     # Printing ---------------------------------------------------------------------------------------------------
 

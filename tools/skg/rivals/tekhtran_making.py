@@ -59,6 +59,8 @@ class Defined:
     z: Real | None = None
 
 
+#: The length of a plane's normal, as its cosines are written, may differ from 1 by so much.
+UNIT = Real("1e-3")
 #: A form's name in the grammar -> what makes it. It gets the operands and words in order, without commas.
 FORMS: dict[str, Callable[..., Defined]] = {}
 
@@ -225,6 +227,12 @@ def line_touching(point: Operand, side: Token, circle: Operand) -> Defined:
 
 
 @_form
+def line_touching_first(side: Token, circle: Operand, point: Operand) -> Defined:
+    value, text = _sided(side, circle)
+    return Defined(joining_line(value, point.value), join(text, ":", point.text))
+
+
+@_form
 def line_touching_chosen(point: Operand, circle: Operand, choice: Token) -> Defined:
     directed = ((circle.value, circle.text), (-circle.value, minus(circle.text)))
     if belt_line(point.value, circle.value) is None:
@@ -332,7 +340,16 @@ def matrix_of_numbers(*numbers: Operand) -> Defined:
 
 @_form
 def plane_at(n: Operand) -> Defined:
-    return Defined(n.value)
+    return Defined((ZERO, ZERO, Real(1), n.value))
+
+
+@_form
+def plane_of_numbers(*numbers: Operand) -> Defined:
+    values = tuple(number.value for number in numbers)
+    length = mp.sqrt(sum(value**2 for value in values[:3]))
+    if abs(length - 1) > UNIT:
+        raise PlaneError("a plane's first three numbers are the cosines of its normal: their squares make 1")
+    return Defined(tuple(value / length for value in values))
 
 
 @_form
