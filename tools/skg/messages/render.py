@@ -91,14 +91,15 @@ class _Wording(string.Formatter):
 
     def _field(self, field: str, spec: str, conversion: str | None) -> str:
         if match := _SETTING.fullmatch(field):
-            return self._setting(match["name"], self.setting_value(match["value"], spec, self._values))
+            return self.setting(match["name"], self.setting_value(match["value"], spec, self._values))
         return self.format_field(self.convert_field(self._values[field], conversion), spec)
 
     def setting_value(self, value: str | None, spec: str, values: Mapping[str, Any]) -> str | None:
         """The advised value of a setting: as it stands, or one of the finding's."""
         return self.format_field(values[value[1:]], spec) if value and value[0] == "$" else value
 
-    def _setting(self, name: str, value: str | None) -> str:
+    def setting(self, name: str, value: str | None) -> str:
+        """A setting as its option, its key, or the field of the page."""
         medium, language = self._way.medium, self._way.language
         if medium is Medium.COMMAND or name not in SETTINGS:
             return f"--{name}" + (f" {value}" if value else "")
