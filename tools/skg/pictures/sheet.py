@@ -26,10 +26,10 @@ from skg.messages.finding import Phrase
 from skg.messages.render import text
 from skg.pictures.page import as_it_stands, save
 from skg.pictures.plot import FEW, outlines
-from skg.planning.route import PlannedContour
+from skg.planning.route import PlannedContour, kind_of
 from skg.tape.layout import Laid
 from skg.tape.simulation import duration
-from skg.wording import counted, short, shown
+from skg.wording import short, shown
 
 #: The page lies on its side: A4, and A3 where A4 has no room for the table; mm.
 _A4, _A3 = (297.0, 210.0), (420.0, 297.0)
@@ -200,7 +200,7 @@ class SetupSheet:
         """Text under the drawing: stops of the machine, and the manners in words, two in a line."""
         texts = [f"{_letters(index)}: {text(manner.phrase)}" for index, manner in enumerate(self.manners)]
         if len(texts) > _MANNERS:
-            texts[_MANNERS:] = [f"and {counted(len(texts) - _MANNERS, 'manner')} more: the program has them"]
+            texts[_MANNERS:] = [text(Phrase("sheet-more-manners", count=len(texts) - _MANNERS))]
         lines = [texts[index : index + 2] for index in range(0, len(texts), 2)]
         if reasons := tuple(stops(self.job.routes)):
             lines.insert(0, [text(Phrase("two-stops", reasons=reasons))])
@@ -325,7 +325,7 @@ class SetupSheet:
         width, height = self.high[0] - self.low[0], self.high[1] - self.low[1]
         self._dimension((left, under), (right, under), (left, bottom), (right, bottom), f"{short(width)}")
         self._dimension((beside, bottom), (beside, top), (left, bottom), (left, top), f"{short(height)}")
-        corner, size = f"lower left corner at {shown(self.low)}", 5
+        corner, size = text(Phrase("sheet-corner", place=self.low)), 5
         half = self._half_a_box(corner, size)
         self._text((left, under - 5.2), corner, size, _GREY)
         self.taken.take((left, under - 5.2 - half[1]), (left + 2 * half[0], under - 5.2 + 2 * half[1]))
@@ -442,7 +442,8 @@ class SetupSheet:
             column, row = divmod(index, table.rows)
             x = left + column * column_width
             if row == 0:
-                self._row(x, top, ("no.", "x, mm", "y, mm", "contour", "as", "mm cut"), _GREY)
+                contour, manner, cut = (text(Phrase(f"sheet-{name}")) for name in ("contour", "as", "mm-cut"))
+                self._row(x, top, (text(Phrase("sheet-no")), "x, mm", "y, mm", contour, manner, cut), _GREY)
             route = routes[index]
             # (-0.0001 is 0.000)
             x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
@@ -450,7 +451,7 @@ class SetupSheet:
             length = f"{lengths[index]:.{lengths[index] < 1e5:d}f}"
             self._row(x, top - (row + 1) * row_height, (*cells, length), _INK)
         if count < len(routes):
-            more = f"and {len(routes) - count} more: the program has them"
+            more = text(Phrase("sheet-more-rows", count=len(routes) - count))
             self._text((right, self.foot + 1), more, _LEAST, _INK, ha="right")
 
     def _row(self, x: float, y: float, cells: Iterable[str], colour: str) -> None:
@@ -470,34 +471,40 @@ class SetupSheet:
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
         setup = job.machine
-        wire = "not told" if setup.wire is None else f"{short(setup.wire)} mm, gap {short(setup.gap or 0.0)} mm"
+        untold = text(Phrase("sheet-not-told"))
+        wire = untold
+        if setup.wire is not None:
+            wire = text(Phrase("sheet-wire-and-gap", wire=setup.wire, gap=setup.gap or 0.0))
+        holes = Phrase("count-holes", count=len(job.routes))
+        blocks = Phrase("count-blocks", count=len(job.tape.blocks))
+        without = Phrase("sheet-without-room", count=left_out) if left_out else None
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
         columns = (
             (("drawing", facts.drawing), ("tape", facts.tape), ("date", date.today().isoformat()), ("scale", ratio)),
             (
                 ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
-                ("read in", facts.units),
-                ("contours", f"{len(job.routes)}, {counted(len(job.routes), 'start hole')}"),
-                ("numbers", "order of cutting" + (f", {left_out} without room" if left_out else "")),
+                ("units", facts.units),
+                ("contours", text(Phrase("sheet-contours-and-holes", contours=len(job.routes), holes=holes))),
+                ("numbers", text(Phrase("sheet-in-order", without=without))),
             ),
             (
-                ("material", setup.material or "not told"),
-                ("thickness", setup.thickness or "not told"),
+                ("material", setup.material or untold),
+                ("thickness", setup.thickness or untold),
                 ("wire", wire),
-                ("ROM", setup.rom),
+                ("rom", setup.rom),
             ),
             (
                 ("start", f"{shown(job.routes[0].start)} mm"),
-                ("stops", f"{len(job.tape.stops)}; {counted(len(job.tape.blocks), 'block')}"),
-                ("cut length", f"{job.cut_length:.1f} mm"),
-                ("time", f"{text(duration(job.seconds))} at {setup.feed:g} mm/min"),
+                ("stops", text(Phrase("sheet-stops-and-blocks", stops=len(job.tape.stops), blocks=blocks))),
+                ("length", f"{job.cut_length:.1f} mm"),
+                ("time", text(Phrase("sheet-time-at", time=duration(job.seconds), feed=setup.feed))),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)
         for column, facts_ in enumerate(columns):
             for row, (name, value) in enumerate(facts_):
                 x, y = _MARGIN + column * wide + 1, _MARGIN + _HEAD - 6 - row * 5
-                self._text((x, y), name, 5.5, _GREY, va="center")
+                self._text((x, y), text(Phrase(f"sheet-{name}")), 5.5, _GREY, va="center")
                 self._text((x + 14, y), *_fitted(value, wide - 16), _INK, va="center")
 
     def save(self, output: str, form: str) -> None:
@@ -515,8 +522,8 @@ def _way(samples: Places) -> float:
 def _called(route: PlannedContour) -> str:
     """Return a contour's kind and direction."""
     if not route.contour.is_closed:
-        return route.kind.split()[0]
-    return f"{route.kind} {'ccw' if route.contour.area > 0 else 'cw'}"
+        return text(Phrase("kind-open"))
+    return text(Phrase("sheet-ccw" if route.contour.area > 0 else "sheet-cw", kind=kind_of(route.kind)))
 
 
 def _letters(number: int) -> str:
