@@ -11,7 +11,7 @@
 ;   40-7F           push register M0 ... M63
 ;   80-BF           pop into register M0 ... M63
 ;   C0-D4           push constant 0 ... 20 of CONTAB
-;   D5      QRET    back to who called the routine, A not 0, Z clear
+;   D5      QRET    back to who called the routine, A not 0, Z clear, CY set
 ;   D6-FF           operation 1 ... 2A, then back: QADD+QRET (A and the flags are QADD's)
 ;
 ; QJMP, QJN (pop, jump if negative) and QJZ (pop, jump if zero) are followed by

@@ -1,7 +1,7 @@
 ; fit.asm - smooth curves through nodes: biarcs (language.md, section 5) (curves.md)
 ; Offers: NODSIZ SFIT SPOUT NODNXT FITEND XCHRD XMIRR XBIAR ARCW
 ; Uses:   [spans] calc consts corner cut float geom parser route start value
-; Room:   365 bytes
+; Room:   367 bytes
 ;
 ; Node 2 is the last node, node 1 the one before.  The span from 1 to 2 goes out when both
 ; tangents are known, and node 2 becomes node 1.  So a curve of any length needs two nodes in
@@ -172,8 +172,9 @@ FITC1:  DB      LT0,QDBL,QDIV,SA2 ; -      r
         DB      LT4,LA2,LA1,QMUL,QSUB ; x
         DB      LA2,LA0,QMUL,LT5,QADD,QEND ; x y
         MVI     A,KCIR
-        CALL    FITITM
-        MVI     A,1
+        CALL    FITITM          ; (CORDON comes last: its QRET leaves CY set)
+        LDA     FITSM
+        RAL                     ; 0, 1, 3, 7 ... 255
         JMP     FITC2
 
 ; FITPNT - a point goes into the route, with the R of node 2

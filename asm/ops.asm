@@ -80,7 +80,7 @@ QSCL    EQU 3BH         ; x -> x in the scale of the tape
 QSA     EQU 3CH         ; x y ->  a0 a1 = x y
 QSB     EQU 3DH         ; x y ->  b0 b1 = x y
 QSEEN   EQU 3EH         ; x1 y1 x2 y2 ->  a, b = these places as seen from the centre of C
-QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not 0, Z clear
+QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not 0, Z clear, CY set
 
 OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
         DW      OJMP,ODUP,OOVR,OSWP,OSQ,ODBL,FNEG,FFLR

@@ -2,7 +2,7 @@
 ; Offers: CKIND NKIND HELDN RITEMS RELEMS RLASTP RFSTP RFILW RTURN RNAMED FITN FITSM RCORN RKEPT
 ;         NEEDEL NOFIL PASSP XTRAV XSEEN XSENS XJC XONEL XNORM XNORMS XCHDA XXING ADVANC
 ; Uses:   [post] calc consts float geom parser start value
-; Room:   241 bytes
+; Room:   238 bytes
 ;
 ; cut.asm says what a route is, and how it is cut.  Distances up to 1 um (QMU) are taken as none.
 
@@ -17,7 +17,7 @@ RFILW   EQU CWORK+9     ; not 0 = a fillet waits
 RTURN   EQU CWORK+10    ; not 0 = the corner to come turns right
 RNAMED  EQU CWORK+11    ; not 0 = the corner to come is named by P
 FITN    EQU CWORK+12    ; 0 = no curve; 1 = one of FIT has begun, 2 = its last node waits for the next
-FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up to P
+FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up to P; 1 = it was entered at a corner
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RKEPT   EQU MREG+335    ; behind the registers: element kept while a fillet goes first
 
@@ -44,7 +44,8 @@ NOFIL:  LDA     RFILW
 ; PASSP - the wire travels C to K; the contour goes on from P, the corner as drawn
 ; In:  as ADVANC, P   Out: as ADVANC, D = P   Clobbers all
 PASSP:  CALL    ADVANC
-        DB      CALC,LPX,SDX,LPY,SDY,QRET ; -
+        DB      CALC,LPX,SDX,LPY,SDY ; -
+PASSP1: DB      QRET            ; (for WRAP too)
 
 ; WRAP - demands that the travel on the circle C, from A to K, differs by no more than half a turn from the travel
 ;        as drawn, from D to P: else the wire would leave the element out, or run round all of it
@@ -54,19 +55,18 @@ PASSP:  CALL    ADVANC
 ; together: then the sum of their cosines is not negative.  That of the travels may be wrapped around: when one is less
 ; than half a turn, the other one more.  The angles from D to K and from A to P have the mean of the two travels.  It is
 ; nearer to half a turn than to none when nothing is wrapped around: then the sum of their cosines is not positive.
-WRAP:   LDA     FITSM           ; (arcs of one curve touch each other: their corners stay)
-        ORA     A
-        RNZ
+WRAP:   LDA     FITSM           ; (between two arcs of one curve corners stay: they touch; not so where the first begins)
+        CPI     2
+        RNC
         DB      CALC,LDX,LDY,LAX,LAY,QSEEN,QDOT ; c
         DB      LPX,LPY,LKX,LKY,QSEEN,QDOT,QADD,QE6N ; -
         DB      LDX,LDY,LPX,LPY,QTRAV ; s
         DB      LC2,QABS,QMU,QMUL,QADD ; s      none when 1 um backwards
         DB      LT3,QSIG,QNEG,QJN ; -           both in one half
-        DB      WRAP1-$
+        DB      PASSP1-$
         DB      LDX,LDY,LKX,LKY,QSEEN,QDOT ; c
         DB      LAX,LAY,LPX,LPY,QSEEN,QDOT ; c c
-        DB      QADD,QNEG,QE6N  ; -
-WRAP1:  DB      QRET            ; -
+        DB      QADD,QNEG,QE6N+QRET ; -
 
 ; Operations of the calculator that the route adds
 
@@ -148,9 +148,8 @@ ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         CALL    WRAP
         JMP     ARC
 ADVAN3: DB      Q1,ST3,QEND     ; -             no travel: the corner is the entry place
-        CALL    WRAP
         LDA     RELEMS
         ORA     A
-        RNZ
+        JNZ     WRAP
         DB      CALC,QM1,ST3,QEND ; -           the whole circle
         JMP     ARC

@@ -1,7 +1,7 @@
 ; run.asm - statements are carried out one after the other: RUN, END, GOTO, IF, GOSUB, RETURN; NEW, and how a run starts
 ; Offers: STMT SRETN SGOSUB SIF SGOTO SRUN DIRECT STEND SNEW NEWPRG CLEAR FRESH CLRPTR
 ; Uses:   [post] [punch] calc data ends monitor parser program start
-; Room:   255 bytes
+; Room:   259 bytes
 
 ;! STTEND-STTAB == 2*(TLETR-TFROM) -- an address for every word from FROM on
 ;! TLETR+14 == 100H -- the letters' tokens end with the byte
@@ -104,14 +104,14 @@ ERLINE: DB      ERROR,ELINE
 
 ; SRUN - command: RUN, RUN n
 SRUN:   CALL    OPTLN
+        MOV     A,D
+        ORA     E
+        CNZ     TARGE1          ; (before anything is cleared)
         PUSH    D
         CALL    CLEAR
         POP     D
-        INX     H
-        INX     H               ; HL = PROG
-        MOV     A,D
-        ORA     E
-        CNZ     TARGE1
+        CALL    FINDLN
+        JC      END1            ; no program: no line that an error could name
 RUN1:   SHLD    NXTP            ; (GOTO, GOSUB and RETURN come in here with the line to go on at)
 ; (fall into RUNLP)
 
@@ -136,7 +136,7 @@ DIRECT: LXI     SP,STKTOP       ; (CHKED comes in here with a line that has no n
 
 ; STEND - statement: END
 STEND:  DB      CHKEND
-END1:   CALL    ENDRT           ; (RUNLP comes in here at the end of the program)
+END1:   CALL    ENDRT           ; (RUNLP comes in here at the end of the program, RUN where there is none)
         MVI     B,2             ; DD
         CALL    PUNDS
         JMP     READY
@@ -144,14 +144,14 @@ END1:   CALL    ENDRT           ; (RUNLP comes in here at the end of the program
 ; SNEW - command: NEW
 SNEW:   DB      CHKEND
 ; NEWPRG - forgets the program, variables and route
-; Out: HL = PROG-2   Clobbers all
+; Clobbers all
 NEWPRG: LXI     H,PROG
         SHLD    PEND
         MVI     M,0
 ; (fall into CLEAR)
 
 ; CLEAR - forgets variables and route: the state in which a run starts
-; Out: HL = PROG-2   Clobbers all
+; Clobbers all
 CLEAR:  LHLD    VTOP
         SHLD    VBOT
         MVI     M,0

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
 ; Uses:   [more] [punch] calc consts float geom io lexer round start
-; Room:   280 bytes
+; Room:   276 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -18,13 +18,13 @@ RUNLEN  EQU BLKNO+2-RUNCEL ; H, W, RMOVED, BLKNO
 ;! MC2+20 <= RUNCEL and BLKNO+2 <= MFIRST and RUNCEL+4 == MNEXT -- RUNINI clears no other cells
 
 ; REPOS - FROM: the first one is silent, another one a move between two stops
-; In:  H   Out: W = H   Clobbers all
+; In:  H, and on the float stack H in whole um   Out: W = H   Clobbers all, the float stack too
 REPOS:  LXI     H,RMOVED
         MOV     A,M
         ORA     A
         JNZ     REPOS1
         INR     M
-        DB      CALC,LHX,QRND,SWX,LHY,QRND,SWY ; -
+        DB      CALC,SWY,SWX    ; -
 REPOS2: DB      QRET            ; (for PUTBLK too)
 REPOS1: CALL    STOP
         CALL    HOME
@@ -69,14 +69,13 @@ MOVE1:  DB      QVK             ; -
 
 ; PUTBLK - lists and punches a block; J = 0 is none
 ; In:  BX BY BJ, TGAX TZLET TZNUM, V   Out: W = V; ERR 10 when too long   Clobbers all
-PUTBLK: DB      CALC,LVX,SWX,LVY,SWY ; -
-        DB      Q8DIG           ; 99999999
+PUTBLK: DB      CALC,Q8DIG      ; 99999999
         DB      LBX,LBY,QMAX,LBJ,QMAX ; 99999999 max
         DB      QSUB,QJN        ; -
         DB      PUTB4-$
         DB      LBJ,QJZ         ; -
         DB      REPOS2-$        ; none
-        DB      QEND
+        DB      LVX,SWX,LVY,SWY,QEND ; -
         LXI     H,BLKNO
         MOV     A,M             ; decimal, low two digits first
         ADI     1

@@ -1,7 +1,7 @@
 ; io_tape.asm - a character of the reader waits in KEYB, when lines come from there
 ; Offers: BDREAD TAPEIN
 ; Uses:   [ports]
-; Room:   31 bytes
+; Room:   37 bytes
 
 ;! CCTLC+10H == CXOFF -- TAPEIN knows both keys at once
 
@@ -28,5 +28,9 @@ TAPEIN: INX     H
         ANI     RXOVR
         IN      PUNDT
         CALL    RXTAP
+        CPI     CCTLC           ; a tape's ETX and X-OFF mean nothing: they are no keys
+        RZ
+        CPI     CXOFF
+        RZ
         MOV     M,A
         RET

@@ -517,7 +517,12 @@ DENDS:  CALL    DFIN
 
 ; BDOFF - after an error and at a program tape's end: no more lines from the reader; the machine is off
 ; Out: A = 0   Clobbers nothing else
-BDOFF:  XRA     A
+BDOFF:  LDA     NXTP+1
+        ORA     A
+        JZ      BDOFF1
+        XRA     A               ; a program's tape is broken off: what runs next begins with cutting
+        STA     DSTATE
+BDOFF1: XRA     A
         STA     LOADF
         OUT     DRIVE
         RET

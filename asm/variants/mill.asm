@@ -1,7 +1,7 @@
 ; mill.asm - the statements of milling: F, Z, M, G, HOLE (milling.md)
 ; Offers: SFREES SFEED SHGHT SPREP SMISC SHOLE
 ; Uses:   [post] calc consts corner cut float monitor parser round route start value
-; Room:   282 bytes
+; Room:   286 bytes
 
 LASTW   EQU 99          ; greatest number of M, G and T
 
@@ -145,13 +145,14 @@ SHOLE:  CALL    EVPNT
         JMP     SHOLE
 
 ; HOLE - drills one
-; In:  a point as value   Out: H = W = it; ERR 06, ERR 03   Clobbers all
+; In:  a point as value   Out: H = W = it; ERR 06, ERR 03, ERR 10   Clobbers all, the float stack too
 HOLE:   CALL    NOROUT
         LDA     RSETZ
         ORA     A
         JZ      ERUNS
         CALL    SCALED
-        DB      CALC,LA0,SHX,LA1,SHY,QEND ; -
+        DB      CALC,LA0,QRND,LA1,QRND ; x y    ERR 10, before anything is done
+        DB      LA0,SHX,LA1,SHY,QEND ; x y
         CALL    REPOS
         CALL    DOWN
         JMP     UP

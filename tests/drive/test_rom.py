@@ -180,6 +180,19 @@ def test_a_run_forgets_what_was_left(board: Driver) -> None:
         assert board.steps == wanted, left
 
 
+def test_what_runs_behind_a_break_cuts(board: Driver) -> None:
+    """ctrl-C at the D before a move: a direct GOTO begins with bit 7 on, cuts so, and moves with it off."""
+    machine = board.machine
+    board.load("10 FROM (0,0)\n20 CUT (0,0),(1,0)\n30 FROM (3,3)\n40 CUT (3,3),(4,3)\n50 FROM (3,3)\n60 END\n")
+    board.go("DRIVE 1")
+    machine.type("RUN\r")
+    assert machine.run(20_000_000, patience=8_000_000) == "wait"
+    assert "ERR 10 LINE 30" in board.stop()
+    board.clear()
+    board.go("GOTO 40", keys="  ")
+    assert board.steps and board.steps == follow(board.tape.decode())
+
+
 def test_a_stop_in_a_run(board: Driver) -> None:
     """DRIVE does the rest of the block that a run was stopped in, cutting as it did, then reads the reader."""
     machine = board.machine

@@ -156,7 +156,7 @@ def test_blocks(statements: list[str], wanted: list) -> None:
     (["F 1", "Z 0", "HOLE O,5"], 4, ["G0Z5", "G0X0Y0", "G1Z0F1", "G0Z5"]),
     (["CUT O", "HOLE (1,1)"], 6, ["M0"]),
     (["HOLE 5"], 4, []),
-    (["F 1", "Z 0", "HOLE (100000,0)"], 10, ["G0Z5"]),
+    (["F 1", "Z 0", "HOLE (100000,0)"], 10, []),
     # The tool beyond 100 m, and an error of the wire's in mid-route.
     (["F 1", "FROM (99999.9995,0)"], 10, []),
     (["F 1", "CUT O,(1,0),(1,100000)", "CUT O"], 10, ["G0X0Y0", "G1X1Y0F1", "M0"]),

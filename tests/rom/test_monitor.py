@@ -54,6 +54,70 @@ def test_no_comma_in_front_of_the_program(board: Board) -> None:
     assert board.type("PRINT A") == ["7"]
 
 
+# Checks before effects: what is refused has changed nothing
+
+
+def test_a_refused_from_moves_nothing(board: Board) -> None:
+    """The FROM behind it is the first one still, and silent."""
+    for place in ("(25,200000)", "(-200000,1)"):
+        assert fault(board.type(f"FROM {place}")) == (10, None)
+    assert board.type("FROM (25,200)") == []
+    board.type("CUT (25,201),(30,201)")
+    board.type("END")
+    assert board.tape == b"B0B1000B1000GYL2\r\nB5000B0B5000GXL1\r\nDD\r\n"
+
+
+def test_a_block_that_does_not_fit_moves_nothing(board: Board) -> None:
+    """The wire is where it was before the arc whose count is too long."""
+    lines(board, "C=(40000,0):40000", "CUT (0,0),C,(40000,40000)")
+    assert fault(board.type("END")) == (10, None)
+    board.clear()
+    board.type("FROM (1,1)")
+    assert board.tape == b"D\r\nB1000B1000B1000GYL1\r\nD\r\n"
+
+
+def test_run_without_its_line_clears_nothing(board: Board) -> None:
+    lines(board, "A=7", "10 PRINT A")
+    assert fault(board.type("RUN 55")) == (2, None)
+    assert board.type("PRINT A") == ["7"]
+
+
+@pytest.mark.parametrize("kind", ["skg", "skg-nodrift", "skg-tty"])
+def test_ctrl_c_behind_run_without_a_program(kind: str) -> None:
+    """At many moments: the prompt comes again, and no line is named."""
+    board = Board(kind=kind)
+    refused = 0
+    for wait in range(13_000, 62_000, 3_100):
+        board.machine.type("RUN\r")
+        board.machine.run(wait)
+        start = board.machine.printed
+        board.machine.press(CTRL_C)
+        assert board.machine.run(2 * SECOND, patience=SECOND) == "prompt", wait
+        paper = board.machine.paper_from(start)
+        assert "LINE" not in paper, (wait, paper)
+        refused += "ERR 10" in paper
+    assert refused > 2
+
+
+#: Ends of a line on tapes of the time: X-OFF for a reader that is stopped, RUBOUTs and NULs while a carriage runs, ETX.
+OLD_ENDS = ("\r\n\x13\x7f\x7f", "\r\x13\x7f\n\0\0", "\r\n\0\x7f\0", "\x13\r\n", "\r\n\x03\0", "\x03\r\n\x13")
+
+
+@pytest.mark.parametrize(
+    "kind", ["skg", "skg-8251", "skg-rc2014-sio", "skg-nodrift", "skg-mill", "skg-grbl", "skg-drive"]
+)
+def test_tapes_of_the_time(kind: str) -> None:
+    """LOAD takes them all, with or without even parity, on every board whose reader is not the teletype's."""
+    board = Board(kind=kind)
+    wanted = [f"{10 * n} A={n}" for n in range(1, len(OLD_ENDS) + 1)]
+    text = "".join(line + end for line, end in zip(wanted, OLD_ENDS, strict=True)).encode() + b"\x1a"
+    for tape in (text, bytes(code | code.bit_count() % 2 << 7 for code in text)):
+        board.type("NEW")
+        board.machine.tape(tape)
+        assert board.type("LOAD") == []
+        assert board.listing() == wanted
+
+
 # The line editor
 
 

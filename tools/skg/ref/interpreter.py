@@ -48,6 +48,8 @@ from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Rotation, Value, canon
 
 #: Levels of GOSUB.
 LEVELS = 8
+#: The greatest n of REP.
+MOST_COUNTED = 65535
 
 _PREDEFINED = {("O", 0): ORIGIN, ("X", 0): X_AXIS, ("Y", 0): Y_AXIS}
 
@@ -332,7 +334,7 @@ class Interpreter:
 
     def _rep(self, s: Rep) -> None:
         copies = real.whole(self.number(s.count))
-        if copies < 0:
+        if not 0 <= copies <= MOST_COUNTED:
             raise Fault(Code.RANGE)
         rotation = self.evaluate(s.rotation)
         if copies == 0:

@@ -8,6 +8,7 @@ from skg.ref.geometry import enlarged
 from skg.ref.mill.iso import IsoPunch
 from skg.ref.real import NEARLY
 from skg.ref.route import Route, Segment
+from skg.ref.tape import grid
 from skg.ref.values import Point
 
 
@@ -26,6 +27,7 @@ class MillCutter(Cutter):
     def position(self, p: Point) -> None:
         """FROM."""
         p = enlarged(p, self.scale)
+        grid(p)
         self._end_route()
         self._rapid(p)
         self.from_point = p
