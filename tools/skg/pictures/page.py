@@ -35,12 +35,13 @@ def as_it_stands(text: str) -> dict[str, object]:
     options: dict[str, object] = {"s": shown, "parse_math": False}
     letters = font_manager.get_font(font_manager.findfont(_FONT))
     if not all(letters.get_char_index(ord(character)) for character in shown):
-        options["fontfamily"] = [_FONT, *_installed()]
+        options["fontfamily"] = [_FONT, *installed()]
     return options
 
 
 @cache
-def _installed() -> tuple[str, ...]:
+def installed() -> tuple[str, ...]:
+    """The installed fonts that have Chinese and Japanese letters."""
     known = {font.name for font in font_manager.fontManager.ttflist}
     return tuple(name for name in _MORE_FONTS if name in known)
 

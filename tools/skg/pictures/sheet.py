@@ -23,8 +23,8 @@ from skg.geometry.arrays import numbers_up_to
 from skg.geometry.contour import Places
 from skg.geometry.plane import XY, distance
 from skg.messages.finding import Phrase
-from skg.messages.render import text
-from skg.pictures.page import as_it_stands, save
+from skg.messages.render import speech, text
+from skg.pictures.page import as_it_stands, installed, save
 from skg.pictures.plot import FEW, outlines
 from skg.planning.route import PlannedContour, kind_of
 from skg.tape.layout import Laid
@@ -546,7 +546,14 @@ def _fitted(text: str, width: float) -> tuple[str, float]:
 
 
 def write_sheet(job: CutResult, facts: Facts, output: str, form: str) -> None:
-    """Write the setup sheet of a job; `form` is "pdf", "svg" or "png"."""
-    sheet = SetupSheet(job, facts)
-    sheet.draw()
-    sheet.save(output, form)
+    """Write the setup sheet of a job; `form` is "pdf", "svg" or "png". It is in English where no installed font has
+    Chinese letters (what shows an SVG has its own)."""
+    language = speech.language
+    if form != "svg" and not installed():
+        speech.language = "en"
+    try:
+        sheet = SetupSheet(job, facts)
+        sheet.draw()
+        sheet.save(output, form)
+    finally:
+        speech.language = language
