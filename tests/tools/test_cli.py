@@ -50,6 +50,14 @@ def test_mistyped_command(word: str, answer: str) -> None:
     assert answer in done.stderr
 
 
+def test_as_a_module() -> None:
+    done = [
+        subprocess.run(words, capture_output=True)
+        for words in ([SKG, "--version"], [sys.executable, "-m", "skg", "--version"])
+    ]
+    assert done[0].stdout == done[1].stdout != b"" and done[1].returncode == 0
+
+
 def start(words: list[str], closed: int) -> subprocess.Popen[bytes]:
     """Start a command one of whose streams (1, 2) is a pipe that nobody reads; the other one is kept."""
     reading, writing = os.pipe()

@@ -63,6 +63,20 @@ def test_killed_in_a_call(server: Server, tmp_path: Path) -> None:
     assert process_of(server) != before
 
 
+def test_killed_in_the_first_reading(server: Server, tmp_path: Path) -> None:
+    """There is no job to save, and that is said."""
+    page, answers = Page(server), []
+    reading = Thread(target=lambda: answers.append(page.open(circles(tmp_path, 20_000))))
+    reading.start()
+    until(lambda: server.session._is_long)
+    time.sleep(0.3)
+    os.kill(process_of(server), signal.SIGKILL)
+    reading.join()
+    assert answers[0]["job"] is None
+    answer = page.get("/api/job")
+    assert answer.status == 400 and says(answer.message, "not been read")
+
+
 def test_killed_in_a_cut(server: Server, tmp_path: Path) -> None:
     page = Page(server)
     state = page.open(circles(tmp_path, 2000))

@@ -138,8 +138,8 @@ def main() -> None:
 
     Who reads the output may stop reading (`| head -1`): exit code 1, and not a word.
     """
-    if sys.stdout is None and sys.argv[1:2] != ["term"]:
-        # (who types at a board may do without its paper)
+    if sys.stdout is None and sys.argv[1:2] not in (["term"], ["ui"]):
+        # (a board can be typed at without its paper, and the page is in the browser: pythonw has no console)
         sys.stdout = _Closed()
     codecs.register_error("skg-spell", _spell)
     _prepare(sys.stdout)

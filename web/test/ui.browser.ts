@@ -268,9 +268,15 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await press("Escape");
     await says(page, "#h-values", "All contours");
     await tabTo("field-wire");
-    await page.keyboard.type("0.18\n");
-    await page.waitForSelector(".field.own #field-wire");
+    // (F5 takes what is still being typed, and cuts nothing with a value that it cannot read)
+    await page.keyboard.type("0.1q");
     await press("F5");
+    await message(page, /“0.1q” is no number/);
+    await page.waitForSelector("#field-wire:focus[aria-invalid=true]");
+    await press("Control+a");
+    await page.keyboard.type("０．１８");
+    await press("F5");
+    await page.waitForSelector(".field.own #field-wire");
     await page.waitForSelector("#outcome.good");
     await press("Control+s");
     await message(page, /Saved beside the drawing/);

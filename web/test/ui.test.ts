@@ -136,6 +136,7 @@ test("numbers as people type them", () => {
     null,
     null,
   ]);
+  assert.deepEqual(["０．２５", "０，２５", "－3", "−3", "–3"].map(typed), [0.25, 0.25, -3, -3, -3]);
   assert.deepEqual(typedList("0.06, 0.02, 0"), [0.06, 0.02, 0]);
   assert.deepEqual(typedList("0.06，0.02 0"), [0.06, 0.02, 0]);
   assert.equal(typedList(" "), undefined);

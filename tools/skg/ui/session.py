@@ -161,6 +161,8 @@ class Session:
     def job(self) -> bytes:
         """The job as a file."""
         with self._called():
+            if self._state.get("job") is None:
+                raise UserError("the drawing has not been read: there is no job to save")
             return self._worker.call("job")
 
     @contextmanager
@@ -345,7 +347,7 @@ class Session:
         name = self._state["name"]
         stem = name[: -len(Path(name).suffix)] if Path(name).suffix else name
         job = self._job_path.name if self._job_path else stem + JOB
-        rom = self._state["job"].get("machine", {}).get("rom", ROMS[0])
+        rom = (self._state["job"] or {}).get("machine", {}).get("rom", ROMS[0])
         tape = stem + (WITHOUT_DRIFT if rom == ROMS[0] else ".3b")
         return {"program": f"{stem}.skg", "job": job, "sheet": f"{stem}.pdf", "tape": tape}
 

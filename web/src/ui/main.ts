@@ -50,9 +50,29 @@ const appearance = new Appearance(
     canvas.colours = colours;
   },
 );
-const cut = (): void => void cutting.start();
-const saveAll = (): void => void save(desk, cutting, server);
+const cut = (): void => {
+  if (takeTyped()) void cutting.start();
+};
+const saveAll = (): void => {
+  if (takeTyped()) void save(desk, cutting, server);
+};
 const pick = (): void => get<HTMLInputElement>("file").click();
+
+/** Takes what is still being typed; false where a field holds what cannot be read: it gets the caret. */
+function takeTyped(): boolean {
+  const { activeElement } = document;
+  // (a field is read when it loses the caret)
+  if (activeElement instanceof HTMLInputElement) {
+    activeElement.blur();
+    activeElement.focus();
+  }
+  const refused = document.querySelector<HTMLInputElement>(".field [aria-invalid=true]");
+  if (!refused) return true;
+  get<HTMLDetailsElement>("more").open ||= get("more").contains(refused);
+  refused.focus();
+  show(w("badField", refused.labels?.[0]?.textContent ?? refused.ariaLabel ?? "", refused.value));
+  return false;
+}
 
 /** The header and what depends on the job. */
 function say(): void {

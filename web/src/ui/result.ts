@@ -136,7 +136,8 @@ export class Results {
         break;
       }
       case "done":
-        output.className = isOld ? "old" : "good";
+        // (green: nothing wants a decision)
+        output.className = isOld ? "old" : outcome.result.lines.some(({ care }) => care) ? "care" : "good";
         output.textContent = isOld
           ? w("changedSince")
           : `${w("checked", outcome.result.off_um.toFixed(2))} · ${figures(outcome.result)}`;

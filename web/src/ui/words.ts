@@ -81,6 +81,7 @@ const WORDS = {
   resetToLayer: ["Reset to layer", "恢复图层设置"],
   resetAll: ["Reset all", "全部恢复"],
   mixed: ["mixed", "不同"],
+  badField: ["{0}: “{1}” is no number. Nothing was cut or saved.", "{0}：“{1}”不是数值。未加工，也未保存。"],
   badNumber: ["{0}: a number is wanted, such as {1}", "{0}：请输入数值，例如 {1}"],
   wire: ["Wire", "电极丝直径"],
   gap: ["Gap", "放电间隙"],
