@@ -908,46 +908,6 @@ def test_passes(run: Run, tmp_path: Path) -> None:
     assert ways[0] != ways[1] != ways[2]
 
 
-@pytest.mark.parametrize("shape", ["perpendicular", "arc"])
-@pytest.mark.parametrize("outline", ["polygon", "disc"])
-def test_tab(run: Run, tmp_path: Path, shape: str, outline: str) -> None:
-    """A punch: up to the stop the bridge stands whole, after it the ring is closed; leads do not touch the part."""
-    page, tab, offset = drawing(), 1.5, 0.1
-    if outline == "disc":
-        page.modelspace().add_circle((3, 4), 8)
-        part = Point(3, 4).buffer(8, quad_segs=800)
-    else:
-        part = polygon([(0, 0), (30, 0), (30, 12), (14, 10), (0, 25)], page)
-    tape, program = tmp_path / "part.3b", tmp_path / "part.skg"
-    words = [
-        "--offset",
-        offset,
-        "--passes",
-        PASSES,
-        "--tab",
-        tab,
-        "--lead-shape",
-        shape,
-        "--program",
-        program,
-    ]
-    assert run("cut", saved(page, tmp_path), "-o", tape, *words).exit_code == 0
-    before, after = (LineString(places) for places in stretches(tape.read_bytes(), start_of(program)))
-    assert program.read_text().count("STOP") == 1
-    ring = part.buffer(offset, join_style="mitre", mitre_limit=50, quad_segs=800).exterior
-    bridge = shapely.line_merge(ring.difference(before.buffer(LIMIT)))
-    assert bridge.geom_type == "LineString"
-    # (an arc that touches the contour is within the limit of it for a little way)
-    near = 0.05 if shape == "perpendicular" else 0.3
-    assert bridge.length == pytest.approx(tab, abs=near)
-    assert apart(after.intersection(ring.buffer(LIMIT)), bridge) < near
-    assert ring.difference(shapely.union(before, after).buffer(LIMIT)).length < 0.01
-    for wider in OFFSETS:
-        again = part.buffer(wider, join_style="mitre", mitre_limit=50, quad_segs=800).exterior
-        assert again.difference(before.buffer(LIMIT)).length < tab + 0.2
-    assert min(before.distance(part), after.distance(part)) > offset - LIMIT
-
-
 def test_arc_leads(run: Run, tmp_path: Path) -> None:
     """The wire comes along a quarter of a circle that touches the contour: there is no corner at the entry."""
     page = drawing()

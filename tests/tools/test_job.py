@@ -44,11 +44,20 @@ OFTEN = {
     "reverse": maybe(st.booleans()),
     "passes": maybe(st.lists(OFFSETS, min_size=1, max_size=4).map(lambda some: tuple(sorted(some, reverse=True)))),
     "tab": maybe(LENGTHS),
+    "slug_tab": maybe(LENGTHS),
+    "tabs": maybe(st.integers(1, 50)),
+    "tab_passes": maybe(st.lists(OFFSETS, max_size=3).map(lambda some: tuple(sorted(some, reverse=True)))),
+    "overlap": maybe(LENGTHS),
     "lead": maybe(st.floats(1e-3, 1000)),
     "lead_shape": maybe(st.sampled_from(LEAD_SHAPES)),
 }
 LAYER = OFTEN | {"offset": maybe(OFFSETS)}
-CONTOUR = LAYER | {"start": maybe(PLACES), "entry": maybe(PLACES), "order": maybe(st.integers(1, 99))}
+CONTOUR = {key: value for key, value in LAYER.items() if key != "slug_tab"} | {
+    "tabs": maybe(st.integers(1, 50) | st.lists(PLACES, min_size=1, max_size=3).map(tuple)),
+    "start": maybe(PLACES),
+    "entry": maybe(PLACES),
+    "order": maybe(st.integers(1, 99)),
+}
 CHOSEN = st.builds(
     Chosen,
     st.text(max_size=9),
@@ -221,6 +230,7 @@ MORE = [
     "--lead 1.5 --lead-shape arc --reverse --wire 0.2",
     "--start 12,15 --start 30,15 --wire 0.25 --feed 3.5 --ram 16",
     "--layer PART --units mm --tolerance 0.01 --fit-tolerance 0.001 --offset 0.3 --small leave",
+    "--offset 0.1 --tab 2 --slug-tab 1 --tabs 2 --passes 0.1,0.05 --tab-passes 0.06 --overlap 0.3 --lead 1",
     "--rom standard --offset 0.1 --tab 2 --passes 0.1,0.05 --material '1.2379' --thickness '20 mm'",
 ]
 

@@ -37,6 +37,7 @@ ALLOWED = {
     "sources": {COMMON, "geometry", "tape", "machine", "ref", "rivals"},
     "pictures": {COMMON, "geometry", "job", "tape", "planning", "checking", "cutting"},
 }
+ALLOWED["dialects"] = {COMMON, "geometry", "job", "planning", "tape"}
 ALLOWED["ui"] = {COMMON, "geometry", "job", "tape", "planning", "cutting", "pipeline", "pictures"}
 ALLOWED["commands"] = set(ALLOWED) - {"native"}
 #: Modules beside the wings that are nobody's ground: the package's door, and the command line.

@@ -276,8 +276,8 @@ TABLES = {
     "": "schema drawing sha256 box starts read machine default layer contour odd",
     "read": "units open tolerance start_layer fit_tolerance encoding layers odd",
     "machine": "wire gap offset rom ram feed small into material thickness",
-    "default": "cut side passes tab lead lead_shape reverse odd",
-    "contour": "layer kind at size offset start entry order tab passes",
+    "default": "cut side passes tab slug_tab tabs tab_passes overlap lead lead_shape reverse odd",
+    "contour": "layer kind at size offset start entry order tab tabs passes",
 }
 
 

@@ -67,14 +67,14 @@ def test_plan_and_ways(page: Page, tmp_path: Path) -> None:
     assert state["plan"]["order"][-1] == 0
     outline = state["plan"]["contours"]["0"]
     assert (outline["number"], outline["passes"], outline["radius"]) == (3, [0.15, 0.1], 0.1)
-    assert outline["values"]["tab"] == 4 and outline["tab"] and outline["tab_hole"]
+    assert outline["values"]["tab"] == 4 and outline["tab"] and len(outline["tabs"]) == 1
     ways = page.done("POST", "/api/ways", {"rev": state["rev"], "ids": [0, 1]})["ways"]
     # (two passes and the tab; two passes)
     assert [len(ways[name]) for name in ("0", "1")] == [3, 2]
     for way, aside in zip(ways["0"][:2], (0.15, 0.1), strict=True):
         assert {round(-aside, 4), round(30 + aside, 4)} <= {edge[1] for edge in way if edge[1] == edge[3]}
     for way in ways["0"]:
-        assert way[0][:2] in (outline["hole"], outline["tab_hole"])
+        assert way[0][:2] in (outline["hole"], outline["tabs"][0][2])
         assert all(before[2:4] == after[0:2] for before, after in zip(way, way[1:], strict=False))
 
 

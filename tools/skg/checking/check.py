@@ -4,7 +4,8 @@ Nothing here is computed as the ROM does it, there are no corners and no crossin
 
 - every place of the wire lies R beside its contour (at a sharp corner, outside: beside the line or circle there), and
   never nearer, also where another part of the contour comes by;
-- beside every place of the contour that the wire can reach it has been R away.
+- beside every place of the contour that the wire can reach it has been R away;
+- before a tab is cut, it holds part and stock together.
 
 R is that of the pass which goes there.
 """
@@ -19,6 +20,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from skg.checking.bridges import Fallen, fallen
 from skg.checking.check_coverage import not_reached
 from skg.checking.check_distance import into_others, off_contours
 from skg.checking.follow import Followed, Threading, follow
@@ -30,7 +32,7 @@ from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.index import batches
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Pieces
-from skg.planning.route import PlannedContour, split_at_end
+from skg.planning.route import PlannedContour
 from skg.tape.block import Tape
 
 #: So many pieces of contours are looked at together.
@@ -39,12 +41,14 @@ _TOGETHER = 50_000
 
 @dataclass(frozen=True)
 class Checked:
-    """A tape as it was followed: the largest distance from the drawing (mm), what is wrong."""
+    """A tape as it was followed: the largest distance from the drawing (mm), what is wrong; `fallen`: tabs that hold
+    nothing."""
 
     followed: Followed
     off: float
     faults: list[Misfit]
     crossings: list[Crossing]
+    fallen: list[Fallen]
 
     @property
     def cuts(self) -> list[Threading]:
@@ -77,7 +81,8 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
             missed |= unreached
             worst = max(worst, off, far)
     crossings = into_others(path, beside, near_others, partial(_pieces, routes))
-    return Checked(followed, worst, [*faults, *(missed[key] for key in sorted(missed))], crossings)
+    misfits = [*faults, *(missed[key] for key in sorted(missed))]
+    return Checked(followed, worst, misfits, crossings, [] if misfits else list(fallen(path, followed.cuts, routes)))
 
 
 def _shares(path: WirePath, routes: list[PlannedContour], reach: float) -> Iterator[Share]:
@@ -98,22 +103,17 @@ def _shares(path: WirePath, routes: list[PlannedContour], reach: float) -> Itera
 
 def _pieces(routes: list[PlannedContour], numbers: Whole) -> Pieces:
     """The contours of some routes."""
-    parts = ((part, number) for number in numbers.tolist() for part in _parts(routes[number]))
+    parts = ((part, number) for number in numbers.tolist() for part in routes[number].parts)
     return Pieces((path, number) for part, number in parts for path in _paths(part))
 
 
 def drawn(route: PlannedContour) -> Iterator[Piece]:
     """A contour as lines and arcs, in its direction."""
-    for edge in (edge for part in _parts(route) for edge in part):
+    for edge in (edge for part in route.parts for edge in part):
         if edge.nodes:
             yield from (Piece(p, q) for p, q in pairwise(edge.points()) if p != q)
         else:
             yield edge
-
-
-def _parts(route: PlannedContour) -> tuple[tuple[Edge, ...], ...]:
-    """A contour's edges up to its tab, and those of the tab."""
-    return split_at_end(route.chain, route.tab) if route.tab else (route.chain,)
 
 
 def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
@@ -122,11 +122,12 @@ def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
 
 
 def _in_tabs(share: Share, routes: list[PlannedContour]) -> Flags:
-    """Mark the pieces of the share's own contours that are cut in the last pass alone."""
+    """Mark the pieces of the share's own contours that are tabs until the last cuts."""
     is_in_tab = np.zeros(len(share.contours.owner), bool)
     ends = np.searchsorted(share.contours.owner, np.arange(share.routes.start, share.routes.stop), "right")
     for end, route in zip(ends.tolist(), routes[share.routes], strict=True):
-        if route.tab:
-            tab = Pieces((path, 0) for path in _paths(_parts(route)[1]))
-            is_in_tab[end - len(tab.owner) : end] = True
+        for edges, tab in reversed(route.spans):
+            counts = [len(Pieces((path, 0) for path in _paths(part)).owner) for part in (tab, edges)]
+            is_in_tab[end - counts[0] : end] = True
+            end -= sum(counts)
     return is_in_tab

@@ -42,8 +42,9 @@ def not_reached(
             aside = r[owners]
             places = on + aside[:, None] * square
             free = has_room(contours, which, part, aside) if widest else np.ones(len(places), bool)
-            # (a tab is cut in the last pass alone)
-            free &= np.where(in_tabs[which], number + 1 == passes[owners], number < passes[owners])
+            # (what is a tab until the last cuts is cut in these alone)
+            is_cut = number < beside.cuts[owners]
+            free &= is_cut & ((number >= passes[owners]) == in_tabs[which])
             places = places[free]
             near = beside.wires[number].nearest(places, owners[free], 2 * LIMIT)
             off = near.own.copy()

@@ -151,6 +151,8 @@ def _straight(hole: XY, entry: XY, way: float, r: float) -> Piece:
 
 
 def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
+    if lead.home:
+        yield Piece(lead.home, lead.hole)
     if not lead.is_arc:
         yield _straight(lead.hole, lead.entry, lead.way, r)
         return

@@ -72,11 +72,11 @@ def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
     """The numbers of the passes that follow each other without a stop; -1: all of them in one cut."""
     if not route.contour.is_closed:
         return [(-1,)]
-    if len(route.passes) == 1 and not route.tab:
+    if len(route.passes) == 1 and not route.tabs:
         return [(0,)]
     groups: list[tuple[int, ...]] = []
-    for number, run in enumerate(route.runs()):
+    for run in route.runs():
         if not groups or run.stop:
             groups.append(())
-        groups[-1] += (min(number, len(route.passes) - 1),)
+        groups[-1] += (run.number,)
     return groups

@@ -54,7 +54,7 @@ def crossings(
     what is not its own, mm. `inner`, `outer`: on which side of each route's contour its wire runs; on neither of an
     open one.
     """
-    lines = _lines(wire.some(some))
+    lines = lines_of(wire.some(some))
 
     def deep(near: Pieces, there: Shapes) -> list[Crossing]:
         one, other = shapely.STRtree(there).query(lines, predicate="dwithin", distance=float(least.max(initial=0.0)))
@@ -72,12 +72,12 @@ def crossings(
         return found
 
     near = contours(np.unique(others))
-    found = deep(near, _lines(near))
+    found = deep(near, lines_of(near))
     if not found:
         return found
     # (behind an edge that is cut away there may be one that is not)
     near = contours(np.arange(len(least)))
-    there = _lines(near)
+    there = lines_of(near)
     return deep(near, there) if _cut_away(there, near.owner, inner, outer) else found
 
 
@@ -120,7 +120,7 @@ def _clipped(lines: Shapes, area: shapely.Geometry, is_inner: bool) -> Shapes:
     return clipped
 
 
-def _lines(pieces: Pieces) -> Shapes:
+def lines_of(pieces: Pieces) -> Shapes:
     """Pieces as chords."""
     spaces = np.ones(len(pieces.owner), np.int64)
     for arc in np.flatnonzero(pieces.is_arc).tolist():

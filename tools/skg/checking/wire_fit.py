@@ -55,7 +55,7 @@ class Spoilt:
 
 
 @dataclass(frozen=True)
-class Refused:
+class RefusedProgram:
     """The reference refuses a program that the firmware has cut: its error and line. Behind that line the wire is not
     laid beside what it draws, but for its way on the tape."""
 

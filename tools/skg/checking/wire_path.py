@@ -40,8 +40,9 @@ class Misfit:
 class Beside:
     """The wire's intended distances from its own contours and from others, mm.
 
-    `offsets`: R of its passes, in its own direction; one that has fewer `passes` has its last one again. `aside`: the
-    same without a sign; `wires`: the wire's pieces of each pass. `least`: how far it must stay off what is not its own.
+    `offsets`: R of its passes and of the cuts of its tabs, in its own direction; one that has fewer has its last one
+    again. `passes`: how many of them are passes; `cuts`: how many there are. `aside`: the offsets without a sign;
+    `wires`: the wire's pieces of each. `least`: how far it must stay off what is not its own.
     `is_on`: it runs on its line, of no side. Places that are looked at are `wire_spacing` apart on the wire, `spacing`
     on contours: nothing as large as the wire is missed. What is further from the wire than `reach` does not matter.
     """
@@ -49,8 +50,9 @@ class Beside:
     def __init__(self, path: WirePath, routes: list[PlannedContour]) -> None:
         self.routes = routes
         self.passes = np.array([len(route.passes) for route in routes])
-        most = self.passes.max()
-        padded = [(*route.passes, *(most - len(route.passes)) * route.passes[-1:]) for route in routes]
+        self.cuts = np.array([len(route.offsets) for route in routes])
+        most = self.cuts.max()
+        padded = [(*route.offsets, *(most - len(route.offsets)) * route.offsets[-1:]) for route in routes]
         self.offsets = np.array(padded, float)
         self.aside = np.abs(self.offsets)
         self.wires = [path.of_pass(number) for number in range(most)]
@@ -135,7 +137,7 @@ class WirePath:
 
 def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
     """Return the passes of pieces that end at these places: a pass ends in a start hole."""
-    holes = np.array([route.start, route.tab_hole] if route.tab else [route.start])
+    holes = np.array([*route.holes, *(tab.before for tab in route.tabs)])
     is_last = (np.hypot(*(ends[:, None] - holes).T) < _HOLE).any(0)
     if is_last.sum() != len(passes):
         return np.full(len(ends), -1)

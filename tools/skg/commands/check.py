@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from skg.commands.options import positions_option
+from skg.commands.options import positions_option, read_machine_option
 from skg.errors import UserError
 from skg.file_type import TAPE, kind_of
 from skg.files import without_filling
@@ -18,16 +18,17 @@ from skg.sources.load import drawn_routes, iso_text, program_text, tape_bytes
 from skg.sources.milling import is_milling
 from skg.tape import gcode_reader
 from skg.tape.block import Tape
+from skg.tape.dialect import GcodeDialect
 from skg.tape.styles import read_any
 from skg.tape.text import TapeFault, scan
 from skg.wording import counted
 
 if TYPE_CHECKING:
-    from skg.checking.wire_fit import Refused, Spoilt
+    from skg.checking.wire_fit import RefusedProgram, Spoilt
     from skg.geometry.plane import XY
     from skg.tape.layout import PlacedRoute
 
-Found = "TapeFault | gcode_reader.GcodeTapeFault | Refused | Spoilt"
+Found = "TapeFault | gcode_reader.GcodeTapeFault | RefusedProgram | Spoilt"
 
 #: So many findings of a tape are listed; one wrong in its style alone has some in every line.
 MOST = 20
@@ -38,7 +39,10 @@ MOST = 20
 @click.option("--json", "as_json", is_flag=True, help="Write the findings as JSON, all of them.")
 @click.option("--all", "list_all", is_flag=True, help=f"List all findings, not the first {MOST} of a tape.")
 @positions_option
-def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: str) -> None:
+@read_machine_option
+def command(
+    tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: str, dialect: GcodeDialect | None
+) -> None:
     """Check TAPE for errors: 3B, or G-code (.nc, .ngc, .gcode, .tap, .iso).
 
     One line for each finding: file, block (of G-code: line), column, what was expected. Exit code 1 when there is any.
@@ -48,10 +52,10 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
     """
     all_findings: list[tuple[str, Found]] = []
     for name in tapes_:
-        text = iso_text(name)
+        text = iso_text(name, dialect=dialect)
         data = tape_bytes(name) if text is None else text.encode()
         if text is not None:
-            program, findings = gcode_reader.scan(text)
+            program, findings = gcode_reader.scan(text, dialect=dialect)
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)
             for note in program.notes:
@@ -72,13 +76,13 @@ def command(tapes_: tuple[str, ...], as_json: bool, list_all: bool, positions: s
         raise SystemExit(1)
 
 
-def _misfits(name: str, tape: bytes) -> tuple[list[Spoilt | Refused], int]:
+def _misfits(name: str, tape: bytes) -> tuple[list[Spoilt | RefusedProgram], int]:
     """Lay the wire of a program that runs beside what it draws: what it spoils, and how many contours it has.
 
     `tape`: what it punches.
     """
     # (slow to import, and not needed for tapes)
-    from skg.checking.wire_fit import Refused, look
+    from skg.checking.wire_fit import RefusedProgram, look
     from skg.machine.feeding import as_run
     from skg.ref.drawn import routes_of
     from skg.sources.load import start_of
@@ -87,7 +91,7 @@ def _misfits(name: str, tape: bytes) -> tuple[list[Spoilt | Refused], int]:
     program, runs = as_run(text)
     mills = is_milling(text)
     wires, result = routes_of(program, runs, mills)
-    refused = [Refused(*result.error)] if result.error else []
+    refused = [RefusedProgram(*result.error)] if result.error else []
     if not any(segment.offset for wire in wires for segment in wire):
         return refused, 0
     drawn = drawn_routes(name, program, runs, mills)
@@ -110,7 +114,7 @@ def _placed(tape: bytes, start: XY, mills: bool) -> list[PlacedRoute]:
 
 def _list(
     name: str,
-    findings: Sequence[TapeFault | gcode_reader.GcodeTapeFault | Refused | Spoilt],
+    findings: Sequence[TapeFault | gcode_reader.GcodeTapeFault | RefusedProgram | Spoilt],
     size: str,
     list_all: bool,
 ) -> None:

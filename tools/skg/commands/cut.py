@@ -19,6 +19,7 @@ from skg.commands.options import (
     Millimetres,
     RomName,
     feed_option,
+    machine_option,
     numbers_in,
     offset_option,
     output_option,
@@ -37,8 +38,11 @@ from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES, Partial, Wanted
 from skg.messages.finding import Finding
 from skg.messages.render import Medium, Speech, data, line, speech, text
 from skg.reading.read import Wishes, layer_lines
+from skg.tape.dialect import GcodeDialect
+from skg.tape.gcode import is_gcode
 
 if TYPE_CHECKING:
+    from skg.cutting.job import CutResult
     from skg.pipeline.steps import CutDrawing
 
 
@@ -58,6 +62,10 @@ class JobValue(click.ParamType):
 
 #: Numbers with commas between them, none below 0, such as 0.06,0.02,0.
 PASSES = JobValue("MM,MM,...", lambda value: values.passes(value if isinstance(value, tuple) else numbers_in(value)))
+#: The same for cuts that come on top.
+MORE_PASSES = JobValue(
+    "MM,MM,...", lambda value: values.more_passes(value if isinstance(value, tuple) else numbers_in(value))
+)
 #: A text of one line.
 WORDS = JobValue("text", values.text)
 
@@ -76,7 +84,7 @@ class Encoding(click.ParamType):
 
 
 #: Options allowed beside a job file: files to write, and how much to print.
-_BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job", "quiet", "in_json")
+_BESIDE_A_JOB = ("file", "output", "dialect", "list_layers", "program", "sheet", "save_job", "quiet", "in_json")
 
 
 @click.command(name="cut")
@@ -158,7 +166,30 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
     default=0.0,
     show_default=False,
     type=Millimetres(0),
-    help="Length of the bridge that keeps a part cut from outside; the machine stops, the last cut takes it off.",
+    help="Length of the tab, a bridge that keeps a part cut from outside; the machine stops, the last cut frees it.",
+)
+@click.option(
+    "--slug-tab", default=0.0, show_default=False, type=Millimetres(0), help="The same for the slug of an opening."
+)
+@click.option(
+    "--tabs",
+    default=1,
+    metavar="N",
+    type=click.IntRange(1, values.MOST_TABS),
+    help="Number of tabs on a contour, each behind it with a start hole.",
+)
+@click.option(
+    "--tab-passes",
+    metavar="MM,MM,...",
+    type=MORE_PASSES,
+    help="Stock that further cuts of a tab leave, mm, behind one that leaves as much as the first pass. Default: none.",
+)
+@click.option(
+    "--overlap",
+    default=0.0,
+    show_default=False,
+    type=Millimetres(0),
+    help="Cut so far past the start of a closed contour, and past both ends of a tab.",
 )
 @click.option(
     "--small",
@@ -187,6 +218,9 @@ _BESIDE_A_JOB = ("file", "output", "list_layers", "program", "sheet", "save_job"
 @click.option(
     "--save-job", metavar="FILE", type=click.Path(), help="Also write what was asked for, as a job file: .job.toml."
 )
+@machine_option(
+    "Write G-code for this machine instead of 3B: one that comes with skg (docs/machines.md), or a file .toml."
+)
 @click.option("--quiet", is_flag=True, help="Print warnings alone.")
 @click.option("--json", "in_json", is_flag=True, help="Print the report, or the refusal, as JSON for other programs.")
 @click.pass_context
@@ -198,6 +232,7 @@ def command(
     program: str | None,
     sheet: str | None,
     save_job: str | None,
+    dialect: GcodeDialect | None,
     quiet: bool,
     in_json: bool,
     **options: object,
@@ -211,7 +246,7 @@ def command(
     """
     way = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
     try:
-        report = _cut(context, file, output, list_layers, program, sheet, save_job, **options)
+        report = _cut(context, file, output, list_layers, program, sheet, save_job, dialect, **options)
     except UserError as error:
         if not in_json:
             error.way = way
@@ -239,7 +274,7 @@ def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, obj
         "length": round(result.cut_length, 4),
         "seconds": round(result.seconds, 1),
         "off_um": round(1000 * result.checked.off, 3),
-        "starts": [list(route.start) for route in result.routes],
+        "starts": [list(hole) for route in result.routes for hole in route.holes],
     }
 
 
@@ -251,6 +286,7 @@ def _cut(
     program: str | None,
     sheet: str | None,
     save_job: str | None,
+    dialect: GcodeDialect | None,
     **options: object,
 ) -> tuple[CutDrawing, list[Finding]] | None:
     """Cut the drawing and write the files: the result, and what there is to say of the tape's name; None: its layers
@@ -270,10 +306,13 @@ def _cut(
             click.echo(f"skg: {path}: {note}", err=True)
         return None
     form = picture_format(sheet, None) if sheet else ""
+    if is_gcode(output) and not dialect:
+        raise UserError(f"{output}: its name ends as G-code's, and 3B would be in it: give --machine, or a name in .3b")
     if save_job:
         _refuse_elsewhere(save_job, path)
     drawn = open_drawing(job, read_bytes(path), path)
     cut = cut_drawing(job, drawn)
+    made = cut.result.data if dialect is None else _for_machine(cut.result, dialect, output)
     if program:
         write_bytes(program, cut.result.program.encode("ascii"))
     if sheet:
@@ -284,8 +323,16 @@ def _cut(
         write_sheet(cut.result, Facts(drawing, tape, cut.account.units), sheet, form)
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
-    write_bytes(output, cut.result.data)  # last: no tape where something else could not be written
-    return cut, unmarked(output, cut.result.tape, job.machine.rom)
+    write_bytes(output, made)  # last: no tape where something else could not be written
+    return cut, unmarked(output, cut.result.tape, job.machine.rom) if dialect is None else []
+
+
+def _for_machine(result: CutResult, dialect: GcodeDialect, output: str) -> bytes:
+    """The same cuts as G-code."""
+    from skg.dialects.written import machine_program
+
+    positions = "machine" if result.machine.is_without_drift else "programmed"
+    return machine_program(result.routes, result.tape, positions, result.machine.feed, dialect, output).encode()
 
 
 def is_job_file(name: str) -> bool:

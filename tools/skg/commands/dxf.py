@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import decided, output_option, positions_option, skg80_option, start_option
+from skg.commands.options import (
+    decided,
+    output_option,
+    positions_option,
+    read_machine_option,
+    skg80_option,
+    start_option,
+)
 from skg.errors import UserError
 from skg.files import text_output
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding
+from skg.tape.dialect import GcodeDialect
 
 
 @click.command(name="dxf")
@@ -17,8 +25,17 @@ from skg.messages.finding import Finding
 @start_option
 @click.option("--polylines", is_flag=True, help="One LWPOLYLINE with bulges for each contour.")
 @positions_option
+@read_machine_option
 @skg80_option
-def command(file: str, output: str, start: XY | None, polylines: bool, positions: str, skg80: str | None) -> None:
+def command(
+    file: str,
+    output: str,
+    start: XY | None,
+    polylines: bool,
+    positions: str,
+    dialect: GcodeDialect | None,
+    skg80: str | None,
+) -> None:
     """Turn a tape or a program into a DXF drawing of the wire's path.
 
     FILE is a tape (3B, or G-code as .nc, .ngc, .gcode, .tap, .iso) or a program (.skg, .xy, .tkh), which is run first;
@@ -30,7 +47,7 @@ def command(file: str, output: str, start: XY | None, polylines: bool, positions
     from skg.pictures.dxf import write
     from skg.sources.load import iso_program, lay_out, load
 
-    if program := iso_program(file, skg80):
+    if program := iso_program(file, skg80, dialect):
         if start:
             raise UserError(Finding("iso-has-places").within(file))
         if heights := program.heights():

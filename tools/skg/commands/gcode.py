@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from skg.commands.options import Numbers, decided, output_option, positions_option, start_option
+from skg.commands.options import Numbers, decided, machine_option, output_option, positions_option, start_option
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
@@ -12,6 +12,7 @@ from skg.messages.finding import Finding
 from skg.sources.load import gcode_text, iso_of, iso_text, load
 from skg.tape import gcode
 from skg.tape.block import micrometres
+from skg.tape.dialect import MILL, GcodeDialect
 from skg.tape.text import to_bytes
 
 #: mm/min, where nothing else is said.
@@ -52,6 +53,10 @@ def _heights(heights: tuple[float, ...] | None) -> tuple[int, int] | None:
     help="Cutting height and travel height (left out: 5), mm: re-positionings go up and down instead of stopping.",
 )
 @positions_option
+@machine_option(
+    "Write for this machine, or with --back read its G-code: one that comes with skg (docs/machines.md), or a file "
+    ".toml. Default: LinuxCNC and GRBL, for a mill."
+)
 def command(
     source: str,
     output: str,
@@ -60,6 +65,7 @@ def command(
     feed: tuple[float, ...] | None,
     heights: tuple[float, ...] | None,
     positions: str,
+    dialect: GcodeDialect | None,
 ) -> None:
     """Turn a 3B tape into G-code that LinuxCNC and GRBL take as it is, or with --back G-code into a 3B tape.
 
@@ -70,15 +76,18 @@ def command(
     standard input.
     """
     if back:
-        write_bytes(output, to_bytes(iso_of(gcode_text(source), source).tape().items))
+        write_bytes(output, to_bytes(iso_of(gcode_text(source), source, dialect).tape().items))
         return
     if not gcode.is_gcode(source) and (iso := iso_text(source)) is not None:
-        if start or feed or heights:
+        if start or feed or heights or dialect:
             raise UserError(Finding("mill-has-all").within(source))
         write_bytes(output, iso.encode())
         return
     tape = load(source)
     x, y = start or tape.start
-    home, feeds = (micrometres(x), micrometres(y)), _feeds(feed)
-    text = gcode.write(tape, home, feeds, _heights(heights), decided(tape, positions))
-    write_bytes(output, text.encode())
+    home = micrometres(x), micrometres(y)
+    if heights and dialect:
+        raise UserError("--z goes up and down as a mill does: leave --machine or --z out")
+    dialect = dialect or MILL
+    feeds = _feeds(feed) if dialect.feed else (FEED, FEED)
+    write_bytes(output, gcode.write(tape, home, feeds, _heights(heights), decided(tape, positions), dialect).encode())

@@ -14,6 +14,7 @@ from skg.errors import UserError
 from skg.job.values import LEAST_FEED, MOST_OFFSET
 from skg.messages.finding import Finding
 from skg.tape.block import MAX_DIGITS, Tape
+from skg.tape.dialect import GcodeDialect
 from skg.tape.positions import POSITIONS, WITHOUT_DRIFT, decide, depends
 
 #: Formats of pictures, by the ending of a file's name.
@@ -104,6 +105,29 @@ def _refuse_onto(context: click.Context) -> None:
     for index, name in enumerate(real):
         if any(realpath(name) == realpath(other) for other in [*read, *real[:index]] if other != "-"):
             raise UserError(Finding("written-twice").within(name))
+
+
+class MachineName(click.ParamType):
+    """The name of a machine that reads G-code, or of a file that describes one."""
+
+    name = "NAME|FILE"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> object:
+        """Return its dialect."""
+        from skg.dialects.file import dialect_of
+
+        return value if isinstance(value, GcodeDialect) else dialect_of(str(value))
+
+
+def machine_option(text: str) -> Callable[[Callable], Callable]:
+    """The option --machine, a `GcodeDialect`; `text` is its help."""
+    return click.option("--machine", "dialect", type=MachineName(), help=text)
+
+
+#: The option of commands that read G-code.
+read_machine_option = machine_option(
+    "Read the file as G-code of this machine: one that comes with skg (docs/machines.md), or a file .toml."
+)
 
 
 def answers_option(function: Callable) -> Callable:

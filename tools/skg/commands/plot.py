@@ -16,6 +16,7 @@ from skg.commands.options import (
     output_option,
     picture_format,
     positions_option,
+    read_machine_option,
     skg80_option,
 )
 from skg.errors import UserError
@@ -24,6 +25,7 @@ from skg.messages.finding import Finding
 
 if TYPE_CHECKING:
     from skg.pictures.plot import Sheet
+    from skg.tape.dialect import GcodeDialect
 
 
 @click.command(name="plot")
@@ -51,6 +53,7 @@ if TYPE_CHECKING:
 )
 @click.option("--title", default="", show_default=False, metavar="TEXT", help="A title above the drawing.")
 @positions_option
+@read_machine_option
 @skg80_option
 def command(
     files: tuple[str, ...],
@@ -64,6 +67,7 @@ def command(
     scale: float | None,
     title: str,
     positions: str,
+    dialect: GcodeDialect | None,
     skg80: str | None,
 ) -> None:
     """Draw tapes and programs to scale, several in one picture.
@@ -77,7 +81,7 @@ def command(
     from skg.pictures.plot import COLOURS, Picture
 
     laid = [
-        _laid(name, start[index] if index < len(start) else None, positions, skg80, show_offset)
+        _laid(name, start[index] if index < len(start) else None, positions, skg80, dialect, show_offset)
         for index, name in enumerate(files)
     ]
     sheets, stops = [sheet for sheet, _ in laid], [places for _, places in laid]
@@ -94,13 +98,15 @@ def command(
     picture.save(output, form)
 
 
-def _laid(name: str, start: XY | None, positions: str, skg80: str | None, show_offset: bool) -> tuple[Sheet, list[XY]]:
+def _laid(
+    name: str, start: XY | None, positions: str, skg80: str | None, dialect: GcodeDialect | None, show_offset: bool
+) -> tuple[Sheet, list[XY]]:
     """The routes of a file and its stops, µm. (No more is kept of a tape: it may be long.)"""
     from skg.pictures.plot import Sheet
     from skg.sources.load import contour_of, iso_program, lay_out, load
 
     contour = contour_of(name) if show_offset else ()
-    if program := iso_program(name, skg80):
+    if program := iso_program(name, skg80, dialect):
         if heights := program.heights():
             click.echo(f"skg: {name}: {heights}", err=True)
         return Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)), program.stop_places

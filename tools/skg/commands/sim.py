@@ -8,7 +8,7 @@ from itertools import chain
 
 import click
 
-from skg.commands.options import decided, feed_option, positions_option
+from skg.commands.options import decided, feed_option, positions_option, read_machine_option
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
@@ -16,6 +16,7 @@ from skg.messages.render import text
 from skg.sources.load import load
 from skg.tape.block import Tape
 from skg.tape.controller import drive_steps, stops_in_pairs
+from skg.tape.dialect import GcodeDialect
 from skg.tape.simulation import Report, closing, duration, simulate
 from skg.tape.text import odd_stops
 
@@ -81,6 +82,7 @@ def _xy(point: XY) -> str:
 @click.argument("tapes_", metavar="TAPE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
 @feed_option
 @positions_option
+@read_machine_option
 @click.option("--blocks", is_flag=True, help="Also list every block: where it should end, where it ended.")
 @click.option(
     "--json", "as_json", is_flag=True, help="Write the figures as JSON (µm, seconds), one list for all tapes."
@@ -98,6 +100,7 @@ def command(
     tapes_: tuple[str, ...],
     feed: float,
     positions: str,
+    dialect: GcodeDialect | None,
     blocks: bool,
     as_json: bool,
     steps_file: str | None,
@@ -109,7 +112,7 @@ def command(
     and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input. Exit code 1
     with an odd number of stops: a drive's wire would be off where the tape cuts.
     """
-    tapes = [load(name) for name in tapes_]
+    tapes = [load(name, dialect=dialect) for name in tapes_]
     odd = {tape.name: why for tape in tapes if (why := odd_stops(tape))}
     if steps_file and odd:
         name, why = next(iter(odd.items()))

@@ -20,7 +20,6 @@ from skg.job.job import MachineSetup
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
 from skg.messages.finding import Finding, Phrase
-from skg.planning.entries import longest_tab
 from skg.planning.islands import islands
 from skg.planning.route import PlannedContour
 from skg.tape import text as tapes
@@ -141,8 +140,8 @@ class _Ladder:
         self.progress = progress
 
     def leave_short(self) -> None:
-        """Leave outlines that are too short for their tab; a `UserError` where they are refused."""
-        fits = {number: longest_tab(route.contour) for number, route in self.routes.items() if route.is_short}
+        """Leave contours that are too short for their tab; a `UserError` where they are refused."""
+        fits = {number: route.fits for number, route in self.routes.items() if route.fits is not None}
         if fits and self.machine.small != "leave":
             raise refusal.without_tab(self.routes, fits, self.machine)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})

@@ -15,18 +15,25 @@ _RUNS = 8
 @dataclass(frozen=True)
 class Manner:
     """The way a contour is cut. `kind`: closed or open; `side`: the wire's, as its phrase's code ends; `passes`:
-    distance beside it in each pass, mm; `tab`: length of the bridge that the last cut takes off, mm."""
+    distance beside it in each pass, mm; `tab`: length of the `tabs` that the last cuts take off, mm, `tab_passes`: the
+    distances of these, mm; `overlap`: mm."""
 
     kind: str
     side: str
     passes: tuple[float, ...]
     tab: float
+    tabs: int
+    tab_passes: tuple[float, ...]
+    overlap: float
 
     @classmethod
     def of(cls, route: PlannedContour) -> Manner:
         """The manner of a planned contour."""
         passes = route.passes or (route.offset,)
-        return cls(route.kind, _side(route), tuple(round(abs(r), 9) for r in passes), route.tab)
+        cuts = route.tab_passes if route.tabs else ()
+        asides = [tuple(round(abs(r), 9) for r in some) for some in (passes, cuts)]
+        overlap = route.overlap if route.contour.is_closed else 0.0
+        return cls(route.kind, _side(route), asides[0], route.tab, len(route.tabs), asides[1], overlap)
 
     @property
     def phrase(self) -> Phrase:
@@ -37,8 +44,15 @@ class Manner:
             side=Phrase(f"side-{self.side}"),
             beside=Phrase("beside", offsets=self.passes) if any(self.passes) else None,
             passes=Phrase("in-passes", count=count) if count > 1 else None,
-            tab=Phrase("with-tab", tab=self.tab) if self.tab else None,
+            tab=Phrase("with-tab", count=self.tabs, tab=self.tab) if self.tabs else None,
+            cut=Phrase("tab-cut", offsets=self.tab_passes) if self.has_other_cuts else None,
+            overlap=Phrase("with-overlap", overlap=self.overlap) if self.overlap else None,
         )
+
+    @property
+    def has_other_cuts(self) -> bool:
+        """Tell whether the tabs are cut otherwise than the rest."""
+        return self.tabs > 0 and self.tab_passes != self.passes
 
 
 def _side(route: PlannedContour) -> str:
@@ -59,12 +73,18 @@ def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
 
 def stops(routes: Sequence[PlannedContour]) -> Iterator[Phrase]:
     """Reasons for stops of the machine, each with the contours; each takes two stops, wire off and wire threaded."""
-    twice = [route for route in routes if route.contour.is_closed and len(route.passes) > 1 and not route.tab]
+    twice = [route for route in routes if route.contour.is_closed and len(route.passes) > 1 and not route.tabs]
+    held = {name: [route for route in routes if route.tabs and route.frees == name] for name in ("part", "slug")}
+    many = [route for route in routes if len(route.tabs) > 1]
     for group, code in (
         (routes[1:], "stop-before"),
         ([route for route in twice if route.is_opening], "stop-slug"),
         ([route for route in twice if not route.is_opening], "stop-free"),
-        ([route for route in routes if route.tab], "stop-tab"),
+        (many, "stop-further-hole"),
+        (many, "stop-each-tab"),
+        (held["part"], "stop-tab"),
+        (held["slug"], "stop-slug-tab"),
+        ([route for route in held["slug"] if len(route.tab_passes) > 1], "stop-slug-out"),
     ):
         if group:
             yield Phrase(code, contours=numbered(route.turn for route in group))

@@ -133,6 +133,8 @@ def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
 def _into(lead: Lead, r: float) -> Iterator[float | _Item]:
     """From the start hole to the contour: straight pieces are the wire's own path, without an offset."""
     yield 0.0
+    if lead.home:
+        yield _point(lead.home)
     yield _point(lead.hole)
     if lead.is_arc:
         arc = lead.arc(True)
@@ -150,6 +152,8 @@ def _out(lead: Lead) -> Iterator[float | _Item]:
         yield _point(arc.end)
     yield 0.0
     yield _point(lead.hole)
+    if lead.home:
+        yield _point(lead.home)
 
 
 #: A part of a route: a statement (text), an offset from here on (a number), an item of a CUT, a curve.
@@ -160,7 +164,7 @@ def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
     """A route in parts."""
     here: XY | None = None
     for index, run in enumerate(route.runs()):
-        hole = run.into.hole if run.into else route.start
+        hole = run.into.threaded if run.into else route.start
         if run.stop:
             yield f"REM STOP: {run.stop}"
         if not run.into:

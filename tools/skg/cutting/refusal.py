@@ -28,12 +28,12 @@ def meaning(error: int) -> Finding:
 
 
 def too_short(fit: float) -> Phrase:
-    """The reason why a tab does not fit an outline; `fit`: the longest that does, mm."""
+    """The reason why a tab does not fit a contour; `fit`: the longest that does, mm."""
     return Phrase("too-short-for-tab", fit=floor(fit * 1000 - 1e-6) / 1000)
 
 
 def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], machine: MachineSetup) -> UserError:
-    """Report outlines that their tab does not fit: the shortest one."""
+    """Report contours that their tab does not fit: the shortest one."""
     number = min(fits, key=fits.__getitem__)
     route = routes[number]
     more = Phrase("more-without-tab", count=len(fits) - 1) if len(fits) > 1 else None
@@ -116,9 +116,14 @@ def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup
         raise off_drawing(faults, routes[first], machine)
     for cut in checked.cuts:
         route = routes[cut.route]
-        if route.contour.is_closed and not route.tab and cut.gap != (0, 0):
+        if route.contour.is_closed and not route.tabs and cut.gap != (0, 0):
             (dx, dy), about = cut.gap, {"contour": route.number, "place": route.entry}
             raise UserError(Finding("not-closed", name=route.name, dx=dx, dy=dy, **about))
+    for number, place in checked.fallen[:1]:
+        route = routes[number]
+        values = {"name": route.name, "tab": route.tab, "aside": abs(route.widest)}
+        code = "tab-holds-no-part" if route.frees == "part" else "tab-holds-no-slug"
+        raise UserError(Finding(code, contour=route.number, place=place, **values))
     spoilt = [
         crossing
         for crossing in checked.crossings

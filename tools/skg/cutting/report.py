@@ -23,6 +23,8 @@ from skg.tape.simulation import duration
 _PLACES = 5
 #: Manners of cutting that have a line each.
 _MANNERS = 20
+#: A tab that stands less proud is flush, mm.
+_FLUSH = 1e-6
 #: So many pairs of contours it names of which one is cut into by the other's wire.
 _PAIRS = 100
 
@@ -47,12 +49,13 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
     """Order, manners, length, how the tape was made and what the check found."""
     machine, routes = result.machine, result.routes
     kinds = Counter(route.kind for route in routes)
-    more = len(routes) - _PLACES
+    holes = [hole for route in routes for hole in route.holes]
+    more = len(holes) - _PLACES
     yield Finding(
         "order-of-cutting",
         kinds=tuple(Phrase(f"count-{kind.replace(' ', '-')}", count=count) for kind, count in kinds.items()),
-        holes=Phrase("count-holes", count=len(routes)),
-        places=tuple(route.start for route in routes[:_PLACES]),
+        holes=Phrase("count-holes", count=len(holes)),
+        places=tuple(holes[:_PLACES]),
         more=Phrase("and-more", count=more) if more > 0 else None,
     )
     yield from _manners(routes, offset)
@@ -104,13 +107,24 @@ def _manners(routes: list[PlannedContour], offset: float) -> Iterator[Finding]:
     free = [
         route.turn
         for route in routes
-        if route.contour.is_closed and len(route.passes) > 1 and not route.tab and not route.is_opening
+        if route.contour.is_closed and len(route.passes) > 1 and not route.tabs and not route.is_opening
     ]
     if free:
         yield Finding("parts-free", count=len(free), contours=in_brackets(free))
+    yield from _proud(routes)
     yield from _sides(routes)
     if on := sum(not route.contour.is_closed and not any(route.passes) for route in routes):
         yield Finding("open-on-line", count=on)
+
+
+def _proud(routes: list[PlannedContour]) -> Iterator[Finding]:
+    """Tabs that leave more than the last pass, those of a height together."""
+    heights: dict[float, list[int]] = {}
+    for route in routes:
+        if route.proud > _FLUSH:
+            heights.setdefault(round(route.proud, 6), []).append(route.turn)
+    for height, turns in heights.items():
+        yield Finding("tabs-proud", count=len(turns), height=height, contours=in_brackets(turns))
 
 
 def _sides(routes: list[PlannedContour]) -> Iterator[Finding]:
@@ -192,5 +206,5 @@ def _more(every: Sequence, code: str) -> list[Finding]:
 
 
 def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> Phrase | None:
-    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tab}
+    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tabs}
     return Phrase("closing", count=len(closed)) if closed else None

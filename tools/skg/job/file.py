@@ -51,6 +51,10 @@ _DEFAULT: dict[str, values.Check] = {
     "side": values.choice(SIDES),
     "passes": values.passes,
     "tab": values.number(0.0),
+    "slug_tab": values.number(0.0),
+    "tabs": values.whole(1, values.MOST_TABS),
+    "tab_passes": values.more_passes,
+    "overlap": values.number(0.0),
     "lead": values.number(0.0, is_open=True),
     "lead_shape": values.choice(LEAD_SHAPES),
     "reverse": values.flag,
@@ -62,7 +66,8 @@ _CONTOUR: dict[str, values.Check] = {
     "kind": values.choice(KINDS),
     "at": values.place,
     "size": values.size,
-    **_OFTEN,
+    **{key: check for key, check in _OFTEN.items() if key != "slug_tab"},
+    "tabs": values.tabs,
     "start": values.place,
     "entry": values.place,
     "order": values.whole(1, 1_000_000),
@@ -106,16 +111,16 @@ def encoded(job: Job) -> bytes:
 
 def from_data(data: object, name: str) -> Job:
     """Make the job of plain data; what is wrong with these is a `UserError` that begins with the name and the place."""
-    top = _table(data, name)
+    top = expect_table(data, name)
     _refuse_unknown(top, {**_TOP, **_TABLES, **_LISTS}, name)
-    settings = _checked({key: value for key, value in top.items() if key in _TOP}, _TOP, name)
+    settings = checked_values({key: value for key, value in top.items() if key in _TOP}, _TOP, name)
     for key in ("schema", "drawing"):
         if key not in settings:
             missing = Finding("schema-missing", schema=SCHEMA) if key == "schema" else Finding("key-missing", key=key)
             raise UserError(missing.within(name))
     del settings["schema"]
     tables = {
-        key: _checked(_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
+        key: checked_values(expect_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
         for key, keys in _TABLES.items()
     }
     layers = _layers(_list(top, "layer", name), name)
@@ -170,11 +175,11 @@ def _list(top: Mapping[str, Any], key: str, name: str) -> list[tuple[dict[str, A
     tables = []
     for number, entry in enumerate(entries, 1):
         where = f"{name}: [[{key}]] {number}"
-        tables.append((_checked(_table(entry, where), _LISTS[key], where), where))
+        tables.append((checked_values(expect_table(entry, where), _LISTS[key], where), where))
     return tables
 
 
-def _table(data: object, where: str) -> dict[str, Any]:
+def expect_table(data: object, where: str) -> dict[str, Any]:
     if not isinstance(data, dict):
         raise UserError(Finding("expected-table").within(where))
     return data
@@ -190,7 +195,7 @@ def _refuse_unknown(data: Mapping[str, Any], keys: Mapping[str, object], where: 
             raise UserError(close.within(where))
 
 
-def _checked(data: Mapping[str, Any], keys: Mapping[str, values.Check], where: str) -> dict[str, Any]:
+def checked_values(data: Mapping[str, Any], keys: Mapping[str, values.Check], where: str) -> dict[str, Any]:
     """The values, as the checks return them."""
     _refuse_unknown(data, keys, where)
     checked = {}

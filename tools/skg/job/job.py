@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from skg.errors import UserError
 from skg.geometry.plane import XY
@@ -106,7 +106,11 @@ class Job:
         for name, partial in reversed(self.layers.items()):
             if name.lower() in on:
                 wanted = partial.over(wanted)
-        return chosen.partial.over(wanted) if chosen else wanted
+        if not chosen:
+            return wanted
+        partial = chosen.partial
+        # (a contour by itself is what it is)
+        return partial.over(wanted if partial.tab is None else replace(wanted, slug_tab=partial.tab))
 
     @property
     def is_beside(self) -> bool:

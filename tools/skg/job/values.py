@@ -17,6 +17,8 @@ MOST_OFFSET = 5.0
 LEAST_FEED = 0.001
 #: FIT comes no nearer to a curve, mm.
 LEAST_FIT = 1e-5
+#: No contour has more tabs.
+MOST_TABS = 50
 #: The board's RAM, KiB.
 RAM = 2, 56
 #: No place is farther from the origin, no length longer, mm: a tape ends there.
@@ -144,10 +146,24 @@ def places(value: object) -> tuple[tuple[float, float], ...]:
     return tuple(map(place, value))
 
 
-def passes(value: object) -> tuple[float, ...]:
-    """Check what the passes leave, none of them more than the one before it."""
+def passes(value: object, least: int = 1) -> tuple[float, ...]:
+    """Check what the passes leave, none of them more than the one before it; `least`: how many there are."""
     count = len(value) if isinstance(value, list | tuple) else 0
-    allowances = tuple(_numbers(value, min(max(1, count), _LONGEST), number(0.0, MOST_OFFSET), "value-lengths"))
+    allowances = tuple(_numbers(value, min(max(least, count), _LONGEST), number(0.0, MOST_OFFSET), "value-lengths"))
     if any(after > before for before, after in pairwise(allowances)):
         raise Wrong(Phrase("value-rising"))
     return allowances
+
+
+def more_passes(value: object) -> tuple[float, ...]:
+    """Check what further passes leave: there may be none."""
+    return passes(value, 0)
+
+
+def tabs(value: object) -> int | tuple[tuple[float, float], ...]:
+    """Check how many tabs a contour has, or their places."""
+    if isinstance(value, list | tuple):
+        if not 0 < len(value) <= MOST_TABS:
+            raise Wrong(Phrase("value-tabs", most=MOST_TABS))
+        return places(value)
+    return whole(1, MOST_TABS)(value)

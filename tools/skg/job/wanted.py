@@ -18,9 +18,12 @@ class Wanted:
 
     `cut`: False leaves it, and it stays in the nesting. `offset`: the wire's distance from the contour, mm. `side`: one
     of `SIDES`; auto: around outlines, within the openings in them. `passes`: what each pass leaves to the offset, mm.
-    `tab`: the bridge that keeps a part cut from outside, mm. `lead`: from a chosen start hole to the contour, mm;
-    `lead_shape`: one of `LEAD_SHAPES`. `start`: the start hole, mm, None: chosen. `entry`: the contour is entered
-    there, mm, None: chosen. `order`: its place in the order of cutting, from 1, None: chosen.
+    `tab`: the bridge that keeps a part cut from outside, `slug_tab`: the one for the slug of an opening, mm; `tabs`:
+    their number on a contour, or a place of each, mm. `tab_passes`: what further cuts of a tab leave to the offset,
+    behind one that leaves as much as the first pass, mm. `overlap`: the cut goes on past its start by this, mm.
+    `lead`: from a chosen start hole to the contour, mm; `lead_shape`: one of `LEAD_SHAPES`. `start`: the start hole,
+    mm, None: chosen. `entry`: the contour is entered there, mm, None: chosen. `order`: its place in the order of
+    cutting, from 1, None: chosen.
     """
 
     cut: bool = True
@@ -29,6 +32,10 @@ class Wanted:
     reverse: bool = False
     passes: tuple[float, ...] = (0.0,)
     tab: float = 0.0
+    slug_tab: float = 0.0
+    tabs: int | tuple[tuple[float, float], ...] = 1
+    tab_passes: tuple[float, ...] = ()
+    overlap: float = 0.0
     lead: float = LEAD
     lead_shape: str = "perpendicular"
     start: tuple[float, float] | None = None
@@ -56,6 +63,10 @@ class Partial:
     reverse: bool | None = None
     passes: tuple[float, ...] | None = None
     tab: float | None = None
+    slug_tab: float | None = None
+    tabs: int | tuple[tuple[float, float], ...] | None = None
+    tab_passes: tuple[float, ...] | None = None
+    overlap: float | None = None
     lead: float | None = None
     lead_shape: str | None = None
     start: tuple[float, float] | None = None

@@ -21,6 +21,10 @@ SETTINGS: dict[str, tuple[str, str]] = {
     "side": ("default", "label-side"),
     "passes": ("default", "label-passes"),
     "tab": ("default", "label-tab"),
+    "slug-tab": ("default", "label-slug-tab"),
+    "tabs": ("default", "label-tabs"),
+    "tab-passes": ("default", "label-tab-passes"),
+    "overlap": ("default", "label-overlap"),
     "start": ("default", "label-start"),
 }
 #: Settings that a job file calls otherwise.

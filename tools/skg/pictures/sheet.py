@@ -160,7 +160,9 @@ class SetupSheet:
         self.job, self.facts = job, facts
         self.manners = manners(job.routes)
         self.notes = self._notes()
-        rows = len(job.routes)
+        #: The start holes, each with its contour.
+        self.holes = [(hole, route) for route in job.routes for hole in route.holes]
+        rows = len(self.holes)
         self.foot = _MARGIN + _HEAD + len(self.notes) * _NOTE
         per_column = [self._rows_in(page[1] - _MARGIN - self.foot) for page in (_A4, _A3)]
         self.page = _A4 if rows <= 2 * per_column[0] else _A3
@@ -187,7 +189,7 @@ class SetupSheet:
         self._part()
         self._wire()
         self._dimensions()
-        left_out = self._holes()
+        left_out = self._mark_holes()
         self._table()
         self._title(left_out)
 
@@ -213,7 +215,7 @@ class SetupSheet:
         points = np.array([point for piece in pieces for point in piece.extremes()])
         # (a bound of -1e-17 is 0)
         self.low, self.high = (tuple(np.round(bound, 6) + 0.0) for bound in (points.min(0), points.max(0)))
-        holes = np.array([route.start for route in self.job.routes] + [self.low, self.high])
+        holes = np.array([hole for hole, _ in self.holes] + [self.low, self.high])
         self.least, self.most = holes.min(0), holes.max(0)
 
     def _room(self, table: _Table) -> tuple[float, float]:
@@ -295,7 +297,7 @@ class SetupSheet:
                 tenths = Affine2D().scale(0.001 * self.scale).translate(*self.shift).scale(10)
                 path = [places / 10 for places in curve.to_polygons(tenths, closed_only=False)]
                 self._take_lines(*(np.concatenate([places[rows] for places in path]) for rows in _STEPS))
-        holes = self._all_on_paper(route.start for route in self.job.routes)
+        holes = self._all_on_paper(hole for hole, _ in self.holes)
         moves = np.stack([holes[:-1], holes[1:]], axis=1)
         self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
         arrows = [arrow for route in self.job.routes if (arrow := self._arrow(route))]
@@ -319,7 +321,7 @@ class SetupSheet:
     def _dimensions(self) -> None:
         """Width and height of the part, and where its lower left corner lies on the drawing."""
         (left, bottom), (right, top) = self.on_paper(self.low), self.on_paper(self.high)
-        holes = [self.on_paper(route.start) for route in self.job.routes]
+        holes = [self.on_paper(hole) for hole, _ in self.holes]
         under = min(bottom, *(y for _, y in holes)) - 6
         beside = min(left, *(x for x, _ in holes)) - 6
         width, height = self.high[0] - self.low[0], self.high[1] - self.low[1]
@@ -356,9 +358,9 @@ class SetupSheet:
     def _text(self, place: XY, text: str, size: float, colour: str, **how: object) -> None:
         self.axes.text(*place, **as_it_stands(text), fontsize=size, color=colour, **how)
 
-    def _holes(self) -> int:
+    def _mark_holes(self) -> int:
         """Mark and number the start holes; returns how many numbers found no room."""
-        places = self._all_on_paper(route.start for route in self.job.routes)
+        places = self._all_on_paper(hole for hole, _ in self.holes)
         radii = self._radii(places).tolist()
         widths = [min(0.7, radius) for radius in radii]
         for place, radius in zip(places, radii, strict=True):
@@ -378,7 +380,7 @@ class SetupSheet:
 
     def _radii(self, places: np.ndarray) -> np.ndarray:
         """The radii of the marks at these places: a mark covers neither its contour nor the next mark."""
-        routes = self.job.routes
+        routes = [route for _, route in self.holes]
         rooms = np.array([route.room for route in routes]) * self.scale
         leads = np.array([distance(route.start, route.entry) for route in routes]) * self.scale
         points, apart = shapely.points(places), np.full(len(places), np.inf)
@@ -392,7 +394,7 @@ class SetupSheet:
     def _number(self, index: int, marks: _Marks) -> bool:
         """Write a number where there is room near its hole, with a line to it where it does not stand beside it alone;
         whether there was room."""
-        number = str(self.job.routes[index].turn)
+        number = str(self.holes[index][1].turn)
         for size in (_FONT, _LEAST):
             half = self._half_a_box(number, size)
             if room := self._room_beside(index, marks, half):
@@ -428,12 +430,12 @@ class SetupSheet:
 
     def _table(self) -> None:
         """Number, place, kind and length of each start hole."""
-        routes, table = self.job.routes, self.table
-        lengths = np.zeros(len(routes))
+        table = self.table
+        lengths = dict.fromkeys((route.turn for _, route in self.holes), 0.0)
         for cut in self.job.checked.cuts:
-            lengths[cut.route] += cut.length
+            lengths[self.job.routes[cut.route].turn] += cut.length
         letters = {number: _letters(index) for index, numbers in enumerate(self.manners.values()) for number in numbers}
-        count = min(len(routes), table.columns * table.rows)
+        count = min(len(self.holes), table.columns * table.rows)
         row_height, column_width = _ROW * self.larger, _COLUMN * self.larger
         top = self.page[1] - _MARGIN - 2 if table.is_beside else self.foot + self._height(table) - row_height / 2
         right = self.page[0] - _MARGIN
@@ -444,14 +446,16 @@ class SetupSheet:
             if row == 0:
                 contour, manner, cut = (text(Phrase(f"sheet-{name}")) for name in ("contour", "as", "mm-cut"))
                 self._row(x, top, (text(Phrase("sheet-no")), "x, mm", "y, mm", contour, manner, cut), _GREY)
-            route = routes[index]
+            hole, route = self.holes[index]
             # (-0.0001 is 0.000)
-            x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in route.start)
+            x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in hole)
             cells = (str(route.turn), x_, y_, _called(route), letters[route.turn])
-            length = f"{lengths[index]:.{lengths[index] < 1e5:d}f}"
-            self._row(x, top - (row + 1) * row_height, (*cells, length), _INK)
-        if count < len(routes):
-            more = text(Phrase("sheet-more-rows", count=len(routes) - count))
+            # (that of a contour with several is told once)
+            length = lengths[route.turn] if hole == route.start else 0.0
+            told = f"{length:.{length < 1e5:d}f}" if length else ""
+            self._row(x, top - (row + 1) * row_height, (*cells, told), _INK)
+        if count < len(self.holes):
+            more = text(Phrase("sheet-more-rows", count=len(self.holes) - count))
             self._text((right, self.foot + 1), more, _LEAST, _INK, ha="right")
 
     def _row(self, x: float, y: float, cells: Iterable[str], colour: str) -> None:
@@ -475,7 +479,7 @@ class SetupSheet:
         wire = untold
         if setup.wire is not None:
             wire = text(Phrase("sheet-wire-and-gap", wire=setup.wire, gap=setup.gap or 0.0))
-        holes = Phrase("count-holes", count=len(job.routes))
+        holes = Phrase("count-holes", count=len(self.holes))
         blocks = Phrase("count-blocks", count=len(job.tape.blocks))
         without = Phrase("sheet-without-room", count=left_out) if left_out else None
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"

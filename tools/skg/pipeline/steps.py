@@ -67,9 +67,11 @@ class DrawnJob:
 
 
 def _moved(chosen: Chosen, by: XY) -> Chosen:
-    """A chosen contour with its start hole and its entry elsewhere."""
+    """A chosen contour with its start hole, its entry and its tabs elsewhere."""
     settings = chosen.partial.said()
     places = {key: shifted(settings[key], by) for key in ("start", "entry") if key in settings}
+    if isinstance(tabs := settings.get("tabs"), tuple):
+        places["tabs"] = tuple(shifted(tab, by) for tab in tabs)
     return replace(chosen, partial=replace(chosen.partial, **places))
 
 
@@ -164,8 +166,12 @@ def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult) ->
     wanted = wanted_of(job, drawn)
     if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
         report.append(Finding("last-pass-leaves", stock=stock))
-    if any(want.tab and want.cut for want in wanted) and not any(route.tab for route in result.routes):
-        report.append(Finding("no-tab-anywhere"))
+    for is_asked, frees in (
+        (any(want.tab and want.cut for want in wanted), "part"),
+        (any(want.slug_tab and want.cut for want in wanted), "slug"),
+    ):
+        if is_asked and not any(route.tabs for route in result.routes if route.frees == frees):
+            report.append(Finding(f"no-{frees}-has-tab"))
     if any(overlap.kind != "drawn twice" for overlap in account.overlaps):
         from skg.checking import split_parts
 

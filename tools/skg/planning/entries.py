@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import accumulate
 from math import inf
 from typing import NamedTuple
 
-from skg.geometry.contour import Contour
+from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, distance, turn
 from skg.planning.route import split_curve
 
@@ -78,10 +79,70 @@ def is_long(contour: Contour, tab: float) -> bool:
     return sum(edge.length for edge in contour.edges) > _LONG * tab
 
 
-def longest_tab(contour: Contour) -> float:
-    """A closed contour has room for a tab that is shorter than this (mm): in an edge, or around corners."""
+def longest_tab(contour: Contour, count: int = 1) -> float:
+    """A closed contour has room for some tabs shorter than this (mm): one in an edge, or all around corners."""
     lengths = [edge.length for edge in contour.edges]
-    return max(max(lengths) / _ROOM, sum(lengths) / _LONG)
+    return max(max(lengths) / _ROOM if count == 1 else 0.0, sum(lengths) / _LONG / count)
+
+
+def entry_behind(contour: Contour, place: XY, tab: float, offset: float) -> EntryAt:
+    """Enter a closed contour so that the middle of the tab before the entry is nearest to a place; a curve at the node
+    that is nearest. `offset`: R, mm."""
+    entry = nearest_entry(contour, place, offset, with_curves=True)
+    edge = contour.edges[entry.edge]
+    if edge.nodes:
+        return entry
+    part = edge.nearest(place) + tab / 2 / edge.length
+    if edge.is_circle:
+        return EntryAt(entry.edge, part % 1)
+    return EntryAt(entry.edge, _on_one_edge(part * edge.length, tab, edge.length) / edge.length)
+
+
+def _on_one_edge(end: float, tab: float, length: float) -> float:
+    """The end of a tab along an edge (mm), so that all of it lies on the edge where that has room."""
+    margin = min((_ROOM - 1) * tab / 2, length / 4)
+    return min(length - margin, max(end, min(tab, length / 2) + margin))
+
+
+def ends_of_tabs(chain: Sequence[Edge], tab: float, tabs: int | Sequence[XY]) -> list[float]:
+    """The ends of all tabs but the one at the end of a chain, mm along this: at even distances, or with their middles
+    where it is nearest to all places but the first; on lines and arcs that have room for one where there are some
+    near."""
+    begins = [0.0, *accumulate(edge.length for edge in chain)]
+    if isinstance(tabs, int):
+        wanted, near = [begins[-1] * number / tabs for number in range(1, tabs)], begins[-1] / 4 / tabs
+    else:
+        wanted, near = sorted(_along(chain, begins, place) + tab / 2 for place in tabs[1:]), tab
+    ends, last = [], 0.0
+    for end in wanted:
+        fitting = [
+            begin + _on_one_edge(end - begin, tab, edge.length)
+            for begin, edge in zip(begins, chain, strict=False)
+            if not edge.nodes and edge.length > _ROOM * tab
+        ]
+        best = min(
+            (place for place in fitting if last + 2 * tab <= place <= begins[-1] - 2 * tab),
+            key=lambda place: abs(place - end),
+            default=inf,
+        )
+        last = best if abs(best - end) < near else end
+        ends.append(last)
+    return ends
+
+
+def _along(chain: Sequence[Edge], begins: Sequence[float], place: XY) -> float:
+    """Where a chain is nearest to a place, mm along it."""
+    nearest = []
+    for begin, edge in zip(begins, chain, strict=False):
+        if edge.nodes:
+            lengths = [0.0, *accumulate(edge.steps())]
+            nearest += [
+                (distance(sample, place), begin + ahead) for sample, ahead in zip(edge.points(), lengths, strict=True)
+            ]
+        else:
+            part = edge.nearest(place)
+            nearest.append((distance(edge.at(part), place), begin + part * edge.length))
+    return min(nearest)[1]
 
 
 def entries_of(contour: Contour, tab: float, widest: float) -> Iterator[EntryAt]:

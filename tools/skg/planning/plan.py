@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from math import inf, pi
 from typing import NamedTuple
 
@@ -17,11 +18,19 @@ from skg.geometry.holding import Holding
 from skg.geometry.plane import XY, distance
 from skg.job.wanted import Wanted
 from skg.messages.finding import Finding
-from skg.planning.entries import EntryAt, entries_of, is_long, longest_tab, nearest_entry
+from skg.planning.entries import (
+    EntryAt,
+    ends_of_tabs,
+    entries_of,
+    entry_behind,
+    is_long,
+    longest_tab,
+    nearest_entry,
+)
 from skg.planning.loops import tidied
 from skg.planning.nesting import Nesting
 from skg.planning.order import nearest_order
-from skg.planning.route import PlannedContour, chain_from, split_at_end
+from skg.planning.route import PlannedContour, Tab, arc_beside, chain_from, split_at_end
 
 #: A start hole has room enough when nothing is nearer than this part of the lead.
 _ENOUGH = 0.5
@@ -48,10 +57,10 @@ class _Choice:
         self.wanted = wanted
         self.is_outside = is_outside
         self.is_right = is_outside == (made.contour.area > 0)
-        if wanted.entry is None:
-            entries = entries_of(made.contour, made.tab, wanted.widest)
+        if place := _entry_of(made, wanted):
+            entries = iter([place])
         else:
-            entries = iter([nearest_entry(made.contour, wanted.entry, wanted.widest, with_curves=True)])
+            entries = entries_of(made.contour, made.tab, wanted.widest)
         self.reach = wanted.lead + abs(made.widest)
         self.entries = entries
         self.entry = next(entries, None)
@@ -71,7 +80,8 @@ class _Choice:
         """The contour as it is entered best."""
         entry, part, start, tab_hole = self.best
         contour = entry.begun(self.made.contour)
-        return replace(self.made, contour=contour, start=start, part=part, tab_hole=tab_hole, room=self.room)
+        tabs = (Tab(inf, tab_hole, start),) if self.made.tab else ()
+        return replace(self.made, contour=contour, start=start, part=part, tabs=tabs, room=self.room)
 
 
 class _Columns(NamedTuple):
@@ -92,9 +102,9 @@ class _Columns(NamedTuple):
         flags = [
             (
                 choice.is_right,
-                choice.made.is_arc,
+                choice.made.is_arc and not choice.made.tab,
                 choice.made.tab > 0,
-                not (choice.is_outside or choice.made.is_arc or choice.wanted.entry),
+                not (choice.is_outside or choice.made.is_arc or choice.made.tab or choice.wanted.entry),
             )
             for choice in choices
         ]
@@ -130,8 +140,13 @@ class _Planner:
             loops, whiskers = (), ()
             if any(passes):
                 contour, loops, whiskers = tidied(contour, max(map(abs, passes)), is_outside)
-            tab = want.tab if is_outside else 0.0
-            is_short = tab > 0 and tab >= longest_tab(contour)
+            tab = want.tab if is_outside else want.slug_tab
+            fits = longest_tab(contour, _count(want.tabs))
+            is_short = tab >= fits
+            tab = 0.0 if is_short else tab
+            arc = arc_beside(tab, want.widest)
+            is_cramped = want.is_arc and tab > 0 and arc < max(_LEAST_ARC, _ROOMY * want.widest)
+            tab_passes = (want.passes[0], *want.tab_passes)
             made = PlannedContour(
                 contour,
                 start or (0.0, 0.0),
@@ -139,17 +154,24 @@ class _Planner:
                 offset,
                 depth,
                 passes,
-                0.0 if is_short else tab,
-                is_arc=want.is_arc,
+                tab,
+                tab_passes=tuple(sign * (want.offset + more) for more in tab_passes) if tab else (),
+                overlap=want.overlap,
+                is_arc=want.is_arc and not is_cramped,
+                is_cramped=is_cramped,
                 number=number,
-                is_short=is_short,
+                fits=fits if is_short else None,
                 loops=loops,
                 whiskers=whiskers,
             )
+            if tab:
+                _refuse_tabs(made, want)
             if start is not None:
                 if any(passes):
                     self._refuse_misplaced(made, is_outside)
-                done[number] = self._entered(made, want.entry, is_outside == is_ccw)
+                done[number] = self._bridged(
+                    self._entered(made, want, is_outside == is_ccw), want, is_outside == is_ccw
+                )
                 continue
             choices.append(_Choice(made, want, is_outside))
         self._choose(choices)
@@ -163,8 +185,26 @@ class _Planner:
             made = replace(choices[index].made, is_arc=False, is_cramped=True)
             choices[index] = _Choice(made, choices[index].wanted, choices[index].is_outside)
         self._choose([choices[index] for index in cramped])
-        done |= {choice.made.number: choice.planned() for choice in choices}
+        for choice in choices:
+            done[choice.made.number] = self._bridged(choice.planned(), choice.wanted, choice.is_right)
         return [done[number] for number in asked]
+
+    def _bridged(self, made: PlannedContour, wanted: Wanted, is_right: bool) -> PlannedContour:
+        """The contour with all of its tabs: so far it has the one before its entry."""
+        if made.tabs and _count(wanted.tabs) > 1:
+            tabs = wanted.tabs if isinstance(wanted.tabs, int) else _first_at(wanted.tabs, made.entry)
+            ends = ends_of_tabs(made.chain, made.tab, tabs)
+            made = replace(made, tabs=(*(Tab(end, made.start, made.start) for end in ends), *made.tabs))
+            _refuse_crowded(made, ends)
+            before, behind = ([span[side][-1] for span in made.spans[:-1]] for side in (0, 1))
+            right, widest = np.full(len(ends), is_right), np.full(len(ends), abs(made.widest))
+            deep = np.minimum(distance(made.start, made.entry), _deepest(before, *_at_ends(behind), right, widest))
+            holes = (self._tab_holes(edges, right, deep, widest).tolist() for edges in (before, behind))
+            tabs = (Tab(end, tuple(x), tuple(y)) for end, x, y in zip(ends, *holes, strict=True))
+            made = replace(made, tabs=(*tabs, made.tabs[-1]))
+        if made.overlap:
+            _refuse_overlap(made)
+        return made
 
     def _refuse_misplaced(self, made: PlannedContour, is_outside: bool) -> None:
         """Refuse a start hole that is given in the part, or so near to it that the wire would come into it there."""
@@ -180,17 +220,18 @@ class _Planner:
         u, v = contour.edges[0].start
         raise UserError(Finding(code, x=x, y=y, u=u, v=v, least=least, contour=made.number, place=made.start))
 
-    def _entered(self, made: PlannedContour, place: XY | None, is_right: bool) -> PlannedContour:
-        """Enter a contour from its start hole at a place, or where it is nearest to the hole."""
-        entry = nearest_entry(made.contour, place or made.start, made.widest, with_curves=place is not None)
+    def _entered(self, made: PlannedContour, wanted: Wanted, is_right: bool) -> PlannedContour:
+        """Enter a contour from its start hole at the place that is asked for, or where it is nearest to the hole."""
+        entry = _entry_of(made, wanted) or nearest_entry(made.contour, made.start, made.widest)
         contour, part = entry.begun(made.contour), entry.part
         if not made.tab:
             return replace(made, contour=contour, part=part)
         contour, part = self._tab_before(contour, part, made)
-        end, reach = _before_tab(contour, part, made.tab), distance(made.start, contour.edges[0].at(part))
-        arrays = (np.array([value]) for value in (is_right, reach, abs(made.widest), made.is_arc))
-        ((x, y),) = self._tab_holes([end], *arrays).tolist()
-        return replace(made, contour=contour, part=part, tab_hole=(x, y))
+        made = replace(made, contour=contour, part=part)
+        end, right, widest = _before_tab(contour, part, made.tab), np.array([is_right]), np.array([abs(made.widest)])
+        deep = _deepest([end], *_at_ends(made.chain[-1:]), right, widest)
+        ((x, y),) = self._tab_holes([end], right, np.minimum(deep, distance(made.start, made.entry)), widest).tolist()
+        return replace(made, tabs=(Tab(inf, (x, y), made.start),))
 
     def _choose(self, choices: Sequence[_Choice]) -> None:
         """Choose the entry with the most room: the first one with enough, else the best one."""
@@ -240,30 +281,30 @@ class _Planner:
             *(array[others] for array in (places, bearings, rows, is_right, reach, widest, is_arc))
         )
         far = hypots(*(starts - places).T)
-        # Distances of the start holes from the nearest contour.
-        around = 2 * far + 1e-3
-        room = self.field.near(starts, around)
-        tab_holes = np.zeros((len(choices), 2))
         tabs = np.flatnonzero(has_tab)
         if len(tabs):
             begun = [(choices[index].made, choices[index].entry, float(parts[index])) for index in tabs.tolist()]
             ends = [_before_tab(entry.begun(made.contour), part, made.tab) for made, entry, part in begun]
+            deep = _deepest(ends, places[tabs], bearings[tabs], is_right[tabs], widest[tabs])
+            part = np.minimum(1.0, deep / far[tabs])
+            starts[tabs] = places[tabs] + part[:, None] * (starts[tabs] - places[tabs])
+            far[tabs] *= part
+        # Distances of the start holes from the nearest contour.
+        around = 2 * far + 1e-3
+        room = self.field.near(starts, around)
+        tab_holes = np.zeros((len(choices), 2))
+        if len(tabs):
             # The start hole at the other side of the tab is as far from the contour as the first one.
-            tab_holes[tabs] = self._tab_holes(ends, is_right[tabs], far[tabs], widest[tabs], is_arc[tabs])
+            tab_holes[tabs] = self._tab_holes(ends, is_right[tabs], far[tabs], widest[tabs])
             room[tabs] = np.minimum(room[tabs], self.field.near(tab_holes[tabs], around[tabs]))
         is_centre = (rows[:, 8] != 0) & (starts == rows[:, 4:6]).all(1)
         return parts, starts, tab_holes, room, (room >= _ENOUGH * reach) | is_centre
 
-    def _tab_holes(
-        self, edges: Sequence[Edge], is_right: Flags, reach: Floats, widest: Floats, is_arc: Flags
-    ) -> Floats:
-        """The start holes at the other sides of tabs, which begin where some edges end."""
-        rows = rows_of(edges)
-        places, bearings = _places(rows, np.ones(len(edges)))
-        for number, edge in enumerate(edges):
-            if edge.nodes:
-                places[number], bearings[number] = edge.at(1.0), edge.direction(1.0)
-        return self._holes(places, bearings, rows, is_right, reach, widest, is_arc)
+    def _tab_holes(self, edges: Sequence[Edge], is_right: Flags, reach: Floats, widest: Floats) -> Floats:
+        """The start holes beside the ends of some edges, which are those of tabs."""
+        places, bearings = _at_ends(edges)
+        no_arcs = np.zeros(len(edges), bool)
+        return self._holes(places, bearings, rows_of(edges), is_right, reach, widest, no_arcs)
 
     def _tab_before(self, contour: Contour, part: float, made: PlannedContour) -> tuple[Contour, float]:
         edge, tab = contour.edges[0], made.tab
@@ -293,7 +334,7 @@ class _Planner:
         # An arc's own chords lie up to 0.1 % of its radius inside of it.
         least = np.where(rows[:, 8] != 0, 1e-3 * (1 + rows[:, 6]), 1e-3)
         reach = np.minimum(reach, self.field.ahead(places, square, 2 * reach + least, least) / 2)
-        reach = self._clear(places, square, reach, widest)
+        reach = self._clear(places, square, reach, widest, np.where(rows[:, 8] != 0, 1e-3 * rows[:, 6], 0.0))
         central = hypots(*(places + reach[:, None] * square - rows[:, 4:6]).T) < _BESIDE * rows[:, 6]
         # (from the centre the ROM would go to the +X side)
         reach[central & _are_circles(rows)] *= 1 - _BESIDE
@@ -314,11 +355,12 @@ class _Planner:
         reach = np.maximum(0.0, _ROUND * circles[:, 6] - widest)
         return self.field.before(circles[:, 4:6], vectors, reach, np.zeros(len(circles)), wide) == inf
 
-    def _clear(self, places: Floats, square: Floats, reach: Floats, widest: Floats) -> Floats:
-        """Return the distance that the wire gets away from entries: all the way it stays R off other contours."""
+    def _clear(self, places: Floats, square: Floats, reach: Floats, widest: Floats, chords: Floats) -> Floats:
+        """Return the distance that the wire gets away from entries: all the way it stays R off other contours.
+        `chords` of their own edges lie so much nearer, mm."""
         indices = np.flatnonzero((widest > 0) & (reach > widest))
         r = widest[indices]
-        far = self.field.before(places[indices], square[indices], reach[indices], r, _ROUND * r)
+        far = self.field.before(places[indices], square[indices], reach[indices], r + chords[indices], _ROUND * r)
         # (halfway to where it is no longer free)
         distances = reach.copy()
         distances[indices] = np.where(far == inf, reach[indices], (r + far) / 2)
@@ -341,6 +383,76 @@ def _places(rows: Floats, parts: Floats) -> tuple[Floats, Floats]:
     places[arcs] = rows[arcs, 4:6] + radius[:, None] * headings(angles)
     bearings[arcs] = angles + np.copysign(pi / 2, sweep)
     return places, bearings
+
+
+def _at_ends(edges: Sequence[Edge]) -> tuple[Floats, Floats]:
+    """The places at the ends of edges (n, 2), and the direction angles there."""
+    return np.array([edge.at(1.0) for edge in edges]), np.array([edge.direction(1.0) for edge in edges])
+
+
+def _deepest(before: Sequence[Edge], places: Floats, bearings: Floats, is_right: Flags, widest: Floats) -> Floats:
+    """The length of leads square to the contour on both sides of tabs that leaves half of these between them, mm: where
+    some edges end, and at places that are passed in some directions."""
+    froms, ways = _at_ends(before)
+    aside = np.where(is_right, -pi / 2, pi / 2)
+    tabs = places - froms
+    lengths = np.maximum(hypots(*tabs.T), 1e-9)
+    closing = -((headings(bearings + aside) - headings(ways + aside)) * tabs).sum(1) / lengths
+    room = np.maximum(lengths / 2 - widest, 1e-3)
+    return np.where(closing > 1e-9, room / np.maximum(closing, 1e-9), inf)
+
+
+def _count(tabs: int | Sequence[XY]) -> int:
+    """The number of tabs that are asked for."""
+    return tabs if isinstance(tabs, int) else len(tabs)
+
+
+def _first_at(places: Sequence[XY], entry: XY) -> list[XY]:
+    """Places of tabs, that of the one at the entry first."""
+    first = min(places, key=lambda place: distance(place, entry))
+    return [first, *(place for place in places if place is not first)]
+
+
+def _entry_of(made: PlannedContour, wanted: Wanted) -> EntryAt | None:
+    """The entry that is asked for: by its place, or by those of tabs."""
+    if wanted.entry:
+        return nearest_entry(made.contour, wanted.entry, wanted.widest, with_curves=True)
+    if made.tab and not isinstance(wanted.tabs, int):
+        first = (
+            wanted.tabs[0] if wanted.start is None else min(wanted.tabs, key=lambda place: distance(place, made.start))
+        )
+        return entry_behind(made.contour, first, made.tab, wanted.widest)
+    return None
+
+
+def _refusal(code: str, made: PlannedContour, **values: object) -> UserError:
+    """A refusal of a contour that has no turn yet: it is named by its beginning."""
+    u, v = made.contour.edges[0].start
+    return UserError(Finding(code, u=u, v=v, contour=made.number, **values))
+
+
+def _refuse_tabs(made: PlannedContour, wanted: Wanted) -> None:
+    """Refuse cuts of a tab that leave more than the first pass or less than the last, and an entry beside places."""
+    least, most = abs(made.passes[-1]), abs(made.passes[0])
+    if abs(made.tab_passes[-1]) < least - _NEAR or any(abs(r) > most + _NEAR for r in made.tab_passes):
+        raise _refusal("tab-passes-beyond", made, first=wanted.passes[0], last=wanted.passes[-1])
+    if wanted.entry and not isinstance(wanted.tabs, int):
+        raise _refusal("entry-and-tabs", made)
+
+
+def _refuse_crowded(made: PlannedContour, ends: Sequence[float]) -> None:
+    """Refuse tabs between which there is less than the length of one."""
+    total = sum(edge.length for edge in made.chain)
+    if any(after - before < 2 * made.tab - _NEAR for before, after in pairwise([0.0, *ends, total])):
+        raise _refusal("tabs-crowded", made, tab=made.tab)
+
+
+def _refuse_overlap(made: PlannedContour) -> None:
+    """Refuse an overlap that goes over half of a cut."""
+    spans = [before for before, _ in made.spans] if made.tabs else [made.chain]
+    shortest = min(sum(edge.length for edge in edges) for edges in spans)
+    if made.overlap > shortest / 2:
+        raise _refusal("overlap-too-long", made, overlap=made.overlap, cut=shortest)
 
 
 def _before_tab(contour: Contour, part: float, tab: float) -> Edge:

@@ -26,6 +26,7 @@ from skg.rivals.languages import is_program, is_rival, translated
 from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape import text as tapes
 from skg.tape.block import Tape, micrometres
+from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
 from skg.tape.gcode_program import GcodeProgram
 from skg.tape.gcode_reader import read as read_gcode
@@ -37,13 +38,13 @@ if TYPE_CHECKING:
     from skg.tape.layout import PlacedRoute
 
 
-def load(name: str, skg80: str | None = None) -> Tape:
+def load(name: str, skg80: str | None = None, dialect: GcodeDialect | None = None) -> Tape:
     """Return what is in a file: a program when its name ends in .skg or as a rival's does, else a tape.
 
     `skg80` runs it: None the board with the standard ROM, "reference", or the path of another emulator. One that ends
-    in ERR is a `UserError`.
+    in ERR is a `UserError`. `dialect`: the file is G-code of a machine, whatever its name.
     """
-    if program := iso_program(name, skg80):
+    if program := iso_program(name, skg80, dialect):
         return replace(program.tape(), notes=program.left_out())
     if not is_program(name):
         return tapes.read(name)
@@ -63,26 +64,26 @@ def start_of(result: Result) -> XY:
     return (float(result.path[0].start.x), float(result.path[0].start.y)) if result.path else (0.0, 0.0)
 
 
-def iso_program(name: str, skg80: str | None = None) -> GcodeProgram | None:
+def iso_program(name: str, skg80: str | None = None, dialect: GcodeDialect | None = None) -> GcodeProgram | None:
     """The G-code in a file, told by its name's end, or that of a milling program; else None.
 
-    Odd things that can be read are ignored, guesses are reported. `skg80` as in `load`.
+    Odd things that can be read are ignored, guesses are reported. `skg80` and `dialect` as in `load`.
     """
-    text = iso_text(name, skg80)
-    return None if text is None else iso_of(text, name)
+    text = iso_text(name, skg80, dialect)
+    return None if text is None else iso_of(text, name, dialect)
 
 
-def iso_of(text: str, name: str) -> GcodeProgram:
+def iso_of(text: str, name: str, dialect: GcodeDialect | None = None) -> GcodeProgram:
     """Read G-code; what it does not tell and is guessed, and what of it is no cut, is said on standard error."""
-    program = read_gcode(text, name)
+    program = read_gcode(text, name, dialect)
     for remark in (*program.guesses, *program.notes):
         print(f"skg: {name}: {remark}", file=sys.stderr, flush=True)
     return program
 
 
-def iso_text(name: str, skg80: str | None = None) -> str | None:
+def iso_text(name: str, skg80: str | None = None, dialect: GcodeDialect | None = None) -> str | None:
     """The text of `iso_program`."""
-    if is_gcode(name):
+    if is_gcode(name) or dialect and not is_program(name) and not name.lower().endswith(".3b"):
         return gcode_text(name)
     if not is_program(name) or is_rival(name):
         return None

@@ -1,13 +1,14 @@
-"""ISO G-code as it is written: the dialect of the milling ROM (milling.md, section "The tape"), which LinuxCNC and GRBL
-take as it is. `skg.tape.gcode_reader` reads it, and others' dialects."""
+"""ISO G-code as it is written, in a `GcodeDialect`. `skg.tape.gcode_reader` reads it, and more."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from decimal import Decimal
-from math import pi
+from math import atan2, ceil, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
 from skg.tape.block import Tape
+from skg.tape.dialect import LINE_ENDS, MILL, GcodeDialect
 
 if TYPE_CHECKING:
     from skg.tape.layout import Placed
@@ -17,8 +18,6 @@ Spot = tuple[int, int]
 
 #: Endings of the names of G-code files.
 ENDINGS = (".nc", ".ngc", ".gcode", ".tap", ".iso")
-#: The first block: plane XY, millimetres, absolute places, feed in mm/min.
-PREAMBLE = "G17G21G90G94"
 LAST_NUMBER = 9999
 
 
@@ -27,55 +26,103 @@ def is_gcode(name: str) -> bool:
     return name.lower().endswith(ENDINGS)
 
 
-class _GcodeWriter:
+class GcodeWriter:
     """Blocks in the order of writing; keeps the place and height of the tool in whole µm, and the last F."""
 
-    def __init__(self) -> None:
+    def __init__(self, dialect: GcodeDialect) -> None:
+        self.dialect = dialect
         self.lines: list[str] = []
         self.spot: Spot | None = None
         self.height: int | None = None
         self.feed = ""
-        self.block(PREAMBLE)
 
-    def block(self, words: str) -> None:
-        self.lines.append(f"N{len(self.lines) % LAST_NUMBER + 1}{words}")
+    @property
+    def text(self) -> str:
+        """The program."""
+        end = LINE_ENDS[self.dialect.line_end]
+        return "".join(f"{line}{end}" for line in self.lines)
+
+    def block(self, *words: str) -> None:
+        """Add a block."""
+        number = [f"N{len(self.lines) % LAST_NUMBER + 1}"] * self.dialect.numbers
+        self.lines.append((" " if self.dialect.space else "").join([*number, *filter(None, words)]))
+
+    def all_of(self, lines: Iterable[str]) -> None:
+        """Add lines of the dialect."""
+        for line in lines:
+            self.block(line)
+
+    def begin(self, spot: Spot) -> None:
+        """Begin at a place."""
+        start = self.dialect.start
+        if not any("{x}" in line for line in start):
+            self.rapid(spot)
+        self.spot = spot
+        x, y = map(self.dialect.length, spot)
+        self.all_of(line.replace("{x}", x).replace("{y}", y) for line in start)
 
     def rapid(self, end: Spot) -> None:
+        """Go to a place."""
         if end != self.spot:
-            self.block(f"G0{_pair('XY', end)}")
+            self.block(self.dialect.rapid, *self._goal(end))
             self.spot = end
 
     def to_height(self, g: int, height: int, feed: str = "") -> None:
+        """Go up or down."""
         if height != self.height:
-            self.block(f"G{g}Z{millimetres(height)}{self._fed(feed)}")
+            self.block(f"G{g}", f"Z{self.dialect.length(height)}", self._fed(feed))
             self.height = height
 
     def line(self, end: Spot, feed: str) -> None:
+        """Cut straight to a place."""
         if end != self.spot:
-            self.block(f"G1{_pair('XY', end)}{self._fed(feed)}")
+            self.block(self.dialect.line, *self._goal(end), self._fed(feed))
             self.spot = end
 
     def arc(self, end: Spot, centre: Spot, sense: int, feed: str) -> None:
-        to_centre = centre[0] - self.spot[0], centre[1] - self.spot[1]
-        self.block(f"G{3 if sense > 0 else 2}{_pair('XY', end)}{_pair('IJ', to_centre)}{self._fed(feed)}")
-        self.spot = end
+        """Cut along an arc to a place; one that is told by its radius, and is no less than half a circle, in pieces."""
+        for place in self._ends(end, centre, sense) if self.dialect.arcs == "r" else [end]:
+            word = self.dialect.counterclockwise if sense > 0 else self.dialect.clockwise
+            goal, to_centre = self._goal(place), minus(centre, self.spot)
+            match self.dialect.arcs:
+                case "r":
+                    how = [f"R{self.dialect.length(round(hypot(*to_centre)))}"]
+                case "ij-absolute":
+                    how = self._pair("IJ", centre)
+                case _:
+                    how = self._pair("IJ", to_centre)
+            self.block(word, *goal, *how, self._fed(feed))
+            self.spot = place
+
+    def _ends(self, end: Spot, centre: Spot, sense: int) -> list[Spot]:
+        """The ends of quarters of a circle, at most, that make an arc."""
+        (x, y), (u, v) = minus(self.spot, centre), minus(end, centre)
+        radius, first = hypot(x, y), atan2(y, x)
+        sweep = sense * (atan2(v, u) - first) % (2 * pi) or 2 * pi
+        count = ceil(sweep / (pi / 2) - 1e-9)
+        angles = [first + sense * sweep * number / count for number in range(1, count)]
+        places = [(centre[0] + radius * cos(angle), centre[1] + radius * sin(angle)) for angle in angles]
+        return [*map(grid, places), end]
+
+    def _goal(self, end: Spot) -> list[str]:
+        if self.dialect.places == "relative" and self.spot is not None:
+            # (what rounding leaves goes into the next block)
+            end = minus(*(tuple(map(self.dialect.rounded, place)) for place in (end, self.spot)))
+        return self._pair("XY", end)
+
+    def _pair(self, letters: str, values: Spot) -> list[str]:
+        return [f"{letter}{self.dialect.length(value)}" for letter, value in zip(letters, values, strict=True)]
 
     def _fed(self, feed: str) -> str:
         if not feed or feed == self.feed:
             return ""
         self.feed = feed
-        return f"F{feed}"
+        return self.dialect.feed.replace("{feed}", feed)
 
 
 def millimetres(micrometres: int) -> str:
-    """Whole µm as a word of a tape has them: millimetres without zeros behind."""
-    whole, rest = divmod(abs(micrometres), 1000)
-    sign = "-" if micrometres < 0 else ""
-    return f"{sign}{whole}.{rest:03}".rstrip("0") if rest else f"{sign}{whole}"
-
-
-def _pair(letters: str, values: Spot) -> str:
-    return "".join(f"{letter}{millimetres(value)}" for letter, value in zip(letters, values, strict=True))
+    """Whole µm as millimetres without zeros behind."""
+    return MILL.length(micrometres)
 
 
 def decimal(value: float) -> str:
@@ -89,26 +136,33 @@ def write(
     feeds: tuple[float, float] = (100.0, 100.0),
     heights: Spot | None = None,
     positions: str = "auto",
+    dialect: GcodeDialect = MILL,
 ) -> str:
-    """Return the G-code of a 3B tape whose wire begins at `start` (µm), lines ended by CR LF.
+    """Return the G-code of a 3B tape whose wire begins at `start` (µm).
 
     `feeds` are mm/min in the plane and downwards. With `heights`, cutting and travel height in µm, a re-positioning
-    between two stops is an up, a rapid and a down; without them the stops are M0. `positions` is one of
-    `skg.tape.positions.POSITIONS`.
+    between two stops is an up, a rapid and a down; without them it is a rapid between two of the dialect's stops.
+    `positions` is one of `skg.tape.positions.POSITIONS`.
     """
     from skg.tape.layout import place  # which loads numpy
 
     plane, down = map(decimal, feeds)
-    writer = _GcodeWriter()
+    writer = GcodeWriter(dialect)
     routes = iter(place(tape, start, positions))
     stretches, moves = tape.stretches(), tape.positioning()
+    writer.all_of(dialect.head)
     if heights:
         writer.to_height(0, heights[1])
-    writer.rapid(start)
+    writer.begin(start)
+    # (what does not move is no positioning: the wire stays in)
+    is_way = [is_move and bool(blocks) for blocks, is_move in zip(stretches, moves, strict=True)]
     for index, (blocks, is_move) in enumerate(zip(stretches, moves, strict=True)):
         if index and not (heights and (is_move or moves[index - 1])):
-            writer.block("M0")
-        for placed in next(routes).blocks if blocks else ():
+            writer.all_of(dialect.unthread if is_way[index] else dialect.thread if is_way[index - 1] else dialect.stop)
+        placed_blocks = next(routes).blocks if blocks else ()
+        if placed_blocks and not is_move:
+            writer.all_of(dialect.begin)
+        for placed in placed_blocks:
             if is_move:
                 if heights:
                     writer.to_height(0, heights[1])
@@ -117,13 +171,15 @@ def write(
             if heights:
                 writer.to_height(1, heights[0], down)
             _cut(writer, placed, plane)
+        if placed_blocks and not is_move:
+            writer.all_of(dialect.end)
     if heights:
         writer.to_height(0, heights[1])
-    writer.block("M30")
-    return "".join(f"{line}\r\n" for line in writer.lines)
+    writer.all_of(dialect.foot)
+    return writer.text
 
 
-def _cut(writer: _GcodeWriter, placed: Placed, feed: str) -> None:
+def _cut(writer: GcodeWriter, placed: Placed, feed: str) -> None:
     """A block that cuts; as a line an arc with an end at its centre, or so flat that a control might take it for a full
     circle (milling.md)."""
     end, turns = grid(placed.end), abs(placed.sweep)

@@ -12,7 +12,9 @@ from math import hypot
 from skg.errors import UserError
 from skg.tape import gcode_line as known
 from skg.tape.block import Block, Stop, arc_block, line_block
+from skg.tape.dialect import UNITS, GcodeDialect
 from skg.tape.gcode import Spot, minus
+from skg.tape.gcode_dialect import understood
 from skg.tape.gcode_line import MILLIMETRE, SPACE, Findings, GcodeFinding, Misread, Modes, Word
 from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
 from skg.tape.gcode_tool import OUTPUTS, Idle, Tool
@@ -37,10 +39,14 @@ _GOES_ONLY = "nothing is cut: it goes everywhere with G0"
 class _Reader:
     """State of a program that is being read; places and heights in µm. What it does goes to `path`."""
 
-    def __init__(self, idle: Idle, untold: Decimal | None) -> None:
+    def __init__(self, idle: Idle, untold: Decimal | None, dialect: GcodeDialect | None) -> None:
         self.tool, self.path = Tool(idle), GcodePath()
         self.findings = Findings()
         self.modes = Modes(self.findings, untold)
+        self.has_centres = dialect is not None and dialect.arcs == "ij-absolute"
+        if dialect:
+            self.modes.unit = Decimal(UNITS[dialect.unit])
+            self.modes.absolute = dialect.places == "absolute"
         # The tool's position in the plane, and the same in whole µm.
         self.position = Decimal(0), Decimal(0)
         self.spot: Spot = (0, 0)
@@ -151,7 +157,8 @@ class _Reader:
             if modes.plane != 17:
                 raise Misread(column, f"an arc of G{modes.plane} stands upright: expected arcs of the plane XY, G17")
             if not self.is_no_way(values, goal, end):
-                self.arc(start, end, _to_centre(modes, values, chord, column), column, cuts)
+                middle = start if self.has_centres else (0, 0)
+                self.arc(start, end, _to_centre(modes, values, chord, middle, column), column, cuts)
         elif not values.keys().isdisjoint("IJKR"):
             raise Misread(column, "I, J, K and R belong to G02 and G03")
         else:
@@ -291,15 +298,16 @@ def _rounded(place: tuple[Decimal, ...]) -> Spot:
     return rounded_one(place[0]), rounded_one(place[1])
 
 
-def _to_centre(modes: Modes, values: dict[str, Word], to_end: Spot, column: int) -> Spot:
-    """From an arc's start to its centre; `to_end` is the way to its end."""
+def _to_centre(modes: Modes, values: dict[str, Word], to_end: Spot, start: Spot, column: int) -> Spot:
+    """From an arc's start to its centre; `to_end` is the way to its end, `start` the place of its start where I and J
+    count from that of places."""
     if "K" in values:
         raise Misread(values["K"].column, "K belongs to arcs of another plane")
     if "R" in values:
         if not values.keys().isdisjoint("IJ"):
             raise Misread(column, "an arc has its centre, I and J, or its radius, R, not both")
         return _by_radius(to_end, float(modes.value(values, "R")), modes.sense, column)
-    x, y = (rounded_one(modes.value(values, letter)) for letter in "IJ")
+    x, y = minus(tuple(rounded_one(modes.value(values, letter)) for letter in "IJ"), start)
     if (x, y) == (0, 0):
         raise Misread(column, "an arc needs its centre, I and J")
     off = abs(hypot(to_end[0] - x, to_end[1] - y) - hypot(x, y))
@@ -327,9 +335,9 @@ def _is_flat(start: Spot, end: Spot, sense: int) -> bool:
     return start != end and 0 <= cross < _LEAST_SWEEP * dot
 
 
-def _read_through(text: str, idle: Idle, untold: Decimal | None) -> _Reader:
+def _read_through(text: str, idle: Idle, untold: Decimal | None, dialect: GcodeDialect | None) -> _Reader:
     """Read a program; what cannot be read is left out."""
-    reader = _Reader(idle, untold)
+    reader = _Reader(idle, untold, dialect)
     for line in text.splitlines():
         try:
             reader.take(line)
@@ -338,15 +346,15 @@ def _read_through(text: str, idle: Idle, untold: Decimal | None) -> _Reader:
     return reader
 
 
-def _read_all(text: str) -> _Reader:
+def _read_all(text: str, dialect: GcodeDialect | None) -> _Reader:
     """The same, where it is known what does not cut; and what is wrong with the program as a whole."""
-    reader = _read_through(text, Idle(), None)
+    reader = _read_through(text, Idle(), None, dialect)
     if reader.modes.is_mixed:
-        reader = _read_through(text, Idle(), MILLIMETRE)
+        reader = _read_through(text, Idle(), MILLIMETRE, dialect)
     # (moves that do not cut are known when all has been read; mostly there are none)
     idle = reader.tool.idle_in_all()
     if idle != Idle():
-        again = _read_through(text, idle, reader.modes.untold)
+        again = _read_through(text, idle, reader.modes.untold, dialect)
         if again.tool.idled < again.tool.feeds:
             reader = again
     for beam, line in reader.tool.always_off.items():
@@ -365,19 +373,23 @@ def _read_all(text: str) -> _Reader:
     return reader
 
 
-def scan(text: str, name: str = "-") -> tuple[GcodeProgram, list[GcodeFinding]]:
-    """Read a program and everything that is wrong with it; what cannot be read is left out of it."""
-    reader = _read_all(text)
+def scan(text: str, name: str = "-", dialect: GcodeDialect | None = None) -> tuple[GcodeProgram, list[GcodeFinding]]:
+    """Read a program and everything that is wrong with it; what cannot be read is left out of it. `dialect`: that of
+    its machine, None: not told."""
+    notes: tuple[str, ...] = ()
+    if dialect:
+        text, notes = understood(text, dialect)
+    reader = _read_all(text, dialect)
     guesses = tuple(str(finding) for finding in reader.findings.all if finding.is_guess)
     program = GcodeProgram(
-        name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, reader.notes()
+        name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, (*notes, *reader.notes())
     )
     return program, reader.findings.all
 
 
-def read(text: str, name: str = "-") -> GcodeProgram:
+def read(text: str, name: str = "-", dialect: GcodeDialect | None = None) -> GcodeProgram:
     """Return a program; what cannot be read is a `UserError` with line and column, guesses are listed."""
-    program, findings = scan(text, name)
+    program, findings = scan(text, name, dialect)
     for finding in findings:
         if finding.is_fatal:
             raise UserError(f"{name}: {finding}")

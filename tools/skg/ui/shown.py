@@ -23,7 +23,7 @@ from skg.messages.render import text
 from skg.messages.severity import Severity
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import findings
-from skg.planning.route import Lead, PlannedContour, Way, split_at_end
+from skg.planning.route import Lead, PlannedContour, Way
 from skg.ui.json_text import about, encoded, in_json, told
 
 #: Decimals of a length, mm; of a direction, radians.
@@ -34,7 +34,8 @@ _CURVE = 0.0005
 _LEFT: dict[str, Any] = {
     "cut": False,
     "passes": [],
-    **dict.fromkeys(("hole", "entry", "tab", "tab_hole", "direction", "radius", "lead_arc")),
+    "tabs": [],
+    **dict.fromkeys(("hole", "entry", "tab", "direction", "radius", "lead_arc")),
 }
 
 
@@ -136,28 +137,35 @@ class Plans:
         known = self._known.get(number)
         if known is None or known[0] is not route or known[1:3] != (want, wrong):
             plan = (planned(route) if route else _LEFT) | {"error": wrong or None}
-            text = f'{in_json(plan)[1:-1].decode()},"values":{_values(want)}}}'
+            is_slug = route is not None and route.contour.is_closed and route.frees == "slug"
+            text = f'{in_json(plan)[1:-1].decode()},"values":{_values(want, is_slug)}}}'
             known = self._known[number] = route, want, wrong, text
         return known[3]
 
 
 @lru_cache
-def _values(want: Wanted) -> str:
-    """The wishes for a contour, those of layer and default included, as JSON."""
-    values = {name: getattr(want, name) for name in ("cut", "side", "offset", "tab", "lead", "lead_shape", "reverse")}
-    return in_json(values | {"passes": list(want.passes), "order": want.order}).decode()
+def _values(want: Wanted, is_slug: bool) -> str:
+    """The wishes for a contour, those of layer and default included, as JSON; `is_slug`: its tab keeps a slug."""
+    names = ("cut", "side", "offset", "overlap", "lead", "lead_shape", "reverse", "order")
+    values: dict[str, Any] = {name: getattr(want, name) for name in names}
+    values |= {name: list(getattr(want, name)) for name in ("passes", "tab_passes")}
+    tabs = want.tabs if isinstance(want.tabs, int) else list(map(list, want.tabs))
+    return in_json(values | {"tab": want.slug_tab if is_slug else want.tab, "tabs": tabs}).decode()
 
 
 def planned(route: PlannedContour) -> dict[str, Any]:
     """The plan of a contour, without the wishes for it."""
     edge = route.chain[0]
-    ends = split_at_end(route.chain, route.tab)[0][-1].end if route.tab else None
+    tabs = [
+        [place(edges[0].start), place(edges[-1].end), place(tab.before), place(tab.behind)]
+        for (_, edges), tab in zip(route.spans, route.tabs, strict=True)
+    ]
     return {
         "cut": True,
         "hole": place(route.start),
         "entry": place(route.entry),
-        "tab": ends and place(ends),
-        "tab_hole": place(route.tab_hole) if route.tab else None,
+        "tab": tabs[-1][0] if tabs else None,
+        "tabs": tabs,
         "direction": round(edge.direction(), _ANGLE),
         "radius": round(route.offset, _LENGTH),
         "passes": [round(r, _LENGTH) for r in route.passes],
@@ -190,12 +198,15 @@ def _wire(run: Way, route: PlannedContour) -> Iterator[Edge]:
 def _lead(lead: Lead | None, hole: XY, entry: XY, is_in: bool) -> Iterator[Edge]:
     """The way from a start hole to the contour, or from there to it."""
     hole = lead.hole if lead else hole
+    places, arc = [hole, entry], None
     if lead and lead.is_arc:
         arc = lead.arc(is_in)
-        straight = Edge(hole, arc.start) if is_in else Edge(arc.end, hole)
-        yield from (straight, arc) if is_in else (arc, straight)
-    else:
-        yield Edge(hole, entry) if is_in else Edge(entry, hole)
+        places = [hole, arc.start if is_in else arc.end]
+    if lead and lead.home:
+        places.insert(0, lead.home)
+    straight = [Edge(start, end) for start, end in pairwise(places if is_in else places[::-1])]
+    arcs = [arc] if arc else []
+    yield from [*straight, *arcs] if is_in else [*arcs, *straight]
 
 
 def _beside(run: Way) -> list[Edge]:

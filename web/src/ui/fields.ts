@@ -12,7 +12,20 @@ type Key = keyof Wanted;
 /** Settings of single contours only, and settings that the whole drawing has not (its offset is the machine's). */
 const SINGLE: ReadonlySet<Key> = new Set(["start", "entry", "order"]);
 const NOT_ALL: ReadonlySet<Key> = new Set(["cut", "offset"]);
-const USUAL: Wanted = { cut: true, side: "auto", passes: [0], tab: 0, lead: 3, lead_shape: "perpendicular", reverse: false };
+const NOT_SINGLE: ReadonlySet<Key> = new Set(["slug_tab"]);
+const USUAL: Wanted = {
+  cut: true,
+  side: "auto",
+  passes: [0],
+  tab: 0,
+  slug_tab: 0,
+  tabs: 1,
+  tab_passes: [],
+  overlap: 0,
+  lead: 3,
+  lead_shape: "perpendicular",
+  reverse: false,
+};
 
 const PLANS: readonly (Plan & { key: Key })[] = [
   { key: "cut", label: "cut", kind: "switch" },
@@ -32,6 +45,10 @@ const PLANS: readonly (Plan & { key: Key })[] = [
   { key: "offset", label: "offset", kind: "number", unit: "mm", example: "0.1" },
   { key: "passes", label: "passes", kind: "list", unit: "mm", example: "0.06, 0.02, 0" },
   { key: "tab", label: "tab", kind: "number", unit: "mm", example: "1.5" },
+  { key: "slug_tab", label: "slugTab", kind: "number", unit: "mm", example: "1.5" },
+  { key: "tabs", label: "tabs", kind: "whole", example: "2" },
+  { key: "tab_passes", label: "tabPasses", kind: "list", unit: "mm", example: "0.02, 0" },
+  { key: "overlap", label: "overlap", kind: "number", unit: "mm", example: "0.3" },
   { key: "lead", label: "lead", kind: "number", unit: "mm", example: "3" },
   {
     key: "lead_shape",
@@ -82,9 +99,11 @@ export class Fields {
     button.textContent = w(typeof scope === "object" && "contours" in scope ? "resetToLayer" : "resetAll");
     button.disabled = !wanted.some((each) => PLANS.some(({ key }) => each[key] !== undefined));
     const isAll = scope === "all";
-    const isSingle = typeof scope === "object" && "contours" in scope && scope.contours.length === 1;
+    const isOfContours = typeof scope === "object" && "contours" in scope;
+    const isSingle = isOfContours && scope.contours.length === 1;
     for (const [key, field] of this.#fields) {
-      field.row.hidden = !state || (SINGLE.has(key) && !isSingle) || (isAll && NOT_ALL.has(key));
+      field.row.hidden =
+        !state || (SINGLE.has(key) && !isSingle) || (isAll && NOT_ALL.has(key)) || (isOfContours && NOT_SINGLE.has(key));
       if (field.row.hidden) continue;
       const values = this.#values(key, wanted);
       const isMixed = values.some((value) => !same(value, values[0]));
@@ -115,7 +134,8 @@ export class Fields {
     return scope.contours.map((id, at) => {
       const planned = this.#desk.planned(id);
       if (key === "cut") return isCut(edited, contours.get(id));
-      return (wanted[at]?.[key] ?? (planned && inForce(planned, key))) as Value;
+      const value = wanted[at]?.[key] ?? (planned && inForce(planned, key));
+      return (key === "tabs" && Array.isArray(value) ? value.length : value) as Value;
     });
   }
 

@@ -2,9 +2,19 @@
 import type { XY } from "../tape.ts";
 import type { View } from "../view.ts";
 import type { Desk } from "./desk.ts";
-import { goesWith, lengthOfAll, micrometres, nearest, placeAlong, type Shape, wayToEntry, wrapped } from "./geometry.ts";
+import {
+  goesWith,
+  lengthOfAll,
+  micrometres,
+  nearest,
+  type OnContour,
+  placeAlong,
+  type Shape,
+  wayToEntry,
+  wrapped,
+} from "./geometry.ts";
 import { arrowHead, isSeen, Pen, pathOf, seenBox } from "./pen.ts";
-import type { Planned } from "./types.ts";
+import type { Planned, Point } from "./types.ts";
 import type { WireWays } from "./ways.ts";
 
 export interface Colours {
@@ -132,15 +142,16 @@ export class Sketch {
       for (const { planned, size } of wanted.slice(at, at + STEP)) {
         const reach = radius(size);
         const entry = planned?.entry && view.toPixel(micrometres(planned.entry));
-        for (const place of [planned?.hole, planned?.tab && planned.tab_hole]) {
+        const ways: [Point | null | undefined, Point | null | undefined][] = [[planned?.hole, planned?.entry]];
+        for (const [begin, end, before, behind] of planned?.tabs ?? []) ways.push([before, begin], [behind, end]);
+        for (const [place, end] of ways) {
           if (!place) continue;
           const [x, y] = view.toPixel(micrometres(place));
           leads.moveTo(x + reach, y);
           leads.arc(x, y, reach, 0, 2 * Math.PI);
-          const end = place === planned?.hole ? entry : planned?.tab && view.toPixel(micrometres(planned.tab));
           if (!end) continue;
           leads.moveTo(x, y);
-          leads.lineTo(...end);
+          leads.lineTo(...view.toPixel(micrometres(end)));
         }
         if (!entry) continue;
         dots.moveTo(entry[0] + reach * 0.7, entry[1]);
@@ -152,10 +163,10 @@ export class Sketch {
       yield;
     }
     for (const { shape, planned } of wanted) {
-      if (!planned?.tab || !planned.values.tab) continue;
+      if (!planned?.values.tab) continue;
       context.strokeStyle = colours.chosen;
       context.lineWidth = 5;
-      context.stroke(pathOf(tabEdges(shape, planned), view));
+      for (const [begin, end] of planned.tabs) context.stroke(pathOf(tabEdges(shape, planned, begin, end), view));
       yield;
     }
   }
@@ -202,12 +213,12 @@ export class Sketch {
   }
 }
 
-/** The part of a contour that its tab keeps: from the tab's end to the entry, as lines. */
-function tabEdges(shape: Shape, planned: Planned): number[][] {
-  if (!planned.tab || !planned.entry) return [];
-  const { along } = nearest(shape, micrometres(planned.tab));
-  const { length, isWith } = wayToEntry(shape, along, micrometres(planned.entry), planned.direction);
+/** The part of a contour that a tab keeps, as lines. */
+function tabEdges(shape: Shape, planned: Planned, begin: Point, end: Point): number[][] {
+  const [{ along }, to] = [begin, end].map((place) => nearest(shape, micrometres(place))) as [OnContour, OnContour];
+  const { isWith } = wayToEntry(shape, along, micrometres(planned.entry ?? end), planned.direction);
   const whole = lengthOfAll(shape.edges);
+  const length = wrapped(isWith ? to.along - along : along - to.along, whole);
   const places = Array.from({ length: TAB_PARTS + 1 }, (_, part) => {
     const way = (part * length) / TAB_PARTS;
     return placeAlong(shape, wrapped(isWith ? along + way : along - way, whole)).place;

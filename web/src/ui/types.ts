@@ -13,6 +13,12 @@ export interface Wanted {
   offset?: number;
   passes?: readonly number[];
   tab?: number;
+  /** The tab of slugs; a contour by itself has `tab` alone. */
+  slug_tab?: number;
+  /** How many tabs, or their places. */
+  tabs?: number | readonly Point[];
+  tab_passes?: readonly number[];
+  overlap?: number;
   lead?: number;
   lead_shape?: "perpendicular" | "arc";
   reverse?: boolean;
@@ -87,8 +93,10 @@ export interface Planned {
   readonly cut: boolean;
   readonly hole: Point | null;
   readonly entry: Point | null;
+  /** The beginning of the tab before the entry. */
   readonly tab: Point | null;
-  readonly tab_hole: Point | null;
+  /** Of each tab its two ends, and the start holes beside these. */
+  readonly tabs: readonly (readonly [Point, Point, Point, Point])[];
   readonly direction: number | null;
   readonly radius: number | null;
   readonly passes: readonly number[];

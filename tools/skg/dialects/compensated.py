@@ -1,0 +1,122 @@
+"""Programs for an offset in the control: the contour itself once a pass, beside it the words that put the wire aside.
+
+The lead-in switches the offset on: the wire comes to R beside the contour, square to its first block; the way out
+switches it off likewise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from skg.errors import UserError
+from skg.geometry.contour import Edge
+from skg.geometry.offset import as_arcs
+from skg.geometry.piece import Piece
+from skg.geometry.plane import XY
+from skg.planning.route import Lead, PlannedContour, Way
+from skg.tape.block import micrometres
+from skg.tape.dialect import GcodeDialect
+from skg.tape.gcode import GcodeWriter, Spot, decimal
+
+
+def compensated(routes: Sequence[PlannedContour], dialect: GcodeDialect, feed: float) -> tuple[str, list[Piece]]:
+    """Return the G-code that cuts planned contours with the dialect's words for an offset, and its path, mm, as it is
+    without an offset; `feed` is mm/min.
+
+    A contour of which the wire leaves edges out is a `UserError`: a control would stop there.
+    """
+    routes = [_as_drawn(route) for route in routes]
+    offsets = list(dict.fromkeys(_beside(run) for route in routes for run in route.runs() if run.offset))
+    words, writer, path = dialect.compensation, GcodeWriter(dialect), []
+    numbers = {offset: str(number) for number, offset in enumerate(offsets, 1)}
+
+    def filled(template: str, offset: int) -> str:
+        return template.replace("{number}", numbers[offset]).replace("{offset}", dialect.length(offset))
+
+    writer.all_of(dialect.head)
+    if words.define:
+        writer.all_of(filled(words.define, offset) for offset in offsets)
+    for route in routes:
+        for run in route.runs():
+            hole = _spot(run.into.threaded if run.into else route.start)
+            if writer.spot is None:
+                writer.begin(hole)
+            elif hole != writer.spot:
+                writer.all_of(dialect.unthread)
+                writer.rapid(hole)
+                writer.all_of(dialect.thread)
+            elif run.stop or run.number == 0:
+                writer.all_of(dialect.stop)
+            _Cut(writer, path, decimal(feed)).run(run, hole, filled)
+    writer.all_of(dialect.foot)
+    return writer.text, path
+
+
+class _Cut:
+    """A cut in the order of writing."""
+
+    def __init__(self, writer: GcodeWriter, path: list[Piece], feed: str) -> None:
+        self.writer, self.path, self.feed = writer, path, feed
+
+    def run(self, run: Way, hole: Spot, filled: Callable[[str, int], str]) -> None:
+        """From a start hole along the contour, and to a start hole."""
+        writer, words = self.writer, self.writer.dialect.compensation
+        writer.all_of(writer.dialect.begin)
+        way_in, way_out = _ways(run)
+        if run.into and run.into.home:
+            self.straight(run.into.hole)
+        if run.offset:
+            writer.block(filled(words.right if run.offset > 0 else words.left, _beside(run)))
+        self.straight((way_in or run.edges)[0].start)
+        for piece in (piece for edge in (*way_in, *run.edges, *way_out) for piece in as_arcs(edge)):
+            if piece.centre is None:
+                self.straight(piece.end)
+            else:
+                self.path.append(piece)
+                writer.arc(_spot(piece.end), _spot(piece.centre), 1 if piece.sweep > 0 else -1, self.feed)
+        if run.offset:
+            writer.block(words.off)
+        if run.out:
+            self.straight(run.out.hole)
+            self.straight(run.out.threaded)
+        elif run.is_closed:
+            self.straight((hole[0] / 1000, hole[1] / 1000))
+        writer.all_of(writer.dialect.end)
+
+    def straight(self, place: XY) -> None:
+        """A line to a place, mm."""
+        x, y = self.writer.spot
+        self.path.append(Piece((x / 1000, y / 1000), place))
+        self.writer.line(_spot(place), self.feed)
+
+
+def _ways(run: Way) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
+    """The arcs that lead to the contour and from it."""
+
+    def arc(lead: Lead | None, is_in: bool) -> tuple[Edge, ...]:
+        return (lead.arc(is_in),) if lead and lead.is_arc else ()
+
+    return arc(run.into, True), arc(run.out, False)
+
+
+def _as_drawn(route: PlannedContour) -> PlannedContour:
+    """A route along its contour."""
+    if not route.traced:
+        return route
+    if any(route.passes) and not route.is_around:
+        raise UserError(
+            f"{route.name}: the wire leaves edges of it out, which a control with an offset of its own may refuse: "
+            "redraw it, or take a machine file without [offset]",
+            route.number,
+            route.entry,
+        )
+    return replace(route, traced=(), is_around=False)
+
+
+def _beside(run: Way) -> int:
+    return micrometres(abs(run.offset))
+
+
+def _spot(place: XY) -> Spot:
+    return micrometres(place[0]), micrometres(place[1])

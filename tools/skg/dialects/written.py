@@ -1,0 +1,36 @@
+"""What `skg cut` writes for a machine that reads G-code, read back before it is written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from skg.dialects.compensated import compensated
+from skg.dialects.verify import refuse_other_path
+from skg.geometry.piece import Piece
+from skg.planning.route import PlannedContour
+from skg.tape import gcode
+from skg.tape.block import Tape, micrometres
+from skg.tape.dialect import GcodeDialect
+from skg.tape.layout import place
+
+
+def machine_program(
+    routes: Sequence[PlannedContour], tape: Tape, positions: str, feed: float, dialect: GcodeDialect, name: str
+) -> str:
+    """The program of a tape that cuts planned contours: with an offset in the control, where the machine has one and
+    the wire runs beside contours. `feed`: mm/min; `name`: the file's, for messages."""
+    if dialect.compensation and any(run.offset for route in routes for run in route.runs()):
+        text, path = compensated(routes, dialect, feed)
+    else:
+        home = micrometres(routes[0].start[0]), micrometres(routes[0].start[1])
+        text = gcode.write(tape, home, (feed, feed), None, positions, dialect)
+        path = [
+            _in_mm(placed) for route in place(tape, home, positions) if not route.is_move for placed in route.blocks
+        ]
+    refuse_other_path(text, name, dialect, path)
+    return text
+
+
+def _in_mm(piece: Piece) -> Piece:
+    start, end, centre = (spot and (spot[0] / 1000, spot[1] / 1000) for spot in (piece.start, piece.end, piece.centre))
+    return Piece(start, end, centre, piece.sweep)
