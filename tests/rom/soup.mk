@@ -7,6 +7,8 @@ hunt: venv asm80 emu tools
 	SKG_SEED=$(SEED) SKG_NARROW=$$(($(PROGRAMS) / 10)) SKG_LOOSE=1 $(PY) -m pytest -q -n 2 tests/rom/test_narrow.py
 	SKG_SEED=$(SEED) SKG_BLOCKS=$$(($(PROGRAMS) / 10)) $(PY) -m pytest -q -n 2 tests/rom/test_random.py tests/rom/test_fit.py tests/rom/test_mill.py
 	SKG_EVERY=1 $(PY) -m pytest -q -n 2 tests/rom/test_altair.py tests/rom/test_processors.py tests/rom/test_mill.py
+	SKG_SEED=$(SEED) SKG_SESSIONS=$$(($(PROGRAMS) / 10)) $(PY) -m pytest -q -n 2 tests/rom/test_sessions.py
+	SKG_STRIDE=499 SKG_MOMENTS=100000 $(PY) -m pytest -q -n 2 tests/fuzz/test_ctrl_c.py
 	$(PY) tests/rom/hunt.py --seed $(SEED) --programs $(PROGRAMS)
 	$(PY) tests/mill/hunt_grbl.py --seed $(SEED) --programs $$(($(PROGRAMS) / 10))
 

@@ -1,0 +1,204 @@
+"""Random typed sessions: the operator's lines at the board, and at a model of what a session keeps.
+
+The model is the reference's interpreter (docs/spec/language.md, sections 3 and 6), kept from line to line: the wire,
+the start hole, whether anything was moved, the open or closed route, variables, the places of DATA and GOSUB, the
+program. Errors end a line and not the session. Sessions are compared line by line: what is punched, what is printed.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from random import Random
+
+from compare import same_line
+from romhelp import BLOCK, Board
+
+from skg.ref import real
+from skg.ref.fault import Code
+from skg.ref.interpreter import Endless, Interpreter
+from skg.ref.near import watching
+from skg.ref.parser import LineFault, parse_line
+from skg.ref.statements import Goto
+from skg.ref.tape import Punch
+
+#: Lines that a program may carry out before it counts as endless.
+PATIENCE = 200
+#: Cycles that a line may take on the board.
+LIMIT = 200_000_000
+#: Memory enough for what SYM and REP make of a route.
+RAM_KIB = 48
+#: A program's lines.
+NUMBERS = (10, 20, 30, 40, 50)
+
+
+class Model(Interpreter):
+    """A machine at its prompt. Nobody answers its INPUT: the operator breaks in there."""
+
+    def typed(self, line: str) -> tuple[bytes, list[str]]:
+        """Carry out a line: what is punched and printed, a refused line's own text and mark left out."""
+        tape, paper = len(self.tape.bytes()), len(self.paper)
+        self._carry_out(line)
+        printed = [row for text in self.paper[paper:] for row in text.split("\n") if row not in ("", "? ")]
+        return self.tape.bytes()[tape:], printed
+
+    def _carry_out(self, line: str) -> None:
+        if line == "NEW":
+            self.program.clear()
+            self._clear()
+        elif command := re.fullmatch(r"RUN(?: (\d+))?", line):
+            self._command(int(command[1]) if command[1] else None)
+        else:
+            self._line(line)
+
+    def _command(self, first: int | None) -> None:
+        """RUN, from a line: one that is not there clears nothing."""
+        if first is not None and first not in self.program:
+            self.watch.line = None
+            self._fail(Code.LINE)
+            return
+        self._clear()
+        self._run_from(None if first is None else Goto(first))
+
+    def _line(self, line: str) -> None:
+        """A line of the program, or a direct statement."""
+        try:
+            parsed = parse_line(line, self.dialect)
+        except LineFault as fault:
+            # (a line that is not understood does nothing: an open route stays open)
+            self._report(fault.code, None)
+            return
+        if parsed.number is None:
+            self._run_from(parsed.statement)
+        elif parsed.statement is not None:
+            self.program[parsed.number] = parsed.statement
+            self._forget_places()
+        elif self.program.pop(parsed.number, None) is not None:
+            self._forget_places()
+
+
+_PLACES = ["O", "(0,0)", "(10,0)", "(10,10)", "(0,10)", "(5,-5)", "(-5,5)", "P", "P1", "(20,0)"]
+_FAR = ["(25,200000)", "(200000,0)", "(-99999,99999)", "(99999,-99999)"]
+_CURVES = ["X", "Y:10", "-X:10", "-Y", "O:5", "C", "S", "(20,0):5", "-(O:5)"]
+_NUMBERS = ["0", "1", "2", "-1", "0.5", "A", "I", "3"]
+
+
+def statement(random: Random) -> str:
+    """A statement, right or wrong; most of them cut."""
+    one = random.choice
+    place = lambda: one(_FAR) if random.random() < 0.06 else one(_PLACES)  # noqa: E731
+    items = lambda: [place() if random.random() < 0.6 else one(_CURVES) for _ in range(one((1, 1, 2, 3, 4)))]  # noqa: E731
+    makers: list[tuple[int, Callable[[], str]]] = [
+        (6, lambda: f"FROM {place()}"),
+        (8, lambda: f"CUT {''.join(one(',;') + item for item in items())[1:]}"),
+        (3, lambda: f"CUT {place()},{place()},{one(_NUMBERS)},{place()}"),
+        (1, lambda: f"CUT {place()},O,(40000,0):40000,({one(('80000,0', '40000,40000', '40000,-40000'))})"),
+        (4, lambda: "BACK"),
+        (2, lambda: "RECUT"),
+        (2, lambda: "END"),
+        (1, lambda: f"SYM {one(_CURVES[:4])}"),
+        (1, lambda: f"REP {one(('2', '3', '1', '0', 'A'))},{one(('90', '180'))}"),
+        (3, lambda: f"FIT {place()}{one(('', '', ',90'))}"),
+        (2, lambda: f"R={one(('0', '1', '-1', '0.5', '6'))}"),
+        (1, lambda: f"SCALE {one(('1', '2', '0'))}"),
+        (1, lambda: f"TOL {one(('0', '0.1', '-1'))}"),
+        (3, lambda: one(("A=1", "A=A+1", "I=2", "P=(1,2)", "P1=(3,4)", "C=O:5", "S=X:2", "O=P", "A=P"))),
+        (4, lambda: f"PRINT {one(('A', 'I', 'P', 'C', 'S', 'R', 'P1', '(A,I)', '1/0', 'K1 P', '7'))}"),
+        (2, lambda: one(("READ A", "READ P,A", "RESTORE", "RESTORE 30", "DATA 1,(2,3)", "DATA A,7"))),
+        (3, lambda: f"{one(('GOTO', 'GOSUB'))} {one((*NUMBERS, 55))}"),
+        (2, lambda: "RETURN"),
+        (1, lambda: f"IF {one(_NUMBERS)}{one(('=', '<', '>'))}{one(_NUMBERS)} GOTO {one(NUMBERS)}"),
+        (1, lambda: "INPUT A"),
+        (2, lambda: one(("CUT ,", "FROM", "PRINT )", "CUT O,1,2,X", "P1000=O", "K", "CUT (1,2"))),
+        (1, lambda: "REM"),
+    ]
+    ((_, make),) = random.choices(makers, [weight for weight, _ in makers])
+    return make()
+
+
+def session(seed: str, number: int) -> list[str]:
+    """The lines of a session, by its number."""
+    random = Random(f"{seed} {number}")
+    lines = []
+    for _ in range(random.choice((3, 6, 10, 16))):
+        kind = random.random()
+        if kind < 0.45:
+            lines.append(statement(random))
+        elif kind < 0.80:
+            lines.append(f"{random.choice(NUMBERS)} {statement(random)}")
+        elif kind < 0.84:
+            lines.append(str(random.choice((*NUMBERS, 55))))
+        elif kind < 0.95:
+            lines.append(random.choice(("RUN", "RUN", "RUN", f"RUN {random.choice((*NUMBERS, 55))}")))
+        elif kind < 0.96:
+            lines.append("NEW")
+        else:
+            lines.append(f"GOTO {random.choice(NUMBERS)}")
+    return [line for line in lines if line != "INPUT A"]
+
+
+#: A line's part of the tape, and of the paper.
+Answer = tuple[bytes, list[str]]
+
+
+def by_model(lines: Sequence[str], bits: int | None = None) -> list[Answer]:
+    """The model's answers, up to a line that is endless."""
+    answers = []
+    with watching() as watch, real.mp.workprec(bits or real.mp.prec):
+        model = Model((), watch, Punch())
+        for line in lines:
+            model.patience = PATIENCE
+            try:
+                answers.append(model.typed(line))
+            except Endless:
+                break
+    return answers
+
+
+def by_board(lines: Sequence[str]) -> list[Answer]:
+    """The firmware's answers."""
+    board = Board(RAM_KIB, limit=LIMIT)
+    answers = []
+    for line in lines:
+        before = len(board.tape)
+        printed = [row for row in board.run(command=line) if row not in ("", ">", "? ") and not BLOCK.fullmatch(row)]
+        if len(printed) > 1 and printed[-2].strip() == "^" or printed[:1] and printed[0].strip() == "^":
+            printed = printed[-1:]
+        answers.append((board.tape[before:], printed))
+    return answers
+
+
+def same(ours: Sequence[Answer], theirs: Sequence[Answer]) -> bool:
+    """Tell whether two are equal, but for the last digits of numbers, and what a PRINT writes before its ERR."""
+    return all(
+        tape == wanted
+        and len(rows := [row for row in paper if not row.endswith(" ")]) == len(others := [r for r in there if r])
+        and all(map(same_line, rows, others))
+        for (tape, paper), (wanted, there) in zip(ours, theirs, strict=True)
+    )
+
+
+def difference(lines: Sequence[str]) -> str:
+    """The first line at which board and model differ, and how; empty for none, or a close call."""
+    wanted = by_model(lines)
+    lines = lines[: len(wanted)]
+    answers = by_board(lines)
+    for number, line in enumerate(lines):
+        if not same(answers[number : number + 1], wanted[number : number + 1]):
+            if not same(by_model(lines, 33), wanted):
+                return ""
+            return f"{line}: {answers[number]}, wanted {wanted[number]}"
+    return ""
+
+
+def shrunk(lines: Sequence[str]) -> list[str]:
+    """The session without the lines that its difference does not need."""
+    small = list(lines)
+    number = 0
+    while number < len(small):
+        fewer = small[:number] + small[number + 1 :]
+        if difference(fewer):
+            small, number = fewer, 0
+        else:
+            number += 1
+    return small

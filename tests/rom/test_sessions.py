@@ -1,0 +1,67 @@
+"""Typed sessions (sessions.py), firmware against model: what a session keeps behind errors, edits, GOTO and RUN.
+
+1,600 sessions; another seed: SKG_SEED=text, more of them: SKG_SESSIONS=number.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+
+import pytest
+from sessions import by_model, difference, session, shrunk
+
+SEED = os.environ.get("SKG_SEED", "sessions")
+
+#: The work is cut into shares, so that several test processes can take them.
+SHARES = range(2)
+SESSIONS_A_SHARE = int(os.environ.get("SKG_SESSIONS", "1600")) // len(SHARES)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_sessions(share: int) -> None:
+    for number in range(share * SESSIONS_A_SHARE, (share + 1) * SESSIONS_A_SHARE):
+        lines = session(SEED, number)
+        if difference(lines):
+            small = shrunk(lines)
+            pytest.fail(f"session {number} of {SEED}: {small}\n{difference(small)}")
+
+
+def test_sessions_hold_what_is_looked_for() -> None:
+    """Errors of all kinds with a route open, cuts behind errors, re-positionings, runs."""
+    seen: Counter[str] = Counter()
+    for number in range(300):
+        lines = session(SEED, number)
+        failed = False
+        for line, (tape, paper) in zip(lines, by_model(lines), strict=False):
+            seen["blocks behind an error"] += failed and b"B" in tape
+            seen["stop at an error"] += bool(paper) and paper[-1].startswith("ERR") and tape.endswith(b"D\r\n")
+            seen["re-positioning"] += line.startswith("FROM") and tape.startswith(b"D\r\n")
+            seen["run"] += line.startswith("RUN") and b"DD" in tape
+            if paper and paper[-1].startswith("ERR"):
+                seen[paper[-1][:6]] += 1
+                failed = True
+    assert all(count >= 5 for count in seen.values()), seen
+    assert len(seen) >= 11, seen
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        # FROM that does not fit leaves the wire where it is, and the next one is the first.
+        ["FROM (25,200000)", "FROM (25,200)", "FROM (1,1)"],
+        ["CUT O,(10,0)", "FROM (25,200000)", "FROM (25,200000)", "FROM (1,1)"],
+        # A block that does not fit leaves it, too.
+        ["C=(40000,0):40000", "CUT (0,0),C,(40000,40000)", "FROM (1,1)", "FROM (2,2)"],
+        # RUN of no line clears nothing; a number of no line takes nothing out.
+        ["A=1", "FROM (10,10)", "RUN 55", "PRINT A", "FROM (20,0)"],
+        ["CUT O,(10,0)", "RUN 55", "CUT O,(0,10)", "END"],
+        ["CUT O,(10,0)", "10", "CUT (10,10)", "BACK"],
+        ["10 A=1", "CUT O,(10,0)", "10", "CUT (10,10)", "BACK"],
+        # A program gone on with behind an error.
+        ["10 FROM O", "20 CUT O,(10,0),(10,10)", "30 CUT Q", "40 BACK", "RUN", "30 REM", "GOTO 40", "GOTO 20"],
+        ["RUN", "CUT O,(1,0)", "RUN", "CUT O,(1,0)", "END"],
+    ],
+)
+def test_a_session(lines: list[str]) -> None:
+    assert not difference(lines)
