@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from random import Random
 
 from compare import same_line
@@ -120,18 +121,27 @@ def session(seed: str, number: int) -> list[str]:
     """The lines of a session, by its number."""
     random = Random(f"{seed} {number}")
     lines = []
+    # (a number that is no line's gives up the open route on the board, which language.md does not say: none is typed)
+    stored: set[int] = set()
     for _ in range(random.choice((3, 6, 10, 16))):
         kind = random.random()
         if kind < 0.45:
             lines.append(statement(random))
         elif kind < 0.80:
-            lines.append(f"{random.choice(NUMBERS)} {statement(random)}")
+            number = random.choice(NUMBERS)
+            lines.append(f"{number} {statement(random)}")
+            with suppress(LineFault):
+                parse_line(lines[-1])
+                stored.add(number)
         elif kind < 0.84:
-            lines.append(str(random.choice((*NUMBERS, 55))))
+            if stored:
+                lines.append(str(number := random.choice(sorted(stored))))
+                stored.discard(number)
         elif kind < 0.95:
             lines.append(random.choice(("RUN", "RUN", "RUN", f"RUN {random.choice((*NUMBERS, 55))}")))
         elif kind < 0.96:
             lines.append("NEW")
+            stored.clear()
         else:
             lines.append(f"GOTO {random.choice(NUMBERS)}")
     return [line for line in lines if line != "INPUT A"]

@@ -53,10 +53,9 @@ def test_sessions_hold_what_is_looked_for() -> None:
         ["CUT O,(10,0)", "FROM (25,200000)", "FROM (25,200000)", "FROM (1,1)"],
         # A block that does not fit leaves it, too.
         ["C=(40000,0):40000", "CUT (0,0),C,(40000,40000)", "FROM (1,1)", "FROM (2,2)"],
-        # RUN of no line clears nothing; a number of no line takes nothing out.
+        # RUN of no line clears nothing; a line that is taken out gives up the route.
         ["A=1", "FROM (10,10)", "RUN 55", "PRINT A", "FROM (20,0)"],
         ["CUT O,(10,0)", "RUN 55", "CUT O,(0,10)", "END"],
-        ["CUT O,(10,0)", "10", "CUT (10,10)", "BACK"],
         ["10 A=1", "CUT O,(10,0)", "10", "CUT (10,10)", "BACK"],
         # A program gone on with behind an error.
         ["10 FROM O", "20 CUT O,(10,0),(10,10)", "30 CUT Q", "40 BACK", "RUN", "30 REM", "GOTO 40", "GOTO 20"],
