@@ -17,6 +17,7 @@ import click
 from skg.errors import UserError
 from skg.garbage import collect_rarely
 from skg.messages.finding import Finding
+from skg.terminal import tell
 
 # numpy's linear algebra, which skg does without, would start a thread for each processor: a quarter of a short run.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -179,8 +180,7 @@ def _flush() -> None:
 
 def _fail(message: str) -> NoReturn:
     with suppress(OSError):
-        print(f"skg: {message}", file=sys.stderr)
-        _flush()
+        tell(f"skg: {message}")
     _leave(2)
 
 

@@ -21,6 +21,7 @@ from skg.tape.block import Tape
 from skg.tape.dialect import GcodeDialect
 from skg.tape.styles import read_any
 from skg.tape.text import TapeFault, scan
+from skg.terminal import show, tell
 from skg.wording import counted
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def command(
             if not as_json:
                 _list(name, findings, f"{len(text.splitlines())} lines", list_all)
             for note in program.notes:
-                click.echo(f"skg: {name}: {note}", err=True)
+                tell(f"skg: {name}: {note}")
         else:
             tape, findings = scan(data, name, positions)
             if not as_json:
@@ -120,12 +121,12 @@ def _list(
 ) -> None:
     """Write the findings of a tape, or that there is none."""
     if not findings:
-        click.echo(f"{name}: {size}, nothing wrong")
+        show(f"{name}: {size}, nothing wrong")
     listed = findings if list_all else findings[:MOST]
     for finding in listed:
-        click.echo(f"{name}: {finding}")
+        show(f"{name}: {finding}")
     if len(findings) > len(listed):
-        click.echo(f"{name}: {len(findings) - len(listed)} more (--all lists them)")
+        show(f"{name}: {len(findings) - len(listed)} more (--all lists them)")
 
 
 def _list_3b(name: str, data: bytes, tape: Tape, findings: list[TapeFault], list_all: bool) -> None:
@@ -137,13 +138,11 @@ def _list_3b(name: str, data: bytes, tape: Tape, findings: list[TapeFault], list
         except UserError as error:
             if kind_of(data) not in ("", TAPE) or not tape.blocks and len(findings) > MOST and not list_all:
                 # No tape at all: every line is a finding.
-                click.echo(str(error))
+                show(str(error))
                 return
     blocks = len(tape.blocks)
     _list(name, findings, f"{blocks} block{'s' * (blocks != 1)}", list_all)
     if b"\x1a" in data[len(without_filling(data)) :]:
-        click.echo(f"skg: {name}: ends with ctrl-Zs, as a file of CP/M does; they are not on the tape", err=True)
+        tell(f"skg: {name}: ends with ctrl-Zs, as a file of CP/M does; they are not on the tape")
     for note in notes:
-        click.echo(
-            f"skg: {name}: {note}; the other commands read it so, and `skg tape` writes it as the punch", err=True
-        )
+        tell(f"skg: {name}: {note}; the other commands read it so, and `skg tape` writes it as the punch")

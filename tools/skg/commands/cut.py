@@ -40,6 +40,7 @@ from skg.messages.render import Medium, Speech, data, line, speech, text
 from skg.reading.read import Wishes, layer_lines
 from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
+from skg.terminal import show, tell
 
 if TYPE_CHECKING:
     from skg.cutting.job import CutResult
@@ -261,7 +262,7 @@ def command(
         return
     for finding in (*cut.findings, *more):
         if finding.severity.is_kept or not quiet:
-            click.echo(line(finding, way), err=True)
+            tell(line(finding, way))
 
 
 def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, object]:
@@ -301,9 +302,9 @@ def _cut(
     if list_layers:
         layers, notes = layer_lines(read_bytes(path), path, Wishes(encoding=job.read.encoding))
         for layer in layers:
-            click.echo(layer)
+            show(layer)
         for note in notes:
-            click.echo(f"skg: {path}: {note}", err=True)
+            tell(f"skg: {path}: {note}")
         return None
     form = picture_format(sheet, None) if sheet else ""
     if is_gcode(output) and not dialect:

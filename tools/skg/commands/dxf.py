@@ -17,6 +17,7 @@ from skg.files import text_output
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding
 from skg.tape.dialect import GcodeDialect
+from skg.terminal import tell
 
 
 @click.command(name="dxf")
@@ -51,7 +52,7 @@ def command(
         if start:
             raise UserError(Finding("iso-has-places").within(file))
         if heights := program.heights():
-            click.echo(f"skg: {file}: all in one plane: {heights}", err=True)
+            tell(f"skg: {file}: all in one plane: {heights}")
         with text_output(output) as stream:
             write(stream, program.routes(), program.stop_places, polylines, program.holes)
         return

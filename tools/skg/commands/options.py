@@ -16,6 +16,7 @@ from skg.messages.finding import Finding
 from skg.tape.block import MAX_DIGITS, Tape
 from skg.tape.dialect import GcodeDialect
 from skg.tape.positions import POSITIONS, WITHOUT_DRIFT, decide, depends
+from skg.terminal import tell
 
 #: Formats of pictures, by the ending of a file's name.
 FORMATS = ("svg", "png", "pdf")
@@ -57,7 +58,7 @@ def say(tape: Tape, more: str = "") -> None:
     """Write to standard error what was noted when a tape was read, and what else there is to say."""
     nothing = "" if tape.blocks else "no blocks: nothing is cut"
     for note in (*tape.notes, *filter(None, [more, nothing])):
-        click.echo(f"skg: {tape.name}: {note}", err=True)
+        tell(f"skg: {tape.name}: {note}")
 
 
 def unmarked(output: str, tape: Tape, rom: str) -> list[Finding]:

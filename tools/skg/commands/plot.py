@@ -22,6 +22,7 @@ from skg.commands.options import (
 from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding
+from skg.terminal import tell
 
 if TYPE_CHECKING:
     from skg.pictures.plot import Sheet
@@ -92,7 +93,7 @@ def command(
         picture.draw(sheet, COLOURS[index % len(COLOURS)], f"tape-{index + 1}", wire, not no_arrows, blocks)
         picture.stops(stops[index], f"tape-{index + 1}")
     if picture.left_out:
-        click.echo(f"skg: {output}: {picture.left_out} block numbers left out, there is no room for them", err=True)
+        tell(f"skg: {output}: {picture.left_out} block numbers left out, there is no room for them")
     if len(sheets) > 1:
         picture.legend([sheet.name for sheet in sheets])
     picture.save(output, form)
@@ -108,7 +109,7 @@ def _laid(
     contour = contour_of(name) if show_offset else ()
     if program := iso_program(name, skg80, dialect):
         if heights := program.heights():
-            click.echo(f"skg: {name}: {heights}", err=True)
+            tell(f"skg: {name}: {heights}")
         return Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)), program.stop_places
     tape = load(name, skg80)
     routes, stops = lay_out(tape, start or tape.start, decided(tape, positions))

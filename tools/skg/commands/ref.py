@@ -8,6 +8,7 @@ import click
 
 from skg.commands.options import answers_option, output_option
 from skg.files import board_text, read_bytes, write_bytes
+from skg.terminal import tell
 
 
 @click.command("ref")
@@ -46,8 +47,8 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
         raise click.UsageError("--no-drift is for 3B tapes: an ISO tape has no drift")
     click.echo(result.paper, err=True, nl=False)
     if result.error and not (mill or grbl) and is_milling(program):
-        click.echo(f"skg: {part}: a milling program: --mill runs it", err=True)
+        tell(f"skg: {part}: a milling program: --mill runs it")
     if lost := given_up(program):
-        click.echo(f"skg: {part}: {lost}", err=True)
+        tell(f"skg: {part}: {lost}")
     write_bytes(output, result.tape)
     sys.exit(0 if result.error is None else 1)

@@ -8,6 +8,7 @@ from skg.commands.options import output_option
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.rivals.languages import translated
+from skg.terminal import tell
 
 
 def translator(name: str, ending: str, language: str) -> click.Command:
@@ -26,7 +27,7 @@ def translator(name: str, ending: str, language: str) -> click.Command:
         try:
             program = translated(part, ending)
         except UserError as error:
-            click.echo(str(error), err=True)
+            tell(str(error))
             raise SystemExit(1) from None
         write_bytes(output, program.encode("ascii"))
 

@@ -19,6 +19,7 @@ from skg.messages.render import line
 from skg.sources.load import program_text
 from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape.text import parse
+from skg.terminal import tell
 
 #: Exit codes, those of build/skg80; by the reason for which the board stopped, else ERR.
 ERR, STOPPED = 1, {"cycles": 3, "nobody": 2, "break": 2}
@@ -61,7 +62,7 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     if rom is None:
         rom = MILL_ROM if is_milling(text) else "standard"
         if rom == MILL_ROM:
-            click.echo(f"skg: {part}: a milling program, run by the mill ROM", err=True)
+            tell(f"skg: {part}: a milling program, run by the mill ROM")
 
     def show(paper: str) -> None:
         nonlocal line_begins
@@ -71,7 +72,7 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     def remark(text: object) -> None:
         if not line_begins:
             show("\r\n")
-        click.echo(f"skg: {text}", err=True)
+        tell(f"skg: {text}")
 
     tape, code = b"", 0
     try:

@@ -10,6 +10,7 @@ import click
 from skg.commands.options import Millimetres, offset_option, output_option
 from skg.errors import UserError
 from skg.files import write_bytes
+from skg.terminal import tell
 
 if TYPE_CHECKING:
     from skg.cutting.cam import Cam
@@ -47,4 +48,4 @@ def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None,
     if tape:
         write_bytes(tape, job.data)
     for finding in findings(job):
-        click.echo(line(finding), err=True)
+        tell(line(finding))

@@ -19,9 +19,11 @@ from skg.tape.controller import drive_steps, stops_in_pairs
 from skg.tape.dialect import GcodeDialect
 from skg.tape.simulation import Report, closing, duration, simulate
 from skg.tape.text import odd_stops
+from skg.terminal import show, tell
 
 
-def _text(report: Report, blocks: bool) -> str:
+def _lines(report: Report, blocks: bool) -> list[str]:
+    """The report on a tape, line by line."""
     lines = []
     if blocks:
         head = f"{'block':>5}  {'tape':<40} {'should end at':>20} {'really at':>20} {'miss':>8} {'off':>6}"
@@ -50,7 +52,7 @@ def _text(report: Report, blocks: bool) -> str:
             + (f"moves by {_xy(route.gap)} µm" if route.is_move else closing(route.gap))
             for route in report.routes
         ]
-    return "\n".join(lines)
+    return lines
 
 
 def _write_steps(path: str, tapes: list[Tape]) -> None:
@@ -58,10 +60,9 @@ def _write_steps(path: str, tapes: list[Tape]) -> None:
     write_bytes(path, b"".join(chain.from_iterable(map(drive_steps, tapes))))
     for tape in tapes:
         if not stops_in_pairs(tape):
-            click.echo(
+            tell(
                 f"skg: {tape.name}: its stops are not in pairs around moves: bit 7 of the steps turns over at each of "
-                "them, which is not where it cuts and where it moves",
-                err=True,
+                "them, which is not where it cuts and where it moves"
             )
 
 
@@ -126,8 +127,10 @@ def command(
         kept = [replace(report, each=tuple(report.each) if blocks else ()) for report in reports]
         click.echo(json.dumps([_rounded({**asdict(report), "closed": report.closed}) for report in kept]))
     else:
-        click.echo("\n".join(_text(report, blocks) for report in reports))
+        for report in reports:
+            for each in _lines(report, blocks):
+                show(each)
     for name, why in odd.items():
-        click.echo(f"skg: {name}: {why}", err=True)
+        tell(f"skg: {name}: {why}")
     if odd or strict_close and not all(report.closed for report in reports):
         raise SystemExit(1)

@@ -15,6 +15,7 @@ from skg.commands.options import Seconds
 from skg.errors import UserError
 from skg.files import read_bytes
 from skg.messages.finding import Finding
+from skg.terminal import tell
 
 if TYPE_CHECKING:
     from skg.machine.teletype import Port, Teletype
@@ -172,4 +173,4 @@ def _tell_punched(teletype: Teletype, record: str | None, run: bool) -> None:
     if teletype.punched:
         where = f" to {record}" if record else ""
         cut_off = "" if teletype.ended or not run else ", the tape is not complete"
-        click.echo(f"skg term: {teletype.punched} bytes punched{where}{cut_off}", err=True)
+        tell(f"skg term: {teletype.punched} bytes punched{where}{cut_off}")

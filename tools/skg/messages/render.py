@@ -15,7 +15,7 @@ from skg.messages.catalogue import template
 from skg.messages.finding import Finding, Phrase
 from skg.messages.settings import KEYS, LISTS, SETTINGS, TOP
 from skg.messages.severity import Severity
-from skg.wording import short, shown
+from skg.wording import short, shown, visible
 
 #: An option in a template, with the value that it is advised to have.
 _SETTING = re.compile(r"--(?P<name>[a-z-]+)(?:=(?P<value>.+))?")
@@ -58,7 +58,7 @@ def line(finding: Finding, way: Speech | None = None) -> str:
     if finding.severity is Severity.CARE:
         sentence = text(Phrase("care", text=sentence), way)
     separator = template("source-separator", way.language)
-    sources = [source if isinstance(source, str) else text(source, way) for source in finding.source]
+    sources = [visible(source) if isinstance(source, str) else text(source, way) for source in finding.source]
     return separator.join([*sources, sentence])
 
 
@@ -130,7 +130,9 @@ class _Wording(string.Formatter):
         if isinstance(value, tuple | list):
             separator = template("sentence-separator" if format_spec == ";" else "list-separator", self._way.language)
             return separator.join(self.format_field(item, format_spec) for item in value)
-        if isinstance(value, str) or not format_spec and not isinstance(value, float):
+        if isinstance(value, str):
+            return visible(value)
+        if not format_spec and not isinstance(value, float):
             return str(value)
         if not format_spec:
             return short(value)

@@ -10,6 +10,7 @@ from matplotlib import font_manager
 from matplotlib.figure import Figure
 
 from skg.files import binary_output
+from skg.wording import visible
 
 #: The font that matplotlib brings along, and others that have what it has not, where they are installed.
 _FONT = "DejaVu Sans"
@@ -30,8 +31,8 @@ _MORE_FONTS = (
 
 def as_it_stands(text: str) -> dict[str, object]:
     """Escape a file's name or a title for matplotlib: no formula between dollars, in a font that has
-    its letters; what is no letter (bytes that are not UTF-8, control characters) is a question mark."""
-    shown = "".join(character if character.isprintable() else "?" for character in text)
+    its letters."""
+    shown = visible(text)
     options: dict[str, object] = {"s": shown, "parse_math": False}
     letters = font_manager.get_font(font_manager.findfont(_FONT))
     if not all(letters.get_char_index(ord(character)) for character in shown):

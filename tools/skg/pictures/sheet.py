@@ -29,7 +29,7 @@ from skg.pictures.plot import FEW, outlines
 from skg.planning.route import PlannedContour, kind_of
 from skg.tape.layout import Laid
 from skg.tape.simulation import duration
-from skg.wording import short, shown
+from skg.wording import short, shown, visible
 
 #: The page lies on its side: A4, and A3 where A4 has no room for the table; mm.
 _A4, _A3 = (297.0, 210.0), (420.0, 297.0)
@@ -509,7 +509,7 @@ class SetupSheet:
             for row, (name, value) in enumerate(facts_):
                 x, y = _MARGIN + column * wide + 1, _MARGIN + _HEAD - 6 - row * 5
                 self._text((x, y), text(Phrase(f"sheet-{name}")), 5.5, _GREY, va="center")
-                self._text((x + 14, y), *_fitted(value, wide - 16), _INK, va="center")
+                self._text((x + 14, y), *_fitted(visible(value), wide - 16), _INK, va="center")
 
     def save(self, output: str, form: str) -> None:
         """Write the page as "pdf", "svg" or "png"."""

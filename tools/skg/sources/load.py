@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 import subprocess
-import sys
 import tempfile
 from dataclasses import replace
 from pathlib import Path
@@ -30,6 +29,7 @@ from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
 from skg.tape.gcode_program import GcodeProgram
 from skg.tape.gcode_reader import read as read_gcode
+from skg.terminal import tell
 
 if TYPE_CHECKING:
     from skg.ref import Result
@@ -77,7 +77,7 @@ def iso_of(text: str, name: str, dialect: GcodeDialect | None = None) -> GcodePr
     """Read G-code; what it does not tell and is guessed, and what of it is no cut, is said on standard error."""
     program = read_gcode(text, name, dialect)
     for remark in (*program.guesses, *program.notes):
-        print(f"skg: {name}: {remark}", file=sys.stderr, flush=True)
+        tell(f"skg: {name}: {remark}")
     return program
 
 
@@ -91,7 +91,7 @@ def iso_text(name: str, skg80: str | None = None, dialect: GcodeDialect | None =
     if not is_milling(text):
         return None
     by = "the mill ROM" if skg80 is None else "the reference" if skg80 == "reference" else f"{skg80}, the mill ROM"
-    print(f"skg: {name}: a milling program, run by {by}", file=sys.stderr, flush=True)
+    tell(f"skg: {name}: a milling program, run by {by}")
     _say_given_up(name, text)
     return _tape_of(name, text, skg80, mills=True).decode("ascii")
 
@@ -158,7 +158,7 @@ def program_text(name: str) -> str:
 
 def _say_given_up(name: str, text: str) -> None:
     if lost := given_up(text):
-        print(f"skg: {name}: {lost}", file=sys.stderr, flush=True)
+        tell(f"skg: {name}: {lost}")
 
 
 def _tape_of(name: str, text: str, skg80: str | None, mills: bool = False) -> bytes:
@@ -180,7 +180,7 @@ def _run_rom(name: str, text: str, rom: str) -> bytes:
                 raise too_large(name, text, MOST_RAM, rom)
             if not fed.error:
                 least = least_ram(text, rom)
-                print(f"skg: {name}: takes {least} KiB of RAM, more than the board's 8", file=sys.stderr)
+                tell(f"skg: {name}: takes {least} KiB of RAM, more than the board's 8")
     except BoardStopped as stopped:
         raise UserError(f"{name}: {stopped}") from None
     if fed.error:
