@@ -31,6 +31,7 @@
 #include "options.h"
 #include "output.h"
 #include "session.h"
+#include "signs.h"
 #include "symbols.h"
 #include "terminal.h"
 
@@ -130,37 +131,69 @@ static const char *rest_of(const uint8_t *bytes, size_t length)
     return rest;
 }
 
-/* Refuses a part with a character that would stop the board, as `skg` does (board_text of tools/skg/files.py). */
-static int refuse_stops(const char *path, const uint8_t *bytes, size_t length)
+/* Replaces signs in other forms by the ASCII ones, in place, and refuses other characters. In a file, not a tape, also
+ * those that would stop the board, and what is behind ctrl-Z stays: so does `skg` (board_text of tools/skg/files.py). */
+static int take_signs(const char *path, uint8_t *bytes, size_t *length, bool is_tape)
 {
-    unsigned line = 1;
-    for (size_t i = 0; i < length && bytes[i] != CTRL_Z; i++) {
-        if (bytes[i] == CTRL_C || bytes[i] == CTRL_S) {
-            return complain(EXIT_USAGE, "%s: line %u: a ctrl-%s: delete it", path, line,
-                            bytes[i] == CTRL_C ? "C breaks LOAD off" : "S holds the board");
+    unsigned line = 1, column = 1;
+    size_t kept = 0, at = 0;
+    for (size_t used; at < *length && (is_tape || bytes[at] != CTRL_Z); at += used) {
+        char shown[SIGNS_SHOWN];
+        int sign = signs_read(bytes + at, *length - at, &used);
+        if (!is_tape && (sign == CTRL_C || sign == CTRL_S)) {
+            return complain(EXIT_USAGE, "%s: line %u, column %u: a ctrl-%s: delete it", path, line, column,
+                            sign == CTRL_C ? "C breaks LOAD off" : "S holds the board");
         }
-        line += bytes[i] == '\n' || (bytes[i] == '\r' && bytes[i + 1] != '\n');
+        if (sign < 0) {
+            signs_show(bytes + at, used, shown);
+            return complain(EXIT_USAGE, "%s: line %u, column %u: %s is not ASCII", path, line, column, shown);
+        }
+        bool ends = sign == '\n' || (sign == '\r' && bytes[at + 1] != '\n');
+        line += ends;
+        column = ends ? 1 : column + 1;
+        bytes[kept++] = (uint8_t)sign;
     }
+    memmove(bytes + kept, bytes + at, *length + 1 - at);
+    *length -= at - kept;
     return 0;
 }
 
-/* Puts a tape into the reader, without the mark of UTF-8 and with a line end behind a last line that has none. */
-static int set_tape(session *s, const char *path)
+/* Reads a text for the board's keyboard or reader, where it may be a tape with parity; a mark of UTF-8 is dropped. NULL
+ * on failure, with the exit code. */
+static uint8_t *read_text(const char *path, size_t *length, bool is_tape, int *code)
 {
     static const char mark[] = "\xef\xbb\xbf";
+    enum { PARITY = 0x80 };
     char error[256];
-    size_t length;
-    uint8_t *bytes = image_read(path, FILE_LIMIT, &length, error, sizeof error);
+    uint8_t *bytes = image_read(path, FILE_LIMIT, length, error, sizeof error);
     if (!bytes) {
-        return complain(EXIT_USAGE, "%s", error);
+        *code = complain(EXIT_USAGE, "%s", error);
+        return NULL;
     }
-    if (length >= sizeof mark - 1 && !memcmp(bytes, mark, sizeof mark - 1)) {
-        length -= sizeof mark - 1;
-        memmove(bytes, bytes + sizeof mark - 1, length + 1);
+    if (signs_have_parity(bytes, *length)) {
+        for (size_t i = 0; i < *length; i++) {
+            bytes[i] &= (uint8_t)~PARITY;
+        }
     }
-    int code = s->o.part ? refuse_stops(path, bytes, length) : 0;
-    if (code) {
+    if (*length >= sizeof mark - 1 && !memcmp(bytes, mark, sizeof mark - 1)) {
+        *length -= sizeof mark - 1;
+        memmove(bytes, bytes + sizeof mark - 1, *length + 1);
+    }
+    *code = take_signs(path, bytes, length, is_tape);
+    if (*code) {
         free(bytes);
+        return NULL;
+    }
+    return bytes;
+}
+
+/* Puts a tape into the reader, with a line end behind a last line that has none. */
+static int set_tape(session *s, const char *path)
+{
+    size_t length;
+    int code;
+    uint8_t *bytes = read_text(path, &length, path == s->o.tape, &code);
+    if (!bytes) {
         return code;
     }
     /* (an empty file becomes an empty line: LOAD waits for a first character) */
@@ -306,15 +339,18 @@ static int offer_line(session *s)
 
 static int with_part(session *s)
 {
-    char error[256];
     size_t length;
+    int code = 0;
     uint8_t *answers = NULL;
-    if (s->o.input && !(answers = image_read(s->o.input, FILE_LIMIT, &length, error, sizeof error))) {
-        return complain(EXIT_USAGE, "%s", error);
+    if (s->o.input && !(answers = read_text(s->o.input, &length, false, &code))) {
+        return code;
+    }
+    if (answers) {
+        answers[strcspn((char *)answers, "\x1a")] = '\0';
     }
     s->paper = stderr;
     s->punch = s->o.punch_pty ? NULL : stdout;
-    int code = set_tape(s, s->o.part);
+    code = set_tape(s, s->o.part);
     code = code ? code : open_output(&s->paper, s->o.tty);
     code = code ? code : open_output(&s->punch, s->o.punch);
     complain_beside(s->paper == stderr ? s->board : NULL);

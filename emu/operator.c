@@ -280,7 +280,7 @@ int operator_terminal(session *s)
         case BOARD_PROMPT:
             watch_punch(s, &punch_told);
             if (t->ended) {
-                return s->refused ? EXIT_ERR : 0;
+                return s->refused || t->refused ? EXIT_ERR : 0;
             }
             wait = -1;
             break;

@@ -4,7 +4,8 @@
  * A terminal is switched to raw mode and put back on exit and on every signal that ends or stops the program. ctrl-]
  * leaves, ctrl-\ is the reset button. ctrl-C, ctrl-S and ctrl-Q reach the board at once, ctrl-C drops characters typed
  * ahead; everything else is typed when the board asks for it. From a pipe all characters are typed in their order, and
- * LF is CR. The signal USR1 is the reset button too, with terminal, pipe and pseudo-terminal.
+ * LF is CR. A character without an ASCII sign (signs.h) drops its line: ctrl-U takes back what the board has of it, and
+ * the rest is not typed, up to its end, ctrl-U or ctrl-C. The signal USR1 is the reset button too, with terminal, pipe and pseudo-terminal.
  *
  * The systems' own parts are terminal_posix.c and terminal_windows.c.
  *
@@ -32,6 +33,11 @@ typedef struct {
     int patience; /* ms that a full pseudo-terminal may keep the board waiting */
     bool deaf; /* nobody reads the pseudo-terminal */
     bool after_cr;
+    uint8_t character[4]; /* in UTF-8, begun */
+    size_t character_length;
+    unsigned row, column; /* of a pipe, lines that have ended; signs typed in the present one */
+    bool dropped; /* the rest of the present line is not typed */
+    bool refused; /* a line was dropped */
     FILE *copy; /* of all that is printed; NULL: none */
     char name[64]; /* of the pseudo-terminal */
 } terminal;
@@ -68,7 +74,7 @@ bool terminal_is_raw(void);
 /* Prints one character of the paper. */
 void terminal_print(terminal *t, uint8_t c);
 
-/* Handles a key, or a character from a pipe: the board gets it, or it leaves, resets or stops. False without memory. */
+/* Handles a byte of a key, or from a pipe: the board gets it, or it leaves, resets or stops. False without memory. */
 bool terminal_take(terminal *t, board *b, uint8_t c);
 
 /* Waits up to so many milliseconds (-1: for ever) for keys and gives them to the board; a reset ends the waiting. False

@@ -157,6 +157,19 @@ void terminal_print(terminal *t, uint8_t c)
     }
 }
 
+/* Gives the board a key, a unit of UTF-16, in UTF-8. (A half of a pair becomes three bytes that are none.) */
+static bool take_key(terminal *t, board *b, WCHAR key)
+{
+    if (key < 0x80) {
+        return terminal_take(t, b, (uint8_t)key);
+    }
+    if (key < 0x800) {
+        return terminal_take(t, b, (uint8_t)(0xc0 | key >> 6)) && terminal_take(t, b, (uint8_t)(0x80 | (key & 0x3f)));
+    }
+    return terminal_take(t, b, (uint8_t)(0xe0 | key >> 12)) && terminal_take(t, b, (uint8_t)(0x80 | (key >> 6 & 0x3f)))
+           && terminal_take(t, b, (uint8_t)(0x80 | (key & 0x3f)));
+}
+
 /* Gives the board the keys that wait at the console, after waiting for one. */
 static bool listen_to_console(terminal *t, board *b, DWORD milliseconds)
 {
@@ -165,14 +178,14 @@ static bool listen_to_console(terminal *t, board *b, DWORD milliseconds)
     if (WaitForSingleObject(input.handle, milliseconds) != WAIT_OBJECT_0) {
         return true;
     }
-    if (!ReadConsoleInputA(input.handle, events, sizeof events / sizeof *events, &count)) {
+    if (!ReadConsoleInputW(input.handle, events, sizeof events / sizeof *events, &count)) {
         t->ended = true;
     }
     for (DWORD i = 0; i < count; i++) {
         const KEY_EVENT_RECORD *key = &events[i].Event.KeyEvent;
-        bool is_typed = events[i].EventType == KEY_EVENT && key->bKeyDown && key->uChar.AsciiChar;
+        bool is_typed = events[i].EventType == KEY_EVENT && key->bKeyDown && key->uChar.UnicodeChar;
         for (WORD n = 0; is_typed && n < key->wRepeatCount && !t->left; n++) {
-            if (!terminal_take(t, b, (uint8_t)key->uChar.AsciiChar)) {
+            if (!take_key(t, b, key->uChar.UnicodeChar)) {
                 return false;
             }
         }

@@ -38,7 +38,7 @@ def test_standard_input() -> None:
     done = skg("-", stdin=b"10 CUT O,(1,0)\n")
     assert (done.returncode, done.stdout) == (0, b"B1000B0B1000GXL1\r\nDD\r\n")
     done = skg("-", stdin=b"\xff")
-    assert (done.returncode, done.stderr) == (2, "skg: -: line 1: '\ufffd' is not ASCII\n".encode())
+    assert (done.returncode, done.stderr) == (2, b"skg: -: line 1, column 1: byte FFH is not ASCII\n")
 
 
 def test_error_ends_with_1(part: Path) -> None:

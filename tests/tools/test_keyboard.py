@@ -15,14 +15,14 @@ from skg.machine import keyboard
 
 
 def test_console(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keys in their order; arrows, function keys and what is no ASCII are nothing; ctrl-C is a key."""
+    """Keys in their order, in UTF-8; arrows and function keys are nothing; ctrl-C is a key."""
     waiting = list("AB\r\xe0H\x00;é件C\x1d")
     console = SimpleNamespace(kbhit=lambda: bool(waiting), getwch=lambda: waiting.pop(0))
     monkeypatch.setattr(keyboard, "msvcrt", console)
     monkeypatch.setattr(keyboard.sys, "stdin", SimpleNamespace(isatty=lambda: True))
     before = signal.getsignal(signal.SIGINT)
     with keyboard.raw_keyboard() as typed:
-        assert typed() == b"AB\rC\x1d"
+        assert typed() == "AB\ré件C\x1d".encode()
         assert typed() == b""
         os.kill(os.getpid(), signal.SIGINT)
         waiting[:] = "D"

@@ -258,7 +258,7 @@ def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("10 REM A\n20 REM \u00c4\n", "part.skg: line 2: '\u00c4' is not ASCII"),
+        ("10 REM A\n20 REM \u00c4\n", "part.skg: line 2, column 8: '\u00c4'"),
         ("10 REM\n20 " + "X" * 124, "part.skg: line 2: 127 characters, the board takes 126"),
     ],
 )
@@ -393,15 +393,18 @@ def until_raw(terminal: int) -> None:
 
 
 def test_in_a_terminal(machine: Machine) -> None:
-    """Keys go out one by one, ctrl-] leaves, and the terminal is as it was."""
+    """Keys go out one by one, in the board's signs; ctrl-] leaves, and the terminal is as it was."""
     outer, inner = pty.openpty()
     process = subprocess.Popen([SKG, "term", machine.link], stdin=inner, stdout=inner, stderr=inner)
     until_raw(inner)
     os.write(outer, b"PRINT 2\r")
     read_until(outer, b"PRINT 2\r\n>")
+    os.write(outer, "PRINT 5−é3\rPRINT 5−3\r".encode())
+    seen = read_until(outer, b"PRINT 5-3\r\n>").decode()
+    assert says(seen, "column 9", "é")
     os.write(outer, b"\x1d")
     assert process.wait() == 0
-    assert machine.lines == ["PRINT 2"]
+    assert machine.lines == ["PRINT 2", "PRINT 5-3"]
     for descriptor in (inner, outer):
         os.close(descriptor)
 

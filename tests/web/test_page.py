@@ -16,6 +16,7 @@ import pytest
 from ezdxf.entities import DXFEntity
 from tapedrawing import drawn
 
+from skg.signs import with_signs
 from skg.tape import gcode, text
 from skg.tape.layout import CUT, WAY_BACK, WAY_IN, PlacedRoute, place, stop_places
 from skg.tape.simulation import simulate
@@ -152,6 +153,7 @@ def near(one: object, other: object) -> bool:
 def test_units_in_node(tmp_path: Path) -> None:
     """The tests of web/test in node; then the drawings that they wrote are compared with those of `skg dxf`."""
     (tmp_path / "golden.json").write_text(json.dumps({name: golden(name) for name in TAPES}))
+    (tmp_path / "signs.json").write_text(json.dumps([with_signs(chr(code)) for code in range(0xD800)]))
     (tmp_path / "debugger.json").write_text(json.dumps([debugger(stop) for stop in STOPS]))
     sources = sorted(WEB.glob("test/*.test.ts"))
     built = run(

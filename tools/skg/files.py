@@ -16,11 +16,12 @@ from typing import BinaryIO, TextIO
 from skg.errors import UserError
 from skg.file_type import named
 from skg.messages.finding import Finding
+from skg.signs import decoded, shown
 
 #: Control characters that stop the board.
-_STOPS = {b"\x03": "ctrl-c", b"\x13": "ctrl-s"}
-#: These, letters of UTF-8 and other bytes that are not ASCII.
-_ODD = re.compile(rb"[\x03\x13]|[\xc0-\xff][\x80-\xbf]+|[\x80-\xff]")
+_STOPS = {"\x03": "ctrl-c", "\x13": "ctrl-s"}
+#: These, and characters that the board has no sign for.
+_ODD = re.compile(r"[\x03\x13]|[^\x00-\x7f]")
 
 
 def read_bytes(path: str) -> bytes:
@@ -47,20 +48,19 @@ def without_mark(data: bytes) -> bytes:
 
 
 def board_text(data: bytes, name: str) -> str:
-    """The text of a file for the board's reader or keyboard: up to ctrl-Z, without the mark of UTF-8.
+    """The text of a file for the board's reader or keyboard: up to ctrl-Z, without the mark of UTF-8, in ASCII signs.
 
-    A character that is not ASCII, and a ctrl-C or ctrl-S, which would stop the board, are a `UserError` with the line;
-    other control characters mean nothing (language.md, section 1).
+    A character that has none, and a ctrl-C or ctrl-S, which would stop the board, are a `UserError` with line and
+    column; other control characters mean nothing (language.md, section 1).
     """
-    text = without_mark(data).partition(b"\x1a")[0]
+    text = decoded(without_mark(data).partition(b"\x1a")[0])
     if odd := _ODD.search(text):
-        line = len(re.findall(rb"\r\n|[\r\n]", text[: odd.start()])) + 1
-        about = {"kind": named(data), "line": line}
-        character = odd[0].decode("utf-8", "replace")
+        *before, begun = re.split(r"\r\n|[\r\n]", text[: odd.start()])
+        about = {"kind": named(data), "line": len(before) + 1, "column": len(begun) + 1}
         code = _STOPS.get(odd[0])
-        finding = Finding(code, **about) if code else Finding("not-ascii", character=character, **about)
+        finding = Finding(code, **about) if code else Finding("not-ascii", character=shown(odd[0]), **about)
         raise UserError(finding.within(name))
-    return text.decode("ascii")
+    return text
 
 
 def in_ascii(data: bytes) -> str:

@@ -3,8 +3,9 @@ import { defaultKeymap, history, historyKeymap, undo } from "@codemirror/command
 import { EditorState, StateEffect, StateField, Transaction } from "@codemirror/state";
 import { Decoration, type DecorationSet, drawSelection, EditorView, keymap, WidgetType } from "@codemirror/view";
 import type { Chooser } from "./choice.ts";
-import { narrow, nextNumber, skg, WIDE } from "./language-skg.ts";
+import { nextNumber, skg } from "./language-skg.ts";
 import type { Layout } from "./placed.ts";
+import { OTHERS, withSigns } from "./signs.ts";
 
 /** An error in a line: its place in the text from 0, the column or -1, the sentence, and a button for more about it. */
 export interface Mark {
@@ -204,12 +205,12 @@ export class Editor {
     return this.#view.composing;
   }
 
-  /** Wide signs of a Chinese keyboard, ＝（，, become those that the machine has; who types stays where he is. */
+  /** Other forms of ASCII signs, ＝（−, become those that the machine has; who types stays where he is. */
   narrow(): void {
-    const changes = [...this.#view.state.doc.toString().matchAll(WIDE)].map(({ index, 0: sign }) => ({
+    const changes = [...this.#view.state.doc.toString().matchAll(OTHERS)].map(({ index, 0: sign }) => ({
       from: index,
       to: index + 1,
-      insert: narrow(sign),
+      insert: withSigns(sign),
     }));
     const annotations = [Transaction.remote.of(true), Transaction.addToHistory.of(false)];
     if (changes.length) this.#view.dispatch({ changes, annotations });

@@ -51,16 +51,6 @@ export function nextNumber(before: string, after: string): number | undefined {
   return middle > Number(last) ? middle : undefined;
 }
 
-/** Wide forms of ASCII signs, as a Chinese keyboard gives them, and its space and quotes. */
-export const WIDE = /[\uff01-\uff5e\u3000\u201c\u201d]/g;
-
-/** Each of them as the sign that the machine has. */
-export const narrow = (text: string): string =>
-  text.replace(WIDE, (sign) => {
-    if (sign === "\u3000") return " ";
-    return sign < "\u3000" ? '"' : String.fromCharCode(sign.charCodeAt(0) - 0xfee0);
-  });
-
 /** An error that the page finds in a text before the machine reads it. */
 export interface Fault {
   row: number;

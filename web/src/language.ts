@@ -181,6 +181,10 @@ const WORDS = {
   ],
   noNumber: ["a line begins with its number", "每行以行号开头"],
   twice: ["line {0} is there twice: the later one would replace the earlier", "行 {0} 出现两次：后一行会取代前一行"],
+  dropped: [
+    "column {1}: the machine has no character {0}; the line is dropped, RETURN begins another",
+    "第 {1} 列：机器没有字符 {0}；此行已丢弃，按回车键另起一行",
+  ],
   notAscii: ["the machine has no character {0}: it knows ASCII alone", "机器没有字符 {0}：只能使用 ASCII"],
   stale: ["{0}; program changed: press RUN", "{0}；程序已更改：请按运行"],
   link: ["from a link", "来自链接"],

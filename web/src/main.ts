@@ -63,7 +63,7 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
     before = program;
   },
   error: (number, line) => bench.error(number, line),
-  strange: (character) => say("notAscii", character),
+  strange: ({ character, column }) => say("dropped", character, column),
   look: (look, isHeld) => inside.look(look, isHeld),
   failed: (why) => {
     warn(t("noMachine", why));

@@ -1,9 +1,9 @@
 /** The machine as the page has it: what it does now, the program in it, its paper, and what is kept of it. */
 import type { Look, Punched } from "./board.ts";
 import { ErrorLines } from "./errorline.ts";
-import { narrow } from "./language-skg.ts";
 import { Machine } from "./machine.ts";
 import type { Images, Refused, Speed, State } from "./runner.ts";
+import { Keys, type Strange } from "./signs.ts";
 import type { Move } from "./stepper.ts";
 import { fromBase64, type Kept, type Store, toBase64 } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
@@ -21,8 +21,8 @@ export interface Hooks {
   failed(why: string): void;
   /** Gets the board's registers and memory, for the debugger. */
   look(look: Look, isHeld: boolean): void;
-  /** A typed character does not exist on the machine. */
-  strange(character: string): void;
+  /** A typed character does not exist on the machine: its line is dropped. */
+  strange(strange: Strange): void;
 }
 
 export class Session {
@@ -30,6 +30,7 @@ export class Session {
   readonly #teletype: Teletype;
   readonly #store: Store | undefined;
   readonly #hooks: Hooks;
+  readonly #keys = new Keys();
   #kept: { ram: string; rom: string } | undefined;
   /** The state kept at the last visit, until the machine reports its own. */
   #last: Kept | null = null;
@@ -120,18 +121,18 @@ export class Session {
   }
 
   stop(): void {
-    this.#machine.press(CTRL_C);
+    this.press(CTRL_C);
   }
 
-  /** Types at the machine's pace; a character that it has not is left out, and said. */
+  /** Types at the machine's pace; a line with a character that it has not is dropped, and said. */
   type(text: string): void {
-    const plain = narrow(text);
-    const strange = /[^\x00-\x7f]/u.exec(plain)?.[0];
-    if (strange !== undefined) this.#hooks.strange(strange);
-    this.#machine.type(plain.replace(/[^\x00-\x7f]/gu, ""));
+    const { sent, strange } = this.#keys.feed(text);
+    for (const each of strange) this.#hooks.strange(each);
+    this.#machine.type(sent);
   }
 
   press(key: number): void {
+    if (key === CTRL_C) this.#keys.drop();
     this.#machine.press(key);
   }
 
@@ -140,6 +141,7 @@ export class Session {
   }
 
   reset(): void {
+    this.#keys.drop();
     this.#machine.reset();
   }
 

@@ -4,12 +4,12 @@ import { labelOf } from "./catalogue.ts";
 import { get } from "./dom.ts";
 import { Editor } from "./editor.ts";
 import { isWord, t, type Word } from "./language.ts";
-import { narrow } from "./language-skg.ts";
 import { hide, say, show } from "./message.ts";
 import { parametersOf, showParameters, withValue } from "./parameters.ts";
 import { Proof } from "./proof.ts";
 import type { Maker } from "./recording.ts";
 import type { Session } from "./session.ts";
+import { withSigns } from "./signs.ts";
 import { Stage } from "./stage.ts";
 import { isSame, type Works } from "./works.ts";
 
@@ -164,7 +164,7 @@ export class Workbench {
     hide();
     this.name = name.replace(/\.\w+$/, "").replace(/[^\p{L}\p{N}_-]+/gu, "-") || "part";
     this.isByHand = run;
-    this.editor.text = narrow(text);
+    this.editor.text = withSigns(text);
     this.editor.marks = [];
     this.stage.clear(this.#maker(), this.session.isRunning);
     if (!this.session.isAlive) {

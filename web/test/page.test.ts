@@ -3,8 +3,8 @@ import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { recognize, tooLarge } from "../src/files.ts";
 import { isWord, preferred, t } from "../src/language.ts";
-import { narrow } from "../src/language-skg.ts";
 import { LinkError, pack, readLink, unpack } from "../src/link.ts";
+import { Keys, withSigns } from "../src/signs.ts";
 import { fromBase64, readEverything, Store, toBase64 } from "../src/store.ts";
 import { readTape, TapeError } from "../src/tape.ts";
 import { View } from "../src/view.ts";
@@ -144,8 +144,19 @@ test("a program in UTF-8 is opened, with what the machine has no sign for; a bin
   for (const bad of ["10 REM \xe9\n", "10 REM \x01\xc3\xa9\n"]) assert.equal(recognize("a.skg", bytes(bad)).kind, "refused");
 });
 
-test("wide signs become those that the machine has, one for one", () => {
-  assert.equal(narrow("１０　ＣＵＴ（Ｘ，－５）：“＃”中"), '10 CUT(X,-5):"#"中');
+test("signs in other forms become those that the machine has, one for one, as on every other way in", () => {
+  assert.equal(withSigns("１０　ＣＵＴ（Ｘ，−５）：“＃”中"), '10 CUT(X,-5):"#"中');
+  const theirs = JSON.parse(readFileSync(`${process.env["PAGE_TEST"]}/signs.json`, "utf8")) as string[];
+  assert.equal(theirs.length, 0xd800);
+  for (const [code, sign] of theirs.entries()) assert.equal(withSigns(String.fromCharCode(code)), sign, code.toString(16));
+});
+
+test("a typed line with a character that the machine has not is dropped, and what is typed behind it is not", () => {
+  const keys = new Keys();
+  assert.deepEqual(keys.feed("PRINT 5−3\r"), { sent: "PRINT 5-3\r", strange: [] });
+  assert.deepEqual(keys.feed("PRINT\b 1é2ü"), { sent: "PRINT\b 1\x15", strange: [{ character: "é", column: 7 }] });
+  assert.deepEqual(keys.feed("3\x11\r"), { sent: "\x11", strange: [] });
+  assert.deepEqual(keys.feed("😀\x15LIST\r"), { sent: "\x15LIST\r", strange: [{ character: "😀", column: 1 }] });
 });
 
 test("a link without a program is none", async () => {

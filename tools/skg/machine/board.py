@@ -9,6 +9,8 @@ from typing import NamedTuple
 from skg.errors import UserError
 from skg.machine.emulator import Machine
 from skg.machine.roms import find_rom
+from skg.messages.finding import Finding
+from skg.signs import shown, strange, with_signs
 
 #: Cycles after which the operator looks at the paper again; those that a silent machine may wait for a key, and for a
 #: character from the empty reader: LOAD gives up sooner, unless nothing has come yet.
@@ -241,7 +243,7 @@ def is_printed(error: ErrorLine, typed: str) -> bool:
 
 
 def _ascii(text: str) -> bytes:
-    try:
-        return text.encode("ascii")
-    except UnicodeEncodeError as error:
-        raise UserError(f"{text[error.start]!r} is not ASCII") from None
+    text = with_signs(text)
+    if odd := strange(text):
+        raise UserError(Finding("not-ascii-typed", column=odd.start() + 1, character=shown(odd[0])))
+    return text.encode("ascii")

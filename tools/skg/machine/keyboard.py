@@ -40,7 +40,7 @@ def raw_keyboard() -> Iterator[Callable[[], bytes]]:
 
 @contextlib.contextmanager
 def _console() -> Iterator[Callable[[], bytes]]:
-    """The console of Windows; keys without a character, as the arrows, are nothing."""
+    """The console of Windows, its characters in UTF-8; keys without one, as the arrows, are nothing."""
     interrupts = bytearray()
 
     def typed() -> bytes:
@@ -51,8 +51,8 @@ def _console() -> Iterator[Callable[[], bytes]]:
             if key in "\0\xe0":
                 # (the second half of a key without a character)
                 msvcrt.getwch()
-            elif key.isascii():
-                keys += key.encode()
+            else:
+                keys += key.encode("utf-8", "surrogatepass")
         return keys
 
     # (ctrl-C comes as a signal)

@@ -24,6 +24,8 @@ from tqdm import tqdm
 from skg.errors import UserError
 from skg.machine.board import ErrorLine, find_error
 from skg.machine.keyboard import ESCAPE, TERMINAL_TROUBLE
+from skg.messages.render import text
+from skg.signs import Keys
 
 XON, XOFF, DC2, DC4 = 0x11, 0x13, 0x12, 0x14
 LF, PROMPT = 0x0A, 0x3E
@@ -295,14 +297,16 @@ class Teletype:
 
 def converse(port: Port, teletype: Teletype) -> None:
     """Carry the keyboard to the port until ctrl-]."""
+    keys = Keys()
     while True:
         if teletype.failure:
             raise teletype.failure
-        typed = teletype.keys()
-        if ESCAPE in typed:
-            port.write(typed[: typed.index(ESCAPE)])
+        typed, escape, _ = teletype.keys().partition(bytes([ESCAPE]))
+        sent, refused = keys.feed(typed)
+        port.write(sent)
+        for finding in refused:
+            teletype.say(text(finding))
+        if escape:
             return
-        if typed:
-            port.write(typed)
-        else:
+        if not typed:
             time.sleep(0.01)
