@@ -94,12 +94,14 @@ def test_is_what_was_installed(skg: Shell, user: Path) -> None:
 
 
 def test_wheel_is_complete(wheel: Path) -> None:
-    """Every module and image of the tree, the libraries, the grammars, the page, and no leftovers."""
+    """Every module and image of the tree, the libraries, grammars, messages, machines, the page, and no leftovers."""
     names = set(zipfile.ZipFile(wheel).namelist())
     modules = {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg").rglob("*.py")}
     images = {f"skg/machine/roms/{path.name}" for path in (ROOT / "roms").glob("*.bin")}
     grammars = {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg").rglob("*.lark")}
     rest = {"skg/native/libskgsim.so", "skg/native/libskg80.so", "skg/LICENSE"} | grammars
+    rest |= {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg" / "dialects").glob("*.toml")}
+    rest |= {f"skg/messages/{path.stem}.mo" for path in (ROOT / "tools" / "skg" / "messages").glob("*.po")}
     page = {f"skg/ui/assets/{name}" for name in ("index.html", "ui.js", "ui.css")}
     assert len(grammars) >= 2
     assert len(images) >= 4

@@ -41,7 +41,7 @@ ALLOWED["dialects"] = {COMMON, "geometry", "job", "planning", "tape"}
 ALLOWED["ui"] = {COMMON, "geometry", "job", "tape", "planning", "cutting", "pipeline", "pictures"}
 ALLOWED["commands"] = set(ALLOWED) - {"native"}
 #: Modules beside the wings that are nobody's ground: the package's door, and the command line.
-DOORS = {"skg", "skg.cli"}
+DOORS = {"skg", "skg.cli", "skg.__main__"}
 
 
 def name_of(path: Path) -> str:
