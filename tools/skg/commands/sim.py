@@ -13,7 +13,7 @@ from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
 from skg.messages.render import text
-from skg.sources.load import load
+from skg.sources.load import is_iso, load
 from skg.tape.block import Tape
 from skg.tape.controller import drive_steps, stops_in_pairs
 from skg.tape.dialect import GcodeDialect
@@ -114,7 +114,11 @@ def command(
     with an odd number of stops: a drive's wire would be off where the tape cuts.
     """
     tapes = [load(name, dialect=dialect) for name in tapes_]
-    odd = {tape.name: why for tape in tapes if (why := odd_stops(tape))}
+    odd = {
+        tape.name: why
+        for name, tape in zip(tapes_, tapes, strict=True)
+        if (why := odd_stops(tape)) and not is_iso(name, dialect)
+    }
     if steps_file and odd:
         name, why = next(iter(odd.items()))
         raise UserError(f"{name}: {why}")

@@ -81,15 +81,20 @@ def iso_of(text: str, name: str, dialect: GcodeDialect | None = None) -> GcodePr
     return program
 
 
+def is_iso(name: str, dialect: GcodeDialect | None = None) -> bool:
+    """Tell whether a file is G-code or a milling program: their stops are pauses, and turn no wire off or on."""
+    if not is_program(name):
+        return is_gcode(name) or dialect is not None and not name.lower().endswith(".3b")
+    return not is_rival(name) and is_milling(program_text(name))
+
+
 def iso_text(name: str, skg80: str | None = None, dialect: GcodeDialect | None = None) -> str | None:
     """The text of `iso_program`."""
-    if is_gcode(name) or dialect and not is_program(name) and not name.lower().endswith(".3b"):
+    if not is_iso(name, dialect):
+        return None
+    if not is_program(name):
         return gcode_text(name)
-    if not is_program(name) or is_rival(name):
-        return None
     text = program_text(name)
-    if not is_milling(text):
-        return None
     by = "the mill ROM" if skg80 is None else "the reference" if skg80 == "reference" else f"{skg80}, the mill ROM"
     tell(f"skg: {name}: a milling program, run by {by}")
     _say_given_up(name, text)
