@@ -303,9 +303,9 @@ def converse(port: Port, teletype: Teletype) -> None:
             raise teletype.failure
         typed, escape, _ = teletype.keys().partition(bytes([ESCAPE]))
         sent, refused = keys.feed(typed)
-        port.write(sent)
         for finding in refused:
             teletype.say(text(finding))
+        port.write(sent)
         if escape:
             return
         if not typed:
