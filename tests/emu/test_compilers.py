@@ -18,6 +18,8 @@ TREE = [
     "emu",
     "roms",
     "tools/skg/native",
+    "release/release.mk",
+    "tools/pyproject.toml",
     "examples/xy-star.skg",
     *(str(path.relative_to(ROOT)) for part in ("asm", "tools", "web", "tests/*") for path in ROOT.glob(f"{part}/*.mk")),
 ]

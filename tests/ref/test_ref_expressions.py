@@ -235,7 +235,7 @@ def test_hostile_lines() -> None:
         (f"A={'-' * 120}1", None),
         (f"A=1{' ' * 120}", None),
         (f"A=1{' ' * 121}", 9),
-        (f"CUT O\n20 REP {nines[:9]},1", 9),
+        (f"CUT O\n20 REP {nines[:9]},1", 5),
         ("A=\x01", 1),
         ("A=\x01\t2", None),
         ("A=\x15" + "20 A=2", None),

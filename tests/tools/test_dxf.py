@@ -553,7 +553,7 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
     result = program_by(run_program, "-", stdin=data)
     assert result.returncode == 2
     assert len(result.stderr.splitlines()) == 1
-    assert says(result.stderr, "skg: -: ", "no lines" if "SECTION" in data else "DXF drawing")
+    assert says(result.stderr, "skg: -: ", "cut off" if "SECTION" in data else "DXF drawing")
 
 
 @pytest.mark.parametrize(

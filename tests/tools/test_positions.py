@@ -7,11 +7,12 @@ import re
 from pathlib import Path
 
 import pytest
-from facthelp import CARE, each_says, says
+from facthelp import each_says, says
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
 from skg.machine.feeding import feed
+from skg.messages.severity import Severity
 from skg.ref import run as reference
 from skg.tape.layout import place
 from skg.tape.positions import decide
@@ -98,8 +99,8 @@ def test_cut_says_when_the_name_does_not_tell() -> None:
 
     for name in ("skg06-tangent-slot", "skg06-belts"):
         tape = tapes.parse(feed((ROOT / "examples" / f"{name}.skg").read_text(), "no-drift").tape)
-        assert ".nodrift.3b" in unmarked("slot.3b", tape, "no-drift")[0]
+        assert unmarked("slot.3b", tape, "no-drift")[0]["ending"] == ".nodrift.3b"
         assert unmarked("slot.NoDrift.3b", tape, "no-drift") == unmarked("slot.3b", tape, "standard") == []
-        assert unmarked("slot.nodrift.3b", tape, "standard")[0].startswith(CARE)
+        assert unmarked("slot.nodrift.3b", tape, "standard")[0].severity is Severity.CARE
     lines = tapes.parse(feed((ROOT / "examples" / "xy-star.skg").read_text(), "no-drift").tape)
     assert unmarked("star.3b", lines, "no-drift") == []
