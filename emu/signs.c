@@ -12,7 +12,7 @@ typedef struct {
 } row;
 
 /* (blanks by their numbers: they cannot be told apart in a source) */
-static const row ROWS[] = {
+static const row SIGNS[] = {
     { ' ', "\u00a0\u2000\u2001\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a\u202f\u205f\u3000" },
     { '-', "\u2010\u2011\u2012\u2013\u2014\u2015\u2212" },
     { '*', "\u00d7\u2217" },
@@ -81,9 +81,9 @@ int signs_read(const uint8_t *bytes, size_t length, size_t *used)
     }
     char character[5] = "";
     memcpy(character, bytes, whole);
-    for (size_t i = 0; i < sizeof ROWS / sizeof *ROWS; i++) {
-        if (strstr(ROWS[i].others, character)) {
-            return ROWS[i].sign;
+    for (size_t i = 0; i < sizeof SIGNS / sizeof *SIGNS; i++) {
+        if (strstr(SIGNS[i].others, character)) {
+            return SIGNS[i].sign;
         }
     }
     return SIGNS_STRANGE;
