@@ -20,6 +20,7 @@ define HELP
   make ui-page    the page of skg ui, tools/skg/ui/assets
   make web-wasm   the page's .wasm from emu/: needs clang 14 and lld 14
   make hunt       new examples for the tests that take any, random programs, ROM against reference (PROGRAMS=1000000, SEED)
+  make pico       the machine for a Raspberry Pi Pico, build/pico/skg-pico.uf2; make test-pico runs it in rp2040js
   make release    packages for other systems in dist/; make release-test tries them
   make clean      removes build/
 endef
@@ -52,6 +53,7 @@ include tests/fuzz/fuzz.mk
 include tests/rom/soup.mk
 include tests/mill/mill.mk
 include web/web.mk
+include pico/pico.mk
 include tests/floats/floats.mk
 include release/release.mk
 
@@ -93,9 +95,9 @@ t: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q $(if $(findstring tests,$(T)),,tests) $(T)
 
 # Style. Not formatted: C files in .clang-format-ignore (tables made by hand), assembly (in columns, by hand).
-RUFF      := --config tools/pyproject.toml tools asm tests release
+RUFF      := --config tools/pyproject.toml tools asm tests release pico
 C_SOURCES := $(filter-out emu/terminal_windows.c,$(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c)))
-C_STYLED  := $(wildcard $(foreach folder,emu tests/emu tests/emu/micro tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]))
+C_STYLED  := $(wildcard $(foreach folder,emu pico tests/emu tests/emu/micro tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]))
 
 format: venv web-format
 	$(VENV)/bin/ruff format -q $(RUFF)
@@ -116,7 +118,7 @@ docs: venv rom emu tools
 	$(PY) asm/rooms.py --headers
 	@for page in $(PAGES); do echo $(PY) $$page; PYTHONPATH=tests PYTHONHASHSEED=0 $(PY) $$page || exit 1; done
 
-bench: bench-emu bench-floats bench-rom
+bench: bench-emu bench-floats bench-rom bench-pico
 
 bench-rom: venv emu
 	@$(PY) tests/rom/bench.py

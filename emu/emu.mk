@@ -94,8 +94,8 @@ MICRO_CC     := arm-none-eabi-gcc
 MICRO_CFLAGS := -O2 -std=c11 -Wall -Wextra -Werror -mthumb -mcpu=cortex-m0 --specs=nano.specs -nostartfiles \
                 -ffunction-sections -fdata-sections -Wl,--gc-sections
 
-build/emu/micro.elf: $(addprefix tests/emu/micro/,main.c microbit.ld) $(wildcard emu/i8080*.[ch]) roms/skg.bin emu/emu.mk
-	@mkdir -p $(@D); $(MICRO_CC) $(MICRO_CFLAGS) -DROM='"roms/skg.bin"' -T $(filter %.ld,$^) -o $@ tests/emu/micro/main.c emu/i8080_small.c
+build/emu/micro.elf: $(addprefix tests/emu/micro/,main.c microbit.ld) $(wildcard emu/i8080*.[ch] emu/small_board.[ch]) roms/skg.bin emu/emu.mk
+	@mkdir -p $(@D); $(MICRO_CC) $(MICRO_CFLAGS) -DROM='"roms/skg.bin"' -T $(filter %.ld,$^) -o $@ tests/emu/micro/main.c emu/small_board.c emu/i8080_small.c
 
 # SIMH's Altair, in which tests run core and ROM. Who may install it gets it; without it these tests are skipped.
 altairz80:

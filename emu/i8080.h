@@ -18,17 +18,7 @@
 #ifndef I8080_H
 #define I8080_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-/* What ended a run. */
-typedef enum {
-    I8080_CYCLES,   /* the cycles are used up */
-    I8080_HALTED,   /* HLT, and no interrupt to end it */
-    I8080_STOPPED,  /* i8080_stop() was called, from a port function as a rule */
-    I8080_BREAK     /* PC is at a breakpoint; the instruction there is not yet carried out */
-} i8080_reason;
+#include "i8080_host.h"
 
 /* Kinds of memory. */
 typedef enum {
@@ -53,10 +43,7 @@ typedef struct {
     void (*run)(i8080 *c);
 } i8080_translation;
 
-typedef uint8_t i8080_in_fn(void *user, uint8_t port);
-typedef void i8080_out_fn(void *user, uint8_t port, uint8_t value);
-
-enum { I8080_SPACE = 0x10000, I8080_PAD = 8 };
+enum { I8080_PAD = 8 };
 
 struct i8080 {
     /* Registers. Read and write them freely between runs. */

@@ -8,7 +8,11 @@
 #ifndef I8080_SMALL_H
 #define I8080_SMALL_H
 
-#include "i8080.h"
+#include "i8080_host.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 enum { I8080_SMALL_PAGE = 0x400, I8080_SMALL_PAGES = I8080_SPACE / I8080_SMALL_PAGE };
 
@@ -49,5 +53,9 @@ void i8080_small_interrupt(i8080_small *c, const uint8_t code[3]);
 void i8080_small_interrupt_clear(i8080_small *c);
 void i8080_small_stop(i8080_small *c);
 i8080_reason i8080_small_run(i8080_small *c, uint64_t cycles);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

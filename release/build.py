@@ -26,6 +26,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 DIST = ROOT / "dist"
+PICO = ROOT / "build" / "pico" / "skg-pico.uf2"
 VERSION = tomllib.loads((ROOT / "tools" / "pyproject.toml").read_text())["project"]["version"]
 #: Zips hold no earlier time than this, and no file's own: the same tree gives the same bytes.
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
@@ -125,7 +126,14 @@ def _zip(name: str, files: Iterable[tuple[Path, str]]) -> Path:
 def roms() -> Path:
     """The ROM images. (A zip's listing has the CRC-32 of each.)"""
     images = sorted((ROOT / "roms").iterdir())
-    return _zip(f"skg-roms-{VERSION}.zip", [(file, file.name) for file in (*images, ROOT / "LICENSE")])
+    return _zip(f"skg-roms-{VERSION}.zip", [(file, file.name) for file in (*images, PICO, ROOT / "LICENSE")])
+
+
+def pico() -> Path:
+    """The machine for a Raspberry Pi Pico; `make release` has built it."""
+    made = DIST / f"skg-pico-{VERSION}.uf2"
+    shutil.copy(PICO, made)
+    return made
 
 
 def page() -> Path:
@@ -164,7 +172,7 @@ def main() -> None:
     if not only:
         shutil.rmtree(DIST, ignore_errors=True)
     DIST.mkdir(exist_ok=True)
-    works: list[tuple[str, Callable[[], Path]]] = [("page.zip", page), ("roms.zip", roms)]
+    works: list[tuple[str, Callable[[], Path]]] = [("page.zip", page), ("roms.zip", roms), ("pico.uf2", pico)]
     for target in TARGETS:
         if target.wheel:
             works.append((f"{target.wheel}.whl", lambda target=target: wheel(target)))

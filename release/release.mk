@@ -7,7 +7,7 @@ $(RELEASE_VENV)/.stamp: release/requirements.txt
 	$(RELEASE_PY) -m pip install -q --disable-pip-version-check -r release/requirements.txt
 	touch $@
 
-release: $(RELEASE_VENV)/.stamp emu tools venv web-modules
+release: $(RELEASE_VENV)/.stamp emu tools venv web-modules pico
 	$(RELEASE_PY) release/build.py
 
 # Wine runs what is for Windows, qemu what is for ARM, Debian's chromium the page. Maven brings more versions of Python.

@@ -21,6 +21,7 @@ DOCS = ROOT / "docs"
 PAGES = [
     (DOCS / "manual.md", DOCS / "zh" / "manual.md"),
     (DOCS / "shop.md", DOCS / "zh" / "shop.md"),
+    (DOCS / "pico.md", DOCS / "zh" / "pico.md"),
     (ROOT / "README.md", ROOT / "README.zh.md"),
 ]
 

@@ -9,6 +9,7 @@
  * Ports stop the run and raise interrupts. Registers, flags, cycles, instructions, interrupt state, ports and all of memory must agree. Prints what was compared
  * and exits 0, or prints the first difference and exits 1.
  */
+#include "../../emu/i8080.h"
 #include "../../emu/i8080_small.h"
 #include "plain8080.h"
 

@@ -266,7 +266,7 @@ def test_a_breakpoint_leaves_the_board_its_speed(part: Part) -> None:
 def test_core_and_board_know_nothing_of_it() -> None:
     """So there is nothing that could slow them down when nobody looks."""
     for name, own in (
-        ("i8080", {"i8080.h", *(f"i8080_{part}.h" for part in ("fast", "ops", "small", "words"))}),
+        ("i8080", {"i8080.h", *(f"i8080_{part}.h" for part in ("fast", "host", "ops", "small", "words"))}),
         ("board", {"board.h", "drive.h", "i8080.h"}),
     ):
         for path in (ROOT / "emu").glob(f"{name}*.[ch]"):

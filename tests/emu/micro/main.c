@@ -1,4 +1,4 @@
-/* The SKG board on a BBC micro:bit: the small core and the ROM on a Cortex-M0 with 16 KiB of RAM
+/* The SKG board on a BBC micro:bit: the small board and the ROM on a Cortex-M0 with 16 KiB of RAM
  *
  *      10H, 11H    teletype: its keys are the debugger's standard input, its paper is standard output
  *      12H, 13H    punch: the file tape.3b; there is no reader
@@ -7,18 +7,15 @@
  * SysTick. The board waits for nothing, and the operator types with care (board.h). When standard input is at its end and
  * the board waits for a key, it is over: on standard error stand 8080 cycles, instructions and SysTick's ticks meanwhile.
  *
- * NOT IMPLEMENTED: reset of the 6850s, ctrl-C while the board works.
+ * NOT IMPLEMENTED: a reader, ctrl-C while the board works.
  */
-#include "../../../emu/i8080_small.h"
+#include "../../../emu/small_board.h"
 
-enum { TTY_CONTROL = 0x10, TTY_DATA = 0x11, PUNCH_CONTROL = 0x12, PUNCH_DATA = 0x13, NO_ANSWER = 0xff };
-enum { RECEIVED = 0x01, MAY_SEND = 0x02, RTS = 0x60, RTS_HIGH = 0x40 };
-enum { ROM_SIZE = 0x2000, RAM_SIZE = 0x2000, SLICE_CYCLES = 20000 };
-enum { POLLS_TO_TYPE = 8, POLL_GAP = 500 };
+enum { RAM_SIZE = 0x2000, SLICE_CYCLES = 20000 };
 
 /* The file ROM, in flash. */
 __asm__(".section .rodata\nrom: .incbin \"" ROM "\"\n.previous");
-extern const uint8_t rom[ROM_SIZE];
+extern const uint8_t rom[SMALL_BOARD_ROM];
 
 /* Of microbit.ld. */
 extern uint32_t stack_top[], data_start[], data_end[], data_load[], bss_start[], bss_end[];
@@ -72,62 +69,65 @@ static void write_number(uint32_t file, uint64_t number, char behind)
     write_byte(file, (uint8_t)behind);
 }
 
-/* ---- the board ---- */
+/* ---- the board's lines ---- */
 
 typedef struct {
-    i8080_small cpu;
+    small_board board;
     uint8_t ram[RAM_SIZE];
     uint32_t keys, paper, punch;
-    uint8_t key;
-    bool received, holds; /* holds: /RTS is high */
-    bool left;            /* the operator has nothing more to type */
-    unsigned polls;       /* questions in close succession, since the board last printed */
-    uint64_t polled_at;
-} board;
+    bool left; /* the operator has nothing more to type */
+} host;
 
-static uint8_t tty_status(board *b)
+static int key(void *user, bool waits)
 {
-    bool close = b->cpu.cycles - b->polled_at <= POLL_GAP && !b->holds;
-    b->polls = close ? b->polls + 1 : 0;
-    b->polled_at = b->cpu.cycles;
-    if (!b->received && b->polls >= POLLS_TO_TYPE) {
-        b->received = read_byte(b->keys, &b->key);
-        b->left = !b->received;
-        if (b->left) {
-            i8080_small_stop(&b->cpu);
-        }
+    host *h = user;
+    uint8_t c;
+    if (!waits || h->left) {
+        return SMALL_BOARD_NONE;
     }
-    return b->received ? RECEIVED | MAY_SEND : MAY_SEND;
+    if (read_byte(h->keys, &c)) {
+        return c;
+    }
+    h->left = true;
+    i8080_small_stop(&h->board.cpu);
+    return SMALL_BOARD_NONE;
 }
 
-static uint8_t port_in(void *user, uint8_t port)
+static void print(void *user, uint8_t c)
 {
-    board *b = user;
-    switch (port) {
-    case TTY_CONTROL:
-        return tty_status(b);
-    case TTY_DATA:
-        b->received = false;
-        return b->key;
-    case PUNCH_CONTROL:
-        return MAY_SEND;
-    default:
-        return NO_ANSWER;
-    }
+    write_byte(((host *)user)->paper, c);
 }
 
-static void port_out(void *user, uint8_t port, uint8_t value)
+static void punch(void *user, uint8_t c)
 {
-    board *b = user;
-    if (port == TTY_CONTROL) {
-        b->holds = (value & RTS) == RTS_HIGH;
-    } else if (port == TTY_DATA) {
-        b->polls = 0;
-        write_byte(b->paper, value & 0x7f);
-    } else if (port == PUNCH_DATA) {
-        write_byte(b->punch, value);
-    }
+    write_byte(((host *)user)->punch, c);
 }
+
+static bool always(void *user)
+{
+    (void)user;
+    return true;
+}
+
+static int no_reader(void *user)
+{
+    (void)user;
+    return SMALL_BOARD_NONE;
+}
+
+static uint8_t no_drive(void *user)
+{
+    (void)user;
+    return 0;
+}
+
+static void no_motors(void *user, uint8_t latch)
+{
+    (void)user;
+    (void)latch;
+}
+
+static const small_board_lines lines = { key, always, print, no_reader, always, punch, no_drive, no_motors };
 
 /* ---- SysTick, which counts down ---- */
 
@@ -137,25 +137,23 @@ enum { SYSTICK_ENABLE = 1, SYSTICK_CPU_CLOCK = 4, SYSTICK_MOST = 0xffffff };
 
 int main(void)
 {
-    static board b;
-    b.keys = open_file(":tt", MODE_READ);
-    b.paper = open_file(":tt", MODE_WRITE);
-    b.punch = open_file("tape.3b", MODE_WRITE_BINARY);
-    i8080_small_init(&b.cpu, port_in, port_out, &b);
-    i8080_small_map(&b.cpu, 0, ROM_SIZE - 1, rom, NULL);
-    i8080_small_map(&b.cpu, ROM_SIZE, ROM_SIZE + RAM_SIZE - 1, b.ram, b.ram);
+    static host h;
+    h.keys = open_file(":tt", MODE_READ);
+    h.paper = open_file(":tt", MODE_WRITE);
+    h.punch = open_file("tape.3b", MODE_WRITE_BINARY);
+    small_board_init(&h.board, rom, h.ram, RAM_SIZE, &lines, &h);
 
     systick[1] = SYSTICK_MOST;
     systick[0] = SYSTICK_ENABLE | SYSTICK_CPU_CLOCK;
     uint64_t ticks = 0;
-    while (!b.left) {
+    while (!h.left) {
         uint32_t before = systick[2];
-        i8080_small_run(&b.cpu, SLICE_CYCLES);
+        small_board_run(&h.board, SLICE_CYCLES);
         ticks += (before - systick[2]) & SYSTICK_MOST;
     }
     uint32_t errors = open_file(":tt", MODE_APPEND);
-    write_number(errors, b.cpu.cycles, ' ');
-    write_number(errors, b.cpu.instructions, ' ');
+    write_number(errors, h.board.cpu.cycles, ' ');
+    write_number(errors, h.board.cpu.instructions, ' ');
     write_number(errors, ticks, '\n');
     ask_debugger(SYS_EXIT, (const void *)APPLICATION_EXIT);
     return 0;
