@@ -106,10 +106,10 @@ IMAGES = {
 def place(file: str) -> str:
     """A source's path below asm/, without .asm: io_held is boards/io_held. ValueError when there is not just one."""
     paths = [Path(folder, file) for folder in FOLDERS]
-    found = [path for path in paths if Path(__file__).parent.joinpath(path).with_suffix(".asm").exists()]
-    if len(found) != 1:
-        raise ValueError(f"{file}.asm: {len(found)} of them in asm/ and its folders {', '.join(FOLDERS[1:])}")
-    return found[0].as_posix()
+    known = [path for path in paths if Path(__file__).parent.joinpath(path).with_suffix(".asm").exists()]
+    if len(known) != 1:
+        raise ValueError(f"{file}.asm: {len(known)} of them in asm/ and its folders {', '.join(FOLDERS[1:])}")
+    return known[0].as_posix()
 
 
 #: The seams whose files others call; those of `map` define names for all.

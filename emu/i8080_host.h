@@ -1,4 +1,4 @@
-/* What the 8080 cores share: the host's port functions, why a run ended */
+/* Shared by the 8080 cores: the host's port functions, the reason of a run's end */
 #ifndef I8080_HOST_H
 #define I8080_HOST_H
 
@@ -8,7 +8,7 @@
 
 enum { I8080_SPACE = 0x10000 };
 
-/* What ended a run. */
+/* The reason of a run's end. */
 typedef enum {
     I8080_CYCLES,   /* the cycles are used up */
     I8080_HALTED,   /* HLT, and no interrupt to end it */

@@ -157,7 +157,7 @@ __attribute__((section(".boot"), used, noreturn)) void fault(void)
 /* Stack, reset, NMI, hard fault; no interrupt is ever enabled. */
 __attribute__((section(".vectors"), used)) static const void *const vectors[] = { stack_top, start, fault, fault };
 
-/* What the compiler calls. (Else it would make calls of these loops to themselves.) */
+/* Functions that the compiler calls. (Else it would make calls of these loops to themselves.) */
 __attribute__((optimize("no-tree-loop-distribute-patterns"))) void *memcpy(void *to, const void *from, __SIZE_TYPE__ n)
 {
     uint8_t *t = to;

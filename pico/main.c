@@ -207,7 +207,7 @@ static void load_settings(void)
 
 /* ---- the panel ---- */
 
-/* What has been typed of a line with # in front, which is not in it. */
+/* The part that has been typed of a line with # in front, without the #. */
 static char typed[32];
 static int typed_length = -1; /* -1: no such line */
 
@@ -335,7 +335,7 @@ static int key(void *user, bool waits)
     return typed_length < 0 ? usb_take(USB_TELETYPE) : SMALL_BOARD_NONE;
 }
 
-/* Where nobody looks, the paper goes on. */
+/* Without a reader the paper goes on. */
 static bool may_print(void *user)
 {
     (void)user;

@@ -1,4 +1,4 @@
-/* What survives power off. See store.h. */
+/* Memory that survives power off. See store.h. */
 #include "store.h"
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* What survives power off: copies in the flash's second MiB
+/* Memory that survives power off: copies in the flash's second MiB
  *
  * A shelf is four places of 64 KiB; the next copy goes into the place of the oldest one, and none is touched but that. A copy is
  * a page with its number, its sum and some bytes of its owner's (`about`), and pages of data. The first page is written

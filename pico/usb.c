@@ -137,7 +137,7 @@ static void listen(line *l, uint32_t endpoint)
     }
 }
 
-/* What the host's program sees first it must not echo: it sets the line up within 100 ms of opening it. */
+/* Nothing is sent for 100 ms after the line is opened: until then the host's terminal echoes what it receives. */
 static void send(line *l, uint32_t endpoint)
 {
     bool due = held(&l->paper) || l->ends;

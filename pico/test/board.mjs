@@ -59,7 +59,7 @@ export class Board {
     this.chip.run(150);
   }
 
-  /** What is listed. */
+  /** The listing. */
   get listing() {
     return linesOf(this.type("LIST"));
   }

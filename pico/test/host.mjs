@@ -11,7 +11,7 @@ const PACKET = 64;
 const PACKET_NANOS = 60e3, FRAME_NANOS = 1e6;
 const EP0_BYTES = 0x100;
 
-/** What the host sees of a serial line. */
+/** A serial line as the host sees it. */
 class Line {
   constructor(first, endpoint) {
     this.first = first; // its interface

@@ -1,4 +1,4 @@
-// What survives power off: always a whole program, the newest one that was finished.
+// Memory that survives power off: always a whole program, the newest one that was finished.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { Board, part, tape } from "./board.mjs";

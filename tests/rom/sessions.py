@@ -86,31 +86,31 @@ _NUMBERS = ["0", "1", "2", "-1", "0.5", "A", "I", "3"]
 
 def statement(random: Random) -> str:
     """A statement, right or wrong; most of them cut."""
-    one = random.choice
-    place = lambda: one(_FAR) if random.random() < 0.06 else one(_PLACES)  # noqa: E731
-    items = lambda: [place() if random.random() < 0.6 else one(_CURVES) for _ in range(one((1, 1, 2, 3, 4)))]  # noqa: E731
+    pick = random.choice
+    place = lambda: pick(_FAR) if random.random() < 0.06 else pick(_PLACES)  # noqa: E731
+    items = lambda: [place() if random.random() < 0.6 else pick(_CURVES) for _ in range(pick((1, 1, 2, 3, 4)))]  # noqa: E731
     makers: list[tuple[int, Callable[[], str]]] = [
         (6, lambda: f"FROM {place()}"),
-        (8, lambda: f"CUT {''.join(one(',;') + item for item in items())[1:]}"),
-        (3, lambda: f"CUT {place()},{place()},{one(_NUMBERS)},{place()}"),
-        (1, lambda: f"CUT {place()},O,(40000,0):40000,({one(('80000,0', '40000,40000', '40000,-40000'))})"),
+        (8, lambda: f"CUT {''.join(pick(',;') + item for item in items())[1:]}"),
+        (3, lambda: f"CUT {place()},{place()},{pick(_NUMBERS)},{place()}"),
+        (1, lambda: f"CUT {place()},O,(40000,0):40000,({pick(('80000,0', '40000,40000', '40000,-40000'))})"),
         (4, lambda: "BACK"),
         (2, lambda: "RECUT"),
         (2, lambda: "END"),
-        (1, lambda: f"SYM {one(_CURVES[:4])}"),
-        (1, lambda: f"REP {one(('2', '3', '1', '0', 'A'))},{one(('90', '180'))}"),
-        (3, lambda: f"FIT {place()}{one(('', '', ',90'))}"),
-        (2, lambda: f"R={one(('0', '1', '-1', '0.5', '6'))}"),
-        (1, lambda: f"SCALE {one(('1', '2', '0'))}"),
-        (1, lambda: f"TOL {one(('0', '0.1', '-1'))}"),
-        (3, lambda: one(("A=1", "A=A+1", "I=2", "P=(1,2)", "P1=(3,4)", "C=O:5", "S=X:2", "O=P", "A=P"))),
-        (4, lambda: f"PRINT {one(('A', 'I', 'P', 'C', 'S', 'R', 'P1', '(A,I)', '1/0', 'K1 P', '7'))}"),
-        (2, lambda: one(("READ A", "READ P,A", "RESTORE", "RESTORE 30", "DATA 1,(2,3)", "DATA A,7"))),
-        (3, lambda: f"{one(('GOTO', 'GOSUB'))} {one((*NUMBERS, 55))}"),
+        (1, lambda: f"SYM {pick(_CURVES[:4])}"),
+        (1, lambda: f"REP {pick(('2', '3', '1', '0', 'A'))},{pick(('90', '180'))}"),
+        (3, lambda: f"FIT {place()}{pick(('', '', ',90'))}"),
+        (2, lambda: f"R={pick(('0', '1', '-1', '0.5', '6'))}"),
+        (1, lambda: f"SCALE {pick(('1', '2', '0'))}"),
+        (1, lambda: f"TOL {pick(('0', '0.1', '-1'))}"),
+        (3, lambda: pick(("A=1", "A=A+1", "I=2", "P=(1,2)", "P1=(3,4)", "C=O:5", "S=X:2", "O=P", "A=P"))),
+        (4, lambda: f"PRINT {pick(('A', 'I', 'P', 'C', 'S', 'R', 'P1', '(A,I)', '1/0', 'K1 P', '7'))}"),
+        (2, lambda: pick(("READ A", "READ P,A", "RESTORE", "RESTORE 30", "DATA 1,(2,3)", "DATA A,7"))),
+        (3, lambda: f"{pick(('GOTO', 'GOSUB'))} {pick((*NUMBERS, 55))}"),
         (2, lambda: "RETURN"),
-        (1, lambda: f"IF {one(_NUMBERS)}{one(('=', '<', '>'))}{one(_NUMBERS)} GOTO {one(NUMBERS)}"),
+        (1, lambda: f"IF {pick(_NUMBERS)}{pick(('=', '<', '>'))}{pick(_NUMBERS)} GOTO {pick(NUMBERS)}"),
         (1, lambda: "INPUT A"),
-        (2, lambda: one(("CUT ,", "FROM", "PRINT )", "CUT O,1,2,X", "P1000=O", "K", "CUT (1,2"))),
+        (2, lambda: pick(("CUT ,", "FROM", "PRINT )", "CUT O,1,2,X", "P1000=O", "K", "CUT (1,2"))),
         (1, lambda: "REM"),
     ]
     ((_, make),) = random.choices(makers, [weight for weight, _ in makers])

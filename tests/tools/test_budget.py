@@ -148,7 +148,7 @@ def svg_of(inner: str) -> Reading:
     ],
 )
 def test_a_transform_that_is_none(transform: str) -> None:
-    """What it stands on is listed, not shown where it would be without."""
+    """Its element is listed, not shown at the place that it would have without."""
     reading = svg_of(f'<g transform="{transform}"><rect width="9" height="9"/></g>')
     assert len(reading.contours) == 1 and [entity.kind for entity in reading.report.not_understood] == ["g"]
 

@@ -31,7 +31,7 @@ CAD_TAPE_FILE = ROOT / "examples" / "cad-tape.3b"
 
 
 def test_chinese_wire_iso(run: Run) -> None:
-    """What CAXA printed for the part whose 3B tape it printed, too (docs/spec/tape-3b.md)."""
+    """CAXA's print of the part whose 3B tape it printed, too (docs/spec/tape-3b.md)."""
     words = ["--start", "115,-10", "--positions", "programmed", "--machine", "wire-iso"]
     made = run("gcode", CAD_TAPE_FILE, *words)
     assert made.stdout_bytes.decode() == CAD_GCODE.replace("\n", "\r\n")
@@ -40,7 +40,7 @@ def test_chinese_wire_iso(run: Run) -> None:
 @settings(max_examples=40)
 @given(st.sampled_from(names()), st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0))), min_size=1))
 def test_all_read_back(name: str, items: list[Block | Stop]) -> None:
-    """What is cut, and in how many pieces where the machine stops."""
+    """The cuts, and the number of pieces between stops."""
     dialect, tape = dialect_of(name), tapes.parse(tapes.to_bytes(items))
     text = gcode.write(tape, (2000, -3000), positions="programmed", dialect=dialect)
     program, findings = gcode_reader.scan(text, dialect=dialect)

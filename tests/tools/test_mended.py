@@ -68,7 +68,7 @@ def named(report: str) -> list[tuple[XY, float]]:
 
 
 def unsaid(page: Drawing, tape: bytes, report: str) -> float:
-    """How far the tape is from the file at most, both ways, where the report says nothing, mm."""
+    """The largest distance of tape and file, both ways, where the report names no mend, mm."""
     drawn, cut = nominal(page), wire(tape, report)
     excused = shapely.union_all([shapely.Point(place).buffer(size + 2 * LIMIT) for place, size in named(report)])
     worst = 0.0

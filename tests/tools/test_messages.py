@@ -45,8 +45,8 @@ def fields(template: str) -> Iterator[str]:
 
 def values(template: str) -> set[str]:
     """The values that a template has: those of its settings, too."""
-    found = (field.split("=$")[-1] if field.startswith("--") else field for field in fields(template))
-    return {field for field in found if not field.startswith("--")}
+    names = (field.split("=$")[-1] if field.startswith("--") else field for field in fields(template))
+    return {field for field in names if not field.startswith("--")}
 
 
 def settings(template: str) -> set[str]:

@@ -15,7 +15,7 @@ INCH, MM = "9\n$INSUNITS\n70\n1\n", "9\n$INSUNITS\n70\n4\n"
 
 
 def of_units(data: bytes, name: str = "a.dxf", **wishes: object) -> list[Finding]:
-    """What is said of units that are likely."""
+    """The findings about likely units."""
     codes = ("size-in-other-units", "size-in-dots", "page-in-dots")
     return [finding for finding in read(data, name, Wishes(**wishes)).report.report() if finding.code in codes]
 

@@ -83,7 +83,7 @@ def test_what_is_not_whole_is_listed(entity: str) -> None:
 
 @pytest.mark.parametrize("base", ["", "10\n1\n", "10\n1\n20\nx\n", "10\n1\n20\ninf\n"])
 def test_a_block_without_its_base_point(base: str) -> None:
-    """What refers to it is listed: nobody knows where it lies."""
+    """An entity that refers to it is listed: its place is unknown."""
     block = BLOCK.replace("10\n0\n20\n0\n", base, 1)
     reading = checked(with_block(*square(0, 0, 9), WHOLE["INSERT"], block=block))
     assert refused(reading) == ["INSERT"]

@@ -193,7 +193,7 @@ def _xy(point: Point) -> XY:
 
 
 def _cut_pieces(routes: Sequence[PlacedRoute]) -> Pieces:
-    """What routes on a tape cut, mm; all of it has one owner, 0."""
+    """The cuts of routes on a tape, mm; all have one owner, 0."""
     laid = Laid.joined([Laid.of(route.blocks) for route in routes if not route.is_move] or [Laid.of(())])
     sweeps = np.where(laid.is_line, 0.0, laid.sweeps)
     places = (side / 1000 for side in (laid.starts, laid.ends, laid.centres))

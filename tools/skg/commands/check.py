@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from skg.geometry.plane import XY
     from skg.tape.layout import PlacedRoute
 
-Found = "TapeFault | gcode_reader.GcodeTapeFault | RefusedProgram | Spoilt"
+Found = "TapeFault | gcode_reader.GcodeFinding | RefusedProgram | Spoilt"
 
 #: So many findings of a tape are listed; one wrong in its style alone has some in every line.
 MOST = 20
@@ -115,7 +115,7 @@ def _placed(tape: bytes, start: XY, mills: bool) -> list[PlacedRoute]:
 
 def _list(
     name: str,
-    findings: Sequence[TapeFault | gcode_reader.GcodeTapeFault | RefusedProgram | Spoilt],
+    findings: Sequence[TapeFault | gcode_reader.GcodeFinding | RefusedProgram | Spoilt],
     size: str,
     list_all: bool,
 ) -> None:

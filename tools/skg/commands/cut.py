@@ -308,7 +308,7 @@ def _cut(
         return None
     form = picture_format(sheet, None) if sheet else ""
     if is_gcode(output) and not dialect:
-        raise UserError(f"{output}: its name ends as G-code's, and 3B would be in it: give --machine, or a name in .3b")
+        raise UserError(Finding("tape-named-gcode").within(output))
     if save_job:
         _refuse_elsewhere(save_job, path)
     drawn = open_drawing(job, read_bytes(path), path)

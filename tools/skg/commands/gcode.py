@@ -88,7 +88,7 @@ def command(
     x, y = start or tape.start
     home = micrometres(x), micrometres(y)
     if heights and dialect:
-        raise UserError("--z goes up and down as a mill does: leave --machine or --z out")
+        raise UserError(Finding("z-with-machine"))
     dialect = dialect or MILL
     feeds = _feeds(feed) if dialect.feed else (FEED, FEED)
     write_bytes(output, gcode.write(tape, home, feeds, _heights(heights), decided(tape, positions), dialect).encode())

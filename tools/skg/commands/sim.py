@@ -12,7 +12,7 @@ from skg.commands.options import decided, feed_option, positions_option, read_ma
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
-from skg.messages.render import text
+from skg.messages.render import line, text
 from skg.sources.load import is_iso, load
 from skg.tape.block import Tape
 from skg.tape.controller import drive_steps, stops_in_pairs
@@ -121,7 +121,7 @@ def command(
     }
     if steps_file and odd:
         name, why = next(iter(odd.items()))
-        raise UserError(f"{name}: {why}")
+        raise UserError(why.within(name))
     reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
     if steps_file:
         _write_steps(steps_file, tapes)
@@ -135,6 +135,6 @@ def command(
             for each in _lines(report, blocks):
                 show(each)
     for name, why in odd.items():
-        tell(f"skg: {name}: {why}")
+        tell(f"skg: {line(why.within(name))}")
     if odd or strict_close and not all(report.closed for report in reports):
         raise SystemExit(1)

@@ -14,6 +14,7 @@ from skg.geometry.contour import Edge
 from skg.geometry.offset import as_arcs
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 from skg.planning.route import Lead, PlannedContour, Way
 from skg.tape.block import micrometres
 from skg.tape.dialect import GcodeDialect
@@ -106,10 +107,7 @@ def _as_drawn(route: PlannedContour) -> PlannedContour:
         return route
     if any(route.passes) and not route.is_around:
         raise UserError(
-            f"{route.name}: the wire leaves edges of it out, which a control with an offset of its own may refuse: "
-            "redraw it, or take a machine file without [offset]",
-            route.number,
-            route.entry,
+            Finding("edges-left-out", name=route.name, contour=route.number, place=route.entry),
         )
     return replace(route, traced=(), is_around=False)
 

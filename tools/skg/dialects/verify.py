@@ -11,9 +11,9 @@ import shapely
 from skg.errors import UserError
 from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.piece import Piece
+from skg.messages.finding import Finding
 from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode_reader import read
-from skg.wording import short, shown
 
 #: Beside its rounding a cut lies no further from the path, mm: flat arcs become lines, circles get whole µm.
 _NEAR = 0.0025
@@ -24,20 +24,17 @@ def refuse_other_path(text: str, name: str, dialect: GcodeDialect, path: Sequenc
     cuts = [piece for route in read(text, name, dialect).routes() if not route.is_move for piece in route.blocks]
     ours, theirs = _chords(path, 1.0), _chords(cuts, 0.001)
     limit = _NEAR + dialect.step / 1000
-    for one, other in ((ours, theirs), (theirs, ours)):
-        if not len(one):
+    for some, others in ((ours, theirs), (theirs, ours)):
+        if not len(some):
             continue
-        if not len(other):
-            raise UserError(f"{name}: it cuts nothing when it is read back: look at the machine's words and lines")
-        points = shapely.points(shapely.get_coordinates(one))
-        (index, _), far = shapely.STRtree(other).query_nearest(points, return_distance=True, all_matches=False)
+        if not len(others):
+            raise UserError(Finding("read-back-empty").within(name))
+        points = shapely.points(shapely.get_coordinates(some))
+        (index, _), far = shapely.STRtree(others).query_nearest(points, return_distance=True, all_matches=False)
         worst = int(np.argmax(far))
         if far[worst] > limit:
             (x, y) = shapely.get_coordinates(points[index[worst]])[0].tolist()
-            raise UserError(
-                f"{name}: read back it is {short(float(far[worst]))} mm off the path at {shown((x, y))}: look at the "
-                "machine's numbers, places and arcs"
-            )
+            raise UserError(Finding("read-back-off", off=float(far[worst]), place=(x, y)).within(name))
 
 
 def _chords(pieces: Iterable[Piece], unit: float) -> np.ndarray:
@@ -46,5 +43,5 @@ def _chords(pieces: Iterable[Piece], unit: float) -> np.ndarray:
     for piece in pieces:
         count = 1 if piece.centre is None else chords_of(piece.radius * unit, piece.sweep, MEASURED)
         places = [piece.start, *(piece.at(part / count) for part in range(1, count)), piece.end]
-        lines += [(one, other) for one, other in pairwise(places) if one != other]
+        lines += [(start, end) for start, end in pairwise(places) if start != end]
     return shapely.linestrings(np.array(lines, float).reshape(-1, 2, 2) * unit)

@@ -1,4 +1,4 @@
-"""What `skg cut` writes for a machine that reads G-code, read back before it is written."""
+"""The program of `skg cut` for a machine that reads G-code, read back before it is written."""
 
 from __future__ import annotations
 

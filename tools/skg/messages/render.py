@@ -22,7 +22,7 @@ _SETTING = re.compile(r"--(?P<name>[a-z-]+)(?:=(?P<value>.+))?")
 
 
 class Medium(Enum):
-    """Where a text is read, and so what its advice is about: options, keys of a job file, fields of the page."""
+    """The reader's place, which decides the words of advice: options, keys of a job file, fields of the page."""
 
     COMMAND = "command line"
     JOB = "job file"

@@ -131,7 +131,7 @@ def ends_of_tabs(chain: Sequence[Edge], tab: float, tabs: int | Sequence[XY]) ->
 
 
 def _along(chain: Sequence[Edge], begins: Sequence[float], place: XY) -> float:
-    """Where a chain is nearest to a place, mm along it."""
+    """The nearest point of a chain to a place, mm along it."""
     nearest = []
     for begin, edge in zip(begins, chain, strict=False):
         if edge.nodes:

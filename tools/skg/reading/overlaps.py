@@ -25,7 +25,7 @@ _PARTS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 @dataclass
 class Overlaps:
-    """What is drawn a second time, each with the edge that it lies on: `pieces` of edges, and `whole` edges."""
+    """Second copies, each with the edge that it lies on: `pieces` of edges, and `whole` edges."""
 
     pieces: list[tuple[Edge, Edge]] = field(default_factory=list)
     whole: list[tuple[Edge, Edge]] = field(default_factory=list)

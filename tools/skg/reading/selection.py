@@ -89,8 +89,10 @@ class Selection:
         if self.wishes.open == "refuse":
             raise UserError(Finding("outline-lost", place=first))
         if len(kept) > 1:
-            one = Finding("line-around", start=first, end=last) if len(around) == 1 else None
-            self.report.findings.append(one or Finding("lines-around"))
+            is_single = len(around) == 1
+            self.report.findings.append(
+                Finding("line-around", start=first, end=last) if is_single else Finding("lines-around")
+            )
 
     def others(self) -> tuple[list[Contour], list[Contour]]:
         """The closed contours of layers that are not cut, and the open lines of all layers, both drawn through: what is

@@ -81,20 +81,31 @@ def iso_of(text: str, name: str, dialect: GcodeDialect | None = None) -> GcodePr
     return program
 
 
+def _is_gcode(name: str, dialect: GcodeDialect | None) -> bool:
+    """Tell whether a file is G-code: by its name, or since it is that of a machine."""
+    return is_gcode(name) or dialect is not None and not is_program(name) and not name.lower().endswith(".3b")
+
+
 def is_iso(name: str, dialect: GcodeDialect | None = None) -> bool:
     """Tell whether a file is G-code or a milling program: their stops are pauses, and turn no wire off or on."""
-    if not is_program(name):
-        return is_gcode(name) or dialect is not None and not name.lower().endswith(".3b")
-    return not is_rival(name) and is_milling(program_text(name))
+    return _is_gcode(name, dialect) or _milling_text(name) is not None
+
+
+def _milling_text(name: str) -> str | None:
+    """The text of a file that is a milling program; else None."""
+    if not is_program(name) or is_rival(name):
+        return None
+    text = program_text(name)
+    return text if is_milling(text) else None
 
 
 def iso_text(name: str, skg80: str | None = None, dialect: GcodeDialect | None = None) -> str | None:
     """The text of `iso_program`."""
-    if not is_iso(name, dialect):
-        return None
-    if not is_program(name):
+    if _is_gcode(name, dialect):
         return gcode_text(name)
-    text = program_text(name)
+    text = _milling_text(name)
+    if text is None:
+        return None
     by = "the mill ROM" if skg80 is None else "the reference" if skg80 == "reference" else f"{skg80}, the mill ROM"
     tell(f"skg: {name}: a milling program, run by {by}")
     _say_given_up(name, text)

@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 from io import BytesIO
 
 from skg.files import read_bytes, without_filling
+from skg.messages.finding import Finding
+from skg.messages.render import text as text_of
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
 from skg.tape.block_list import Blocks
 from skg.tape.positions import WITHOUT_DRIFT
 from skg.tape.styles import read_any, to_style
-from skg.wording import counted
 
 #: From so many blocks on it takes less time to load numpy than to look at them one by one.
 _MANY = 20_000
@@ -143,21 +144,18 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
         TapeFault(block.number, 1, text) for block in _doubtful(tape, positions) for text in block.problems(positions)
     ]
     if why := odd_stops(tape):
-        wrong.append(TapeFault(tape.stops[-1].after + 1, 1, why))
+        wrong.append(TapeFault(tape.stops[-1].after + 1, 1, text_of(why)))
     return tape, sorted(wrong + reading.findings, key=lambda finding: (finding.block, finding.column))
 
 
-def odd_stops(tape: Tape) -> str:
-    """The reason why a drive would cut where a tape moves, an odd number of stops before its last block; else empty.
+def odd_stops(tape: Tape) -> Finding | None:
+    """The reason why a drive would cut where a tape moves, an odd number of stops before its last block; else None.
 
     A run that was broken off leaves such a tape, when another one goes on behind it.
     """
     if len(tape.stops) % 2 == 0 or tape.stops[-1].after == len(tape.blocks):
-        return ""
-    return (
-        f"{counted(len(tape.stops), 'stop')} D, an odd number, before the last block: each turns a drive's wire off or "
-        "on, so it is off where this tape cuts"
-    )
+        return None
+    return Finding("odd-stops", count=len(tape.stops))
 
 
 def _doubtful(tape: Tape, positions: str) -> Iterable[Block]:

@@ -11,6 +11,7 @@ from threading import Condition, Event, Lock, Thread
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.job.job import ROMS
+from skg.messages.finding import Finding
 from skg.tape.positions import WITHOUT_DRIFT
 from skg.ui.json_text import told
 from skg.ui.worker import Ended, Worker
@@ -162,7 +163,7 @@ class Session:
         """The job as a file."""
         with self._called():
             if self._state.get("job") is None:
-                raise UserError("the drawing has not been read: there is no job to save")
+                raise UserError(Finding("no-job-yet"))
             return self._worker.call("job")
 
     @contextmanager

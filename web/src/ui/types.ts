@@ -15,7 +15,7 @@ export interface Wanted {
   tab?: number;
   /** The tab of slugs; a contour by itself has `tab` alone. */
   slug_tab?: number;
-  /** How many tabs, or their places. */
+  /** The number of tabs, or their places. */
   tabs?: number | readonly Point[];
   tab_passes?: readonly number[];
   overlap?: number;
