@@ -123,7 +123,7 @@ def test_errors_of_a_contour(page: Page, tmp_path: Path) -> None:
     which = {key: state["contours"][0][key] for key in ("layer", "kind", "at", "size")}
     state |= page.put(state, machine={"offset": 0.1}, contour=[which | {"start": [30, 28]}])
     plan = state["plan"]
-    assert plan["error"]["contour"] == 0 and plan["contours"]["0"]["error"] == plan["error"]["message"]
+    assert plan["error"]["contour"] == 0 and plan["contours"]["0"]["error"] == plan["error"]
     assert sorted(plan["order"]) == [0, 1, 2]
     run = page.cut(state["rev"])[1]
     assert run["state"] == "failed" and run["error"]["contour"] == 0

@@ -11,6 +11,8 @@ const CHROMIUM = "/usr/bin/chromium";
 const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
 const AXE = readFileSync("web/node_modules/axe-core/axe.min.js", "utf8");
 const WIDE = { width: 1400, height: 900 };
+/** What a browser leaves of a screen of 1366 x 768. */
+const LOW = { width: 1366, height: 640 };
 const PHONE = { width: 360, height: 740 };
 /** A drawing of so many circles. */
 const MANY = 20_000;
@@ -63,6 +65,8 @@ const settled = (page: Page) => page.waitForFunction(() => document.body.dataset
 /** Cuts; a line that wants care (the wire on the line, a tab that stands proud) leaves the dot amber. */
 const cut = async (page: Page): Promise<void> => {
   await page.click("#cut");
+  await page.waitForSelector("#which-wire[open], #cancel:not([hidden]), #outcome:is(.good, .care)");
+  if (await page.isVisible("#wire-line")) await page.click("#wire-line");
   await page.waitForSelector("#outcome:is(.good, .care)");
 };
 
@@ -500,6 +504,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     const { page, context } = await visit(url);
     await drawn(page);
     await page.click("#cut");
+    await page.click("#wire-line");
     await page.click("#cancel");
     await says(page, "#outcome", /cancelled/);
     await cut(page);
@@ -536,6 +541,38 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await drop(page, "bracket.dxf", BRACKET);
     await says(page, "#name", "bracket.dxf");
     await page.waitForFunction(() => !document.querySelector("#report .wrong"));
+    await context.close();
+  });
+
+  test("what wants a decision stands above the drawing, with what can be done about it; then the dot is green", async () => {
+    const { url } = await start("part.dxf", dxf(...box(0, 0, 60, 40), circle(15, 20, 5), circle(45, 20, 0.04)));
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    const press = (name: string) => page.locator("#decide-fixes").getByRole("button", { name }).click();
+    await page.waitForSelector("#decide", { state: "hidden" });
+    // (no wire: asked for once)
+    await page.click("#cut");
+    await page.fill("#field-ask-wire", "0,2");
+    await page.click("#wire-cut");
+    await page.waitForSelector("#decide.wrong:not([hidden])");
+    await value(page, "field-wire", "0.2");
+    const { y, height } = (await page.locator("#decide").boundingBox()) ?? { y: 0, height: LOW.height };
+    assert.ok(y + height < LOW.height / 4, "above the drawing");
+    await shot(page, "decide");
+    assert.deepEqual(await axe(page), []);
+    await press("Show");
+    await says(page, "#h-values", "opening 0.08 × 0.08");
+    await press("Leave this contour");
+    await page.waitForSelector("#decide", { state: "hidden" });
+    await click(page, [55, 0]);
+    await type(page, "field-passes", "0.05, 0.02");
+    await page.click("#cut");
+    await page.waitForSelector("#outcome.care");
+    await says(page, "#decide-count", /^1 of \d$/);
+    for (let left = 9; left && (await page.isVisible("#decide")); left--) await press("As it is");
+    await page.waitForSelector("#outcome.good");
+    await page.click("#cut");
+    await page.waitForSelector("#outcome.good");
     await context.close();
   });
 

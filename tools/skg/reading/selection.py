@@ -112,7 +112,8 @@ class Selection:
         opened = [contour for contour in contours if not contour.is_closed]
         self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance)
         if opened and self.wishes.open == "refuse":
-            raise UserError(Finding("open-refused", count=len(opened), gap=self.report.first_gap()))
+            place = min(self.report.open_ends, key=lambda end: end.gap).place
+            raise UserError(Finding("open-refused", count=len(opened), gap=self.report.first_gap(), place=place))
         if self.wishes.open != "leave":
             return contours
         for contour in opened:

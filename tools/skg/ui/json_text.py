@@ -7,7 +7,7 @@ from typing import Any
 
 from skg.errors import UserError
 from skg.messages.finding import Finding
-from skg.messages.render import Medium, Speech, line, speech
+from skg.messages.render import Medium, Speech, advice, line, speech
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
@@ -28,10 +28,13 @@ def in_json(value: object) -> bytes:
 
 
 def told(error: UserError) -> dict[str, Any]:
-    """An error, with the contour and the place that it is about."""
-    return {"message": line(error.finding, Speech(speech.language, Medium.PAGE))} | about(error)
+    """An error, with the contour and the place that it is about, and the settings that it advises."""
+    return {"message": line(error.finding, Speech(speech.language, Medium.PAGE))} | facts(error.finding)
 
 
-def about(subject: UserError | Finding) -> dict[str, Any]:
-    """The contour and the place that something is about, where these are known."""
-    return {name: value for name in ("contour", "place") if (value := getattr(subject, name)) is not None}
+def facts(finding: Finding) -> dict[str, Any]:
+    """The facts of a finding that the page goes by: its code, the contour and the place that it is about, where these
+    are known, and the settings that it advises, each with its value or None."""
+    about = {name: value for name in ("contour", "place") if (value := getattr(finding, name)) is not None}
+    settings = list(dict.fromkeys(advice(finding)))
+    return {"code": finding.code} | about | ({"advice": settings} if settings else {})

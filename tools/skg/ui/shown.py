@@ -8,6 +8,7 @@ from contextlib import suppress
 from functools import lru_cache
 from itertools import pairwise, zip_longest
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 import shapely
@@ -24,7 +25,7 @@ from skg.messages.severity import Severity
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import findings
 from skg.planning.route import Lead, PlannedContour, Way
-from skg.ui.json_text import about, encoded, in_json, told
+from skg.ui.json_text import encoded, facts, in_json, told
 
 #: Decimals of a length, mm; of a direction, radians.
 _LENGTH, _ANGLE = 4, 6
@@ -59,7 +60,9 @@ def _edge(edge: Edge) -> list[Any]:
 
 def line(entry: Finding) -> dict[str, Any]:
     """A line of a report."""
-    return {"code": entry.code, "text": text(entry), "care": entry.severity is Severity.CARE} | about(entry)
+    told_line = {"text": text(entry), "care": entry.severity is Severity.CARE} | facts(entry)
+    # (who has decided on it is not asked again while its values are the same)
+    return told_line | ({"key": crc32(repr(entry).encode())} if told_line["care"] else {})
 
 
 def drawing(drawn: DrawnJob) -> dict[str, Any]:
@@ -106,7 +109,7 @@ class Plans:
     """The plans of a drawing's contours as JSON: what has not changed since the last one is not written anew."""
 
     def __init__(self) -> None:
-        self._known: dict[int, tuple[PlannedContour | None, Wanted, str, str]] = {}
+        self._known: dict[int, tuple[PlannedContour | None, Wanted, dict | None, str]] = {}
         self._told: list[str] = []
 
     def written(
@@ -114,7 +117,7 @@ class Plans:
     ) -> tuple[bytes, bytes]:
         """The plan of all contours, and the same with those alone that were told otherwise the last time."""
         turns = {route.number: (turn, route) for turn, route in enumerate(routes, 1)}
-        why = {error.contour: str(error) for error in errors if error.contour is not None}
+        why = {error.contour: told(error) for error in errors if error.contour is not None}
         contours = []
         for number, want in enumerate(wanted):
             turn, route = turns.get(number, (None, None))
@@ -131,12 +134,12 @@ class Plans:
         )
         return whole, part
 
-    def _contour(self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, str]) -> str:
+    def _contour(self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, dict]) -> str:
         """A contour's plan without its place in the order, and without the brace before it."""
-        wrong = why.get(number, "")
+        wrong = why.get(number)
         known = self._known.get(number)
         if known is None or known[0] is not route or known[1:3] != (want, wrong):
-            plan = (planned(route) if route else _LEFT) | {"error": wrong or None}
+            plan = (planned(route) if route else _LEFT) | {"error": wrong}
             is_slug = route is not None and route.contour.is_closed and route.frees == "slug"
             text = f'{in_json(plan)[1:-1].decode()},"values":{_values(want, is_slug)}}}'
             known = self._known[number] = route, want, wrong, text

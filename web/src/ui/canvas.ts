@@ -9,7 +9,7 @@ import type { Desk } from "./desk.ts";
 import { type Change, change } from "./edits.ts";
 import { type Box, micrometres, millimetres } from "./geometry.ts";
 import { type Grip, type Handle, handlesOf, stepped } from "./handles.ts";
-import { Overlay } from "./overlay.ts";
+import { Overlay, type Ring } from "./overlay.ts";
 import { Picture } from "./picture.ts";
 import { listenToPointers } from "./pointing.ts";
 import type { Server } from "./server.ts";
@@ -22,7 +22,7 @@ export class Canvas {
   readonly #desk: Desk;
   readonly #base: HTMLCanvasElement;
   readonly #over: HTMLCanvasElement;
-  readonly #ways: WireWays;
+  readonly ways: WireWays;
   readonly #sketch: Sketch;
   readonly #picture: Picture;
   readonly overlay: Overlay;
@@ -38,13 +38,18 @@ export class Canvas {
   onPoint: (place: Point | undefined) => void = () => undefined;
   /** A contour is asked for what can be done with it, at a place of the window. */
   onMenu: (id: number, x: number, y: number) => void = () => undefined;
+  /** More is known of the wire's ways. */
+  onWays: () => void = () => undefined;
 
   constructor(base: HTMLCanvasElement, over: HTMLCanvasElement, desk: Desk, server: Server) {
     this.#base = base;
     this.#over = over;
     this.#desk = desk;
-    this.#ways = new WireWays(desk, server, () => this.#renew());
-    this.#sketch = new Sketch(desk, this.#ways);
+    this.ways = new WireWays(desk, server, () => {
+      this.#renew();
+      this.onWays();
+    });
+    this.#sketch = new Sketch(desk, this.ways);
     this.#picture = new Picture((context, view, size) => this.#sketch.draw(context, view, size));
     this.overlay = new Overlay(desk);
     new ResizeObserver(() => this.#resize()).observe(base);
@@ -139,8 +144,14 @@ export class Canvas {
     this.#soon();
   }
 
+  /** Places that want a decision. */
+  set rings(rings: readonly Ring[]) {
+    this.overlay.rings = rings;
+    this.#soon();
+  }
+
   #another(): void {
-    this.#ways.forget();
+    this.ways.forget();
     this.overlay.place = this.overlay.walk = this.overlay.hovered = undefined;
     const { name, low, size } = this.#desk.state ?? {};
     const part = JSON.stringify([name, low, size]);
@@ -196,7 +207,7 @@ export class Canvas {
     over.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
     this.overlay.draw(over, this.view, this.#size, this.handles, this.#drag?.grip);
     if (!isWhole) this.#soon();
-    else if (!this.#drag) void this.#ways.want(this.#sketch.inView(this.view, this.#size));
+    else if (!this.#drag) void this.ways.want(this.#sketch.inView(this.view, this.#size));
     // (for tests: the window, the time this took, whether the picture is complete, handles in mm)
     const { scale, x, y } = this.view;
     const took = String(performance.now() - began);

@@ -7,6 +7,7 @@ import { Actions } from "./actions.ts";
 import { Appearance } from "./appearance.ts";
 import { Canvas } from "./canvas.ts";
 import { Cutting } from "./cutting.ts";
+import { Decisions } from "./decide.ts";
 import { Desk } from "./desk.ts";
 import { Fields } from "./fields.ts";
 import { Keys } from "./keys.ts";
@@ -18,7 +19,9 @@ import { Report } from "./report.ts";
 import { Results } from "./result.ts";
 import { save } from "./saving.ts";
 import { Gone, Refusal, Server } from "./server.ts";
+import { TellTale } from "./told.ts";
 import { Tree } from "./tree.ts";
+import { asksForWire } from "./wire.ts";
 import { type Word, w } from "./words.ts";
 
 /** No larger file is read, bytes. */
@@ -34,8 +37,10 @@ const tree = new Tree(get("tree"), desk);
 const matches = new MatchList(desk);
 const fields = new Fields(desk, show);
 const machine = new MachineFields(desk, show);
-const report = new Report(desk, cutting, canvas);
-const results = new Results(cutting, server, canvas, new WebAssembly.Module(walkBytes));
+const told = new TellTale(desk, cutting, canvas.ways);
+const decisions = new Decisions(desk, canvas, told);
+const report = new Report(desk, told, (line) => decisions.look(line));
+const results = new Results(cutting, server, canvas, told, new WebAssembly.Module(walkBytes));
 const menu = new Menu(desk, actions);
 const appearance = new Appearance(
   () => {
@@ -50,8 +55,8 @@ const appearance = new Appearance(
     canvas.colours = colours;
   },
 );
-const cut = (): void => {
-  if (takeTyped()) void cutting.start();
+const cut = async (): Promise<void> => {
+  if (takeTyped() && (await asksForWire(desk, told))) void cutting.start();
 };
 const saveAll = (): void => {
   if (takeTyped()) void save(desk, cutting, server);
@@ -86,6 +91,7 @@ function say(): void {
   get<HTMLButtonElement>("cut").disabled = get<HTMLButtonElement>("save").disabled = !state || desk.isGone;
   document.body.dataset["settled"] = String(desk.isSettled);
   report.show();
+  decisions.show();
   void results.show();
 }
 
@@ -105,7 +111,7 @@ async function open(file: File): Promise<void> {
 }
 
 function bind(): void {
-  cutting.onChange = say;
+  cutting.onChange = canvas.onWays = say;
   desk.onStale = () => show(w("stale"));
   desk.onRefused = ({ fault }) => show(fault.message);
   desk.onChange((news) => {
@@ -121,8 +127,14 @@ function bind(): void {
   canvas.onMenu = tree.onMenu = (id, x, y) => menu.open(id, x, y);
   tree.onOrder = (id, other) => actions.orderBefore(id, other);
   const hint = (word: Word | undefined): void => (word ? show(w(word)) : hide());
-  new Keys(desk, canvas, actions, { cut, save: saveAll, open: pick, menu: (id, x, y) => menu.open(id, x, y), hint });
-  onClick("cut", cut);
+  new Keys(desk, canvas, actions, {
+    cut: () => void cut(),
+    save: saveAll,
+    open: pick,
+    menu: (id, x, y) => menu.open(id, x, y),
+    hint,
+  });
+  onClick("cut", () => void cut());
   onClick("cancel", () => void cutting.cancel());
   onClick("save", saveAll);
   onClick("undo", () => desk.undo());

@@ -11,6 +11,14 @@ import type { Colours } from "./sketch.ts";
 /** The chosen contours that are drawn, where they are many. */
 const MOST = 3000;
 
+/** A place that wants a decision, µm. */
+export interface Ring {
+  readonly place: XY;
+  readonly isWrong: boolean;
+  /** It is the one that the line above the drawing tells of. */
+  readonly isPresent: boolean;
+}
+
 export class Overlay {
   readonly #desk: Desk;
   readonly #trail = new Trail();
@@ -20,6 +28,7 @@ export class Overlay {
   held: Handle["grip"] | undefined;
   /** A place of the report, µm. */
   place: XY | undefined;
+  rings: readonly Ring[] = [];
   walk: Wire | undefined;
   blocks: readonly Placed[] = [];
   /** The block that is pointed at. */
@@ -42,6 +51,13 @@ export class Overlay {
     }
     if (this.walk) this.#wire(context, view, this.walk, colours);
     for (const handle of handles) drawHandle(context, view, handle, grip === handle.grip, colours);
+    for (const { place, isWrong, isPresent } of this.rings) {
+      context.strokeStyle = isWrong ? colours.wrong : colours.chosen;
+      context.lineWidth = isPresent ? 3.5 : 2;
+      context.beginPath();
+      context.arc(...view.toPixel(place), isPresent ? 14 : 10, 0, 2 * Math.PI);
+      context.stroke();
+    }
     if (!this.place) return;
     context.strokeStyle = colours.wrong;
     context.lineWidth = 3;

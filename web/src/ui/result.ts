@@ -9,6 +9,7 @@ import type { Canvas } from "./canvas.ts";
 import type { Cutting } from "./cutting.ts";
 import { micrometres } from "./geometry.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
+import type { TellTale } from "./told.ts";
 import type { Result, Run } from "./types.ts";
 import { type Word, w } from "./words.ts";
 
@@ -18,6 +19,7 @@ export class Results {
   readonly #cutting: Cutting;
   readonly #server: Server;
   readonly #canvas: Canvas;
+  readonly #told: TellTale;
   readonly #chooser = new Chooser();
   readonly #list: BlockList;
   readonly #walkBar: WalkBar;
@@ -28,10 +30,11 @@ export class Results {
   #drawn: number | undefined;
   #sheet = "";
 
-  constructor(cutting: Cutting, server: Server, canvas: Canvas, walk: WebAssembly.Module) {
+  constructor(cutting: Cutting, server: Server, canvas: Canvas, told: TellTale, walk: WebAssembly.Module) {
     this.#cutting = cutting;
     this.#server = server;
     this.#canvas = canvas;
+    this.#told = told;
     this.#list = new BlockList(get("list"), this.#chooser);
     this.#list.describe = (_, stop) => (stop ? w("stopAfter") : "");
     const parts = {
@@ -137,7 +140,7 @@ export class Results {
       }
       case "done":
         // (green: nothing wants a decision)
-        output.className = isOld ? "old" : outcome.result.lines.some(({ care }) => care) ? "care" : "good";
+        output.className = isOld ? "old" : this.#told.open.length ? "care" : "good";
         output.textContent = isOld
           ? w("changedSince")
           : `${w("checked", outcome.result.off_um.toFixed(2))} · ${figures(outcome.result)}`;

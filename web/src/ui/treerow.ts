@@ -54,8 +54,8 @@ export function contourRow(element: HTMLElement, desk: Desk, contour: Contour): 
   if (wanted.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
   if (!planned?.error) return;
   const fault = make("span", "fault", "⚠");
-  fault.title = planned.error;
-  fault.ariaLabel = planned.error;
+  fault.title = planned.error.message;
+  fault.ariaLabel = planned.error.message;
   fault.role = "img";
   element.append(fault);
 }

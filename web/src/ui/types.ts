@@ -74,18 +74,23 @@ export interface Contour {
   readonly edges: readonly Edge[];
 }
 
-/** One line of a report; `care`: it wants a decision. */
-export interface Line {
-  readonly text: string;
-  readonly care?: boolean;
+/** What is known of a line but its text: the contour and the place that it is about, the settings that it advises, with values. */
+interface Facts {
+  readonly code?: string;
   readonly contour?: number | null;
   readonly place?: Point | null;
+  readonly advice?: readonly (readonly [string, string | null])[];
 }
 
-export interface Fault {
+/** One line of a report; `care`: it wants a decision, and is known again by its `key`. */
+export interface Line extends Facts {
+  readonly text: string;
+  readonly care?: boolean;
+  readonly key?: number;
+}
+
+export interface Fault extends Facts {
   readonly message: string;
-  readonly contour?: number | null;
-  readonly place?: Point | null;
 }
 
 /** A contour as it would be cut. */
@@ -103,7 +108,7 @@ export interface Planned {
   readonly lead_arc: boolean;
   readonly number: number | null;
   readonly values: Wanted;
-  readonly error?: string | null;
+  readonly error?: Fault | null;
 }
 
 export interface Plan {

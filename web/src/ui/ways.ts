@@ -33,6 +33,11 @@ export class WireWays {
     return this.of(id)?.length === 0;
   }
 
+  /** All contours that the wire is known not to get around. */
+  get withoutRoom(): number[] {
+    return [...this.#known.keys()].filter((id) => this.#desk.planned(id)?.cut && this.hasNoRoom(id));
+  }
+
   #plan(id: number): string {
     return JSON.stringify(this.#desk.planned(id) ?? null);
   }
